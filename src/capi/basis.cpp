@@ -1,0 +1,110 @@
+#include "capi/arguments.hpp"
+#include "capi/barrier.hpp"
+#include "capi/handles.hpp"
+
+namespace plm::capi {
+
+const std::shared_ptr<const Basis> &built(const BasisHandle &h) {
+    if (!h.core) throw Error(PLM_ERR_STATE, "the basis is not built; call plm_basis_build first").argument("basis");
+    return h.core;
+}
+
+namespace {
+
+/// The sampler's result; null when the kind of basis does without.
+std::shared_ptr<const Sampler> run_sampler(const BasisHandle &b) {
+    const bool needed = b.basis_options.kind == BasisKind::plm;
+    if (!b.sampler) {
+        if (needed)
+            throw Error(PLM_ERR_STATE, "a basis of kind plm needs a sampler; call plm_basis_set_sampler first")
+                .argument("sampler");
+        return nullptr;
+    }
+    return needed ? built(*b.sampler) : b.sampler->core;
+}
+
+void require_same_model(const ModelHandle *one, const ModelHandle *other, const char *name) {
+    if (one != other) bad_argument(name, -1, format("the %s is of another model; make both from one", name));
+}
+
+} // namespace
+} // namespace plm::capi
+
+using namespace plm::capi;
+
+plm_status plm_basis_create(plm_model *model, plm_basis **basis) {
+    return call<ModelHandle>("plm_basis_create", model, [&](ModelHandle &m) {
+        require_pointer(basis, "basis");
+        *basis = publish(std::make_shared<BasisHandle>(m.owner, find<ModelHandle>(model)));
+        return PLM_OK;
+    });
+}
+
+plm_status plm_basis_destroy(plm_basis **basis) { return destroy<BasisHandle>(basis); }
+
+plm_status plm_basis_set_sampler(plm_basis *basis, plm_sampler *sampler) {
+    return call<BasisHandle>("plm_basis_set_sampler", basis, [&](BasisHandle &b) {
+        std::shared_ptr<SamplerHandle> s = same_context<SamplerHandle>(b, sampler, "sampler");
+        require_same_model(b.model.get(), s->model.get(), "sampler");
+        b.sampler = std::move(s);
+        return PLM_OK;
+    });
+}
+
+plm_status plm_basis_set_parent(plm_basis *basis, plm_basis *parent) {
+    return call<BasisHandle>("plm_basis_set_parent", basis, [&](BasisHandle &b) {
+        if (!parent) {
+            b.parent = nullptr;
+            return PLM_OK;
+        }
+        const std::shared_ptr<BasisHandle> p = same_context<BasisHandle>(b, parent, "parent");
+        require_same_model(b.model.get(), p->model.get(), "parent");
+        const std::shared_ptr<const plm::Basis> &core = built(*p);
+        if (core->options().kind == plm::BasisKind::plm)
+            bad_argument("parent", -1, "the parent must be a basis of kind craig_bampton or full, not plm");
+        b.parent = core;
+        return PLM_OK;
+    });
+}
+
+plm_status plm_basis_build(plm_basis *basis) {
+    return call<BasisHandle>("plm_basis_build", basis, [&](BasisHandle &b) {
+        const std::shared_ptr<const plm::Model> &model = built(*b.model);
+        b.core = std::make_shared<const plm::Basis>(model, run_sampler(b), b.parent, b.basis_options,
+                                                    b.owner->watch());
+        return b.core->report().warning.empty() ? PLM_OK : PLM_WARNING;
+    });
+}
+
+plm_status plm_basis_get_vectors(plm_basis *basis, std::int32_t is_static, std::int64_t first, std::int64_t n,
+                                 double *vector, std::int64_t ld) {
+    return call<BasisHandle>("plm_basis_get_vectors", basis, [&](BasisHandle &b) {
+        const plm::Basis &core = *built(b);
+        const plm::Model &model = *core.model();
+        require_range(is_static, 0, 1, "is_static");
+        const plm::Matrix &p = is_static ? core.reduced()->static_vectors() : core.reduced()->vectors;
+        require_range(first, 0, p.cols(), "first");
+        require_range(n, 0, p.cols() - first, "n");
+        require_range(ld, model.n_dof(), INT64_MAX / 64, "ld");
+        if (n > 0) require_pointer(vector, "vector");
+        for (std::int64_t j = 0; j < n; ++j) model.expand(p.col(first + j), vector + j * ld);
+        return PLM_OK;
+    });
+}
+
+plm_status plm_basis_get_residual(plm_basis *basis, std::int32_t is_static, std::int32_t use_mass, std::int64_t n,
+                                  const double *q, double *r) {
+    return call<BasisHandle>("plm_basis_get_residual", basis, [&](BasisHandle &b) {
+        const plm::Basis &core = *built(b);
+        const plm::Model &model = *core.model();
+        require_range(is_static, 0, 1, "is_static");
+        require_range(use_mass, 0, 1, "use_mass");
+        require_range(n, model.n_dof(), model.n_dof(), "n");
+        require_finite_array(q, n, "q");
+        require_pointer(r, "r");
+        plm::vector<double> free(static_cast<std::size_t>(model.n_free()));
+        model.restrict_to_free(q, free.data());
+        *r = plm::projection_residual(core, is_static != 0, use_mass != 0, free.data());
+        return PLM_OK;
+    });
+}

@@ -1,0 +1,140 @@
+#include "capi/arguments.hpp"
+#include "capi/barrier.hpp"
+#include "capi/branch_end.hpp"
+#include "capi/branch_input.hpp"
+#include "hbm/trig_polynomial.hpp"
+#include <algorithm>
+
+namespace plm::capi {
+
+const std::shared_ptr<const Branch> &built(const BranchHandle &h) { return h.core; }
+
+plm_status end_status(std::int32_t reason) {
+    switch (reason) {
+    case PLM_REASON_NONE:
+    case PLM_REASON_RANGE_END:
+    case PLM_REASON_LOOP_CLOSED: return PLM_OK;
+    case PLM_REASON_POINT_LIMIT: return PLM_TRUNCATED;
+    case PLM_REASON_CANCELLED: return PLM_CANCELLED;
+    default: return PLM_NOT_CONVERGED;
+    }
+}
+
+std::string end_text(std::int32_t reason) {
+    switch (reason) {
+    case PLM_REASON_NONE: return "complete";
+    case PLM_REASON_RANGE_END: return "left the frequency range";
+    case PLM_REASON_LOOP_CLOSED: return "came back to its first point";
+    case PLM_REASON_POINT_LIMIT: return "max_points reached; raise it or max_step";
+    case PLM_REASON_CANCELLED: return "cancelled by the progress callback";
+    case PLM_REASON_STEP_MINIMUM: return "the step fell below min_step; try more harmonics or a softer contact";
+    case PLM_REASON_CONTACT_CHATTER: return "Newton cycled between contact sets";
+    case PLM_REASON_SINGULAR_TANGENT: return "the tangent is singular";
+    case PLM_REASON_START_FAILED: return "no solution was found at the first frequency; start elsewhere or with less force";
+    case PLM_REASON_BASIS_TOO_SMALL: return "the basis is too small for this response";
+    default: return format("ended for reason %d", reason);
+    }
+}
+
+void require_point(const Branch &branch, std::int64_t point) {
+    require_range(point, 0, static_cast<std::int64_t>(branch.points().size()) - 1, "point");
+}
+
+void require_measure(const Branch &branch, std::int64_t dof, std::int32_t measure, std::int32_t harmonic) {
+    require_range(dof, 0, branch.reduced().model->n_dof() - 1, "dof");
+    require_range(measure, PLM_PEAK, PLM_HARMONIC, "measure");
+    if (measure == PLM_HARMONIC) require_range(harmonic, 0, branch.n_harmonics(), "harmonic");
+}
+
+namespace {
+
+template <class T> void copy_out(const vector<T> &from, T *to) {
+    if (to) std::copy(from.begin(), from.end(), to);
+}
+
+} // namespace
+} // namespace plm::capi
+
+using namespace plm::capi;
+
+plm_status plm_branch_destroy(plm_branch **branch) { return destroy<BranchHandle>(branch); }
+
+plm_status plm_branch_get_amplitude(plm_branch *branch, std::int64_t dof, std::int32_t measure, std::int32_t harmonic,
+                                    std::int64_t capacity, double *amplitude, std::int64_t *count) {
+    return call<BranchHandle>("plm_branch_get_amplitude", branch, [&](BranchHandle &b) {
+        require_measure(*b.core, dof, measure, harmonic);
+        plm::vector<double> values(b.core->points().size());
+        if (amplitude)
+            for (std::size_t k = 0; k < values.size(); ++k)
+                values[k] = b.core->amplitude(static_cast<std::int64_t>(k), dof, static_cast<plm::Measure>(measure), harmonic);
+        return put_array(values, capacity, amplitude, count);
+    });
+}
+
+plm_status plm_branch_get_coefficients(plm_branch *branch, std::int64_t point, std::int64_t first_dof, std::int64_t n,
+                                       double *coefficient) {
+    return call<BranchHandle>("plm_branch_get_coefficients", branch, [&](BranchHandle &b) {
+        require_point(*b.core, point);
+        const std::int64_t n_dof = b.core->reduced().model->n_dof(), rows = 2 * b.core->n_harmonics() + 1;
+        require_range(first_dof, 0, n_dof - 1, "first_dof");
+        require_range(n, 1, n_dof - first_dof, "n");
+        require_pointer(coefficient, "coefficient");
+        plm::Matrix all(rows, n); // nothing is written unless all of it is known
+        for (std::int64_t j = 0; j < n; ++j) copy_out(b.core->coefficients(point, first_dof + j), all.col(j));
+        std::copy(all.data(), all.data() + rows * n, coefficient);
+        return PLM_OK;
+    });
+}
+
+plm_status plm_branch_get_field(plm_branch *branch, std::int64_t point, double time_fraction, std::int64_t n,
+                                double *q) {
+    return call<BranchHandle>("plm_branch_get_field", branch, [&](BranchHandle &b) {
+        require_point(*b.core, point);
+        require_finite(time_fraction, "time_fraction");
+        const std::int64_t n_dof = b.core->reduced().model->n_dof();
+        require_range(n, n_dof, n_dof, "n");
+        require_pointer(q, "q");
+        copy_out(b.core->field(point, time_fraction), q);
+        return PLM_OK;
+    });
+}
+
+plm_status plm_branch_get_contact(plm_branch *branch, std::int64_t point, std::int64_t n_times, double *penetration,
+                                  double *force, std::int32_t *closed) {
+    return call<BranchHandle>("plm_branch_get_contact", branch, [&](BranchHandle &b) {
+        require_point(*b.core, point);
+        require_range(n_times, 1, 1 << 24, "n_times");
+        const plm::Matrix u = b.core->penetration_coefficients(point);
+        const plm::vector<double> &stiffness = b.core->reduced().contact_stiffness;
+        const std::int64_t z = u.cols();
+        for (std::int64_t k = 0; k < n_times; ++k)
+            for (std::int64_t i = 0; i < z; ++i) {
+                const double t = 2 * M_PI * static_cast<double>(k) / static_cast<double>(n_times);
+                const double x = plm::evaluate_trig(u.col(i), b.core->n_harmonics(), t).value;
+                if (penetration) penetration[i + k * z] = x;
+                if (force) force[i + k * z] = plm::ContactLaw::force(stiffness[static_cast<std::size_t>(i)], x);
+                if (closed) closed[i + k * z] = plm::ContactLaw::closed(x);
+            }
+        return PLM_OK;
+    });
+}
+
+plm_status plm_branch_get_closed_share(plm_branch *branch, std::int64_t point, std::int64_t n, double *share) {
+    return call<BranchHandle>("plm_branch_get_closed_share", branch, [&](BranchHandle &b) {
+        require_point(*b.core, point);
+        const std::int64_t z = b.core->reduced().n_pairs();
+        require_range(n, z, z, "n");
+        if (n > 0) require_pointer(share, "share");
+        copy_out(b.core->closed_share(point), share);
+        return PLM_OK;
+    });
+}
+
+plm_status plm_branch_get_full_residual(plm_branch *branch, std::int64_t point, double *relative_residual) {
+    return call<BranchHandle>("plm_branch_get_full_residual", branch, [&](BranchHandle &b) {
+        require_point(*b.core, point);
+        require_pointer(relative_residual, "relative_residual");
+        *relative_residual = b.core->full_residual(point);
+        return PLM_OK;
+    });
+}

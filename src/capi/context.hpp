@@ -1,0 +1,81 @@
+// The context: callbacks, allocator, solver of the host, and the last error.
+#pragma once
+#include "capi/registry.hpp"
+#include "linalg/factor.hpp"
+#include "linalg/memory.hpp"
+#include "linalg/monitor.hpp"
+#include <atomic>
+#include <cfenv>
+
+namespace plm::capi {
+
+struct ErrorDetails {
+    plm_status status = PLM_OK;
+    std::int32_t reason = PLM_REASON_NONE;
+    std::int64_t index = -1, library_code = 0;
+    std::string function, argument, text;
+};
+
+/// The host's sparse solver as it was when a model was built; the model keeps it.
+struct SolverBinding {
+    Context *context = nullptr;
+    plm_factor_fn factor = nullptr;
+    plm_solve_fn solve = nullptr;
+    plm_free_factor_fn release = nullptr;
+    void *user = nullptr;
+    HostSolver for_core();
+};
+
+struct Context final : Object {
+    using Opaque = plm_context;
+    static constexpr Kind the_kind = Kind::context;
+    Context() : Object(Kind::context, nullptr), monitor(*this) {}
+    Context &context() { return *this; }
+
+    /// The callbacks' way into the core; silent when the host has set none.
+    Watch watch() { return Watch(log || progress ? &monitor : nullptr); }
+    /// Null when the host brings no solver.
+    std::shared_ptr<SolverBinding> bind_solver();
+
+    plm_context *handle = nullptr; // what callbacks receive
+    plm_allocate_fn allocate = nullptr;
+    plm_release_fn release = nullptr;
+    void *allocate_user = nullptr;
+    Allocator allocator; // of the core; null functions: malloc
+
+    plm_log_fn log = nullptr;
+    plm_progress_fn progress = nullptr;
+    void *log_user = nullptr, *progress_user = nullptr;
+    SolverBinding solver;
+
+    ErrorDetails error;
+    std::atomic<bool> running{false};      // a call is under way
+    std::fenv_t *host_environment = nullptr; // during a call: the host's floating-point environment
+
+  private:
+    struct HostMonitor final : Monitor {
+        explicit HostMonitor(Context &c) : context(c) {}
+        void log(int level, const std::string &text) override;
+        bool progress(const char *stage, double fraction) override;
+        Context &context;
+    } monitor;
+};
+
+/// For the life of the scope the host's floating-point environment is back, because host code runs.
+class HostCode {
+  public:
+    explicit HostCode(const Context &context) : environment_(context.host_environment) {
+        if (environment_) std::fesetenv(environment_);
+    }
+    ~HostCode() {
+        if (!environment_) return;
+        std::fegetenv(environment_); // flags that the callback raised are the host's
+        std::fesetenv(FE_DFL_ENV);
+    }
+    HostCode(const HostCode &) = delete;
+
+  private:
+    std::fenv_t *environment_;
+};
+
+} // namespace plm::capi

@@ -1,0 +1,84 @@
+// What stands behind each handle: the options, the parents, and after build/run/sweep the immutable core object.
+#pragma once
+#include "capi/context.hpp"
+#include "hbm/hbm.hpp"
+#include "model/audit.hpp"
+#include "model/rest.hpp"
+#include "reduction/basis.hpp"
+#include "sampling/sampler.hpp"
+
+namespace plm::capi {
+
+template <class Opaque_, Kind kind_> struct HandleOf : Object {
+    using Opaque = Opaque_;
+    static constexpr Kind the_kind = kind_;
+    explicit HandleOf(std::shared_ptr<Context> c) : Object(kind_, std::move(c)) {}
+    Context &context() const { return *owner; }
+};
+
+struct ModelHandle final : HandleOf<plm_model, Kind::model> {
+    ModelHandle(std::shared_ptr<Context> c, std::int64_t n_dof) : HandleOf(std::move(c)) {
+        input.n_dof = n_dof;
+        input.fixed.assign(static_cast<std::size_t>(n_dof), 0);
+    }
+    void *options() override { return &space_options; }
+    const char *frozen() const override {
+        return core ? "the model is built and no longer changes; make a new one" : nullptr;
+    }
+
+    ModelInput input; // emptied by the build
+    SpaceOptions space_options;
+    std::shared_ptr<const Model> core;
+    std::shared_ptr<const Space> space; // for modes and rest, made when first needed
+    std::shared_ptr<const RestState> rest;
+    std::vector<Finding> findings;
+};
+
+struct SamplerHandle final : HandleOf<plm_sampler, Kind::sampler> {
+    SamplerHandle(std::shared_ptr<Context> c, std::shared_ptr<ModelHandle> m)
+        : HandleOf(std::move(c)), model(std::move(m)) {}
+    void *options() override { return &sampler_options; }
+
+    std::shared_ptr<ModelHandle> model;
+    SamplerOptions sampler_options;
+    std::shared_ptr<const Sampler> core;
+};
+
+struct BasisHandle final : HandleOf<plm_basis, Kind::basis> {
+    BasisHandle(std::shared_ptr<Context> c, std::shared_ptr<ModelHandle> m)
+        : HandleOf(std::move(c)), model(std::move(m)) {}
+    void *options() override { return &basis_options; }
+
+    std::shared_ptr<ModelHandle> model;
+    std::shared_ptr<SamplerHandle> sampler;
+    std::shared_ptr<const Basis> parent; // as it was when it was set
+    BasisOptions basis_options;
+    std::shared_ptr<const Basis> core;
+};
+
+struct HbmHandle final : HandleOf<plm_hbm, Kind::hbm> {
+    HbmHandle(std::shared_ptr<Context> c, std::shared_ptr<BasisHandle> b)
+        : HandleOf(std::move(c)), basis(std::move(b)) {}
+    void *options() override { return &hbm_options; }
+
+    std::shared_ptr<BasisHandle> basis;
+    HbmOptions hbm_options;
+};
+
+struct BranchHandle final : HandleOf<plm_branch, Kind::branch> {
+    BranchHandle(std::shared_ptr<Context> c, std::shared_ptr<const Branch> b)
+        : HandleOf(std::move(c)), core(std::move(b)) {}
+
+    std::shared_ptr<const Branch> core;
+};
+
+/// The built core of a handle; PLM_ERR_STATE with what to call when it does not exist yet.
+const std::shared_ptr<const Model> &built(const ModelHandle &h);
+const std::shared_ptr<const Sampler> &built(const SamplerHandle &h);
+const std::shared_ptr<const Basis> &built(const BasisHandle &h);
+const std::shared_ptr<const Branch> &built(const BranchHandle &h);
+
+/// The rest state, solved when it is not known yet.
+const RestState &solved_rest(ModelHandle &h);
+
+} // namespace plm::capi

@@ -1,0 +1,78 @@
+#include "capi/branch_end.hpp"
+#include "capi/handles.hpp"
+#include "capi/keys.hpp"
+#include <cmath>
+
+namespace plm::capi {
+namespace {
+
+using B = BranchHandle;
+
+/// One value per point of the branch.
+template <class Out, class Get> Out per_point(const B &b, Get get) {
+    Out out;
+    for (const BranchPoint &p : built(b)->points()) out.push_back(get(p));
+    return out;
+}
+
+} // namespace
+
+const std::vector<Key> &hbm_keys() {
+    using O = HbmOptions;
+    static const std::vector<Key> keys = {
+        int_option<&O::n_harmonics>("n_harmonics", 1, 1000, "harmonics H of the solution"),
+        choice_option<&O::aft>("aft", "event,sampled",
+                               "contact forces integrated between exact switching instants, or from time samples"),
+        int_option<&O::time_samples>("time_samples", 8, 1 << 20, "samples per period of the sampled contact forces"),
+        choice_option<&O::unknowns>("unknowns", "auto,modal,gaps",
+                                    "nonlinear unknowns: reduced coordinates or contact gaps; auto: by cost"),
+        real_option<&O::frequency_min_hz>("frequency_min_hz", 0, huge, "lower end of a sweep (Hz); 0: the basis' window"),
+        real_option<&O::frequency_max_hz>("frequency_max_hz", 0, huge, "upper end of a sweep (Hz); 0: the basis' window"),
+        choice_option<&O::upward>("direction", "down,up", "a sweep starts at the upper (down) or lower (up) end"),
+        real_option<&O::force_scale>("force_scale", -huge, huge, "factor on the excitation, not on the pre-load"),
+        real_option<&O::tolerance>("tolerance", 1e-15, 1e-2, "last Newton correction relative to the solution"),
+        int_option<&O::max_iterations>("max_iterations", 1, 10000, "Newton iterations per point"),
+        int_option<&O::max_points>("max_points", 1, 1e9, "points of a sweep"),
+        real_option<&O::initial_step>("initial_step", 0, 1, "first arc-length step, 1 = the window; 0: automatic"),
+        real_option<&O::min_step>("min_step", 1e-14, 1, "smallest arc-length step"),
+        real_option<&O::max_step>("max_step", 1e-12, 10, "largest arc-length step"),
+    };
+    return keys;
+}
+
+const std::vector<Key> &branch_keys() {
+    using Ints = vector<std::int64_t>;
+    using Reals = vector<double>;
+    static const std::vector<Key> keys = {
+        result<B>("n_points", "points of the curve",
+                  [](const B &b) { return static_cast<std::int64_t>(built(b)->points().size()); }),
+        result<B>("n_harmonics", "harmonics H", [](const B &b) { return built(b)->n_harmonics(); }),
+        result<B>("n_pairs", "contact pairs", [](const B &b) { return built(b)->reduced().n_pairs(); }),
+        result<B>("n_dof", "DOFs of the model", [](const B &b) { return built(b)->reduced().model->n_dof(); }),
+        result<B>("force_scale", "factor on the excitation", [](const B &b) { return built(b)->force_scale(); }),
+        result<B>("frequency_hz", "frequency of every point (Hz)",
+                  [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.omega / (2 * M_PI); }); }),
+        result<B>("arclength", "scaled arc length from the first point",
+                  [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.arclength; }); }),
+        result<B>("residual", "relative residual of every point",
+                  [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.residual; }); }),
+        result<B>("iterations", "Newton iterations of every point",
+                  [](const B &b) { return per_point<Ints>(b, [](auto &p) { return p.iterations; }); }),
+        result<B>("n_switching", "pairs that open and close in the period, of every point",
+                  [](const B &b) { return per_point<Ints>(b, [](auto &p) { return p.n_switching; }); }),
+        result<B>("end_reason", "why the branch ended: PLM_REASON_...",
+                  [](const B &b) { return static_cast<std::int64_t>(built(b)->end_reason); }),
+        result<B>("end_text", "the same in words", [](const B &b) { return end_text(built(b)->end_reason); }),
+        result<B>("newton_iterations", "Newton iterations of the whole run",
+                  [](const B &b) { return built(b)->newton_iterations; }),
+        result<B>("failed_steps", "continuation steps that were repeated", [](const B &b) { return built(b)->failed_steps; }),
+        result<B>("factorizations", "tangents factored", [](const B &b) { return built(b)->factorizations; }),
+        result<B>("seconds", "time of the run (s)", [](const B &b) { return built(b)->seconds; }),
+        result<B>("seconds_per_iteration", "time of a Newton iteration (s)",
+                  [](const B &b) { return built(b)->seconds_per_iteration; }),
+        result<B>("unknowns", "nonlinear unknowns used: modal or gaps", [](const B &b) { return built(b)->space_used; }),
+    };
+    return keys;
+}
+
+} // namespace plm::capi

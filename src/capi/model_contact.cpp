@@ -1,0 +1,204 @@
+// The contact pairs of the model: node pairs, ground contacts and raw rows all become rows of the gap matrix.
+#include "capi/barrier.hpp"
+#include "capi/model_input.hpp"
+#include <algorithm>
+
+namespace plm::capi {
+namespace {
+
+using Int = long long; // for printf
+
+/// New rows of B, complete and checked before the model sees them.
+struct NewPairs {
+    vector<std::int64_t> pair, dof;
+    vector<double> coefficient, stiffness, gap;
+};
+
+// Reserves generously, so that adding pairs one by one stays linear.
+template <class T> void reserve_for(vector<T> &to, const vector<T> &from) {
+    if (to.capacity() - to.size() < from.size()) to.reserve(std::max(to.size() + from.size(), 2 * to.capacity()));
+}
+template <class T> void append(vector<T> &to, const vector<T> &from) { to.insert(to.end(), from.begin(), from.end()); }
+
+// All or nothing: after the reservations nothing can fail.
+void add_to(ModelInput &input, NewPairs &pairs) {
+    const std::int64_t first = static_cast<std::int64_t>(input.contact_stiffness.size());
+    for (std::int64_t &p : pairs.pair) p += first;
+    reserve_for(input.gap_pair, pairs.pair);
+    reserve_for(input.gap_dof, pairs.dof);
+    reserve_for(input.gap_coefficient, pairs.coefficient);
+    reserve_for(input.contact_stiffness, pairs.stiffness);
+    reserve_for(input.initial_gap, pairs.gap);
+    append(input.gap_pair, pairs.pair);
+    append(input.gap_dof, pairs.dof);
+    append(input.gap_coefficient, pairs.coefficient);
+    append(input.contact_stiffness, pairs.stiffness);
+    append(input.initial_gap, pairs.gap);
+}
+
+void take_stiffness_and_gap(NewPairs &pairs, std::int64_t n, const double *stiffness, const double *gap) {
+    if (n > 0) require_pointer(stiffness, "stiffness");
+    for (std::int64_t i = 0; i < n; ++i)
+        if (stiffness[i] != PLM_AUTO_STIFFNESS && !(stiffness[i] > 0 && std::isfinite(stiffness[i])))
+            bad_argument("stiffness", i, format("stiffness[%lld] is %g; it must be > 0, or PLM_AUTO_STIFFNESS", Int(i),
+                                                stiffness[i]));
+    if (gap) require_finite_array(gap, n, "gap");
+    pairs.stiffness.assign(stiffness, stiffness + n);
+    pairs.gap.assign(static_cast<std::size_t>(n), 0.0);
+    if (gap) std::copy(gap, gap + n, pairs.gap.begin());
+}
+
+void check_normals(const double *normal, std::int64_t n) {
+    require_finite_array(normal, 3 * n, "normal");
+    for (std::int64_t i = 0; i < n; ++i) {
+        const double length = std::hypot(std::hypot(normal[3 * i], normal[3 * i + 1]), normal[3 * i + 2]);
+        if (std::abs(length - 1) > 1e-6)
+            bad_argument("normal", i, format("normal[%lld] is not of unit length (|n| = %g); normalise the three "
+                                             "components of every pair",
+                                             Int(i), length));
+    }
+}
+
+// One side of the pairs: sign * normal at the x, y, z DOFs of a node, absent DOFs left out.
+template <class Index>
+void add_side(NewPairs &pairs, const char *name, const Index *dof, const double *normal, double sign, std::int64_t n,
+              std::int64_t base, std::int64_t n_dof) {
+    if (n > 0) require_pointer(dof, name);
+    for (std::int64_t i = 0; i < n; ++i) {
+        int present = 0;
+        for (std::int64_t k = 3 * i; k < 3 * i + 3; ++k) {
+            if (dof[k] < base) continue;
+            require_dof(dof[k], base, n_dof, name, k);
+            ++present;
+            if (normal[k] == 0) continue;
+            pairs.pair.push_back(i);
+            pairs.dof.push_back(dof[k] - base);
+            pairs.coefficient.push_back(sign * normal[k]);
+        }
+        if (present == 0)
+            bad_argument(name, 3 * i, format("the node of pair %lld has no DOF at all; use a ground contact for a "
+                                             "node that cannot move",
+                                             Int(i)));
+    }
+}
+
+template <class Index> struct NodePairs {
+    std::int32_t index_base;
+    std::int64_t n;
+    const Index *dof_a, *dof_b; // dof_b null: ground
+    const char *name_a;
+    bool ground;
+    const double *normal, *stiffness, *gap;
+};
+
+template <class Index> plm_status add_nodes(const char *function, plm_model *model, const NodePairs<Index> &x) {
+    return call<ModelHandle>(function, model, [&](ModelHandle &m) {
+        require_open(m);
+        require_index_base(x.index_base);
+        require_range(x.n, 0, INT64_MAX / 64, "n");
+        NewPairs pairs;
+        check_normals(x.normal, x.n);
+        add_side(pairs, x.name_a, x.dof_a, x.normal, 1.0, x.n, x.index_base, m.input.n_dof);
+        if (!x.ground) add_side(pairs, "dof_b", x.dof_b, x.normal, -1.0, x.n, x.index_base, m.input.n_dof);
+        take_stiffness_and_gap(pairs, x.n, x.stiffness, x.gap);
+        add_to(m.input, pairs);
+        return PLM_OK;
+    });
+}
+
+template <class Index> void check_row_pointers(const Index *row_ptr, std::int64_t n, std::int64_t base) {
+    require_pointer(row_ptr, "row_ptr");
+    if (row_ptr[0] != base)
+        bad_argument("row_ptr", 0, format("row_ptr[0] = %lld must be the index base %lld", Int(row_ptr[0]), Int(base)));
+    for (std::int64_t i = 0; i < n; ++i)
+        if (row_ptr[i + 1] <= row_ptr[i])
+            bad_argument("row_ptr", i + 1, format("row_ptr[%lld] = %lld: every gap row needs at least one entry, so "
+                                                  "the pointers must increase",
+                                                  Int(i + 1), Int(row_ptr[i + 1])));
+}
+
+template <class Index>
+void take_rows(NewPairs &pairs, std::int64_t n, std::int64_t base, std::int64_t n_dof, const Index *row_ptr,
+               const Index *dof, const double *coefficient) {
+    const std::int64_t nnz = row_ptr[n] - base;
+    if (nnz > 0) require_pointer(dof, "dof");
+    require_finite_array(coefficient, nnz, "coefficient");
+    for (std::int64_t i = 0; i < n; ++i) {
+        const std::int64_t begin = row_ptr[i] - base, end = row_ptr[i + 1] - base;
+        double largest = 0;
+        for (std::int64_t p = begin; p < end; ++p) {
+            require_dof(dof[p], base, n_dof, "dof", p);
+            if (std::find(dof + begin, dof + p, dof[p]) != dof + p)
+                bad_argument("dof", p, format("dof[%lld] = %lld stands twice in gap row %lld; sum its coefficients",
+                                              Int(p), Int(dof[p]), Int(i)));
+            pairs.pair.push_back(i);
+            pairs.dof.push_back(dof[p] - base);
+            pairs.coefficient.push_back(coefficient[p]);
+            largest = std::max(largest, std::abs(coefficient[p]));
+        }
+        if (!(largest > 0))
+            bad_argument("coefficient", begin, format("gap row %lld is zero; its penetration can never change", Int(i)));
+    }
+}
+
+template <class Index>
+plm_status add_rows(const char *function, plm_model *model, std::int32_t index_base, std::int64_t n,
+                    const Index *row_ptr, const Index *dof, const double *coefficient, const double *stiffness,
+                    const double *gap) {
+    return call<ModelHandle>(function, model, [&](ModelHandle &m) {
+        require_open(m);
+        require_index_base(index_base);
+        require_range(n, 0, INT64_MAX / 64, "n");
+        check_row_pointers(row_ptr, n, index_base);
+        NewPairs pairs;
+        take_rows(pairs, n, index_base, m.input.n_dof, row_ptr, dof, coefficient);
+        take_stiffness_and_gap(pairs, n, stiffness, gap);
+        add_to(m.input, pairs);
+        return PLM_OK;
+    });
+}
+
+} // namespace
+} // namespace plm::capi
+
+using namespace plm::capi;
+
+plm_status plm_model_add_node_pairs_i32(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                        const std::int32_t *dof_a, const std::int32_t *dof_b, const double *normal,
+                                        const double *stiffness, const double *gap) {
+    return add_nodes<std::int32_t>("plm_model_add_node_pairs_i32", model,
+                                   {index_base, n, dof_a, dof_b, "dof_a", false, normal, stiffness, gap});
+}
+
+plm_status plm_model_add_node_pairs_i64(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                        const std::int64_t *dof_a, const std::int64_t *dof_b, const double *normal,
+                                        const double *stiffness, const double *gap) {
+    return add_nodes<std::int64_t>("plm_model_add_node_pairs_i64", model,
+                                   {index_base, n, dof_a, dof_b, "dof_a", false, normal, stiffness, gap});
+}
+
+plm_status plm_model_add_ground_contacts_i32(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                             const std::int32_t *dof, const double *normal, const double *stiffness,
+                                             const double *gap) {
+    return add_nodes<std::int32_t>("plm_model_add_ground_contacts_i32", model,
+                                   {index_base, n, dof, nullptr, "dof", true, normal, stiffness, gap});
+}
+
+plm_status plm_model_add_ground_contacts_i64(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                             const std::int64_t *dof, const double *normal, const double *stiffness,
+                                             const double *gap) {
+    return add_nodes<std::int64_t>("plm_model_add_ground_contacts_i64", model,
+                                   {index_base, n, dof, nullptr, "dof", true, normal, stiffness, gap});
+}
+
+plm_status plm_model_add_gap_rows_i32(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                      const std::int32_t *row_ptr, const std::int32_t *dof, const double *coefficient,
+                                      const double *stiffness, const double *gap) {
+    return add_rows("plm_model_add_gap_rows_i32", model, index_base, n, row_ptr, dof, coefficient, stiffness, gap);
+}
+
+plm_status plm_model_add_gap_rows_i64(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                      const std::int64_t *row_ptr, const std::int64_t *dof, const double *coefficient,
+                                      const double *stiffness, const double *gap) {
+    return add_rows("plm_model_add_gap_rows_i64", model, index_base, n, row_ptr, dof, coefficient, stiffness, gap);
+}

@@ -1,0 +1,106 @@
+// Event-exact AFT. A coarse grid brackets the zeros of each pair's penetration; cells in which the curve turns towards
+// zero and back are searched for a pair of zeros (grazing: without it the force would jump when a pair opens and closes
+// inside one cell). Between the zeros the indicator is 0 or 1 and its averages are integrals of cosines and sines.
+#include "hbm/contact_force.hpp"
+#include "hbm/trig_polynomial.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+class EventForce final : public ContactForce {
+  public:
+    EventForce(std::int64_t n_harmonics, std::int64_t n_pairs)
+        : h_(n_harmonics), n_grid_(std::max<std::int64_t>(24, 6 * n_harmonics)), width_(2 * M_PI / n_grid_),
+          grid_(trig_grid(n_harmonics, n_grid_)), values_(2 * n_grid_, n_pairs), x_(2 * n_harmonics + 1) {
+        roots_.reserve(2 * n_harmonics + 2);
+    }
+
+    void indicator(const Matrix &u, ContactIndicator &out) override {
+        const std::int64_t z = u.rows();
+        out.averages.reset(4 * h_ + 1, z);
+        out.state.resize(z);
+        out.n_switching = 0;
+        if (z == 0) return;
+        gemm('N', 'T', 1.0, grid_, u, 0.0, values_);
+        for (std::int64_t i = 0; i < z; ++i) {
+            for (std::int64_t c = 0; c < u.cols(); ++c) x_[c] = u(i, c);
+            out.state[i] = pair(values_.col(i), out.averages.col(i));
+            out.n_switching += out.state[i] == PairState::switching;
+        }
+    }
+
+  private:
+    PairState pair(const double *value, double *average) {
+        const bool closed_first = ContactLaw::closed(value[0]);
+        double wave = 0, bend = 0; // bounds of |u - a0| and |u''|
+        for (std::int64_t h = 1; h <= h_; ++h) {
+            const double r = std::abs(x_[2 * h - 1]) + std::abs(x_[2 * h]);
+            wave += r;
+            bend += static_cast<double>(h * h) * r;
+        }
+        roots_.clear();
+        if (std::abs(x_[0]) <= wave) find_roots(value, 0.125 * width_ * width_ * bend);
+        if (roots_.empty()) {
+            average[0] = closed_first ? 1 : 0;
+            return closed_first ? PairState::closed : PairState::open;
+        }
+        integrate(closed_first, average);
+        return PairState::switching;
+    }
+
+    // A chord over a cell is nowhere further from u than `sagitta`: cells whose ends clear it hold no zero.
+    void find_roots(const double *value, double sagitta) {
+        const double *slope = value + n_grid_;
+        for (std::int64_t i = 0; i < n_grid_; ++i) {
+            const std::int64_t j = i + 1 < n_grid_ ? i + 1 : 0;
+            const double t = width_ * static_cast<double>(i), end = t + width_;
+            if (ContactLaw::closed(value[i]) != ContactLaw::closed(value[j])) {
+                roots_.push_back(trig_root(x_.data(), h_, t, end, value[i]));
+                continue;
+            }
+            if (std::min(std::abs(value[i]), std::abs(value[j])) > sagitta) continue;
+            const double towards = ContactLaw::closed(value[i]) ? -1.0 : 1.0;
+            if (!(slope[i] * towards > 0 && slope[j] * towards < 0)) continue;
+            const double turn = trig_stationary(x_.data(), h_, t, end, slope[i]);
+            const double extreme = evaluate_trig(x_.data(), h_, turn).value;
+            if (ContactLaw::closed(extreme) == ContactLaw::closed(value[i])) continue;
+            roots_.push_back(trig_root(x_.data(), h_, t, turn, value[i]));
+            roots_.push_back(trig_root(x_.data(), h_, turn, end, extreme));
+        }
+    }
+
+    void integrate(bool closed_first, double *average) const {
+        double closed_time = closed_first ? 2 * M_PI : 0;
+        double sign = closed_first ? 1 : -1; // first event opens or closes
+        for (double t : roots_) {
+            closed_time += sign * t;
+            const double c1 = std::cos(t), s1 = std::sin(t);
+            double c = 1, s = 0;
+            for (std::int64_t k = 1; k <= 2 * h_; ++k) {
+                const double next = c * c1 - s * s1;
+                s = s * c1 + c * s1;
+                c = next;
+                average[2 * k - 1] += sign * s / static_cast<double>(k);
+                average[2 * k] -= sign * c / static_cast<double>(k);
+            }
+            sign = -sign;
+        }
+        average[0] = closed_time;
+        for (std::int64_t k = 0; k <= 4 * h_; ++k) average[k] /= 2 * M_PI;
+    }
+
+    std::int64_t h_, n_grid_;
+    double width_;
+    Matrix grid_, values_;
+    vector<double> x_, roots_;
+};
+
+} // namespace
+
+std::unique_ptr<ContactForce> make_event_force(std::int64_t n_harmonics, std::int64_t n_pairs) {
+    return std::make_unique<EventForce>(n_harmonics, n_pairs);
+}
+
+} // namespace plm

@@ -1,0 +1,439 @@
+// Harmonic balance in the contact gaps: U + g = B D(omega) (F - B' N(U)), D the receptance of the open structure in the
+// reduced model's coordinates. Exact for the same reduced model as modal_system.cpp; the size of the dense system is
+// the number of pairs that open and close over the period times (2H + 1), whatever the size of the model. Pairs that
+// stay open or closed are eliminated harmonic by harmonic, exactly, and come back the moment they move.
+#include "hbm/receptance.hpp"
+#include "hbm/system.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+using Complex = std::complex<double>;
+
+Matrix select_rows(const Matrix &a, const vector<std::int64_t> &rows) {
+    Matrix s(static_cast<std::int64_t>(rows.size()), a.cols());
+    for (std::int64_t j = 0; j < a.cols(); ++j)
+        for (std::int64_t i = 0; i < s.rows(); ++i) s(i, j) = a(rows[i], j);
+    return s;
+}
+
+// What the elimination of the pairs with a constant tangent leaves of one harmonic.
+struct Eliminated {
+    vector<std::int64_t> pairs;          // eliminated: their tangent in this harmonic is kappa, constant in time
+    vector<double> kappa;
+    ComplexLu closed;                    // I + G_EE kappa
+    vector<Complex> to_eliminated;       // G_ES, e x s
+    vector<Complex> from_eliminated;     // G_SE kappa, s x e
+    Matrix real, imag;                   // reduced receptance of the moving pairs, s x s
+};
+
+class GapSystem final : public HbmSystem {
+  public:
+    GapSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
+        : m_(std::move(reduced)), h_(options.n_harmonics), n_(2 * h_ + 1), z_(m_->n_pairs()), r_(m_->size()),
+          r0_(m_->static_size()), force_(make_contact_force(options, z_)), stiffness_(m_->contact_stiffness),
+          gap_(m_->initial_gap), u_(z_, n_), contact_(z_, n_), receptance_(h_ + 1), eliminated_(h_ + 1), eta_(h_ + 1),
+          force_scale_(options.force_scale) {
+        update_static();
+    }
+
+    std::int64_t size() const override { return z_ * n_; }
+    std::int64_t static_size() const override { return z_; }
+    void set_force_scale(double scale) override { force_scale_ = scale; }
+    void force_derivative(double *r) override { // -B D F
+        std::fill(r, r + size(), 0.0);
+        for (const auto &[h, load] : m_->excitation) {
+            if (h > h_) continue;
+            if (h == 0) {
+                vector<double> v(load.real);
+                apply_static(v.data());
+                gemv('N', -1.0, m_->gap_0, v.data(), 0.0, r);
+                continue;
+            }
+            vector<Complex> v(r_);
+            for (std::int64_t j = 0; j < r_; ++j) v[j] = Complex(load.real[j], load.imag[j]);
+            receptance_[h].apply(v.data());
+            write_gaps(v, -1.0, r + (2 * h - 1) * z_);
+        }
+    }
+
+    void set_extra_gap(double extra) override {
+        for (std::int64_t i = 0; i < z_; ++i) gap_[i] = m_->initial_gap[i] + extra;
+    }
+
+    void gap_derivative(double *r) override {
+        std::fill(r, r + size(), 0.0);
+        vector<double> moved(reference_), v(r0_); // the reference stiffness pulls at u + g
+        gemv('T', 1.0, m_->gap_0, moved.data(), 0.0, v.data());
+        apply_static(v.data());
+        gemv('N', -1.0, m_->gap_0, v.data(), 0.0, r);
+        for (std::int64_t i = 0; i < z_; ++i) r[i] += 1.0;
+    }
+
+    double residual_scale() const override { return norm2(size(), u_.data()); }
+
+    void residual(const double *x, double omega, double *r) override {
+        std::copy(x, x + size(), u_.data());
+        set_frequency(omega);
+        force_->indicator(u_, indicator_);
+        apply_indicator(indicator_, stiffness_, u_, contact_);
+        respond();
+        gaps_of_response(r);
+        for (std::int64_t k = 0; k < size(); ++k) r[k] = u_.data()[k] - r[k];
+    }
+
+    void linearize() override {
+        moving_.clear();
+        for (std::int64_t i = 0; i < z_; ++i)
+            if (indicator_.state[i] == PairState::switching) moving_.push_back(i);
+        for (std::int64_t h = 0; h <= h_; ++h) eliminate(h);
+        const std::int64_t s = static_cast<std::int64_t>(moving_.size());
+        if (s == 0) return;
+        tangent_.reset(n_ * n_, s);
+        for (std::int64_t p = 0; p < s; ++p) {
+            const double *average = indicator_.averages.col(moving_[p]);
+            for (std::int64_t c = 0; c < n_; ++c)
+                for (std::int64_t row = 0; row < n_; ++row)
+                    tangent_(row + c * n_, p) = stiffness_[moving_[p]] * indicator_entry(average, row, c);
+            tangent_(0, p) -= reference_[moving_[p]];
+        }
+        assemble();
+        lu_.factor(jacobian_);
+    }
+
+    void solve(double *b, std::int64_t n) override {
+        for (std::int64_t k = 0; k < n; ++k) solve_one(b + k * size());
+    }
+
+    void omega_derivative(double *r) override {
+        std::fill(r, r + size(), 0.0);
+        vector<Complex> v(r_);
+        for (std::int64_t h = 1; h <= h_; ++h) { // d/d omega of -B D f = B D (dD^-1) D f
+            receptance_[h].derivative(eta_[h].data(), v.data());
+            receptance_[h].apply(v.data());
+            write_gaps(v, 1.0, r + (2 * h - 1) * z_);
+        }
+    }
+
+    void linear_response(const vector<double> &share, double omega, double *x) override {
+        std::fill(u_.data(), u_.data() + size(), 0.0);
+        set_frequency(omega);
+        constant_indicator(share, h_, indicator_);
+        contact_.reset(z_, n_);
+        respond(); // at u = 0 with zero force: R = -(B D F - g)
+        gaps_of_response(x);
+        linearize();
+        solve(x, 1);
+    }
+
+    void to_point(const double *x, double omega, BranchPoint &point) override {
+        vector<double> scratch(size());
+        residual(x, omega, scratch.data());
+        point.omega = omega;
+        point.eta_0 = eta_0_;
+        point.eta.reset(r_, 2 * h_);
+        for (std::int64_t h = 1; h <= h_; ++h)
+            for (std::int64_t j = 0; j < r_; ++j) {
+                point.eta(j, 2 * h - 2) = eta_[h][j].real(); // eta = a - i b
+                point.eta(j, 2 * h - 1) = -eta_[h][j].imag();
+            }
+    }
+
+    void from_point(const BranchPoint &point, double *x) override {
+        Matrix dynamic(z_, 2 * h_);
+        gemm('N', 'N', 1.0, m_->gap, point.eta, 0.0, dynamic);
+        for (std::int64_t i = 0; i < z_; ++i) x[i] = -gap_[i];
+        gemv('N', 1.0, m_->gap_0, point.eta_0.data(), 1.0, x);
+        std::copy(dynamic.data(), dynamic.data() + z_ * 2 * h_, x + z_);
+    }
+
+  private:
+    // An open structure with rigid-body modes has no static receptance: then half of the contact stiffness is moved
+    // from the contact law into the static reference system (h = 0 only), which is exact.
+    void update_static() {
+        bool rigid = false;
+        for (double l : m_->lambda_0) rigid = rigid || l <= 0;
+        reference_.assign(z_, 0.0);
+        if (!rigid) return;
+        Matrix k(r0_, r0_), scaled = m_->gap_0;
+        for (std::int64_t i = 0; i < z_; ++i) reference_[i] = 0.5 * stiffness_[i];
+        for (std::int64_t j = 0; j < r0_; ++j)
+            for (std::int64_t i = 0; i < z_; ++i) scaled(i, j) *= reference_[i];
+        gemm('T', 'N', 1.0, m_->gap_0, scaled, 0.0, k);
+        for (std::int64_t j = 0; j < r0_; ++j) k(j, j) += m_->lambda_0[j];
+        if (!static_cholesky_.factor(k))
+            throw Error(PLM_ERR_SINGULAR, "the structure has rigid-body modes that even closed contacts do not hold; "
+                                          "fix DOFs or solve in reduced coordinates (unknowns = modal)")
+                .reason(PLM_REASON_SINGULAR);
+        static_is_dense_ = true;
+    }
+
+    void apply_static(double *v) const {
+        if (static_is_dense_) return static_cholesky_.solve(v, 1, r0_);
+        for (std::int64_t j = 0; j < r0_; ++j) v[j] /= m_->lambda_0[j];
+    }
+
+    void set_frequency(double omega) {
+        if (omega == omega_) return;
+        omega_ = omega;
+        for (std::int64_t h = 1; h <= h_; ++h) receptance_[h].update(*m_, h, omega);
+    }
+
+    const HarmonicLoad *excitation(std::int64_t h) const {
+        const auto found = m_->excitation.find(static_cast<int>(h));
+        return found == m_->excitation.end() ? nullptr : &found->second;
+    }
+
+    // eta = D (F - B' N) for every harmonic, from contact_.
+    void respond() {
+        eta_0_ = m_->preload_0;
+        if (const HarmonicLoad *load = excitation(0))
+            for (std::int64_t j = 0; j < r0_; ++j) eta_0_[j] += force_scale_ * load->real[j];
+        vector<double> n(z_);
+        for (std::int64_t i = 0; i < z_; ++i)
+            n[i] = contact_(i, 0) - reference_[i] * (u_(i, 0) + gap_[i]);
+        gemv('T', -1.0, m_->gap_0, n.data(), 1.0, eta_0_.data());
+        apply_static(eta_0_.data());
+        for (std::int64_t h = 1; h <= h_; ++h) {
+            gather(contact_.col(2 * h - 1), contact_.col(2 * h), -1.0, eta_[h]);
+            if (const HarmonicLoad *load = excitation(h))
+                for (std::int64_t j = 0; j < r_; ++j) eta_[h][j] += force_scale_ * Complex(load->real[j], load->imag[j]);
+            receptance_[h].apply(eta_[h].data());
+        }
+    }
+
+    // v = factor B' (c - i s)
+    void gather(const double *c, const double *s, double factor, vector<Complex> &v) {
+        real_.resize(r_);
+        imag_.resize(r_);
+        gemv('T', factor, m_->gap, c, 0.0, real_.data());
+        gemv('T', -factor, m_->gap, s, 0.0, imag_.data());
+        v.resize(r_);
+        for (std::int64_t j = 0; j < r_; ++j) v[j] = Complex(real_[j], imag_[j]);
+    }
+
+    // out (cosine column, then sine column) = factor B v with v = c - i s
+    void write_gaps(const vector<Complex> &v, double factor, double *out) {
+        real_.resize(r_);
+        imag_.resize(r_);
+        for (std::int64_t j = 0; j < r_; ++j) {
+            real_[j] = v[j].real();
+            imag_[j] = -v[j].imag();
+        }
+        gemv('N', factor, m_->gap, real_.data(), 0.0, out);
+        gemv('N', factor, m_->gap, imag_.data(), 0.0, out + z_);
+    }
+
+    // out = B eta - g
+    void gaps_of_response(double *out) {
+        for (std::int64_t i = 0; i < z_; ++i) out[i] = -gap_[i];
+        gemv('N', 1.0, m_->gap_0, eta_0_.data(), 1.0, out);
+        for (std::int64_t h = 1; h <= h_; ++h) write_gaps(eta_[h], 1.0, out + (2 * h - 1) * z_);
+    }
+
+    // Tangent of a pair that does not switch, in harmonic h, less the part in the reference system.
+    double constant_tangent(std::int64_t i, std::int64_t h) const {
+        const double k = indicator_.state[i] == PairState::closed ? stiffness_[i] : 0.0;
+        return h == 0 ? k - reference_[i] : k;
+    }
+
+    void receptance_of(std::int64_t h, const vector<std::int64_t> &pairs, Matrix &real, Matrix &imag) const {
+        const Matrix rows = select_rows(h == 0 ? m_->gap_0 : m_->gap, pairs);
+        if (h > 0) return receptance_[h].contact_receptance(rows, real, imag);
+        Matrix solved = rows.transposed();
+        if (static_is_dense_) {
+            static_cholesky_.solve(solved.data(), solved.cols(), r0_);
+        } else {
+            for (std::int64_t j = 0; j < solved.cols(); ++j)
+                for (std::int64_t i = 0; i < r0_; ++i) solved(i, j) /= m_->lambda_0[i];
+        }
+        real = product('N', 'N', rows, solved);
+        imag.reset(rows.rows(), rows.rows());
+    }
+
+    void eliminate(std::int64_t h) {
+        Eliminated &e = eliminated_[h];
+        e.pairs.clear();
+        e.kappa.clear();
+        for (std::int64_t i = 0; i < z_; ++i) {
+            if (indicator_.state[i] == PairState::switching) continue;
+            const double kappa = constant_tangent(i, h);
+            if (kappa == 0) continue;
+            e.pairs.push_back(i);
+            e.kappa.push_back(kappa);
+        }
+        const std::int64_t s = static_cast<std::int64_t>(moving_.size()), n = static_cast<std::int64_t>(e.pairs.size());
+        vector<std::int64_t> all = moving_;
+        all.insert(all.end(), e.pairs.begin(), e.pairs.end());
+        Matrix real, imag;
+        receptance_of(h, all, real, imag);
+        vector<Complex> closed(n * n);
+        e.to_eliminated.resize(n * s);
+        e.from_eliminated.resize(s * n);
+        for (std::int64_t j = 0; j < n; ++j) {
+            for (std::int64_t i = 0; i < n; ++i)
+                closed[i + j * n] =
+                    Complex(real(s + i, s + j), imag(s + i, s + j)) * e.kappa[j] + (i == j ? 1.0 : 0.0);
+            for (std::int64_t i = 0; i < s; ++i) {
+                e.from_eliminated[i + j * s] = Complex(real(i, s + j), imag(i, s + j)) * e.kappa[j];
+                e.to_eliminated[j + i * n] = Complex(real(s + j, i), imag(s + j, i));
+            }
+        }
+        if (n > 0) e.closed.factor(n, closed);
+        e.real.reset(s, s);
+        e.imag.reset(s, s);
+        vector<Complex> x = e.to_eliminated; // (I + G_EE kappa)^-1 G_ES
+        if (n > 0 && s > 0) e.closed.solve(x.data(), s, n);
+        for (std::int64_t j = 0; j < s; ++j)
+            for (std::int64_t i = 0; i < s; ++i) {
+                e.real(i, j) = real(i, j);
+                e.imag(i, j) = imag(i, j);
+            }
+        subtract_product(e.from_eliminated, x, s, n, e.real, e.imag);
+    }
+
+    // (real + i imag) -= A B, A s x n, B n x s, by three real products
+    static void subtract_product(const vector<Complex> &a, const vector<Complex> &b, std::int64_t s, std::int64_t n,
+                                 Matrix &real, Matrix &imag) {
+        if (n == 0 || s == 0) return;
+        Matrix ar(s, n), ai(s, n), br(n, s), bi(n, s);
+        for (std::int64_t k = 0; k < s * n; ++k) {
+            ar.data()[k] = a[k].real(), ai.data()[k] = a[k].imag();
+            br.data()[k] = b[k].real(), bi.data()[k] = b[k].imag();
+        }
+        gemm('N', 'N', -1.0, ar, br, 1.0, real);
+        gemm('N', 'N', 1.0, ai, bi, 1.0, real);
+        gemm('N', 'N', -1.0, ar, bi, 1.0, imag);
+        gemm('N', 'N', -1.0, ai, br, 1.0, imag);
+    }
+
+    // I + G J over the moving pairs; unknown (coefficient c, moving pair p) at c s + p.
+    void assemble() {
+        const std::int64_t s = static_cast<std::int64_t>(moving_.size());
+        jacobian_.reset(s * n_, s * n_);
+        for (std::int64_t c = 0; c < n_; ++c)
+            for (std::int64_t q = 0; q < s; ++q) {
+                double *column = jacobian_.col(c * s + q);
+                const double *tangent = tangent_.col(q) + c * n_; // J(:, c) of pair q
+                const double *g0 = eliminated_[0].real.col(q);
+                for (std::int64_t p = 0; p < s; ++p) column[p] = g0[p] * tangent[0];
+                for (std::int64_t h = 1; h <= h_; ++h) {
+                    const double *gr = eliminated_[h].real.col(q), *gi = eliminated_[h].imag.col(q);
+                    const double yc = tangent[2 * h - 1], ys = tangent[2 * h];
+                    double *cosine = column + (2 * h - 1) * s, *sine = cosine + s;
+                    for (std::int64_t p = 0; p < s; ++p) { // u_c - i u_s = G (y_c - i y_s)
+                        cosine[p] = gr[p] * yc + gi[p] * ys;
+                        sine[p] = gr[p] * ys - gi[p] * yc;
+                    }
+                }
+                column[c * s + q] += 1;
+            }
+    }
+
+    void solve_one(double *b) {
+        const std::int64_t s = static_cast<std::int64_t>(moving_.size());
+        vector<double> reduced(s * n_), y(s * n_);
+        std::vector<vector<Complex>> held(h_ + 1); // (I + G_EE kappa)^-1 b_E
+        for (std::int64_t h = 0; h <= h_; ++h) reduce_rhs(h, b, held[h], reduced.data());
+        if (s > 0) lu_.solve(reduced.data(), 1, s * n_);
+        for (std::int64_t p = 0; p < s; ++p) // y = J du of the moving pairs
+            for (std::int64_t c = 0; c < n_; ++c) {
+                const double *tangent = tangent_.col(p) + c * n_;
+                for (std::int64_t row = 0; row < n_; ++row) y[row * s + p] += tangent[row] * reduced[c * s + p];
+            }
+        for (std::int64_t h = 0; h <= h_; ++h) expand_solution(h, held[h], reduced.data(), y.data(), b);
+    }
+
+    Complex entry(const double *b, std::int64_t h, std::int64_t i) const {
+        return h == 0 ? Complex(b[i]) : Complex(b[(2 * h - 1) * z_ + i], -b[2 * h * z_ + i]);
+    }
+    void store(Complex v, std::int64_t h, std::int64_t i, double *b) const {
+        if (h == 0) {
+            b[i] = v.real();
+        } else {
+            b[(2 * h - 1) * z_ + i] = v.real();
+            b[2 * h * z_ + i] = -v.imag();
+        }
+    }
+
+    void reduce_rhs(std::int64_t h, const double *b, vector<Complex> &held, double *reduced) const {
+        const Eliminated &e = eliminated_[h];
+        const std::int64_t s = static_cast<std::int64_t>(moving_.size()), n = static_cast<std::int64_t>(e.pairs.size());
+        held.resize(n);
+        for (std::int64_t j = 0; j < n; ++j) held[j] = entry(b, h, e.pairs[j]);
+        if (n > 0) e.closed.solve(held.data(), 1, n);
+        for (std::int64_t p = 0; p < s; ++p) {
+            Complex v = entry(b, h, moving_[p]);
+            for (std::int64_t j = 0; j < n; ++j) v -= e.from_eliminated[p + j * s] * held[j];
+            if (h == 0) {
+                reduced[p] = v.real();
+            } else {
+                reduced[(2 * h - 1) * s + p] = v.real();
+                reduced[2 * h * s + p] = -v.imag();
+            }
+        }
+    }
+
+    // Writes du of harmonic h for all pairs: moving and eliminated ones as solved, the others from B D B' y.
+    void expand_solution(std::int64_t h, vector<Complex> &held, const double *reduced, const double *y, double *b) {
+        const Eliminated &e = eliminated_[h];
+        const std::int64_t s = static_cast<std::int64_t>(moving_.size()), n = static_cast<std::int64_t>(e.pairs.size());
+        const auto moving_force = [&](std::int64_t p) {
+            return h == 0 ? Complex(y[p]) : Complex(y[(2 * h - 1) * s + p], -y[2 * h * s + p]);
+        };
+        vector<Complex> coupled(n);
+        for (std::int64_t p = 0; p < s; ++p)
+            for (std::int64_t j = 0; j < n; ++j) coupled[j] += e.to_eliminated[j + p * n] * moving_force(p);
+        if (n > 0) e.closed.solve(coupled.data(), 1, n);
+        for (std::int64_t j = 0; j < n; ++j) held[j] -= coupled[j];
+
+        vector<double> c(z_, 0.0), q(z_, 0.0); // contact force y = c - i q of all pairs
+        for (std::int64_t p = 0; p < s; ++p) c[moving_[p]] = moving_force(p).real(), q[moving_[p]] = -moving_force(p).imag();
+        for (std::int64_t j = 0; j < n; ++j)
+            c[e.pairs[j]] = e.kappa[j] * held[j].real(), q[e.pairs[j]] = -e.kappa[j] * held[j].imag();
+        if (h == 0) {
+            vector<double> v(r0_);
+            gemv('T', 1.0, m_->gap_0, c.data(), 0.0, v.data());
+            apply_static(v.data());
+            gemv('N', -1.0, m_->gap_0, v.data(), 1.0, b);
+        } else {
+            vector<Complex> v;
+            gather(c.data(), q.data(), 1.0, v);
+            receptance_[h].apply(v.data());
+            vector<double> gaps(2 * z_);
+            write_gaps(v, 1.0, gaps.data());
+            for (std::int64_t k = 0; k < 2 * z_; ++k) b[(2 * h - 1) * z_ + k] -= gaps[k];
+        }
+        for (std::int64_t j = 0; j < n; ++j) store(held[j], h, e.pairs[j], b);
+        for (std::int64_t p = 0; p < s; ++p)
+            store(h == 0 ? Complex(reduced[p]) : Complex(reduced[(2 * h - 1) * s + p], -reduced[2 * h * s + p]), h,
+                  moving_[p], b);
+    }
+
+    std::shared_ptr<const ReducedModel> m_;
+    std::int64_t h_, n_, z_, r_, r0_;
+    std::unique_ptr<ContactForce> force_;
+    const vector<double> &stiffness_;
+    vector<double> gap_;
+    Matrix u_, contact_;
+    std::vector<Receptance> receptance_;
+    std::vector<Eliminated> eliminated_;
+    std::vector<vector<Complex>> eta_; // harmonics >= 1
+    vector<double> eta_0_, reference_, real_, imag_;
+    DenseCholesky static_cholesky_;
+    bool static_is_dense_ = false;
+    double force_scale_, omega_ = -1;
+    vector<std::int64_t> moving_;
+    Matrix tangent_, jacobian_;
+    RealLu lu_;
+};
+
+} // namespace
+
+std::unique_ptr<HbmSystem> make_gap_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options) {
+    return std::make_unique<GapSystem>(std::move(reduced), options);
+}
+
+} // namespace plm

@@ -1,0 +1,50 @@
+// The harmonic-balance solver over a reduced model: single solutions, response curves, peaks.
+#pragma once
+#include "hbm/branch.hpp"
+#include "linalg/monitor.hpp"
+
+namespace plm {
+
+enum class AftKind { event, sampled };
+enum class UnknownSpace { automatic, modal, gaps };
+
+struct HbmOptions {
+    std::int64_t n_harmonics = 5;
+    AftKind aft = AftKind::event;
+    std::int64_t time_samples = 256;      // sampled AFT only
+    UnknownSpace unknowns = UnknownSpace::automatic; // reduced coordinates or contact gaps, by cost
+    double frequency_min_hz = 0, frequency_max_hz = 0; // 0: the basis' window
+    bool upward = false;                  // direction of a sweep; downwards starts are safer
+    double force_scale = 1;               // scales the excitation, not the pre-load
+    double tolerance = 1e-9;              // of the Newton correction, relative to the solution
+    std::int64_t max_iterations = 30;     // Newton iterations per point
+    std::int64_t max_points = 2000;       // of a sweep
+    double initial_step = 0;              // arc length relative to the curve's scale; 0: automatic
+    double min_step = 1e-7, max_step = 0.15; // arc length, where 1 = the window's width or the response's scale
+};
+
+/// What plm_hbm_find_peak returns.
+struct Peak {
+    double frequency_hz = 0, amplitude = 0;
+    std::shared_ptr<const Branch> branch; // one point
+};
+
+class Hbm {
+  public:
+    Hbm(std::shared_ptr<const ReducedModel> reduced, double window_min_hz, double window_max_hz,
+        const HbmOptions &options, Watch watch);
+    ~Hbm();
+
+    /// Always returns a branch with at least one point, or throws; the outcome is in branch->end_reason.
+    std::shared_ptr<const Branch> sweep() const;
+    /// start may be null (cold start).
+    std::shared_ptr<const Branch> solve(double frequency_hz, const Branch *start, std::int64_t point) const;
+    Peak find_peak(const Branch &branch, std::int64_t dof, Measure measure, std::int64_t harmonic) const;
+
+  private:
+    std::shared_ptr<const ReducedModel> reduced_;
+    HbmOptions options_;
+    Watch watch_;
+};
+
+} // namespace plm

@@ -1,0 +1,152 @@
+// The highest point of a curve, found on the curve itself: points on hyperplanes across the chord through the three
+// highest ones, by successive parabolic interpolation.
+#include "hbm/hbm.hpp"
+#include "hbm/newton.hpp"
+#include <array>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+struct Sample {
+    double s = 0; // position along the chord
+    vector<double> x;
+    double omega = 0, amplitude = 0;
+    BranchPoint point;
+};
+
+class PeakSearch {
+  public:
+    PeakSearch(HbmSystem &system, const HbmOptions &options, std::shared_ptr<const ReducedModel> reduced,
+               std::int64_t dof, Measure measure, std::int64_t harmonic)
+        : system_(system), options_(options), reduced_(std::move(reduced)), dof_(dof), measure_(measure),
+          harmonic_(harmonic) {}
+
+    Sample run(const Branch &branch, std::int64_t top) {
+        for (int k = 0; k < 3; ++k) load(branch, top - 1 + k, three_[k]);
+        set_chord();
+        double reach = 0.5 * (three_[2].s - three_[0].s);
+        for (int round = 0; round < 12; ++round) {
+            Sample middle;
+            if (!corrected(vertex(), middle)) break;
+            // New triple around the vertex, ten times closer: interpolation error falls with its square.
+            reach = std::max(0.1 * reach, 2e-3 * span_);
+            Sample left, right;
+            if (!corrected(middle.s - reach, left) || !corrected(middle.s + reach, right)) break;
+            three_ = {left, middle, right};
+            if (reach <= 2e-3 * span_ && left.amplitude < middle.amplitude && right.amplitude < middle.amplitude) break;
+        }
+        Sample best;
+        if (!corrected(vertex(), best) || best.amplitude < three_[1].amplitude * (1 - 1e-9)) best = three_[1];
+        return best;
+    }
+
+  private:
+    void load(const Branch &branch, std::int64_t i, Sample &s) {
+        s.point = branch.points()[i];
+        s.x.resize(system_.size());
+        system_.from_point(s.point, s.x.data());
+        s.omega = s.point.omega;
+        s.amplitude = branch.amplitude(i, dof_, measure_, harmonic_);
+    }
+
+    void set_chord() {
+        const std::int64_t n = system_.size();
+        scale_ = norm2(n, three_[1].x.data());
+        direction_.resize(n);
+        for (std::int64_t i = 0; i < n; ++i) direction_[i] = three_[2].x[i] - three_[0].x[i];
+        direction_omega_ = three_[2].omega - three_[0].omega;
+        omega_scale_ = 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz);
+        const double length = std::hypot(norm2(n, direction_.data()) / scale_, direction_omega_ / omega_scale_);
+        for (double &d : direction_) d /= length * scale_ * scale_; // weights of the hyperplanes
+        direction_omega_ /= length * omega_scale_ * omega_scale_;
+        origin_ = three_[1];
+        for (Sample &s : three_) s.s = position(s.x, s.omega);
+        span_ = three_[2].s - three_[0].s;
+    }
+
+    double position(const vector<double> &x, double omega) const {
+        double s = direction_omega_ * (omega - origin_.omega);
+        for (std::size_t i = 0; i < x.size(); ++i) s += direction_[i] * (x[i] - origin_.x[i]);
+        return s;
+    }
+
+    // Vertex of the parabola through the triple, kept inside it.
+    double vertex() const {
+        const Sample &a = three_[0], &b = three_[1], &c = three_[2];
+        const double left = (b.amplitude - a.amplitude) / (b.s - a.s), right = (c.amplitude - b.amplitude) / (c.s - b.s);
+        const double bend = (right - left) / (c.s - a.s);
+        if (!(bend < 0)) return b.s;
+        const double s = 0.5 * (a.s + b.s) - 0.5 * left / bend;
+        return std::min(c.s, std::max(a.s, s));
+    }
+
+    // The curve's point in the hyperplane at s, from the parabola through the triple as first guess.
+    bool corrected(double s, Sample &out) {
+        const Sample &a = three_[0], &b = three_[1], &c = three_[2];
+        const double la = (s - b.s) * (s - c.s) / ((a.s - b.s) * (a.s - c.s)),
+                     lb = (s - a.s) * (s - c.s) / ((b.s - a.s) * (b.s - c.s)),
+                     lc = (s - a.s) * (s - b.s) / ((c.s - a.s) * (c.s - b.s));
+        out.x.resize(b.x.size());
+        for (std::size_t i = 0; i < out.x.size(); ++i) out.x[i] = la * a.x[i] + lb * b.x[i] + lc * c.x[i];
+        out.omega = la * a.omega + lb * b.omega + lc * c.omega;
+        SideCondition side{&direction_, direction_omega_};
+        NewtonLimits limits;
+        limits.tolerance = 1e-3 * options_.tolerance; // the vertex is found from small differences
+        limits.max_iterations = options_.max_iterations;
+        limits.omega_scale = omega_scale_;
+        const NewtonOutcome newton_out = newton(system_, side, limits, out.x, out.omega);
+        if (!newton_out.converged) return false;
+        out.s = s;
+        out.point.residual = newton_out.residual;
+        out.point.iterations = newton_out.iterations;
+        system_.to_point(out.x.data(), out.omega, out.point);
+        out.point.n_switching = system_.indicator().n_switching;
+        Branch one(reduced_, options_.n_harmonics, options_.force_scale);
+        one.append(out.point);
+        out.amplitude = one.amplitude(0, dof_, measure_, harmonic_);
+        return true;
+    }
+
+    HbmSystem &system_;
+    const HbmOptions &options_;
+    std::shared_ptr<const ReducedModel> reduced_;
+    std::int64_t dof_;
+    Measure measure_;
+    std::int64_t harmonic_;
+    std::array<Sample, 3> three_;
+    Sample origin_;
+    vector<double> direction_;
+    double direction_omega_ = 0, scale_ = 1, omega_scale_ = 1, span_ = 1;
+};
+
+} // namespace
+
+Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
+    if (branch.reduced_model() != reduced_ || branch.n_harmonics() != options_.n_harmonics)
+        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis or number of harmonics").argument("branch");
+    const std::int64_t n = static_cast<std::int64_t>(branch.points().size());
+    std::int64_t top = 0;
+    double highest = -1;
+    for (std::int64_t i = 0; i < n; ++i) {
+        const double a = std::abs(branch.amplitude(i, dof, measure, harmonic));
+        if (a > highest) highest = a, top = i;
+    }
+    Peak peak;
+    auto one = std::make_shared<Branch>(reduced_, options_.n_harmonics, branch.force_scale());
+    one->end_reason = PLM_REASON_RANGE_END;
+    BranchPoint point = branch.points()[top];
+    if (top > 0 && top < n - 1) { // a maximum at an end of the curve stays where it is
+        HbmOptions options = options_;
+        options.force_scale = branch.force_scale();
+        const auto system = make_system(reduced_, options, &one->space_used);
+        point = PeakSearch(*system, options, reduced_, dof, measure, harmonic).run(branch, top).point;
+    }
+    one->append(std::move(point));
+    peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
+    peak.amplitude = one->amplitude(0, dof, measure, harmonic);
+    peak.branch = one;
+    return peak;
+}
+
+} // namespace plm

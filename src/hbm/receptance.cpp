@@ -1,0 +1,69 @@
+#include "hbm/receptance.hpp"
+
+namespace plm {
+
+using Complex = std::complex<double>;
+
+void Receptance::update(const ReducedModel &m, std::int64_t h, double omega) {
+    model_ = &m;
+    const double w = static_cast<double>(h) * omega;
+    const std::int64_t r = m.size();
+    derivative_.resize(r);
+    diagonal_.resize(r);
+    for (std::int64_t j = 0; j < r; ++j) {
+        const double c = m.damping.empty() ? m.damping_diagonal[j] : 0.0;
+        diagonal_[j] = Complex(m.lambda[j] - w * w, w * c + m.structural * m.lambda[j]);
+        derivative_[j] = static_cast<double>(h) * Complex(-2 * w, c); // d(1/D)/d omega
+    }
+    harmonic_ = static_cast<double>(h);
+    if (m.damping.empty()) {
+        for (Complex &d : diagonal_) d = 1.0 / d;
+        return;
+    }
+    vector<Complex> full(r * r);
+    for (std::int64_t j = 0; j < r; ++j)
+        for (std::int64_t i = 0; i < r; ++i)
+            full[i + j * r] = Complex(0, w * m.damping(i, j)) + (i == j ? diagonal_[j] : Complex(0));
+    lu_.factor(r, full);
+}
+
+void Receptance::apply(Complex *v) const {
+    if (!model_->damping.empty()) return lu_.solve(v, 1, model_->size());
+    for (std::size_t j = 0; j < diagonal_.size(); ++j) v[j] *= diagonal_[j];
+}
+
+void Receptance::derivative(const Complex *v, Complex *out) const {
+    const std::int64_t r = model_->size();
+    for (std::int64_t j = 0; j < r; ++j) out[j] = derivative_[j] * v[j];
+    if (model_->damping.empty()) return;
+    for (std::int64_t j = 0; j < r; ++j)
+        for (std::int64_t i = 0; i < r; ++i) out[i] += Complex(0, harmonic_ * model_->damping(i, j)) * v[j];
+}
+
+void Receptance::contact_receptance(const Matrix &rows, Matrix &real, Matrix &imag) const {
+    const std::int64_t n = rows.rows(), r = rows.cols();
+    Matrix scaled_real(n, r), scaled_imag(n, r);
+    if (model_->damping.empty()) {
+        for (std::int64_t j = 0; j < r; ++j)
+            for (std::int64_t i = 0; i < n; ++i) {
+                scaled_real(i, j) = rows(i, j) * diagonal_[j].real();
+                scaled_imag(i, j) = rows(i, j) * diagonal_[j].imag();
+            }
+    } else {
+        vector<Complex> x(r * n);
+        for (std::int64_t j = 0; j < r; ++j)
+            for (std::int64_t i = 0; i < n; ++i) x[j + i * r] = rows(i, j);
+        lu_.solve(x.data(), n, r);
+        for (std::int64_t j = 0; j < r; ++j)
+            for (std::int64_t i = 0; i < n; ++i) {
+                scaled_real(i, j) = x[j + i * r].real();
+                scaled_imag(i, j) = x[j + i * r].imag();
+            }
+    }
+    real.reset(n, n);
+    imag.reset(n, n);
+    gemm('N', 'T', 1.0, scaled_real, rows, 0.0, real);
+    gemm('N', 'T', 1.0, scaled_imag, rows, 0.0, imag);
+}
+
+} // namespace plm

@@ -1,0 +1,22 @@
+// First solutions: from the structure at rest to a converged periodic response at one frequency.
+#pragma once
+#include "hbm/newton.hpp"
+
+namespace plm {
+
+/// Share of the period each pair is closed at rest: 1, 0, or 1/2 for pairs that neither touch nor gap.
+vector<double> share_at_rest(const ReducedModel &reduced);
+
+struct StartOutcome {
+    bool converged = false;
+    std::int64_t iterations = 0, factorizations = 0;
+    double residual = 0;
+};
+
+/// Solves at omega; on entry x is a first guess when `have_guess`. Then, until one works: the linear response about
+/// rest, about open and about closed contact; the path in the force from rest, or in the gap from open
+/// contact; the path in the frequency from above.
+StartOutcome find_start(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options, double omega,
+                        bool have_guess, vector<double> &x);
+
+} // namespace plm

@@ -1,0 +1,55 @@
+// The harmonic-balance equations R(x, omega) = 0 as Newton and the continuation see them. Two forms, exact for the same
+// reduced model: unknown reduced coordinates (modal_system.cpp), or unknown contact gaps through the receptances of the
+// open structure (gap_system.cpp). Which is cheaper depends on the number of coordinates and of moving pairs.
+#pragma once
+#include "hbm/branch.hpp"
+#include "hbm/contact_force.hpp"
+#include "hbm/hbm.hpp"
+
+namespace plm {
+
+class HbmSystem {
+  public:
+    virtual ~HbmSystem() = default;
+    virtual std::int64_t size() const = 0;
+    /// The first static_size() unknowns are the mean values (h = 0).
+    virtual std::int64_t static_size() const = 0;
+    /// r = R(x, omega); remembers the contact indicator of x for linearize().
+    virtual void residual(const double *x, double omega, double *r) = 0;
+    /// Factors dR/dx at the x and omega of the last residual() (or linear_response()).
+    virtual void linearize() = 0;
+    /// Overwrites n right-hand sides (leading dimension size()) by (dR/dx)^-1 b.
+    virtual void solve(double *b, std::int64_t n) = 0;
+    /// dR/domega at the x and omega of the last residual().
+    virtual void omega_derivative(double *r) = 0;
+    /// Solution x of the linear equations with every pair coupled by share[i] k_n at all times.
+    virtual void linear_response(const vector<double> &share, double omega, double *x) = 0;
+    /// Norm of the force side of the equations: a residual is small or large against it.
+    virtual double residual_scale() const = 0;
+
+    virtual void to_point(const double *x, double omega, BranchPoint &point) = 0;
+    virtual void from_point(const BranchPoint &point, double *x) = 0;
+
+    /// Scale of the excitation: options.force_scale in the problem asked for, others on the path from rest.
+    virtual void set_force_scale(double scale) = 0;
+    /// dR/d(force scale) at the omega of the last residual().
+    virtual void force_derivative(double *r) = 0;
+    /// Gap added to every pair: 0 in the problem asked for, others on the path from open contact.
+    virtual void set_extra_gap(double gap) = 0;
+    /// dR/d(extra gap) at the last residual().
+    virtual void gap_derivative(double *r) = 0;
+
+    virtual const ContactIndicator &indicator() const { return indicator_; }
+
+  protected:
+    ContactIndicator indicator_;
+};
+
+/// Takes the smaller of the two by cost when options.unknowns is automatic. `kind` receives "modal" or "gaps".
+std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                                       std::string *kind);
+std::unique_ptr<HbmSystem> make_modal_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
+std::unique_ptr<HbmSystem> make_gap_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
+std::unique_ptr<ContactForce> make_contact_force(const HbmOptions &options, std::int64_t n_pairs);
+
+} // namespace plm

@@ -1,0 +1,30 @@
+// Real trigonometric polynomials x(t) = a0 + sum_h a_h cos h t + b_h sin h t, t in radian over one period 2 pi.
+// Coefficients in the order a0, a1, b1, ..., aH, bH.
+#pragma once
+#include "linalg/dense.hpp"
+#include <cstddef>
+
+namespace plm {
+
+struct TrigValue {
+    double value, slope, curvature;
+};
+/// x, x', x'' at t by one recurrence.
+TrigValue evaluate_trig(const double *coefficient, std::int64_t n_harmonics, double t);
+
+/// Rows: value (first n) and slope (next n) at the n grid instants 2 pi i / n, as a (2n) x (2H + 1) matrix.
+Matrix trig_grid(std::int64_t n_harmonics, std::int64_t n);
+
+struct TrigRange {
+    double minimum, maximum;
+};
+/// Exact extrema over the period.
+TrigRange trig_range(const double *coefficient, std::int64_t n_harmonics);
+
+/// A zero of x inside (low, high), where x changes sign; converged to rounding.
+double trig_root(const double *coefficient, std::int64_t n_harmonics, double low, double high, double x_low);
+/// A zero of x' inside (low, high), where x' changes sign.
+double trig_stationary(const double *coefficient, std::int64_t n_harmonics, double low, double high,
+                       double slope_low);
+
+} // namespace plm

@@ -1,0 +1,88 @@
+// Private to linalg: Fortran prototypes of the BLAS and LAPACK routines used (32-bit integers) and the checks that
+// keep XERBLA, which prints and stops the process, out of reach. Each character argument has its length passed
+// behind the list, as gfortran expects it.
+#pragma once
+#include "dense.hpp"
+#include "error.hpp"
+#include <climits>
+#include <cmath>
+#include <complex>
+
+namespace plm {
+
+using blas_int = int;
+using strlen_t = std::size_t;
+using complex_t = std::complex<double>;
+
+extern "C" {
+void dgemm_(const char *, const char *, const blas_int *, const blas_int *, const blas_int *, const double *,
+            const double *, const blas_int *, const double *, const blas_int *, const double *, double *,
+            const blas_int *, strlen_t, strlen_t);
+void dgemv_(const char *, const blas_int *, const blas_int *, const double *, const double *, const blas_int *,
+            const double *, const blas_int *, const double *, double *, const blas_int *, strlen_t);
+double ddot_(const blas_int *, const double *, const blas_int *, const double *, const blas_int *);
+double dnrm2_(const blas_int *, const double *, const blas_int *);
+void dtrsm_(const char *, const char *, const char *, const char *, const blas_int *, const blas_int *,
+            const double *, const double *, const blas_int *, double *, const blas_int *, strlen_t, strlen_t,
+            strlen_t, strlen_t);
+
+void dsyevd_(const char *, const char *, const blas_int *, double *, const blas_int *, double *, double *,
+             const blas_int *, blas_int *, const blas_int *, blas_int *, strlen_t, strlen_t);
+void dsyevr_(const char *, const char *, const char *, const blas_int *, double *, const blas_int *, const double *,
+             const double *, const blas_int *, const blas_int *, const double *, blas_int *, double *, double *,
+             const blas_int *, blas_int *, double *, const blas_int *, blas_int *, const blas_int *, blas_int *,
+             strlen_t, strlen_t, strlen_t);
+void dsygvd_(const blas_int *, const char *, const char *, const blas_int *, double *, const blas_int *, double *,
+             const blas_int *, double *, double *, const blas_int *, blas_int *, const blas_int *, blas_int *,
+             strlen_t, strlen_t);
+void dgesdd_(const char *, const blas_int *, const blas_int *, double *, const blas_int *, double *, double *,
+             const blas_int *, double *, const blas_int *, double *, const blas_int *, blas_int *, blas_int *,
+             strlen_t);
+void dgesvd_(const char *, const char *, const blas_int *, const blas_int *, double *, const blas_int *, double *,
+             double *, const blas_int *, double *, const blas_int *, double *, const blas_int *, blas_int *,
+             strlen_t, strlen_t);
+void dgels_(const char *, const blas_int *, const blas_int *, const blas_int *, double *, const blas_int *,
+            double *, const blas_int *, double *, const blas_int *, blas_int *, strlen_t);
+void dgetrf_(const blas_int *, const blas_int *, double *, const blas_int *, blas_int *, blas_int *);
+void dgetrs_(const char *, const blas_int *, const blas_int *, const double *, const blas_int *, const blas_int *,
+             double *, const blas_int *, blas_int *, strlen_t);
+void dgecon_(const char *, const blas_int *, const double *, const blas_int *, const double *, double *, double *,
+             blas_int *, blas_int *, strlen_t);
+void zgetrf_(const blas_int *, const blas_int *, complex_t *, const blas_int *, blas_int *, blas_int *);
+void zgetrs_(const char *, const blas_int *, const blas_int *, const complex_t *, const blas_int *,
+             const blas_int *, complex_t *, const blas_int *, blas_int *, strlen_t);
+void dpotrf_(const char *, const blas_int *, double *, const blas_int *, blas_int *, strlen_t);
+void dpotrs_(const char *, const blas_int *, const blas_int *, const double *, const blas_int *, double *,
+             const blas_int *, blas_int *, strlen_t);
+}
+
+/// A dimension as BLAS takes it.
+inline blas_int to_blas(std::int64_t n) {
+    if (n < 0 || n > INT_MAX)
+        throw Error(PLM_ERR_ARGUMENT, format("dimension %lld does not fit the 32-bit integers of BLAS and LAPACK",
+                                             static_cast<long long>(n)));
+    return static_cast<blas_int>(n);
+}
+/// A leading dimension: BLAS wants at least 1 even for empty matrices.
+inline blas_int leading(std::int64_t n) { return to_blas(n > 0 ? n : 1); }
+
+/// Defects of libplm's own calls.
+inline void require(bool condition, const char *what) {
+    if (!condition) throw Error(PLM_ERR_INTERNAL, what);
+}
+/// A negative info of LAPACK is a wrong argument, which is a defect of ours.
+inline void require_valid(blas_int info, const char *routine) {
+    if (info < 0) throw Error(PLM_ERR_INTERNAL, format("%s: argument %d", routine, -info)).library_code(info);
+}
+
+inline bool finite(const double *x, std::int64_t n) {
+    // x - x is 0 for finite x and NaN otherwise: a sum of it needs no branch per element and vectorises.
+    double sum = 0;
+    for (std::int64_t i = 0; i < n; ++i) sum += x[i] - x[i];
+    return sum == 0;
+}
+inline void require_finite(const double *x, std::int64_t n, const char *routine) {
+    if (!finite(x, n)) throw Error(PLM_ERR_MATRIX, format("%s: NaN or Inf in the matrix", routine));
+}
+
+} // namespace plm

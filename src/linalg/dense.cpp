@@ -1,0 +1,89 @@
+#include "dense.hpp"
+#include "blas_lapack.hpp"
+#include <algorithm>
+
+namespace plm {
+
+void Matrix::reset(std::int64_t rows, std::int64_t cols) {
+    require(rows >= 0 && cols >= 0 && (rows == 0 || cols <= INT64_MAX / rows), "Matrix::reset: shape");
+    data_.assign(static_cast<std::size_t>(rows * cols), 0.0);
+    rows_ = rows;
+    cols_ = cols;
+}
+
+Matrix Matrix::columns(std::int64_t first, std::int64_t count) const {
+    require(first >= 0 && count >= 0 && first + count <= cols_, "Matrix::columns: range");
+    Matrix result(rows_, count);
+    std::copy_n(col(first), rows_ * count, result.data());
+    return result;
+}
+
+void Matrix::append(const Matrix &other) {
+    if (cols_ == 0) {
+        if (&other != this) *this = other;
+        return;
+    }
+    require(other.cols_ == 0 || other.rows_ == rows_, "Matrix::append: number of rows");
+    const std::int64_t count = other.rows_ * other.cols_, old = rows_ * cols_, more = other.cols_;
+    data_.resize(static_cast<std::size_t>(old + count)); // other may be *this: its data is read after this
+    std::copy_n(other.data(), count, data_.data() + old);
+    cols_ += more;
+}
+
+Matrix Matrix::transposed() const {
+    constexpr std::int64_t tile = 32; // both the rows read and the rows written of a tile stay in L1
+    Matrix result(cols_, rows_);
+    for (std::int64_t j0 = 0; j0 < cols_; j0 += tile)
+        for (std::int64_t i0 = 0; i0 < rows_; i0 += tile)
+            for (std::int64_t j = j0; j < std::min(j0 + tile, cols_); ++j)
+                for (std::int64_t i = i0; i < std::min(i0 + tile, rows_); ++i) result(j, i) = (*this)(i, j);
+    return result;
+}
+
+namespace {
+
+bool is_transpose(char op) {
+    require(op == 'N' || op == 'T', "dense product: op must be 'N' or 'T'");
+    return op == 'T';
+}
+
+} // namespace
+
+void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c) {
+    const bool ta = is_transpose(op_a), tb = is_transpose(op_b);
+    const std::int64_t inner = ta ? a.rows() : a.cols();
+    require(inner == (tb ? b.cols() : b.rows()), "gemm: inner dimensions differ");
+    require(c.rows() == (ta ? a.cols() : a.rows()) && c.cols() == (tb ? b.rows() : b.cols()), "gemm: shape of C");
+    require(&c != &a && &c != &b, "gemm: C must not be A or B");
+    const blas_int m = to_blas(c.rows()), n = to_blas(c.cols()), k = to_blas(inner);
+    const blas_int lda = leading(a.rows()), ldb = leading(b.rows()), ldc = leading(c.rows());
+    dgemm_(&op_a, &op_b, &m, &n, &k, &alpha, a.data(), &lda, b.data(), &ldb, &beta, c.data(), &ldc, 1, 1);
+}
+
+Matrix product(char op_a, char op_b, const Matrix &a, const Matrix &b) {
+    Matrix c(is_transpose(op_a) ? a.cols() : a.rows(), is_transpose(op_b) ? b.rows() : b.cols());
+    gemm(op_a, op_b, 1, a, b, 0, c);
+    return c;
+}
+
+void gemv(char op, double alpha, const Matrix &a, const double *x, double beta, double *y) {
+    const std::int64_t length = is_transpose(op) ? a.cols() : a.rows();
+    if (a.rows() == 0 || a.cols() == 0) { // dgemv returns without scaling y then
+        for (std::int64_t i = 0; i < length; ++i) y[i] = beta == 0 ? 0 : beta * y[i];
+        return;
+    }
+    const blas_int m = to_blas(a.rows()), n = to_blas(a.cols()), one = 1;
+    dgemv_(&op, &m, &n, &alpha, a.data(), &m, x, &one, &beta, y, &one, 1);
+}
+
+double dot(std::int64_t n, const double *x, const double *y) {
+    const blas_int count = to_blas(n), one = 1;
+    return ddot_(&count, x, &one, y, &one);
+}
+
+double norm2(std::int64_t n, const double *x) {
+    const blas_int count = to_blas(n), one = 1;
+    return dnrm2_(&count, x, &one);
+}
+
+} // namespace plm

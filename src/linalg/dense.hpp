@@ -1,0 +1,44 @@
+// Dense column-major matrix that owns its storage: the only dense type of the library.
+#pragma once
+#include "memory.hpp"
+#include <cstdint>
+
+namespace plm {
+
+class Matrix {
+  public:
+    Matrix() = default;
+    Matrix(std::int64_t rows, std::int64_t cols) : rows_(rows), cols_(cols), data_(rows * cols, 0.0) {}
+    std::int64_t rows() const { return rows_; }
+    std::int64_t cols() const { return cols_; }
+    bool empty() const { return data_.empty(); }
+    double *data() { return data_.data(); }
+    const double *data() const { return data_.data(); }
+    double *col(std::int64_t j) { return data_.data() + j * rows_; }
+    const double *col(std::int64_t j) const { return data_.data() + j * rows_; }
+    double &operator()(std::int64_t i, std::int64_t j) { return data_[i + j * rows_]; }
+    double operator()(std::int64_t i, std::int64_t j) const { return data_[i + j * rows_]; }
+
+    /// New shape, contents zeroed; storage is kept when it suffices.
+    void reset(std::int64_t rows, std::int64_t cols);
+    /// Columns [first, first + count) as a copy.
+    Matrix columns(std::int64_t first, std::int64_t count) const;
+    /// Appends the columns of `other` (same number of rows; an empty matrix takes its shape).
+    void append(const Matrix &other);
+    Matrix transposed() const;
+
+  private:
+    std::int64_t rows_ = 0, cols_ = 0;
+    vector<double> data_;
+};
+
+/// C = alpha op(A) op(B) + beta C; op is 'N' or 'T'. Shapes are checked (PLM_ERR_INTERNAL on mismatch).
+void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c);
+/// op(A) op(B) as a new matrix.
+Matrix product(char op_a, char op_b, const Matrix &a, const Matrix &b);
+/// y = alpha op(A) x + beta y
+void gemv(char op, double alpha, const Matrix &a, const double *x, double beta, double *y);
+double dot(std::int64_t n, const double *x, const double *y);
+double norm2(std::int64_t n, const double *x); // overflow-safe (dnrm2)
+
+} // namespace plm

@@ -1,0 +1,117 @@
+// Dense factorizations: dgetrf, zgetrf, dpotrf.
+#include "blas_lapack.hpp"
+#include "lapack.hpp"
+#include <algorithm>
+#include <limits>
+
+namespace plm {
+
+void RealLu::factor(Matrix &a) {
+    require(a.rows() == a.cols(), "RealLu: matrix not square");
+    const std::int64_t size = a.rows();
+    const blas_int n = to_blas(size), lda = leading(size);
+    double norm1 = 0, largest = 0;
+    bool ok = true;
+    for (std::int64_t j = 0; j < size; ++j) {
+        const double *c = a.col(j);
+        double sum = 0;
+        for (std::int64_t i = 0; i < size; ++i) {
+            const double value = std::fabs(c[i]);
+            sum += value;
+            largest = value > largest ? value : largest;
+        }
+        ok = ok && std::isfinite(sum); // a sum that overflows is no matrix to solve with either
+        norm1 = std::max(norm1, sum);
+    }
+    if (!ok) throw Error(PLM_ERR_MATRIX, "dgetrf: NaN or Inf in the matrix");
+
+    std::swap(lu_, a);
+    pivots_.resize(size);
+    norm1_ = norm1;
+    blas_int info = 0;
+    dgetrf_(&n, &n, lu_.data(), &lda, pivots_.data(), &info);
+    require_valid(info, "dgetrf");
+    singular_ = info > 0;
+    if (!singular_) return;
+    const double tiny = std::numeric_limits<double>::epsilon() * (largest > 0 ? largest : 1);
+    for (std::int64_t i = 0; i < size; ++i)
+        if (lu_(i, i) == 0) lu_(i, i) = tiny;
+}
+
+void RealLu::solve(double *x, std::int64_t nrhs, std::int64_t ldx) const {
+    const blas_int n = to_blas(size()), lda = leading(size()), m = to_blas(nrhs), ldb = to_blas(ldx);
+    if (n == 0 || m == 0) return;
+    require(ldx >= size(), "RealLu: leading dimension");
+    blas_int info = 0;
+    dgetrs_("N", &n, &m, lu_.data(), &lda, pivots_.data(), x, &ldb, &info, 1);
+    require_valid(info, "dgetrs");
+}
+
+double RealLu::reciprocal_condition() const {
+    if (singular_) return 0;
+    const blas_int n = to_blas(size());
+    if (n == 0) return 1;
+    vector<double> work(4 * static_cast<std::size_t>(n));
+    vector<blas_int> iwork(n);
+    double rcond = 0;
+    blas_int info = 0;
+    dgecon_("1", &n, lu_.data(), &n, &norm1_, &rcond, work.data(), iwork.data(), &info, 1);
+    require_valid(info, "dgecon");
+    return rcond;
+}
+
+int RealLu::determinant_sign() const {
+    bool negative = false;
+    for (std::int64_t i = 0; i < size(); ++i) negative ^= (pivots_[i] != i + 1) != (lu_(i, i) < 0);
+    return negative ? -1 : 1;
+}
+
+void ComplexLu::factor(std::int64_t n, vector<complex_t> &a) {
+    require(n >= 0 && static_cast<std::int64_t>(a.size()) == n * n, "ComplexLu: size of the array");
+    const blas_int size = to_blas(n), lda = leading(n);
+    require_finite(reinterpret_cast<const double *>(a.data()), 2 * n * n, "zgetrf");
+    n_ = n;
+    std::swap(lu_, a);
+    pivots_.resize(n);
+    blas_int info = 0;
+    zgetrf_(&size, &size, lu_.data(), &lda, pivots_.data(), &info);
+    require_valid(info, "zgetrf");
+    if (info == 0) return;
+    n_ = 0; // nothing may be solved
+    throw Error(PLM_ERR_SINGULAR, format("zgetrf: matrix singular at %d", info - 1))
+        .reason(PLM_REASON_SINGULAR)
+        .index(info - 1)
+        .library_code(info);
+}
+
+void ComplexLu::solve(complex_t *x, std::int64_t nrhs, std::int64_t ldx) const {
+    const blas_int n = to_blas(n_), m = to_blas(nrhs), ldb = to_blas(ldx);
+    if (n == 0 || m == 0) return;
+    require(ldx >= n_, "ComplexLu: leading dimension");
+    blas_int info = 0;
+    zgetrs_("N", &n, &m, lu_.data(), &n, pivots_.data(), x, &ldb, &info, 1);
+    require_valid(info, "zgetrs");
+}
+
+bool DenseCholesky::factor(Matrix &a) {
+    require(a.rows() == a.cols(), "DenseCholesky: matrix not square");
+    require_finite(a.data(), a.rows() * a.cols(), "dpotrf");
+    const blas_int n = to_blas(a.rows()), lda = leading(a.rows());
+    std::swap(l_, a);
+    blas_int info = 0;
+    dpotrf_("L", &n, l_.data(), &lda, &info, 1);
+    require_valid(info, "dpotrf");
+    if (info > 0) l_.reset(0, 0);
+    return info == 0;
+}
+
+void DenseCholesky::solve(double *x, std::int64_t nrhs, std::int64_t ldx) const {
+    const blas_int n = to_blas(l_.rows()), m = to_blas(nrhs), ldb = to_blas(ldx);
+    if (n == 0 || m == 0) return;
+    require(ldx >= l_.rows(), "DenseCholesky: leading dimension");
+    blas_int info = 0;
+    dpotrs_("L", &n, &m, l_.data(), &n, x, &ldb, &info, 1);
+    require_valid(info, "dpotrs");
+}
+
+} // namespace plm

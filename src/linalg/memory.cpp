@@ -1,0 +1,47 @@
+#include "memory.hpp"
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+namespace plm {
+namespace {
+
+constexpr std::size_t alignment = 64; // a cache line, and enough for every vector unit
+
+thread_local const Allocator *active = nullptr;
+
+/// Stands directly before each block. The allocator is kept by value, so that a block may outlive the scope (and
+/// the Allocator object) it was made in and may be freed on any thread.
+struct Header {
+    void (*release)(void *block, void *user);
+    void *user;
+    void *raw;
+};
+
+} // namespace
+
+AllocatorScope::AllocatorScope(const Allocator *a) : previous_(active) { active = a; }
+AllocatorScope::~AllocatorScope() { active = previous_; }
+
+void *allocate_block(std::size_t bytes) {
+    constexpr std::size_t overhead = sizeof(Header) + alignment;
+    if (bytes > SIZE_MAX - overhead) throw std::bad_alloc();
+    const bool hosts = active && active->allocate;
+    void *raw = hosts ? active->allocate(bytes + overhead, active->user) : std::malloc(bytes + overhead);
+    if (!raw) throw std::bad_alloc();
+    const auto first = reinterpret_cast<std::uintptr_t>(raw) + sizeof(Header);
+    const auto aligned = (first + alignment - 1) / alignment * alignment;
+    auto *header = reinterpret_cast<Header *>(aligned) - 1;
+    // A host that allocates but gives no release function owns an arena: nothing is to be freed.
+    *header = hosts ? Header{active->release, active->user, raw}
+                    : Header{[](void *block, void *) { std::free(block); }, nullptr, raw};
+    return reinterpret_cast<void *>(aligned);
+}
+
+void release_block(void *block) noexcept {
+    if (!block) return;
+    const Header header = static_cast<Header *>(block)[-1];
+    if (header.release) header.release(header.raw, header.user);
+}
+
+} // namespace plm

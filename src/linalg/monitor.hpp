@@ -1,0 +1,36 @@
+// How the core talks to its host: log lines, progress and cancellation. All of it optional.
+#pragma once
+#include "error.hpp"
+
+namespace plm {
+
+class Monitor {
+  public:
+    virtual ~Monitor() = default;
+    /// level: 0 detail, 1 information, 2 warning
+    virtual void log(int level, const std::string &text) = 0;
+    /// True: the host wants to stop.
+    virtual bool progress(const char *stage, double fraction) = 0;
+};
+
+/// A monitor pointer that may be null, with the usual thing to do at each step.
+class Watch {
+  public:
+    explicit Watch(Monitor *monitor = nullptr) : monitor_(monitor) {}
+    void log(int level, const std::string &text) const {
+        if (monitor_) monitor_->log(level, text);
+    }
+    bool cancelled(const char *stage, double fraction) const {
+        return monitor_ && monitor_->progress(stage, fraction);
+    }
+    /// Throws PLM_CANCELLED when the host wants to stop.
+    void step(const char *stage, double fraction) const {
+        if (cancelled(stage, fraction))
+            throw Error(PLM_CANCELLED, "cancelled by the progress callback").reason(PLM_REASON_CANCELLED);
+    }
+
+  private:
+    Monitor *monitor_;
+};
+
+} // namespace plm

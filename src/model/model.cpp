@@ -1,0 +1,171 @@
+#include "model/model.hpp"
+#include "linalg/eigs.hpp"
+#include "model/matrix_input.hpp"
+#include "model/rigid_modes.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+using Int = long long; // for printf
+
+bool all_zero(const vector<double> &x) {
+    return std::all_of(x.begin(), x.end(), [](double v) { return v == 0; });
+}
+
+void require_size(const char *what, std::int64_t size, std::int64_t n_dof) {
+    if (size != n_dof)
+        throw Error(PLM_ERR_ARGUMENT, format("%s has %lld entries where the model has %lld DOFs", what, Int(size),
+                                             Int(n_dof)))
+            .argument(what);
+}
+
+/// Free DOFs of the full symmetric matrix in `input`.
+SparseMatrix on_free_dofs(const char *name, const MatrixInput &input, const vector<std::int64_t> &free_of,
+                          std::int64_t n_free) {
+    require_size(name, input.layout.n, static_cast<std::int64_t>(free_of.size()));
+    return submatrix(input.to_sparse(), free_of, n_free, free_of, n_free);
+}
+
+void require_nonnegative_diagonal(const char *name, const SparseMatrix &a, const vector<std::int64_t> &free_dof) {
+    for (std::int64_t j = 0; j < a.cols; ++j)
+        for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p)
+            if (a.idx[p] == j && a.val[p] < 0)
+                throw Error(PLM_ERR_MATRIX, format("the %s matrix has the negative diagonal entry %g at DOF %lld "
+                                                   "(counted from 0); it must be positive semi-definite",
+                                                   name, a.val[p], Int(free_dof[j])))
+                    .argument("value")
+                    .index(free_dof[j]);
+}
+
+} // namespace
+
+Model::Model(const ModelInput &input, const SpaceOptions &options, const HostSolver *host, Watch watch)
+    : n_dof_(input.n_dof), space_options_(options) {
+    if (host) {
+        host_copy_ = *host;
+        host_ = &host_copy_;
+    }
+    assemble(input);
+    factor_stiffness(watch);
+    watch.step("contact flexibility", 0.8);
+    attachment_ = to_dense(transpose(gap_matrix_));
+    if (n_pairs() > 0) factor_->solve(attachment_);
+    resolve_contact_stiffness();
+}
+
+Model::~Model() = default;
+
+void Model::expand(const double *free, double *all) const {
+    for (std::int64_t i = 0; i < n_dof_; ++i) all[i] = free_of_[i] < 0 ? 0.0 : free[free_of_[i]];
+}
+
+void Model::restrict_to_free(const double *all, double *free) const {
+    for (std::int64_t k = 0; k < n_free(); ++k) free[k] = all[free_dof_[k]];
+}
+
+void Model::assemble(const ModelInput &input) {
+    if (!input.mass || !input.stiffness)
+        throw Error(PLM_ERR_STATE, input.mass ? "the stiffness matrix is missing; hand it over with PLM_STIFFNESS"
+                                              : "the mass matrix is missing; hand it over with PLM_MASS");
+    require_size("fixed", static_cast<std::int64_t>(input.fixed.size()), n_dof_);
+    free_of_.assign(n_dof_, -1);
+    for (std::int64_t i = 0; i < n_dof_; ++i)
+        if (!input.fixed[i]) {
+            free_of_[i] = n_free();
+            free_dof_.push_back(i);
+        }
+    if (free_dof_.empty())
+        throw Error(PLM_ERR_ARGUMENT, "all DOFs are fixed; nothing is left to move").argument("dof");
+
+    mass_ = on_free_dofs("mass", *input.mass, free_of_, n_free());
+    stiffness_ = on_free_dofs("stiffness", *input.stiffness, free_of_, n_free());
+    require_nonnegative_diagonal("mass", mass_, free_dof_);
+    require_nonnegative_diagonal("stiffness", stiffness_, free_dof_);
+    if (!(trace(mass_) > 0))
+        throw Error(PLM_ERR_MATRIX, "no free DOF has mass; check the mass matrix and the fixed DOFs").argument("value");
+    damping_ = input.damping;
+    damping_.has_matrix = input.damping_matrix != nullptr;
+    if (damping_.has_matrix) damping_matrix_ = on_free_dofs("damping", *input.damping_matrix, free_of_, n_free());
+    assemble_gap(input);
+    assemble_loads(input);
+}
+
+void Model::assemble_gap(const ModelInput &input) {
+    const std::int64_t z = static_cast<std::int64_t>(input.contact_stiffness.size());
+    vector<std::int64_t> all_pairs(z);
+    for (std::int64_t i = 0; i < z; ++i) all_pairs[i] = i;
+    gap_matrix_ = submatrix(from_triplets(z, n_dof_, input.gap_pair, input.gap_dof, input.gap_coefficient), all_pairs,
+                            z, free_of_, n_free());
+    contact_stiffness_ = input.contact_stiffness;
+    initial_gap_ = input.initial_gap;
+    vector<double> weight(z, 0.0);
+    for (std::int64_t p = 0; p < gap_matrix_.nnz(); ++p) weight[gap_matrix_.idx[p]] += std::abs(gap_matrix_.val[p]);
+    for (std::int64_t i = 0; i < z; ++i)
+        if (!(weight[i] > 0))
+            throw Error(PLM_ERR_ARGUMENT, format("contact pair %lld (counted from 0, in the order they were added) "
+                                                 "touches fixed DOFs only: its penetration can never change; leave it "
+                                                 "out or release a DOF",
+                                                 Int(i)))
+                .argument("pair")
+                .index(i);
+}
+
+void Model::assemble_loads(const ModelInput &input) {
+    const auto restricted = [&](const char *what, const vector<double> &all) {
+        vector<double> free(n_free(), 0.0);
+        if (all.empty()) return free;
+        require_size(what, static_cast<std::int64_t>(all.size()), n_dof_);
+        restrict_to_free(all.data(), free.data());
+        return free;
+    };
+    preload_ = restricted("preload", input.preload);
+    if (all_zero(preload_)) preload_.clear(); // no pre-load: nobody downstream pays for it
+    for (const auto &[harmonic, load] : input.excitation) {
+        HarmonicLoad &mine = excitation_[harmonic];
+        mine.real = restricted("excitation", load.real);
+        if (harmonic > 0) mine.imag = restricted("excitation", load.imag);
+    }
+}
+
+void Model::factor_stiffness(Watch watch) {
+    watch.step("factorization", 0.1);
+    FactoredStiffness result =
+        factor_with_rigid_modes(stiffness_, mass_, largest_stiffness(contact_stiffness_), free_dof_, host_, watch);
+    factor_ = std::move(result.factor);
+    shift_ = result.shift;
+    rigid_modes_ = std::move(result.rigid_modes);
+}
+
+void Model::resolve_contact_stiffness() {
+    const std::int64_t z = n_pairs();
+    if (z == 0) return;
+    const SparseMatrix rows = transpose(gap_matrix_); // column i: gap row i
+    const Matrix rigid_gap = rigid_modes_.cols() > 0 ? multiply(gap_matrix_, rigid_modes_) : Matrix(z, 0);
+    vector<double> flexibility;
+    for (std::int64_t i = 0; i < z; ++i) {
+        double whole = 0, rigid = 0;
+        for (std::int64_t p = rows.ptr[i]; p < rows.ptr[i + 1]; ++p) whole += rows.val[p] * attachment_(rows.idx[p], i);
+        for (std::int64_t j = 0; j < rigid_gap.cols(); ++j) rigid += rigid_gap(i, j) * rigid_gap(i, j) / shift_;
+        // below 1e-10 the difference is rounding: this pair sees rigid motion only
+        if (whole - rigid > 1e-10 * whole) flexibility.push_back(whole - rigid);
+    }
+    if (!flexibility.empty()) {
+        const std::size_t n = flexibility.size();
+        std::sort(flexibility.begin(), flexibility.end());
+        local_stiffness_ = 2 / (flexibility[(n - 1) / 2] + flexibility[n / 2]);
+    }
+    for (std::int64_t i = 0; i < z; ++i) {
+        if (contact_stiffness_[i] != PLM_AUTO_STIFFNESS) continue;
+        if (!(local_stiffness_ > 0))
+            throw Error(PLM_ERR_ARGUMENT, format("PLM_AUTO_STIFFNESS of pair %lld: the bodies are rigid at the "
+                                                 "contact, so there is no local stiffness to go by; give k_n",
+                                                 Int(i)))
+                .argument("stiffness")
+                .index(i);
+        contact_stiffness_[i] = 10 * local_stiffness_;
+    }
+}
+
+} // namespace plm

@@ -1,0 +1,178 @@
+#include "reduction/basis.hpp"
+#include "linalg/lapack.hpp"
+#include "reduction/basis_options.hpp"
+#include "reduction/conditioning.hpp"
+#include "reduction/mode_selection.hpp"
+#include "reduction/projection.hpp"
+#include "reduction/static_basis.hpp"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace plm {
+namespace {
+
+constexpr double fixed_mode_margin = 1.5; // Craig-Bampton: fixed-interface modes beyond the highest frequency
+constexpr std::int64_t least_open_modes = 10;
+
+void check_parents(const Model &model, const Sampler *sampler, const Basis *parent, BasisKind kind) {
+    if (kind == BasisKind::plm && !sampler)
+        throw Error(PLM_ERR_STATE, "piecewise-linear modes need the samples of a sampler that has run")
+            .argument("sampler");
+    if (sampler && sampler->space()->model.get() != &model)
+        throw Error(PLM_ERR_ARGUMENT, "the sampler belongs to another model").argument("sampler");
+    if (!parent) return;
+    if (parent->model().get() != &model)
+        throw Error(PLM_ERR_ARGUMENT, "the parent basis belongs to another model").argument("parent");
+    if (parent->options().kind == BasisKind::plm)
+        throw Error(PLM_ERR_ARGUMENT, "the parent must be of kind \"craig_bampton\" or \"full\"").argument("parent");
+}
+
+SelectionRule make_rule(const BasisOptions &o, const Sampler *sampler) {
+    SelectionRule rule;
+    rule.selection = o.kind == BasisKind::plm ? o.selection : ModeSelection::below;
+    rule.n_harmonics = o.n_harmonics;
+    rule.below_factor = o.below_factor;
+    rule.min_hz = o.frequency_min_hz > 0 || !sampler ? o.frequency_min_hz : sampler->window().min_hz;
+    rule.max_hz = o.frequency_max_hz > 0 || !sampler ? o.frequency_max_hz : sampler->window().max_hz;
+    if (!(rule.max_hz > 0))
+        throw Error(PLM_ERR_ARGUMENT, "frequency_max_hz is needed when there is no sampler to give the window")
+            .argument("frequency_max_hz");
+    if (!(rule.min_hz < rule.max_hz))
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("frequency_min_hz (%g) must be below frequency_max_hz (%g)", rule.min_hz, rule.max_hz))
+            .argument("frequency_min_hz");
+    return rule;
+}
+
+std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &model, const Sampler *sampler,
+                                          const Basis *parent, const BasisOptions &o, double highest_hz,
+                                          Watch watch) {
+    const double highest = 2 * M_PI * highest_hz;
+    if (o.kind == BasisKind::craig_bampton)
+        return make_craig_bampton_space(model, o.n_fixed_modes, fixed_mode_margin * highest, watch);
+    if (o.kind == BasisKind::plm && parent) {
+        if (parent->space()->highest_frequency < highest * (1 - 1e-9))
+            watch.log(1, format("the parent basis is made for frequencies up to %.6g Hz, modes are taken up to %.6g Hz",
+                                parent->space()->highest_frequency / (2 * M_PI), highest_hz));
+        return parent->space();
+    }
+    if (sampler && sampler->space()->highest_frequency >= highest * (1 - 1e-9)) return sampler->space();
+    return make_contact_space(model, highest, least_open_modes, watch);
+}
+
+// The sampler's dominant modes in the coordinates of another space: V^T M (V_s c).
+std::vector<vector<double>> dominant_coordinates(const Sampler &sampler, const Space &space) {
+    std::vector<vector<double>> result;
+    const Space &source = *sampler.space();
+    for (const DominantMode &d : sampler.dominant()) {
+        if (&source == &space) {
+            result.push_back(d.coordinates);
+            continue;
+        }
+        const Model &model = *space.model;
+        vector<double> shape(model.n_free()), momentum(model.n_free()), c(space.size(), 0.0);
+        gemv('N', 1.0, source.vectors, d.coordinates.data(), 0.0, shape.data());
+        multiply(model.mass(), shape.data(), momentum.data());
+        gemv('T', 1.0, space.vectors, momentum.data(), 0.0, c.data());
+        result.push_back(std::move(c));
+    }
+    return result;
+}
+
+struct Reduction {
+    std::shared_ptr<const ReducedModel> reduced;
+    BasisReport report;
+};
+
+double relative_size(const vector<double> &part, const vector<double> &whole) {
+    const double size = norm2(static_cast<std::int64_t>(whole.size()), whole.data());
+    return size > 0 ? norm2(static_cast<std::int64_t>(part.size()), part.data()) / size : 0;
+}
+
+// |q - P eta| / |q| in the L2 norm over the free DOFs, eta by least squares (paper, eq. (12), (13)).
+double euclidean_residual(const Matrix &p, const vector<double> &q) {
+    if (p.rows() <= p.cols()) return 0; // P spans everything
+    Matrix b(p.rows(), 1);
+    std::copy(q.begin(), q.end(), b.data());
+    const Matrix eta = least_squares(p, b);
+    vector<double> rest(q);
+    gemv('N', -1.0, p, eta.data(), 1.0, rest.data());
+    return relative_size(rest, q);
+}
+
+// The same in the M-norm, where P is orthonormal.
+double mass_residual(const Matrix &p, const SparseMatrix &mass, const vector<double> &q) {
+    const std::int64_t n = p.rows();
+    vector<double> rest(q), momentum(n), eta(p.cols());
+    multiply(mass, q.data(), momentum.data());
+    const double size = dot(n, q.data(), momentum.data());
+    if (!(size > 0)) return 0;
+    for (int pass = 0; pass < 2; ++pass) {
+        multiply(mass, rest.data(), momentum.data());
+        gemv('T', 1.0, p, momentum.data(), 0.0, eta.data());
+        gemv('N', -1.0, p, eta.data(), 1.0, rest.data());
+    }
+    multiply(mass, rest.data(), momentum.data());
+    return std::sqrt(std::max(0.0, dot(n, rest.data(), momentum.data())) / size);
+}
+
+Reduction reduce_to_plm(const Space &space, const Sampler &sampler, const SelectionRule &rule, const BasisOptions &o,
+                        Watch watch) {
+    CollectedModes collected =
+        collect_modes(space, sampler.samples(), dominant_coordinates(sampler, space), rule, watch);
+    Reduction r;
+    r.report.samples = std::move(collected.samples);
+    r.report.warning = std::move(collected.warning);
+    r.report.n_collected = collected.columns.cols();
+    watch.step("basis", 0.0);
+    Conditioned conditioned = condition_columns(space, collected.columns, o.svd_tolerance);
+    r.report.singular_values = std::move(conditioned.singular_values);
+    watch.step("basis", 0.3);
+    const RestState rest = &space == sampler.space().get() ? sampler.rest() : solve_rest(space);
+    StaticBasis statics;
+    if (o.static_augmentation) statics = make_static_basis(space, conditioned.coordinates, rest.coordinates);
+    watch.step("basis", 0.5);
+    r.reduced = project(space, conditioned.coordinates, statics);
+    watch.step("basis", 0.9);
+    if (norm2(space.size(), rest.coordinates.data()) > 0) {
+        r.report.preload_residual = euclidean_residual(r.reduced->vectors, rest.displacement);
+        r.report.preload_residual_mass = relative_remainder(conditioned.coordinates.y, rest.coordinates);
+    }
+    return r;
+}
+
+} // namespace
+
+Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> sampler,
+             std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch)
+    : model_(std::move(model)), sampler_(std::move(sampler)), options_(options) {
+    const auto start = std::chrono::steady_clock::now();
+    check_options(options_);
+    check_parents(*model_, sampler_.get(), parent.get(), options_.kind);
+    const SelectionRule rule = make_rule(options_, sampler_.get());
+    window_min_hz_ = rule.min_hz;
+    window_max_hz_ = rule.max_hz;
+    space_ = choose_space(model_, sampler_.get(), parent.get(), options_, rule.highest_hz(), watch);
+    if (options_.kind == BasisKind::plm) {
+        Reduction r = reduce_to_plm(*space_, *sampler_, rule, options_, watch);
+        reduced_ = std::move(r.reduced);
+        report_ = std::move(r.report);
+    } else {
+        watch.step("basis", 0.5);
+        reduced_ = project_whole(*space_);
+        report_.n_collected = space_->size();
+    }
+    report_.highest_frequency_hz = rule.highest_hz();
+    if (!report_.warning.empty()) watch.log(2, report_.warning);
+    report_.setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double projection_residual(const Basis &basis, bool is_static, bool use_mass, const double *q_free) {
+    const Matrix &p = is_static ? basis.reduced()->static_vectors() : basis.reduced()->vectors;
+    const vector<double> q(q_free, q_free + p.rows());
+    return use_mass ? mass_residual(p, basis.model()->mass(), q) : euclidean_residual(p, q);
+}
+
+} // namespace plm

@@ -1,0 +1,30 @@
+#include "reduction/basis_options.hpp"
+#include <cmath>
+
+namespace plm {
+namespace {
+
+void demand(bool condition, const char *key, const std::string &text) {
+    if (!condition) throw Error(PLM_ERR_ARGUMENT, text).argument(key);
+}
+
+} // namespace
+
+void check_options(const BasisOptions &o) {
+    demand(o.n_harmonics >= 1, "n_harmonics",
+           format("n_harmonics is %lld; at least 1 is needed", static_cast<long long>(o.n_harmonics)));
+    demand(std::isfinite(o.frequency_min_hz) && o.frequency_min_hz >= 0, "frequency_min_hz",
+           format("frequency_min_hz is %g; a frequency in Hz, or 0 for the sampler's window, is wanted",
+                  o.frequency_min_hz));
+    demand(std::isfinite(o.frequency_max_hz) && o.frequency_max_hz >= 0, "frequency_max_hz",
+           format("frequency_max_hz is %g; a frequency in Hz, or 0 for the sampler's window, is wanted",
+                  o.frequency_max_hz));
+    demand(std::isfinite(o.below_factor) && o.below_factor > 0, "below_factor",
+           format("below_factor is %g; it must be above 0", o.below_factor));
+    demand(o.svd_tolerance >= 0 && o.svd_tolerance < 1, "svd_tolerance",
+           format("svd_tolerance is %g; a share of the largest singular value in [0, 1) is wanted", o.svd_tolerance));
+    demand(o.n_fixed_modes >= 0, "n_fixed_modes",
+           format("n_fixed_modes is %lld; it must not be negative", static_cast<long long>(o.n_fixed_modes)));
+}
+
+} // namespace plm

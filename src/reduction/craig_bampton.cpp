@@ -1,0 +1,233 @@
+// Craig & Bampton (1968): the contact DOFs are retained, the interior is represented by constraint modes and by
+// fixed-interface modes.
+#include "linalg/eigs.hpp"
+#include "linalg/lapack.hpp"
+#include "reduction/basis.hpp"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plm {
+namespace {
+
+struct Partition {
+    vector<std::int64_t> boundary, interior; // free index -> position, -1 if in the other part
+    vector<std::int64_t> boundary_dof, interior_dof;
+};
+
+Partition partition(const Model &model) {
+    const SparseMatrix &b = model.gap_matrix();
+    Partition p;
+    p.boundary.assign(model.n_free(), -1);
+    p.interior.assign(model.n_free(), -1);
+    for (std::int64_t j = 0; j < model.n_free(); ++j) {
+        const bool retained = model.n_pairs() > 0 && b.ptr[j + 1] > b.ptr[j];
+        auto &dofs = retained ? p.boundary_dof : p.interior_dof;
+        (retained ? p.boundary : p.interior)[j] = static_cast<std::int64_t>(dofs.size());
+        dofs.push_back(j);
+    }
+    return p;
+}
+
+class Interior {
+  public:
+    Interior(const Model &model, const Partition &p, Watch watch)
+        : model_(model), watch_(watch), n_(static_cast<std::int64_t>(p.interior_dof.size())),
+          n_boundary_(static_cast<std::int64_t>(p.boundary_dof.size())),
+          k_(submatrix(model.stiffness(), p.interior, n_, p.interior, n_)),
+          m_(submatrix(model.mass(), p.interior, n_, p.interior, n_)),
+          k_boundary_(submatrix(model.stiffness(), p.interior, n_, p.boundary, n_boundary_)) {
+        factor_interior();
+    }
+
+    /// -K_ii^-1 K_ib in blocks of columns.
+    Matrix constraint_modes() const {
+        Matrix psi;
+        const std::int64_t block = 64;
+        for (std::int64_t first = 0; first < n_boundary_; first += block) {
+            watch_.step("constraint modes", static_cast<double>(first) / static_cast<double>(n_boundary_));
+            psi.append(static_response(columns_of(k_boundary_, first, std::min(block, n_boundary_ - first))));
+        }
+        return psi;
+    }
+
+    /// The n_fixed lowest fixed-interface modes, or all below `highest` (rad/s) when n_fixed = 0.
+    Matrix fixed_modes(std::int64_t n_fixed, double highest) const {
+        watch_.step("fixed-interface modes", 0.0);
+        EigsOptions options;
+        options.cancelled = [this] { return watch_.cancelled("fixed-interface modes", 0.5); };
+        const std::int64_t counted = n_fixed > 0 ? n_fixed : count_below(highest);
+        std::int64_t wanted = std::min(n_, counted >= 0 ? counted : 20);
+        for (;;) {
+            if (wanted == 0) return Matrix(n_, 0);
+            const EigenPairs pairs = lowest_eigenpairs(k_, m_, *factor_, -shift_, wanted, options);
+            const std::int64_t found = static_cast<std::int64_t>(pairs.values.size());
+            const bool complete = found < wanted || wanted == n_ || pairs.values.back() > highest * highest;
+            if (n_fixed > 0) return pairs.vectors;
+            if (counted < 0 && !complete) {
+                wanted = std::min(n_, 2 * wanted);
+                continue;
+            }
+            std::int64_t below = 0;
+            while (below < found && (counted >= 0 || pairs.values[below] <= highest * highest)) ++below;
+            return pairs.vectors.columns(0, below);
+        }
+    }
+
+  private:
+    // K_ii is singular when a part of the interior is held by nothing but the contact: then K_ii + sigma M_ii.
+    void factor_interior() {
+        try {
+            factor_ = make_factor(k_, FactorKind::positive_definite, model_.host_solver());
+            if (model_.shift() == 0 || factor_->reciprocal_condition() > 1e-12) return;
+        } catch (const Error &e) {
+            if (model_.shift() == 0) throw;
+            if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE && e.status() != PLM_ERR_SINGULAR) throw;
+        }
+        shift_ = model_.shift();
+        factor_ = make_factor(add(1.0, k_, shift_, m_), FactorKind::positive_definite, model_.host_solver());
+    }
+
+    static Matrix columns_of(const SparseMatrix &a, std::int64_t first, std::int64_t count) {
+        Matrix x(a.rows, count);
+        for (std::int64_t j = 0; j < count; ++j)
+            for (std::int64_t p = a.ptr[first + j]; p < a.ptr[first + j + 1]; ++p) x(a.idx[p], j) = -a.val[p];
+        return x;
+    }
+
+    // K_ii^-1 F for loads that do no work on interior rigid-body motion. With the shifted factor this is an iteration
+    // that converges by sigma / (lambda + sigma) per step; what is slow lies in the fixed-interface modes anyway.
+    Matrix static_response(const Matrix &loads) const {
+        Matrix x = loads;
+        factor_->solve(x);
+        for (int step = 0; shift_ > 0 && step < 10; ++step) {
+            Matrix residual = multiply(k_, x);
+            for (std::int64_t k = 0; k < residual.rows() * residual.cols(); ++k)
+                residual.data()[k] = loads.data()[k] - residual.data()[k];
+            factor_->solve(residual);
+            for (std::int64_t k = 0; k < x.rows() * x.cols(); ++k) x.data()[k] += residual.data()[k];
+        }
+        return x;
+    }
+
+    // By Sylvester's law of inertia; -1 when the solver cannot tell.
+    std::int64_t count_below(double highest) const {
+        for (double omega = highest; omega < 1.01 * highest; omega *= 1.003) {
+            try {
+                const SparseMatrix shifted = add(1.0, k_, -omega * omega, m_);
+                return make_factor(shifted, FactorKind::indefinite, model_.host_solver())->negative_eigenvalues();
+            } catch (const Error &e) {
+                if (e.status() != PLM_ERR_SINGULAR) throw; // the cutoff hit an eigenvalue: move it
+            }
+        }
+        return -1;
+    }
+
+    const Model &model_;
+    Watch watch_;
+    std::int64_t n_, n_boundary_;
+    SparseMatrix k_, m_, k_boundary_;
+    std::unique_ptr<Factor> factor_;
+    double shift_ = 0;
+};
+
+// T = [I 0; Psi Phi] on the free DOFs.
+Matrix transformation(const Model &model, const Partition &p, std::int64_t n_fixed, double highest, Watch watch) {
+    const std::int64_t n_boundary = static_cast<std::int64_t>(p.boundary_dof.size());
+    Matrix t(model.n_free(), n_boundary);
+    for (std::int64_t j = 0; j < n_boundary; ++j) t(p.boundary_dof[j], j) = 1;
+    if (p.interior_dof.empty()) return t;
+    const Interior interior(model, p, watch);
+    const Matrix psi = interior.constraint_modes();
+    for (std::int64_t j = 0; j < n_boundary; ++j)
+        for (std::size_t i = 0; i < p.interior_dof.size(); ++i)
+            t(p.interior_dof[i], j) = psi(static_cast<std::int64_t>(i), j);
+    const Matrix phi = interior.fixed_modes(n_fixed, highest);
+    Matrix fixed(model.n_free(), phi.cols());
+    for (std::int64_t j = 0; j < phi.cols(); ++j)
+        for (std::size_t i = 0; i < p.interior_dof.size(); ++i)
+            fixed(p.interior_dof[i], j) = phi(static_cast<std::int64_t>(i), j);
+    t.append(fixed);
+    return t;
+}
+
+void symmetrise(Matrix &a) {
+    for (std::int64_t j = 0; j < a.cols(); ++j)
+        for (std::int64_t i = j + 1; i < a.rows(); ++i) a(i, j) = a(j, i) = 0.5 * (a(i, j) + a(j, i));
+}
+
+Matrix congruence(const Matrix &a, const Matrix &t) {
+    Matrix r = product('T', 'N', t, product('N', 'N', a, t));
+    symmetrise(r);
+    return r;
+}
+
+// A basis of the directions that carry mass, the mass-less ones following statically: x_n = -K_nn^-1 K_nr x_r.
+Matrix condense_massless(const Matrix &k, const Matrix &m, Watch watch) {
+    const SymmetricEigen eigen = symmetric_eigen(m);
+    std::int64_t n_null = 0;
+    while (n_null < m.cols() && eigen.values[n_null] <= 1e-15 * eigen.values.back()) ++n_null;
+    if (n_null == 0) return eigen.vectors;
+    watch.log(2, format("%lld mass-less directions of the contact DOFs are condensed statically in Craig-Bampton; "
+                        "contact forces do not deform them",
+                        static_cast<long long>(n_null)));
+    const Matrix none = eigen.vectors.columns(0, n_null);
+    Matrix rest = eigen.vectors.columns(n_null, m.cols() - n_null);
+    Matrix knn = congruence(k, none);
+    Matrix follow = product('T', 'N', none, product('N', 'N', k, rest));
+    DenseCholesky cholesky;
+    if (!cholesky.factor(knn))
+        throw Error(PLM_ERR_SINGULAR, "a contact DOF has neither mass nor stiffness").reason(PLM_REASON_SINGULAR);
+    cholesky.solve(follow.data(), follow.cols(), follow.rows());
+    gemm('N', 'N', -1.0, none, follow, 1.0, rest);
+    return rest;
+}
+
+// M-orthonormal coordinates that diagonalise both.
+SymmetricEigen diagonalise(const Matrix &k, const Matrix &m, Watch watch) {
+    try {
+        return symmetric_eigen_general(k, m);
+    } catch (const Error &) { // mass matrix not positive definite
+        const Matrix r = condense_massless(k, m, watch);
+        SymmetricEigen eigen = symmetric_eigen_general(congruence(k, r), congruence(m, r));
+        eigen.vectors = product('N', 'N', r, eigen.vectors);
+        return eigen;
+    }
+}
+
+// Rigid-body modes lie in the space (but for too few fixed-interface modes of an interior that is free itself).
+void clear_rigid_values(std::int64_t n_rigid, vector<double> &lambda) {
+    const std::int64_t size = static_cast<std::int64_t>(lambda.size());
+    const double flexible = n_rigid < size ? lambda[n_rigid] : 1.0;
+    for (std::int64_t j = 0; j < size; ++j)
+        if (lambda[j] < 0 || (j < n_rigid && lambda[j] < 1e-7 * flexible)) lambda[j] = 0;
+}
+
+} // namespace
+
+std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Model> model, std::int64_t n_fixed,
+                                                      double highest_frequency, Watch watch) {
+    const Partition p = partition(*model);
+    const Matrix t = transformation(*model, p, n_fixed, highest_frequency, watch);
+    Matrix k = product('T', 'N', t, multiply(model->stiffness(), t));
+    Matrix m = product('T', 'N', t, multiply(model->mass(), t));
+    symmetrise(k);
+    symmetrise(m);
+    watch.step("Craig-Bampton", 0.8);
+    SymmetricEigen eigen = diagonalise(k, m, watch);
+
+    auto space = std::make_shared<Space>();
+    space->model = model;
+    space->vectors = product('N', 'N', t, eigen.vectors);
+    space->lambda = std::move(eigen.values);
+    clear_rigid_values(model->rigid_modes().cols(), space->lambda);
+    space->highest_frequency = highest_frequency;
+    const long long n_boundary = static_cast<long long>(p.boundary_dof.size());
+    space->description = format("Craig-Bampton: %lld contact DOFs and %lld fixed-interface modes", n_boundary,
+                                static_cast<long long>(t.cols()) - n_boundary);
+    project_onto(*space);
+    watch.log(1, space->description);
+    return space;
+}
+
+} // namespace plm

@@ -1,0 +1,30 @@
+// Which modes of each contact sample enter the reduction matrix (paper, 2.3.4).
+#pragma once
+#include "reduction/basis.hpp"
+
+namespace plm {
+
+/// The rule by which modes are kept, resolved from options and window.
+struct SelectionRule {
+    ModeSelection selection = ModeSelection::below;
+    double min_hz = 0, max_hz = 0; // f_i, f_f
+    std::int64_t n_harmonics = 5;
+    double below_factor = 1.1;
+
+    /// Upper end: n_harmonics f_f (bands) or below_factor n_harmonics f_f (below).
+    double highest_hz() const;
+    /// In a band [h f_i, h f_f], h = 1..n_harmonics, or not above highest_hz().
+    bool keeps(double hz) const;
+};
+
+struct CollectedModes {
+    Matrix columns; // kept modes of all samples, space size x n_collected, mass-normalised
+    std::vector<SampleSelection> samples;
+    std::string warning; // a sample lost the mode that matches its dominant mode; empty: none did
+};
+
+/// dominant: coordinates of the dominant modes in this space.
+CollectedModes collect_modes(const Space &space, const std::vector<SelectedSample> &samples,
+                             const std::vector<vector<double>> &dominant, const SelectionRule &rule, Watch watch);
+
+} // namespace plm

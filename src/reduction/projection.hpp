@@ -1,0 +1,15 @@
+// Galerkin projection of a space onto reduced coordinates (paper, eq. (11)).
+#pragma once
+#include "reduction/static_basis.hpp"
+#include "reduction/reduced_model.hpp"
+
+namespace plm {
+
+/// P = V Y, P_0 = V Y_0.
+std::shared_ptr<const ReducedModel> project(const Space &space, const Coordinates &dynamic,
+                                            const StaticBasis &statics);
+
+/// The whole space as a reduced model: P = P_0 = V.
+std::shared_ptr<const ReducedModel> project_whole(const Space &space);
+
+} // namespace plm

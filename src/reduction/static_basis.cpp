@@ -1,0 +1,45 @@
+#include "reduction/static_basis.hpp"
+#include <algorithm>
+
+namespace plm {
+namespace {
+
+void orthogonalise(const Matrix &y, vector<double> &q) {
+    vector<double> c(y.cols());
+    for (int pass = 0; pass < 2; ++pass) { // twice is enough
+        gemv('T', 1.0, y, q.data(), 0.0, c.data());
+        gemv('N', -1.0, y, c.data(), 1.0, q.data());
+    }
+}
+
+} // namespace
+
+double relative_remainder(const Matrix &y, const vector<double> &q) {
+    const std::int64_t n = static_cast<std::int64_t>(q.size());
+    const double size = norm2(n, q.data());
+    if (!(size > 0)) return 0;
+    vector<double> rest(q);
+    orthogonalise(y, rest);
+    return norm2(n, rest.data()) / size;
+}
+
+StaticBasis make_static_basis(const Space &space, const Coordinates &dynamic, const vector<double> &q_ps) {
+    StaticBasis basis;
+    const std::int64_t n = static_cast<std::int64_t>(q_ps.size());
+    const double size = norm2(n, q_ps.data());
+    if (!(size > 0)) return basis;
+    vector<double> unit(q_ps);
+    for (double &v : unit) v /= size;
+    orthogonalise(dynamic.y, unit);
+    const double rest = norm2(n, unit.data());
+    if (rest < 1e-10) return basis;
+    Matrix column(n, 1);
+    for (std::int64_t i = 0; i < n; ++i) column(i, 0) = unit[i] / rest;
+    Matrix extended = dynamic.y;
+    extended.append(column);
+    basis.same = false;
+    basis.coordinates = diagonalise_stiffness(space, extended);
+    return basis;
+}
+
+} // namespace plm

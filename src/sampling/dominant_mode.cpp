@@ -1,0 +1,145 @@
+#include "sampling/dominant_mode.hpp"
+#include "sampling/mode_match.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace plm {
+
+vector<char> contact_set(LinearSystem system, std::int64_t n_pairs) {
+    return vector<char>(n_pairs, system == LinearSystem::sliding ? 1 : 0);
+}
+
+bool is_homogeneous(const Model &model) {
+    const auto zero = [](double v) { return v == 0; };
+    return std::all_of(model.preload().begin(), model.preload().end(), zero) &&
+           std::all_of(model.initial_gap().begin(), model.initial_gap().end(), zero);
+}
+
+LinearSystem reference_system(LinearSystem asked, const RestState &rest, bool homogeneous) {
+    if (asked != LinearSystem::automatic) return asked;
+    // Either would do without pre-load (paper, 2.3.2); in the sliding system the shapes belong to the assembly.
+    if (homogeneous) return LinearSystem::sliding;
+    const auto n_closed = std::count_if(rest.closed.begin(), rest.closed.end(), [](char c) { return c != 0; });
+    return 2 * n_closed > static_cast<std::int64_t>(rest.closed.size()) ? LinearSystem::sliding : LinearSystem::open;
+}
+
+namespace {
+
+constexpr std::int64_t n_proposed = 20; // modes a proposal looks at when no range is given
+
+const char *name_of(LinearSystem system) { return system == LinearSystem::sliding ? "sliding" : "open"; }
+
+// At least `count` modes and one above `hz`, or all there are.
+SpaceModes lowest_modes(const Space &space, LinearSystem system, std::int64_t count, double hz) {
+    const vector<char> closed = contact_set(system, space.n_pairs());
+    const double reach = 2 * std::max(space.highest_frequency, 2 * M_PI * hz);
+    if (reach > 0) {
+        SpaceModes modes = modes_of_contact_set(space, closed, reach * reach);
+        if (modes.vectors.cols() >= count && !modes.values.empty() && to_hz(modes.values.back()) > hz) return modes;
+    }
+    return modes_of_contact_set(space, closed, std::numeric_limits<double>::infinity());
+}
+
+// |phi . F|^2 / omega^4: the squared resonance amplitude of each mode at equal Q, up to a common factor; 0 for
+// rigid-body modes. F is the first harmonic of the excitation (or its lowest one).
+vector<double> responses(const Space &space, const SpaceModes &modes) {
+    vector<double> response(modes.values.size(), 0.0);
+    const auto load = space.excitation.upper_bound(0);
+    if (load == space.excitation.end()) return response;
+    const auto modal = [&](const vector<double> &f, std::int64_t j) {
+        return f.empty() ? 0.0 : dot(space.size(), modes.vectors.col(j), f.data());
+    };
+    for (std::size_t j = 0; j < response.size(); ++j) {
+        if (modes.values[j] <= 0) continue;
+        const double re = modal(load->second.real, static_cast<std::int64_t>(j)) / modes.values[j];
+        const double im = modal(load->second.imag, static_cast<std::int64_t>(j)) / modes.values[j];
+        response[j] = re * re + im * im;
+    }
+    return response;
+}
+
+// Flexible modes in the range searched, or the lowest ones.
+vector<std::int64_t> candidates(const SpaceModes &modes, const ModeRequest &request) {
+    vector<std::int64_t> found;
+    for (std::size_t j = 0; j < modes.values.size(); ++j) {
+        const double hz = to_hz(modes.values[j]);
+        if (hz <= 0) continue;
+        if (request.search_max_hz > 0 && (hz < request.search_min_hz || hz > request.search_max_hz)) continue;
+        if (request.search_max_hz <= 0 && static_cast<std::int64_t>(found.size()) == n_proposed) break;
+        found.push_back(static_cast<std::int64_t>(j));
+    }
+    return found;
+}
+
+std::int64_t by_number(const SpaceModes &modes, const ModeRequest &request) {
+    const std::int64_t count = modes.vectors.cols();
+    if (request.mode > count)
+        throw Error(PLM_ERR_ARGUMENT, format("mode %lld of the %s system is asked for, but it has only %lld",
+                                             static_cast<long long>(request.mode), name_of(request.system),
+                                             static_cast<long long>(count)))
+            .argument("mode")
+            .index(request.mode);
+    return request.mode - 1;
+}
+
+std::int64_t by_frequency(const SpaceModes &modes, double hz) {
+    std::int64_t best = -1;
+    for (std::int64_t j = 0; j < modes.vectors.cols(); ++j)
+        if (best < 0 || std::abs(to_hz(modes.values[j]) - hz) < std::abs(to_hz(modes.values[best]) - hz)) best = j;
+    return best;
+}
+
+std::int64_t by_response(const vector<double> &response, const vector<std::int64_t> &among,
+                         const ModeRequest &request, Watch watch) {
+    if (among.empty())
+        throw Error(PLM_ERR_ARGUMENT, format("the %s system has no flexible mode in [%g, %g] Hz; widen the search or "
+                                             "name the mode",
+                                             name_of(request.system), request.search_min_hz, request.search_max_hz))
+            .argument(request.search_max_hz > 0 ? "search_max_hz" : "mode");
+    const auto weaker = [&](std::int64_t i, std::int64_t j) { return response[i] < response[j]; };
+    const std::int64_t best = *std::max_element(among.begin(), among.end(), weaker);
+    if (response[best] > 0) return best;
+    watch.log(2, "the excitation moves no mode searched: the lowest flexible one is taken as the dominant mode; name "
+                 "the mode if another is meant");
+    return among.front();
+}
+
+std::int64_t choose(const SpaceModes &modes, const vector<double> &response, const vector<std::int64_t> &among,
+                    const ModeRequest &request, Watch watch) {
+    if (request.mode > 0) return by_number(modes, request);
+    if (request.frequency_hz > 0 && modes.vectors.cols() > 0) return by_frequency(modes, request.frequency_hz);
+    return by_response(response, among, request, watch);
+}
+
+double share(const vector<double> &response, vector<std::int64_t> among, std::int64_t chosen) {
+    if (std::find(among.begin(), among.end(), chosen) == among.end()) among.push_back(chosen);
+    double sum = 0;
+    for (std::int64_t j : among) sum += response[j];
+    return sum > 0 ? response[chosen] / sum : 0;
+}
+
+} // namespace
+
+DominantMode find_dominant_mode(const Space &space, const ModeRequest &request, Watch watch) {
+    std::int64_t rigid = 0; // not proposed, but counted
+    while (rigid < space.size() && space.lambda[rigid] == 0) ++rigid;
+    const SpaceModes modes = lowest_modes(space, request.system, std::max(request.mode, rigid + n_proposed),
+                                          std::max(request.frequency_hz, request.search_max_hz));
+    const vector<double> response = responses(space, modes);
+    const vector<std::int64_t> among = candidates(modes, request);
+    const std::int64_t chosen = choose(modes, response, among, request, watch);
+
+    DominantMode dominant;
+    dominant.system = request.system;
+    dominant.mode = chosen + 1;
+    dominant.frequency_hz = to_hz(modes.values[chosen]);
+    dominant.participation = share(response, among, chosen);
+    dominant.coordinates.assign(modes.vectors.col(chosen), modes.vectors.col(chosen) + space.size());
+    dominant.mode_penetration.assign(space.n_pairs(), 0.0);
+    gemv('N', 1.0, space.gap, dominant.coordinates.data(), 0.0, dominant.mode_penetration.data());
+    return dominant;
+}
+
+} // namespace plm

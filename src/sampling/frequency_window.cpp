@@ -1,0 +1,86 @@
+#include "sampling/frequency_window.hpp"
+#include "sampling/mode_match.hpp"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plm {
+
+double bilinear_frequency(double f1_hz, double f2_hz) {
+    return f1_hz > 0 && f2_hz > 0 ? 2 / (1 / f1_hz + 1 / f2_hz) : 0;
+}
+
+namespace {
+
+// The frequency of the mode that resembles the dominant one; its row is added to the table.
+double matched_frequency(const Space &space, const DominantMode &dominant, const vector<char> &closed,
+                         const char *name, FrequencyWindow &window, Watch watch) {
+    const double omega = 2 * M_PI * dominant.frequency_hz;
+    const MatchedModes matched = match_modes(space, closed, dominant.coordinates, 9 * omega * omega);
+    if (matched.best < 0)
+        throw Error(PLM_ERR_EIGENSOLVER, std::string("the linear system of ") + name + " has no mode");
+    MacRow row;
+    row.system = name;
+    row.best = matched.best;
+    const std::int64_t listed = std::min(matched.modes.vectors.cols(), std::max<std::int64_t>(10, matched.best + 3));
+    for (std::int64_t j = 0; j < listed; ++j) {
+        row.frequency_hz.push_back(to_hz(matched.modes.values[j]));
+        row.mac.push_back(matched.mac[j]);
+    }
+    const double best = row.mac[row.best], hz = row.frequency_hz[row.best];
+    if (best < 0.5)
+        watch.log(2, format("no mode of %s resembles the dominant mode: the best, at %.6g Hz, has a MAC of %.2f; check "
+                            "the frequency window or choose another dominant mode",
+                            name, hz, best));
+    window.mac.push_back(std::move(row));
+    return hz;
+}
+
+void around(double least, double most, double half_width, FrequencyWindow &window) {
+    window.min_hz = least * (1 - half_width);
+    window.max_hz = most * (1 + half_width);
+}
+
+void estimate(double half_width, FrequencyWindow &w) {
+    const double percent = 100 * half_width;
+    if (!w.preload_case) {
+        around(w.blf_hz, w.blf_hz, half_width, w);
+        w.why = format("bilinear frequency %.6g Hz of the half-cycle frequencies %.6g and %.6g Hz, -+ %.3g %%",
+                       w.blf_hz, w.f1_hz, w.f2_hz, percent);
+    } else if (w.blf_hz > 0) {
+        around(std::min(w.rest_hz, w.blf_hz), std::max(w.rest_hz, w.blf_hz), half_width, w);
+        w.why = format("from the frequency with the contact as at rest, %.6g Hz, to the bilinear frequency, %.6g Hz "
+                       "(of %.6g and %.6g Hz), -+ %.3g %%",
+                       w.rest_hz, w.blf_hz, w.f1_hz, w.f2_hz, percent);
+    } else { // a rigid-body half cycle has no frequency
+        around(w.rest_hz, w.rest_hz, half_width, w);
+        w.why = format("frequency with the contact as at rest, %.6g Hz, -+ %.3g %%", w.rest_hz, percent);
+    }
+    if (w.max_hz > 0) return;
+    throw Error(PLM_ERR_ARGUMENT, "no frequency window follows from the dominant mode, which is a rigid-body motion of "
+                                  "the linear systems compared; choose a flexible mode or give the window")
+        .argument("mode");
+}
+
+} // namespace
+
+FrequencyWindow find_window(const Space &space, const DominantMode &dominant, const ContactSweep &sweep,
+                            const RestState &rest, const SamplerOptions &options, Watch watch) {
+    FrequencyWindow w;
+    w.preload_case = sweep.offset_is_rest;
+    w.f1_hz = matched_frequency(space, dominant, sweep.samples.back(), "system 1", w, watch);
+    w.f2_hz = matched_frequency(space, dominant, sweep.samples.front(), "system 2", w, watch);
+    w.blf_hz = bilinear_frequency(w.f1_hz, w.f2_hz);
+    if (w.preload_case) w.rest_hz = matched_frequency(space, dominant, rest.closed, "rest", w, watch);
+    if (options.window_max_hz > 0) {
+        w.min_hz = options.window_min_hz;
+        w.max_hz = options.window_max_hz;
+        w.why = format("given by the caller; the bilinear frequency is %.6g Hz", w.blf_hz);
+        if (w.preload_case) w.why += format(", that with the contact as at rest %.6g Hz", w.rest_hz);
+    } else {
+        estimate(options.window_half_width, w);
+    }
+    return w;
+}
+
+} // namespace plm

@@ -1,0 +1,98 @@
+#include "sampling/sampler.hpp"
+#include "sampling/contact_sweep.hpp"
+#include "sampling/dominant_mode.hpp"
+#include "sampling/frequency_window.hpp"
+#include "sampling/mode_match.hpp"
+#include "sampling/sampler_options.hpp"
+#include "sampling/static_offset.hpp"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plm {
+namespace {
+
+constexpr double space_margin = 1.1; // accurate this far beyond the highest harmonic of the window
+
+// Highest frequency (rad/s) that one can tell before the dominant mode is known; 0: none.
+double first_guess(const SamplerOptions &o) {
+    const double factor = 2 * M_PI * space_margin * static_cast<double>(o.n_harmonics);
+    if (o.window_max_hz > 0) return factor * o.window_max_hz;
+    if (o.mode == 0 && o.mode_frequency_hz > 0) return factor * o.mode_frequency_hz * (1 + 2 * o.window_half_width);
+    return 2 * M_PI * o.search_max_hz;
+}
+
+std::int64_t least_modes(const SamplerOptions &o) {
+    std::int64_t highest = o.mode;
+    for (const SamplerOptions::Extra &e : o.extra) highest = std::max(highest, e.mode);
+    return std::max<std::int64_t>(30, highest + 10);
+}
+
+std::vector<DominantMode> find_dominant_modes(const Space &space, const RestState &rest, bool homogeneous,
+                                              const SamplerOptions &o, Watch watch) {
+    ModeRequest request;
+    request.system = reference_system(o.system, rest, homogeneous);
+    request.mode = o.mode;
+    request.frequency_hz = o.mode_frequency_hz;
+    request.search_min_hz = o.search_min_hz;
+    request.search_max_hz = o.search_max_hz;
+    std::vector<DominantMode> dominant;
+    dominant.push_back(find_dominant_mode(space, request, watch));
+    for (const SamplerOptions::Extra &e : o.extra) {
+        ModeRequest further;
+        further.system = e.system;
+        further.mode = e.mode;
+        dominant.push_back(find_dominant_mode(space, further, watch));
+    }
+    return dominant;
+}
+
+// A mode that does not move the pairs has a dV of rounding errors only.
+bool moves_contact(const Space &space, const DominantMode &d) {
+    double dv = 0, scale = 0;
+    for (double v : d.mode_penetration) dv = std::max(dv, std::abs(v));
+    for (std::int64_t k = 0; k < space.gap.rows() * space.gap.cols(); ++k)
+        scale = std::max(scale, std::abs(space.gap.data()[k]));
+    return dv > 1e-12 * scale;
+}
+
+ContactSweep sweep_of(const Space &space, const RestState &rest, bool homogeneous, const DominantMode &d,
+                      Watch watch) {
+    if (!moves_contact(space, d)) {
+        watch.log(2, format("the dominant mode at %.6g Hz does not move the contact: there is one sample only",
+                            d.frequency_hz));
+        return sweep_contact(rest.penetration, !homogeneous, vector<double>(space.n_pairs(), 0.0));
+    }
+    if (!homogeneous) return sweep_contact(rest.penetration, true, d.mode_penetration);
+    return sweep_contact(static_offset(space, d.system, d.mode_penetration), false, d.mode_penetration);
+}
+
+} // namespace
+
+Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &options, Watch watch) : options_(options) {
+    check_options(options);
+    if (model->n_pairs() == 0) throw Error(PLM_ERR_STATE, "the model has no contact pair to sample");
+    const bool homogeneous = is_homogeneous(*model);
+    double highest = first_guess(options);
+    for (int round = 0; round < 4; ++round) {
+        watch.step("sampler", 0.25 * round);
+        space_ = make_contact_space(model, highest, least_modes(options), watch);
+        rest_ = solve_rest(*space_);
+        dominant_ = find_dominant_modes(*space_, rest_, homogeneous, options, watch);
+        sweeps_.clear();
+        for (const DominantMode &d : dominant_) sweeps_.push_back(sweep_of(*space_, rest_, homogeneous, d, watch));
+        window_ = find_window(*space_, dominant_.front(), sweeps_.front(), rest_, options, watch);
+        const double needed = 2 * M_PI * space_margin * static_cast<double>(options.n_harmonics) * window_.max_hz;
+        if (space_->highest_frequency >= needed) break;
+        highest = 1.01 * needed; // the frequencies move a little in the better space
+    }
+    samples_ = select_samples(sweeps_, options.n_samples, options.include_ends, options.complements);
+    watch.log(1, format("dominant mode %lld of the %s system at %.6g Hz; %zu contact sets in its sweep, %zu samples; "
+                        "window [%.6g, %.6g] Hz: %s",
+                        static_cast<long long>(dominant_.front().mode),
+                        dominant_.front().system == LinearSystem::sliding ? "sliding" : "open",
+                        dominant_.front().frequency_hz, sweeps_.front().samples.size(), samples_.size(),
+                        window_.min_hz, window_.max_hz, window_.why.c_str()));
+}
+
+} // namespace plm

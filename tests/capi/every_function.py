@@ -1,0 +1,15 @@
+"""Every function of plm.h is called in some test program: every_function.py plm.h tests/"""
+import pathlib
+import re
+import sys
+
+header = pathlib.Path(sys.argv[1]).read_text()
+declared = re.findall(r"PLM_API\s+plm_status\s+(plm_\w+)\s*\(", header)
+code = "".join(p.read_text() for p in pathlib.Path(sys.argv[2]).rglob("*") if p.suffix in (".c", ".cpp", ".h", ".hpp"))
+code = re.sub(r"/\*.*?\*/|//[^\n]*", "", code, flags=re.S)
+called = set(re.findall(r"\b(plm_\w+)\s*\(", code))
+missing = [name for name in declared if name not in called]
+print(f"{len(declared)} functions declared, {len(missing)} not called in any test")
+for name in missing:
+    print("  " + name)
+sys.exit(1 if missing or not declared else 0)

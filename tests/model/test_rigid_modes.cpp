@@ -1,0 +1,133 @@
+// Structures that are loose while their contacts are open, and stiffness matrices that are none.
+#include "spring_models.hpp"
+#include "support/test.hpp"
+#include "caught.hpp"
+#include <cstring>
+
+using plm::ModelInput;
+
+namespace {
+
+// n_bodies free chains of four masses each, side by side.
+ModelInput loose_chains(int n_bodies, double k, double m) {
+    test::Dense stiffness = test::diagonal(4 * n_bodies, 0);
+    const test::Dense one = test::free_chain(4, k);
+    for (int b = 0; b < n_bodies; ++b)
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < 4; ++j) stiffness[4 * b + i][4 * b + j] = one[i][j];
+    return test::input(test::diagonal(4 * n_bodies, m), stiffness);
+}
+
+double orthonormality_error(const plm::Model &model) {
+    const plm::Matrix &r = model.rigid_modes();
+    const plm::Matrix gram = product('T', 'N', r, multiply(model.mass(), r));
+    double worst = 0;
+    for (std::int64_t i = 0; i < gram.rows(); ++i)
+        for (std::int64_t j = 0; j < gram.cols(); ++j) worst = std::max(worst, std::abs(gram(i, j) - (i == j)));
+    return worst;
+}
+
+double largest_force(const plm::Model &model) { // |K r| over the stiffness scale
+    const plm::Matrix f = multiply(model.stiffness(), model.rigid_modes());
+    double worst = 0;
+    for (std::int64_t i = 0; i < f.rows() * f.cols(); ++i) worst = std::max(worst, std::abs(f.data()[i]));
+    return worst / norm_inf(model.stiffness());
+}
+
+void every_loose_body_has_its_mode(void **) {
+    for (int bodies : {1, 2, 5, 24})
+        for (double k : {1e-6, 1.0, 1e12}) {
+            const auto m = test::build(loose_chains(bodies, k, 3));
+            assert_int_equal(m->rigid_modes().cols(), bodies);
+            assert_true(below(orthonormality_error(*m), 1e-9));
+            assert_true(below(largest_force(*m), 1e-9));
+            const double flexible = k / 3 * (2 - std::sqrt(2.0)); // (k/m) 4 sin^2(pi / 8)
+            assert_true(close_to(m->shift(), 1e-2 * flexible, 1e-6));
+        }
+}
+
+void rigid_motion_does_not_soften_the_contact(void **) {
+    // Two loose chains meet: the elastic flexibility of a free chain of four at its end is known in closed form.
+    ModelInput in = loose_chains(2, 100, 3);
+    test::add_pair(in, {0, 0, 0, 1, -1, 0, 0, 0}, PLM_AUTO_STIFFNESS);
+    const auto m = test::build(in);
+    double end = 0; // sum phi_end^2 / lambda over the elastic modes of one chain
+    for (int p = 1; p < 4; ++p) {
+        const double lambda = 100.0 / 3 * 4 * std::pow(std::sin(p * M_PI / 8), 2);
+        const double phi = std::sqrt(2.0 / 4 / 3) * std::cos(p * M_PI / 8);
+        end += phi * phi / lambda;
+    }
+    assert_true(close_to(m->local_stiffness(), 1 / (2 * end), 0.02)); // sigma is 1 % of the first elastic eigenvalue
+    assert_true(close_to(m->contact_stiffness()[0], 10 * m->local_stiffness(), 1e-12));
+}
+
+void bodies_without_stiffness_need_a_given_one(void **) {
+    ModelInput in = test::input({{2}}, {{0}});
+    test::add_pair(in, {1}, 50);
+    const auto m = test::build(in);
+    assert_int_equal(m->rigid_modes().cols(), 1);
+    assert_true(m->shift() > 0 && close_to(std::abs(m->rigid_modes()(0, 0)), std::sqrt(0.5), 1e-12));
+    in.contact_stiffness[0] = PLM_AUTO_STIFFNESS;
+    const Caught c = caught([&] { test::build(in); });
+    assert_int_equal(c.status, PLM_ERR_ARGUMENT);
+    assert_true(c.argument == "stiffness" && c.index == 0 && c.says("give k_n"));
+}
+
+void massless_dofs_are_allowed_where_they_are_held(void **) {
+    ModelInput in = test::input({{1, 0, 0}, {0, 0, 0}, {0, 0, 1}}, test::free_chain(3, 10));
+    assert_int_equal(test::build(in)->rigid_modes().cols(), 1);
+    in.stiffness = test::matrix({{10, 0, 0}, {0, 0, 0}, {0, 0, 10}});
+    const Caught c = caught([&] { test::build(in); });
+    assert_int_equal(c.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+    assert_int_equal(c.index, 1);
+    assert_true(c.says("DOF 1"));
+}
+
+void loose_massless_part_is_refused(void **) {
+    // DOFs 1 and 2 hang together by a spring, but on nothing, and have no mass.
+    ModelInput in = test::input({{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {{5, 0, 0}, {0, 10, -10}, {0, -10, 10}});
+    assert_int_equal(caught([&] { test::build(in); }).status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+}
+
+void negative_stiffness_is_refused(void **) {
+    ModelInput in = test::input(test::diagonal(3, 1), {{1, 2, 0}, {2, 1, 0}, {0, 0, 4}});
+    const Caught c = caught([&] { test::build(in); });
+    assert_int_equal(c.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+    assert_true(c.says("negative eigenvalue"));
+}
+
+// A host solver for one DOF that has no idea of conditioning: it divides.
+int host_factor(std::int64_t n, const std::int64_t *, const std::int64_t *, const double *value, int, void **handle,
+                void *) {
+    if (n != 1) return 5;
+    *handle = new double(*value);
+    return 0;
+}
+int host_solve(void *handle, std::int64_t nrhs, double *x, std::int64_t ldx, void *) {
+    for (std::int64_t j = 0; j < nrhs; ++j) x[j * ldx] /= *static_cast<double *>(handle);
+    return 0;
+}
+void host_release(void *handle, void *) { delete static_cast<double *>(handle); }
+
+void singular_stiffness_shows_with_any_solver(void **) {
+    const plm::HostSolver host{host_factor, host_solve, host_release, nullptr};
+    ModelInput in = test::input({{2}}, {{0}});
+    test::add_pair(in, {1}, 50);
+    const plm::Model model(in, plm::SpaceOptions(), &host, plm::Watch());
+    assert_int_equal(model.rigid_modes().cols(), 1);
+}
+
+} // namespace
+
+int main() {
+    const CMUnitTest tests[] = {
+        cmocka_unit_test(every_loose_body_has_its_mode),
+        cmocka_unit_test(rigid_motion_does_not_soften_the_contact),
+        cmocka_unit_test(bodies_without_stiffness_need_a_given_one),
+        cmocka_unit_test(massless_dofs_are_allowed_where_they_are_held),
+        cmocka_unit_test(loose_massless_part_is_refused),
+        cmocka_unit_test(negative_stiffness_is_refused),
+        cmocka_unit_test(singular_stiffness_shows_with_any_solver),
+    };
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

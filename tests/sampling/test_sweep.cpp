@@ -1,0 +1,162 @@
+// The sweep of the contact area against sweeps worked out by hand, and the choice of samples.
+#include "sampling/contact_sweep.hpp"
+#include "support/test.hpp"
+#include <string>
+
+using plm::ContactSweep;
+using plm::SelectedSample;
+
+namespace {
+
+plm::vector<double> numbers(std::initializer_list<double> v) { return plm::vector<double>(v); }
+
+std::string text(const plm::vector<char> &closed) {
+    std::string s;
+    for (char c : closed) s += c ? 'x' : '.';
+    return s;
+}
+
+std::string text(const ContactSweep &sweep) {
+    std::string s;
+    for (const auto &sample : sweep.samples) s += (s.empty() ? "" : " ") + text(sample);
+    return s;
+}
+
+std::string text(const std::vector<SelectedSample> &samples) {
+    std::string s;
+    for (const SelectedSample &sample : samples)
+        s += (s.empty() ? "" : " ") + text(sample.closed) + (sample.complement ? "'" : "");
+    return s;
+}
+
+std::string positions(std::int64_t size, std::int64_t n, bool ends) {
+    ContactSweep sweep;
+    sweep.samples.resize(size);
+    for (std::int64_t i = 1; i < size; ++i) sweep.thresholds.push_back(static_cast<double>(i) - 2.5);
+    std::string s;
+    for (std::int64_t i : plm::equally_spaced(sweep, n, ends)) s += (s.empty() ? "" : " ") + std::to_string(i);
+    return s;
+}
+
+// Every representative alpha reproduces its contact set by plain evaluation of eq. (5).
+bool alphas_reproduce(const ContactSweep &sweep, const plm::vector<double> &dv) {
+    for (std::size_t s = 0; s < sweep.samples.size(); ++s)
+        for (std::size_t i = 0; i < dv.size(); ++i)
+            if ((sweep.offset[i] + sweep.alpha[s] * dv[i] > 0) != (sweep.samples[s][i] != 0)) return false;
+    return true;
+}
+
+void distinct_thresholds_give_z_plus_1_samples(void **) {
+    // dX = (1 + a, -1 + a, 0.5 - a): switches at -1, 1 and 0.5
+    const auto dv = numbers({1, 1, -1});
+    const ContactSweep sweep = plm::sweep_contact(numbers({1, -1, 0.5}), true, dv);
+    assert_string_equal(text(sweep).c_str(), "..x x.x x.. xx.");
+    assert_int_equal(sweep.thresholds.size(), 3);
+    assert_true(near(sweep.thresholds[0], -1, 1e-15) && near(sweep.thresholds[1], 0.5, 1e-15) &&
+                near(sweep.thresholds[2], 1, 1e-15));
+    assert_int_equal(sweep.switching[1][0], 2);
+    assert_true(near(sweep.alpha[0], -1.1, 1e-15)); // 5 % of the range beyond the first
+    assert_true(near(sweep.alpha[1], -0.25, 1e-15));
+    assert_true(near(sweep.alpha[3], 1.1, 1e-15));
+    assert_true(alphas_reproduce(sweep, dv));
+}
+
+void ties_are_one_threshold(void **) {
+    // pairs 0 and 2 mirror each other up to rounding, pair 1 closes where pair 3 opens
+    const auto dv = numbers({1, 2, 1, -2});
+    const ContactSweep sweep = plm::sweep_contact(numbers({1, -2, 1 + 1e-13, 2}), true, dv);
+    assert_int_equal(sweep.thresholds.size(), 2);
+    assert_string_equal(text(sweep).c_str(), "...x x.xx xxx.");
+    assert_int_equal(sweep.switching[0].size(), 2);
+    assert_true(alphas_reproduce(sweep, dv));
+}
+
+void a_pair_that_hardly_moves_does_not_blur_the_others(void **) {
+    // pair 2 switches at alpha = -1e8: 1e-9 of the range would be 0.1
+    const ContactSweep sweep = plm::sweep_contact(numbers({1, 1.01, 1}), true, numbers({1, 1, 1e-8}));
+    assert_int_equal(sweep.thresholds.size(), 3);
+    assert_string_equal(text(sweep).c_str(), "... ..x .xx xxx");
+}
+
+void motionless_pairs_never_switch(void **) {
+    const ContactSweep sweep = plm::sweep_contact(numbers({1, -1, 0, 0.3}), true, numbers({1e-10, 1e-12, 0, 1}));
+    assert_int_equal(sweep.thresholds.size(), 1);
+    assert_string_equal(text(sweep).c_str(), "x... x..x");
+    const ContactSweep still = plm::sweep_contact(numbers({1, -1}), true, numbers({0, 0}));
+    assert_int_equal(still.thresholds.size(), 0);
+    assert_string_equal(text(still).c_str(), "x.");
+    assert_int_equal(still.alpha.size(), 1);
+}
+
+void without_offset_all_pairs_switch_at_once(void **) {
+    const ContactSweep sweep = plm::sweep_contact(numbers({0, 0, 0}), false, numbers({1, -2, 3}));
+    assert_string_equal(text(sweep).c_str(), ".x. x.x");
+    assert_true(sweep.alpha[0] < 0 && sweep.alpha[1] > 0);
+}
+
+void many_pairs_give_z_plus_1_samples_each_one_switch_apart(void **) {
+    plm::vector<double> offset, dv;
+    for (int i = 0; i < 90; ++i) {
+        offset.push_back(std::sin(1.0 + i * i));
+        dv.push_back(std::cos(3.0 * i) + 0.01);
+    }
+    const ContactSweep sweep = plm::sweep_contact(offset, true, dv);
+    int wrong = 0;
+    for (std::size_t s = 1; s < sweep.samples.size(); ++s) {
+        int changed = 0;
+        for (int i = 0; i < 90; ++i) changed += sweep.samples[s][i] != sweep.samples[s - 1][i];
+        wrong += changed != 1;
+    }
+    assert_int_equal(sweep.samples.size(), 91);
+    assert_int_equal(wrong, 0);
+    assert_true(alphas_reproduce(sweep, dv));
+}
+
+void samples_are_equally_spaced(void **) {
+    assert_string_equal(positions(91, 4, true).c_str(), "0 30 60 90");
+    assert_string_equal(positions(11, 4, true).c_str(), "0 3 7 10");
+    assert_string_equal(positions(8, 4, false).c_str(), "1 3 5 7");
+    assert_string_equal(positions(91, 4, false).c_str(), "11 34 56 79");
+    assert_string_equal(positions(3, 4, true).c_str(), "0 1 2"); // more than there are: all
+    assert_string_equal(positions(6, 1, true).c_str(), "2");     // the one at alpha = 0
+    assert_string_equal(positions(6, 1, false).c_str(), "2");
+    assert_string_equal(positions(1, 5, true).c_str(), "0");
+}
+
+void complements_come_after_and_only_when_new(void **) {
+    const ContactSweep sweep = plm::sweep_contact(numbers({1, -1, 0.5}), true, numbers({1, 1, -1}));
+    const std::vector<ContactSweep> one(1, sweep);
+    assert_string_equal(text(plm::select_samples(one, 4, true, false)).c_str(), "..x x.x x.. xx.");
+    // the complement of ..x is xx., that of xx. is ..x: both are there already
+    assert_string_equal(text(plm::select_samples(one, 4, true, true)).c_str(), "..x x.x x.. xx. .x.' .xx'");
+    assert_string_equal(text(plm::select_samples(one, 2, true, true)).c_str(), "..x xx.");
+    const auto selected = plm::select_samples(one, 4, true, true);
+    assert_int_equal(selected[4].sweep_index, 1);
+    assert_int_equal(selected[4].n_closed, 1);
+}
+
+void several_dominant_modes_share_their_samples(void **) {
+    std::vector<ContactSweep> two;
+    two.push_back(plm::sweep_contact(numbers({1, -1}), true, numbers({1, 1})));   // .. x. xx
+    two.push_back(plm::sweep_contact(numbers({1, -1}), true, numbers({-1, 0.5}))); // x. .. .x
+    const auto samples = plm::select_samples(two, 10, true, true);
+    assert_string_equal(text(samples).c_str(), ".. x. xx .x");
+    assert_int_equal(samples[3].dominant, 1);
+}
+
+} // namespace
+
+int main() {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(distinct_thresholds_give_z_plus_1_samples),
+        cmocka_unit_test(ties_are_one_threshold),
+        cmocka_unit_test(a_pair_that_hardly_moves_does_not_blur_the_others),
+        cmocka_unit_test(motionless_pairs_never_switch),
+        cmocka_unit_test(without_offset_all_pairs_switch_at_once),
+        cmocka_unit_test(many_pairs_give_z_plus_1_samples_each_one_switch_apart),
+        cmocka_unit_test(samples_are_equally_spaced),
+        cmocka_unit_test(complements_come_after_and_only_when_new),
+        cmocka_unit_test(several_dominant_modes_share_their_samples),
+    };
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
