@@ -16,7 +16,8 @@ void require_pointer(const void *pointer, const char *name) {
 
 void require_range(std::int64_t value, std::int64_t low, std::int64_t high, const char *name) {
     if (value < low || value > high)
-        bad_argument(name, -1, format("%s is %lld; it must lie in %lld..%lld", name, Int(value), Int(low), Int(high)));
+        bad_argument(name, -1,
+                     format("%s is %lld; it must lie in %lld..%lld", name, Int(value), Int(low), Int(high)));
 }
 
 void require_finite(double value, const char *name) {
@@ -32,11 +33,13 @@ void require_finite_array(const double *values, std::int64_t n, const char *name
 
 void require_index_base(std::int32_t index_base) {
     if (index_base != 0 && index_base != 1)
-        bad_argument("index_base", -1, format("index_base is %d; it must be 0 (C) or 1 (Fortran)", index_base));
+        bad_argument("index_base", -1,
+                     format("index_base is %d; it must be 0 (C) or 1 (Fortran)", index_base));
 }
 
 plm_status put_text(const std::string &text, std::int64_t capacity, char *buffer, std::int64_t *needed) {
-    if (capacity < 0) bad_argument("capacity", -1, format("capacity is %lld; it cannot be negative", Int(capacity)));
+    if (capacity < 0)
+        bad_argument("capacity", -1, format("capacity is %lld; it cannot be negative", Int(capacity)));
     if (capacity > 0) {
         require_pointer(buffer, "buffer");
         const std::size_t n = std::min(text.size(), static_cast<std::size_t>(capacity - 1));

@@ -24,13 +24,15 @@ template <class T>
 plm_status put_array(const vector<T> &from, std::int64_t capacity, T *values, std::int64_t *count) {
     const std::int64_t n = static_cast<std::int64_t>(from.size());
     require_pointer(count, "count");
-    if (capacity < 0) bad_argument("capacity", -1, format("capacity is %lld; it cannot be negative", (long long)capacity));
+    if (capacity < 0)
+        bad_argument("capacity", -1, format("capacity is %lld; it cannot be negative", (long long)capacity));
     if (values || capacity > 0) {
         require_pointer(values, "values");
         if (capacity < n)
-            bad_argument("capacity", -1, format("capacity is %lld where %lld values are to be written; ask for the "
-                                                "length with values = NULL first",
-                                                (long long)capacity, (long long)n));
+            bad_argument("capacity", -1,
+                         format("capacity is %lld where %lld values are to be written; ask for the "
+                                "length with values = NULL first",
+                                (long long)capacity, (long long)n));
         for (std::int64_t i = 0; i < n; ++i) values[i] = from[i];
     }
     *count = n;

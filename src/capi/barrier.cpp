@@ -35,7 +35,8 @@ plm_status record_failure(const char *function, Context *context) noexcept {
         store(context, function, e);
         return e.status();
     } catch (const std::bad_alloc &) {
-        return store_plain(context, function, PLM_ERR_MEMORY, "out of memory; reduce the model or the options");
+        return store_plain(context, function, PLM_ERR_MEMORY,
+                           "out of memory; reduce the model or the options");
     } catch (const std::exception &e) {
         return store_plain(context, function, PLM_ERR_INTERNAL, e.what());
     } catch (...) {

@@ -5,8 +5,8 @@
 
 namespace plm::capi {
 
-/// Host programs trap floating-point exceptions, round or flush as they like; numerics here run in the default
-/// environment, and the host gets its own back with the flags it had.
+/// Host programs trap floating-point exceptions, round or flush as they like; numerics here run in the
+/// default environment, and the host gets its own back with the flags it had.
 class HeldFloatingPoint {
   public:
     HeldFloatingPoint() {
@@ -21,10 +21,12 @@ class HeldFloatingPoint {
     std::fenv_t host_;
 };
 
-/// Marks the context as running; false when a call is under way already (from a callback, or from another thread).
+/// Marks the context as running; false when a call is under way already (from a callback, or from another
+/// thread).
 class RunningCall {
   public:
-    RunningCall(Context &context, std::fenv_t *host) : context_(context), mine_(!context.running.exchange(true)) {
+    RunningCall(Context &context, std::fenv_t *host)
+        : context_(context), mine_(!context.running.exchange(true)) {
         if (mine_) context_.host_environment = host;
     }
     ~RunningCall() {
@@ -40,7 +42,8 @@ class RunningCall {
     bool mine_;
 };
 
-/// Status for the exception being handled; details go to `context` unless it is null. Call from a catch block only.
+/// Status for the exception being handled; details go to `context` unless it is null. Call from a catch block
+/// only.
 plm_status record_failure(const char *function, Context *context) noexcept;
 
 /// An exported function on a handle of class H: body(H &) returns the status.
@@ -94,12 +97,16 @@ template <class H> plm_status destroy(typename H::Opaque **handle) noexcept {
 }
 
 /// A second handle among the arguments; it must belong to the same context.
-template <class H> std::shared_ptr<H> same_context(const Object &one, const typename H::Opaque *handle, const char *name) {
+template <class H>
+std::shared_ptr<H> same_context(const Object &one, const typename H::Opaque *handle, const char *name) {
     std::shared_ptr<H> other = find<H>(handle);
     if (!other)
-        throw Error(PLM_ERR_HANDLE, std::string(name) + " is no live handle; was it destroyed, or never made?").argument(name);
+        throw Error(PLM_ERR_HANDLE,
+                    std::string(name) + " is no live handle; was it destroyed, or never made?")
+            .argument(name);
     if (other->owner != one.owner)
-        throw Error(PLM_ERR_HANDLE, std::string(name) + " belongs to another context; make both in one").argument(name);
+        throw Error(PLM_ERR_HANDLE, std::string(name) + " belongs to another context; make both in one")
+            .argument(name);
     return other;
 }
 

@@ -5,7 +5,8 @@
 namespace plm::capi {
 
 const std::shared_ptr<const Basis> &built(const BasisHandle &h) {
-    if (!h.core) throw Error(PLM_ERR_STATE, "the basis is not built; call plm_basis_build first").argument("basis");
+    if (!h.core)
+        throw Error(PLM_ERR_STATE, "the basis is not built; call plm_basis_build first").argument("basis");
     return h.core;
 }
 
@@ -16,7 +17,8 @@ std::shared_ptr<const Sampler> run_sampler(const BasisHandle &b) {
     const bool needed = b.basis_options.kind == BasisKind::plm;
     if (!b.sampler) {
         if (needed)
-            throw Error(PLM_ERR_STATE, "a basis of kind plm needs a sampler; call plm_basis_set_sampler first")
+            throw Error(PLM_ERR_STATE,
+                        "a basis of kind plm needs a sampler; call plm_basis_set_sampler first")
                 .argument("sampler");
         return nullptr;
     }
@@ -40,7 +42,9 @@ plm_status plm_basis_create(plm_model *model, plm_basis **basis) {
     });
 }
 
-plm_status plm_basis_destroy(plm_basis **basis) { return destroy<BasisHandle>(basis); }
+plm_status plm_basis_destroy(plm_basis **basis) {
+    return destroy<BasisHandle>(basis);
+}
 
 plm_status plm_basis_set_sampler(plm_basis *basis, plm_sampler *sampler) {
     return call<BasisHandle>("plm_basis_set_sampler", basis, [&](BasisHandle &b) {
@@ -92,8 +96,8 @@ plm_status plm_basis_get_vectors(plm_basis *basis, std::int32_t is_static, std::
     });
 }
 
-plm_status plm_basis_get_residual(plm_basis *basis, std::int32_t is_static, std::int32_t use_mass, std::int64_t n,
-                                  const double *q, double *r) {
+plm_status plm_basis_get_residual(plm_basis *basis, std::int32_t is_static, std::int32_t use_mass,
+                                  std::int64_t n, const double *q, double *r) {
     return call<BasisHandle>("plm_basis_get_residual", basis, [&](BasisHandle &b) {
         const plm::Basis &core = *built(b);
         const plm::Model &model = *core.model();

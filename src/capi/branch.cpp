@@ -7,32 +7,49 @@
 
 namespace plm::capi {
 
-const std::shared_ptr<const Branch> &built(const BranchHandle &h) { return h.core; }
+const std::shared_ptr<const Branch> &built(const BranchHandle &h) {
+    return h.core;
+}
 
 plm_status end_status(std::int32_t reason) {
     switch (reason) {
     case PLM_REASON_NONE:
     case PLM_REASON_RANGE_END:
-    case PLM_REASON_LOOP_CLOSED: return PLM_OK;
-    case PLM_REASON_POINT_LIMIT: return PLM_TRUNCATED;
-    case PLM_REASON_CANCELLED: return PLM_CANCELLED;
-    default: return PLM_NOT_CONVERGED;
+    case PLM_REASON_LOOP_CLOSED:
+        return PLM_OK;
+    case PLM_REASON_POINT_LIMIT:
+        return PLM_TRUNCATED;
+    case PLM_REASON_CANCELLED:
+        return PLM_CANCELLED;
+    default:
+        return PLM_NOT_CONVERGED;
     }
 }
 
 std::string end_text(std::int32_t reason) {
     switch (reason) {
-    case PLM_REASON_NONE: return "complete";
-    case PLM_REASON_RANGE_END: return "left the frequency range";
-    case PLM_REASON_LOOP_CLOSED: return "came back to its first point";
-    case PLM_REASON_POINT_LIMIT: return "max_points reached; raise it or max_step";
-    case PLM_REASON_CANCELLED: return "cancelled by the progress callback";
-    case PLM_REASON_STEP_MINIMUM: return "the step fell below min_step; try more harmonics or a softer contact";
-    case PLM_REASON_CONTACT_CHATTER: return "Newton cycled between contact sets";
-    case PLM_REASON_SINGULAR_TANGENT: return "the tangent is singular";
-    case PLM_REASON_START_FAILED: return "no solution was found at the first frequency; start elsewhere or with less force";
-    case PLM_REASON_BASIS_TOO_SMALL: return "the basis is too small for this response";
-    default: return format("ended for reason %d", reason);
+    case PLM_REASON_NONE:
+        return "complete";
+    case PLM_REASON_RANGE_END:
+        return "left the frequency range";
+    case PLM_REASON_LOOP_CLOSED:
+        return "came back to its first point";
+    case PLM_REASON_POINT_LIMIT:
+        return "max_points reached; raise it or max_step";
+    case PLM_REASON_CANCELLED:
+        return "cancelled by the progress callback";
+    case PLM_REASON_STEP_MINIMUM:
+        return "the step fell below min_step; try more harmonics or a softer contact";
+    case PLM_REASON_CONTACT_CHATTER:
+        return "Newton cycled between contact sets";
+    case PLM_REASON_SINGULAR_TANGENT:
+        return "the tangent is singular";
+    case PLM_REASON_START_FAILED:
+        return "no solution was found at the first frequency; start elsewhere or with less force";
+    case PLM_REASON_BASIS_TOO_SMALL:
+        return "the basis is too small for this response";
+    default:
+        return format("ended for reason %d", reason);
     }
 }
 
@@ -57,22 +74,26 @@ template <class T> void copy_out(const vector<T> &from, T *to) {
 
 using namespace plm::capi;
 
-plm_status plm_branch_destroy(plm_branch **branch) { return destroy<BranchHandle>(branch); }
+plm_status plm_branch_destroy(plm_branch **branch) {
+    return destroy<BranchHandle>(branch);
+}
 
-plm_status plm_branch_get_amplitude(plm_branch *branch, std::int64_t dof, std::int32_t measure, std::int32_t harmonic,
-                                    std::int64_t capacity, double *amplitude, std::int64_t *count) {
+plm_status plm_branch_get_amplitude(plm_branch *branch, std::int64_t dof, std::int32_t measure,
+                                    std::int32_t harmonic, std::int64_t capacity, double *amplitude,
+                                    std::int64_t *count) {
     return call<BranchHandle>("plm_branch_get_amplitude", branch, [&](BranchHandle &b) {
         require_measure(*b.core, dof, measure, harmonic);
         plm::vector<double> values(b.core->points().size());
         if (amplitude)
             for (std::size_t k = 0; k < values.size(); ++k)
-                values[k] = b.core->amplitude(static_cast<std::int64_t>(k), dof, static_cast<plm::Measure>(measure), harmonic);
+                values[k] = b.core->amplitude(static_cast<std::int64_t>(k), dof,
+                                              static_cast<plm::Measure>(measure), harmonic);
         return put_array(values, capacity, amplitude, count);
     });
 }
 
-plm_status plm_branch_get_coefficients(plm_branch *branch, std::int64_t point, std::int64_t first_dof, std::int64_t n,
-                                       double *coefficient) {
+plm_status plm_branch_get_coefficients(plm_branch *branch, std::int64_t point, std::int64_t first_dof,
+                                       std::int64_t n, double *coefficient) {
     return call<BranchHandle>("plm_branch_get_coefficients", branch, [&](BranchHandle &b) {
         require_point(*b.core, point);
         const std::int64_t n_dof = b.core->reduced().model->n_dof(), rows = 2 * b.core->n_harmonics() + 1;
@@ -99,8 +120,8 @@ plm_status plm_branch_get_field(plm_branch *branch, std::int64_t point, double t
     });
 }
 
-plm_status plm_branch_get_contact(plm_branch *branch, std::int64_t point, std::int64_t n_times, double *penetration,
-                                  double *force, std::int32_t *closed) {
+plm_status plm_branch_get_contact(plm_branch *branch, std::int64_t point, std::int64_t n_times,
+                                  double *penetration, double *force, std::int32_t *closed) {
     return call<BranchHandle>("plm_branch_get_contact", branch, [&](BranchHandle &b) {
         require_point(*b.core, point);
         require_range(n_times, 1, 1 << 24, "n_times");
@@ -112,14 +133,16 @@ plm_status plm_branch_get_contact(plm_branch *branch, std::int64_t point, std::i
                 const double t = 2 * M_PI * static_cast<double>(k) / static_cast<double>(n_times);
                 const double x = plm::evaluate_trig(u.col(i), b.core->n_harmonics(), t).value;
                 if (penetration) penetration[i + k * z] = x;
-                if (force) force[i + k * z] = plm::ContactLaw::force(stiffness[static_cast<std::size_t>(i)], x);
+                if (force)
+                    force[i + k * z] = plm::ContactLaw::force(stiffness[static_cast<std::size_t>(i)], x);
                 if (closed) closed[i + k * z] = plm::ContactLaw::closed(x);
             }
         return PLM_OK;
     });
 }
 
-plm_status plm_branch_get_closed_share(plm_branch *branch, std::int64_t point, std::int64_t n, double *share) {
+plm_status plm_branch_get_closed_share(plm_branch *branch, std::int64_t point, std::int64_t n,
+                                       double *share) {
     return call<BranchHandle>("plm_branch_get_closed_share", branch, [&](BranchHandle &b) {
         require_point(*b.core, point);
         const std::int64_t z = b.core->reduced().n_pairs();

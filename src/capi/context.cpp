@@ -48,7 +48,9 @@ plm_status create(std::int32_t api_version, plm_allocate_fn allocate, plm_releas
 
 } // namespace
 
-HostSolver SolverBinding::for_core() { return {host_factor, host_solve, host_free_factor, this}; }
+HostSolver SolverBinding::for_core() {
+    return {host_factor, host_solve, host_free_factor, this};
+}
 
 std::shared_ptr<SolverBinding> Context::bind_solver() {
     return solver.factor ? std::make_shared<SolverBinding>(solver) : nullptr;
@@ -116,14 +118,17 @@ plm_status plm_context_set_solver(plm_context *ctx, plm_factor_fn factor, plm_so
     return call<Context>("plm_context_set_solver", ctx, [&](Context &c) {
         const bool all = factor && solve && release, none = !factor && !solve && !release;
         if (!all && !none)
-            bad_argument(!factor ? "factor" : !solve ? "solve" : "release", -1,
-                         "factor, solve and release go together: pass all three or three NULLs");
+            bad_argument(!factor  ? "factor"
+                         : !solve ? "solve"
+                                  : "release",
+                         -1, "factor, solve and release go together: pass all three or three NULLs");
         c.solver = {&c, factor, solve, release, user};
         return PLM_OK;
     });
 }
 
-plm_status plm_context_get_error_text(plm_context *ctx, std::int64_t capacity, char *buffer, std::int64_t *needed) {
+plm_status plm_context_get_error_text(plm_context *ctx, std::int64_t capacity, char *buffer,
+                                      std::int64_t *needed) {
     return call<Context>("plm_context_get_error_text", ctx,
                          [&](Context &c) { return put_text(c.error.text, capacity, buffer, needed); });
 }
@@ -140,8 +145,8 @@ plm_status plm_context_get_error_argument(plm_context *ctx, std::int64_t capacit
                          [&](Context &c) { return put_text(c.error.argument, capacity, buffer, needed); });
 }
 
-plm_status plm_context_get_error_info(plm_context *ctx, plm_status *status, std::int32_t *reason, std::int64_t *index,
-                                      std::int64_t *library_code) {
+plm_status plm_context_get_error_info(plm_context *ctx, plm_status *status, std::int32_t *reason,
+                                      std::int64_t *index, std::int64_t *library_code) {
     return call<Context>("plm_context_get_error_info", ctx, [&](Context &c) {
         if (status) *status = c.error.status;
         if (reason) *reason = c.error.reason;

@@ -49,7 +49,7 @@ struct Context final : Object {
     SolverBinding solver;
 
     ErrorDetails error;
-    std::atomic<bool> running{false};      // a call is under way
+    std::atomic<bool> running{false};        // a call is under way
     std::fenv_t *host_environment = nullptr; // during a call: the host's floating-point environment
 
   private:

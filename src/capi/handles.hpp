@@ -1,4 +1,5 @@
-// What stands behind each handle: the options, the parents, and after build/run/sweep the immutable core object.
+// What stands behind each handle: the options, the parents, and after build/run/sweep the immutable core
+// object.
 #pragma once
 #include "capi/context.hpp"
 #include "hbm/hbm.hpp"

@@ -11,7 +11,8 @@ using BranchPtr = std::shared_ptr<const Branch>;
 /// A solver with the options as they are now.
 Hbm solver(const HbmHandle &h) {
     const Basis &basis = *built(*h.basis);
-    return Hbm(basis.reduced(), basis.window_min_hz(), basis.window_max_hz(), h.hbm_options, h.owner->watch());
+    return Hbm(basis.reduced(), basis.window_min_hz(), basis.window_max_hz(), h.hbm_options,
+               h.owner->watch());
 }
 
 plm_branch *publish_branch(const HbmHandle &h, BranchPtr core) {
@@ -22,9 +23,11 @@ plm_branch *publish_branch(const HbmHandle &h, BranchPtr core) {
 std::shared_ptr<BranchHandle> own_branch(const HbmHandle &h, const plm_branch *branch, const char *name) {
     std::shared_ptr<BranchHandle> b = same_context<BranchHandle>(h, branch, name);
     if (b->core->reduced_model() != built(*h.basis)->reduced())
-        bad_argument(name, -1, format("the branch %s was computed on another basis, or before the basis was built anew; "
-                                      "compute it with this one",
-                                      name));
+        bad_argument(
+            name, -1,
+            format("the branch %s was computed on another basis, or before the basis was built anew; "
+                   "compute it with this one",
+                   name));
     return b;
 }
 
@@ -41,7 +44,9 @@ plm_status plm_hbm_create(plm_basis *basis, plm_hbm **hbm) {
     });
 }
 
-plm_status plm_hbm_destroy(plm_hbm **hbm) { return destroy<HbmHandle>(hbm); }
+plm_status plm_hbm_destroy(plm_hbm **hbm) {
+    return destroy<HbmHandle>(hbm);
+}
 
 plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch) {
     return call<HbmHandle>("plm_hbm_sweep", hbm, [&](HbmHandle &h) {
@@ -65,9 +70,10 @@ plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, s
             first = own_branch(h, start, "start");
             require_point(*first->core, point);
             if (first->core->n_harmonics() != h.hbm_options.n_harmonics)
-                bad_argument("start", -1, plm::format("start has %lld harmonics, this hbm %lld; set n_harmonics alike",
-                                                      static_cast<long long>(first->core->n_harmonics()),
-                                                      static_cast<long long>(h.hbm_options.n_harmonics)));
+                bad_argument("start", -1,
+                             plm::format("start has %lld harmonics, this hbm %lld; set n_harmonics alike",
+                                         static_cast<long long>(first->core->n_harmonics()),
+                                         static_cast<long long>(h.hbm_options.n_harmonics)));
         }
         BranchPtr found = solver(h).solve(frequency_hz, first ? first->core.get() : nullptr, point);
         const plm_status status = end_status(found->end_reason);
@@ -77,13 +83,15 @@ plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, s
 }
 
 plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, std::int64_t dof, std::int32_t measure,
-                             std::int32_t harmonic, double *frequency_hz, double *amplitude, plm_branch **peak) {
+                             std::int32_t harmonic, double *frequency_hz, double *amplitude,
+                             plm_branch **peak) {
     return call<HbmHandle>("plm_hbm_find_peak", hbm, [&](HbmHandle &h) {
         const std::shared_ptr<BranchHandle> curve = own_branch(h, branch, "branch");
         require_measure(*curve->core, dof, measure, harmonic);
         require_pointer(frequency_hz, "frequency_hz");
         require_pointer(amplitude, "amplitude");
-        plm::Peak found = solver(h).find_peak(*curve->core, dof, static_cast<plm::Measure>(measure), harmonic);
+        plm::Peak found =
+            solver(h).find_peak(*curve->core, dof, static_cast<plm::Measure>(measure), harmonic);
         if (peak) *peak = publish_branch(h, std::move(found.branch));
         *frequency_hz = found.frequency_hz, *amplitude = found.amplitude;
         return PLM_OK;

@@ -16,25 +16,44 @@ namespace {
 
 const char *status_words(plm_status status) {
     switch (status) {
-    case PLM_OK: return "done";
-    case PLM_NOT_CONVERGED: return "the branch ended early because no corrector converged; see its end_reason";
-    case PLM_TRUNCATED: return "the branch ended at the allowed number of points (max_points)";
-    case PLM_CANCELLED: return "cancelled by the progress callback";
-    case PLM_WARNING: return "done, but see the handle's warning";
-    case PLM_ERR_HANDLE: return "the handle is NULL, stale, foreign or of the wrong kind";
-    case PLM_ERR_ARGUMENT: return "an argument is out of its range, NaN, NULL or of the wrong size";
-    case PLM_ERR_KEY: return "no option or result has this name";
-    case PLM_ERR_STATE: return "called too early, too late, or from inside a callback";
-    case PLM_ERR_MEMORY: return "an allocation failed";
-    case PLM_ERR_NOT_BUILT: return "this part was left out of the build";
-    case PLM_ERR_MATRIX: return "a matrix is not symmetric, or has a NaN, Inf, duplicate or out-of-range index";
-    case PLM_ERR_NOT_POSITIVE_DEFINITE: return "a matrix that must be positive definite is not";
-    case PLM_ERR_SINGULAR: return "a linear system has no unique solution";
-    case PLM_ERR_EIGENSOLVER: return "ARPACK or LAPACK did not deliver the eigenpairs";
-    case PLM_ERR_CONVERGENCE: return "an iteration did not converge and there is no partial result";
-    case PLM_ERR_CALLBACK: return "a callback of the host reported a failure";
-    case PLM_ERR_INTERNAL: return "a defect of libplm; please report the error text";
-    default: return nullptr;
+    case PLM_OK:
+        return "done";
+    case PLM_NOT_CONVERGED:
+        return "the branch ended early because no corrector converged; see its end_reason";
+    case PLM_TRUNCATED:
+        return "the branch ended at the allowed number of points (max_points)";
+    case PLM_CANCELLED:
+        return "cancelled by the progress callback";
+    case PLM_WARNING:
+        return "done, but see the handle's warning";
+    case PLM_ERR_HANDLE:
+        return "the handle is NULL, stale, foreign or of the wrong kind";
+    case PLM_ERR_ARGUMENT:
+        return "an argument is out of its range, NaN, NULL or of the wrong size";
+    case PLM_ERR_KEY:
+        return "no option or result has this name";
+    case PLM_ERR_STATE:
+        return "called too early, too late, or from inside a callback";
+    case PLM_ERR_MEMORY:
+        return "an allocation failed";
+    case PLM_ERR_NOT_BUILT:
+        return "this part was left out of the build";
+    case PLM_ERR_MATRIX:
+        return "a matrix is not symmetric, or has a NaN, Inf, duplicate or out-of-range index";
+    case PLM_ERR_NOT_POSITIVE_DEFINITE:
+        return "a matrix that must be positive definite is not";
+    case PLM_ERR_SINGULAR:
+        return "a linear system has no unique solution";
+    case PLM_ERR_EIGENSOLVER:
+        return "ARPACK or LAPACK did not deliver the eigenpairs";
+    case PLM_ERR_CONVERGENCE:
+        return "an iteration did not converge and there is no partial result";
+    case PLM_ERR_CALLBACK:
+        return "a callback of the host reported a failure";
+    case PLM_ERR_INTERNAL:
+        return "a defect of libplm; please report the error text";
+    default:
+        return nullptr;
     }
 }
 
@@ -66,11 +85,12 @@ plm_status plm_version(std::int32_t *major, std::int32_t *minor, std::int32_t *p
 
 plm_status plm_build_info(std::int64_t capacity, char *buffer, std::int64_t *needed) {
     return call_free([&] {
-        return put_text(format("libplm %d.%d.%d; factorization: %s; eigensolver: ARPACK; Fourier transform: %s; "
-                               "components: model, sampler, basis, hbm",
-                               PLM_VERSION_MAJOR, PLM_VERSION_MINOR, PLM_VERSION_PATCH, factor_backend().c_str(),
-                               dft_backend().c_str()),
-                        capacity, buffer, needed);
+        return put_text(
+            format("libplm %d.%d.%d; factorization: %s; eigensolver: ARPACK; Fourier transform: %s; "
+                   "components: model, sampler, basis, hbm",
+                   PLM_VERSION_MAJOR, PLM_VERSION_MINOR, PLM_VERSION_PATCH, factor_backend().c_str(),
+                   dft_backend().c_str()),
+            capacity, buffer, needed);
     });
 }
 
@@ -94,8 +114,8 @@ plm_status plm_key_info(std::int32_t kind, std::int32_t index, std::int32_t *typ
     });
 }
 
-plm_status plm_key_text(std::int32_t kind, std::int32_t index, std::int32_t field, std::int64_t capacity, char *buffer,
-                        std::int64_t *needed) {
+plm_status plm_key_text(std::int32_t kind, std::int32_t index, std::int32_t field, std::int64_t capacity,
+                        char *buffer, std::int64_t *needed) {
     return call_free([&] {
         const Key &key = row(kind, index);
         require_range(field, PLM_KEY_NAME, PLM_KEY_CHOICES, "field");

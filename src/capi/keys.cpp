@@ -22,11 +22,16 @@ const void *default_options(Kind kind) {
     static const BasisOptions basis;
     static const HbmOptions hbm;
     switch (kind) {
-    case Kind::model: return &model;
-    case Kind::sampler: return &sampler;
-    case Kind::basis: return &basis;
-    case Kind::hbm: return &hbm;
-    default: return nullptr;
+    case Kind::model:
+        return &model;
+    case Kind::sampler:
+        return &sampler;
+    case Kind::basis:
+        return &basis;
+    case Kind::hbm:
+        return &hbm;
+    default:
+        return nullptr;
     }
 }
 
@@ -46,13 +51,16 @@ std::size_t edit_distance(const std::string &a, const std::string &b) {
 }
 
 std::string nearest_name(const std::vector<Key> &keys, const std::string &name) {
-    const auto nearer = [&](const Key &a, const Key &b) { return edit_distance(a.name, name) < edit_distance(b.name, name); };
+    const auto nearer = [&](const Key &a, const Key &b) {
+        return edit_distance(a.name, name) < edit_distance(b.name, name);
+    };
     return std::min_element(keys.begin(), keys.end(), nearer)->name;
 }
 
 [[noreturn]] void wrong_type(const Key &key, const char *verb) {
-    bad_argument("key", -1, format("\"%s\" is of type %s; use the %s_%s function", key.name, type_name(key.type), verb,
-                                   type_name(key.type)));
+    bad_argument("key", -1,
+                 format("\"%s\" is of type %s; use the %s_%s function", key.name, type_name(key.type), verb,
+                        type_name(key.type)));
 }
 
 const Key &find_option(Object &object, const char *name) {
@@ -64,8 +72,9 @@ const Key &find_option(Object &object, const char *name) {
 
 void require_bounds(const Key &key, double value) {
     if (!(value >= key.minimum && value <= key.maximum))
-        bad_argument("value", -1, format("\"%s\" is %g; it must lie in %g..%g (%s)", key.name, value, key.minimum,
-                                         key.maximum, key.description));
+        bad_argument("value", -1,
+                     format("\"%s\" is %g; it must lie in %g..%g (%s)", key.name, value, key.minimum,
+                            key.maximum, key.description));
 }
 
 Value read(Object &object, const Key &key) {
@@ -74,7 +83,8 @@ Value read(Object &object, const Key &key) {
         key.read_result(object, v);
     } else {
         key.read_option(object.options(), v);
-        if (key.type == PLM_TYPE_STRING) v.text = split_words(key.choices)[static_cast<std::size_t>(v.integer)];
+        if (key.type == PLM_TYPE_STRING)
+            v.text = split_words(key.choices)[static_cast<std::size_t>(v.integer)];
     }
     return v;
 }
@@ -93,12 +103,18 @@ std::vector<std::string> split_words(const char *list) {
 
 const std::vector<Key> &keys_of(Kind kind) {
     switch (kind) {
-    case Kind::model: return model_keys();
-    case Kind::sampler: return sampler_keys();
-    case Kind::basis: return basis_keys();
-    case Kind::hbm: return hbm_keys();
-    case Kind::branch: return branch_keys();
-    default: throw Error(PLM_ERR_INTERNAL, "this kind of handle has no keys");
+    case Kind::model:
+        return model_keys();
+    case Kind::sampler:
+        return sampler_keys();
+    case Kind::basis:
+        return basis_keys();
+    case Kind::hbm:
+        return hbm_keys();
+    case Kind::branch:
+        return branch_keys();
+    default:
+        throw Error(PLM_ERR_INTERNAL, "this kind of handle has no keys");
     }
 }
 
@@ -149,7 +165,8 @@ plm_status set_string(Object &object, const char *name, const char *value) {
     const std::vector<std::string> words = split_words(key.choices);
     const auto word = std::find(words.begin(), words.end(), value);
     if (word == words.end())
-        bad_argument("value", -1, format("\"%s\" cannot be \"%.80s\"; choose one of %s", key.name, value, key.choices));
+        bad_argument("value", -1,
+                     format("\"%s\" cannot be \"%.80s\"; choose one of %s", key.name, value, key.choices));
     Value v;
     v.integer = word - words.begin();
     key.write_option(object.options(), v);
@@ -173,13 +190,15 @@ plm_status get_double(Object &object, const char *name, double *value) {
     return PLM_OK;
 }
 
-plm_status get_string(Object &object, const char *name, std::int64_t capacity, char *buffer, std::int64_t *needed) {
+plm_status get_string(Object &object, const char *name, std::int64_t capacity, char *buffer,
+                      std::int64_t *needed) {
     const Key &key = find_key(object.kind, name);
     if (key.type != PLM_TYPE_STRING) wrong_type(key, "get");
     return put_text(read(object, key).text, capacity, buffer, needed);
 }
 
-plm_status get_array(Object &object, const char *name, std::int64_t capacity, double *values, std::int64_t *count) {
+plm_status get_array(Object &object, const char *name, std::int64_t capacity, double *values,
+                     std::int64_t *count) {
     const Key &key = find_key(object.kind, name);
     if (key.type != PLM_TYPE_ARRAY) wrong_type(key, "get");
     return put_array(read(object, key).array, capacity, values, count);

@@ -1,5 +1,5 @@
-// The one table of options and results: what the getters and setters of every handle, the introspection functions, the
-// key reference, the Fortran constants and the Python attributes are made from.
+// The one table of options and results: what the getters and setters of every handle, the introspection
+// functions, the key reference, the Fortran constants and the Python attributes are made from.
 #pragma once
 #include "capi/arguments.hpp"
 #include "capi/registry.hpp"
@@ -54,8 +54,10 @@ plm_status set_double(Object &object, const char *key, double value);
 plm_status set_string(Object &object, const char *key, const char *value);
 plm_status get_int(Object &object, const char *key, std::int64_t *value);
 plm_status get_double(Object &object, const char *key, double *value);
-plm_status get_string(Object &object, const char *key, std::int64_t capacity, char *buffer, std::int64_t *needed);
-plm_status get_array(Object &object, const char *key, std::int64_t capacity, double *values, std::int64_t *count);
+plm_status get_string(Object &object, const char *key, std::int64_t capacity, char *buffer,
+                      std::int64_t *needed);
+plm_status get_array(Object &object, const char *key, std::int64_t capacity, double *values,
+                     std::int64_t *count);
 plm_status get_int_array(Object &object, const char *key, std::int64_t capacity, std::int64_t *values,
                          std::int64_t *count);
 
@@ -68,7 +70,8 @@ template <class Struct_, class Type_> struct MemberOf<Type_ Struct_::*> {
 };
 
 /// Integer or bool member of an options struct.
-template <auto member> Key int_option(const char *name, double minimum, double maximum, const char *description) {
+template <auto member>
+Key int_option(const char *name, double minimum, double maximum, const char *description) {
     using M = MemberOf<decltype(member)>;
     Key key{name, PLM_TYPE_INT, true, description, minimum, maximum};
     key.read_option = [](const void *o, Value &v) {
@@ -80,16 +83,22 @@ template <auto member> Key int_option(const char *name, double minimum, double m
     return key;
 }
 
-template <auto member> Key real_option(const char *name, double minimum, double maximum, const char *description) {
+template <auto member>
+Key real_option(const char *name, double minimum, double maximum, const char *description) {
     using M = MemberOf<decltype(member)>;
     Key key{name, PLM_TYPE_DOUBLE, true, description, minimum, maximum};
-    key.read_option = [](const void *o, Value &v) { v.real = static_cast<const typename M::Struct *>(o)->*member; };
-    key.write_option = [](void *o, const Value &v) { static_cast<typename M::Struct *>(o)->*member = v.real; };
+    key.read_option = [](const void *o, Value &v) {
+        v.real = static_cast<const typename M::Struct *>(o)->*member;
+    };
+    key.write_option = [](void *o, const Value &v) {
+        static_cast<typename M::Struct *>(o)->*member = v.real;
+    };
     return key;
 }
 
 /// Enum (or bool) member; the choices stand for the values first, first + 1, ...
-template <auto member, int first = 0> Key choice_option(const char *name, const char *choices, const char *description) {
+template <auto member, int first = 0>
+Key choice_option(const char *name, const char *choices, const char *description) {
     using M = MemberOf<decltype(member)>;
     Key key{name, PLM_TYPE_STRING, true, description, 0, 0, choices};
     key.read_option = [](const void *o, Value &v) {
@@ -101,11 +110,21 @@ template <auto member, int first = 0> Key choice_option(const char *name, const 
     return key;
 }
 
-inline std::int32_t put(Value &v, std::int64_t x) { return v.integer = x, PLM_TYPE_INT; }
-inline std::int32_t put(Value &v, double x) { return v.real = x, PLM_TYPE_DOUBLE; }
-inline std::int32_t put(Value &v, std::string x) { return v.text = std::move(x), PLM_TYPE_STRING; }
-inline std::int32_t put(Value &v, vector<double> x) { return v.array = std::move(x), PLM_TYPE_ARRAY; }
-inline std::int32_t put(Value &v, vector<std::int64_t> x) { return v.int_array = std::move(x), PLM_TYPE_INT_ARRAY; }
+inline std::int32_t put(Value &v, std::int64_t x) {
+    return v.integer = x, PLM_TYPE_INT;
+}
+inline std::int32_t put(Value &v, double x) {
+    return v.real = x, PLM_TYPE_DOUBLE;
+}
+inline std::int32_t put(Value &v, std::string x) {
+    return v.text = std::move(x), PLM_TYPE_STRING;
+}
+inline std::int32_t put(Value &v, vector<double> x) {
+    return v.array = std::move(x), PLM_TYPE_ARRAY;
+}
+inline std::int32_t put(Value &v, vector<std::int64_t> x) {
+    return v.int_array = std::move(x), PLM_TYPE_INT_ARRAY;
+}
 
 /// get(const H &) for a handle class H; its return type decides the type of the key.
 template <class H, class Get> Key result(const char *name, const char *description, Get get) {

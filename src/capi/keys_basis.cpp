@@ -9,8 +9,12 @@ using H = BasisHandle;
 using Ints = vector<std::int64_t>;
 using Reals = vector<double>;
 
-const Basis &core(const H &h) { return *built(h); }
-const BasisReport &report(const H &h) { return core(h).report(); }
+const Basis &core(const H &h) {
+    return *built(h);
+}
+const BasisReport &report(const H &h) {
+    return core(h).report();
+}
 
 Reals frequencies_hz(const H &h) {
     Reals f = core(h).reduced()->lambda;
@@ -25,7 +29,8 @@ template <class Out, class Get> Out per_sample(const H &h, Get get) {
 }
 template <class Out, class Member> Out per_mode(const H &h, Member member) {
     Out out;
-    for (const SampleSelection &s : report(h).samples) out.insert(out.end(), (s.*member).begin(), (s.*member).end());
+    for (const SampleSelection &s : report(h).samples)
+        out.insert(out.end(), (s.*member).begin(), (s.*member).end());
     return out;
 }
 
@@ -34,12 +39,14 @@ void add_options(std::vector<Key> &keys) {
     keys.insert(
         keys.end(),
         {
-            choice_option<&O::kind>("kind", "plm,craig_bampton,full",
-                                    "plm: piecewise-linear modes; craig_bampton: contact DOFs retained; full: the "
-                                    "unreduced structure"),
-            choice_option<&O::selection>("selection", "bands,below",
-                                         "modes kept of each sample: inside the bands [h f_min, h f_max] (paper), or "
-                                         "all below the highest"),
+            choice_option<&O::kind>(
+                "kind", "plm,craig_bampton,full",
+                "plm: piecewise-linear modes; craig_bampton: contact DOFs retained; full: the "
+                "unreduced structure"),
+            choice_option<&O::selection>(
+                "selection", "bands,below",
+                "modes kept of each sample: inside the bands [h f_min, h f_max] (paper), or "
+                "all below the highest"),
             int_option<&O::n_harmonics>("n_harmonics", 1, 1000, "harmonics h of the bands"),
             real_option<&O::frequency_min_hz>("frequency_min_hz", 0, huge,
                                               "lower end of the window (Hz); 0: the sampler's"),
@@ -49,8 +56,9 @@ void add_options(std::vector<Key> &keys) {
                                           "selection below: up to this multiple of n_harmonics x window end"),
             real_option<&O::svd_tolerance>("svd_tolerance", 0, 0.5,
                                            "singular values below this share of the largest are dropped"),
-            int_option<&O::static_augmentation>("static_augmentation", 0, 1,
-                                                "1: the static response to the pre-load joins the basis of h = 0"),
+            int_option<&O::static_augmentation>(
+                "static_augmentation", 0, 1,
+                "1: the static response to the pre-load joins the basis of h = 0"),
             int_option<&O::n_fixed_modes>("n_fixed_modes", 0, 1e9,
                                           "Craig-Bampton: fixed-interface modes; 0: by frequency"),
         });
@@ -61,19 +69,24 @@ void add_results(std::vector<Key> &keys) {
         keys.end(),
         {
             result<H>("size", "columns r of P", [](const H &h) { return core(h).reduced()->size(); }),
-            result<H>("static_size", "columns of P_0", [](const H &h) { return core(h).reduced()->static_size(); }),
-            result<H>("n_collected", "columns before conditioning", [](const H &h) { return report(h).n_collected; }),
+            result<H>("static_size", "columns of P_0",
+                      [](const H &h) { return core(h).reduced()->static_size(); }),
+            result<H>("n_collected", "columns before conditioning",
+                      [](const H &h) { return report(h).n_collected; }),
             result<H>("singular_values", "singular values of the collected modes, the largest is 1",
                       [](const H &h) { return report(h).singular_values; }),
             result<H>("lambda", "eigenvalues of the reduced stiffness (rad^2/time^2)",
                       [](const H &h) { return core(h).reduced()->lambda; }),
             result<H>("frequencies_hz", "their frequencies (Hz)", frequencies_hz),
-            result<H>("preload_residual", "static response against P, L2 norm (paper, eq. (12)); 0 without pre-load",
+            result<H>("preload_residual",
+                      "static response against P, L2 norm (paper, eq. (12)); 0 without pre-load",
                       [](const H &h) { return report(h).preload_residual; }),
             result<H>("preload_residual_mass", "the same in the norm of M",
                       [](const H &h) { return report(h).preload_residual_mass; }),
-            result<H>("warning", "what should be looked at; empty: nothing", [](const H &h) { return report(h).warning; }),
-            result<H>("setup_seconds", "time of the build (s)", [](const H &h) { return report(h).setup_seconds; }),
+            result<H>("warning", "what should be looked at; empty: nothing",
+                      [](const H &h) { return report(h).warning; }),
+            result<H>("setup_seconds", "time of the build (s)",
+                      [](const H &h) { return report(h).setup_seconds; }),
             result<H>("highest_frequency_hz", "upper end of the selection rule (Hz)",
                       [](const H &h) { return report(h).highest_frequency_hz; }),
             result<H>("window_low_hz", "lower end of the window used (Hz)",
@@ -89,14 +102,15 @@ void add_results(std::vector<Key> &keys) {
                       [](const H &h) { return per_mode<Reals>(h, &SampleSelection::frequency_hz); }),
             result<H>("sample_kept", "1 for each of them that was selected",
                       [](const H &h) { return per_mode<Ints>(h, &SampleSelection::kept); }),
-            result<H>("sample_matched", "of each sample the mode that matches the dominant one, from 0; -1: none",
+            result<H>("sample_matched",
+                      "of each sample the mode that matches the dominant one, from 0; -1: none",
                       [](const H &h) { return per_sample<Ints>(h, [](auto &s) { return s.matched; }); }),
             result<H>("sample_matched_mac", "its MAC with the dominant mode",
                       [](const H &h) { return per_sample<Reals>(h, [](auto &s) { return s.matched_mac; }); }),
             result<H>("sample_matched_kept", "1 when it was selected",
                       [](const H &h) {
-                          return per_sample<Ints>(h,
-                                                  [](auto &s) { return static_cast<std::int64_t>(s.matched_kept); });
+                          return per_sample<Ints>(
+                              h, [](auto &s) { return static_cast<std::int64_t>(s.matched_kept); });
                       }),
             result<H>("space_size", "dimension of the space the modes were computed in",
                       [](const H &h) { return core(h).space()->size(); }),

@@ -8,7 +8,8 @@ using H = ModelHandle;
 
 const RestState &rest(const H &h) {
     if (!h.rest)
-        throw Error(PLM_ERR_STATE, "the rest state is not known yet; call plm_model_solve_rest first").argument("key");
+        throw Error(PLM_ERR_STATE, "the rest state is not known yet; call plm_model_solve_rest first")
+            .argument("key");
     return *h.rest;
 }
 
@@ -19,7 +20,9 @@ vector<double> rest_displacement(const H &h) {
     return all;
 }
 
-vector<std::int64_t> as_ints(const vector<char> &flags) { return vector<std::int64_t>(flags.begin(), flags.end()); }
+vector<std::int64_t> as_ints(const vector<char> &flags) {
+    return vector<std::int64_t>(flags.begin(), flags.end());
+}
 
 std::int64_t n_closed(const RestState &r) {
     std::int64_t n = 0;
@@ -32,18 +35,23 @@ std::int64_t n_closed(const RestState &r) {
 const std::vector<Key> &model_keys() {
     using O = SpaceOptions;
     static const std::vector<Key> keys = {
-        real_option<&O::tolerance>("space_tolerance", 1e-14, 1,
-                                   "relative error of the contact receptances at the highest frequency asked for"),
-        real_option<&O::cutoff_factor>("cutoff_factor", 1, 100,
-                                       "exact open modes are kept up to this multiple of the highest frequency"),
+        real_option<&O::tolerance>(
+            "space_tolerance", 1e-14, 1,
+            "relative error of the contact receptances at the highest frequency asked for"),
+        real_option<&O::cutoff_factor>(
+            "cutoff_factor", 1, 100,
+            "exact open modes are kept up to this multiple of the highest frequency"),
         int_option<&O::max_blocks>("max_blocks", 1, 20, "most blocks of contact attachment vectors"),
-        int_option<&O::verify_counts>("verify_counts", 0, 1, "1: the number of modes is verified by a Sturm count"),
+        int_option<&O::verify_counts>("verify_counts", 0, 1,
+                                      "1: the number of modes is verified by a Sturm count"),
 
-        result<H>("n_dof", "DOFs of the model", [](const H &h) { return h.core ? h.core->n_dof() : h.input.n_dof; }),
+        result<H>("n_dof", "DOFs of the model",
+                  [](const H &h) { return h.core ? h.core->n_dof() : h.input.n_dof; }),
         result<H>("n_free", "DOFs that are not fixed", [](const H &h) { return built(h)->n_free(); }),
         result<H>("n_pairs", "contact pairs",
                   [](const H &h) {
-                      return h.core ? h.core->n_pairs() : static_cast<std::int64_t>(h.input.contact_stiffness.size());
+                      return h.core ? h.core->n_pairs()
+                                    : static_cast<std::int64_t>(h.input.contact_stiffness.size());
                   }),
         result<H>("n_rigid_modes", "rigid-body modes of the open structure",
                   [](const H &h) { return built(h)->rigid_modes().cols(); }),
@@ -53,12 +61,15 @@ const std::vector<Key> &model_keys() {
                   [](const H &h) { return built(h)->local_stiffness(); }),
         result<H>("contact_stiffness", "k_n of every pair (force/length), chosen ones included",
                   [](const H &h) { return built(h)->contact_stiffness(); }),
-        result<H>("initial_gap", "initial gap of every pair (length)", [](const H &h) { return built(h)->initial_gap(); }),
+        result<H>("initial_gap", "initial gap of every pair (length)",
+                  [](const H &h) { return built(h)->initial_gap(); }),
 
-        result<H>("rest_displacement", "displacement at rest under the pre-load, n_dof (length)", rest_displacement),
+        result<H>("rest_displacement", "displacement at rest under the pre-load, n_dof (length)",
+                  rest_displacement),
         result<H>("rest_penetration", "penetration of every pair at rest (length)",
                   [](const H &h) { return rest(h).penetration; }),
-        result<H>("rest_force", "normal force of every pair at rest (force)", [](const H &h) { return rest(h).force; }),
+        result<H>("rest_force", "normal force of every pair at rest (force)",
+                  [](const H &h) { return rest(h).force; }),
         result<H>("rest_closed", "1 for every pair closed at rest, else 0",
                   [](const H &h) { return as_ints(rest(h).closed); }),
         result<H>("rest_n_closed", "pairs closed at rest", [](const H &h) { return n_closed(rest(h)); }),

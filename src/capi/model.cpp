@@ -8,7 +8,8 @@
 namespace plm::capi {
 
 const std::shared_ptr<const Model> &built(const ModelHandle &h) {
-    if (!h.core) throw Error(PLM_ERR_STATE, "the model is not built; call plm_model_build first").argument("model");
+    if (!h.core)
+        throw Error(PLM_ERR_STATE, "the model is not built; call plm_model_build first").argument("model");
     return h.core;
 }
 
@@ -23,15 +24,17 @@ namespace {
 std::shared_ptr<const Model> build(ModelHandle &m) {
     const std::shared_ptr<SolverBinding> binding = m.owner->bind_solver();
     const HostSolver host = binding ? binding->for_core() : HostSolver();
-    auto model = std::make_unique<const Model>(m.input, m.space_options, binding ? &host : nullptr, m.owner->watch());
+    auto model =
+        std::make_unique<const Model>(m.input, m.space_options, binding ? &host : nullptr, m.owner->watch());
     // the host's solver lives as long as the model whose factors it owns
     return std::shared_ptr<const Model>(model.release(), [binding](const Model *p) { delete p; });
 }
 
 vector<double> copied_load(const char *name, std::int64_t n, const double *force, std::int64_t n_dof) {
     if (n != n_dof)
-        bad_argument("n", -1, format("n is %lld where the model has %lld DOFs", static_cast<long long>(n),
-                                     static_cast<long long>(n_dof)));
+        bad_argument("n", -1,
+                     format("n is %lld where the model has %lld DOFs", static_cast<long long>(n),
+                            static_cast<long long>(n_dof)));
     require_finite_array(force, n, name);
     return vector<double>(force, force + n);
 }
@@ -39,9 +42,12 @@ vector<double> copied_load(const char *name, std::int64_t n, const double *force
 vector<char> contact_set(ModelHandle &m, std::int32_t system, const std::int32_t *closed) {
     const std::size_t z = static_cast<std::size_t>(m.core->n_pairs());
     switch (system) {
-    case PLM_SYSTEM_OPEN: return vector<char>(z, 0);
-    case PLM_SYSTEM_SLIDING: return vector<char>(z, 1);
-    case PLM_SYSTEM_REST: return solved_rest(m).closed;
+    case PLM_SYSTEM_OPEN:
+        return vector<char>(z, 0);
+    case PLM_SYSTEM_SLIDING:
+        return vector<char>(z, 1);
+    case PLM_SYSTEM_REST:
+        return solved_rest(m).closed;
     default:
         if (z > 0) require_pointer(closed, "closed");
         vector<char> set(z);
@@ -50,14 +56,16 @@ vector<char> contact_set(ModelHandle &m, std::int32_t system, const std::int32_t
     }
 }
 
-void put_modes(const ModelHandle &m, const LowestModes &found, std::int64_t n, double *frequency_hz, double *shape) {
+void put_modes(const ModelHandle &m, const LowestModes &found, std::int64_t n, double *frequency_hz,
+               double *shape) {
     const Model &model = *m.core;
     if (shape) {
         const Matrix free = product('N', 'N', found.space->vectors, found.modes.vectors.columns(0, n));
         for (std::int64_t j = 0; j < n; ++j) model.expand(free.col(j), shape + j * model.n_dof());
     }
     for (std::int64_t j = 0; j < n; ++j)
-        frequency_hz[j] = std::sqrt(std::max(0.0, found.modes.values[static_cast<std::size_t>(j)])) / (2 * M_PI);
+        frequency_hz[j] =
+            std::sqrt(std::max(0.0, found.modes.values[static_cast<std::size_t>(j)])) / (2 * M_PI);
 }
 
 } // namespace
@@ -74,7 +82,9 @@ plm_status plm_model_create(plm_context *ctx, std::int64_t n_dof, plm_model **mo
     });
 }
 
-plm_status plm_model_destroy(plm_model **model) { return destroy<ModelHandle>(model); }
+plm_status plm_model_destroy(plm_model **model) {
+    return destroy<ModelHandle>(model);
+}
 
 plm_status plm_model_set_preload(plm_model *model, std::int64_t n, const double *force) {
     return call<ModelHandle>("plm_model_set_preload", model, [&](ModelHandle &m) {
@@ -84,17 +94,20 @@ plm_status plm_model_set_preload(plm_model *model, std::int64_t n, const double 
     });
 }
 
-plm_status plm_model_set_excitation(plm_model *model, std::int32_t harmonic, std::int64_t n, const double *real,
-                                    const double *imag) {
+plm_status plm_model_set_excitation(plm_model *model, std::int32_t harmonic, std::int64_t n,
+                                    const double *real, const double *imag) {
     return call<ModelHandle>("plm_model_set_excitation", model, [&](ModelHandle &m) {
         require_open(m);
         require_range(harmonic, 0, 100000, "harmonic");
         if (!real) {
-            if (imag) bad_argument("real", -1, "real is NULL but imag is not; pass both, or none to remove the harmonic");
+            if (imag)
+                bad_argument("real", -1,
+                             "real is NULL but imag is not; pass both, or none to remove the harmonic");
             m.input.excitation.erase(harmonic);
             return PLM_OK;
         }
-        if (harmonic == 0 && imag) bad_argument("imag", -1, "imag must be NULL for harmonic 0, which is static");
+        if (harmonic == 0 && imag)
+            bad_argument("imag", -1, "imag must be NULL for harmonic 0, which is static");
         plm::HarmonicLoad load;
         load.real = copied_load("real", n, real, m.input.n_dof);
         if (imag) load.imag = copied_load("imag", n, imag, m.input.n_dof);
@@ -108,7 +121,8 @@ plm_status plm_model_build(plm_model *model) {
         require_open(m);
         m.core = build(m);
         const std::int64_t n_dof = m.input.n_dof;
-        m.input = plm::ModelInput(); // the matrices live in the core now; borrowed arrays are the caller's again
+        m.input =
+            plm::ModelInput(); // the matrices live in the core now; borrowed arrays are the caller's again
         m.input.n_dof = n_dof;
         return PLM_OK;
     });
@@ -121,8 +135,8 @@ plm_status plm_model_solve_rest(plm_model *model) {
     });
 }
 
-plm_status plm_model_get_modes(plm_model *model, std::int32_t system, const std::int32_t *closed, std::int64_t n,
-                               double *frequency_hz, double *shape) {
+plm_status plm_model_get_modes(plm_model *model, std::int32_t system, const std::int32_t *closed,
+                               std::int64_t n, double *frequency_hz, double *shape) {
     return call<ModelHandle>("plm_model_get_modes", model, [&](ModelHandle &m) {
         built(m);
         require_range(system, PLM_SYSTEM_OPEN, PLM_SYSTEM_GIVEN, "system");
@@ -147,7 +161,8 @@ plm_status plm_model_audit(plm_model *model, std::int64_t *count) {
 plm_status plm_model_get_finding(plm_model *model, std::int64_t index, std::int32_t *severity, double *value,
                                  std::int64_t capacity, char *buffer, std::int64_t *needed) {
     return call<ModelHandle>("plm_model_get_finding", model, [&](ModelHandle &m) {
-        if (m.findings.empty()) throw plm::Error(PLM_ERR_STATE, "there are no findings yet; call plm_model_audit first");
+        if (m.findings.empty())
+            throw plm::Error(PLM_ERR_STATE, "there are no findings yet; call plm_model_audit first");
         require_range(index, 0, static_cast<std::int64_t>(m.findings.size()) - 1, "index");
         require_pointer(severity, "severity");
         require_pointer(value, "value");

@@ -16,9 +16,12 @@ struct NewPairs {
 
 // Reserves generously, so that adding pairs one by one stays linear.
 template <class T> void reserve_for(vector<T> &to, const vector<T> &from) {
-    if (to.capacity() - to.size() < from.size()) to.reserve(std::max(to.size() + from.size(), 2 * to.capacity()));
+    if (to.capacity() - to.size() < from.size())
+        to.reserve(std::max(to.size() + from.size(), 2 * to.capacity()));
 }
-template <class T> void append(vector<T> &to, const vector<T> &from) { to.insert(to.end(), from.begin(), from.end()); }
+template <class T> void append(vector<T> &to, const vector<T> &from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
 
 // All or nothing: after the reservations nothing can fail.
 void add_to(ModelInput &input, NewPairs &pairs) {
@@ -40,8 +43,9 @@ void take_stiffness_and_gap(NewPairs &pairs, std::int64_t n, const double *stiff
     if (n > 0) require_pointer(stiffness, "stiffness");
     for (std::int64_t i = 0; i < n; ++i)
         if (stiffness[i] != PLM_AUTO_STIFFNESS && !(stiffness[i] > 0 && std::isfinite(stiffness[i])))
-            bad_argument("stiffness", i, format("stiffness[%lld] is %g; it must be > 0, or PLM_AUTO_STIFFNESS", Int(i),
-                                                stiffness[i]));
+            bad_argument(
+                "stiffness", i,
+                format("stiffness[%lld] is %g; it must be > 0, or PLM_AUTO_STIFFNESS", Int(i), stiffness[i]));
     if (gap) require_finite_array(gap, n, "gap");
     pairs.stiffness.assign(stiffness, stiffness + n);
     pairs.gap.assign(static_cast<std::size_t>(n), 0.0);
@@ -53,16 +57,17 @@ void check_normals(const double *normal, std::int64_t n) {
     for (std::int64_t i = 0; i < n; ++i) {
         const double length = std::hypot(std::hypot(normal[3 * i], normal[3 * i + 1]), normal[3 * i + 2]);
         if (std::abs(length - 1) > 1e-6)
-            bad_argument("normal", i, format("normal[%lld] is not of unit length (|n| = %g); normalise the three "
-                                             "components of every pair",
-                                             Int(i), length));
+            bad_argument("normal", i,
+                         format("normal[%lld] is not of unit length (|n| = %g); normalise the three "
+                                "components of every pair",
+                                Int(i), length));
     }
 }
 
 // One side of the pairs: sign * normal at the x, y, z DOFs of a node, absent DOFs left out.
 template <class Index>
-void add_side(NewPairs &pairs, const char *name, const Index *dof, const double *normal, double sign, std::int64_t n,
-              std::int64_t base, std::int64_t n_dof) {
+void add_side(NewPairs &pairs, const char *name, const Index *dof, const double *normal, double sign,
+              std::int64_t n, std::int64_t base, std::int64_t n_dof) {
     if (n > 0) require_pointer(dof, name);
     for (std::int64_t i = 0; i < n; ++i) {
         int present = 0;
@@ -76,9 +81,10 @@ void add_side(NewPairs &pairs, const char *name, const Index *dof, const double 
             pairs.coefficient.push_back(sign * normal[k]);
         }
         if (present == 0)
-            bad_argument(name, 3 * i, format("the node of pair %lld has no DOF at all; use a ground contact for a "
-                                             "node that cannot move",
-                                             Int(i)));
+            bad_argument(name, 3 * i,
+                         format("the node of pair %lld has no DOF at all; use a ground contact for a "
+                                "node that cannot move",
+                                Int(i)));
     }
 }
 
@@ -91,7 +97,8 @@ template <class Index> struct NodePairs {
     const double *normal, *stiffness, *gap;
 };
 
-template <class Index> plm_status add_nodes(const char *function, plm_model *model, const NodePairs<Index> &x) {
+template <class Index>
+plm_status add_nodes(const char *function, plm_model *model, const NodePairs<Index> &x) {
     return call<ModelHandle>(function, model, [&](ModelHandle &m) {
         require_open(m);
         require_index_base(x.index_base);
@@ -109,12 +116,14 @@ template <class Index> plm_status add_nodes(const char *function, plm_model *mod
 template <class Index> void check_row_pointers(const Index *row_ptr, std::int64_t n, std::int64_t base) {
     require_pointer(row_ptr, "row_ptr");
     if (row_ptr[0] != base)
-        bad_argument("row_ptr", 0, format("row_ptr[0] = %lld must be the index base %lld", Int(row_ptr[0]), Int(base)));
+        bad_argument("row_ptr", 0,
+                     format("row_ptr[0] = %lld must be the index base %lld", Int(row_ptr[0]), Int(base)));
     for (std::int64_t i = 0; i < n; ++i)
         if (row_ptr[i + 1] <= row_ptr[i])
-            bad_argument("row_ptr", i + 1, format("row_ptr[%lld] = %lld: every gap row needs at least one entry, so "
-                                                  "the pointers must increase",
-                                                  Int(i + 1), Int(row_ptr[i + 1])));
+            bad_argument("row_ptr", i + 1,
+                         format("row_ptr[%lld] = %lld: every gap row needs at least one entry, so "
+                                "the pointers must increase",
+                                Int(i + 1), Int(row_ptr[i + 1])));
 }
 
 template <class Index>
@@ -129,22 +138,24 @@ void take_rows(NewPairs &pairs, std::int64_t n, std::int64_t base, std::int64_t 
         for (std::int64_t p = begin; p < end; ++p) {
             require_dof(dof[p], base, n_dof, "dof", p);
             if (std::find(dof + begin, dof + p, dof[p]) != dof + p)
-                bad_argument("dof", p, format("dof[%lld] = %lld stands twice in gap row %lld; sum its coefficients",
-                                              Int(p), Int(dof[p]), Int(i)));
+                bad_argument("dof", p,
+                             format("dof[%lld] = %lld stands twice in gap row %lld; sum its coefficients",
+                                    Int(p), Int(dof[p]), Int(i)));
             pairs.pair.push_back(i);
             pairs.dof.push_back(dof[p] - base);
             pairs.coefficient.push_back(coefficient[p]);
             largest = std::max(largest, std::abs(coefficient[p]));
         }
         if (!(largest > 0))
-            bad_argument("coefficient", begin, format("gap row %lld is zero; its penetration can never change", Int(i)));
+            bad_argument("coefficient", begin,
+                         format("gap row %lld is zero; its penetration can never change", Int(i)));
     }
 }
 
 template <class Index>
 plm_status add_rows(const char *function, plm_model *model, std::int32_t index_base, std::int64_t n,
-                    const Index *row_ptr, const Index *dof, const double *coefficient, const double *stiffness,
-                    const double *gap) {
+                    const Index *row_ptr, const Index *dof, const double *coefficient,
+                    const double *stiffness, const double *gap) {
     return call<ModelHandle>(function, model, [&](ModelHandle &m) {
         require_open(m);
         require_index_base(index_base);
@@ -164,41 +175,43 @@ plm_status add_rows(const char *function, plm_model *model, std::int32_t index_b
 using namespace plm::capi;
 
 plm_status plm_model_add_node_pairs_i32(plm_model *model, std::int32_t index_base, std::int64_t n,
-                                        const std::int32_t *dof_a, const std::int32_t *dof_b, const double *normal,
-                                        const double *stiffness, const double *gap) {
+                                        const std::int32_t *dof_a, const std::int32_t *dof_b,
+                                        const double *normal, const double *stiffness, const double *gap) {
     return add_nodes<std::int32_t>("plm_model_add_node_pairs_i32", model,
                                    {index_base, n, dof_a, dof_b, "dof_a", false, normal, stiffness, gap});
 }
 
 plm_status plm_model_add_node_pairs_i64(plm_model *model, std::int32_t index_base, std::int64_t n,
-                                        const std::int64_t *dof_a, const std::int64_t *dof_b, const double *normal,
-                                        const double *stiffness, const double *gap) {
+                                        const std::int64_t *dof_a, const std::int64_t *dof_b,
+                                        const double *normal, const double *stiffness, const double *gap) {
     return add_nodes<std::int64_t>("plm_model_add_node_pairs_i64", model,
                                    {index_base, n, dof_a, dof_b, "dof_a", false, normal, stiffness, gap});
 }
 
 plm_status plm_model_add_ground_contacts_i32(plm_model *model, std::int32_t index_base, std::int64_t n,
-                                             const std::int32_t *dof, const double *normal, const double *stiffness,
-                                             const double *gap) {
+                                             const std::int32_t *dof, const double *normal,
+                                             const double *stiffness, const double *gap) {
     return add_nodes<std::int32_t>("plm_model_add_ground_contacts_i32", model,
                                    {index_base, n, dof, nullptr, "dof", true, normal, stiffness, gap});
 }
 
 plm_status plm_model_add_ground_contacts_i64(plm_model *model, std::int32_t index_base, std::int64_t n,
-                                             const std::int64_t *dof, const double *normal, const double *stiffness,
-                                             const double *gap) {
+                                             const std::int64_t *dof, const double *normal,
+                                             const double *stiffness, const double *gap) {
     return add_nodes<std::int64_t>("plm_model_add_ground_contacts_i64", model,
                                    {index_base, n, dof, nullptr, "dof", true, normal, stiffness, gap});
 }
 
 plm_status plm_model_add_gap_rows_i32(plm_model *model, std::int32_t index_base, std::int64_t n,
-                                      const std::int32_t *row_ptr, const std::int32_t *dof, const double *coefficient,
-                                      const double *stiffness, const double *gap) {
-    return add_rows("plm_model_add_gap_rows_i32", model, index_base, n, row_ptr, dof, coefficient, stiffness, gap);
+                                      const std::int32_t *row_ptr, const std::int32_t *dof,
+                                      const double *coefficient, const double *stiffness, const double *gap) {
+    return add_rows("plm_model_add_gap_rows_i32", model, index_base, n, row_ptr, dof, coefficient, stiffness,
+                    gap);
 }
 
 plm_status plm_model_add_gap_rows_i64(plm_model *model, std::int32_t index_base, std::int64_t n,
-                                      const std::int64_t *row_ptr, const std::int64_t *dof, const double *coefficient,
-                                      const double *stiffness, const double *gap) {
-    return add_rows("plm_model_add_gap_rows_i64", model, index_base, n, row_ptr, dof, coefficient, stiffness, gap);
+                                      const std::int64_t *row_ptr, const std::int64_t *dof,
+                                      const double *coefficient, const double *stiffness, const double *gap) {
+    return add_rows("plm_model_add_gap_rows_i64", model, index_base, n, row_ptr, dof, coefficient, stiffness,
+                    gap);
 }

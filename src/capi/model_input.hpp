@@ -9,11 +9,13 @@ namespace plm::capi {
 void require_open(const ModelHandle &m);
 
 /// A DOF number in the caller's base.
-inline void require_dof(std::int64_t dof, std::int64_t base, std::int64_t n_dof, const char *name, std::int64_t index) {
+inline void require_dof(std::int64_t dof, std::int64_t base, std::int64_t n_dof, const char *name,
+                        std::int64_t index) {
     if (dof < base || dof - base >= n_dof)
-        bad_argument(name, index, format("%s[%lld] = %lld is no DOF number; it must lie in %lld..%lld", name,
-                                         static_cast<long long>(index), static_cast<long long>(dof),
-                                         static_cast<long long>(base), static_cast<long long>(base + n_dof - 1)));
+        bad_argument(name, index,
+                     format("%s[%lld] = %lld is no DOF number; it must lie in %lld..%lld", name,
+                            static_cast<long long>(index), static_cast<long long>(dof),
+                            static_cast<long long>(base), static_cast<long long>(base + n_dof - 1)));
 }
 
 } // namespace plm::capi

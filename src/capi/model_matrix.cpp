@@ -19,7 +19,8 @@ template <class Index> struct MatrixArguments {
     const double *value;
 };
 
-template <class Index> plm_status set_matrix(const char *function, plm_model *model, const MatrixArguments<Index> &x) {
+template <class Index>
+plm_status set_matrix(const char *function, plm_model *model, const MatrixArguments<Index> &x) {
     return call<ModelHandle>(function, model, [&](ModelHandle &m) {
         require_open(m);
         require_range(x.which, PLM_MASS, PLM_DAMPING, "which");
@@ -38,14 +39,16 @@ template <class Index> plm_status set_matrix(const char *function, plm_model *mo
         MatrixInput(layout, x.a, x.b, x.value).check(); // before anything is copied
         layout.copy = x.ownership == PLM_COPY;
         auto matrix = std::make_shared<const MatrixInput>(layout, x.a, x.b, x.value);
-        (x.which == PLM_MASS ? m.input.mass : x.which == PLM_STIFFNESS ? m.input.stiffness : m.input.damping_matrix) =
-            std::move(matrix);
+        (x.which == PLM_MASS        ? m.input.mass
+         : x.which == PLM_STIFFNESS ? m.input.stiffness
+                                    : m.input.damping_matrix) = std::move(matrix);
         return PLM_OK;
     });
 }
 
 template <class Index>
-plm_status fix_dofs(const char *function, plm_model *model, std::int32_t index_base, std::int64_t n, const Index *dof) {
+plm_status fix_dofs(const char *function, plm_model *model, std::int32_t index_base, std::int64_t n,
+                    const Index *dof) {
     return call<ModelHandle>(function, model, [&](ModelHandle &m) {
         require_open(m);
         require_index_base(index_base);
@@ -67,16 +70,18 @@ void require_nonnegative(double value, const char *name) {
 
 using namespace plm::capi;
 
-plm_status plm_model_set_matrix_i32(plm_model *model, std::int32_t which, std::int32_t storage, std::int32_t part,
-                                    std::int32_t index_base, std::int32_t ownership, std::int64_t nnz,
-                                    const std::int32_t *a, const std::int32_t *b, const double *value) {
+plm_status plm_model_set_matrix_i32(plm_model *model, std::int32_t which, std::int32_t storage,
+                                    std::int32_t part, std::int32_t index_base, std::int32_t ownership,
+                                    std::int64_t nnz, const std::int32_t *a, const std::int32_t *b,
+                                    const double *value) {
     return set_matrix<std::int32_t>("plm_model_set_matrix_i32", model,
                                     {which, storage, part, index_base, ownership, nnz, a, b, value});
 }
 
-plm_status plm_model_set_matrix_i64(plm_model *model, std::int32_t which, std::int32_t storage, std::int32_t part,
-                                    std::int32_t index_base, std::int32_t ownership, std::int64_t nnz,
-                                    const std::int64_t *a, const std::int64_t *b, const double *value) {
+plm_status plm_model_set_matrix_i64(plm_model *model, std::int32_t which, std::int32_t storage,
+                                    std::int32_t part, std::int32_t index_base, std::int32_t ownership,
+                                    std::int64_t nnz, const std::int64_t *a, const std::int64_t *b,
+                                    const double *value) {
     return set_matrix<std::int64_t>("plm_model_set_matrix_i64", model,
                                     {which, storage, part, index_base, ownership, nnz, a, b, value});
 }
@@ -98,9 +103,10 @@ plm_status plm_model_set_modal_damping(plm_model *model, std::int64_t n, const d
         if (n > 0) require_pointer(ratio, "ratio");
         for (std::int64_t j = 0; j < n; ++j)
             if (!(ratio[j] >= 0 && ratio[j] < 1))
-                bad_argument("ratio", j, plm::format("ratio[%lld] is %g; it must lie in [0, 1), the fraction of "
-                                                     "critical damping",
-                                                     static_cast<long long>(j), ratio[j]));
+                bad_argument("ratio", j,
+                             plm::format("ratio[%lld] is %g; it must lie in [0, 1), the fraction of "
+                                         "critical damping",
+                                         static_cast<long long>(j), ratio[j]));
         plm::vector<double> copy(ratio, ratio + n);
         m.input.damping.modal_ratio.swap(copy);
         return PLM_OK;
@@ -116,10 +122,12 @@ plm_status plm_model_set_structural_damping(plm_model *model, double eta) {
     });
 }
 
-plm_status plm_model_fix_dofs_i32(plm_model *model, std::int32_t index_base, std::int64_t n, const std::int32_t *dof) {
+plm_status plm_model_fix_dofs_i32(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                  const std::int32_t *dof) {
     return fix_dofs("plm_model_fix_dofs_i32", model, index_base, n, dof);
 }
 
-plm_status plm_model_fix_dofs_i64(plm_model *model, std::int32_t index_base, std::int64_t n, const std::int64_t *dof) {
+plm_status plm_model_fix_dofs_i64(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                  const std::int64_t *dof) {
     return fix_dofs("plm_model_fix_dofs_i64", model, index_base, n, dof);
 }

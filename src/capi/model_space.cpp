@@ -6,7 +6,9 @@
 namespace plm::capi {
 namespace {
 
-std::int64_t count(const SpaceModes &modes) { return static_cast<std::int64_t>(modes.values.size()); }
+std::int64_t count(const SpaceModes &modes) {
+    return static_cast<std::int64_t>(modes.values.size());
+}
 
 [[noreturn]] void too_few(std::int64_t found) {
     throw Error(PLM_ERR_ARGUMENT, format("n is too large: the model has only %lld modes of finite frequency",
@@ -18,13 +20,12 @@ std::int64_t count(const SpaceModes &modes) { return static_cast<std::int64_t>(m
 
 const Space &contact_space(ModelHandle &h, double highest_frequency, std::int64_t least_modes) {
     const std::int64_t wanted = std::min(least_modes, h.core->n_free());
-    const bool serves = h.space && h.space->highest_frequency >= highest_frequency && h.space->n_exact_modes >= wanted;
-    if (!serves) h.space = make_contact_space(h.core, highest_frequency, wanted, h.owner->watch());
+    h.space = make_contact_space(h.core, highest_frequency, wanted, h.owner->watch(), h.space);
     return *h.space;
 }
 
-// Two passes: the space that is exact in statics gives an upper bound of the n-th frequency, and the space that is
-// accurate up to there gives the modes to the model's space_tolerance.
+// Two passes: the space that is exact in statics gives an upper bound of the n-th frequency, and the space
+// that is accurate up to there gives the modes to the model's space_tolerance.
 LowestModes lowest_modes(ModelHandle &h, const vector<char> &closed, std::int64_t n) {
     const double all = std::numeric_limits<double>::infinity();
     const Space &first = contact_space(h, 0, n + 8);

@@ -4,10 +4,12 @@
 
 namespace plm::capi {
 
-/// Exact in statics, with at least `least_modes` exact open modes, accurate up to `highest_frequency` (rad/s).
+/// Exact in statics, with at least `least_modes` exact open modes, accurate up to `highest_frequency`
+/// (rad/s).
 const Space &contact_space(ModelHandle &h, double highest_frequency, std::int64_t least_modes);
 
-/// The n lowest modes of the system whose pairs with closed[i] != 0 are coupled, in the coordinates of `space`.
+/// The n lowest modes of the system whose pairs with closed[i] != 0 are coupled, in the coordinates of
+/// `space`.
 struct LowestModes {
     std::shared_ptr<const Space> space;
     SpaceModes modes; // at least n

@@ -1,5 +1,5 @@
-// Handles: what a host holds is a number that names a slot of one table and the slot's generation, never an address.
-// A handle is looked up, not dereferenced, so a stale, foreign or made-up one is recognised.
+// Handles: what a host holds is a number that names a slot of one table and the slot's generation, never an
+// address. A handle is looked up, not dereferenced, so a stale, foreign or made-up one is recognised.
 #pragma once
 #include "plm/plm.h"
 #include <cstdint>

@@ -5,7 +5,8 @@
 namespace plm::capi {
 
 const std::shared_ptr<const Sampler> &built(const SamplerHandle &h) {
-    if (!h.core) throw Error(PLM_ERR_STATE, "the sampler has not run; call plm_sampler_run first").argument("sampler");
+    if (!h.core)
+        throw Error(PLM_ERR_STATE, "the sampler has not run; call plm_sampler_run first").argument("sampler");
     return h.core;
 }
 
@@ -21,7 +22,9 @@ plm_status plm_sampler_create(plm_model *model, plm_sampler **sampler) {
     });
 }
 
-plm_status plm_sampler_destroy(plm_sampler **sampler) { return destroy<SamplerHandle>(sampler); }
+plm_status plm_sampler_destroy(plm_sampler **sampler) {
+    return destroy<SamplerHandle>(sampler);
+}
 
 plm_status plm_sampler_add_dominant_mode(plm_sampler *sampler, std::int32_t system, std::int64_t mode) {
     return call<SamplerHandle>("plm_sampler_add_dominant_mode", sampler, [&](SamplerHandle &s) {
@@ -36,10 +39,12 @@ plm_status plm_sampler_run(plm_sampler *sampler) {
     return call<SamplerHandle>("plm_sampler_run", sampler, [&](SamplerHandle &s) {
         const std::shared_ptr<const plm::Model> &model = built(*s.model);
         if (model->n_pairs() == 0)
-            throw plm::Error(PLM_ERR_STATE, "the model has no contact pair, so there is no contact area to sample; use "
-                                            "a basis of kind full or craig_bampton")
+            throw plm::Error(PLM_ERR_STATE,
+                             "the model has no contact pair, so there is no contact area to sample; use "
+                             "a basis of kind full or craig_bampton")
                 .argument("sampler");
-        s.core = std::make_shared<const plm::Sampler>(model, s.sampler_options, s.owner->watch());
+        s.core = std::make_shared<const plm::Sampler>(model, s.sampler_options, s.owner->watch(), s.model->space);
+        s.model->space = s.core->space(); // the next sampler of this model starts from it
         return PLM_OK;
     });
 }

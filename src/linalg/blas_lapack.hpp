@@ -1,6 +1,6 @@
-// Private to linalg: Fortran prototypes of the BLAS and LAPACK routines used (32-bit integers) and the checks that
-// keep XERBLA, which prints and stops the process, out of reach. Each character argument has its length passed
-// behind the list, as gfortran expects it.
+// Private to linalg: Fortran prototypes of the BLAS and LAPACK routines used (32-bit integers) and the checks
+// that keep XERBLA, which prints and stops the process, out of reach. Each character argument has its length
+// passed behind the list, as gfortran expects it.
 #pragma once
 #include "dense.hpp"
 #include "error.hpp"
@@ -18,8 +18,9 @@ extern "C" {
 void dgemm_(const char *, const char *, const blas_int *, const blas_int *, const blas_int *, const double *,
             const double *, const blas_int *, const double *, const blas_int *, const double *, double *,
             const blas_int *, strlen_t, strlen_t);
-void dgemv_(const char *, const blas_int *, const blas_int *, const double *, const double *, const blas_int *,
-            const double *, const blas_int *, const double *, double *, const blas_int *, strlen_t);
+void dgemv_(const char *, const blas_int *, const blas_int *, const double *, const double *,
+            const blas_int *, const double *, const blas_int *, const double *, double *, const blas_int *,
+            strlen_t);
 double ddot_(const blas_int *, const double *, const blas_int *, const double *, const blas_int *);
 double dnrm2_(const blas_int *, const double *, const blas_int *);
 void dtrsm_(const char *, const char *, const char *, const char *, const blas_int *, const blas_int *,
@@ -28,26 +29,26 @@ void dtrsm_(const char *, const char *, const char *, const char *, const blas_i
 
 void dsyevd_(const char *, const char *, const blas_int *, double *, const blas_int *, double *, double *,
              const blas_int *, blas_int *, const blas_int *, blas_int *, strlen_t, strlen_t);
-void dsyevr_(const char *, const char *, const char *, const blas_int *, double *, const blas_int *, const double *,
-             const double *, const blas_int *, const blas_int *, const double *, blas_int *, double *, double *,
-             const blas_int *, blas_int *, double *, const blas_int *, blas_int *, const blas_int *, blas_int *,
-             strlen_t, strlen_t, strlen_t);
-void dsygvd_(const blas_int *, const char *, const char *, const blas_int *, double *, const blas_int *, double *,
-             const blas_int *, double *, double *, const blas_int *, blas_int *, const blas_int *, blas_int *,
-             strlen_t, strlen_t);
+void dsyevr_(const char *, const char *, const char *, const blas_int *, double *, const blas_int *,
+             const double *, const double *, const blas_int *, const blas_int *, const double *, blas_int *,
+             double *, double *, const blas_int *, blas_int *, double *, const blas_int *, blas_int *,
+             const blas_int *, blas_int *, strlen_t, strlen_t, strlen_t);
+void dsygvd_(const blas_int *, const char *, const char *, const blas_int *, double *, const blas_int *,
+             double *, const blas_int *, double *, double *, const blas_int *, blas_int *, const blas_int *,
+             blas_int *, strlen_t, strlen_t);
 void dgesdd_(const char *, const blas_int *, const blas_int *, double *, const blas_int *, double *, double *,
              const blas_int *, double *, const blas_int *, double *, const blas_int *, blas_int *, blas_int *,
              strlen_t);
-void dgesvd_(const char *, const char *, const blas_int *, const blas_int *, double *, const blas_int *, double *,
-             double *, const blas_int *, double *, const blas_int *, double *, const blas_int *, blas_int *,
-             strlen_t, strlen_t);
+void dgesvd_(const char *, const char *, const blas_int *, const blas_int *, double *, const blas_int *,
+             double *, double *, const blas_int *, double *, const blas_int *, double *, const blas_int *,
+             blas_int *, strlen_t, strlen_t);
 void dgels_(const char *, const blas_int *, const blas_int *, const blas_int *, double *, const blas_int *,
             double *, const blas_int *, double *, const blas_int *, blas_int *, strlen_t);
 void dgetrf_(const blas_int *, const blas_int *, double *, const blas_int *, blas_int *, blas_int *);
-void dgetrs_(const char *, const blas_int *, const blas_int *, const double *, const blas_int *, const blas_int *,
-             double *, const blas_int *, blas_int *, strlen_t);
-void dgecon_(const char *, const blas_int *, const double *, const blas_int *, const double *, double *, double *,
-             blas_int *, blas_int *, strlen_t);
+void dgetrs_(const char *, const blas_int *, const blas_int *, const double *, const blas_int *,
+             const blas_int *, double *, const blas_int *, blas_int *, strlen_t);
+void dgecon_(const char *, const blas_int *, const double *, const blas_int *, const double *, double *,
+             double *, blas_int *, blas_int *, strlen_t);
 void zgetrf_(const blas_int *, const blas_int *, complex_t *, const blas_int *, blas_int *, blas_int *);
 void zgetrs_(const char *, const blas_int *, const blas_int *, const complex_t *, const blas_int *,
              const blas_int *, complex_t *, const blas_int *, blas_int *, strlen_t);
@@ -59,12 +60,15 @@ void dpotrs_(const char *, const blas_int *, const blas_int *, const double *, c
 /// A dimension as BLAS takes it.
 inline blas_int to_blas(std::int64_t n) {
     if (n < 0 || n > INT_MAX)
-        throw Error(PLM_ERR_ARGUMENT, format("dimension %lld does not fit the 32-bit integers of BLAS and LAPACK",
-                                             static_cast<long long>(n)));
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("dimension %lld does not fit the 32-bit integers of BLAS and LAPACK",
+                           static_cast<long long>(n)));
     return static_cast<blas_int>(n);
 }
 /// A leading dimension: BLAS wants at least 1 even for empty matrices.
-inline blas_int leading(std::int64_t n) { return to_blas(n > 0 ? n : 1); }
+inline blas_int leading(std::int64_t n) {
+    return to_blas(n > 0 ? n : 1);
+}
 
 /// Defects of libplm's own calls.
 inline void require(bool condition, const char *what) {

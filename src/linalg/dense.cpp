@@ -53,7 +53,8 @@ void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, 
     const bool ta = is_transpose(op_a), tb = is_transpose(op_b);
     const std::int64_t inner = ta ? a.rows() : a.cols();
     require(inner == (tb ? b.cols() : b.rows()), "gemm: inner dimensions differ");
-    require(c.rows() == (ta ? a.cols() : a.rows()) && c.cols() == (tb ? b.rows() : b.cols()), "gemm: shape of C");
+    require(c.rows() == (ta ? a.cols() : a.rows()) && c.cols() == (tb ? b.rows() : b.cols()),
+            "gemm: shape of C");
     require(&c != &a && &c != &b, "gemm: C must not be A or B");
     const blas_int m = to_blas(c.rows()), n = to_blas(c.cols()), k = to_blas(inner);
     const blas_int lda = leading(a.rows()), ldb = leading(b.rows()), ldc = leading(c.rows());

@@ -79,10 +79,10 @@ struct Dft::Impl {
 Dft::Dft(std::int64_t n_harmonics, std::int64_t n_samples) {
     if (n_harmonics < 0) throw Error(PLM_ERR_ARGUMENT, "Dft: number of harmonics is negative");
     if (n_samples > INT_MAX || n_samples / 2 < n_harmonics || n_samples < 2 * n_harmonics + 1)
-        throw Error(PLM_ERR_ARGUMENT, format("Dft: %lld harmonics need at least %lld time samples, not %lld",
-                                             static_cast<long long>(n_harmonics),
-                                             static_cast<long long>(2 * n_harmonics + 1),
-                                             static_cast<long long>(n_samples)));
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("Dft: %lld harmonics need at least %lld time samples, not %lld",
+                           static_cast<long long>(n_harmonics), static_cast<long long>(2 * n_harmonics + 1),
+                           static_cast<long long>(n_samples)));
     impl_ = std::make_unique<Impl>();
     impl_->n_harmonics = n_harmonics;
     impl_->n_samples = n_samples;
@@ -97,8 +97,12 @@ Dft::Dft(std::int64_t n_harmonics, std::int64_t n_samples) {
 }
 
 Dft::~Dft() = default;
-std::int64_t Dft::n_harmonics() const { return impl_->n_harmonics; }
-std::int64_t Dft::n_samples() const { return impl_->n_samples; }
+std::int64_t Dft::n_harmonics() const {
+    return impl_->n_harmonics;
+}
+std::int64_t Dft::n_samples() const {
+    return impl_->n_samples;
+}
 
 void Dft::to_time(const Matrix &coefficients, Matrix &samples) const {
     require(coefficients.rows() == 2 * n_harmonics() + 1, "Dft::to_time: rows");

@@ -33,8 +33,12 @@ FftwPlan::~FftwPlan() {
     fftw_destroy_plan(static_cast<fftw_plan>(backward_));
 }
 
-void FftwPlan::analyse() { fftw_execute(static_cast<fftw_plan>(forward_)); }
-void FftwPlan::synthesize() { fftw_execute(static_cast<fftw_plan>(backward_)); }
+void FftwPlan::analyse() {
+    fftw_execute(static_cast<fftw_plan>(forward_));
+}
+void FftwPlan::synthesize() {
+    fftw_execute(static_cast<fftw_plan>(backward_));
+}
 
 std::string fftw_name() {
     const std::string version = fftw_version; // "fftw-3.3.10-sse2-avx"

@@ -14,8 +14,8 @@ class FftwPlan {
     FftwPlan &operator=(const FftwPlan &) = delete;
     double *samples() { return samples_.data(); }   // n_samples
     double *spectrum() { return spectrum_.data(); } // n_samples / 2 + 1 complex numbers
-    void analyse();    // samples -> spectrum, unscaled
-    void synthesize(); // spectrum -> samples, unscaled; destroys the spectrum
+    void analyse();                                 // samples -> spectrum, unscaled
+    void synthesize();                              // spectrum -> samples, unscaled; destroys the spectrum
 
   private:
     vector<double> samples_, spectrum_;

@@ -44,8 +44,8 @@ void sort_and_cut(EigenPairs &pairs, std::int64_t count) {
     pairs = std::move(sorted);
 }
 
-/// Makes the columns of X M-orthonormal by the Cholesky factor of their Gram matrix (close to the identity, so that
-/// one pass suffices) and returns M X.
+/// Makes the columns of X M-orthonormal by the Cholesky factor of their Gram matrix (close to the identity,
+/// so that one pass suffices) and returns M X.
 Matrix orthonormalize(const SparseMatrix &m, Matrix &x) {
     Matrix mx = multiply_transposed(m, x);
     Matrix gram = product('T', 'N', x, mx);
@@ -67,6 +67,24 @@ bool needs_dense(const Pencil &pencil, std::int64_t n_wanted) {
     return rank <= 64 || n_wanted > rank - 2 || (rank <= 1000 && 3 * n_wanted > rank);
 }
 
+/// M may have a lower rank than its diagonal tells. Then ARPACK breaks down, or fills up with theta ~ 0, and
+/// the direct way is the better one as long as it is affordable.
+constexpr std::int64_t dense_limit = 2000;
+
+EigenPairs finite_ones(const Pencil &pencil, EigenPairs pairs, std::int64_t n_wanted) {
+    sort_and_cut(pairs, n_wanted);
+    vector<double> theta;
+    for (double value : pairs.values) theta.push_back(1 / (value - pencil.shift));
+    const double zero = 1e-13 * *std::max_element(theta.begin(), theta.end());
+    const auto count = std::count_if(theta.begin(), theta.end(), [zero](double t) { return t > zero; });
+    if (count == n_wanted) return pairs;
+    if (pencil.rank() <= dense_limit) return dense_eigenpairs(pencil, n_wanted);
+    for (std::int64_t j = 0; j < n_wanted; ++j) // the noise goes to the end of the order, and off
+        if (!(theta[j] > zero)) pairs.values[j] = std::numeric_limits<double>::infinity();
+    sort_and_cut(pairs, count);
+    return pairs;
+}
+
 EigenPairs search(const Pencil &pencil, std::int64_t n_wanted) {
     ArpackRequest request{n_wanted, std::max(2 * n_wanted + 1, n_wanted + 20), pencil.options.tolerance,
                           pencil.options.max_restarts, 1};
@@ -75,11 +93,11 @@ EigenPairs search(const Pencil &pencil, std::int64_t n_wanted) {
         request.n_lanczos = std::min(request.n_lanczos, pencil.rank());
         result = run_arpack(pencil, request);
         const auto found = static_cast<std::int64_t>(result.pairs.values.size());
-        if (result.info == 0 && found == n_wanted) return std::move(result.pairs);
+        if (result.info == 0 && found == n_wanted)
+            return finite_ones(pencil, std::move(result.pairs), n_wanted);
         if (result.info < 0) break;
     }
-    // M may have a lower rank than its diagonal tells; then only the direct way is left.
-    if (result.info < 0 && pencil.rank() <= 2000) return dense_eigenpairs(pencil, n_wanted);
+    if (result.info < 0 && pencil.rank() <= dense_limit) return dense_eigenpairs(pencil, n_wanted);
     throw Error(PLM_ERR_EIGENSOLVER,
                 format("ARPACK found %lld of %lld eigenpairs (info = %d: %s)",
                        static_cast<long long>(result.pairs.values.size()), static_cast<long long>(n_wanted),
@@ -88,8 +106,8 @@ EigenPairs search(const Pencil &pencil, std::int64_t n_wanted) {
 }
 
 /// The best pair M-orthogonal to those known, or none if the search does not converge.
-EigenPairs best_of_the_rest(const Pencil &pencil, const Matrix &known, const Matrix &m_known, double tolerance,
-                            std::int64_t n_lanczos, std::int64_t max_restarts) {
+EigenPairs best_of_the_rest(const Pencil &pencil, const Matrix &known, const Matrix &m_known,
+                            double tolerance, std::int64_t n_lanczos, std::int64_t max_restarts) {
     ArpackRequest request{1, std::min(n_lanczos, pencil.rank() - known.cols()), tolerance, max_restarts, 2};
     request.known = &known;
     request.m_known = &m_known;
@@ -98,9 +116,15 @@ EigenPairs best_of_the_rest(const Pencil &pencil, const Matrix &known, const Mat
     return std::move(result.pairs);
 }
 
-/// A Lanczos process from one vector sees further copies of a multiple eigenvalue by its rounding errors only, so that
-/// it may end without one. A short search in the M-complement of what was found shows a missing one as an eigenvalue
-/// below the largest kept; it is then computed and put in, until nothing is missing. Returns M X.
+/// Nothing real lies below the shift: a negative distance is rounding noise around theta = 0.
+bool lies_below(const EigenPairs &rest, double shift, double distance) {
+    return !rest.values.empty() && rest.values[0] > shift && rest.values[0] - shift < distance;
+}
+
+/// A Lanczos process from one vector sees further copies of a multiple eigenvalue by its rounding errors
+/// only, so that it may end without one. A short search in the M-complement of what was found shows a missing
+/// one as an eigenvalue below the largest kept; it is then computed and put in, until nothing is missing.
+/// Returns M X.
 Matrix add_missed(const Pencil &pencil, EigenPairs &pairs) {
     Matrix m_vectors = orthonormalize(pencil.m, pairs.vectors);
     const auto wanted = static_cast<std::int64_t>(pairs.values.size());
@@ -108,10 +132,10 @@ Matrix add_missed(const Pencil &pencil, EigenPairs &pairs) {
     for (std::int64_t round = 0; round < wanted && pencil.rank() - wanted >= 3; ++round) {
         const double largest = pairs.values.back() - pencil.shift;
         EigenPairs rest = best_of_the_rest(pencil, pairs.vectors, m_vectors, glance, 16, 10);
-        if (rest.values.empty() || rest.values[0] - pencil.shift > (1 + 2 * glance) * largest) break;
+        if (!lies_below(rest, pencil.shift, (1 + 2 * glance) * largest)) break;
         rest = best_of_the_rest(pencil, pairs.vectors, m_vectors, pencil.options.tolerance, 40,
                                 pencil.options.max_restarts);
-        if (rest.values.empty() || rest.values[0] - pencil.shift >= (1 - 1e-9) * largest) break;
+        if (!lies_below(rest, pencil.shift, (1 - 1e-9) * largest)) break;
         pairs.values.push_back(rest.values[0]);
         pairs.vectors.append(rest.vectors);
         sort_and_cut(pairs, wanted);
@@ -129,14 +153,14 @@ void verify(const Pencil &pencil, const EigenPairs &pairs, const Matrix &mx) {
     for (std::int64_t j = 0; j < kx.cols(); ++j) {
         const double lambda = pairs.values[j];
         for (std::int64_t i = 0; i < n; ++i) r[i] = kx(i, j) - lambda * mx(i, j);
-        const double terms =
-            norm2(n, kx.col(j)) + (std::fabs(lambda) + std::fabs(lambda - pencil.shift)) * norm2(n, mx.col(j));
+        const double terms = norm2(n, kx.col(j)) +
+                             (std::fabs(lambda) + std::fabs(lambda - pencil.shift)) * norm2(n, mx.col(j));
         const double allowed = 1e-6 * terms + rounding * norm2(n, pairs.vectors.col(j));
         const double residual = norm2(n, r.data());
         if (!(residual <= allowed))
             throw Error(PLM_ERR_EIGENSOLVER,
-                        format("eigenpair %lld (eigenvalue %g) has a relative residual of %g", static_cast<long long>(j),
-                               lambda, residual / terms))
+                        format("eigenpair %lld (eigenvalue %g) has a relative residual of %g",
+                               static_cast<long long>(j), lambda, residual / terms))
                 .index(j);
     }
 }

@@ -8,24 +8,26 @@ namespace plm {
 namespace {
 
 extern "C" {
-void dsaupd_(blas_int *ido, const char *bmat, const blas_int *n, const char *which, const blas_int *nev, double *tol,
-             double *resid, const blas_int *ncv, double *v, const blas_int *ldv, blas_int *iparam, blas_int *ipntr,
-             double *workd, double *workl, const blas_int *lworkl, blas_int *info, strlen_t, strlen_t);
-void dseupd_(const blas_int *rvec, const char *howmny, blas_int *select, double *d, double *z, const blas_int *ldz,
-             const double *sigma, const char *bmat, const blas_int *n, const char *which, const blas_int *nev,
-             double *tol, double *resid, const blas_int *ncv, double *v, const blas_int *ldv, blas_int *iparam,
-             blas_int *ipntr, double *workd, double *workl, const blas_int *lworkl, blas_int *info, strlen_t,
-             strlen_t, strlen_t);
+void dsaupd_(blas_int *ido, const char *bmat, const blas_int *n, const char *which, const blas_int *nev,
+             double *tol, double *resid, const blas_int *ncv, double *v, const blas_int *ldv,
+             blas_int *iparam, blas_int *ipntr, double *workd, double *workl, const blas_int *lworkl,
+             blas_int *info, strlen_t, strlen_t);
+void dseupd_(const blas_int *rvec, const char *howmny, blas_int *select, double *d, double *z,
+             const blas_int *ldz, const double *sigma, const char *bmat, const blas_int *n, const char *which,
+             const blas_int *nev, double *tol, double *resid, const blas_int *ncv, double *v,
+             const blas_int *ldv, blas_int *iparam, blas_int *ipntr, double *workd, double *workl,
+             const blas_int *lworkl, blas_int *info, strlen_t, strlen_t, strlen_t);
 }
 
-/// ARPACK keeps its state between the calls of one problem in SAVE variables: two interleaved problems return wrong
-/// eigenvalues with info = 0. The lock therefore spans the whole problem. The host's callbacks run inside; one that
-/// starts a second problem on the same thread gets an error instead of a deadlock.
+/// ARPACK keeps its state between the calls of one problem in SAVE variables: two interleaved problems return
+/// wrong eigenvalues with info = 0. The lock therefore spans the whole problem. The host's callbacks run
+/// inside; one that starts a second problem on the same thread gets an error instead of a deadlock.
 class ArpackLock {
   public:
     ArpackLock() {
         if (inside_)
-            throw Error(PLM_ERR_STATE, "an eigenvalue problem was started from inside a callback of another one");
+            throw Error(PLM_ERR_STATE,
+                        "an eigenvalue problem was started from inside a callback of another one");
         mutex().lock();
         inside_ = true;
     }
@@ -89,7 +91,8 @@ class Lanczos {
     void serve(blas_int ido) {
         pencil_.poll();
         double *x = slot(0), *y = slot(1);
-        if (ido == 2) return multiply_transposed(pencil_.m, x, y); // M is symmetric: the gathering form is faster
+        if (ido == 2)
+            return multiply_transposed(pencil_.m, x, y); // M is symmetric: the gathering form is faster
         require(ido == -1 || ido == 1, "dsaupd: unexpected request");
         if (ido == 1)
             std::copy_n(slot(2), n_, y); // M x is there already
@@ -109,9 +112,9 @@ class Lanczos {
         vector<blas_int> select(ncv_);
         vector<double> values(nev_);
         blas_int info = 0;
-        dseupd_(&rvec, "A", select.data(), values.data(), v_.data(), &n_, &pencil_.shift, "G", &n_, "LM", &nev_, &tol_,
-                resid_.data(), &ncv_, v_.data(), &n_, iparam_, ipntr_, workd_.data(), workl_.data(), &lworkl_, &info,
-                1, 1, 2);
+        dseupd_(&rvec, "A", select.data(), values.data(), v_.data(), &n_, &pencil_.shift, "G", &n_, "LM",
+                &nev_, &tol_, resid_.data(), &ncv_, v_.data(), &n_, iparam_, ipntr_, workd_.data(),
+                workl_.data(), &lworkl_, &info, 1, 1, 2);
         if (info != 0) {
             result.info = info;
             return;
@@ -140,13 +143,20 @@ ArpackResult run_arpack(const Pencil &pencil, const ArpackRequest &request) {
 
 const char *arpack_meaning(int info) {
     switch (info) {
-    case 1: return "too few eigenvalues converged within the allowed restarts";
-    case 3: return "no shifts could be applied in a restart; more Lanczos vectors are needed";
-    case -8: return "LAPACK failed on the tridiagonal eigenproblem";
-    case -9: return "the start vector is zero in the norm of M";
-    case -14: return "no eigenvalue was found to sufficient accuracy";
-    case -9999: return "the Lanczos factorization could not be built; M may have too low a rank";
-    default: return "see the documentation of dsaupd and dseupd";
+    case 1:
+        return "too few eigenvalues converged within the allowed restarts";
+    case 3:
+        return "no shifts could be applied in a restart; more Lanczos vectors are needed";
+    case -8:
+        return "LAPACK failed on the tridiagonal eigenproblem";
+    case -9:
+        return "the start vector is zero in the norm of M";
+    case -14:
+        return "no eigenvalue was found to sufficient accuracy";
+    case -9999:
+        return "the Lanczos factorization could not be built; M may have too low a rank";
+    default:
+        return "see the documentation of dsaupd and dseupd";
     }
 }
 

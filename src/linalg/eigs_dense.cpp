@@ -8,8 +8,8 @@
 namespace plm {
 namespace {
 
-/// S (rank x r) with M = S S^T on the massive DOFs. M is scaled to unit diagonal before its null space is cut off,
-/// since masses and rotary inertias may differ by many orders of magnitude.
+/// S (rank x r) with M = S S^T on the massive DOFs. M is scaled to unit diagonal before its null space is cut
+/// off, since masses and rotary inertias may differ by many orders of magnitude.
 Matrix mass_root(const Pencil &pencil) {
     const std::int64_t r = pencil.rank();
     vector<std::int64_t> keep(pencil.size(), -1);
@@ -44,7 +44,8 @@ EigenPairs dense_eigenpairs(const Pencil &pencil, std::int64_t n_wanted) {
     EigenPairs pairs{{}, Matrix(n, 0)};
     if (root.cols() == 0) return pairs;
 
-    // A^-1 M x = theta x with theta = 1 / (lambda - shift) becomes (S^T A^-1 S) y = theta y, x = A^-1 S y / theta.
+    // A^-1 M x = theta x with theta = 1 / (lambda - shift) becomes (S^T A^-1 S) y = theta y, x = A^-1 S y /
+    // theta.
     Matrix spread(n, root.cols());
     for (std::int64_t j = 0; j < root.cols(); ++j)
         for (std::int64_t i = 0; i < root.rows(); ++i) spread(pencil.massive[i], j) = root(i, j);
@@ -66,7 +67,8 @@ EigenPairs dense_eigenpairs(const Pencil &pencil, std::int64_t n_wanted) {
         double *x = pairs.vectors.col(j);
         for (std::int64_t i = 0; i < n; ++i) x[i] /= theta; // then x^T M x = y^T y = 1
         // High eigenvalues have lost digits in theta; the Rayleigh quotient has the opposite strength.
-        pairs.values.push_back(theta > 1e-8 * theta_max ? pencil.shift + 1 / theta : rayleigh_quotient(pencil, x));
+        pairs.values.push_back(theta > 1e-8 * theta_max ? pencil.shift + 1 / theta
+                                                        : rayleigh_quotient(pencil, x));
     }
     return pairs;
 }

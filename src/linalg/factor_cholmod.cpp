@@ -105,9 +105,9 @@ class CholmodFactor final : public Factor {
     std::int64_t factor_nonzeros() const override { return nonzeros_; }
 
   private:
-    /// AMD only. METIS orders three-dimensional bodies better, but METIS_NodeND of METIS 5.1 re-seeds the host's rand(),
-    /// installs handlers for SIGTERM and SIGABRT while it runs and long-jumps from them, and what it returns
-    /// depends on who else calls rand(). No host has to put up with that from a library.
+    /// AMD only. METIS orders three-dimensional bodies better, but METIS_NodeND of METIS 5.1 re-seeds the
+    /// host's rand(), installs handlers for SIGTERM and SIGABRT while it runs and long-jumps from them, and
+    /// what it returns depends on who else calls rand(). No host has to put up with that from a library.
     static void set_ordering(cholmod_common &c) {
         c.nmethods = 1;
         c.method[0].ordering = CHOLMOD_AMD;
@@ -137,8 +137,8 @@ class CholmodFactor final : public Factor {
 
     void solve_some(double *x, std::int64_t nrhs, std::int64_t ldx) const {
         cholmod_dense rhs = view(x, n_, nrhs, ldx);
-        const int ok = cholmod_l_solve2(CHOLMOD_A, lib_.factor, &rhs, nullptr, &lib_.x, nullptr, &lib_.y, &lib_.e,
-                                        &lib_.common);
+        const int ok = cholmod_l_solve2(CHOLMOD_A, lib_.factor, &rhs, nullptr, &lib_.x, nullptr, &lib_.y,
+                                        &lib_.e, &lib_.common);
         lib_.check("solve");
         require(ok && lib_.x, "cholmod_l_solve2 failed");
         const auto *result = static_cast<const double *>(lib_.x->x);

@@ -47,7 +47,8 @@ class EigenFactor final : public Factor {
         const auto &d = ldlt_.vectorD();
         const auto &original = ldlt_.permutationPinv().indices();
         for (std::int64_t j = 0; j < n_; ++j) {
-            if (kind == FactorKind::positive_definite && !(d[j] > 0)) throw_not_positive_definite(original[j]);
+            if (kind == FactorKind::positive_definite && !(d[j] > 0))
+                throw_not_positive_definite(original[j]);
             if (d[j] == 0 || !std::isfinite(d[j])) throw_singular(original[j]);
             negative_ += d[j] < 0;
             smallest = std::min(smallest, std::fabs(d[j]));

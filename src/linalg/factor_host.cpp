@@ -24,10 +24,12 @@ SparseMatrix lower_triangle(const SparseMatrix &a) {
 
 class HostFactor final : public Factor {
   public:
-    HostFactor(const SparseMatrix &a, FactorKind kind, const HostSolver &host) : host_(host), n_(a.cols), kind_(kind) {
+    HostFactor(const SparseMatrix &a, FactorKind kind, const HostSolver &host)
+        : host_(host), n_(a.cols), kind_(kind) {
         const SparseMatrix l = lower_triangle(a);
         const int definite = kind == FactorKind::positive_definite;
-        const int status = host_.factor(n_, l.ptr.data(), l.idx.data(), l.val.data(), definite, &handle_, host_.user);
+        const int status =
+            host_.factor(n_, l.ptr.data(), l.idx.data(), l.val.data(), definite, &handle_, host_.user);
         if (status != 0) // nothing was made, so the destructor (which would release it) need not run
             throw Error(PLM_ERR_CALLBACK, format("the host's factorization failed with code %d", status))
                 .library_code(status);
@@ -42,13 +44,16 @@ class HostFactor final : public Factor {
         if (n_ == 0 || nrhs == 0) return;
         const int status = host_.solve(handle_, nrhs, x, ldx, host_.user);
         if (status != 0)
-            throw Error(PLM_ERR_CALLBACK, format("the host's solve failed with code %d", status)).library_code(status);
+            throw Error(PLM_ERR_CALLBACK, format("the host's solve failed with code %d", status))
+                .library_code(status);
         for (std::int64_t j = 0; j < nrhs; ++j)
             if (!finite(x + j * ldx, n_))
                 throw Error(PLM_ERR_CALLBACK, "the host's solve returned NaN or Inf").index(j);
     }
     // A factorization that was asked to be definite and succeeded leaves no other number.
-    std::int64_t negative_eigenvalues() const override { return kind_ == FactorKind::positive_definite ? 0 : -1; }
+    std::int64_t negative_eigenvalues() const override {
+        return kind_ == FactorKind::positive_definite ? 0 : -1;
+    }
     double reciprocal_condition() const override { return 1; }
     std::int64_t factor_nonzeros() const override { return -1; }
 

@@ -13,7 +13,8 @@ void require_symmetric_input(const Matrix &a, const char *routine) {
 }
 
 [[noreturn]] void not_converged(const char *routine, blas_int info) {
-    throw Error(PLM_ERR_EIGENSOLVER, format("%s did not converge (info = %d)", routine, info)).library_code(info);
+    throw Error(PLM_ERR_EIGENSOLVER, format("%s did not converge (info = %d)", routine, info))
+        .library_code(info);
 }
 
 /// Workspace of dsyevd and dsygvd with vectors, by their documented formula.
@@ -60,8 +61,8 @@ SymmetricEigen symmetric_eigen(const Matrix &a) {
     const blas_int n = to_blas(a.rows());
     DivideAndConquerWork w(n);
     blas_int info = 0;
-    dsyevd_("V", "L", &n, result.vectors.data(), &n, result.values.data(), w.work.data(), &w.lwork, w.iwork.data(),
-            &w.liwork, &info, 1, 1);
+    dsyevd_("V", "L", &n, result.vectors.data(), &n, result.values.data(), w.work.data(), &w.lwork,
+            w.iwork.data(), &w.liwork, &info, 1, 1);
     require_valid(info, "dsyevd");
     if (info > 0) not_converged("dsyevd", info);
     return result;
@@ -75,7 +76,8 @@ SymmetricEigen symmetric_eigen_below(const Matrix &a, double upper) {
     const blas_int n = to_blas(a.rows());
     const double norm = lower_norm(a);
     if (upper >= norm) return symmetric_eigen(a);
-    // dsyevr wants a finite lower end strictly below the upper one (else XERBLA); the norm bounds every eigenvalue.
+    // dsyevr wants a finite lower end strictly below the upper one (else XERBLA); the norm bounds every
+    // eigenvalue.
     const double lower = -1.001 * norm - std::numeric_limits<double>::min();
     result.vectors.reset(n, 0);
     if (upper <= lower) return result;
@@ -87,7 +89,8 @@ SymmetricEigen symmetric_eigen_below(const Matrix &a, double upper) {
     const double tolerance = 0;
     blas_int found = 0, info = 0;
     dsyevr_("V", "V", "L", &n, work_matrix.data(), &n, &lower, &upper, &none, &none, &tolerance, &found,
-            values.data(), z.data(), &n, support.data(), work.data(), &lwork, iwork.data(), &liwork, &info, 1, 1, 1);
+            values.data(), z.data(), &n, support.data(), work.data(), &lwork, iwork.data(), &liwork, &info, 1,
+            1, 1);
     require_valid(info, "dsyevr");
     if (info > 0) return all_below(a, upper); // bisection or inverse iteration failed: take the robust way
     result.values = std::move(values);
@@ -105,8 +108,8 @@ SymmetricEigen symmetric_eigen_general(const Matrix &a, const Matrix &b) {
     const blas_int n = to_blas(a.rows()), type = 1;
     DivideAndConquerWork w(n);
     blas_int info = 0;
-    dsygvd_(&type, "V", "L", &n, result.vectors.data(), &n, factor.data(), &n, result.values.data(), w.work.data(),
-            &w.lwork, w.iwork.data(), &w.liwork, &info, 1, 1);
+    dsygvd_(&type, "V", "L", &n, result.vectors.data(), &n, factor.data(), &n, result.values.data(),
+            w.work.data(), &w.lwork, w.iwork.data(), &w.liwork, &info, 1, 1);
     require_valid(info, "dsygvd");
     if (info > n)
         throw Error(PLM_ERR_NOT_POSITIVE_DEFINITE,

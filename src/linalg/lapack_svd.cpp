@@ -8,7 +8,8 @@ namespace {
 
 /// LAPACK's answer to a workspace query.
 blas_int work_size(double answer) {
-    if (!(answer < INT_MAX)) throw Error(PLM_ERR_ARGUMENT, "matrix too large for the 32-bit workspace of LAPACK");
+    if (!(answer < INT_MAX))
+        throw Error(PLM_ERR_ARGUMENT, "matrix too large for the 32-bit workspace of LAPACK");
     return std::max(1, static_cast<blas_int>(answer));
 }
 
@@ -22,8 +23,8 @@ blas_int svd_divide_and_conquer(Matrix &a, Svd &s) {
     require_valid(info, "dgesdd");
     const blas_int lwork = work_size(size);
     vector<double> work(lwork);
-    dgesdd_("S", &m, &n, a.data(), &m, s.values.data(), s.u.data(), &m, s.vt.data(), &small, work.data(), &lwork,
-            iwork.data(), &info, 1);
+    dgesdd_("S", &m, &n, a.data(), &m, s.values.data(), s.u.data(), &m, s.vt.data(), &small, work.data(),
+            &lwork, iwork.data(), &info, 1);
     require_valid(info, "dgesdd");
     return info;
 }
@@ -32,8 +33,8 @@ blas_int svd_qr_iteration(Matrix &a, Svd &s) {
     const blas_int m = to_blas(a.rows()), n = to_blas(a.cols()), small = std::min(m, n), query = -1;
     double size = 0;
     blas_int info = 0;
-    dgesvd_("S", "S", &m, &n, a.data(), &m, s.values.data(), s.u.data(), &m, s.vt.data(), &small, &size, &query,
-            &info, 1, 1);
+    dgesvd_("S", "S", &m, &n, a.data(), &m, s.values.data(), s.u.data(), &m, s.vt.data(), &small, &size,
+            &query, &info, 1, 1);
     require_valid(info, "dgesvd");
     const blas_int lwork = work_size(size);
     vector<double> work(lwork);

@@ -10,8 +10,8 @@ constexpr std::size_t alignment = 64; // a cache line, and enough for every vect
 
 thread_local const Allocator *active = nullptr;
 
-/// Stands directly before each block. The allocator is kept by value, so that a block may outlive the scope (and
-/// the Allocator object) it was made in and may be freed on any thread.
+/// Stands directly before each block. The allocator is kept by value, so that a block may outlive the scope
+/// (and the Allocator object) it was made in and may be freed on any thread.
 struct Header {
     void (*release)(void *block, void *user);
     void *user;
@@ -20,8 +20,12 @@ struct Header {
 
 } // namespace
 
-AllocatorScope::AllocatorScope(const Allocator *a) : previous_(active) { active = a; }
-AllocatorScope::~AllocatorScope() { active = previous_; }
+AllocatorScope::AllocatorScope(const Allocator *a) : previous_(active) {
+    active = a;
+}
+AllocatorScope::~AllocatorScope() {
+    active = previous_;
+}
 
 void *allocate_block(std::size_t bytes) {
     constexpr std::size_t overhead = sizeof(Header) + alignment;

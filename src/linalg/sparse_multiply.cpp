@@ -6,8 +6,8 @@
 namespace plm {
 namespace {
 
-/// Columns served by one pass over the matrix: their rows are packed side by side, so that each stored entry is read
-/// once for all of them and one cache line of X (or Y) serves it.
+/// Columns served by one pass over the matrix: their rows are packed side by side, so that each stored entry
+/// is read once for all of them and one cache line of X (or Y) serves it.
 constexpr std::int64_t panel = 8;
 
 void pack(const double *x, std::int64_t ld, std::int64_t rows, std::int64_t width, double *packed) {

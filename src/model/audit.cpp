@@ -33,7 +33,9 @@ class Audit {
     }
 
   private:
-    void add(int severity, double value, std::string text) { findings_.push_back({severity, value, std::move(text)}); }
+    void add(int severity, double value, std::string text) {
+        findings_.push_back({severity, value, std::move(text)});
+    }
 
     // Translation of all nodes: DOFs first, first + step, ... move by one. Fixed DOFs carry no mass here.
     double mass_along(std::int64_t first, std::int64_t step) const {
@@ -54,11 +56,14 @@ class Audit {
         for (int d = 0; d < 3; ++d) {
             const double total = mass_along(d, 3);
             smallest = std::min(smallest, total), largest = std::max(largest, total);
-            add(0, total, format("mass of the free DOFs in direction %c (three DOFs per node taken): %g", "xyz"[d], total));
+            add(0, total,
+                format("mass of the free DOFs in direction %c (three DOFs per node taken): %g", "xyz"[d],
+                       total));
         }
         if (largest > 0 && smallest < 0.5 * largest)
-            add(1, smallest / largest, "the mass differs between the directions by more than half: are there three "
-                                       "DOFs per node, in the order x, y, z?");
+            add(1, smallest / largest,
+                "the mass differs between the directions by more than half: are there three "
+                "DOFs per node, in the order x, y, z?");
     }
 
     void massless_dofs() {
@@ -67,7 +72,8 @@ class Audit {
             for (std::int64_t p = m_.mass().ptr[j]; p < m_.mass().ptr[j + 1]; ++p)
                 if (m_.mass().idx[p] == j && m_.mass().val[p] > 0) --count;
         if (count > 0)
-            add(1, static_cast<double>(count), format("%lld free DOFs have no mass; they follow quasi-statically", Int(count)));
+            add(1, static_cast<double>(count),
+                format("%lld free DOFs have no mass; they follow quasi-statically", Int(count)));
     }
 
     void rigid_modes() {
@@ -96,21 +102,25 @@ class Audit {
         if (static_cast<std::int64_t>(pairs.values.size()) <= rigid) return;
         const double hz = std::sqrt(std::max(0.0, pairs.values[rigid])) / (2 * M_PI);
         const bool odd = !(hz >= 1e-3 && hz <= 1e7);
-        add(odd ? 2 : 0, hz, format("lowest elastic frequency of the open structure: %.6g Hz%s", hz,
-                                    odd ? "; outside 1e-3..1e7 Hz: do the units of mass and stiffness belong "
-                                          "together (mm-N-t or m-N-kg)?" : ""));
+        add(odd ? 2 : 0, hz,
+            format("lowest elastic frequency of the open structure: %.6g Hz%s", hz,
+                   odd ? "; outside 1e-3..1e7 Hz: do the units of mass and stiffness belong "
+                         "together (mm-N-t or m-N-kg)?"
+                       : ""));
     }
 
     void damping() {
         const Damping &d = m_.damping();
-        const bool modal = std::any_of(d.modal_ratio.begin(), d.modal_ratio.end(), [](double z) { return z > 0; });
+        const bool modal =
+            std::any_of(d.modal_ratio.begin(), d.modal_ratio.end(), [](double z) { return z > 0; });
         if (d.alpha == 0 && d.beta == 0 && d.structural == 0 && !modal && !d.has_matrix)
             add(1, 0, "no damping: the response at resonance is unbounded");
     }
 
     void loads() {
         double preload = m_.has_preload() ? norm2(m_.n_free(), m_.preload().data()) : 0;
-        add(0, preload, m_.has_preload() ? format("static pre-load, norm %g", preload) : "no static pre-load");
+        add(0, preload,
+            m_.has_preload() ? format("static pre-load, norm %g", preload) : "no static pre-load");
         double dynamic = 0;
         for (const auto &[harmonic, load] : m_.excitation()) {
             if (harmonic == 0) continue;
@@ -125,12 +135,14 @@ class Audit {
 
     void gaps() {
         const vector<double> &g = m_.initial_gap();
-        const double low = *std::min_element(g.begin(), g.end()), high = *std::max_element(g.begin(), g.end());
+        const double low = *std::min_element(g.begin(), g.end()),
+                     high = *std::max_element(g.begin(), g.end());
         const auto interfering = std::count_if(g.begin(), g.end(), [](double v) { return v < 0; });
         add(0, high, format("initial gaps from %g to %g over %lld pairs", low, high, Int(m_.n_pairs())));
         if (interfering > 0)
             add(1, static_cast<double>(interfering),
-                format("%lld pairs start with interference (gap < 0), down to %g; if they should be open, the sign of "
+                format("%lld pairs start with interference (gap < 0), down to %g; if they should be open, "
+                       "the sign of "
                        "the gap or the normal is reversed",
                        Int(interfering), low));
     }
@@ -142,19 +154,22 @@ class Audit {
         std::int64_t repeated = 0, one = 0, other = 0;
         for (std::int64_t i = 0; i < rows.cols; ++i) {
             std::vector<std::pair<std::int64_t, double>> row;
-            for (std::int64_t p = rows.ptr[i]; p < rows.ptr[i + 1]; ++p) row.emplace_back(rows.idx[p], rows.val[p]);
+            for (std::int64_t p = rows.ptr[i]; p < rows.ptr[i + 1]; ++p)
+                row.emplace_back(rows.idx[p], rows.val[p]);
             const auto [place, fresh] = first.emplace(std::move(row), i);
             if (fresh) continue;
             if (repeated++ == 0) one = place->second, other = i;
         }
         if (repeated > 0)
             add(2, static_cast<double>(repeated),
-                format("%lld gap rows repeat an earlier one (the first: pair %lld repeats pair %lld): the contact "
+                format("%lld gap rows repeat an earlier one (the first: pair %lld repeats pair %lld): the "
+                       "contact "
                        "stiffness counts twice there",
                        Int(repeated), Int(other), Int(one)));
     }
 
-    // A pair of nodes moved together keeps its gap: the coefficients of a row cancel, unless a side is ground or fixed.
+    // A pair of nodes moved together keeps its gap: the coefficients of a row cancel, unless a side is ground
+    // or fixed.
     void row_balance() {
         const SparseMatrix rows = transpose(m_.gap_matrix());
         std::int64_t unbalanced = 0, scaled = 0;
@@ -174,9 +189,10 @@ class Audit {
                 format("%lld two-DOF gap rows do not sum to zero: moving both nodes together changes the gap",
                        Int(unbalanced)));
         if (scaled > 0)
-            add(1, static_cast<double>(scaled), format("%lld gap rows are far from unit length: k_n and the gap are "
-                                                       "then not per unit of distance",
-                                                       Int(scaled)));
+            add(1, static_cast<double>(scaled),
+                format("%lld gap rows are far from unit length: k_n and the gap are "
+                       "then not per unit of distance",
+                       Int(scaled)));
     }
 
     void contact_stiffness() {
@@ -188,12 +204,15 @@ class Audit {
             return;
         }
         const double ratio = *high / local;
-        const std::string fact = format("contact stiffness %g to %g, that is %.3g to %.3g of the local stiffness %g",
-                                        *low, *high, *low / local, ratio, local);
+        const std::string fact =
+            format("contact stiffness %g to %g, that is %.3g to %.3g of the local stiffness %g", *low, *high,
+                   *low / local, ratio, local);
         if (ratio > 1000)
-            add(1, ratio, fact + "; above 1000, curves of few harmonics grow small loops: 1 to 50 is a good choice");
+            add(1, ratio,
+                fact + "; above 1000, curves of few harmonics grow small loops: 1 to 50 is a good choice");
         else if (*low / local < 0.1)
-            add(1, *low / local, fact + "; below 0.1 the contact is soft and bodies interpenetrate: 1 to 50 is a good choice");
+            add(1, *low / local,
+                fact + "; below 0.1 the contact is soft and bodies interpenetrate: 1 to 50 is a good choice");
         else
             add(0, ratio, fact);
     }
@@ -204,6 +223,8 @@ class Audit {
 
 } // namespace
 
-std::vector<Finding> audit(const Model &model) { return Audit(model).run(); }
+std::vector<Finding> audit(const Model &model) {
+    return Audit(model).run();
+}
 
 } // namespace plm

@@ -1,5 +1,5 @@
-// Looks a built model over for what engineers get wrong: units, missing mass, loose bodies, gap signs, contact
-// stiffness. Every finding is a fact with a number; its severity says whether to worry.
+// Looks a built model over for what engineers get wrong: units, missing mass, loose bodies, gap signs,
+// contact stiffness. Every finding is a fact with a number; its severity says whether to worry.
 #pragma once
 #include "model/model.hpp"
 

@@ -35,8 +35,9 @@ EigenPairs modes_with_growth(const Model &model, std::int64_t first_guess, doubl
 
 class ContactSpaceBuilder {
   public:
-    ContactSpaceBuilder(std::shared_ptr<const Model> model, double highest, std::int64_t least_modes, Watch watch)
-        : model_(std::move(model)), space_(std::make_shared<Space>()), highest_(highest), least_modes_(least_modes),
+    ContactSpaceBuilder(std::shared_ptr<const Model> model, double highest, std::int64_t least_modes, Watch watch,
+                        const Space *previous)
+        : model_(std::move(model)), previous_(previous), space_(std::make_shared<Space>()), highest_(highest), least_modes_(least_modes),
           watch_(watch), sigma_(model_->shift()),
           shifted_(sigma_ > 0 ? add(1.0, model_->stiffness(), sigma_, model_->mass()) : SparseMatrix()) {
         space_->model = model_;
@@ -79,7 +80,8 @@ class ContactSpaceBuilder {
                 count = count_below(*model_, checked);
         std::int64_t guess = std::max<std::int64_t>(least_modes_, count >= 0 ? count : 20);
         guess = std::max(guess, model_->rigid_modes().cols() + 1);
-        EigenPairs pairs = modes_with_growth(*model_, guess, count >= 0 ? 0.0 : cutoff, options);
+        EigenPairs pairs = previous_modes(guess, cutoff);
+        if (pairs.values.empty()) pairs = modes_with_growth(*model_, guess, count >= 0 ? 0.0 : cutoff, options);
         if (count >= 0) {
             const auto below = [&] {
                 return std::upper_bound(pairs.values.begin(), pairs.values.end(), checked * checked) -
@@ -100,6 +102,17 @@ class ContactSpaceBuilder {
         modes_ = std::move(pairs);
         mass_modes_ = multiply(model_->mass(), modes_.vectors);
         next_lambda_ = modes_.values.empty() ? 0 : modes_.values.back();
+    }
+
+    // The exact modes of the earlier space come first in it; empty when they do not reach far enough.
+    EigenPairs previous_modes(std::int64_t wanted, double cutoff) const {
+        EigenPairs pairs;
+        if (!previous_ || previous_->n_exact_modes < wanted ||
+            previous_->lambda[previous_->n_exact_modes - 1] < cutoff * cutoff)
+            return pairs;
+        pairs.values.assign(previous_->lambda.begin(), previous_->lambda.begin() + previous_->n_exact_modes);
+        pairs.vectors = previous_->vectors.columns(0, previous_->n_exact_modes);
+        return pairs;
     }
 
     double flexible_eigenvalue(const vector<double> &values) const {
@@ -293,6 +306,7 @@ class ContactSpaceBuilder {
     }
 
     std::shared_ptr<const Model> model_;
+    const Space *previous_;
     std::shared_ptr<Space> space_;
     double highest_;
     std::int64_t least_modes_;
@@ -309,8 +323,12 @@ class ContactSpaceBuilder {
 } // namespace
 
 std::shared_ptr<const Space> make_contact_space(std::shared_ptr<const Model> model, double highest_frequency,
-                                                std::int64_t least_modes, Watch watch) {
-    return ContactSpaceBuilder(std::move(model), highest_frequency, least_modes, watch).build();
+                                                std::int64_t least_modes, Watch watch,
+                                                std::shared_ptr<const Space> previous) {
+    const std::int64_t least = std::min(least_modes, model->n_free());
+    if (previous && previous->highest_frequency >= highest_frequency && previous->n_exact_modes >= least)
+        return previous;
+    return ContactSpaceBuilder(std::move(model), highest_frequency, least_modes, watch, previous.get()).build();
 }
 
 } // namespace plm

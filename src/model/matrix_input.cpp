@@ -56,8 +56,8 @@ template <class Index> class Reader {
     }
 
     std::string entry_name(std::int64_t row, std::int64_t col) const {
-        return format("row %lld, column %lld (counted from %d)", Int(row + f_.index_base), Int(col + f_.index_base),
-                      f_.index_base);
+        return format("row %lld, column %lld (counted from %d)", Int(row + f_.index_base),
+                      Int(col + f_.index_base), f_.index_base);
     }
 
     [[noreturn]] static void fail(const char *argument, std::int64_t index, const std::string &text) {
@@ -67,23 +67,27 @@ template <class Index> class Reader {
     void check_pointers() const {
         const char *kind = by_columns() ? "column" : "row";
         if (a_[0] != f_.index_base)
-            fail("a", 0, format("a[0] = %lld must be the index base %d; check index_base", Int(a_[0]), f_.index_base));
+            fail(
+                "a", 0,
+                format("a[0] = %lld must be the index base %d; check index_base", Int(a_[0]), f_.index_base));
         for (std::int64_t k = 0; k < f_.n; ++k)
             if (a_[k + 1] < a_[k] || a_[k + 1] - f_.index_base > f_.nnz)
                 fail("a", k + 1,
-                     format("a[%lld] = %lld: the %s pointers must not decrease nor go beyond nnz + index_base = %lld",
+                     format("a[%lld] = %lld: the %s pointers must not decrease nor go beyond nnz + "
+                            "index_base = %lld",
                             Int(k + 1), Int(a_[k + 1]), kind, Int(f_.nnz + f_.index_base)));
         if (a_[f_.n] - f_.index_base != f_.nnz)
             fail("a", f_.n,
-                 format("a[%lld] = %lld must be nnz + index_base = %lld; check nnz and the %s pointers", Int(f_.n),
-                        Int(a_[f_.n]), Int(f_.nnz + f_.index_base), kind));
+                 format("a[%lld] = %lld must be nnz + index_base = %lld; check nnz and the %s pointers",
+                        Int(f_.n), Int(a_[f_.n]), Int(f_.nnz + f_.index_base), kind));
     }
 
     void check_range(const char *argument, const Index *numbers, const char *kind, std::int64_t p) const {
         const std::int64_t number = numbers[p], base = f_.index_base;
         if (number >= base && number - base < f_.n) return;
         fail(argument, p,
-             format("%s[%lld] = %lld is no %s number: it must lie in %lld..%lld; check index_base and the size of the "
+             format("%s[%lld] = %lld is no %s number: it must lie in %lld..%lld; check index_base and the "
+                    "size of the "
                     "model",
                     argument, Int(p), Int(number), kind, Int(base), Int(base + f_.n - 1)));
     }
@@ -95,22 +99,26 @@ template <class Index> class Reader {
         }
         for_each([&](std::int64_t p, std::int64_t row, std::int64_t col, double value) {
             if (!std::isfinite(value))
-                fail("value", p, format("value[%lld] is NaN or infinite, at %s; look for a failed element there",
-                                        Int(p), entry_name(row, col).c_str()));
+                fail("value", p,
+                     format("value[%lld] is NaN or infinite, at %s; look for a failed element there", Int(p),
+                            entry_name(row, col).c_str()));
             if ((f_.part == PLM_LOWER && row < col) || (f_.part == PLM_UPPER && row > col))
-                fail("b", p, format("b[%lld]: the entry at %s is not in the %s triangle; pass %s or drop it", Int(p),
-                                    entry_name(row, col).c_str(), f_.part == PLM_LOWER ? "lower" : "upper",
-                                    f_.part == PLM_LOWER ? "PLM_FULL or PLM_UPPER" : "PLM_FULL or PLM_LOWER"));
+                fail("b", p,
+                     format("b[%lld]: the entry at %s is not in the %s triangle; pass %s or drop it", Int(p),
+                            entry_name(row, col).c_str(), f_.part == PLM_LOWER ? "lower" : "upper",
+                            f_.part == PLM_LOWER ? "PLM_FULL or PLM_UPPER" : "PLM_FULL or PLM_LOWER"));
         });
     }
 
     void check_duplicates() const {
-        vector<std::int64_t> seen(static_cast<std::size_t>(f_.n), -1); // by number: the last column that had it
+        vector<std::int64_t> seen(static_cast<std::size_t>(f_.n),
+                                  -1); // by number: the last column that had it
         for_each([&](std::int64_t p, std::int64_t row, std::int64_t col, double) {
             const std::int64_t k = by_columns() ? col : row, other = by_columns() ? row : col;
             if (seen[other] == k)
-                fail("b", p, format("b[%lld]: the entry at %s is given twice; sum it or pass PLM_TRIPLETS", Int(p),
-                                    entry_name(row, col).c_str()));
+                fail("b", p,
+                     format("b[%lld]: the entry at %s is given twice; sum it or pass PLM_TRIPLETS", Int(p),
+                            entry_name(row, col).c_str()));
             seen[other] = k;
         });
     }
@@ -124,7 +132,8 @@ template <class Index> class Reader {
         for (std::int64_t i = 0; i < f_.n; ++i)
             if (diagonal[i] < 0)
                 fail("value", position[i],
-                     format("value[%lld]: the diagonal entry at %s is negative (%g); mass and stiffness are positive "
+                     format("value[%lld]: the diagonal entry at %s is negative (%g); mass and stiffness are "
+                            "positive "
                             "semi-definite, check the sign of the element matrices",
                             Int(position[i]), entry_name(i, i).c_str(), diagonal[i]));
     }
@@ -134,7 +143,9 @@ template <class Index> class Reader {
         vector<double> v(value_, value_ + f_.nnz);
         i.reserve(static_cast<std::size_t>(f_.nnz)), j.reserve(static_cast<std::size_t>(f_.nnz));
         // Triplets keep their order; compressed forms are visited in storage order, too.
-        for_each([&](std::int64_t, std::int64_t row, std::int64_t col, double) { i.push_back(row), j.push_back(col); });
+        for_each([&](std::int64_t, std::int64_t row, std::int64_t col, double) {
+            i.push_back(row), j.push_back(col);
+        });
         return from_triplets(f_.n, f_.n, i, j, v);
     }
 
@@ -154,7 +165,8 @@ template <class Index> class Reader {
             if (std::abs(one - other) <= 1e-8 * largest) return;
             const std::int64_t p = position_of(row, col);
             fail("value", p >= 0 ? p : position_of(col, row),
-                 format("the matrix is not symmetric: %.10g at %s but %.10g at the mirrored place, more than 1e-8 of "
+                 format("the matrix is not symmetric: %.10g at %s but %.10g at the mirrored place, more than "
+                        "1e-8 of "
                         "the largest entry %g apart; pass PLM_LOWER or PLM_UPPER to use one triangle",
                         one, entry_name(row, col).c_str(), other, largest));
         };
@@ -193,8 +205,10 @@ MatrixInput::MatrixInput(const MatrixFormat &f, const Index *a, const Index *b, 
     index_ = std::move(arrays); // a moved vector keeps its storage: the pointers stay right
 }
 
-template MatrixInput::MatrixInput(const MatrixFormat &, const std::int32_t *, const std::int32_t *, const double *);
-template MatrixInput::MatrixInput(const MatrixFormat &, const std::int64_t *, const std::int64_t *, const double *);
+template MatrixInput::MatrixInput(const MatrixFormat &, const std::int32_t *, const std::int32_t *,
+                                  const double *);
+template MatrixInput::MatrixInput(const MatrixFormat &, const std::int64_t *, const std::int64_t *,
+                                  const double *);
 
 void MatrixInput::check() const {
     std::visit([&](const auto &x) { Reader(layout, x.a, x.b, value_).check(); }, index_);

@@ -1,4 +1,5 @@
-// A sparse symmetric matrix in the caller's own format: checked at the entry, turned into a SparseMatrix at the build.
+// A sparse symmetric matrix in the caller's own format: checked at the entry, turned into a SparseMatrix at
+// the build.
 #pragma once
 #include "linalg/error.hpp"
 #include "linalg/sparse.hpp"
@@ -27,8 +28,9 @@ struct MatrixInput {
 
     /// Throws PLM_ERR_MATRIX with argument "a", "b" or "value" and the position in that array as index.
     void check() const;
-    /// Full symmetric n x n; the upper triangle is the mirror of the lower (of the stored one, if one is stored), so
-    /// the result is symmetric to the last bit. Borrowed arrays are checked again: they may have changed meanwhile.
+    /// Full symmetric n x n; the upper triangle is the mirror of the lower (of the stored one, if one is
+    /// stored), so the result is symmetric to the last bit. Borrowed arrays are checked again: they may have
+    /// changed meanwhile.
     SparseMatrix to_sparse() const;
 
     const MatrixFormat layout;

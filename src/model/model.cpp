@@ -16,8 +16,8 @@ bool all_zero(const vector<double> &x) {
 
 void require_size(const char *what, std::int64_t size, std::int64_t n_dof) {
     if (size != n_dof)
-        throw Error(PLM_ERR_ARGUMENT, format("%s has %lld entries where the model has %lld DOFs", what, Int(size),
-                                             Int(n_dof)))
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("%s has %lld entries where the model has %lld DOFs", what, Int(size), Int(n_dof)))
             .argument(what);
 }
 
@@ -28,13 +28,15 @@ SparseMatrix on_free_dofs(const char *name, const MatrixInput &input, const vect
     return submatrix(input.to_sparse(), free_of, n_free, free_of, n_free);
 }
 
-void require_nonnegative_diagonal(const char *name, const SparseMatrix &a, const vector<std::int64_t> &free_dof) {
+void require_nonnegative_diagonal(const char *name, const SparseMatrix &a,
+                                  const vector<std::int64_t> &free_dof) {
     for (std::int64_t j = 0; j < a.cols; ++j)
         for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p)
             if (a.idx[p] == j && a.val[p] < 0)
-                throw Error(PLM_ERR_MATRIX, format("the %s matrix has the negative diagonal entry %g at DOF %lld "
-                                                   "(counted from 0); it must be positive semi-definite",
-                                                   name, a.val[p], Int(free_dof[j])))
+                throw Error(PLM_ERR_MATRIX,
+                            format("the %s matrix has the negative diagonal entry %g at DOF %lld "
+                                   "(counted from 0); it must be positive semi-definite",
+                                   name, a.val[p], Int(free_dof[j])))
                     .argument("value")
                     .index(free_dof[j]);
 }
@@ -67,8 +69,9 @@ void Model::restrict_to_free(const double *all, double *free) const {
 
 void Model::assemble(const ModelInput &input) {
     if (!input.mass || !input.stiffness)
-        throw Error(PLM_ERR_STATE, input.mass ? "the stiffness matrix is missing; hand it over with PLM_STIFFNESS"
-                                              : "the mass matrix is missing; hand it over with PLM_MASS");
+        throw Error(PLM_ERR_STATE, input.mass
+                                       ? "the stiffness matrix is missing; hand it over with PLM_STIFFNESS"
+                                       : "the mass matrix is missing; hand it over with PLM_MASS");
     require_size("fixed", static_cast<std::int64_t>(input.fixed.size()), n_dof_);
     free_of_.assign(n_dof_, -1);
     for (std::int64_t i = 0; i < n_dof_; ++i)
@@ -84,10 +87,12 @@ void Model::assemble(const ModelInput &input) {
     require_nonnegative_diagonal("mass", mass_, free_dof_);
     require_nonnegative_diagonal("stiffness", stiffness_, free_dof_);
     if (!(trace(mass_) > 0))
-        throw Error(PLM_ERR_MATRIX, "no free DOF has mass; check the mass matrix and the fixed DOFs").argument("value");
+        throw Error(PLM_ERR_MATRIX, "no free DOF has mass; check the mass matrix and the fixed DOFs")
+            .argument("value");
     damping_ = input.damping;
     damping_.has_matrix = input.damping_matrix != nullptr;
-    if (damping_.has_matrix) damping_matrix_ = on_free_dofs("damping", *input.damping_matrix, free_of_, n_free());
+    if (damping_.has_matrix)
+        damping_matrix_ = on_free_dofs("damping", *input.damping_matrix, free_of_, n_free());
     assemble_gap(input);
     assemble_loads(input);
 }
@@ -96,18 +101,20 @@ void Model::assemble_gap(const ModelInput &input) {
     const std::int64_t z = static_cast<std::int64_t>(input.contact_stiffness.size());
     vector<std::int64_t> all_pairs(z);
     for (std::int64_t i = 0; i < z; ++i) all_pairs[i] = i;
-    gap_matrix_ = submatrix(from_triplets(z, n_dof_, input.gap_pair, input.gap_dof, input.gap_coefficient), all_pairs,
-                            z, free_of_, n_free());
+    gap_matrix_ = submatrix(from_triplets(z, n_dof_, input.gap_pair, input.gap_dof, input.gap_coefficient),
+                            all_pairs, z, free_of_, n_free());
     contact_stiffness_ = input.contact_stiffness;
     initial_gap_ = input.initial_gap;
     vector<double> weight(z, 0.0);
-    for (std::int64_t p = 0; p < gap_matrix_.nnz(); ++p) weight[gap_matrix_.idx[p]] += std::abs(gap_matrix_.val[p]);
+    for (std::int64_t p = 0; p < gap_matrix_.nnz(); ++p)
+        weight[gap_matrix_.idx[p]] += std::abs(gap_matrix_.val[p]);
     for (std::int64_t i = 0; i < z; ++i)
         if (!(weight[i] > 0))
-            throw Error(PLM_ERR_ARGUMENT, format("contact pair %lld (counted from 0, in the order they were added) "
-                                                 "touches fixed DOFs only: its penetration can never change; leave it "
-                                                 "out or release a DOF",
-                                                 Int(i)))
+            throw Error(PLM_ERR_ARGUMENT,
+                        format("contact pair %lld (counted from 0, in the order they were added) "
+                               "touches fixed DOFs only: its penetration can never change; leave it "
+                               "out or release a DOF",
+                               Int(i)))
                 .argument("pair")
                 .index(i);
 }
@@ -131,8 +138,8 @@ void Model::assemble_loads(const ModelInput &input) {
 
 void Model::factor_stiffness(Watch watch) {
     watch.step("factorization", 0.1);
-    FactoredStiffness result =
-        factor_with_rigid_modes(stiffness_, mass_, largest_stiffness(contact_stiffness_), free_dof_, host_, watch);
+    FactoredStiffness result = factor_with_rigid_modes(
+        stiffness_, mass_, largest_stiffness(contact_stiffness_), free_dof_, host_, watch);
     factor_ = std::move(result.factor);
     shift_ = result.shift;
     rigid_modes_ = std::move(result.rigid_modes);
@@ -146,8 +153,10 @@ void Model::resolve_contact_stiffness() {
     vector<double> flexibility;
     for (std::int64_t i = 0; i < z; ++i) {
         double whole = 0, rigid = 0;
-        for (std::int64_t p = rows.ptr[i]; p < rows.ptr[i + 1]; ++p) whole += rows.val[p] * attachment_(rows.idx[p], i);
-        for (std::int64_t j = 0; j < rigid_gap.cols(); ++j) rigid += rigid_gap(i, j) * rigid_gap(i, j) / shift_;
+        for (std::int64_t p = rows.ptr[i]; p < rows.ptr[i + 1]; ++p)
+            whole += rows.val[p] * attachment_(rows.idx[p], i);
+        for (std::int64_t j = 0; j < rigid_gap.cols(); ++j)
+            rigid += rigid_gap(i, j) * rigid_gap(i, j) / shift_;
         // below 1e-10 the difference is rounding: this pair sees rigid motion only
         if (whole - rigid > 1e-10 * whole) flexibility.push_back(whole - rigid);
     }
@@ -159,9 +168,10 @@ void Model::resolve_contact_stiffness() {
     for (std::int64_t i = 0; i < z; ++i) {
         if (contact_stiffness_[i] != PLM_AUTO_STIFFNESS) continue;
         if (!(local_stiffness_ > 0))
-            throw Error(PLM_ERR_ARGUMENT, format("PLM_AUTO_STIFFNESS of pair %lld: the bodies are rigid at the "
-                                                 "contact, so there is no local stiffness to go by; give k_n",
-                                                 Int(i)))
+            throw Error(PLM_ERR_ARGUMENT,
+                        format("PLM_AUTO_STIFFNESS of pair %lld: the bodies are rigid at the "
+                               "contact, so there is no local stiffness to go by; give k_n",
+                               Int(i)))
                 .argument("stiffness")
                 .index(i);
         contact_stiffness_[i] = 10 * local_stiffness_;

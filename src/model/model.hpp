@@ -1,4 +1,5 @@
-// The structure: M q'' + C q' + K q = F(t) - B^T N(B q - g), on its free DOFs, checked once and then read-only.
+// The structure: M q'' + C q' + K q = F(t) - B^T N(B q - g), on its free DOFs, checked once and then
+// read-only.
 #pragma once
 #include "linalg/factor.hpp"
 #include "linalg/monitor.hpp"
@@ -15,10 +16,10 @@ struct HarmonicLoad {
 };
 
 struct Damping {
-    double alpha = 0, beta = 0;  // C = alpha M + beta K
-    double structural = 0;       // K (1 + i eta), h >= 1
-    vector<double> modal_ratio;  // of the open system's modes, the last one for all beyond
-    bool has_matrix = false;     // an explicit C is present (Model::damping_matrix)
+    double alpha = 0, beta = 0; // C = alpha M + beta K
+    double structural = 0;      // K (1 + i eta), h >= 1
+    vector<double> modal_ratio; // of the open system's modes, the last one for all beyond
+    bool has_matrix = false;    // an explicit C is present (Model::damping_matrix)
 };
 
 /// One matrix as the caller gave it: what to read, checked at the entry. Borrowed arrays stay the caller's.
@@ -35,22 +36,23 @@ struct ModelInput {
     vector<double> gap_coefficient;
     vector<double> contact_stiffness; // PLM_AUTO_STIFFNESS: chosen when the flexibility is known
     vector<double> initial_gap;
-    vector<double> preload;                // empty: none
+    vector<double> preload;                 // empty: none
     std::map<int, HarmonicLoad> excitation; // by harmonic
 };
 
 /// How the contact space (contact_space.hpp) is built; options of the model.
 struct SpaceOptions {
-    double tolerance = 1e-7;       // relative error of the contact receptances at the highest frequency asked for
-    double cutoff_factor = 2.0;    // exact modes up to this multiple of the highest frequency
-    std::int64_t max_blocks = 4;   // attachment vectors (K + sigma M)^-1 [M (K + sigma M)^-1]^j B^T, j < max_blocks
-    bool verify_counts = true;     // Sturm count of the modes below the cutoff
+    double tolerance = 1e-7; // relative error of the contact receptances at the highest frequency asked for
+    double cutoff_factor = 2.0; // exact modes up to this multiple of the highest frequency
+    std::int64_t max_blocks =
+        4; // attachment vectors (K + sigma M)^-1 [M (K + sigma M)^-1]^j B^T, j < max_blocks
+    bool verify_counts = true; // Sturm count of the modes below the cutoff
 };
 
 class Model {
   public:
-    /// Checks the input as a whole, removes fixed DOFs, factors K (or K + sigma M when K is singular), finds rigid-body
-    /// modes. Throws plm::Error with the argument and index at fault.
+    /// Checks the input as a whole, removes fixed DOFs, factors K (or K + sigma M when K is singular), finds
+    /// rigid-body modes. Throws plm::Error with the argument and index at fault.
     Model(const ModelInput &input, const SpaceOptions &options, const HostSolver *host, Watch watch);
     ~Model();
     Model(const Model &) = delete;
@@ -65,9 +67,11 @@ class Model {
     // all below on the free DOFs
     const SparseMatrix &mass() const { return mass_; }
     const SparseMatrix &stiffness() const { return stiffness_; }
-    const SparseMatrix &damping_matrix() const { return damping_matrix_; } // explicit part only; 0 x 0 if none
+    const SparseMatrix &damping_matrix() const {
+        return damping_matrix_;
+    } // explicit part only; 0 x 0 if none
     const Damping &damping() const { return damping_; }
-    const SparseMatrix &gap_matrix() const { return gap_matrix_; } // Z x n_free
+    const SparseMatrix &gap_matrix() const { return gap_matrix_; }                 // Z x n_free
     const vector<double> &contact_stiffness() const { return contact_stiffness_; } // k_n, resolved
     const vector<double> &initial_gap() const { return initial_gap_; }
     /// 1 / median of the contact flexibility diag(B K^-1 B^T), rigid-body motion left out; 0 without pairs.
@@ -81,7 +85,8 @@ class Model {
     double shift() const { return shift_; }
     /// M-orthonormal rigid-body modes of the open structure (n_free x count, may have no column).
     const Matrix &rigid_modes() const { return rigid_modes_; }
-    /// (K + shift M)^-1 B^T, n_free x Z: computed once, at the build (auto stiffness and every space need it).
+    /// (K + shift M)^-1 B^T, n_free x Z: computed once, at the build (auto stiffness and every space need
+    /// it).
     const Matrix &attachment() const { return attachment_; }
     const SpaceOptions &space_options() const { return space_options_; }
     const HostSolver *host_solver() const { return host_; }

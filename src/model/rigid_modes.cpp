@@ -16,8 +16,9 @@ vector<double> diagonal(const SparseMatrix &a) {
     return d;
 }
 
-/// Does the factor reproduce a vector from K times it? A singular K loses its rigid part altogether, while an ill-
-/// conditioned one loses only digits. Needed where the condition estimate is missing (host solvers) or undecided.
+/// Does the factor reproduce a vector from K times it? A singular K loses its rigid part altogether, while an
+/// ill- conditioned one loses only digits. Needed where the condition estimate is missing (host solvers) or
+/// undecided.
 bool solves(const SparseMatrix &k, const Factor &factor) {
     vector<double> x(k.cols), y(k.cols);
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = 1 + 0.5 * std::sin(static_cast<double>(i));
@@ -59,7 +60,8 @@ class RigidModeSearch {
     FactoredStiffness run() {
         refuse_free_massless_dofs();
         FactoredStiffness result;
-        if (!(scale_ > 0)) return all_rigid(largest_contact_ > 0 ? largest_contact_ * k_.cols / trace(m_) : 1.0);
+        if (!(scale_ > 0))
+            return all_rigid(largest_contact_ > 0 ? largest_contact_ * k_.cols / trace(m_) : 1.0);
         result.shift = 1e-8 * scale_;
         result.factor = factor_shifted(result.shift);
         find_gap(*result.factor, result.shift);
@@ -72,9 +74,10 @@ class RigidModeSearch {
         // again with the better shift: the modes are as orthogonal to the flexible ones as K allows
         const EigenPairs final = lowest(*result.factor, result.shift, n_rigid_ + 1);
         result.rigid_modes = final.vectors.columns(0, n_rigid_);
-        watch_.log(1, format("the structure has %lld rigid-body modes while its contacts are open; K + %g M is "
-                             "factored instead of K",
-                             Int(n_rigid_), result.shift));
+        watch_.log(1,
+                   format("the structure has %lld rigid-body modes while its contacts are open; K + %g M is "
+                          "factored instead of K",
+                          Int(n_rigid_), result.shift));
         return result;
     }
 
@@ -95,10 +98,11 @@ class RigidModeSearch {
         return result;
     }
 
-    // Rigid modes: those below 1e-6 of the next eigenvalue. At most six per body, but the number of bodies is not
-    // known: when no gap shows among the modes found, more are taken.
+    // Rigid modes: those below 1e-6 of the next eigenvalue. At most six per body, but the number of bodies is
+    // not known: when no gap shows among the modes found, more are taken.
     void find_gap(const Factor &factor, double shift) {
-        const double noise = 1e-13 * scale_; // eps times the largest eigenvalues: what K q_rigid is in floating point
+        const double noise =
+            1e-13 * scale_; // eps times the largest eigenvalues: what K q_rigid is in floating point
         for (std::int64_t count = std::min<std::int64_t>(8, k_.cols);; count = std::min(k_.cols, 2 * count)) {
             watch_.step("rigid-body modes", 0.3);
             pairs_ = lowest(factor, shift, count);
@@ -123,12 +127,13 @@ class RigidModeSearch {
             if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE && e.status() != PLM_ERR_SINGULAR) throw;
             const std::int64_t column = e.index();
             const bool known = column >= 0 && column < k_.cols;
-            throw Error(PLM_ERR_NOT_POSITIVE_DEFINITE,
-                        format("K + %g M is not positive definite%s: the stiffness has a negative eigenvalue, or "
-                               "mass-less DOFs can move without deformation; check the stiffness matrix and the "
-                               "supports",
-                               shift, known ? format(" at DOF %lld (counted from 0)", Int(free_dof_[column])).c_str()
-                                            : ""))
+            throw Error(
+                PLM_ERR_NOT_POSITIVE_DEFINITE,
+                format("K + %g M is not positive definite%s: the stiffness has a negative eigenvalue, or "
+                       "mass-less DOFs can move without deformation; check the stiffness matrix and the "
+                       "supports",
+                       shift,
+                       known ? format(" at DOF %lld (counted from 0)", Int(free_dof_[column])).c_str() : ""))
                 .reason(PLM_REASON_NOT_POSITIVE_DEFINITE)
                 .argument("K")
                 .index(known ? free_dof_[column] : -1)
@@ -140,9 +145,10 @@ class RigidModeSearch {
         const vector<double> dk = diagonal(k_), dm = diagonal(m_);
         for (std::int64_t i = 0; i < k_.cols; ++i)
             if (!(dk[i] > 0) && !(dm[i] > 0))
-                throw Error(PLM_ERR_NOT_POSITIVE_DEFINITE,
-                            format("DOF %lld (counted from 0) has neither stiffness nor mass; fix it or give it one",
-                                   Int(free_dof_[i])))
+                throw Error(
+                    PLM_ERR_NOT_POSITIVE_DEFINITE,
+                    format("DOF %lld (counted from 0) has neither stiffness nor mass; fix it or give it one",
+                           Int(free_dof_[i])))
                     .reason(PLM_REASON_NOT_POSITIVE_DEFINITE)
                     .argument("K")
                     .index(free_dof_[i]);
@@ -152,10 +158,11 @@ class RigidModeSearch {
         const double noise = 1e-11 * scale_;
         const double lowest = pairs_.values.front();
         if (lowest >= -std::max(1e-6 * flexible, noise)) return;
-        throw Error(PLM_ERR_NOT_POSITIVE_DEFINITE,
-                    format("the stiffness matrix has the negative eigenvalue %g (the first elastic one is %g): it is "
-                           "not positive semi-definite; check element signs and geometric stiffness",
-                           lowest, flexible))
+        throw Error(
+            PLM_ERR_NOT_POSITIVE_DEFINITE,
+            format("the stiffness matrix has the negative eigenvalue %g (the first elastic one is %g): it is "
+                   "not positive semi-definite; check element signs and geometric stiffness",
+                   lowest, flexible))
             .reason(PLM_REASON_NOT_POSITIVE_DEFINITE)
             .argument("K");
     }
@@ -178,8 +185,9 @@ double largest_stiffness(const vector<double> &contact_stiffness) {
     return largest;
 }
 
-FactoredStiffness factor_with_rigid_modes(const SparseMatrix &k, const SparseMatrix &m, double largest_contact,
-                                          const vector<std::int64_t> &free_dof, const HostSolver *host, Watch watch) {
+FactoredStiffness factor_with_rigid_modes(const SparseMatrix &k, const SparseMatrix &m,
+                                          double largest_contact, const vector<std::int64_t> &free_dof,
+                                          const HostSolver *host, Watch watch) {
     if (std::unique_ptr<Factor> factor = factor_regular(k, host)) return {std::move(factor), 0.0, Matrix()};
     return RigidModeSearch(k, m, largest_contact, free_dof, host, watch).run();
 }

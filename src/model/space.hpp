@@ -38,7 +38,10 @@ SpaceModes modes_of_contact_set(const Space &space, const vector<char> &closed, 
 
 /// The contact space: exact open modes up to cutoff_factor x highest_frequency, and contact attachment vectors block
 /// by block until the receptance error at highest_frequency (rad/s) is below the model's tolerance.
+/// previous: an earlier contact space of the same model or null; it is returned when it already serves, and its exact
+/// modes are used again when they reach far enough.
 std::shared_ptr<const Space> make_contact_space(std::shared_ptr<const Model> model, double highest_frequency,
-                                                std::int64_t least_modes, Watch watch);
+                                                std::int64_t least_modes, Watch watch,
+                                                std::shared_ptr<const Space> previous = nullptr);
 
 } // namespace plm

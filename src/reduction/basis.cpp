@@ -59,7 +59,7 @@ std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &mo
         return parent->space();
     }
     if (sampler && sampler->space()->highest_frequency >= highest * (1 - 1e-9)) return sampler->space();
-    return make_contact_space(model, highest, least_open_modes, watch);
+    return make_contact_space(model, highest, least_open_modes, watch, sampler ? sampler->space() : nullptr);
 }
 
 // The sampler's dominant modes in the coordinates of another space: V^T M (V_s c).

@@ -1,5 +1,6 @@
 #include "sampling/contact_sweep.hpp"
 #include <algorithm>
+#include <cstdlib>
 #include <cmath>
 #include <utility>
 
@@ -88,6 +89,13 @@ void add_unless_present(std::vector<SelectedSample> &samples, SelectedSample sam
     samples.push_back(std::move(sample));
 }
 
+void move_nearest(vector<std::int64_t> &chosen, std::int64_t target) {
+    const auto nearest = std::min_element(chosen.begin(), chosen.end(), [&](std::int64_t a, std::int64_t b) {
+        return std::abs(a - target) < std::abs(b - target);
+    });
+    if (nearest != chosen.end()) *nearest = target;
+}
+
 } // namespace
 
 ContactSweep sweep_contact(const vector<double> &offset, bool offset_is_rest, const vector<double> &dv) {
@@ -106,6 +114,10 @@ ContactSweep sweep_contact(const vector<double> &offset, bool offset_is_rest, co
     return sweep;
 }
 
+std::int64_t position_at_rest(const ContactSweep &sweep) {
+    return std::upper_bound(sweep.thresholds.begin(), sweep.thresholds.end(), 0.0) - sweep.thresholds.begin();
+}
+
 vector<std::int64_t> equally_spaced(const ContactSweep &sweep, std::int64_t n_samples, bool with_ends) {
     const std::int64_t size = static_cast<std::int64_t>(sweep.samples.size());
     vector<std::int64_t> chosen;
@@ -113,9 +125,8 @@ vector<std::int64_t> equally_spaced(const ContactSweep &sweep, std::int64_t n_sa
         for (std::int64_t i = 0; i < size; ++i) chosen.push_back(i);
         return chosen;
     }
-    if (n_samples == 1) { // the interval that holds alpha = 0
-        const auto above = std::upper_bound(sweep.thresholds.begin(), sweep.thresholds.end(), 0.0);
-        chosen.push_back(above - sweep.thresholds.begin());
+    if (n_samples == 1) {
+        chosen.push_back(position_at_rest(sweep));
         return chosen;
     }
     for (std::int64_t i = 0; i < n_samples; ++i) {
@@ -128,11 +139,14 @@ vector<std::int64_t> equally_spaced(const ContactSweep &sweep, std::int64_t n_sa
 }
 
 std::vector<SelectedSample> select_samples(const std::vector<ContactSweep> &sweeps, std::int64_t n_samples,
-                                           bool with_ends, bool complements) {
+                                           bool with_ends, bool complements, bool with_rest) {
     std::vector<SelectedSample> samples;
-    for (std::size_t d = 0; d < sweeps.size(); ++d)
-        for (std::int64_t i : equally_spaced(sweeps[d], n_samples, with_ends))
+    for (std::size_t d = 0; d < sweeps.size(); ++d) {
+        vector<std::int64_t> chosen = equally_spaced(sweeps[d], n_samples, with_ends);
+        if (with_rest && sweeps[d].offset_is_rest) move_nearest(chosen, position_at_rest(sweeps[d]));
+        for (std::int64_t i : chosen)
             add_unless_present(samples, make_sample(sweeps[d].samples[i], static_cast<std::int64_t>(d), i, false));
+    }
     const std::size_t n_selected = complements ? samples.size() : 0;
     for (std::size_t i = 0; i < n_selected; ++i) {
         vector<char> inverted = samples[i].closed;

@@ -12,8 +12,13 @@ ContactSweep sweep_contact(const vector<double> &offset, bool offset_is_rest, co
 /// with_ends: first and last included; n_samples = 1: the sample at alpha = 0.
 vector<std::int64_t> equally_spaced(const ContactSweep &sweep, std::int64_t n_samples, bool with_ends);
 
+/// Position of the sample at alpha = 0: the contact set at rest when the offset is the rest penetration.
+std::int64_t position_at_rest(const ContactSweep &sweep);
+
 /// The selected samples of all sweeps, then (complements) those with every status inverted; no contact set twice.
+/// with_rest: where the offset is the rest penetration, the selected position nearest to rest is moved there, since
+/// small vibration takes place in that contact set alone.
 std::vector<SelectedSample> select_samples(const std::vector<ContactSweep> &sweeps, std::int64_t n_samples,
-                                           bool with_ends, bool complements);
+                                           bool with_ends, bool complements, bool with_rest);
 
 } // namespace plm

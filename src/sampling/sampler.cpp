@@ -69,14 +69,16 @@ ContactSweep sweep_of(const Space &space, const RestState &rest, bool homogeneou
 
 } // namespace
 
-Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &options, Watch watch) : options_(options) {
+Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &options, Watch watch,
+                 std::shared_ptr<const Space> known)
+    : options_(options), space_(std::move(known)) {
     check_options(options);
     if (model->n_pairs() == 0) throw Error(PLM_ERR_STATE, "the model has no contact pair to sample");
     const bool homogeneous = is_homogeneous(*model);
     double highest = first_guess(options);
     for (int round = 0; round < 4; ++round) {
         watch.step("sampler", 0.25 * round);
-        space_ = make_contact_space(model, highest, least_modes(options), watch);
+        space_ = make_contact_space(model, highest, least_modes(options), watch, space_);
         rest_ = solve_rest(*space_);
         dominant_ = find_dominant_modes(*space_, rest_, homogeneous, options, watch);
         sweeps_.clear();
@@ -86,7 +88,8 @@ Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &optio
         if (space_->highest_frequency >= needed) break;
         highest = 1.01 * needed; // the frequencies move a little in the better space
     }
-    samples_ = select_samples(sweeps_, options.n_samples, options.include_ends, options.complements);
+    samples_ = select_samples(sweeps_, options.n_samples, options.include_ends, options.complements,
+                              options.include_rest);
     watch.log(1, format("dominant mode %lld of the %s system at %.6g Hz; %zu contact sets in its sweep, %zu samples; "
                         "window [%.6g, %.6g] Hz: %s",
                         static_cast<long long>(dominant_.front().mode),

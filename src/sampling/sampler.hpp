@@ -15,6 +15,7 @@ struct SamplerOptions {
     std::int64_t n_samples = 4;
     bool complements = true;
     bool include_ends = true;        // equally spaced over the sweep with its two ends
+    bool include_rest = true;        // with pre-load: the contact set at rest is among the samples
     double window_half_width = 0.05; // of the estimated resonance frequency
     double window_min_hz = 0, window_max_hz = 0; // > 0: the caller's window instead
     std::int64_t n_harmonics = 5;    // the space must be accurate up to n_harmonics x window
@@ -69,8 +70,9 @@ struct FrequencyWindow {
 
 class Sampler {
   public:
-    /// Does all the work. `model` must have at least one pair.
-    Sampler(std::shared_ptr<const Model> model, const SamplerOptions &options, Watch watch);
+    /// Does all the work. `model` must have at least one pair. `known`: an earlier contact space of the model, or null.
+    Sampler(std::shared_ptr<const Model> model, const SamplerOptions &options, Watch watch,
+            std::shared_ptr<const Space> known = nullptr);
 
     const SamplerOptions &options() const { return options_; }
     const std::shared_ptr<const Space> &space() const { return space_; }

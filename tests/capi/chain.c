@@ -23,12 +23,17 @@ void chain_fill(chain *c) {
 
 plm_status chain_model(plm_context *ctx, const chain *c, int with_preload, plm_model **model) {
     static const int32_t a[] = {6, 7, 8}, b[] = {15, 16, 17}, g[] = {21, 22, 23};
-    static const double normal[] = {1, 0, 0}, stiffness[] = {PLM_AUTO_STIFFNESS}, given[] = {2e4}, gap[] = {0.0};
+    static const double normal[] = {1, 0, 0}, stiffness[] = {PLM_AUTO_STIFFNESS}, given[] = {2e4},
+                        gap[] = {0.0};
     plm_model *m = NULL;
     plm_status s = plm_model_create(ctx, CHAIN_DOFS, &m);
     *model = NULL;
-    if (!s) s = plm_model_set_matrix_i64(m, PLM_MASS, PLM_CSC, PLM_FULL, 0, PLM_COPY, CHAIN_NNZ_FULL, c->col_ptr, c->row, c->m);
-    if (!s) s = plm_model_set_matrix_i32(m, PLM_STIFFNESS, PLM_CSR, PLM_FULL, 0, PLM_BORROW, CHAIN_NNZ_FULL, c->col_ptr32, c->row32, c->k);
+    if (!s)
+        s = plm_model_set_matrix_i64(m, PLM_MASS, PLM_CSC, PLM_FULL, 0, PLM_COPY, CHAIN_NNZ_FULL, c->col_ptr,
+                                     c->row, c->m);
+    if (!s)
+        s = plm_model_set_matrix_i32(m, PLM_STIFFNESS, PLM_CSR, PLM_FULL, 0, PLM_BORROW, CHAIN_NNZ_FULL,
+                                     c->col_ptr32, c->row32, c->k);
     if (!s) s = plm_model_set_rayleigh_damping(m, 0.5, 2e-4);
     if (!s) s = plm_model_add_node_pairs_i32(m, 0, 1, a, b, normal, stiffness, NULL);
     if (!s) s = plm_model_add_ground_contacts_i32(m, 0, 1, g, normal, given, gap);

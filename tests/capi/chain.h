@@ -1,5 +1,5 @@
-/* chain.h: a clamped chain of masses with three DOFs per node, as a host would hold it (base 0, compressed columns).
- * Along x the nodes are joined by springs; along y and z each one hangs on its own spring. */
+/* chain.h: a clamped chain of masses with three DOFs per node, as a host would hold it (base 0, compressed
+ * columns). Along x the nodes are joined by springs; along y and z each one hangs on its own spring. */
 #ifndef CHAIN_H
 #define CHAIN_H
 
@@ -17,8 +17,8 @@ typedef struct chain {
 
 void chain_fill(chain *c);
 
-/* Model with matrices, damping, two contact pairs (nodes 2 and 5 along x; node 7 against ground) and excitation along
- * x at node 4; not built. *model is NULL on failure. */
+/* Model with matrices, damping, two contact pairs (nodes 2 and 5 along x; node 7 against ground) and
+ * excitation along x at node 4; not built. *model is NULL on failure. */
 plm_status chain_model(plm_context *ctx, const chain *c, int with_preload, plm_model **model);
 
 /* The same built. */

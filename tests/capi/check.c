@@ -13,8 +13,9 @@ int refused(plm_context *ctx, plm_status got, plm_status want, const char *funct
     ok = got == want && status == want && strcmp(where, function) == 0 && strcmp(which, argument) == 0 &&
          position == index && strstr(text, words) != NULL && strncmp(text, function, strlen(function)) == 0;
     if (!ok)
-        printf("    wanted %d %s(%s, %lld) \"%s\"\n    got    %d/%d %s(%s, %lld) \"%s\"\n", (int)want, function,
-               argument, (long long)index, words, (int)got, (int)status, where, which, (long long)position, text);
+        printf("    wanted %d %s(%s, %lld) \"%s\"\n    got    %d/%d %s(%s, %lld) \"%s\"\n", (int)want,
+               function, argument, (long long)index, words, (int)got, (int)status, where, which,
+               (long long)position, text);
     return ok;
 }
 

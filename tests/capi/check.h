@@ -13,8 +13,8 @@
 
 #include <cmocka.h>
 
-/* Was it refused with this status, argument and index, and does the text begin with "function: " and contain `words`?
- * Prints what differs. */
+/* Was it refused with this status, argument and index, and does the text begin with "function: " and contain
+ * `words`? Prints what differs. */
 int refused(plm_context *ctx, plm_status got, plm_status want, const char *function, const char *argument,
             int64_t index, const char *words);
 

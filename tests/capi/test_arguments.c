@@ -1,4 +1,5 @@
-/* Every bad input is refused with the status, argument, index and a text that says what to do, and changes nothing. */
+/* Every bad input is refused with the status, argument, index and a text that says what to do, and changes
+ * nothing. */
 #include "chain.h"
 #include "check.h"
 
@@ -14,9 +15,10 @@ static int tear_down(void **state) {
     return plm_context_destroy(&ctx);
 }
 
-#define REFUSED(call, status, function, argument, index, words)                                                        \
+#define REFUSED(call, status, function, argument, index, words)                                              \
     assert_true(refused(ctx, call, status, function, argument, index, words))
-#define BAD(call, function, argument, index, words) REFUSED(call, PLM_ERR_ARGUMENT, function, argument, index, words)
+#define BAD(call, function, argument, index, words)                                                          \
+    REFUSED(call, PLM_ERR_ARGUMENT, function, argument, index, words)
 
 static int64_t count(const char *key) {
     int64_t n = -1;
@@ -31,7 +33,8 @@ static void creation(void **state) {
     assert_int_equal(plm_context_create(99, &c), PLM_ERR_ARGUMENT);
     assert_null(c);
     assert_int_equal(plm_context_create(PLM_API_VERSION, NULL), PLM_ERR_ARGUMENT);
-    assert_int_equal(plm_context_create_with_allocator(PLM_API_VERSION, NULL, NULL, NULL, &c), PLM_ERR_ARGUMENT);
+    assert_int_equal(plm_context_create_with_allocator(PLM_API_VERSION, NULL, NULL, NULL, &c),
+                     PLM_ERR_ARGUMENT);
     BAD(plm_model_create(ctx, 0, &m), "plm_model_create", "n_dof", -1, "n_dof is 0");
     BAD(plm_model_create(ctx, 6, NULL), "plm_model_create", "model", -1, "NULL");
     assert_null(m);
@@ -41,28 +44,34 @@ static void creation(void **state) {
 
 static void matrices(void **state) {
     const char *f = "plm_model_set_matrix_i32";
-    const int32_t diag_ptr[] = {1, 2, 3, 4, 5, 6, 7}, diag_row[] = {1, 2, 3, 4, 5, 6}, wrong_row[] = {1, 2, 3, 4, 5, 7};
+    const int32_t diag_ptr[] = {1, 2, 3, 4, 5, 6, 7}, diag_row[] = {1, 2, 3, 4, 5, 6},
+                  wrong_row[] = {1, 2, 3, 4, 5, 7};
     const int64_t bad_ptr[] = {0, 1, 2, 3, 4, 5, 7}, row64[] = {0, 1, 2, 3, 4, 5};
     double v[] = {1, 2, 3, 4, 5, 6};
     (void)state;
-#define SET(which, storage, part, base, own, nnz, a, b, val)                                                           \
+#define SET(which, storage, part, base, own, nnz, a, b, val)                                                 \
     plm_model_set_matrix_i32(model, which, storage, part, base, own, nnz, a, b, val)
     BAD(SET(9, PLM_CSC, PLM_FULL, 1, PLM_COPY, 6, diag_ptr, diag_row, v), f, "which", -1, "1..3");
     BAD(SET(PLM_MASS, 0, PLM_FULL, 1, PLM_COPY, 6, diag_ptr, diag_row, v), f, "storage", -1, "storage is 0");
     BAD(SET(PLM_MASS, PLM_CSC, 4, 1, PLM_COPY, 6, diag_ptr, diag_row, v), f, "part", -1, "part is 4");
-    BAD(SET(PLM_MASS, PLM_CSC, PLM_FULL, 2, PLM_COPY, 6, diag_ptr, diag_row, v), f, "index_base", -1, "0 (C) or 1");
-    BAD(SET(PLM_MASS, PLM_CSC, PLM_FULL, 1, 0, 6, diag_ptr, diag_row, v), f, "ownership", -1, "ownership is 0");
+    BAD(SET(PLM_MASS, PLM_CSC, PLM_FULL, 2, PLM_COPY, 6, diag_ptr, diag_row, v), f, "index_base", -1,
+        "0 (C) or 1");
+    BAD(SET(PLM_MASS, PLM_CSC, PLM_FULL, 1, 0, 6, diag_ptr, diag_row, v), f, "ownership", -1,
+        "ownership is 0");
     BAD(SET(PLM_MASS, PLM_CSC, PLM_FULL, 1, PLM_COPY, -1, diag_ptr, diag_row, v), f, "nnz", -1, "nnz is -1");
     BAD(SET(PLM_MASS, PLM_CSC, PLM_FULL, 1, PLM_COPY, 6, NULL, diag_row, v), f, "a", -1, "NULL");
     BAD(SET(PLM_MASS, PLM_CSC, PLM_FULL, 1, PLM_COPY, 6, diag_ptr, NULL, v), f, "b", -1, "NULL");
     BAD(SET(PLM_MASS, PLM_CSC, PLM_FULL, 1, PLM_COPY, 6, diag_ptr, diag_row, NULL), f, "value", -1, "NULL");
-    REFUSED(SET(PLM_MASS, PLM_CSC, PLM_FULL, 1, PLM_COPY, 6, diag_ptr, wrong_row, v), PLM_ERR_MATRIX, f, "b", 5, "b[5] = 7");
+    REFUSED(SET(PLM_MASS, PLM_CSC, PLM_FULL, 1, PLM_COPY, 6, diag_ptr, wrong_row, v), PLM_ERR_MATRIX, f, "b",
+            5, "b[5] = 7");
     REFUSED(plm_model_set_matrix_i64(model, PLM_MASS, PLM_CSC, PLM_FULL, 0, PLM_COPY, 6, bad_ptr, row64, v),
             PLM_ERR_MATRIX, "plm_model_set_matrix_i64", "a", 6, "a[6] = 7");
     v[2] = NAN;
-    REFUSED(SET(PLM_MASS, PLM_CSC, PLM_FULL, 1, PLM_COPY, 6, diag_ptr, diag_row, v), PLM_ERR_MATRIX, f, "value", 2, "row 3, column 3");
+    REFUSED(SET(PLM_MASS, PLM_CSC, PLM_FULL, 1, PLM_COPY, 6, diag_ptr, diag_row, v), PLM_ERR_MATRIX, f,
+            "value", 2, "row 3, column 3");
     v[2] = -3;
-    REFUSED(SET(PLM_STIFFNESS, PLM_CSC, PLM_FULL, 1, PLM_COPY, 6, diag_ptr, diag_row, v), PLM_ERR_MATRIX, f, "value", 2, "negative");
+    REFUSED(SET(PLM_STIFFNESS, PLM_CSC, PLM_FULL, 1, PLM_COPY, 6, diag_ptr, diag_row, v), PLM_ERR_MATRIX, f,
+            "value", 2, "negative");
     assert_int_equal(SET(PLM_DAMPING, PLM_CSC, PLM_FULL, 1, PLM_COPY, 6, diag_ptr, diag_row, v), PLM_OK);
     REFUSED(plm_model_build(model), PLM_ERR_STATE, "plm_model_build", "", -1, "mass matrix is missing");
 #undef SET
@@ -79,7 +88,8 @@ static void damping_and_supports(void **state) {
     BAD(plm_model_set_modal_damping(model, 2, NULL), "plm_model_set_modal_damping", "ratio", -1, "NULL");
     assert_int_equal(plm_model_set_modal_damping(model, 1, ratio), PLM_OK);
     assert_int_equal(plm_model_set_modal_damping(model, 0, NULL), PLM_OK);
-    BAD(plm_model_set_structural_damping(model, INFINITY), "plm_model_set_structural_damping", "eta", -1, "eta");
+    BAD(plm_model_set_structural_damping(model, INFINITY), "plm_model_set_structural_damping", "eta", -1,
+        "eta");
     BAD(plm_model_fix_dofs_i32(model, 1, 3, dof32), "plm_model_fix_dofs_i32", "dof", 2, "dof[2] = 7");
     BAD(plm_model_fix_dofs_i64(model, 0, 2, dof64), "plm_model_fix_dofs_i64", "dof", 1, "0..5");
     BAD(plm_model_fix_dofs_i32(model, 0, 1, NULL), "plm_model_fix_dofs_i32", "dof", -1, "NULL");
@@ -89,7 +99,8 @@ static void damping_and_supports(void **state) {
 
 static void node_pairs(void **state) {
     const char *f = "plm_model_add_node_pairs_i32";
-    const int32_t a[] = {1, 2, 3, 1, 2, 3}, b[] = {4, 5, 6, 4, 5, 6}, outside[] = {4, 5, 6, 4, 5, 7}, none[] = {4, 5, 6, 0, 0, -3};
+    const int32_t a[] = {1, 2, 3, 1, 2, 3}, b[] = {4, 5, 6, 4, 5, 6}, outside[] = {4, 5, 6, 4, 5, 7},
+                  none[] = {4, 5, 6, 0, 0, -3};
     const int64_t a64[] = {0, 1, 2}, b64[] = {3, 4, 6};
     double n[] = {1, 0, 0, 0, 0.5, 0};
     double k[] = {1, 0}, gap[] = {0, INFINITY};
@@ -108,13 +119,17 @@ static void node_pairs(void **state) {
     BAD(plm_model_add_node_pairs_i32(model, 1, 2, a, b, NULL, k, NULL), f, "normal", -1, "NULL");
     BAD(plm_model_add_node_pairs_i32(model, 1, 2, a, b, n, NULL, NULL), f, "stiffness", -1, "NULL");
     BAD(plm_model_add_node_pairs_i32(model, 1, -2, a, b, n, k, NULL), f, "n", -1, "n is -2");
-    BAD(plm_model_add_node_pairs_i32(model, -1, 2, a, b, n, k, NULL), f, "index_base", -1, "index_base is -1");
+    BAD(plm_model_add_node_pairs_i32(model, -1, 2, a, b, n, k, NULL), f, "index_base", -1,
+        "index_base is -1");
     n[2] = NAN;
     BAD(plm_model_add_node_pairs_i32(model, 1, 2, a, b, n, k, NULL), f, "normal", 2, "NaN");
     n[2] = 0;
-    BAD(plm_model_add_node_pairs_i64(model, 0, 1, a64, b64, n, k, NULL), "plm_model_add_node_pairs_i64", "dof_b", 2, "dof_b[2] = 6");
-    BAD(plm_model_add_ground_contacts_i32(model, 0, 1, b + 3, n, k, gap + 1), "plm_model_add_ground_contacts_i32", "dof", 2, "dof[2] = 6");
-    BAD(plm_model_add_ground_contacts_i64(model, 0, 1, a64, n, k, gap + 1), "plm_model_add_ground_contacts_i64", "gap", 0, "gap[0]");
+    BAD(plm_model_add_node_pairs_i64(model, 0, 1, a64, b64, n, k, NULL), "plm_model_add_node_pairs_i64",
+        "dof_b", 2, "dof_b[2] = 6");
+    BAD(plm_model_add_ground_contacts_i32(model, 0, 1, b + 3, n, k, gap + 1),
+        "plm_model_add_ground_contacts_i32", "dof", 2, "dof[2] = 6");
+    BAD(plm_model_add_ground_contacts_i64(model, 0, 1, a64, n, k, gap + 1),
+        "plm_model_add_ground_contacts_i64", "gap", 0, "gap[0]");
     assert_int_equal(count("n_pairs"), 0);
     assert_int_equal(plm_model_add_node_pairs_i32(model, 1, 2, a, b, n, k, NULL), PLM_OK);
     assert_int_equal(plm_model_add_ground_contacts_i32(model, 1, 1, none + 3, n, k, NULL), PLM_ERR_ARGUMENT);
@@ -123,11 +138,14 @@ static void node_pairs(void **state) {
 
 static void gap_rows(void **state) {
     const char *f = "plm_model_add_gap_rows_i32";
-    const int32_t ptr[] = {0, 2, 3}, empty_row[] = {0, 2, 2}, from_one[] = {1, 2, 3}, dof[] = {0, 3, 5}, twice[] = {3, 3, 5}, outside[] = {0, 3, 6};
+    const int32_t ptr[] = {0, 2, 3}, empty_row[] = {0, 2, 2}, from_one[] = {1, 2, 3}, dof[] = {0, 3, 5},
+                  twice[] = {3, 3, 5}, outside[] = {0, 3, 6};
     const int64_t ptr64[] = {1, 2}, dof64[] = {0};
-    const double c[] = {1, -1, 1}, nan[] = {1, NAN, 1}, zero[] = {1, -1, 0}, k[] = {1, PLM_AUTO_STIFFNESS}, soft[] = {1, -2};
+    const double c[] = {1, -1, 1}, nan[] = {1, NAN, 1}, zero[] = {1, -1, 0}, k[] = {1, PLM_AUTO_STIFFNESS},
+                 soft[] = {1, -2};
     (void)state;
-    BAD(plm_model_add_gap_rows_i32(model, 0, 2, empty_row, dof, c, k, NULL), f, "row_ptr", 2, "must increase");
+    BAD(plm_model_add_gap_rows_i32(model, 0, 2, empty_row, dof, c, k, NULL), f, "row_ptr", 2,
+        "must increase");
     BAD(plm_model_add_gap_rows_i32(model, 0, 2, from_one, dof, c, k, NULL), f, "row_ptr", 0, "index base 0");
     BAD(plm_model_add_gap_rows_i32(model, 0, 2, NULL, dof, c, k, NULL), f, "row_ptr", -1, "NULL");
     BAD(plm_model_add_gap_rows_i32(model, 0, 2, ptr, twice, c, k, NULL), f, "dof", 1, "twice");
@@ -135,9 +153,11 @@ static void gap_rows(void **state) {
     BAD(plm_model_add_gap_rows_i32(model, 0, 2, ptr, NULL, c, k, NULL), f, "dof", -1, "NULL");
     BAD(plm_model_add_gap_rows_i32(model, 0, 2, ptr, dof, NULL, k, NULL), f, "coefficient", -1, "NULL");
     BAD(plm_model_add_gap_rows_i32(model, 0, 2, ptr, dof, nan, k, NULL), f, "coefficient", 1, "NaN");
-    BAD(plm_model_add_gap_rows_i32(model, 0, 2, ptr, dof, zero, k, NULL), f, "coefficient", 2, "gap row 1 is zero");
+    BAD(plm_model_add_gap_rows_i32(model, 0, 2, ptr, dof, zero, k, NULL), f, "coefficient", 2,
+        "gap row 1 is zero");
     BAD(plm_model_add_gap_rows_i32(model, 0, 2, ptr, dof, c, soft, NULL), f, "stiffness", 1, "> 0");
-    BAD(plm_model_add_gap_rows_i64(model, 1, 1, ptr64, dof64, c, k, NULL), "plm_model_add_gap_rows_i64", "dof", 0, "1..6");
+    BAD(plm_model_add_gap_rows_i64(model, 1, 1, ptr64, dof64, c, k, NULL), "plm_model_add_gap_rows_i64",
+        "dof", 0, "1..6");
     assert_int_equal(count("n_pairs"), 0);
     assert_int_equal(plm_model_add_gap_rows_i32(model, 0, 2, ptr, dof, c, k, NULL), PLM_OK);
     assert_int_equal(count("n_pairs"), 2);
@@ -149,11 +169,13 @@ static void loads(void **state) {
     BAD(plm_model_set_preload(model, 5, f), "plm_model_set_preload", "n", -1, "6 DOFs");
     BAD(plm_model_set_preload(model, 6, bad), "plm_model_set_preload", "force", 4, "force[4]");
     assert_int_equal(plm_model_set_preload(model, 6, NULL), PLM_OK);
-    BAD(plm_model_set_excitation(model, -1, 6, f, NULL), "plm_model_set_excitation", "harmonic", -1, "harmonic is -1");
+    BAD(plm_model_set_excitation(model, -1, 6, f, NULL), "plm_model_set_excitation", "harmonic", -1,
+        "harmonic is -1");
     BAD(plm_model_set_excitation(model, 1, 7, f, NULL), "plm_model_set_excitation", "n", -1, "n is 7");
     BAD(plm_model_set_excitation(model, 1, 6, f, bad), "plm_model_set_excitation", "imag", 4, "imag[4]");
     BAD(plm_model_set_excitation(model, 0, 6, f, f), "plm_model_set_excitation", "imag", -1, "harmonic 0");
-    BAD(plm_model_set_excitation(model, 1, 6, NULL, f), "plm_model_set_excitation", "real", -1, "real is NULL");
+    BAD(plm_model_set_excitation(model, 1, 6, NULL, f), "plm_model_set_excitation", "real", -1,
+        "real is NULL");
     assert_int_equal(plm_model_set_excitation(model, 1, 6, NULL, NULL), PLM_OK);
 }
 
@@ -192,25 +214,34 @@ static void too_early(void **state) {
     plm_hbm *hbm = NULL;
     plm_branch *branch = NULL;
     (void)state;
-    REFUSED(plm_model_solve_rest(model), PLM_ERR_STATE, "plm_model_solve_rest", "model", -1, "plm_model_build first");
-    REFUSED(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 1, &hz, NULL), PLM_ERR_STATE, "plm_model_get_modes", "model", -1, "not built");
+    REFUSED(plm_model_solve_rest(model), PLM_ERR_STATE, "plm_model_solve_rest", "model", -1,
+            "plm_model_build first");
+    REFUSED(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 1, &hz, NULL), PLM_ERR_STATE,
+            "plm_model_get_modes", "model", -1, "not built");
     REFUSED(plm_model_audit(model, &n), PLM_ERR_STATE, "plm_model_audit", "model", -1, "not built");
-    REFUSED(plm_model_get_finding(model, 0, &severity, &hz, 0, NULL, NULL), PLM_ERR_STATE, "plm_model_get_finding", "", -1, "plm_model_audit");
-    REFUSED(plm_model_get_array(model, "rest_force", 0, NULL, &n), PLM_ERR_STATE, "plm_model_get_array", "key", -1, "plm_model_solve_rest");
-    REFUSED(plm_model_get_int(model, "n_free", &n), PLM_ERR_STATE, "plm_model_get_int", "model", -1, "not built");
+    REFUSED(plm_model_get_finding(model, 0, &severity, &hz, 0, NULL, NULL), PLM_ERR_STATE,
+            "plm_model_get_finding", "", -1, "plm_model_audit");
+    REFUSED(plm_model_get_array(model, "rest_force", 0, NULL, &n), PLM_ERR_STATE, "plm_model_get_array",
+            "key", -1, "plm_model_solve_rest");
+    REFUSED(plm_model_get_int(model, "n_free", &n), PLM_ERR_STATE, "plm_model_get_int", "model", -1,
+            "not built");
     assert_int_equal(plm_sampler_create(model, &sampler), PLM_OK);
     assert_int_equal(plm_basis_create(model, &basis), PLM_OK);
     assert_int_equal(plm_basis_create(model, &parent), PLM_OK);
     assert_int_equal(plm_hbm_create(basis, &hbm), PLM_OK);
     REFUSED(plm_sampler_run(sampler), PLM_ERR_STATE, "plm_sampler_run", "model", -1, "not built");
-    REFUSED(plm_sampler_get_double(sampler, "blf_hz", &hz), PLM_ERR_STATE, "plm_sampler_get_double", "sampler", -1, "plm_sampler_run");
+    REFUSED(plm_sampler_get_double(sampler, "blf_hz", &hz), PLM_ERR_STATE, "plm_sampler_get_double",
+            "sampler", -1, "plm_sampler_run");
     REFUSED(plm_basis_build(basis), PLM_ERR_STATE, "plm_basis_build", "model", -1, "not built");
-    REFUSED(plm_basis_set_parent(basis, parent), PLM_ERR_STATE, "plm_basis_set_parent", "basis", -1, "plm_basis_build");
-    REFUSED(plm_basis_get_int(basis, "size", &n), PLM_ERR_STATE, "plm_basis_get_int", "basis", -1, "plm_basis_build");
+    REFUSED(plm_basis_set_parent(basis, parent), PLM_ERR_STATE, "plm_basis_set_parent", "basis", -1,
+            "plm_basis_build");
+    REFUSED(plm_basis_get_int(basis, "size", &n), PLM_ERR_STATE, "plm_basis_get_int", "basis", -1,
+            "plm_basis_build");
     REFUSED(plm_hbm_sweep(hbm, &branch), PLM_ERR_STATE, "plm_hbm_sweep", "basis", -1, "plm_basis_build");
     BAD(plm_hbm_solve(hbm, 0, NULL, 0, &branch), "plm_hbm_solve", "frequency_hz", -1, "> 0");
     BAD(plm_sampler_add_dominant_mode(sampler, 2, 1), "plm_sampler_add_dominant_mode", "system", -1, "0..1");
-    BAD(plm_sampler_add_dominant_mode(sampler, 0, 0), "plm_sampler_add_dominant_mode", "mode", -1, "mode is 0");
+    BAD(plm_sampler_add_dominant_mode(sampler, 0, 0), "plm_sampler_add_dominant_mode", "mode", -1,
+        "mode is 0");
     assert_true(hz == 5 && n == 5 && severity == 5 && branch == NULL);
 }
 
@@ -226,18 +257,28 @@ static void too_late(void **state) {
     chain_fill(&c);
     assert_true(done(ctx, chain_built(ctx, 0, &built)));
     REFUSED(plm_model_build(built), PLM_ERR_STATE, "plm_model_build", "", -1, "no longer changes");
-    REFUSED(plm_model_fix_dofs_i32(built, 0, 1, dof), PLM_ERR_STATE, "plm_model_fix_dofs_i32", "", -1, "make a new one");
-    REFUSED(plm_model_set_preload(built, CHAIN_DOFS, c.preload), PLM_ERR_STATE, "plm_model_set_preload", "", -1, "built");
-    REFUSED(plm_model_set_structural_damping(built, 0), PLM_ERR_STATE, "plm_model_set_structural_damping", "", -1, "built");
+    REFUSED(plm_model_fix_dofs_i32(built, 0, 1, dof), PLM_ERR_STATE, "plm_model_fix_dofs_i32", "", -1,
+            "make a new one");
+    REFUSED(plm_model_set_preload(built, CHAIN_DOFS, c.preload), PLM_ERR_STATE, "plm_model_set_preload", "",
+            -1, "built");
+    REFUSED(plm_model_set_structural_damping(built, 0), PLM_ERR_STATE, "plm_model_set_structural_damping", "",
+            -1, "built");
     REFUSED(plm_model_set_int(built, "max_blocks", 2), PLM_ERR_STATE, "plm_model_set_int", "", -1, "built");
     BAD(plm_model_get_modes(built, 4, NULL, 1, hz, NULL), "plm_model_get_modes", "system", -1, "0..3");
-    BAD(plm_model_get_modes(built, PLM_SYSTEM_OPEN, closed, 1, hz, NULL), "plm_model_get_modes", "closed", -1, "NULL");
-    BAD(plm_model_get_modes(built, PLM_SYSTEM_GIVEN, NULL, 1, hz, NULL), "plm_model_get_modes", "closed", -1, "NULL");
-    BAD(plm_model_get_modes(built, PLM_SYSTEM_OPEN, NULL, 1000, hz, NULL), "plm_model_get_modes", "n", -1, "1..24");
-    BAD(plm_model_get_modes(built, PLM_SYSTEM_OPEN, NULL, 1, NULL, NULL), "plm_model_get_modes", "frequency_hz", -1, "NULL");
-    BAD(plm_model_get_array(built, "contact_stiffness", 1, &small, &n), "plm_model_get_array", "capacity", -1, "2 values");
-    BAD(plm_model_get_array(built, "contact_stiffness", 2, NULL, &n), "plm_model_get_array", "values", -1, "NULL");
-    BAD(plm_model_get_array(built, "contact_stiffness", 0, NULL, NULL), "plm_model_get_array", "count", -1, "NULL");
+    BAD(plm_model_get_modes(built, PLM_SYSTEM_OPEN, closed, 1, hz, NULL), "plm_model_get_modes", "closed", -1,
+        "NULL");
+    BAD(plm_model_get_modes(built, PLM_SYSTEM_GIVEN, NULL, 1, hz, NULL), "plm_model_get_modes", "closed", -1,
+        "NULL");
+    BAD(plm_model_get_modes(built, PLM_SYSTEM_OPEN, NULL, 1000, hz, NULL), "plm_model_get_modes", "n", -1,
+        "1..24");
+    BAD(plm_model_get_modes(built, PLM_SYSTEM_OPEN, NULL, 1, NULL, NULL), "plm_model_get_modes",
+        "frequency_hz", -1, "NULL");
+    BAD(plm_model_get_array(built, "contact_stiffness", 1, &small, &n), "plm_model_get_array", "capacity", -1,
+        "2 values");
+    BAD(plm_model_get_array(built, "contact_stiffness", 2, NULL, &n), "plm_model_get_array", "values", -1,
+        "NULL");
+    BAD(plm_model_get_array(built, "contact_stiffness", 0, NULL, NULL), "plm_model_get_array", "count", -1,
+        "NULL");
     assert_int_equal(plm_sampler_create(built, &sampler), PLM_OK);
     assert_true(hz[0] == 7 && n == 7);
 }
@@ -245,8 +286,9 @@ static void too_late(void **state) {
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(creation), TEST(matrices),     TEST(damping_and_supports), TEST(node_pairs), TEST(gap_rows),
-        TEST(loads),    TEST(text_outputs), TEST(version),              TEST(too_early),  TEST(too_late),
+        TEST(creation),  TEST(matrices), TEST(damping_and_supports), TEST(node_pairs),
+        TEST(gap_rows),  TEST(loads),    TEST(text_outputs),         TEST(version),
+        TEST(too_early), TEST(too_late),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* A handle that is NULL, stale, foreign or of the wrong kind gives PLM_ERR_HANDLE in every function, and nothing is
- * written. Destroying works in any order. */
+/* A handle that is NULL, stale, foreign or of the wrong kind gives PLM_ERR_HANDLE in every function, and
+ * nothing is written. Destroying works in any order. */
 #include "check.h"
 
 /* where outputs would go */
@@ -12,24 +12,27 @@ static union {
 } out[4], before[4];
 static double numbers[64];
 
-/* One function per entry of plm.h: called with an arbitrary pointer as its handle and valid arguments otherwise. */
-#define CASE(kind, name, ...)                                                                                          \
-    static plm_status call_##name(void *handle) {                                                                      \
-        plm_##kind *h = (plm_##kind *)handle;                                                                          \
-        return name(h, __VA_ARGS__);                                                                                   \
+/* One function per entry of plm.h: called with an arbitrary pointer as its handle and valid arguments
+ * otherwise. */
+#define CASE(kind, name, ...)                                                                                \
+    static plm_status call_##name(void *handle) {                                                            \
+        plm_##kind *h = (plm_##kind *)handle;                                                                \
+        return name(h, __VA_ARGS__);                                                                         \
     }
-#define CASE0(kind, name)                                                                                              \
-    static plm_status call_##name(void *handle) { return name((plm_##kind *)handle); }
-#define KEYED(kind)                                                                                                    \
-    CASE(kind, plm_##kind##_set_int, "n_harmonics", 3)                                                                 \
-    CASE(kind, plm_##kind##_set_double, "tolerance", 1e-3)                                                             \
+#define CASE0(kind, name)                                                                                    \
+    static plm_status call_##name(void *handle) {                                                            \
+        return name((plm_##kind *)handle);                                                                   \
+    }
+#define KEYED(kind)                                                                                          \
+    CASE(kind, plm_##kind##_set_int, "n_harmonics", 3)                                                       \
+    CASE(kind, plm_##kind##_set_double, "tolerance", 1e-3)                                                   \
     CASE(kind, plm_##kind##_set_string, "kind", "full")
-#define READ(kind)                                                                                                     \
-    CASE(kind, plm_##kind##_get_int, "n_dof", &out[0].l)                                                               \
-    CASE(kind, plm_##kind##_get_double, "shift", &out[0].d)                                                            \
+#define READ(kind)                                                                                           \
+    CASE(kind, plm_##kind##_get_int, "n_dof", &out[0].l)                                                     \
+    CASE(kind, plm_##kind##_get_double, "shift", &out[0].d)                                                  \
     CASE(kind, plm_##kind##_get_string, "kind", 8, out[0].text, &out[1].l)
-#define READ_ARRAYS(kind)                                                                                              \
-    CASE(kind, plm_##kind##_get_array, "rest_force", 1, &out[0].d, &out[1].l)                                          \
+#define READ_ARRAYS(kind)                                                                                    \
+    CASE(kind, plm_##kind##_get_array, "rest_force", 1, &out[0].d, &out[1].l)                                \
     CASE(kind, plm_##kind##_get_int_array, "rest_closed", 1, &out[0].l, &out[1].l)
 
 CASE(context, plm_context_set_log, NULL, NULL)
@@ -101,49 +104,87 @@ CASE(branch, plm_branch_get_full_residual, 0, &out[0].d)
 
 enum { CONTEXT, MODEL, SAMPLER, BASIS, HBM, BRANCH, KINDS };
 
-#define KEYED_ENTRIES(KIND, kind)                                                                                      \
-    {KIND, "plm_" #kind "_set_int", call_plm_##kind##_set_int},                                                        \
-        {KIND, "plm_" #kind "_set_double", call_plm_##kind##_set_double},                                              \
-        {KIND, "plm_" #kind "_set_string", call_plm_##kind##_set_string}
-#define READ_ENTRIES(KIND, kind)                                                                                       \
-    {KIND, "plm_" #kind "_get_int", call_plm_##kind##_get_int},                                                        \
-        {KIND, "plm_" #kind "_get_double", call_plm_##kind##_get_double},                                              \
-        {KIND, "plm_" #kind "_get_string", call_plm_##kind##_get_string}
-#define ARRAY_ENTRIES(KIND, kind)                                                                                      \
-    {KIND, "plm_" #kind "_get_array", call_plm_##kind##_get_array},                                                    \
-        {KIND, "plm_" #kind "_get_int_array", call_plm_##kind##_get_int_array}
-#define ENTRY(KIND, name) {KIND, #name, call_##name}
+#define KEYED_ENTRIES(KIND, kind)                                                                            \
+    {KIND, "plm_" #kind "_set_int", call_plm_##kind##_set_int},                                              \
+        {KIND, "plm_" #kind "_set_double", call_plm_##kind##_set_double}, {                                  \
+        KIND, "plm_" #kind "_set_string", call_plm_##kind##_set_string                                       \
+    }
+#define READ_ENTRIES(KIND, kind)                                                                             \
+    {KIND, "plm_" #kind "_get_int", call_plm_##kind##_get_int},                                              \
+        {KIND, "plm_" #kind "_get_double", call_plm_##kind##_get_double}, {                                  \
+        KIND, "plm_" #kind "_get_string", call_plm_##kind##_get_string                                       \
+    }
+#define ARRAY_ENTRIES(KIND, kind)                                                                            \
+    {KIND, "plm_" #kind "_get_array", call_plm_##kind##_get_array}, {                                        \
+        KIND, "plm_" #kind "_get_int_array", call_plm_##kind##_get_int_array                                 \
+    }
+#define ENTRY(KIND, name)                                                                                    \
+    { KIND, #name, call_##name }
 
 static const struct {
     int kind;
     const char *name;
     plm_status (*call)(void *);
-} functions[] = {
-    ENTRY(CONTEXT, plm_context_set_log), ENTRY(CONTEXT, plm_context_set_progress),
-    ENTRY(CONTEXT, plm_context_set_solver), ENTRY(CONTEXT, plm_context_get_error_text),
-    ENTRY(CONTEXT, plm_context_get_error_function), ENTRY(CONTEXT, plm_context_get_error_argument),
-    ENTRY(CONTEXT, plm_context_get_error_info), ENTRY(CONTEXT, plm_model_create),
-    ENTRY(MODEL, plm_model_set_matrix_i32), ENTRY(MODEL, plm_model_set_matrix_i64),
-    ENTRY(MODEL, plm_model_set_rayleigh_damping), ENTRY(MODEL, plm_model_set_modal_damping),
-    ENTRY(MODEL, plm_model_set_structural_damping), ENTRY(MODEL, plm_model_fix_dofs_i32),
-    ENTRY(MODEL, plm_model_fix_dofs_i64), ENTRY(MODEL, plm_model_add_node_pairs_i32),
-    ENTRY(MODEL, plm_model_add_node_pairs_i64), ENTRY(MODEL, plm_model_add_ground_contacts_i32),
-    ENTRY(MODEL, plm_model_add_ground_contacts_i64), ENTRY(MODEL, plm_model_add_gap_rows_i32),
-    ENTRY(MODEL, plm_model_add_gap_rows_i64), ENTRY(MODEL, plm_model_set_preload),
-    ENTRY(MODEL, plm_model_set_excitation), KEYED_ENTRIES(MODEL, model), READ_ENTRIES(MODEL, model),
-    ARRAY_ENTRIES(MODEL, model), ENTRY(MODEL, plm_model_build), ENTRY(MODEL, plm_model_solve_rest),
-    ENTRY(MODEL, plm_model_get_modes), ENTRY(MODEL, plm_model_audit), ENTRY(MODEL, plm_model_get_finding),
-    ENTRY(MODEL, plm_sampler_create), ENTRY(MODEL, plm_basis_create), KEYED_ENTRIES(SAMPLER, sampler),
-    READ_ENTRIES(SAMPLER, sampler), ARRAY_ENTRIES(SAMPLER, sampler), ENTRY(SAMPLER, plm_sampler_add_dominant_mode),
-    ENTRY(SAMPLER, plm_sampler_run), KEYED_ENTRIES(BASIS, basis), READ_ENTRIES(BASIS, basis),
-    ARRAY_ENTRIES(BASIS, basis), ENTRY(BASIS, plm_basis_set_sampler), ENTRY(BASIS, plm_basis_set_parent),
-    ENTRY(BASIS, plm_basis_build), ENTRY(BASIS, plm_basis_get_vectors), ENTRY(BASIS, plm_basis_get_residual),
-    ENTRY(BASIS, plm_hbm_create), KEYED_ENTRIES(HBM, hbm), READ_ENTRIES(HBM, hbm), ENTRY(HBM, plm_hbm_sweep),
-    ENTRY(HBM, plm_hbm_solve), ENTRY(HBM, plm_hbm_find_peak), READ_ENTRIES(BRANCH, branch),
-    ARRAY_ENTRIES(BRANCH, branch), ENTRY(BRANCH, plm_branch_get_amplitude),
-    ENTRY(BRANCH, plm_branch_get_coefficients), ENTRY(BRANCH, plm_branch_get_field),
-    ENTRY(BRANCH, plm_branch_get_contact), ENTRY(BRANCH, plm_branch_get_closed_share),
-    ENTRY(BRANCH, plm_branch_get_full_residual)};
+} functions[] = {ENTRY(CONTEXT, plm_context_set_log),
+                 ENTRY(CONTEXT, plm_context_set_progress),
+                 ENTRY(CONTEXT, plm_context_set_solver),
+                 ENTRY(CONTEXT, plm_context_get_error_text),
+                 ENTRY(CONTEXT, plm_context_get_error_function),
+                 ENTRY(CONTEXT, plm_context_get_error_argument),
+                 ENTRY(CONTEXT, plm_context_get_error_info),
+                 ENTRY(CONTEXT, plm_model_create),
+                 ENTRY(MODEL, plm_model_set_matrix_i32),
+                 ENTRY(MODEL, plm_model_set_matrix_i64),
+                 ENTRY(MODEL, plm_model_set_rayleigh_damping),
+                 ENTRY(MODEL, plm_model_set_modal_damping),
+                 ENTRY(MODEL, plm_model_set_structural_damping),
+                 ENTRY(MODEL, plm_model_fix_dofs_i32),
+                 ENTRY(MODEL, plm_model_fix_dofs_i64),
+                 ENTRY(MODEL, plm_model_add_node_pairs_i32),
+                 ENTRY(MODEL, plm_model_add_node_pairs_i64),
+                 ENTRY(MODEL, plm_model_add_ground_contacts_i32),
+                 ENTRY(MODEL, plm_model_add_ground_contacts_i64),
+                 ENTRY(MODEL, plm_model_add_gap_rows_i32),
+                 ENTRY(MODEL, plm_model_add_gap_rows_i64),
+                 ENTRY(MODEL, plm_model_set_preload),
+                 ENTRY(MODEL, plm_model_set_excitation),
+                 KEYED_ENTRIES(MODEL, model),
+                 READ_ENTRIES(MODEL, model),
+                 ARRAY_ENTRIES(MODEL, model),
+                 ENTRY(MODEL, plm_model_build),
+                 ENTRY(MODEL, plm_model_solve_rest),
+                 ENTRY(MODEL, plm_model_get_modes),
+                 ENTRY(MODEL, plm_model_audit),
+                 ENTRY(MODEL, plm_model_get_finding),
+                 ENTRY(MODEL, plm_sampler_create),
+                 ENTRY(MODEL, plm_basis_create),
+                 KEYED_ENTRIES(SAMPLER, sampler),
+                 READ_ENTRIES(SAMPLER, sampler),
+                 ARRAY_ENTRIES(SAMPLER, sampler),
+                 ENTRY(SAMPLER, plm_sampler_add_dominant_mode),
+                 ENTRY(SAMPLER, plm_sampler_run),
+                 KEYED_ENTRIES(BASIS, basis),
+                 READ_ENTRIES(BASIS, basis),
+                 ARRAY_ENTRIES(BASIS, basis),
+                 ENTRY(BASIS, plm_basis_set_sampler),
+                 ENTRY(BASIS, plm_basis_set_parent),
+                 ENTRY(BASIS, plm_basis_build),
+                 ENTRY(BASIS, plm_basis_get_vectors),
+                 ENTRY(BASIS, plm_basis_get_residual),
+                 ENTRY(BASIS, plm_hbm_create),
+                 KEYED_ENTRIES(HBM, hbm),
+                 READ_ENTRIES(HBM, hbm),
+                 ENTRY(HBM, plm_hbm_sweep),
+                 ENTRY(HBM, plm_hbm_solve),
+                 ENTRY(HBM, plm_hbm_find_peak),
+                 READ_ENTRIES(BRANCH, branch),
+                 ARRAY_ENTRIES(BRANCH, branch),
+                 ENTRY(BRANCH, plm_branch_get_amplitude),
+                 ENTRY(BRANCH, plm_branch_get_coefficients),
+                 ENTRY(BRANCH, plm_branch_get_field),
+                 ENTRY(BRANCH, plm_branch_get_contact),
+                 ENTRY(BRANCH, plm_branch_get_closed_share),
+                 ENTRY(BRANCH, plm_branch_get_full_residual)};
 enum { N_FUNCTIONS = sizeof functions / sizeof functions[0] };
 
 typedef struct {
@@ -156,7 +197,8 @@ typedef struct {
 
 static int make(handles *h) {
     memset(h, 0, sizeof *h);
-    return plm_context_create(PLM_API_VERSION, &h->context) == 0 && plm_model_create(h->context, 3, &h->model) == 0 &&
+    return plm_context_create(PLM_API_VERSION, &h->context) == 0 &&
+           plm_model_create(h->context, 3, &h->model) == 0 &&
            plm_sampler_create(h->model, &h->sampler) == 0 && plm_basis_create(h->model, &h->basis) == 0 &&
            plm_hbm_create(h->basis, &h->hbm) == 0;
 }
@@ -260,16 +302,18 @@ static void contexts_do_not_mix(void **state) {
                         "plm_basis_set_sampler", "sampler", -1, "another context"));
     assert_true(refused(one.context, plm_basis_set_parent(one.basis, two.basis), PLM_ERR_HANDLE,
                         "plm_basis_set_parent", "parent", -1, "another context"));
-    assert_true(refused(one.context, plm_basis_set_sampler(one.basis, NULL), PLM_ERR_HANDLE, "plm_basis_set_sampler",
-                        "sampler", -1, "no live handle"));
+    assert_true(refused(one.context, plm_basis_set_sampler(one.basis, NULL), PLM_ERR_HANDLE,
+                        "plm_basis_set_sampler", "sampler", -1, "no live handle"));
     plm_context_destroy(&one.context);
     plm_context_destroy(&two.context);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(null_and_foreign_handles_are_refused), cmocka_unit_test(wrong_kinds_are_refused),
-        cmocka_unit_test(stale_handles_are_refused),            cmocka_unit_test(destroying_twice_or_nothing),
+        cmocka_unit_test(null_and_foreign_handles_are_refused),
+        cmocka_unit_test(wrong_kinds_are_refused),
+        cmocka_unit_test(stale_handles_are_refused),
+        cmocka_unit_test(destroying_twice_or_nothing),
         cmocka_unit_test(contexts_do_not_mix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,5 @@
-/* The library as a guest: allocator, log, progress, the host's solver, the floating-point environment, re-entry. */
+/* The library as a guest: allocator, log, progress, the host's solver, the floating-point environment,
+ * re-entry. */
 #define _GNU_SOURCE
 #include "chain.h"
 #include "check.h"
@@ -48,7 +49,9 @@ static void all_memory_comes_back(void **state) {
     int k;
     (void)state;
     for (k = 0; k < 2; ++k) {
-        assert_int_equal(plm_context_create_with_allocator(PLM_API_VERSION, counting_allocate, counting_release, &c, &ctx), PLM_OK);
+        assert_int_equal(
+            plm_context_create_with_allocator(PLM_API_VERSION, counting_allocate, counting_release, &c, &ctx),
+            PLM_OK);
         assert_true(done(ctx, whole_run(ctx)));
         assert_true(c.total > 100 && c.live > 10);
         assert_int_equal(plm_context_destroy(&ctx), PLM_OK);
@@ -72,7 +75,9 @@ static void memory_comes_back_after_any_failure(void **state) {
         plm_context_create_with_allocator(PLM_API_VERSION, counting_allocate, counting_release, &c, &ctx);
         s = whole_run(ctx);
         plm_context_destroy(&ctx);
-        if (s != PLM_ERR_MEMORY || c.live != 0) printf("    allocation %lld of %lld: status %d, %lld blocks left\n", (long long)k, (long long)total, (int)s, (long long)c.live);
+        if (s != PLM_ERR_MEMORY || c.live != 0)
+            printf("    allocation %lld of %lld: status %d, %lld blocks left\n", (long long)k,
+                   (long long)total, (int)s, (long long)c.live);
         assert_int_equal(c.live, 0);
         assert_int_equal(s, PLM_ERR_MEMORY);
     }
@@ -163,8 +168,8 @@ typedef struct {
     double a[CHAIN_DOFS * CHAIN_DOFS];
 } dense;
 
-static int32_t dense_factor(plm_context *ctx, int64_t n, const int64_t *col_ptr, const int64_t *row, const double *value,
-                            int32_t positive_definite, void **factor, void *user) {
+static int32_t dense_factor(plm_context *ctx, int64_t n, const int64_t *col_ptr, const int64_t *row,
+                            const double *value, int32_t positive_definite, void **factor, void *user) {
     solver *s = (solver *)user;
     dense *d;
     int64_t i, j, k, p;
@@ -225,8 +230,8 @@ static void the_hosts_solver_serves(void **state) {
     memset(&s, 0, sizeof s);
     assert_int_equal(plm_context_create(PLM_API_VERSION, &ctx), PLM_OK);
     s.ctx = ctx;
-    assert_true(refused(ctx, plm_context_set_solver(ctx, dense_factor, NULL, dense_free, &s), PLM_ERR_ARGUMENT,
-                        "plm_context_set_solver", "solve", -1, "all three"));
+    assert_true(refused(ctx, plm_context_set_solver(ctx, dense_factor, NULL, dense_free, &s),
+                        PLM_ERR_ARGUMENT, "plm_context_set_solver", "solve", -1, "all three"));
     assert_true(done(ctx, chain_built(ctx, 1, &without)));
     assert_int_equal(plm_context_set_solver(ctx, dense_factor, dense_solve, dense_free, &s), PLM_OK);
     assert_true(done(ctx, chain_built(ctx, 1, &with)));
@@ -282,7 +287,8 @@ static void rounding_and_flags_stay_the_hosts(void **state) {
     flags = fetestexcept(FE_ALL_EXCEPT);
     s = plm_model_build(l.model);
     if (!s) s = plm_model_get_modes(l.model, PLM_SYSTEM_OPEN, NULL, 3, hz, NULL);
-    flags ^= fetestexcept(FE_ALL_EXCEPT & ~FE_INEXACT) & ~FE_INEXACT; /* the callback's own arithmetic may be inexact */
+    flags ^= fetestexcept(FE_ALL_EXCEPT & ~FE_INEXACT) &
+             ~FE_INEXACT; /* the callback's own arithmetic may be inexact */
     rounding = fegetround();
     fesetround(FE_TONEAREST);
     flags &= ~FE_INEXACT;

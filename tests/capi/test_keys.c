@@ -10,7 +10,8 @@ static plm_hbm *hbm;
 static int set_up(void **state) {
     (void)state;
     return plm_context_create(PLM_API_VERSION, &ctx) || plm_model_create(ctx, 3, &model) ||
-           plm_sampler_create(model, &sampler) || plm_basis_create(model, &basis) || plm_hbm_create(basis, &hbm);
+           plm_sampler_create(model, &sampler) || plm_basis_create(model, &basis) ||
+           plm_hbm_create(basis, &hbm);
 }
 static int tear_down(void **state) {
     (void)state;
@@ -57,11 +58,13 @@ static plm_status get_string(int32_t kind, const char *key, int64_t n, char *v) 
 /* default readable, both bounds settable and read back, beyond them refused */
 static int int_option(int32_t kind, const char *key, double low, double high) {
     int64_t v = -1;
-    return get_int(kind, key, &v) == 0 && (double)v >= low && (double)v <= high && set_int(kind, key, (int64_t)low) == 0 &&
-           get_int(kind, key, &v) == 0 && (double)v == low && set_int(kind, key, (int64_t)high) == 0 &&
-           get_int(kind, key, &v) == 0 && (double)v == high && set_int(kind, key, (int64_t)high + 1) == PLM_ERR_ARGUMENT &&
-           set_int(kind, key, (int64_t)low - 1) == PLM_ERR_ARGUMENT && get_int(kind, key, &v) == 0 && (double)v == high &&
-           set_string(kind, key, "x") == PLM_ERR_ARGUMENT && set_double(kind, key, 1) == PLM_ERR_ARGUMENT;
+    return get_int(kind, key, &v) == 0 && (double)v >= low && (double)v <= high &&
+           set_int(kind, key, (int64_t)low) == 0 && get_int(kind, key, &v) == 0 && (double)v == low &&
+           set_int(kind, key, (int64_t)high) == 0 && get_int(kind, key, &v) == 0 && (double)v == high &&
+           set_int(kind, key, (int64_t)high + 1) == PLM_ERR_ARGUMENT &&
+           set_int(kind, key, (int64_t)low - 1) == PLM_ERR_ARGUMENT && get_int(kind, key, &v) == 0 &&
+           (double)v == high && set_string(kind, key, "x") == PLM_ERR_ARGUMENT &&
+           set_double(kind, key, 1) == PLM_ERR_ARGUMENT;
 }
 static int double_option(int32_t kind, const char *key, double low, double high) {
     double v = -1;
@@ -69,16 +72,16 @@ static int double_option(int32_t kind, const char *key, double low, double high)
     return get_double(kind, key, &v) == 0 && v >= low && v <= high && set_double(kind, key, low) == 0 &&
            get_double(kind, key, &v) == 0 && v == low && set_double(kind, key, high) == 0 &&
            get_double(kind, key, &v) == 0 && v == high && set_double(kind, key, NAN) == PLM_ERR_ARGUMENT &&
-           set_double(kind, key, INFINITY) == PLM_ERR_ARGUMENT && get_double(kind, key, &v) == 0 && v == high &&
-           get_int(kind, key, &i) == PLM_ERR_ARGUMENT;
+           set_double(kind, key, INFINITY) == PLM_ERR_ARGUMENT && get_double(kind, key, &v) == 0 &&
+           v == high && get_int(kind, key, &i) == PLM_ERR_ARGUMENT;
 }
 static int choice_option(int32_t kind, const char *key, char *choices) {
     char now[64] = "", *word;
     if (get_string(kind, key, 64, now) || !strstr(choices, now)) return 0;
     for (word = strtok(choices, ","); word; word = strtok(NULL, ","))
         if (set_string(kind, key, word) || get_string(kind, key, 64, now) || strcmp(now, word) != 0) return 0;
-    return set_string(kind, key, "nonsense") == PLM_ERR_ARGUMENT && set_string(kind, key, NULL) == PLM_ERR_ARGUMENT &&
-           set_int(kind, key, 1) == PLM_ERR_ARGUMENT;
+    return set_string(kind, key, "nonsense") == PLM_ERR_ARGUMENT &&
+           set_string(kind, key, NULL) == PLM_ERR_ARGUMENT && set_int(kind, key, 1) == PLM_ERR_ARGUMENT;
 }
 
 static int option_works(int32_t kind, int32_t index) {
@@ -150,32 +153,34 @@ static void nearest_key_is_proposed(void **state) {
     int64_t v = 3;
     double d;
     (void)state;
-    assert_true(refused(ctx, plm_sampler_set_int(sampler, "n_sample", 3), PLM_ERR_KEY, "plm_sampler_set_int", "key", -1,
-                        "did you mean \"n_samples\"?"));
-    assert_true(refused(ctx, plm_hbm_set_double(hbm, "frequency_min", 3), PLM_ERR_KEY, "plm_hbm_set_double", "key", -1,
-                        "frequency_min_hz"));
-    assert_true(refused(ctx, plm_basis_get_int(basis, "sise", &v), PLM_ERR_KEY, "plm_basis_get_int", "key", -1, "\"size\""));
-    assert_true(refused(ctx, plm_model_get_double(model, NULL, &d), PLM_ERR_ARGUMENT, "plm_model_get_double", "key", -1, "NULL"));
+    assert_true(refused(ctx, plm_sampler_set_int(sampler, "n_sample", 3), PLM_ERR_KEY, "plm_sampler_set_int",
+                        "key", -1, "did you mean \"n_samples\"?"));
+    assert_true(refused(ctx, plm_hbm_set_double(hbm, "frequency_min", 3), PLM_ERR_KEY, "plm_hbm_set_double",
+                        "key", -1, "frequency_min_hz"));
+    assert_true(refused(ctx, plm_basis_get_int(basis, "sise", &v), PLM_ERR_KEY, "plm_basis_get_int", "key",
+                        -1, "\"size\""));
+    assert_true(refused(ctx, plm_model_get_double(model, NULL, &d), PLM_ERR_ARGUMENT, "plm_model_get_double",
+                        "key", -1, "NULL"));
     assert_int_equal(v, 3);
 }
 
 static void refusals_say_why(void **state) {
     int64_t n = 0;
     (void)state;
-    assert_true(refused(ctx, plm_hbm_set_int(hbm, "n_harmonics", 0), PLM_ERR_ARGUMENT, "plm_hbm_set_int", "value", -1,
-                        "\"n_harmonics\" is 0; it must lie in 1..1000"));
-    assert_true(refused(ctx, plm_hbm_set_string(hbm, "aft", "fft"), PLM_ERR_ARGUMENT, "plm_hbm_set_string", "value", -1,
-                        "event,sampled"));
-    assert_true(refused(ctx, plm_basis_set_int(basis, "size", 3), PLM_ERR_ARGUMENT, "plm_basis_set_int", "key", -1,
-                        "is a result"));
+    assert_true(refused(ctx, plm_hbm_set_int(hbm, "n_harmonics", 0), PLM_ERR_ARGUMENT, "plm_hbm_set_int",
+                        "value", -1, "\"n_harmonics\" is 0; it must lie in 1..1000"));
+    assert_true(refused(ctx, plm_hbm_set_string(hbm, "aft", "fft"), PLM_ERR_ARGUMENT, "plm_hbm_set_string",
+                        "value", -1, "event,sampled"));
+    assert_true(refused(ctx, plm_basis_set_int(basis, "size", 3), PLM_ERR_ARGUMENT, "plm_basis_set_int",
+                        "key", -1, "is a result"));
     assert_true(refused(ctx, plm_hbm_set_int(hbm, "aft", 1), PLM_ERR_ARGUMENT, "plm_hbm_set_int", "key", -1,
                         "use the set_string function"));
     assert_true(refused(ctx, plm_sampler_get_array(sampler, "sweep_samples", 0, NULL, &n), PLM_ERR_ARGUMENT,
                         "plm_sampler_get_array", "key", -1, "get_int_array"));
     assert_true(refused(ctx, plm_basis_get_int_array(basis, "lambda", 0, NULL, &n), PLM_ERR_ARGUMENT,
                         "plm_basis_get_int_array", "key", -1, "get_array"));
-    assert_true(refused(ctx, plm_hbm_get_int(hbm, "n_harmonics", NULL), PLM_ERR_ARGUMENT, "plm_hbm_get_int", "value",
-                        -1, "NULL"));
+    assert_true(refused(ctx, plm_hbm_get_int(hbm, "n_harmonics", NULL), PLM_ERR_ARGUMENT, "plm_hbm_get_int",
+                        "value", -1, "NULL"));
 }
 
 static void an_int_is_taken_for_a_double(void **state) {
@@ -191,8 +196,11 @@ static void an_int_is_taken_for_a_double(void **state) {
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(every_option_can_be_set_and_read), TEST(keys_are_unique_and_described),
-        TEST(introspection_checks_its_arguments), TEST(nearest_key_is_proposed), TEST(refusals_say_why),
+        TEST(every_option_can_be_set_and_read),
+        TEST(keys_are_unique_and_described),
+        TEST(introspection_checks_its_arguments),
+        TEST(nearest_key_is_proposed),
+        TEST(refusals_say_why),
         TEST(an_int_is_taken_for_a_double),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -13,7 +13,8 @@ inline std::shared_ptr<const plm::MatrixInput> matrix(const Dense &a) {
     std::vector<double> v;
     for (std::size_t r = 0; r < a.size(); ++r)
         for (std::size_t c = 0; c <= r; ++c)
-            if (a[r][c] != 0) i.push_back(static_cast<int>(r)), j.push_back(static_cast<int>(c)), v.push_back(a[r][c]);
+            if (a[r][c] != 0)
+                i.push_back(static_cast<int>(r)), j.push_back(static_cast<int>(c)), v.push_back(a[r][c]);
     plm::MatrixFormat f;
     f.n = static_cast<std::int64_t>(a.size()), f.nnz = static_cast<std::int64_t>(v.size());
     f.storage = PLM_TRIPLETS, f.part = PLM_LOWER, f.negative_diagonal = true;
@@ -32,7 +33,9 @@ inline plm::ModelInput input(const Dense &m, const Dense &k) {
 inline void add_pair(plm::ModelInput &in, const std::vector<double> &row, double stiffness, double gap = 0) {
     const std::int64_t pair = static_cast<std::int64_t>(in.contact_stiffness.size());
     for (std::size_t d = 0; d < row.size(); ++d)
-        if (row[d] != 0) in.gap_pair.push_back(pair), in.gap_dof.push_back(static_cast<std::int64_t>(d)), in.gap_coefficient.push_back(row[d]);
+        if (row[d] != 0)
+            in.gap_pair.push_back(pair), in.gap_dof.push_back(static_cast<std::int64_t>(d)),
+                in.gap_coefficient.push_back(row[d]);
     in.contact_stiffness.push_back(stiffness);
     in.initial_gap.push_back(gap);
 }

@@ -19,11 +19,13 @@ ModelInput sound() {
     return in;
 }
 
-std::vector<Finding> findings(const ModelInput &in) { return plm::audit(*test::build(in)); }
+std::vector<Finding> findings(const ModelInput &in) {
+    return plm::audit(*test::build(in));
+}
 
 const Finding *with(const std::vector<Finding> &list, const char *words) {
-    const auto found = std::find_if(list.begin(), list.end(),
-                                    [&](const Finding &f) { return f.text.find(words) != std::string::npos; });
+    const auto found = std::find_if(
+        list.begin(), list.end(), [&](const Finding &f) { return f.text.find(words) != std::string::npos; });
     return found == list.end() ? nullptr : &*found;
 }
 

@@ -1,7 +1,7 @@
 // Every format reads to the same matrix; every wrong entry is refused with its position.
+#include "caught.hpp"
 #include "model/matrix_input.hpp"
 #include "support/test.hpp"
-#include "caught.hpp"
 #include <limits>
 
 using plm::MatrixFormat;
@@ -22,7 +22,9 @@ template <class Index> struct Sample {
         f.storage = storage, f.part = part, f.index_base = base, f.copy = copy;
         return f;
     }
-    MatrixInput input(bool copy = true) const { return MatrixInput(layout(copy), a.data(), b.data(), v.data()); }
+    MatrixInput input(bool copy = true) const {
+        return MatrixInput(layout(copy), a.data(), b.data(), v.data());
+    }
     Caught check() const {
         return caught([&] { input().check(); });
     }

@@ -1,7 +1,7 @@
 // The model on its free DOFs: what is kept, what is refused, and the contact stiffness chosen.
+#include "caught.hpp"
 #include "spring_models.hpp"
 #include "support/test.hpp"
-#include "caught.hpp"
 
 using plm::Model;
 using plm::ModelInput;

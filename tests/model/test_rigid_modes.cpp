@@ -1,7 +1,7 @@
 // Structures that are loose while their contacts are open, and stiffness matrices that are none.
+#include "caught.hpp"
 #include "spring_models.hpp"
 #include "support/test.hpp"
-#include "caught.hpp"
 #include <cstring>
 
 using plm::ModelInput;
@@ -23,7 +23,8 @@ double orthonormality_error(const plm::Model &model) {
     const plm::Matrix gram = product('T', 'N', r, multiply(model.mass(), r));
     double worst = 0;
     for (std::int64_t i = 0; i < gram.rows(); ++i)
-        for (std::int64_t j = 0; j < gram.cols(); ++j) worst = std::max(worst, std::abs(gram(i, j) - (i == j)));
+        for (std::int64_t j = 0; j < gram.cols(); ++j)
+            worst = std::max(worst, std::abs(gram(i, j) - (i == j)));
     return worst;
 }
 
@@ -47,7 +48,8 @@ void every_loose_body_has_its_mode(void **) {
 }
 
 void rigid_motion_does_not_soften_the_contact(void **) {
-    // Two loose chains meet: the elastic flexibility of a free chain of four at its end is known in closed form.
+    // Two loose chains meet: the elastic flexibility of a free chain of four at its end is known in closed
+    // form.
     ModelInput in = loose_chains(2, 100, 3);
     test::add_pair(in, {0, 0, 0, 1, -1, 0, 0, 0}, PLM_AUTO_STIFFNESS);
     const auto m = test::build(in);
@@ -57,7 +59,8 @@ void rigid_motion_does_not_soften_the_contact(void **) {
         const double phi = std::sqrt(2.0 / 4 / 3) * std::cos(p * M_PI / 8);
         end += phi * phi / lambda;
     }
-    assert_true(close_to(m->local_stiffness(), 1 / (2 * end), 0.02)); // sigma is 1 % of the first elastic eigenvalue
+    assert_true(
+        close_to(m->local_stiffness(), 1 / (2 * end), 0.02)); // sigma is 1 % of the first elastic eigenvalue
     assert_true(close_to(m->contact_stiffness()[0], 10 * m->local_stiffness(), 1e-12));
 }
 
@@ -97,8 +100,8 @@ void negative_stiffness_is_refused(void **) {
 }
 
 // A host solver for one DOF that has no idea of conditioning: it divides.
-int host_factor(std::int64_t n, const std::int64_t *, const std::int64_t *, const double *value, int, void **handle,
-                void *) {
+int host_factor(std::int64_t n, const std::int64_t *, const std::int64_t *, const double *value, int,
+                void **handle, void *) {
     if (n != 1) return 5;
     *handle = new double(*value);
     return 0;
@@ -107,7 +110,9 @@ int host_solve(void *handle, std::int64_t nrhs, double *x, std::int64_t ldx, voi
     for (std::int64_t j = 0; j < nrhs; ++j) x[j * ldx] /= *static_cast<double *>(handle);
     return 0;
 }
-void host_release(void *handle, void *) { delete static_cast<double *>(handle); }
+void host_release(void *handle, void *) {
+    delete static_cast<double *>(handle);
+}
 
 void singular_stiffness_shows_with_any_solver(void **) {
     const plm::HostSolver host{host_factor, host_solve, host_release, nullptr};

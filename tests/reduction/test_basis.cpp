@@ -94,7 +94,7 @@ double selection_error(const Case &c, ModeSelection selection) {
     return worst;
 }
 
-// P^T A P over all DOFs for the dense A given by `entry` applied to a vector.
+// P^T A P over all DOFs.
 Matrix congruence(const Matrix &p, const Matrix &a) { return plm::product('T', 'N', p, plm::product('N', 'N', a, p)); }
 
 Matrix dense_mass(const exact::Structure &s) {
@@ -193,7 +193,8 @@ void the_preload_residual_is_eq_12(void **) {
     const double want = gram_schmidt_residual(basis->reduced()->vectors, q);
     assert_true(near(basis->report().preload_residual, want, 1e-9));
     assert_true(near(plm::projection_residual(*basis, false, false, q.data()), want, 1e-9));
-    assert_true(near(plm::projection_residual(*basis, false, true, q.data()), basis->report().preload_residual_mass, 1e-9));
+    assert_true(near(plm::projection_residual(*basis, false, true, q.data()),
+                     basis->report().preload_residual_mass, 1e-9));
 }
 
 void static_augmentation_is_left_out_when_not_needed(void **) {
@@ -215,8 +216,9 @@ void a_lost_resonance_is_reported(void **) {
     const auto basis = build(c, o, nullptr, &recorder);
     assert_true(basis->report().warning.find("sample") != std::string::npos);
     assert_int_equal(recorder.warnings.size(), 1);
-    assert_true(build(c, rule(ModeSelection::below))->report().warning.empty());
-    for (const auto &s : build(c, rule(ModeSelection::below))->report().samples) assert_true(s.matched_kept);
+    const auto below = build(c, rule(ModeSelection::below));
+    assert_true(below->report().warning.empty());
+    for (const auto &s : below->report().samples) assert_true(s.matched_kept);
 }
 
 void no_mode_at_all_is_an_error(void **) {
@@ -236,7 +238,7 @@ void a_larger_svd_tolerance_gives_a_smaller_basis(void **) {
     assert_true(build(c, o)->reduced()->size() < fine);
 }
 
-double damping_defect(const Case &c, const Basis &basis, const Matrix &full_damping) {
+double damping_defect(const Basis &basis, const Matrix &full_damping) {
     const plm::ReducedModel &r = *basis.reduced();
     const Matrix want = congruence(r.vectors, full_damping);
     double worst = 0;
@@ -245,7 +247,6 @@ double damping_defect(const Case &c, const Basis &basis, const Matrix &full_damp
             const double got = r.damping.empty() ? (i == j ? r.damping_diagonal[i] : 0.0) : r.damping(i, j);
             worst = std::max(worst, std::abs(got - want(i, j)));
         }
-    (void)c;
     return worst;
 }
 
@@ -274,7 +275,7 @@ void proportional_damping_stays_diagonal(void **) {
     const Case c = make_case(pressed_chains(), extras);
     const auto basis = build(c, rule(ModeSelection::below));
     assert_true(basis->reduced()->damping.empty());
-    assert_true(below(damping_defect(c, *basis, damping_matrix(c.structure, 0.02, 3e-4)), 1e-11));
+    assert_true(below(damping_defect(*basis, damping_matrix(c.structure, 0.02, 3e-4)), 1e-11));
 }
 
 void a_damping_matrix_is_projected_in_full(void **) {
@@ -288,7 +289,7 @@ void a_damping_matrix_is_projected_in_full(void **) {
     for (int i = 0; i < s.n; ++i)
         for (int j = 0; j < s.n; ++j) full(i, j) = s.damping[i * s.n + j];
     assert_false(basis->reduced()->damping.empty());
-    assert_true(below(damping_defect(c, *basis, full), 1e-11));
+    assert_true(below(damping_defect(*basis, full), 1e-11));
 }
 
 void modal_damping_couples_the_reduced_coordinates(void **) {
@@ -296,7 +297,7 @@ void modal_damping_couples_the_reduced_coordinates(void **) {
     extras.modal_ratio = {0.01};
     const Case c = make_case(pressed_chains(), extras);
     const auto basis = build(c, rule(ModeSelection::below));
-    assert_true(below(damping_defect(c, *basis, modal_damping_matrix(c.structure, 0.01)), 1e-6));
+    assert_true(below(damping_defect(*basis, modal_damping_matrix(c.structure, 0.01)), 1e-6));
 }
 
 void the_full_kind_is_the_whole_space(void **) {
@@ -336,8 +337,11 @@ void wrong_parents_and_options_are_refused(void **) {
     const auto plm_basis = build(c, rule(ModeSelection::below));
     const auto argument = [](const std::function<void()> &call) { return test::failure_of(call).argument; };
     assert_string_equal(argument([&] { build(c, BasisOptions(), plm_basis); }).c_str(), "parent");
-    assert_string_equal(argument([&] { Basis(c.model, nullptr, nullptr, BasisOptions(), plm::Watch()); }).c_str(), "sampler");
-    assert_string_equal(argument([&] { Basis(c.model, other.sampler, nullptr, BasisOptions(), plm::Watch()); }).c_str(), "sampler");
+    assert_string_equal(
+        argument([&] { Basis(c.model, nullptr, nullptr, BasisOptions(), plm::Watch()); }).c_str(), "sampler");
+    assert_string_equal(
+        argument([&] { Basis(c.model, other.sampler, nullptr, BasisOptions(), plm::Watch()); }).c_str(),
+        "sampler");
     BasisOptions o;
     o.svd_tolerance = 1;
     assert_string_equal(argument([&] { build(c, o); }).c_str(), "svd_tolerance");

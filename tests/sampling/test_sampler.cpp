@@ -53,8 +53,10 @@ double worst_mode_error(LinearSystem system) { // modes by number against the de
     return worst;
 }
 
-double dv_error(const Sampler &sampler, const exact::Structure &s, int mode) { // B phi against the dense mode, up to sign
-    const plm::SymmetricEigen dense = test::dense_modes(s, all(s.z, sampler.dominant()[0].system == LinearSystem::sliding));
+double dv_error(const Sampler &sampler, const exact::Structure &s,
+                int mode) { // B phi against the dense mode, up to sign
+    const plm::SymmetricEigen dense =
+        test::dense_modes(s, all(s.z, sampler.dominant()[0].system == LinearSystem::sliding));
     const auto &dv = sampler.dominant()[0].mode_penetration;
     double same = 0, opposite = 0;
     for (int p = 0; p < s.z; ++p) {
@@ -116,7 +118,9 @@ void the_search_range_limits_the_proposal(void **) {
 void the_reference_system_follows_the_contact_at_rest(void **) {
     assert_true(run(test::two_chains(40, 9, 300, true))->dominant()[0].system == LinearSystem::sliding); // homogeneous
     const auto closed = run(pressed_chains(50)), open = run(pressed_chains(-50));
-    const auto n_closed = [](const Sampler &s) { return std::count(s.rest().closed.begin(), s.rest().closed.end(), 1); };
+    const auto n_closed = [](const Sampler &s) {
+        return std::count(s.rest().closed.begin(), s.rest().closed.end(), 1);
+    };
     assert_true(2 * n_closed(*closed) > 9 && closed->dominant()[0].system == LinearSystem::sliding);
     assert_true(n_closed(*open) == 0 && open->dominant()[0].system == LinearSystem::open);
 }

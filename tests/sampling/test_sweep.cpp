@@ -126,11 +126,11 @@ void samples_are_equally_spaced(void **) {
 void complements_come_after_and_only_when_new(void **) {
     const ContactSweep sweep = plm::sweep_contact(numbers({1, -1, 0.5}), true, numbers({1, 1, -1}));
     const std::vector<ContactSweep> one(1, sweep);
-    assert_string_equal(text(plm::select_samples(one, 4, true, false)).c_str(), "..x x.x x.. xx.");
+    assert_string_equal(text(plm::select_samples(one, 4, true, false, false)).c_str(), "..x x.x x.. xx.");
     // the complement of ..x is xx., that of xx. is ..x: both are there already
-    assert_string_equal(text(plm::select_samples(one, 4, true, true)).c_str(), "..x x.x x.. xx. .x.' .xx'");
-    assert_string_equal(text(plm::select_samples(one, 2, true, true)).c_str(), "..x xx.");
-    const auto selected = plm::select_samples(one, 4, true, true);
+    assert_string_equal(text(plm::select_samples(one, 4, true, true, false)).c_str(), "..x x.x x.. xx. .x.' .xx'");
+    assert_string_equal(text(plm::select_samples(one, 2, true, true, false)).c_str(), "..x xx.");
+    const auto selected = plm::select_samples(one, 4, true, true, false);
     assert_int_equal(selected[4].sweep_index, 1);
     assert_int_equal(selected[4].n_closed, 1);
 }
@@ -139,7 +139,7 @@ void several_dominant_modes_share_their_samples(void **) {
     std::vector<ContactSweep> two;
     two.push_back(plm::sweep_contact(numbers({1, -1}), true, numbers({1, 1})));   // .. x. xx
     two.push_back(plm::sweep_contact(numbers({1, -1}), true, numbers({-1, 0.5}))); // x. .. .x
-    const auto samples = plm::select_samples(two, 10, true, true);
+    const auto samples = plm::select_samples(two, 10, true, true, false);
     assert_string_equal(text(samples).c_str(), ".. x. xx .x");
     assert_int_equal(samples[3].dominant, 1);
 }

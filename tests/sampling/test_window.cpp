@@ -40,7 +40,8 @@ struct MacCheck {
 MacCheck mac_of_modes_with_themselves() {
     const exact::Structure s = test::two_chains(20, 6, 500, true);
     const auto space = plm::make_contact_space(test::make_model(s), 5.0, 10, plm::Watch());
-    const auto modes = plm::modes_of_contact_set(*space, plm::vector<char>(6, 1), std::numeric_limits<double>::infinity());
+    const auto modes =
+        plm::modes_of_contact_set(*space, plm::vector<char>(6, 1), std::numeric_limits<double>::infinity());
     MacCheck c;
     for (int i = 0; i < 8; ++i)
         for (int j = 0; j < 8; ++j) {

@@ -1,0 +1,44 @@
+# packages.sh: to be sourced by scripts. need_packages PACKAGE... (Debian and Ubuntu names) installs what is missing,
+# or says what to install and exits 1.
+
+# Tells whether a package, or the program it is wanted for, is there.
+plm_has_package() {
+    case $1 in
+    ninja-build) command -v ninja >/dev/null && return ;;
+    calculix-ccx) command -v ccx >/dev/null && return ;;
+    g++ | cmake | pkg-config) command -v "$1" >/dev/null && return ;;
+    esac
+    dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'
+}
+
+plm_give_up() {
+    echo "$1" >&2
+    exit 1
+}
+
+need_packages() {
+    [ -z "${PLM_PACKAGES_INSTALLED:-}" ] || return 0
+    if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+        plm_give_up "This system has no apt. Install what Debian calls
+    $*
+and run again with PLM_PACKAGES_INSTALLED=1 in the environment."
+    fi
+    plm_missing=
+    for plm_package; do
+        plm_has_package "$plm_package" || plm_missing="$plm_missing $plm_package"
+    done
+    [ -n "$plm_missing" ] || return 0
+
+    plm_root="env DEBIAN_FRONTEND=noninteractive"
+    if [ "$(id -u)" != 0 ]; then
+        command -v sudo >/dev/null && { [ -t 0 ] || sudo -n true 2>/dev/null; } ||
+            plm_give_up "Packages are missing and this user may not install them. As root:
+    apt-get update && apt-get install -y$plm_missing"
+        plm_root="sudo $plm_root"
+    fi
+    echo "Installing:$plm_missing"
+    # shellcheck disable=SC2086
+    $plm_root apt-get update -q && $plm_root apt-get install -y -q --no-install-recommends $plm_missing ||
+        plm_give_up "apt-get failed. These packages are needed:
+   $plm_missing"
+}

@@ -1,0 +1,126 @@
+/* Models of every kind: all forms of input make the same one; loose bodies; no contact at all. */
+#include "chain.h"
+#include "check.h"
+
+static plm_context *ctx;
+
+static int set_up(void **state) {
+    (void)state;
+    return plm_context_create(PLM_API_VERSION, &ctx);
+}
+static int tear_down(void **state) {
+    (void)state;
+    return plm_context_destroy(&ctx);
+}
+
+static void all_kinds_of_input_make_one_model(void **state) {
+    static const int64_t a[] = {7, 8, 9}, b[] = {16, 17, 18}, g[] = {22, 0, 0}, fixed[] = {2, 3, 2};
+    static const int64_t row_ptr[] = {0, 2, 3}, dof[] = {6, 15, 21};
+    static const int32_t row_ptr32[] = {0, 2, 3}, dof32[] = {6, 15, 21}, fixed32[] = {1, 2};
+    static const double normal[] = {1, 0, 0}, k[] = {1e4, 2e4}, coefficient[] = {1, -1, 1}, loss[] = {0.01};
+    double hz[3][4];
+    chain c;
+    int way, j;
+    (void)state;
+    chain_fill(&c);
+    for (way = 0; way < 3; ++way) {
+        plm_model *m = NULL;
+        plm_status s = plm_model_create(ctx, CHAIN_DOFS, &m);
+        if (!s)
+            s = plm_model_set_matrix_i64(m, PLM_MASS, PLM_CSR, PLM_FULL, 0, PLM_BORROW, CHAIN_NNZ_FULL,
+                                         c.col_ptr, c.row, c.m);
+        if (!s)
+            s = plm_model_set_matrix_i64(m, PLM_STIFFNESS, PLM_CSC, PLM_FULL, 0, PLM_COPY, CHAIN_NNZ_FULL,
+                                         c.col_ptr, c.row, c.k);
+        if (!s && way == 0) s = plm_model_add_node_pairs_i64(m, 1, 1, a, b, normal, k, NULL);
+        if (!s && way == 0) s = plm_model_add_ground_contacts_i64(m, 1, 1, g, normal, k + 1, NULL);
+        if (!s && way == 1) s = plm_model_add_gap_rows_i64(m, 0, 2, row_ptr, dof, coefficient, k, NULL);
+        if (!s && way == 2) s = plm_model_add_gap_rows_i32(m, 0, 2, row_ptr32, dof32, coefficient, k, NULL);
+        if (!s)
+            s = way == 2 ? plm_model_fix_dofs_i32(m, 0, 2, fixed32) : plm_model_fix_dofs_i64(m, 1, 3, fixed);
+        if (!s) s = plm_model_set_modal_damping(m, 1, loss);
+        if (!s) s = plm_model_set_structural_damping(m, 0.001);
+        if (!s) s = plm_model_set_double(m, "space_tolerance", 1e-9);
+        if (!s) s = plm_model_build(m);
+        if (!s) s = plm_model_get_modes(m, PLM_SYSTEM_SLIDING, NULL, 4, hz[way], NULL);
+        assert_true(done(ctx, s));
+        plm_model_destroy(&m);
+    }
+    for (j = 0; j < 4; ++j) {
+        assert_true(close_to(hz[1][j], hz[0][j], 1e-12));
+        assert_true(close_to(hz[2][j], hz[0][j], 1e-12));
+    }
+}
+
+/* two loose bodies of two masses each, and a pair between them if `contact` */
+static plm_status loose_bodies(int contact, plm_model **model) {
+    const int32_t mass_ptr[] = {0, 1, 2, 3, 4}, mass_row[] = {0, 1, 2, 3};
+    const int32_t row[] = {0, 1, 1, 2, 3, 3}, col[] = {0, 0, 1, 2, 2, 3}, gap_ptr[] = {0, 2},
+                  gap_dof[] = {1, 2};
+    const double m[] = {1, 1, 1, 1}, k[] = {1e4, -1e4, 1e4, 1e4, -1e4, 1e4}, coefficient[] = {1, -1};
+    const double stiffness[] = {2e4}, force[] = {1, 0, 0, 0}, squeeze[] = {1, 0, 0, -1};
+    plm_model *p = NULL;
+    plm_status s = plm_model_create(ctx, 4, &p);
+    if (!s)
+        s = plm_model_set_matrix_i32(p, PLM_MASS, PLM_CSC, PLM_UPPER, 0, PLM_COPY, 4, mass_ptr, mass_row, m);
+    if (!s)
+        s = plm_model_set_matrix_i32(p, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 6, row, col, k);
+    if (!s && contact)
+        s = plm_model_add_gap_rows_i32(p, 0, 1, gap_ptr, gap_dof, coefficient, stiffness, NULL);
+    if (!s) s = plm_model_set_excitation(p, 1, 4, force, NULL);
+    if (!s && contact) s = plm_model_set_preload(p, 4, squeeze);
+    if (!s) s = plm_model_build(p);
+    *model = p;
+    return s;
+}
+
+static void loose_bodies_held_by_contact(void **state) {
+    plm_model *m = NULL;
+    double hz[4], shift = 0, u = 0, want;
+    int64_t n = 0;
+    (void)state;
+    assert_true(done(ctx, loose_bodies(1, &m)));
+    assert_int_equal(plm_model_get_int(m, "n_rigid_modes", &n), PLM_OK);
+    assert_int_equal(n, 2);
+    assert_int_equal(plm_model_get_double(m, "shift", &shift), PLM_OK);
+    assert_true(close_to(shift, 200, 1e-6)); /* 1 % of the first elastic eigenvalue 2 k / m */
+    assert_true(done(ctx, plm_model_get_modes(m, PLM_SYSTEM_OPEN, NULL, 4, hz, NULL)));
+    want = sqrt(2e4) / (2 * 3.14159265358979323846);
+    assert_true(hz[0] == 0 && hz[1] == 0 && close_to(hz[2], want, 1e-10) && close_to(hz[3], want, 1e-10));
+    assert_true(done(ctx, plm_model_get_modes(m, PLM_SYSTEM_SLIDING, NULL, 4, hz, NULL)));
+    assert_true(hz[0] < 1e-4 && hz[1] > 1 && close_to(hz[2], want, 1e-10)); /* one rigid motion is left */
+    assert_true(done(ctx, plm_model_solve_rest(m)));
+    assert_int_equal(plm_model_get_array(m, "rest_penetration", 1, &u, &n), PLM_OK);
+    assert_true(close_to(u, 1 / 2e4, 1e-9));
+}
+
+static void no_contact_is_a_linear_model(void **state) {
+    plm_model *m = NULL;
+    plm_sampler *sampler = NULL;
+    double hz[4], local = 1;
+    int64_t n = 7;
+    (void)state;
+    assert_true(done(ctx, loose_bodies(0, &m)));
+    assert_int_equal(plm_model_get_int(m, "n_pairs", &n), PLM_OK);
+    assert_int_equal(n, 0);
+    assert_int_equal(plm_model_get_double(m, "local_stiffness", &local), PLM_OK);
+    assert_true(local == 0);
+    assert_true(done(ctx, plm_model_get_modes(m, PLM_SYSTEM_SLIDING, NULL, 4, hz, NULL)));
+    assert_true(done(ctx, plm_model_solve_rest(m)));
+    assert_int_equal(plm_model_get_array(m, "rest_force", 0, NULL, &n), PLM_OK);
+    assert_int_equal(n, 0);
+    assert_true(done(ctx, plm_model_audit(m, &n)));
+    assert_int_equal(plm_sampler_create(m, &sampler), PLM_OK);
+    assert_true(refused(ctx, plm_sampler_run(sampler), PLM_ERR_STATE, "plm_sampler_run", "sampler", -1,
+                        "no contact pair"));
+}
+
+int main(void) {
+#define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
+    const struct CMUnitTest tests[] = {
+        TEST(all_kinds_of_input_make_one_model),
+        TEST(loose_bodies_held_by_contact),
+        TEST(no_contact_is_a_linear_model),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

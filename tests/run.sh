@@ -1,0 +1,54 @@
+#!/bin/sh
+# Builds libplm with its tests and runs them.
+#     sh tests/run.sh             preset dev
+#     sh tests/run.sh --all       presets dev, asan and permissive
+#     sh tests/run.sh PRESET...   these presets of CMakePresets.json
+# Missing packages are installed where that is possible. Works from any folder; everything goes to build/.
+set -u
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
+cd "$root" || exit 1
+. cmake/packages.sh
+
+case ${1-} in
+-h | --help) sed -n '2,6s/^# //p' tests/run.sh; exit 0 ;;
+--all) set -- dev asan permissive ;;
+-*) echo "run.sh: unknown option $1 (see --help)" >&2; exit 2 ;;
+'') set -- dev ;;
+esac
+
+need_packages g++ cmake ninja-build pkg-config libopenblas-dev liblapack-dev libarpack2-dev libfftw3-dev \
+    libsuitesparse-dev libeigen3-dev libcmocka-dev python3 calculix-ccx
+
+jobs=2
+export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
+export OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}" # the tests themselves run side by side
+export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
+
+summary=
+failures=0
+
+# stage NAME COMMAND...: runs it, keeps its time and verdict for the summary.
+stage() {
+    name=$1
+    shift
+    printf '\n== %s: %s\n' "$name" "$*"
+    begin=$(date +%s)
+    if "$@"; then verdict=passed; else verdict=FAILED failures=$((failures + 1)); fi
+    summary="$summary$(printf '%-22s %-7s %5d s' "$name" $verdict $(($(date +%s) - begin)))
+"
+    [ $verdict = passed ]
+}
+
+for preset; do
+    stage "$preset: configure" cmake --preset "$preset" &&
+        stage "$preset: build" cmake --build --preset "$preset" --parallel $jobs &&
+        stage "$preset: test" ctest --preset "$preset" --parallel $jobs --no-tests=error
+done
+
+printf '\n%s' "$summary"
+if [ $failures = 0 ]; then
+    echo "All stages passed."
+else
+    echo "$failures stage(s) FAILED."
+    exit 1
+fi
