@@ -11,6 +11,12 @@ plm_has_package() {
     dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'
 }
 
+# sudo that will not ask for a password where nobody can answer.
+plm_may_use_sudo() {
+    command -v sudo >/dev/null || return 1
+    [ -t 0 ] || sudo -n true 2>/dev/null
+}
+
 plm_give_up() {
     echo "$1" >&2
     exit 1
@@ -31,14 +37,14 @@ and run again with PLM_PACKAGES_INSTALLED=1 in the environment."
 
     plm_root="env DEBIAN_FRONTEND=noninteractive"
     if [ "$(id -u)" != 0 ]; then
-        command -v sudo >/dev/null && { [ -t 0 ] || sudo -n true 2>/dev/null; } ||
-            plm_give_up "Packages are missing and this user may not install them. As root:
+        plm_may_use_sudo || plm_give_up "Packages are missing and this user may not install them. As root:
     apt-get update && apt-get install -y$plm_missing"
         plm_root="sudo $plm_root"
     fi
     echo "Installing:$plm_missing"
     # shellcheck disable=SC2086
-    $plm_root apt-get update -q && $plm_root apt-get install -y -q --no-install-recommends $plm_missing ||
+    if ! $plm_root apt-get update -q || ! $plm_root apt-get install -y -q --no-install-recommends $plm_missing; then
         plm_give_up "apt-get failed. These packages are needed:
    $plm_missing"
+    fi
 }

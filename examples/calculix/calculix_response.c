@@ -3,10 +3,10 @@
  *
  *     calculix_response FOLDER
  *
- * FOLDER holds the decks of plate.py and what ccx made of them (run.sh does it all). The program hands ccx's matrices,
- * the contact pairs, the pre-load and the tip force to libplm, prints natural frequencies beside ccx's own, and follows
- * the response near the first in-plane bending mode: FOLDER/curve.csv. Exit status 1 when anything fails or a frequency
- * differs by more than 1e-6.
+ * FOLDER holds the decks of plate.py and what ccx made of them (run.sh does it all). The program hands ccx's
+ * matrices, the contact pairs, the pre-load and the tip force to libplm, prints natural frequencies beside
+ * ccx's own, and follows the response near the first in-plane bending mode: FOLDER/curve.csv. Exit status 1
+ * when anything fails or a frequency differs by more than 1e-6.
  */
 #include <inttypes.h>
 #include <math.h>
@@ -69,10 +69,8 @@ static int plate_line(const char *line, const ccx_dofs *dofs, plate *p) {
     if (!is_preload && sscanf(line, "force %d %d %lf", &a, &direction, &value) != 3) return 1;
     const int32_t row = ccx_row(dofs, a, direction);
     if (row == 0) return 1;
-    if (is_preload)
-        p->preload[row - 1] += value;
-    else
-        p->force[row - 1] += value, p->drive_row = row;
+    (is_preload ? p->preload : p->force)[row - 1] += value;
+    if (!is_preload) p->drive_row = row;
     return 0;
 }
 
@@ -103,23 +101,24 @@ static int failed(plm_context *ctx, plm_status status) {
     fprintf(stderr, "%s: %s\n", status < 0 ? "error" : "note", text);
     return status < 0;
 }
-#define TRY(call)                                                                                                      \
-    do {                                                                                                               \
-        if (failed(ctx, (call))) return 1;                                                                             \
+#define TRY(call)                                                                                            \
+    do {                                                                                                     \
+        if (failed(ctx, (call))) return 1;                                                                   \
     } while (0)
 
 static int set_matrix(plm_context *ctx, plm_model *model, int32_t which, const char *path) {
     ccx_matrix m;
     if (ccx_read_matrix(path, &m)) return 1;
-    const plm_status status = plm_model_set_matrix_i32(model, which, PLM_TRIPLETS, PLM_UPPER, 1, PLM_COPY, m.n_entries,
-                                                       m.row, m.column, m.value);
+    const plm_status status = plm_model_set_matrix_i32(model, which, PLM_TRIPLETS, PLM_UPPER, 1, PLM_COPY,
+                                                       m.n_entries, m.row, m.column, m.value);
     ccx_free_matrix(&m);
     return failed(ctx, status);
 }
 
 static int build_model(plm_context *ctx, plm_model *model, const plate *p) {
     TRY(plm_model_set_rayleigh_damping(model, 0, 1 / (quality * 2 * pi * quality_hz)));
-    TRY(plm_model_add_node_pairs_i32(model, 1, p->n_pairs, p->dof_a, p->dof_b, p->normal, p->stiffness, NULL));
+    TRY(plm_model_add_node_pairs_i32(model, 1, p->n_pairs, p->dof_a, p->dof_b, p->normal, p->stiffness,
+                                     NULL));
     TRY(plm_model_set_preload(model, p->n_dof, p->preload));
     TRY(plm_model_set_excitation(model, 1, p->n_dof, p->force, NULL));
     TRY(plm_model_build(model));
@@ -134,7 +133,8 @@ static int build_model(plm_context *ctx, plm_model *model, const plate *p) {
     return 0;
 }
 
-static int compare(plm_context *ctx, plm_model *model, int32_t system, const char *name, const char *dat_path) {
+static int compare(plm_context *ctx, plm_model *model, int32_t system, const char *name,
+                   const char *dat_path) {
     double ccx[n_compared], plm[n_compared], largest = 0;
     if (ccx_read_frequencies(dat_path, n_compared, ccx)) return 1;
     TRY(plm_model_get_modes(model, system, NULL, n_compared, plm, NULL));
@@ -183,7 +183,8 @@ static int response(plm_context *ctx, plm_model *model, int64_t dof, const char 
     double dominant_hz, peak_hz, amplitude, seconds;
     int64_t size, n_points, reason;
 
-    TRY(plm_sampler_create(model, &sampler)); /* the mode is proposed by its share in the drive-point response */
+    TRY(plm_sampler_create(model,
+                           &sampler)); /* the mode is proposed by its share in the drive-point response */
     TRY(plm_sampler_run(sampler));
     TRY(plm_sampler_get_double(sampler, "dominant_frequency_hz", &dominant_hz));
     TRY(plm_sampler_get_string(sampler, "window_why", sizeof text, text, NULL));
@@ -202,7 +203,8 @@ static int response(plm_context *ctx, plm_model *model, int64_t dof, const char 
     TRY(plm_branch_get_int(branch, "end_reason", &reason));
     TRY(plm_branch_get_double(branch, "seconds", &seconds));
     TRY(plm_branch_get_string(branch, "end_text", sizeof text, text, NULL));
-    printf("basis: %" PRId64 " vectors; curve: %" PRId64 " points in %.2f s, end: %s\n", size, n_points, seconds, text);
+    printf("basis: %" PRId64 " vectors; curve: %" PRId64 " points in %.2f s, end: %s\n", size, n_points,
+           seconds, text);
     if (write_curve(ctx, branch, dof, csv_path)) return 1;
     TRY(plm_hbm_find_peak(hbm, branch, dof, PLM_HALF_PEAK_TO_PEAK, 0, &peak_hz, &amplitude, NULL));
     printf("peak: %.3f Hz, %.5g mm; curve written to %s\n", peak_hz, amplitude, csv_path);

@@ -67,7 +67,8 @@ int ccx_read_dofs(const char *path, ccx_dofs *dofs) {
     rewind(file);
     if (read_all) d.row = calloc(3 * (size_t)d.n_nodes, sizeof *d.row);
     if (d.row)
-        for (int32_t row = 1; read_dof(file, &node, &direction); row++) d.row[3 * (node - 1) + direction - 1] = row;
+        for (int32_t row = 1; read_dof(file, &node, &direction); row++)
+            d.row[3 * (node - 1) + direction - 1] = row;
     fclose(file);
     if (!d.row) return fail(path, "is not a list of \"node.direction\", or memory is short");
     *dofs = d;
@@ -90,7 +91,8 @@ int ccx_read_frequencies(const char *path, int32_t n, double *frequency_hz) {
     char line[256];
     int32_t found = 0, mode;
     double eigenvalue, omega, hz;
-    while (found < n && fgets(line, sizeof line, file)) /* mode, (rad/time)^2, rad/time, cycles/time, imaginary part */
+    while (found < n &&
+           fgets(line, sizeof line, file)) /* mode, (rad/time)^2, rad/time, cycles/time, imaginary part */
         if (sscanf(line, "%d %lf %lf %lf", &mode, &eigenvalue, &omega, &hz) == 4 && mode == found + 1)
             frequency_hz[found++] = hz;
     fclose(file);

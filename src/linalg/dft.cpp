@@ -80,8 +80,8 @@ Dft::Dft(std::int64_t n_harmonics, std::int64_t n_samples) {
     if (n_harmonics < 0) throw Error(PLM_ERR_ARGUMENT, "Dft: number of harmonics is negative");
     if (n_samples > INT_MAX || n_samples / 2 < n_harmonics || n_samples < 2 * n_harmonics + 1)
         throw Error(PLM_ERR_ARGUMENT,
-                    format("Dft: %lld harmonics need at least %lld time samples, not %lld",
-                           static_cast<long long>(n_harmonics), static_cast<long long>(2 * n_harmonics + 1),
+                    format("Dft: %lld harmonics need at least 2 * %lld + 1 time samples, not %lld",
+                           static_cast<long long>(n_harmonics), static_cast<long long>(n_harmonics),
                            static_cast<long long>(n_samples)));
     impl_ = std::make_unique<Impl>();
     impl_->n_harmonics = n_harmonics;

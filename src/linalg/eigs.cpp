@@ -148,14 +148,15 @@ Matrix add_missed(const Pencil &pencil, EigenPairs &pairs) {
 void verify(const Pencil &pencil, const EigenPairs &pairs, const Matrix &mx) {
     const std::int64_t n = pencil.size();
     const Matrix kx = multiply_transposed(pencil.k, pairs.vectors);
-    const double rounding = 1e-11 * norm_inf(pencil.k);
+    const double rounding = 1e-11 * norm_inf(pencil.k),
+                 relative = std::max(1e-6, 100 * pencil.options.tolerance);
     vector<double> r(n);
     for (std::int64_t j = 0; j < kx.cols(); ++j) {
         const double lambda = pairs.values[j];
         for (std::int64_t i = 0; i < n; ++i) r[i] = kx(i, j) - lambda * mx(i, j);
         const double terms = norm2(n, kx.col(j)) +
                              (std::fabs(lambda) + std::fabs(lambda - pencil.shift)) * norm2(n, mx.col(j));
-        const double allowed = 1e-6 * terms + rounding * norm2(n, pairs.vectors.col(j));
+        const double allowed = relative * terms + rounding * norm2(n, pairs.vectors.col(j));
         const double residual = norm2(n, r.data());
         if (!(residual <= allowed))
             throw Error(PLM_ERR_EIGENSOLVER,

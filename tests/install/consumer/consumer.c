@@ -1,4 +1,5 @@
-/* consumer.c: the smallest host. Two masses on two springs, M = I, K = [2 -1; -1 1]: lambda = (3 -+ sqrt 5) / 2. */
+/* consumer.c: the smallest host. Two masses on two springs, M = I, K = [2 -1; -1 1]: lambda = (3 -+ sqrt 5)
+ * / 2. */
 #include <math.h>
 #include <plm/plm.h>
 #include <stdio.h>
@@ -9,9 +10,10 @@ static int solve(plm_context *ctx, double *frequency_hz) {
     plm_model *model = NULL;
     int64_t n_free = 0;
     return plm_model_create(ctx, 2, &model) ||
-           plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 2, diagonal, diagonal, mass) ||
-           plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 3, row, column,
-                                    stiffness) ||
+           plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 2, diagonal,
+                                    diagonal, mass) ||
+           plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 3, row,
+                                    column, stiffness) ||
            plm_model_build(model) || plm_model_get_int(model, "n_free", &n_free) || n_free != 2 ||
            plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 2, frequency_hz, NULL);
 }
