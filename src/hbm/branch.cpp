@@ -19,7 +19,8 @@ vector<double> Branch::coefficients(std::int64_t point, std::int64_t dof) const 
 
 double Branch::amplitude(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
     const vector<double> c = coefficients(point, dof);
-    if (measure == Measure::harmonic) return harmonic == 0 ? c[0] : std::hypot(c[2 * harmonic - 1], c[2 * harmonic]);
+    if (measure == Measure::harmonic)
+        return harmonic == 0 ? c[0] : std::hypot(c[2 * harmonic - 1], c[2 * harmonic]);
     if (measure == Measure::rms) {
         double s = c[0] * c[0];
         for (std::size_t k = 1; k < c.size(); ++k) s += 0.5 * c[k] * c[k];
@@ -34,7 +35,8 @@ vector<double> Branch::field(std::int64_t point, double fraction) const {
     const BranchPoint &p = points_[point];
     vector<double> eta(reduced_->size(), 0.0), free(reduced_->model->n_free()), all(reduced_->model->n_dof());
     for (std::int64_t h = 1; h <= n_harmonics_; ++h) {
-        const double angle = 2 * M_PI * fraction * static_cast<double>(h), c = std::cos(angle), s = std::sin(angle);
+        const double angle = 2 * M_PI * fraction * static_cast<double>(h), c = std::cos(angle),
+                     s = std::sin(angle);
         for (std::int64_t j = 0; j < reduced_->size(); ++j)
             eta[j] += c * p.eta(j, 2 * h - 2) + s * p.eta(j, 2 * h - 1);
     }

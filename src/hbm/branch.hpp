@@ -1,21 +1,28 @@
-// A response curve: points of Fourier coefficients in reduced coordinates, and what an engineer reads from them.
+// A response curve: points of Fourier coefficients in reduced coordinates, and what an engineer reads from
+// them.
 #pragma once
 #include "reduction/reduced_model.hpp"
 
 namespace plm {
 
-/// Coordinates of one point: static part (r_0) and cosine/sine parts (r x 2H), all a caller can ask follows from it.
+/// Coordinates of one point: static part (r_0) and cosine/sine parts (r x 2H), all a caller can ask follows
+/// from it.
 struct BranchPoint {
-    double omega = 0;           // rad/s
-    vector<double> eta_0;       // r_0
-    Matrix eta;                 // r x 2H: columns a1, b1, a2, b2, ...
-    double arclength = 0;       // scaled, from the branch's first point
-    double residual = 0;        // relative residual reached
-    std::int64_t iterations = 0; // Newton iterations spent
+    double omega = 0;             // rad/s
+    vector<double> eta_0;         // r_0
+    Matrix eta;                   // r x 2H: columns a1, b1, a2, b2, ...
+    double arclength = 0;         // scaled, from the branch's first point
+    double residual = 0;          // relative residual reached
+    std::int64_t iterations = 0;  // Newton iterations spent
     std::int64_t n_switching = 0; // pairs that open and close in the period
 };
 
-enum class Measure { peak = PLM_PEAK, half_peak_to_peak = PLM_HALF_PEAK_TO_PEAK, rms = PLM_RMS, harmonic = PLM_HARMONIC };
+enum class Measure {
+    peak = PLM_PEAK,
+    half_peak_to_peak = PLM_HALF_PEAK_TO_PEAK,
+    rms = PLM_RMS,
+    harmonic = PLM_HARMONIC
+};
 
 class Branch {
   public:

@@ -15,7 +15,8 @@ double sine(const double *s, std::int64_t k) {
 
 } // namespace
 
-// Rows and columns: 0 mean, 2h-1 cosine, 2h sine. From 2 <s cos m cos n> = <s cos(m-n)> + <s cos(m+n)> and its kin.
+// Rows and columns: 0 mean, 2h-1 cosine, 2h sine. From 2 <s cos m cos n> = <s cos(m-n)> + <s cos(m+n)> and
+// its kin.
 double indicator_entry(const double *s, std::int64_t row, std::int64_t column) {
     const std::int64_t m = (row + 1) / 2, n = (column + 1) / 2;
     const bool row_sine = row > 0 && row % 2 == 0, column_sine = column > 0 && column % 2 == 0;
@@ -40,7 +41,8 @@ void constant_indicator(const vector<double> &share, std::int64_t n_harmonics, C
     }
 }
 
-void apply_indicator(const ContactIndicator &s, const vector<double> &stiffness, const Matrix &u, Matrix &force) {
+void apply_indicator(const ContactIndicator &s, const vector<double> &stiffness, const Matrix &u,
+                     Matrix &force) {
     const std::int64_t z = u.rows(), n = u.cols();
     force.reset(z, n);
     vector<double> x(n);

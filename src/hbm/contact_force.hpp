@@ -1,6 +1,7 @@
-// Contact force and its derivative in the frequency domain (AFT; paper, 2.2). With s(t) = [u(t) > 0] the indicator of
-// a pair and J(s) the matrix of its Fourier averages, force coefficients = k_n J(s) u and derivative = k_n J(s): one set
-// of 4H + 1 numbers per pair serves both, for the event-exact and for the sampled AFT.
+// Contact force and its derivative in the frequency domain (AFT; paper, 2.2). With s(t) = [u(t) > 0] the
+// indicator of a pair and J(s) the matrix of its Fourier averages, force coefficients = k_n J(s) u and
+// derivative = k_n J(s): one set of 4H + 1 numbers per pair serves both, for the event-exact and for the
+// sampled AFT.
 #pragma once
 #include "linalg/dft.hpp"
 #include "model/contact_law.hpp"
@@ -10,7 +11,8 @@ namespace plm {
 
 enum class PairState : char { open, closed, switching };
 
-/// Averages over the period of s, s cos t, s sin t, ..., s cos 2Ht, s sin 2Ht: (4H + 1) x Z, and who switches.
+/// Averages over the period of s, s cos t, s sin t, ..., s cos 2Ht, s sin 2Ht: (4H + 1) x Z, and who
+/// switches.
 struct ContactIndicator {
     Matrix averages;
     vector<PairState> state;
@@ -24,7 +26,8 @@ class ContactForce {
     virtual void indicator(const Matrix &u, ContactIndicator &out) = 0;
 };
 
-/// Switching instants are zeros of the trigonometric polynomial u: found, not sampled; averages in closed form.
+/// Switching instants are zeros of the trigonometric polynomial u: found, not sampled; averages in closed
+/// form.
 std::unique_ptr<ContactForce> make_event_force(std::int64_t n_harmonics, std::int64_t n_pairs);
 /// The classical AFT on `time_samples` (>= 4H + 1) equidistant instants.
 std::unique_ptr<ContactForce> make_sampled_force(std::int64_t n_harmonics, std::int64_t time_samples,
@@ -37,6 +40,7 @@ void constant_indicator(const vector<double> &share, std::int64_t n_harmonics, C
 double indicator_entry(const double *averages, std::int64_t row, std::int64_t column);
 
 /// force = k J(s) u for every pair; u and force are Z x (2H + 1).
-void apply_indicator(const ContactIndicator &s, const vector<double> &stiffness, const Matrix &u, Matrix &force);
+void apply_indicator(const ContactIndicator &s, const vector<double> &stiffness, const Matrix &u,
+                     Matrix &force);
 
 } // namespace plm

@@ -13,8 +13,8 @@ struct State {
 class Continuation {
   public:
     Continuation(HbmSystem &system, const PathOptions &options, PathOwner &owner)
-        : system_(system), options_(options), owner_(owner), n_(system.size()), low_(options.low), high_(options.high),
-          width_(high_ - low_), scratch_(n_) {}
+        : system_(system), options_(options), owner_(owner), n_(system.size()), low_(options.low),
+          high_(options.high), width_(high_ - low_), scratch_(n_) {}
 
     PathOutcome run(const vector<double> &x, double omega, double residual) {
         now_ = {x, omega};
@@ -68,8 +68,8 @@ class Continuation {
         return dot(n_, a.data(), b.data()) / (scale_ * scale_) + a_omega * b_omega / (width_ * width_);
     }
 
-    // Unit tangent at the present point from the system's factorization there; oriented along `previous`, or into the
-    // range at the start.
+    // Unit tangent at the present point from the system's factorization there; oriented along `previous`, or
+    // into the range at the start.
     void make_tangent(const State *previous) {
         State t;
         t.x.resize(n_);
@@ -85,7 +85,8 @@ class Continuation {
         tangent_ = std::move(t);
     }
 
-    // Predictor: the tangent, bent by how the tangent turned over the last step (which is dropped after a failure).
+    // Predictor: the tangent, bent by how the tangent turned over the last step (which is dropped after a
+    // failure).
     State predict(double step) const {
         State p = now_;
         const bool bent = last_step_ > 0 && !plain_predictor_;
@@ -175,11 +176,13 @@ class Continuation {
         limits.omega_scale = width_;
         const NewtonOutcome out = newton(system_, SideCondition(), limits, now_.x, now_.omega);
         count(out);
-        if (out.converged && distance(now_, before) < 4 * options_.max_step) record(out.residual, out.iterations);
+        if (out.converged && distance(now_, before) < 4 * options_.max_step)
+            record(out.residual, out.iterations);
         end(PLM_REASON_RANGE_END);
     }
 
-    // A smaller step with a new factorization; then the other predictor; then a fresh start a little further on.
+    // A smaller step with a new factorization; then the other predictor; then a fresh start a little further
+    // on.
     void retry(double &step, std::int32_t reason) {
         ++out_.failed_steps;
         factored_ = false;
@@ -235,8 +238,8 @@ class Continuation {
 
 } // namespace
 
-PathOutcome follow_path(HbmSystem &system, const PathOptions &options, const vector<double> &x, double parameter,
-                        double first_residual, PathOwner &owner) {
+PathOutcome follow_path(HbmSystem &system, const PathOptions &options, const vector<double> &x,
+                        double parameter, double first_residual, PathOwner &owner) {
     return Continuation(system, options, owner).run(x, parameter, first_residual);
 }
 

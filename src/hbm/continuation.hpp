@@ -1,5 +1,6 @@
-// Pseudo-arc-length continuation of R(x, p) = 0, p the frequency of a response curve or the force on the way from rest
-// to a first solution, in a metric where 1 is the width of the range of p or the largest dynamic response so far.
+// Pseudo-arc-length continuation of R(x, p) = 0, p the frequency of a response curve or the force on the way
+// from rest to a first solution, in a metric where 1 is the width of the range of p or the largest dynamic
+// response so far.
 #pragma once
 #include "hbm/newton.hpp"
 #include "linalg/monitor.hpp"
@@ -37,9 +38,9 @@ struct PathOutcome {
     std::int64_t newton_iterations = 0, factorizations = 0, failed_steps = 0;
 };
 
-/// Follows the path through (x, p) until it leaves the range, closes, or cannot go on. The last point lies on the
-/// boundary of the range when it was left (PLM_REASON_RANGE_END). `system` takes p in the place of omega.
-PathOutcome follow_path(HbmSystem &system, const PathOptions &options, const vector<double> &x, double parameter,
-                        double first_residual, PathOwner &owner);
+/// Follows the path through (x, p) until it leaves the range, closes, or cannot go on. The last point lies on
+/// the boundary of the range when it was left (PLM_REASON_RANGE_END). `system` takes p in the place of omega.
+PathOutcome follow_path(HbmSystem &system, const PathOptions &options, const vector<double> &x,
+                        double parameter, double first_residual, PathOwner &owner);
 
 } // namespace plm

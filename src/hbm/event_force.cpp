@@ -1,6 +1,7 @@
-// Event-exact AFT. A coarse grid brackets the zeros of each pair's penetration; cells in which the curve turns towards
-// zero and back are searched for a pair of zeros (grazing: without it the force would jump when a pair opens and closes
-// inside one cell). Between the zeros the indicator is 0 or 1 and its averages are integrals of cosines and sines.
+// Event-exact AFT. A coarse grid brackets the zeros of each pair's penetration; cells in which the curve
+// turns towards zero and back are searched for a pair of zeros (grazing: without it the force would jump when
+// a pair opens and closes inside one cell). Between the zeros the indicator is 0 or 1 and its averages are
+// integrals of cosines and sines.
 #include "hbm/contact_force.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include <algorithm>

@@ -1,4 +1,5 @@
-// How well a reduced solution satisfies the equations of the whole structure (paper, eq. (4)), harmonic by harmonic.
+// How well a reduced solution satisfies the equations of the whole structure (paper, eq. (4)), harmonic by
+// harmonic.
 #include "hbm/branch.hpp"
 #include "hbm/contact_force.hpp"
 #include <cmath>
@@ -46,7 +47,8 @@ class FullResidual {
         const Matrix mq = multiply(model_.mass(), q);
         Matrix loss = mq; // C q w + eta K q
         for (std::int64_t k = 0; k < loss.rows() * 2; ++k)
-            loss.data()[k] = w * damping.alpha * mq.data()[k] + (w * damping.beta + damping.structural) * kq.data()[k];
+            loss.data()[k] =
+                w * damping.alpha * mq.data()[k] + (w * damping.beta + damping.structural) * kq.data()[k];
         if (damping.has_matrix) {
             const Matrix cq = multiply(model_.damping_matrix(), q);
             for (std::int64_t k = 0; k < loss.rows() * 2; ++k) loss.data()[k] += w * cq.data()[k];
@@ -64,7 +66,8 @@ class FullResidual {
         Matrix eta = point_.eta.columns(2 * h - 2, 2), ceta(reduced_.size(), 2);
         if (reduced_.damping.empty()) {
             for (std::int64_t c = 0; c < 2; ++c)
-                for (std::int64_t j = 0; j < reduced_.size(); ++j) ceta(j, c) = reduced_.damping_diagonal[j] * eta(j, c);
+                for (std::int64_t j = 0; j < reduced_.size(); ++j)
+                    ceta(j, c) = reduced_.damping_diagonal[j] * eta(j, c);
         } else {
             ceta = product('N', 'N', reduced_.damping, eta);
         }

@@ -1,7 +1,8 @@
-// Harmonic balance in the contact gaps: U + g = B D(omega) (F - B' N(U)), D the receptance of the open structure in the
-// reduced model's coordinates. Exact for the same reduced model as modal_system.cpp; the size of the dense system is
-// the number of pairs that open and close over the period times (2H + 1), whatever the size of the model. Pairs that
-// stay open or closed are eliminated harmonic by harmonic, exactly, and come back the moment they move.
+// Harmonic balance in the contact gaps: U + g = B D(omega) (F - B' N(U)), D the receptance of the open
+// structure in the reduced model's coordinates. Exact for the same reduced model as modal_system.cpp; the
+// size of the dense system is the number of pairs that open and close over the period times (2H + 1),
+// whatever the size of the model. Pairs that stay open or closed are eliminated harmonic by harmonic,
+// exactly, and come back the moment they move.
 #include "hbm/receptance.hpp"
 #include "hbm/system.hpp"
 #include <algorithm>
@@ -21,12 +22,12 @@ Matrix select_rows(const Matrix &a, const vector<std::int64_t> &rows) {
 
 // What the elimination of the pairs with a constant tangent leaves of one harmonic.
 struct Eliminated {
-    vector<std::int64_t> pairs;          // eliminated: their tangent in this harmonic is kappa, constant in time
+    vector<std::int64_t> pairs; // eliminated: their tangent in this harmonic is kappa, constant in time
     vector<double> kappa;
-    ComplexLu closed;                    // I + G_EE kappa
-    vector<Complex> to_eliminated;       // G_ES, e x s
-    vector<Complex> from_eliminated;     // G_SE kappa, s x e
-    Matrix real, imag;                   // reduced receptance of the moving pairs, s x s
+    ComplexLu closed;                // I + G_EE kappa
+    vector<Complex> to_eliminated;   // G_ES, e x s
+    vector<Complex> from_eliminated; // G_SE kappa, s x e
+    Matrix real, imag;               // reduced receptance of the moving pairs, s x s
 };
 
 class GapSystem final : public HbmSystem {
@@ -34,8 +35,8 @@ class GapSystem final : public HbmSystem {
     GapSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
         : m_(std::move(reduced)), h_(options.n_harmonics), n_(2 * h_ + 1), z_(m_->n_pairs()), r_(m_->size()),
           r0_(m_->static_size()), force_(make_contact_force(options, z_)), stiffness_(m_->contact_stiffness),
-          gap_(m_->initial_gap), u_(z_, n_), contact_(z_, n_), receptance_(h_ + 1), eliminated_(h_ + 1), eta_(h_ + 1),
-          force_scale_(options.force_scale) {
+          gap_(m_->initial_gap), u_(z_, n_), contact_(z_, n_), receptance_(h_ + 1), eliminated_(h_ + 1),
+          eta_(h_ + 1), force_scale_(options.force_scale) {
         update_static();
     }
 
@@ -150,8 +151,8 @@ class GapSystem final : public HbmSystem {
     }
 
   private:
-    // An open structure with rigid-body modes has no static receptance: then half of the contact stiffness is moved
-    // from the contact law into the static reference system (h = 0 only), which is exact.
+    // An open structure with rigid-body modes has no static receptance: then half of the contact stiffness is
+    // moved from the contact law into the static reference system (h = 0 only), which is exact.
     void update_static() {
         bool rigid = false;
         for (double l : m_->lambda_0) rigid = rigid || l <= 0;
@@ -164,8 +165,9 @@ class GapSystem final : public HbmSystem {
         gemm('T', 'N', 1.0, m_->gap_0, scaled, 0.0, k);
         for (std::int64_t j = 0; j < r0_; ++j) k(j, j) += m_->lambda_0[j];
         if (!static_cholesky_.factor(k))
-            throw Error(PLM_ERR_SINGULAR, "the structure has rigid-body modes that even closed contacts do not hold; "
-                                          "fix DOFs or solve in reduced coordinates (unknowns = modal)")
+            throw Error(PLM_ERR_SINGULAR,
+                        "the structure has rigid-body modes that even closed contacts do not hold; "
+                        "fix DOFs or solve in reduced coordinates (unknowns = modal)")
                 .reason(PLM_REASON_SINGULAR);
         static_is_dense_ = true;
     }
@@ -192,14 +194,14 @@ class GapSystem final : public HbmSystem {
         if (const HarmonicLoad *load = excitation(0))
             for (std::int64_t j = 0; j < r0_; ++j) eta_0_[j] += force_scale_ * load->real[j];
         vector<double> n(z_);
-        for (std::int64_t i = 0; i < z_; ++i)
-            n[i] = contact_(i, 0) - reference_[i] * (u_(i, 0) + gap_[i]);
+        for (std::int64_t i = 0; i < z_; ++i) n[i] = contact_(i, 0) - reference_[i] * (u_(i, 0) + gap_[i]);
         gemv('T', -1.0, m_->gap_0, n.data(), 1.0, eta_0_.data());
         apply_static(eta_0_.data());
         for (std::int64_t h = 1; h <= h_; ++h) {
             gather(contact_.col(2 * h - 1), contact_.col(2 * h), -1.0, eta_[h]);
             if (const HarmonicLoad *load = excitation(h))
-                for (std::int64_t j = 0; j < r_; ++j) eta_[h][j] += force_scale_ * Complex(load->real[j], load->imag[j]);
+                for (std::int64_t j = 0; j < r_; ++j)
+                    eta_[h][j] += force_scale_ * Complex(load->real[j], load->imag[j]);
             receptance_[h].apply(eta_[h].data());
         }
     }
@@ -264,7 +266,8 @@ class GapSystem final : public HbmSystem {
             e.pairs.push_back(i);
             e.kappa.push_back(kappa);
         }
-        const std::int64_t s = static_cast<std::int64_t>(moving_.size()), n = static_cast<std::int64_t>(e.pairs.size());
+        const std::int64_t s = static_cast<std::int64_t>(moving_.size()),
+                           n = static_cast<std::int64_t>(e.pairs.size());
         vector<std::int64_t> all = moving_;
         all.insert(all.end(), e.pairs.begin(), e.pairs.end());
         Matrix real, imag;
@@ -295,8 +298,8 @@ class GapSystem final : public HbmSystem {
     }
 
     // (real + i imag) -= A B, A s x n, B n x s, by three real products
-    static void subtract_product(const vector<Complex> &a, const vector<Complex> &b, std::int64_t s, std::int64_t n,
-                                 Matrix &real, Matrix &imag) {
+    static void subtract_product(const vector<Complex> &a, const vector<Complex> &b, std::int64_t s,
+                                 std::int64_t n, Matrix &real, Matrix &imag) {
         if (n == 0 || s == 0) return;
         Matrix ar(s, n), ai(s, n), br(n, s), bi(n, s);
         for (std::int64_t k = 0; k < s * n; ++k) {
@@ -341,7 +344,8 @@ class GapSystem final : public HbmSystem {
         for (std::int64_t p = 0; p < s; ++p) // y = J du of the moving pairs
             for (std::int64_t c = 0; c < n_; ++c) {
                 const double *tangent = tangent_.col(p) + c * n_;
-                for (std::int64_t row = 0; row < n_; ++row) y[row * s + p] += tangent[row] * reduced[c * s + p];
+                for (std::int64_t row = 0; row < n_; ++row)
+                    y[row * s + p] += tangent[row] * reduced[c * s + p];
             }
         for (std::int64_t h = 0; h <= h_; ++h) expand_solution(h, held[h], reduced.data(), y.data(), b);
     }
@@ -360,7 +364,8 @@ class GapSystem final : public HbmSystem {
 
     void reduce_rhs(std::int64_t h, const double *b, vector<Complex> &held, double *reduced) const {
         const Eliminated &e = eliminated_[h];
-        const std::int64_t s = static_cast<std::int64_t>(moving_.size()), n = static_cast<std::int64_t>(e.pairs.size());
+        const std::int64_t s = static_cast<std::int64_t>(moving_.size()),
+                           n = static_cast<std::int64_t>(e.pairs.size());
         held.resize(n);
         for (std::int64_t j = 0; j < n; ++j) held[j] = entry(b, h, e.pairs[j]);
         if (n > 0) e.closed.solve(held.data(), 1, n);
@@ -377,9 +382,11 @@ class GapSystem final : public HbmSystem {
     }
 
     // Writes du of harmonic h for all pairs: moving and eliminated ones as solved, the others from B D B' y.
-    void expand_solution(std::int64_t h, vector<Complex> &held, const double *reduced, const double *y, double *b) {
+    void expand_solution(std::int64_t h, vector<Complex> &held, const double *reduced, const double *y,
+                         double *b) {
         const Eliminated &e = eliminated_[h];
-        const std::int64_t s = static_cast<std::int64_t>(moving_.size()), n = static_cast<std::int64_t>(e.pairs.size());
+        const std::int64_t s = static_cast<std::int64_t>(moving_.size()),
+                           n = static_cast<std::int64_t>(e.pairs.size());
         const auto moving_force = [&](std::int64_t p) {
             return h == 0 ? Complex(y[p]) : Complex(y[(2 * h - 1) * s + p], -y[2 * h * s + p]);
         };
@@ -390,7 +397,8 @@ class GapSystem final : public HbmSystem {
         for (std::int64_t j = 0; j < n; ++j) held[j] -= coupled[j];
 
         vector<double> c(z_, 0.0), q(z_, 0.0); // contact force y = c - i q of all pairs
-        for (std::int64_t p = 0; p < s; ++p) c[moving_[p]] = moving_force(p).real(), q[moving_[p]] = -moving_force(p).imag();
+        for (std::int64_t p = 0; p < s; ++p)
+            c[moving_[p]] = moving_force(p).real(), q[moving_[p]] = -moving_force(p).imag();
         for (std::int64_t j = 0; j < n; ++j)
             c[e.pairs[j]] = e.kappa[j] * held[j].real(), q[e.pairs[j]] = -e.kappa[j] * held[j].imag();
         if (h == 0) {
@@ -408,8 +416,9 @@ class GapSystem final : public HbmSystem {
         }
         for (std::int64_t j = 0; j < n; ++j) store(held[j], h, e.pairs[j], b);
         for (std::int64_t p = 0; p < s; ++p)
-            store(h == 0 ? Complex(reduced[p]) : Complex(reduced[(2 * h - 1) * s + p], -reduced[2 * h * s + p]), h,
-                  moving_[p], b);
+            store(h == 0 ? Complex(reduced[p])
+                         : Complex(reduced[(2 * h - 1) * s + p], -reduced[2 * h * s + p]),
+                  h, moving_[p], b);
     }
 
     std::shared_ptr<const ReducedModel> m_;
@@ -432,7 +441,8 @@ class GapSystem final : public HbmSystem {
 
 } // namespace
 
-std::unique_ptr<HbmSystem> make_gap_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options) {
+std::unique_ptr<HbmSystem> make_gap_system(std::shared_ptr<const ReducedModel> reduced,
+                                           const HbmOptions &options) {
     return std::make_unique<GapSystem>(std::move(reduced), options);
 }
 

@@ -11,16 +11,17 @@ enum class UnknownSpace { automatic, modal, gaps };
 struct HbmOptions {
     std::int64_t n_harmonics = 5;
     AftKind aft = AftKind::event;
-    std::int64_t time_samples = 256;      // sampled AFT only
-    UnknownSpace unknowns = UnknownSpace::automatic; // reduced coordinates or contact gaps, by cost
+    std::int64_t time_samples = 256;                   // sampled AFT only
+    UnknownSpace unknowns = UnknownSpace::automatic;   // reduced coordinates or contact gaps, by cost
     double frequency_min_hz = 0, frequency_max_hz = 0; // 0: the basis' window
-    bool upward = false;                  // direction of a sweep; downwards starts are safer
-    double force_scale = 1;               // scales the excitation, not the pre-load
-    double tolerance = 1e-9;              // of the Newton correction, relative to the solution
-    std::int64_t max_iterations = 30;     // Newton iterations per point
-    std::int64_t max_points = 2000;       // of a sweep
-    double initial_step = 0;              // arc length relative to the curve's scale; 0: automatic
-    double min_step = 1e-7, max_step = 0.15; // arc length, where 1 = the window's width or the response's scale
+    bool upward = false;                               // direction of a sweep; downwards starts are safer
+    double force_scale = 1;                            // scales the excitation, not the pre-load
+    double tolerance = 1e-9;                           // of the Newton correction, relative to the solution
+    std::int64_t max_iterations = 30;                  // Newton iterations per point
+    std::int64_t max_points = 2000;                    // of a sweep
+    double initial_step = 0; // arc length relative to the curve's scale; 0: automatic
+    double min_step = 1e-7,
+           max_step = 0.15; // arc length, where 1 = the window's width or the response's scale
 };
 
 /// What plm_hbm_find_peak returns.

@@ -1,6 +1,6 @@
-// Harmonic balance in reduced coordinates (paper, eq. (10)): x = [eta_0 (r_0); a_1; b_1; ...; a_H; b_H (r each)].
-// Cost of one linearisation: (4H + 1) Z r^2 flops for the contact matrices (one product with the precomputed
-// products of gap rows) and 2/3 (r (2H + 1))^3 for the factorization.
+// Harmonic balance in reduced coordinates (paper, eq. (10)): x = [eta_0 (r_0); a_1; b_1; ...; a_H; b_H (r
+// each)]. Cost of one linearisation: (4H + 1) Z r^2 flops for the contact matrices (one product with the
+// precomputed products of gap rows) and 2/3 (r (2H + 1))^3 for the factorization.
 #include "hbm/system.hpp"
 #include "linalg/lapack.hpp"
 #include <algorithm>
@@ -24,10 +24,9 @@ Matrix row_products(const Matrix &left, const Matrix &right, bool symmetric) {
 class ModalSystem final : public HbmSystem {
   public:
     ModalSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
-        : m_(std::move(reduced)), h_(options.n_harmonics), r_(m_->size()), r0_(m_->static_size()), z_(m_->n_pairs()),
-          force_(make_contact_force(options, z_)), stiffness_(m_->contact_stiffness),
-          gap_(m_->initial_gap), u_(z_, 2 * h_ + 1),
-          contact_(z_, 2 * h_ + 1), eta_(r_, 2 * h_),
+        : m_(std::move(reduced)), h_(options.n_harmonics), r_(m_->size()), r0_(m_->static_size()),
+          z_(m_->n_pairs()), force_(make_contact_force(options, z_)), stiffness_(m_->contact_stiffness),
+          gap_(m_->initial_gap), u_(z_, 2 * h_ + 1), contact_(z_, 2 * h_ + 1), eta_(r_, 2 * h_),
           dynamic_(z_, 2 * h_), x_(size(), 0.0) {
         dynamic_products_ = row_products(m_->gap, m_->gap, true);
         if (!m_->same_static) {
@@ -252,7 +251,8 @@ class ModalSystem final : public HbmSystem {
         }
     }
 
-    // Blocks between h = 0 (rows, leading dimension ld of each block) and h = n, and their transposes doubled.
+    // Blocks between h = 0 (rows, leading dimension ld of each block) and h = n, and their transposes
+    // doubled.
     void add_mixed(const Matrix &blocks, std::int64_t ld) {
         for (std::int64_t c = 1; c <= 2 * h_; ++c) {
             const double *block = blocks.col(c);
@@ -301,7 +301,8 @@ class ModalSystem final : public HbmSystem {
 
 } // namespace
 
-std::unique_ptr<HbmSystem> make_modal_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options) {
+std::unique_ptr<HbmSystem> make_modal_system(std::shared_ptr<const ReducedModel> reduced,
+                                             const HbmOptions &options) {
     return std::make_unique<ModalSystem>(std::move(reduced), options);
 }
 

@@ -9,12 +9,14 @@ constexpr double fast_contraction = 0.2; // below: the old factorization is good
 
 class Newton {
   public:
-    Newton(HbmSystem &system, const SideCondition &side, const NewtonLimits &limits, vector<double> &x, double &omega)
-        : system_(system), side_(side), limits_(limits), x_(x), omega_(omega), n_(system.size()), r_(n_), step_(n_),
-          border_(n_), trial_(n_), next_(n_) {}
+    Newton(HbmSystem &system, const SideCondition &side, const NewtonLimits &limits, vector<double> &x,
+           double &omega)
+        : system_(system), side_(side), limits_(limits), x_(x), omega_(omega), n_(system.size()), r_(n_),
+          step_(n_), border_(n_), trial_(n_), next_(n_) {}
 
     NewtonOutcome run() {
-        if (limits_.factored) make_border(); // at the point the factorization belongs to, before residual() moves it
+        if (limits_.factored)
+            make_border(); // at the point the factorization belongs to, before residual() moves it
         system_.residual(x_.data(), omega_, r_.data());
         if (!limits_.factored) refactor();
         double size = correction(r_, step_, step_omega_);
@@ -157,8 +159,8 @@ class Newton {
 
 } // namespace
 
-NewtonOutcome newton(HbmSystem &system, const SideCondition &side, const NewtonLimits &limits, vector<double> &x,
-                     double &omega) {
+NewtonOutcome newton(HbmSystem &system, const SideCondition &side, const NewtonLimits &limits,
+                     vector<double> &x, double &omega) {
     return Newton(system, side, limits, x, omega).run();
 }
 

@@ -1,6 +1,7 @@
 // Newton's method for R(x, omega) = 0 with one linear side condition (fixed frequency, or the hyperplane of a
-// continuation step). Damping is affine-invariant (Deuflhard's natural monotonicity test): the residual norm is never
-// the merit, since in modal coordinates it misleads. A factorization is kept as long as it contracts fast.
+// continuation step). Damping is affine-invariant (Deuflhard's natural monotonicity test): the residual norm
+// is never the merit, since in modal coordinates it misleads. A factorization is kept as long as it contracts
+// fast.
 #pragma once
 #include "hbm/system.hpp"
 
@@ -13,22 +14,22 @@ struct SideCondition {
 };
 
 struct NewtonLimits {
-    double tolerance = 1e-9;        // of the last correction, relative to the dynamic part of x
+    double tolerance = 1e-9; // of the last correction, relative to the dynamic part of x
     std::int64_t max_iterations = 30;
-    double min_damping = 1e-4;      // smaller: give up
-    double omega_scale = 1;         // what a change of omega is measured by
-    bool factored = false;          // the system is factored near the first guess: use it as long as it serves
+    double min_damping = 1e-4; // smaller: give up
+    double omega_scale = 1;    // what a change of omega is measured by
+    bool factored = false;     // the system is factored near the first guess: use it as long as it serves
 };
 
 struct NewtonOutcome {
     bool converged = false;
     std::int32_t reason = PLM_REASON_NONE; // why not
     std::int64_t iterations = 0, factorizations = 0;
-    double residual = 0;           // |R| over residual_scale()
-    bool factored_here = false;    // the system's factorization belongs to (nearly) the solution
+    double residual = 0;        // |R| over residual_scale()
+    bool factored_here = false; // the system's factorization belongs to (nearly) the solution
 };
 
-NewtonOutcome newton(HbmSystem &system, const SideCondition &side, const NewtonLimits &limits, vector<double> &x,
-                     double &omega);
+NewtonOutcome newton(HbmSystem &system, const SideCondition &side, const NewtonLimits &limits,
+                     vector<double> &x, double &omega);
 
 } // namespace plm

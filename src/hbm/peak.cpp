@@ -1,5 +1,5 @@
-// The highest point of a curve, found on the curve itself: points on hyperplanes across the chord through the three
-// highest ones, by successive parabolic interpolation.
+// The highest point of a curve, found on the curve itself: points on hyperplanes across the chord through the
+// three highest ones, by successive parabolic interpolation.
 #include "hbm/hbm.hpp"
 #include "hbm/newton.hpp"
 #include <array>
@@ -34,7 +34,9 @@ class PeakSearch {
             Sample left, right;
             if (!corrected(middle.s - reach, left) || !corrected(middle.s + reach, right)) break;
             three_ = {left, middle, right};
-            if (reach <= 2e-3 * span_ && left.amplitude < middle.amplitude && right.amplitude < middle.amplitude) break;
+            if (reach <= 2e-3 * span_ && left.amplitude < middle.amplitude &&
+                right.amplitude < middle.amplitude)
+                break;
         }
         Sample best;
         if (!corrected(vertex(), best) || best.amplitude < three_[1].amplitude * (1 - 1e-9)) best = three_[1];
@@ -57,7 +59,8 @@ class PeakSearch {
         for (std::int64_t i = 0; i < n; ++i) direction_[i] = three_[2].x[i] - three_[0].x[i];
         direction_omega_ = three_[2].omega - three_[0].omega;
         omega_scale_ = 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz);
-        const double length = std::hypot(norm2(n, direction_.data()) / scale_, direction_omega_ / omega_scale_);
+        const double length =
+            std::hypot(norm2(n, direction_.data()) / scale_, direction_omega_ / omega_scale_);
         for (double &d : direction_) d /= length * scale_ * scale_; // weights of the hyperplanes
         direction_omega_ /= length * omega_scale_ * omega_scale_;
         origin_ = three_[1];
@@ -74,7 +77,8 @@ class PeakSearch {
     // Vertex of the parabola through the triple, kept inside it.
     double vertex() const {
         const Sample &a = three_[0], &b = three_[1], &c = three_[2];
-        const double left = (b.amplitude - a.amplitude) / (b.s - a.s), right = (c.amplitude - b.amplitude) / (c.s - b.s);
+        const double left = (b.amplitude - a.amplitude) / (b.s - a.s),
+                     right = (c.amplitude - b.amplitude) / (c.s - b.s);
         const double bend = (right - left) / (c.s - a.s);
         if (!(bend < 0)) return b.s;
         const double s = 0.5 * (a.s + b.s) - 0.5 * left / bend;
@@ -124,7 +128,8 @@ class PeakSearch {
 
 Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
     if (branch.reduced_model() != reduced_ || branch.n_harmonics() != options_.n_harmonics)
-        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis or number of harmonics").argument("branch");
+        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis or number of harmonics")
+            .argument("branch");
     const std::int64_t n = static_cast<std::int64_t>(branch.points().size());
     std::int64_t top = 0;
     double highest = -1;

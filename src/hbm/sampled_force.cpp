@@ -27,7 +27,7 @@ class SampledForce final : public ContactForce {
                 samples_(t, i) = closed ? 1 : 0;
                 n_closed += closed;
             }
-            out.state[i] = n_closed == 0                ? PairState::open
+            out.state[i] = n_closed == 0                 ? PairState::open
                            : n_closed == samples_.rows() ? PairState::closed
                                                          : PairState::switching;
             out.n_switching += out.state[i] == PairState::switching;
@@ -49,9 +49,10 @@ class SampledForce final : public ContactForce {
 std::unique_ptr<ContactForce> make_sampled_force(std::int64_t n_harmonics, std::int64_t time_samples,
                                                  std::int64_t n_pairs) {
     if (time_samples < 4 * n_harmonics + 1)
-        throw Error(PLM_ERR_ARGUMENT, format("time_samples = %lld is too few for %lld harmonics; take at least %lld",
-                                             static_cast<long long>(time_samples), static_cast<long long>(n_harmonics),
-                                             static_cast<long long>(4 * n_harmonics + 1)))
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("time_samples = %lld is too few for %lld harmonics; take at least %lld",
+                           static_cast<long long>(time_samples), static_cast<long long>(n_harmonics),
+                           static_cast<long long>(4 * n_harmonics + 1)))
             .argument("time_samples");
     return std::make_unique<SampledForce>(n_harmonics, time_samples, n_pairs);
 }

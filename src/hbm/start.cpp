@@ -7,8 +7,8 @@
 namespace plm {
 namespace {
 
-// Another parameter in the place of the frequency: the force, p = 0 at rest, or the gap, p = 0 with contact out of reach;
-// p = 1 is the problem asked for.
+// Another parameter in the place of the frequency: the force, p = 0 at rest, or the gap, p = 0 with contact
+// out of reach; p = 1 is the problem asked for.
 class StartPath final : public HbmSystem {
   public:
     enum class Kind { force, gap };
@@ -51,8 +51,10 @@ class StartPath final : public HbmSystem {
 
 class Starter {
   public:
-    Starter(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options, double omega, vector<double> &x)
-        : system_(system), reduced_(reduced), options_(options), omega_(omega), share_(share_at_rest(reduced)), x_(x) {
+    Starter(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options, double omega,
+            Watch watch, vector<double> &x)
+        : watch_(watch), quiet_(watch), system_(system), reduced_(reduced), options_(options), omega_(omega),
+          share_(share_at_rest(reduced)), x_(x) {
         x_.resize(system.size());
         for (double share : share_) loaded_ = loaded_ || share == 1;
     }
@@ -69,6 +71,7 @@ class Starter {
 
   private:
     bool attempt() {
+        watch_.step("start", 0.0);
         NewtonLimits limits;
         limits.tolerance = options_.tolerance;
         limits.max_iterations = options_.max_iterations;
@@ -89,7 +92,8 @@ class Starter {
     bool from_linear_guess(const vector<double> &share) {
         try {
             system_.linear_response(share, omega_, x_.data());
-        } catch (const Error &e) { // a share without a static solution, e.g. open contact and rigid-body modes
+        } catch (
+            const Error &e) { // a share without a static solution, e.g. open contact and rigid-body modes
             if (e.status() != PLM_ERR_SINGULAR) throw;
             return false;
         }
@@ -115,13 +119,14 @@ class Starter {
         return found && attempt();
     }
 
-    // Without pre-load the force changes nothing but the size; from the linear response with contact out of reach the
-    // gap is closed instead.
+    // Without pre-load the force changes nothing but the size; from the linear response with contact out of
+    // reach the gap is closed instead.
     bool gap_path() {
         const vector<double> open(share_.size(), 0.0);
         if (!from_linear_guess(open)) return false;
         BranchPoint point;
-        system_.to_point(x_.data(), omega_, point); // what the unknowns are differs; the gaps follow from the point
+        system_.to_point(x_.data(), omega_,
+                         point); // what the unknowns are differs; the gaps follow from the point
         double reach = 0;
         const Matrix dynamic = product('N', 'N', reduced_.gap, point.eta);
         for (std::int64_t i = 0; i < dynamic.rows(); ++i) {
@@ -167,12 +172,21 @@ class Starter {
     }
 
     // A path nobody looks at.
-    class Quiet : public PathOwner {
+    class Quiet final : public PathOwner {
+      public:
+        explicit Quiet(Watch watch) : watch_(watch) {}
         void record(const PathPoint &) override {}
-        bool cancelled(double) override { return false; }
+        bool cancelled(double fraction) override {
+            watch_.step("start", fraction);
+            return false;
+        }
         bool rescue(double, vector<double> &) override { return false; }
+
+      private:
+        Watch watch_;
     };
 
+    Watch watch_;
     Quiet quiet_;
     HbmSystem &system_;
     const ReducedModel &reduced_;
@@ -189,17 +203,19 @@ class Starter {
 vector<double> share_at_rest(const ReducedModel &m) {
     vector<double> u(m.n_pairs());
     for (std::size_t i = 0; i < u.size(); ++i) u[i] = -m.initial_gap[i];
-    const bool loaded = std::any_of(m.preload_0.begin(), m.preload_0.end(), [](double f) { return f != 0; }) ||
-                        std::any_of(u.begin(), u.end(), [](double v) { return v > 0; });
-    if (loaded) u = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap}).penetration;
+    const bool loaded =
+        std::any_of(m.preload_0.begin(), m.preload_0.end(), [](double f) { return f != 0; }) ||
+        std::any_of(u.begin(), u.end(), [](double v) { return v > 0; });
+    if (loaded)
+        u = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap}).penetration;
     vector<double> share(u.size());
     for (std::size_t i = 0; i < u.size(); ++i) share[i] = u[i] > 0 ? 1.0 : u[i] < 0 ? 0.0 : 0.5;
     return share;
 }
 
-StartOutcome find_start(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options, double omega,
-                        bool have_guess, vector<double> &x) {
-    return Starter(system, reduced, options, omega, x).run(have_guess);
+StartOutcome find_start(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options,
+                        double omega, bool have_guess, Watch watch, vector<double> &x) {
+    return Starter(system, reduced, options, omega, watch, x).run(have_guess);
 }
 
 } // namespace plm

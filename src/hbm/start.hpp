@@ -1,6 +1,7 @@
 // First solutions: from the structure at rest to a converged periodic response at one frequency.
 #pragma once
 #include "hbm/newton.hpp"
+#include "linalg/monitor.hpp"
 
 namespace plm {
 
@@ -13,10 +14,10 @@ struct StartOutcome {
     double residual = 0;
 };
 
-/// Solves at omega; on entry x is a first guess when `have_guess`. Then, until one works: the linear response about
-/// rest, about open and about closed contact; the path in the force from rest, or in the gap from open
-/// contact; the path in the frequency from above.
-StartOutcome find_start(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options, double omega,
-                        bool have_guess, vector<double> &x);
+/// Solves at omega; on entry x is a first guess when `have_guess`. Then, until one works: the linear response
+/// about rest, about open and about closed contact; the path in the force from rest, or in the gap from open
+/// contact; the path in the frequency from above. Throws PLM_CANCELLED when the host wants to stop.
+StartOutcome find_start(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options,
+                        double omega, bool have_guess, Watch watch, vector<double> &x);
 
 } // namespace plm

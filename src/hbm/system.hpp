@@ -1,6 +1,7 @@
-// The harmonic-balance equations R(x, omega) = 0 as Newton and the continuation see them. Two forms, exact for the same
-// reduced model: unknown reduced coordinates (modal_system.cpp), or unknown contact gaps through the receptances of the
-// open structure (gap_system.cpp). Which is cheaper depends on the number of coordinates and of moving pairs.
+// The harmonic-balance equations R(x, omega) = 0 as Newton and the continuation see them. Two forms, exact
+// for the same reduced model: unknown reduced coordinates (modal_system.cpp), or unknown contact gaps through
+// the receptances of the open structure (gap_system.cpp). Which is cheaper depends on the number of
+// coordinates and of moving pairs.
 #pragma once
 #include "hbm/branch.hpp"
 #include "hbm/contact_force.hpp"
@@ -45,11 +46,14 @@ class HbmSystem {
     ContactIndicator indicator_;
 };
 
-/// Takes the smaller of the two by cost when options.unknowns is automatic. `kind` receives "modal" or "gaps".
+/// Takes the smaller of the two by cost when options.unknowns is automatic. `kind` receives "modal" or
+/// "gaps".
 std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                                        std::string *kind);
-std::unique_ptr<HbmSystem> make_modal_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
-std::unique_ptr<HbmSystem> make_gap_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
+std::unique_ptr<HbmSystem> make_modal_system(std::shared_ptr<const ReducedModel> reduced,
+                                             const HbmOptions &options);
+std::unique_ptr<HbmSystem> make_gap_system(std::shared_ptr<const ReducedModel> reduced,
+                                           const HbmOptions &options);
 std::unique_ptr<ContactForce> make_contact_force(const HbmOptions &options, std::int64_t n_pairs);
 
 } // namespace plm

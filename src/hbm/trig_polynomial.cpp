@@ -40,10 +40,10 @@ Matrix trig_grid(std::int64_t n_harmonics, std::int64_t n) {
 
 namespace {
 
-// Newton kept inside a bracket that shrinks; falls back to bisection when a step leaves it. `order` 0: zero of x, 1: of
-// x'.
-double safeguarded_newton(const double *x, std::int64_t n_harmonics, double low, double high, bool low_positive,
-                          int order) {
+// Newton kept inside a bracket that shrinks; falls back to bisection when a step leaves it. `order` 0: zero
+// of x, 1: of x'.
+double safeguarded_newton(const double *x, std::int64_t n_harmonics, double low, double high,
+                          bool low_positive, int order) {
     double t = 0.5 * (low + high);
     for (int k = 0; k < 60; ++k) {
         const TrigValue v = evaluate_trig(x, n_harmonics, t);

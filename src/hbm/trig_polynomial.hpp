@@ -1,5 +1,5 @@
-// Real trigonometric polynomials x(t) = a0 + sum_h a_h cos h t + b_h sin h t, t in radian over one period 2 pi.
-// Coefficients in the order a0, a1, b1, ..., aH, bH.
+// Real trigonometric polynomials x(t) = a0 + sum_h a_h cos h t + b_h sin h t, t in radian over one period 2
+// pi. Coefficients in the order a0, a1, b1, ..., aH, bH.
 #pragma once
 #include "linalg/dense.hpp"
 #include <cstddef>

@@ -1,6 +1,7 @@
-// The contact space: the unreduced structure as its contact sees it, to a stated tolerance. Exact open modes carry the
-// resonances; attachment vectors (K + sigma M)^-1 B^T and their successors under (K + sigma M)^-1 M carry the rest. The
-// error left is measured with the full matrices, and blocks are added until it is small enough.
+// The contact space: the unreduced structure as its contact sees it, to a stated tolerance. Exact open modes
+// carry the resonances; attachment vectors (K + sigma M)^-1 B^T and their successors under (K + sigma M)^-1 M
+// carry the rest. The error left is measured with the full matrices, and blocks are added until it is small
+// enough.
 #include "linalg/eigs.hpp"
 #include "linalg/lapack.hpp"
 #include "model/space.hpp"
@@ -22,23 +23,25 @@ std::int64_t count_below(const Model &model, double cutoff) {
     }
 }
 
-EigenPairs modes_with_growth(const Model &model, std::int64_t first_guess, double cutoff, const EigsOptions &options) {
+EigenPairs modes_with_growth(const Model &model, std::int64_t first_guess, double cutoff,
+                             const EigsOptions &options) {
     std::int64_t wanted = std::min(first_guess, model.n_free());
     for (;;) {
-        EigenPairs pairs =
-            lowest_eigenpairs(model.stiffness(), model.mass(), model.factor(), -model.shift(), wanted, options);
+        EigenPairs pairs = lowest_eigenpairs(model.stiffness(), model.mass(), model.factor(), -model.shift(),
+                                             wanted, options);
         const std::int64_t found = static_cast<std::int64_t>(pairs.values.size());
-        if (found < wanted || wanted == model.n_free() || pairs.values.back() >= cutoff * cutoff) return pairs;
+        if (found < wanted || wanted == model.n_free() || pairs.values.back() >= cutoff * cutoff)
+            return pairs;
         wanted = std::min(model.n_free(), wanted + wanted / 2 + 10);
     }
 }
 
 class ContactSpaceBuilder {
   public:
-    ContactSpaceBuilder(std::shared_ptr<const Model> model, double highest, std::int64_t least_modes, Watch watch,
-                        const Space *previous)
-        : model_(std::move(model)), previous_(previous), space_(std::make_shared<Space>()), highest_(highest), least_modes_(least_modes),
-          watch_(watch), sigma_(model_->shift()),
+    ContactSpaceBuilder(std::shared_ptr<const Model> model, double highest, std::int64_t least_modes,
+                        Watch watch, const Space *previous)
+        : model_(std::move(model)), previous_(previous), space_(std::make_shared<Space>()), highest_(highest),
+          least_modes_(least_modes), watch_(watch), sigma_(model_->shift()),
           shifted_(sigma_ > 0 ? add(1.0, model_->stiffness(), sigma_, model_->mass()) : SparseMatrix()) {
         space_->model = model_;
         space_->highest_frequency = highest;
@@ -57,9 +60,11 @@ class ContactSpaceBuilder {
             error = receptance_error();
         }
         if (error > options.tolerance)
-            watch_.log(2, format("the contact space reaches a receptance error of %.1e at %.6g Hz, not the %.1e asked "
-                                 "for; raise cutoff_factor or max_blocks of the model",
-                                 error, highest_ / (2 * M_PI), options.tolerance));
+            watch_.log(
+                2,
+                format("the contact space reaches a receptance error of %.1e at %.6g Hz, not the %.1e asked "
+                       "for; raise cutoff_factor or max_blocks of the model",
+                       error, highest_ / (2 * M_PI), options.tolerance));
         space_->error_estimate = error;
         assemble(blocks);
         return space_;
@@ -81,7 +86,8 @@ class ContactSpaceBuilder {
         std::int64_t guess = std::max<std::int64_t>(least_modes_, count >= 0 ? count : 20);
         guess = std::max(guess, model_->rigid_modes().cols() + 1);
         EigenPairs pairs = previous_modes(guess, cutoff);
-        if (pairs.values.empty()) pairs = modes_with_growth(*model_, guess, count >= 0 ? 0.0 : cutoff, options);
+        if (pairs.values.empty())
+            pairs = modes_with_growth(*model_, guess, count >= 0 ? 0.0 : cutoff, options);
         if (count >= 0) {
             const auto below = [&] {
                 return std::upper_bound(pairs.values.begin(), pairs.values.end(), checked * checked) -
@@ -90,10 +96,11 @@ class ContactSpaceBuilder {
             for (int attempt = 0; attempt < 3 && below() < count; ++attempt)
                 pairs = modes_with_growth(*model_, count + 10 * (attempt + 1), 0.0, options);
             if (below() != count)
-                throw Error(PLM_ERR_EIGENSOLVER,
-                            format("%lld open modes were found below %.6g Hz where the Sturm sequence counts %lld",
-                                   static_cast<long long>(below()), checked / (2 * M_PI),
-                                   static_cast<long long>(count)));
+                throw Error(
+                    PLM_ERR_EIGENSOLVER,
+                    format("%lld open modes were found below %.6g Hz where the Sturm sequence counts %lld",
+                           static_cast<long long>(below()), checked / (2 * M_PI),
+                           static_cast<long long>(count)));
             space_->counts_verified = true;
         }
         const double flexible = flexible_eigenvalue(pairs.values);
@@ -173,7 +180,8 @@ class ContactSpaceBuilder {
         return e;
     }
 
-    // Appends to basis_ a K-orthonormal basis of the columns of x, leaving out what weighs less than `drop` (squared).
+    // Appends to basis_ a K-orthonormal basis of the columns of x, leaving out what weighs less than `drop`
+    // (squared).
     bool add_orthonormal(Matrix &x, double drop) {
         if (x.cols() == 0) return false;
         for (int pass = 0; pass < 2 && basis_.cols() > 0; ++pass)
@@ -206,7 +214,8 @@ class ContactSpaceBuilder {
         for (std::int64_t k = 0; k < gram.rows() * gram.cols(); ++k) gram.data()[k] *= -1; // slowest first
         ritz_ = symmetric_eigen(gram);
         const double largest = std::max(-ritz_.values.front(), 1e-300);
-        for (double &mu : ritz_.values) mu = std::max(-mu, 1e-15 * largest); // mass-less directions: quasi-static
+        for (double &mu : ritz_.values)
+            mu = std::max(-mu, 1e-15 * largest); // mass-less directions: quasi-static
     }
 
     // The next Krylov block from those directions that are slow enough to matter at the highest frequency.
@@ -227,8 +236,9 @@ class ContactSpaceBuilder {
         return add_orthonormal(x, least * least);
     }
 
-    // Largest relative error of the receptances at the highest frequency over a few fixed combinations of the contact
-    // rows and the loads: with r the full residual, the Galerkin receptance is off by r' (K - w^2 M)^-1 r.
+    // Largest relative error of the receptances at the highest frequency over a few fixed combinations of the
+    // contact rows and the loads: with r the full residual, the Galerkin receptance is off by r' (K - w^2
+    // M)^-1 r.
     double receptance_error() const {
         if (basis_.cols() == 0) return 0;
         Matrix probes(model_->n_free(), 0);
@@ -244,7 +254,8 @@ class ContactSpaceBuilder {
             probes.append(column);
         }
         double worst = 0;
-        for (std::int64_t j = 0; j < probes.cols(); ++j) worst = std::max(worst, probe_error(probes.columns(j, 1)));
+        for (std::int64_t j = 0; j < probes.cols(); ++j)
+            worst = std::max(worst, probe_error(probes.columns(j, 1)));
         for (const auto &entry : model_->excitation()) {
             Matrix column(model_->n_free(), 1);
             std::copy(entry.second.real.begin(), entry.second.real.end(), column.data());
@@ -284,7 +295,9 @@ class ContactSpaceBuilder {
                 for (std::int64_t i = 0; i < a; ++i) scaled(i, k) *= root;
                 lambda.push_back(1 / ritz_.values[k] - sigma_);
             }
-            vectors.append(product('N', 'N', basis_, scaled));
+            Matrix attachment = product('N', 'N', basis_, scaled);
+            deflate(attachment); // scaling has magnified what rounding left of the exact modes
+            vectors.append(attachment);
         }
         vector<std::int64_t> order(lambda.size());
         std::iota(order.begin(), order.end(), 0);
@@ -296,11 +309,11 @@ class ContactSpaceBuilder {
             std::copy_n(vectors.col(order[j]), model_->n_free(), space_->vectors.col(j));
         }
         space_->n_exact_modes = p;
-        space_->description =
-            format("%lld open modes up to %.6g Hz and %lld contact attachment vectors in %lld block(s); receptance "
-                   "error %.1e at %.6g Hz",
-                   static_cast<long long>(p), std::sqrt(next_lambda_) / (2 * M_PI), static_cast<long long>(a),
-                   static_cast<long long>(a > 0 ? blocks : 0), space_->error_estimate, highest_ / (2 * M_PI));
+        space_->description = format(
+            "%lld open modes up to %.6g Hz and %lld contact attachment vectors in %lld block(s); receptance "
+            "error %.1e at %.6g Hz",
+            static_cast<long long>(p), std::sqrt(next_lambda_) / (2 * M_PI), static_cast<long long>(a),
+            static_cast<long long>(a > 0 ? blocks : 0), space_->error_estimate, highest_ / (2 * M_PI));
         project_onto(*space_);
         watch_.log(1, "contact space: " + space_->description);
     }
@@ -328,7 +341,8 @@ std::shared_ptr<const Space> make_contact_space(std::shared_ptr<const Model> mod
     const std::int64_t least = std::min(least_modes, model->n_free());
     if (previous && previous->highest_frequency >= highest_frequency && previous->n_exact_modes >= least)
         return previous;
-    return ContactSpaceBuilder(std::move(model), highest_frequency, least_modes, watch, previous.get()).build();
+    return ContactSpaceBuilder(std::move(model), highest_frequency, least_modes, watch, previous.get())
+        .build();
 }
 
 } // namespace plm

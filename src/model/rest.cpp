@@ -6,6 +6,13 @@
 namespace plm {
 namespace {
 
+Error no_equilibrium() {
+    return Error(PLM_ERR_CONVERGENCE,
+                 "the pre-load drives a rigid-body motion that no support and no contact holds; "
+                 "fix DOFs or check the direction of the pre-load")
+        .reason(PLM_REASON_NO_EQUILIBRIUM);
+}
+
 // The energy is convex, so Newton with exact line search ends at the minimum from anywhere.
 class RestProblem {
   public:
@@ -52,8 +59,9 @@ class RestProblem {
             t(i, i) += 1 / ContactLaw::tangent(p_.contact_stiffness[active[i]], u[active[i]]);
         DenseCholesky cholesky;
         if (!cholesky.factor(t))
-            throw Error(PLM_ERR_SINGULAR, "the contact flexibility at rest is singular: two closed pairs repeat the "
-                                          "same gap row")
+            throw Error(PLM_ERR_SINGULAR,
+                        "the contact flexibility at rest is singular: two closed pairs repeat the "
+                        "same gap row")
                 .reason(PLM_REASON_SINGULAR);
         vector<double> y(a, 0.0);
         for (std::int64_t j = 0; j < m; ++j)
@@ -67,13 +75,22 @@ class RestProblem {
         return d;
     }
 
+    // A rigid-body motion is still pushed: its huge step has left the slope of the line search to rounding.
+    bool pushes_rigid_motion(const vector<double> &g) const {
+        const double load = norm2(p_.gap.cols(), p_.load.data());
+        for (std::size_t j = 0; j < g.size(); ++j)
+            if (p_.lambda[j] == 0 && std::abs(g[j]) > 1e-8 * load) return true;
+        return false;
+    }
+
     // Slope of E along eta + t d.
-    double slope(const vector<double> &eta, const vector<double> &d, const vector<double> &u, const vector<double> &du,
-                 double t) const {
+    double slope(const vector<double> &eta, const vector<double> &d, const vector<double> &u,
+                 const vector<double> &du, double t) const {
         double s = 0;
         for (std::size_t j = 0; j < d.size(); ++j)
             s += d[j] * (p_.lambda[j] * (eta[j] + t * d[j]) - p_.load[j]);
-        for (std::size_t i = 0; i < u.size(); ++i) s += du[i] * ContactLaw::force(p_.contact_stiffness[i], u[i] + t * du[i]);
+        for (std::size_t i = 0; i < u.size(); ++i)
+            s += du[i] * ContactLaw::force(p_.contact_stiffness[i], u[i] + t * du[i]);
         return s;
     }
 
@@ -87,10 +104,7 @@ class RestProblem {
         while (slope(eta, d, u, du, high) < 0) {
             low = high;
             high *= 4;
-            if (high > 1e12)
-                throw Error(PLM_ERR_CONVERGENCE, "the pre-load drives a rigid-body motion that no support and no "
-                                                 "contact holds; fix DOFs or check the direction of the pre-load")
-                    .reason(PLM_REASON_NO_EQUILIBRIUM);
+            if (high > 1e12) throw no_equilibrium();
         }
         for (int k = 0; k < 200 && high - low > 1e-15 * high; ++k) {
             const double middle = 0.5 * (low + high);
@@ -130,10 +144,13 @@ StaticState solve_static(const StaticProblem &p) {
         ++state.iterations;
     }
     if (settled < 2)
-        throw Error(PLM_ERR_CONVERGENCE, format("the static equilibrium under the pre-load was not found in %lld "
-                                                "iterations; check the pre-load and the initial gaps",
-                                                static_cast<long long>(limit)))
+        throw Error(PLM_ERR_CONVERGENCE,
+                    format("the static equilibrium under the pre-load was not found in %lld "
+                           "iterations; check the pre-load and the initial gaps",
+                           static_cast<long long>(limit)))
             .reason(PLM_REASON_NO_EQUILIBRIUM);
+    if (problem.pushes_rigid_motion(problem.gradient(state.coordinates, state.penetration)))
+        throw no_equilibrium();
     return state;
 }
 

@@ -1,4 +1,5 @@
-// Static equilibrium under pre-load with unilateral contact: the minimum of a convex, piecewise quadratic energy.
+// Static equilibrium under pre-load with unilateral contact: the minimum of a convex, piecewise quadratic
+// energy.
 #pragma once
 #include "model/space.hpp"
 
@@ -7,9 +8,9 @@ namespace plm {
 /// The static problem in coordinates where K is diagonal: find the minimum of
 /// eta' diag(lambda) eta / 2 - load' eta + sum_i k_i max(u_i, 0)^2 / 2 with u = gap eta - initial_gap.
 struct StaticProblem {
-    const vector<double> &lambda; // m, zeros: rigid-body coordinates
-    const Matrix &gap;            // Z x m
-    const vector<double> &load;   // m
+    const vector<double> &lambda;                          // m, zeros: rigid-body coordinates
+    const Matrix &gap;                                     // Z x m
+    const vector<double> &load;                            // m
     const vector<double> &contact_stiffness, &initial_gap; // Z
 };
 
@@ -18,7 +19,8 @@ struct StaticState {
     vector<double> penetration; // u, Z
     std::int64_t iterations = 0;
 };
-/// Throws PLM_ERR_CONVERGENCE with PLM_REASON_NO_EQUILIBRIUM when the load drives an unsupported rigid-body motion.
+/// Throws PLM_ERR_CONVERGENCE with PLM_REASON_NO_EQUILIBRIUM when the load drives an unsupported rigid-body
+/// motion.
 StaticState solve_static(const StaticProblem &problem);
 
 /// The structure at rest under the pre-load.

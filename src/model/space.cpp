@@ -12,7 +12,8 @@ vector<double> project(const Matrix &v, const vector<double> &f) {
     return y;
 }
 
-// Rayleigh and modal damping are diagonal here because V diagonalises M and K and starts with the exact modes.
+// Rayleigh and modal damping are diagonal here because V diagonalises M and K and starts with the exact
+// modes.
 vector<double> diagonal_damping(const Space &space, const Damping &damping) {
     vector<double> c(space.size());
     for (std::int64_t j = 0; j < space.size(); ++j) {
@@ -43,9 +44,9 @@ void project_onto(Space &space) {
     }
 }
 
-// Works on the inverse: S = (diag(lambda) + G_A^T k G_A + sigma)^-1 = D^-1 - Y^T Y. A direct eigenproblem would lose
-// the low modes to rounding (eps times the stiffest attachment vector); the compliance form keeps them to eps and has
-// the rigid limit k -> infinity.
+// Works on the inverse: S = (diag(lambda) + G_A^T k G_A + sigma)^-1 = D^-1 - Y^T Y. A direct eigenproblem
+// would lose the low modes to rounding (eps times the stiffest attachment vector); the compliance form keeps
+// them to eps and has the rigid limit k -> infinity.
 SpaceModes modes_of_contact_set(const Space &space, const vector<char> &closed, double upper) {
     const std::int64_t m = space.size(), z = space.n_pairs();
     const vector<double> &stiffness = space.model->contact_stiffness();
@@ -54,7 +55,8 @@ SpaceModes modes_of_contact_set(const Space &space, const vector<char> &closed, 
         if (closed[i]) active.push_back(i);
     SpaceModes modes;
     if (active.empty()) {
-        std::int64_t count = std::upper_bound(space.lambda.begin(), space.lambda.end(), upper) - space.lambda.begin();
+        std::int64_t count =
+            std::upper_bound(space.lambda.begin(), space.lambda.end(), upper) - space.lambda.begin();
         modes.values.assign(space.lambda.begin(), space.lambda.begin() + count);
         modes.vectors.reset(m, count);
         for (std::int64_t j = 0; j < count; ++j) modes.vectors(j, j) = 1;
@@ -80,8 +82,9 @@ SpaceModes modes_of_contact_set(const Space &space, const vector<char> &closed, 
     Matrix inverse(m, m);
     DenseCholesky cholesky;
     if (!cholesky.factor(t))
-        throw Error(PLM_ERR_SINGULAR, "the contact flexibility is not positive definite; look for repeated gap rows "
-                                      "with infinite stiffness")
+        throw Error(PLM_ERR_SINGULAR,
+                    "the contact flexibility is not positive definite; look for repeated gap rows "
+                    "with infinite stiffness")
             .reason(PLM_REASON_SINGULAR);
     Matrix ty = y;
     cholesky.solve(ty.data(), m, n_active);
@@ -91,7 +94,8 @@ SpaceModes modes_of_contact_set(const Space &space, const vector<char> &closed, 
             const double s = 0.5 * (inverse(i, j) + inverse(j, i));
             inverse(i, j) = inverse(j, i) = s;
         }
-        inverse(j, j) -= 1 / (space.lambda[j] + sigma); // now minus the compliance: ascending = lowest modes first
+        inverse(j, j) -=
+            1 / (space.lambda[j] + sigma); // now minus the compliance: ascending = lowest modes first
     }
     SymmetricEigen eigen = std::isfinite(upper) ? symmetric_eigen_below(inverse, -1 / (upper + sigma))
                                                 : symmetric_eigen(inverse);

@@ -89,11 +89,14 @@ void add_unless_present(std::vector<SelectedSample> &samples, SelectedSample sam
     samples.push_back(std::move(sample));
 }
 
+// The ends stay where they are as long as there is an inner position to move.
 void move_nearest(vector<std::int64_t> &chosen, std::int64_t target) {
-    const auto nearest = std::min_element(chosen.begin(), chosen.end(), [&](std::int64_t a, std::int64_t b) {
+    if (chosen.empty() || std::find(chosen.begin(), chosen.end(), target) != chosen.end()) return;
+    const bool inner = chosen.size() > 2;
+    *std::min_element(chosen.begin() + inner, chosen.end() - inner, [&](std::int64_t a, std::int64_t b) {
         return std::abs(a - target) < std::abs(b - target);
-    });
-    if (nearest != chosen.end()) *nearest = target;
+    }) = target;
+    std::sort(chosen.begin(), chosen.end());
 }
 
 } // namespace

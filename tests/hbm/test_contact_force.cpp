@@ -1,4 +1,5 @@
-// The contact force in the frequency domain: event-exact against quadrature, grazing, and the sampled AFT's limit.
+// The contact force in the frequency domain: event-exact against quadrature, grazing, and the sampled AFT's
+// limit.
 #include "hbm/contact_force.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include "support/test.hpp"
@@ -12,19 +13,20 @@ namespace {
 
 double value(const std::vector<double> &x, double t) {
     double v = x[0];
-    for (std::size_t h = 1; 2 * h < x.size(); ++h) v += x[2 * h - 1] * std::cos(h * t) + x[2 * h] * std::sin(h * t);
+    for (std::size_t h = 1; 2 * h < x.size(); ++h)
+        v += x[2 * h - 1] * std::cos(h * t) + x[2 * h] * std::sin(h * t);
     return v;
 }
 
-// Force coefficients by 20-point Gauss quadrature on many panels between zeros found by dense scan and bisection: an
-// independent way, good to about 1e-14.
+// Force coefficients by 20-point Gauss quadrature on many panels between zeros found by dense scan and
+// bisection: an independent way, good to about 1e-14.
 std::vector<double> by_quadrature(const std::vector<double> &x, double k) {
-    static const double node[10] = {0.0765265211334973, 0.2277858511416451, 0.3737060887154195, 0.5108670019508271,
-                                    0.6360536807265150, 0.7463319064601508, 0.8391169718222188, 0.9122344282513259,
-                                    0.9639719272779138, 0.9931285991850949};
-    static const double weight[10] = {0.1527533871307258, 0.1491729864726037, 0.1420961093183820, 0.1316886384491766,
-                                      0.1181945319615184, 0.1019301198172404, 0.0832767415767048, 0.0626720483341091,
-                                      0.0406014298003869, 0.0176140071391521};
+    static const double node[10] = {
+        0.0765265211334973, 0.2277858511416451, 0.3737060887154195, 0.5108670019508271, 0.6360536807265150,
+        0.7463319064601508, 0.8391169718222188, 0.9122344282513259, 0.9639719272779138, 0.9931285991850949};
+    static const double weight[10] = {
+        0.1527533871307258, 0.1491729864726037, 0.1420961093183820, 0.1316886384491766, 0.1181945319615184,
+        0.1019301198172404, 0.0832767415767048, 0.0626720483341091, 0.0406014298003869, 0.0176140071391521};
     std::vector<double> cuts{0};
     const int scan = 20000;
     for (int i = 0; i < scan; ++i) {
@@ -59,7 +61,8 @@ std::vector<double> by_quadrature(const std::vector<double> &x, double k) {
     return f;
 }
 
-std::vector<double> force(plm::ContactForce &law, const std::vector<double> &x, double k, plm::ContactIndicator &s) {
+std::vector<double> force(plm::ContactForce &law, const std::vector<double> &x, double k,
+                          plm::ContactIndicator &s) {
     Matrix u(1, static_cast<std::int64_t>(x.size())), f;
     std::copy(x.begin(), x.end(), u.data());
     law.indicator(u, s);
@@ -85,7 +88,8 @@ double worst_error_against_quadrature() {
             const std::vector<double> got = force(*law, x, 3.0, s), want = by_quadrature(x, 3.0);
             double size = 0;
             for (double v : want) size = std::max(size, std::abs(v));
-            for (std::size_t c = 0; c < x.size(); ++c) worst = std::max(worst, std::abs(got[c] - want[c]) / (size + 1));
+            for (std::size_t c = 0; c < x.size(); ++c)
+                worst = std::max(worst, std::abs(got[c] - want[c]) / (size + 1));
         }
     return worst;
 }
@@ -96,7 +100,8 @@ void event_exact_coefficients_equal_quadrature(void **) {
     assert_true(below(worst, 1e-12)); // rounding of about 1e-14 per panel sum
 }
 
-// u = -depth + cos(7 t - phase): seven short contacts, each well inside one cell of the detection grid as depth -> 1.
+// u = -depth + cos(7 t - phase): seven short contacts, each well inside one cell of the detection grid as
+// depth -> 1.
 double largest_jump_at_grazing() {
     double worst = 0;
     const int harmonics = 7;
@@ -118,7 +123,9 @@ double largest_jump_at_grazing() {
     return worst;
 }
 
-void grazing_contact_is_never_missed(void **) { assert_true(below(largest_jump_at_grazing(), 1e-13)); }
+void grazing_contact_is_never_missed(void **) {
+    assert_true(below(largest_jump_at_grazing(), 1e-13));
+}
 
 struct States {
     plm::PairState above, below, zero, touching;
@@ -155,11 +162,12 @@ double worst_derivative_error() {
             const double step = 1e-6;
             std::vector<double> up = x, down = x;
             up[c] += step, down[c] -= step;
-            const std::vector<double> fu = force(*law, up, 2.0, scratch), fd = force(*law, down, 2.0, scratch);
+            const std::vector<double> fu = force(*law, up, 2.0, scratch),
+                                      fd = force(*law, down, 2.0, scratch);
             for (std::size_t r = 0; r < x.size(); ++r) {
                 const double want = (fu[r] - fd[r]) / (2 * step);
-                const double got =
-                    2.0 * plm::indicator_entry(s.averages.col(0), static_cast<std::int64_t>(r), static_cast<std::int64_t>(c));
+                const double got = 2.0 * plm::indicator_entry(s.averages.col(0), static_cast<std::int64_t>(r),
+                                                              static_cast<std::int64_t>(c));
                 worst = std::max(worst, std::abs(got - want));
             }
         }
@@ -185,7 +193,8 @@ double sampled_error(int samples) {
 void sampled_force_converges_to_the_exact_one(void **) {
     const double coarse = sampled_error(64), fine = sampled_error(2048);
     std::printf("    sampled AFT error: %.1e at 64 samples, %.1e at 2048\n", coarse, fine);
-    assert_true(below(fine, coarse / 200)); // second order in the sample distance: 32^2 / 1000, with a margin of five
+    assert_true(
+        below(fine, coarse / 200)); // second order in the sample distance: 32^2 / 1000, with a margin of five
     assert_true(below(fine, 2e-5));
 }
 

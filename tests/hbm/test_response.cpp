@@ -1,4 +1,5 @@
-// Response curves against independent truths: closed forms and exact periodic orbits of the piecewise-linear flow.
+// Response curves against independent truths: closed forms and exact periodic orbits of the piecewise-linear
+// flow.
 #include "hbm/hbm.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include "support/small_reduced.hpp"
@@ -29,14 +30,16 @@ double amplitude_at(std::shared_ptr<const plm::ReducedModel> m, double omega, in
     return peak_of(*m, branch->points()[0], dof);
 }
 
-// Zero gap, stiffness 1 open and 1 + 3 closed: free frequency 2 w1 w2 / (w1 + w2) = 4/3 exactly (paper, eq. (6)).
+// Zero gap, stiffness 1 open and 1 + 3 closed: free frequency 2 w1 w2 / (w1 + w2) = 4/3 exactly (paper, eq.
+// (6)).
 double resonance_of_bilinear_oscillator(int harmonics) {
     const auto m = test::reduce_exactly(test::bilinear_oscillator(1e-4, 3, 0, 1e-3, 0));
     HbmOptions o;
     o.n_harmonics = harmonics;
     const double blf = 4.0 / 3.0;
     const auto branch = solver(m, o, 0.998 * blf, 1.002 * blf).sweep();
-    double best = 0, at = 0; // parabola through the three highest points would do; a fine sweep around them does better
+    double best = 0,
+           at = 0; // parabola through the three highest points would do; a fine sweep around them does better
     for (const auto &p : branch->points())
         if (peak_of(*m, p, 0) > best) best = peak_of(*m, p, 0), at = p.omega;
     o.max_step = 0.01;
@@ -45,13 +48,15 @@ double resonance_of_bilinear_oscillator(int harmonics) {
     for (const auto &p : fine->points()) w.push_back(p.omega), a.push_back(peak_of(*m, p, 0));
     const std::size_t top = static_cast<std::size_t>(std::max_element(a.begin(), a.end()) - a.begin());
     if (top == 0 || top + 1 >= a.size()) return 0;
-    const double l = (a[top] - a[top - 1]) / (w[top] - w[top - 1]), r = (a[top + 1] - a[top]) / (w[top + 1] - w[top]);
+    const double l = (a[top] - a[top - 1]) / (w[top] - w[top - 1]),
+                 r = (a[top + 1] - a[top]) / (w[top + 1] - w[top]);
     return 0.5 * (w[top] + w[top - 1]) - l * (w[top + 1] - w[top - 1]) / (2 * (r - l)); // vertex
 }
 void free_frequency_is_the_bilinear_frequency(void **) {
     const double got = resonance_of_bilinear_oscillator(40);
     std::printf("    resonance %.9f, BLF %.9f\n", got, 4.0 / 3.0);
-    assert_true(close_to(got, 4.0 / 3.0, 1e-6)); // the peak of a light damping of 1e-4 is within 1e-8 of the free one
+    assert_true(
+        close_to(got, 4.0 / 3.0, 1e-6)); // the peak of a light damping of 1e-4 is within 1e-8 of the free one
 }
 
 struct Convergence {
@@ -163,8 +168,9 @@ void sweeps_pass_folds_in_both_directions(void **) {
     const SweepFacts down = sweep(m, o, 0.6, 1.8, 0);
     o.upward = true;
     const SweepFacts up = sweep(m, o, 0.6, 1.8, 0);
-    std::printf("    down: %zu points, %d folds, top %.6g at %.6g; up: %zu points, %d folds, top %.6g at %.6g\n",
-                down.points, down.folds, down.highest, down.at, up.points, up.folds, up.highest, up.at);
+    std::printf(
+        "    down: %zu points, %d folds, top %.6g at %.6g; up: %zu points, %d folds, top %.6g at %.6g\n",
+        down.points, down.folds, down.highest, down.at, up.points, up.folds, up.highest, up.at);
     assert_int_equal(down.reason, PLM_REASON_RANGE_END);
     assert_int_equal(up.reason, PLM_REASON_RANGE_END);
     assert_true(down.folds >= 2 && up.folds >= 2);

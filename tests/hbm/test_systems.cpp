@@ -25,7 +25,9 @@ std::unique_ptr<HbmSystem> system_of(std::shared_ptr<ReducedModel> m, int harmon
     return plm::make_system(m, options_with(harmonics, unknowns), &kind);
 }
 
-exact::Structure chain_with(double preload, double gap) { return exact::Structure(test::chain(6, 0.02, 30, gap, 0.4, preload, {1, 3, 5})); }
+exact::Structure chain_with(double preload, double gap) {
+    return exact::Structure(test::chain(6, 0.02, 30, gap, 0.4, preload, {1, 3, 5}));
+}
 
 std::shared_ptr<ReducedModel> chain_model(double preload = 0.3, double gap = 0.05) {
     return test::reduce_exactly(chain_with(preload, gap));
@@ -76,7 +78,8 @@ DerivativeErrors derivative_errors(std::shared_ptr<ReducedModel> m, UnknownSpace
     double size = 0;
     for (std::int64_t i = 0; i < n; ++i) size = std::max(size, std::abs(derivative[i]));
     for (std::int64_t i = 0; i < n; ++i)
-        errors.omega = std::max(errors.omega, std::abs((up[i] - down[i]) / (2 * step) - derivative[i]) / size);
+        errors.omega =
+            std::max(errors.omega, std::abs((up[i] - down[i]) / (2 * step) - derivative[i]) / size);
     return errors;
 }
 
@@ -113,10 +116,18 @@ void check_derivatives(std::shared_ptr<ReducedModel> m) {
         assert_true(below(e.omega, 1e-7));
     }
 }
-void jacobians_match_differences(void **) { check_derivatives(chain_model()); }
-void jacobians_match_with_full_damping(void **) { check_derivatives(with_full_damping()); }
-void jacobians_match_with_structural_damping(void **) { check_derivatives(with_structural_damping()); }
-void jacobians_match_with_a_static_basis(void **) { check_derivatives(with_static_basis()); }
+void jacobians_match_differences(void **) {
+    check_derivatives(chain_model());
+}
+void jacobians_match_with_full_damping(void **) {
+    check_derivatives(with_full_damping());
+}
+void jacobians_match_with_structural_damping(void **) {
+    check_derivatives(with_structural_damping());
+}
+void jacobians_match_with_a_static_basis(void **) {
+    check_derivatives(with_static_basis());
+}
 
 // A free-floating chain held only by its contacts.
 std::shared_ptr<ReducedModel> rigid_when_open() {
@@ -127,7 +138,9 @@ std::shared_ptr<ReducedModel> rigid_when_open() {
     m->lambda[0] = m->lambda_0[0] = 0;
     return m;
 }
-void jacobians_match_with_rigid_body_modes(void **) { check_derivatives(rigid_when_open()); }
+void jacobians_match_with_rigid_body_modes(void **) {
+    check_derivatives(rigid_when_open());
+}
 
 struct Solved {
     bool converged = false;
@@ -138,7 +151,7 @@ Solved solve(std::shared_ptr<ReducedModel> m, UnknownSpace unknowns, double omeg
     const HbmOptions o = options_with(harmonics, unknowns);
     plm::vector<double> x(system->size());
     Solved s;
-    s.converged = plm::find_start(*system, *m, o, omega, false, x).converged;
+    s.converged = plm::find_start(*system, *m, o, omega, false, plm::Watch(), x).converged;
     system->to_point(x.data(), omega, s.point);
     return s;
 }
@@ -159,7 +172,8 @@ double difference(const Solved &a, const Solved &b) {
 double worst_difference(std::shared_ptr<ReducedModel> m) {
     double worst = 0;
     for (double omega : {0.15, 0.4, 0.9, 1.3})
-        worst = std::max(worst, difference(solve(m, UnknownSpace::modal, omega), solve(m, UnknownSpace::gaps, omega)));
+        worst = std::max(
+            worst, difference(solve(m, UnknownSpace::modal, omega), solve(m, UnknownSpace::gaps, omega)));
     return worst;
 }
 void both_forms_have_the_same_solution(void **) {
@@ -174,11 +188,13 @@ void both_forms_have_the_same_solution(void **) {
 double linear_error(bool closed, UnknownSpace unknowns) {
     exact::Structure s = chain_with(closed ? 50.0 : 0.0, closed ? 0.0 : 1e3);
     s.gap_rows.assign(s.gap_rows.size(), 0.0);
-    for (int p = 0; p < s.z; ++p) s.gap_rows[p * s.n + 2 * p + 1] = 1; // against the ground, all pressed by the load
+    for (int p = 0; p < s.z; ++p)
+        s.gap_rows[p * s.n + 2 * p + 1] = 1; // against the ground, all pressed by the load
     const double omega = 0.8;
     const Solved got = solve(test::reduce_exactly(s), unknowns, omega, 3);
     exact::Structure linear = s;
-    for (int p = 0; p < s.z && closed; ++p) linear.stiffness[(2 * p + 1) * s.n + 2 * p + 1] += s.contact_stiffness[p];
+    for (int p = 0; p < s.z && closed; ++p)
+        linear.stiffness[(2 * p + 1) * s.n + 2 * p + 1] += s.contact_stiffness[p];
     const auto m = test::reduce_exactly(linear);
     m->contact_stiffness.clear(), m->initial_gap.clear();
     m->gap = m->gap_0 = plm::Matrix(0, m->size());
@@ -198,7 +214,8 @@ double linear_error(bool closed, UnknownSpace unknowns) {
 void open_and_closed_contact_are_linear(void **) {
     for (UnknownSpace unknowns : {UnknownSpace::modal, UnknownSpace::gaps}) {
         assert_true(below(linear_error(false, unknowns), 1e-12));
-        assert_true(below(linear_error(true, unknowns), 1e-10)); // the static part, 100 times larger, limits the rest
+        assert_true(
+            below(linear_error(true, unknowns), 1e-10)); // the static part, 100 times larger, limits the rest
     }
 }
 

@@ -166,7 +166,8 @@ class Flow {
             for (int j = 0; j < n; ++j) {
                 double k = s_.stiffness[i * n + j];
                 for (int p = 0; p < s_.z; ++p)
-                    if (set[p]) k += s_.contact_stiffness[p] * s_.gap_rows[p * n + i] * s_.gap_rows[p * n + j];
+                    if (set[p])
+                        k += s_.contact_stiffness[p] * s_.gap_rows[p * n + i] * s_.gap_rows[p * n + j];
                 g(n + i, j) = -k / s_.mass[i];
                 g(n + i, n + j) = -s_.damping[i * n + j] / s_.mass[i];
             }

@@ -1,6 +1,6 @@
-// Independent truth for the tests: the exact piecewise-linear flow of a small structure with unilateral contact under a
-// harmonic force, by matrix exponentials between contact events, and its periodic orbits by shooting. Shares no code
-// with the library.
+// Independent truth for the tests: the exact piecewise-linear flow of a small structure with unilateral
+// contact under a harmonic force, by matrix exponentials between contact events, and its periodic orbits by
+// shooting. Shares no code with the library.
 #pragma once
 #include <functional>
 #include <vector>
@@ -10,9 +10,9 @@ namespace exact {
 /// M q'' + C q' + K q = F cos(omega t) + P - B' max(k (B q - g), 0); dense, row-major, n DOFs, z pairs.
 struct Structure {
     int n = 0, z = 0;
-    std::vector<double> mass; // n: diagonal
-    std::vector<double> damping, stiffness; // n x n
-    std::vector<double> gap_rows;           // z x n
+    std::vector<double> mass;                   // n: diagonal
+    std::vector<double> damping, stiffness;     // n x n
+    std::vector<double> gap_rows;               // z x n
     std::vector<double> contact_stiffness, gap; // z
     std::vector<double> force, preload;         // n
 };
@@ -25,8 +25,8 @@ struct Orbit {
     double peak(int dof) const;               // max |q|, from samples refined by parabolas
 };
 
-/// Periodic orbit of the forcing period by Newton on the Poincare map with the exact monodromy matrix, from `guess`
-/// (2n, may be empty: zero) after `transient_periods` of marching.
+/// Periodic orbit of the forcing period by Newton on the Poincare map with the exact monodromy matrix, from
+/// `guess` (2n, may be empty: zero) after `transient_periods` of marching.
 Orbit periodic_orbit(const Structure &s, double omega, std::vector<double> guess, int transient_periods,
                      int n_samples);
 

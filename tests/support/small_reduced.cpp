@@ -30,7 +30,8 @@ std::shared_ptr<plm::ReducedModel> reduce_exactly(const exact::Structure &s) {
     } else {
         r->damping = cm;
     }
-    const Matrix f = plm::product('T', 'N', modes.vectors, load), f0 = plm::product('T', 'N', modes.vectors, preload);
+    const Matrix f = plm::product('T', 'N', modes.vectors, load),
+                 f0 = plm::product('T', 'N', modes.vectors, preload);
     r->preload_0.assign(f0.data(), f0.data() + n);
     r->excitation[1].real.assign(f.data(), f.data() + n);
     r->excitation[1].imag.assign(n, 0.0);
@@ -39,8 +40,8 @@ std::shared_ptr<plm::ReducedModel> reduce_exactly(const exact::Structure &s) {
     return r;
 }
 
-plm::vector<double> displacement(const plm::ReducedModel &m, const plm::vector<double> &eta_0, const Matrix &eta,
-                                 std::int64_t dof) {
+plm::vector<double> displacement(const plm::ReducedModel &m, const plm::vector<double> &eta_0,
+                                 const Matrix &eta, std::int64_t dof) {
     plm::vector<double> q(eta.cols() + 1, 0.0);
     for (std::int64_t j = 0; j < m.size(); ++j) {
         q[0] += m.vectors(dof, j) * eta_0[j];
@@ -49,7 +50,8 @@ plm::vector<double> displacement(const plm::ReducedModel &m, const plm::vector<d
     return q;
 }
 
-exact::Structure bilinear_oscillator(double zeta, double contact_stiffness, double gap, double force, double preload) {
+exact::Structure bilinear_oscillator(double zeta, double contact_stiffness, double gap, double force,
+                                     double preload) {
     exact::Structure s;
     s.n = s.z = 1;
     s.mass = {1};

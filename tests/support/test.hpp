@@ -1,10 +1,10 @@
-// cmocka for C++ test programs. Work is done in helper functions that return values; assertions stand in the test
-// function itself, since a failing assertion jumps over C++ frames.
+// cmocka for C++ test programs. Work is done in helper functions that return values; assertions stand in the
+// test function itself, since a failing assertion jumps over C++ frames.
 #pragma once
+#include <csetjmp>
 #include <cstdarg>
 #include <cstddef>
 #include <cstdint>
-#include <csetjmp>
 extern "C" {
 #include <cmocka.h>
 }
