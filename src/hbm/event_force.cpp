@@ -56,20 +56,26 @@ class EventForce final : public ContactForce {
         const double *slope = value + n_grid_;
         for (std::int64_t i = 0; i < n_grid_; ++i) {
             const std::int64_t j = i + 1 < n_grid_ ? i + 1 : 0;
-            const double t = width_ * static_cast<double>(i), end = t + width_;
-            if (ContactLaw::closed(value[i]) != ContactLaw::closed(value[j])) {
-                roots_.push_back(trig_root(x_.data(), h_, t, end, value[i]));
+            const TrigEnd left{width_ * static_cast<double>(i), value[i], slope[i]};
+            const TrigEnd right{left.t + width_, value[j], slope[j]};
+            if (ContactLaw::closed(left.value) != ContactLaw::closed(right.value)) {
+                roots_.push_back(trig_root(x_.data(), h_, left, right));
                 continue;
             }
-            if (std::min(std::abs(value[i]), std::abs(value[j])) > sagitta) continue;
-            const double towards = ContactLaw::closed(value[i]) ? -1.0 : 1.0;
-            if (!(slope[i] * towards > 0 && slope[j] * towards < 0)) continue;
-            const double turn = trig_stationary(x_.data(), h_, t, end, slope[i]);
-            const double extreme = evaluate_trig(x_.data(), h_, turn).value;
-            if (ContactLaw::closed(extreme) == ContactLaw::closed(value[i])) continue;
-            roots_.push_back(trig_root(x_.data(), h_, t, turn, value[i]));
-            roots_.push_back(trig_root(x_.data(), h_, turn, end, extreme));
+            if (std::min(std::abs(left.value), std::abs(right.value)) > sagitta) continue;
+            const double towards = ContactLaw::closed(left.value) ? -1.0 : 1.0;
+            if (left.slope * towards > 0 && right.slope * towards < 0) grazing_roots(left, right);
         }
+    }
+
+    // The curve turns inside the cell: two zeros if it gets across.
+    void grazing_roots(const TrigEnd &left, const TrigEnd &right) {
+        const double t = trig_stationary(x_.data(), h_, left, right);
+        const TrigValue v = evaluate_trig(x_.data(), h_, t);
+        if (ContactLaw::closed(v.value) == ContactLaw::closed(left.value)) return;
+        const TrigEnd turn{t, v.value, v.slope};
+        roots_.push_back(trig_root(x_.data(), h_, left, turn));
+        roots_.push_back(trig_root(x_.data(), h_, turn, right));
     }
 
     void integrate(bool closed_first, double *average) const {

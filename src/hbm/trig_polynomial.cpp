@@ -40,33 +40,48 @@ Matrix trig_grid(std::int64_t n_harmonics, std::int64_t n) {
 
 namespace {
 
-// Newton kept inside a bracket that shrinks; falls back to bisection when a step leaves it. `order` 0: zero
-// of x, 1: of x'.
-double safeguarded_newton(const double *x, std::int64_t n_harmonics, double low, double high,
+// Newton from `t` kept inside a bracket that shrinks; falls back to bisection when a step leaves it. Convergence is
+// quadratic, so the step after a change below 1e-9 is below rounding and is not taken. `order` 0: zero of x, 1: of x'.
+double safeguarded_newton(const double *x, std::int64_t n_harmonics, double low, double high, double t,
                           bool low_positive, int order) {
-    double t = 0.5 * (low + high);
     for (int k = 0; k < 60; ++k) {
         const TrigValue v = evaluate_trig(x, n_harmonics, t);
         const double f = order == 0 ? v.value : v.slope, df = order == 0 ? v.slope : v.curvature;
         if (f == 0) return t;
         ((f > 0) == low_positive ? low : high) = t;
-        double next = t - f / df;
-        if (!(next > low && next < high)) next = 0.5 * (low + high);
-        const double change = std::abs(next - t);
-        t = next;
-        if (change <= 4e-16 * (1 + std::abs(t))) break;
+        const double step = f / df;
+        if (std::abs(step) <= 1e-9) return t - step;
+        const double next = t - step;
+        t = next > low && next < high ? next : 0.5 * (low + high);
+        if (high - low <= 4e-16 * high) break;
     }
     return t;
 }
 
-} // namespace
-
-double trig_root(const double *x, std::int64_t n_harmonics, double low, double high, double x_low) {
-    return safeguarded_newton(x, n_harmonics, low, high, x_low > 0, 0);
+// Zero of the cubic with the values and slopes of both ends, by the chord and two Newton steps: within the fourth power
+// of the bracket's width.
+double cubic_guess(const TrigEnd &low, const TrigEnd &high) {
+    const double h = high.t - low.t, d = high.value - low.value;
+    const double c2 = 3 * d - h * (2 * low.slope + high.slope), c3 = h * (low.slope + high.slope) - 2 * d;
+    double s = -low.value / d;
+    for (int k = 0; k < 2; ++k) {
+        const double f = low.value + s * (h * low.slope + s * (c2 + s * c3)),
+                     df = h * low.slope + s * (2 * c2 + s * 3 * c3);
+        const double next = s - f / df;
+        if (next > 0 && next < 1) s = next;
+    }
+    return low.t + h * s;
 }
 
-double trig_stationary(const double *x, std::int64_t n_harmonics, double low, double high, double slope_low) {
-    return safeguarded_newton(x, n_harmonics, low, high, slope_low > 0, 1);
+} // namespace
+
+double trig_root(const double *x, std::int64_t n_harmonics, TrigEnd low, TrigEnd high) {
+    return safeguarded_newton(x, n_harmonics, low.t, high.t, cubic_guess(low, high), low.value > 0, 0);
+}
+
+double trig_stationary(const double *x, std::int64_t n_harmonics, TrigEnd low, TrigEnd high) {
+    const double share = low.slope / (low.slope - high.slope); // chord of x'
+    return safeguarded_newton(x, n_harmonics, low.t, high.t, low.t + share * (high.t - low.t), low.slope > 0, 1);
 }
 
 TrigRange trig_range(const double *x, std::int64_t n_harmonics) {
@@ -81,7 +96,8 @@ TrigRange trig_range(const double *x, std::int64_t n_harmonics) {
         const TrigValue right = evaluate_trig(x, n_harmonics, t + width);
         double value = right.value;
         if ((left.slope > 0) != (right.slope > 0)) {
-            const double inside = trig_stationary(x, n_harmonics, t, t + width, left.slope);
+            const double inside = trig_stationary(x, n_harmonics, {t, left.value, left.slope},
+                                                  {t + width, right.value, right.slope});
             value = evaluate_trig(x, n_harmonics, inside).value;
         }
         range.minimum = std::min({range.minimum, value, right.value});

@@ -21,10 +21,13 @@ struct TrigRange {
 /// Exact extrema over the period.
 TrigRange trig_range(const double *coefficient, std::int64_t n_harmonics);
 
-/// A zero of x inside (low, high), where x changes sign; converged to rounding.
-double trig_root(const double *coefficient, std::int64_t n_harmonics, double low, double high, double x_low);
-/// A zero of x' inside (low, high), where x' changes sign.
-double trig_stationary(const double *coefficient, std::int64_t n_harmonics, double low, double high,
-                       double slope_low);
+/// One end of a bracket: the instant, and x and x' there.
+struct TrigEnd {
+    double t, value, slope;
+};
+/// A zero of x between two ends where x changes sign; converged to rounding.
+double trig_root(const double *coefficient, std::int64_t n_harmonics, TrigEnd low, TrigEnd high);
+/// A zero of x' between two ends where x' changes sign.
+double trig_stationary(const double *coefficient, std::int64_t n_harmonics, TrigEnd low, TrigEnd high);
 
 } // namespace plm

@@ -2,6 +2,7 @@
 #include "linalg/lapack.hpp"
 #include "reduction/basis_options.hpp"
 #include "reduction/conditioning.hpp"
+#include "reduction/load_vectors.hpp"
 #include "reduction/mode_selection.hpp"
 #include "reduction/projection.hpp"
 #include "reduction/static_basis.hpp"
@@ -127,6 +128,10 @@ Reduction reduce_to_plm(const Space &space, const Sampler &sampler, const Select
     r.report.warning = std::move(collected.warning);
     r.report.n_collected = collected.columns.cols();
     watch.step("basis", 0.0);
+    if (o.load_vectors) {
+        const Matrix loads = load_vectors(space);
+        if (!loads.empty()) collected.columns.append(loads);
+    }
     Conditioned conditioned = condition_columns(space, collected.columns, o.svd_tolerance);
     r.report.singular_values = std::move(conditioned.singular_values);
     watch.step("basis", 0.3);

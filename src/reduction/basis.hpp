@@ -16,6 +16,7 @@ struct BasisOptions {
     double below_factor = 1.1;         // rule "below": all modes below below_factor * n_harmonics * f_f
     double svd_tolerance = 1e-6;       // singular values relative to the largest (paper, 2.3.3)
     bool static_augmentation = true;   // P_0 = [P q_PS] (paper, eq. (9)); not used without pre-load
+    bool load_vectors = true;          // P also holds the static responses to the excitation
     std::int64_t n_fixed_modes = 0;    // Craig-Bampton: fixed-interface modes; 0: all below below_factor * H * f_f * 1.5
 };
 

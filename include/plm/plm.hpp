@@ -1,0 +1,872 @@
+// plm.hpp - libplm for C++17 and later: handles that clean up after themselves, exceptions, containers, lambdas.
+//
+// Header only, over plm.h alone; nothing is exported, any compiler will do. What a function computes is said in plm.h
+// beside the C function of the same name; this page says only what C++ adds:
+//
+//   - Model, Sampler, Basis, Hbm and Branch are move-only and may outlive one another and the Context in any order.
+//   - A failure throws plm::Error with everything the context knows about it. PLM_NOT_CONVERGED, PLM_TRUNCATED and
+//     PLM_CANCELLED of a sweep do not throw: see Branch::status(). A cancelled build or run throws plm::Cancelled.
+//   - Arrays in: any contiguous container (std::vector, std::array, std::span, Eigen vectors, {1, 2, 3}); its size is
+//     checked. Arrays out: std::vector, matrices by columns.
+//   - An exception that leaves a callback stops the call under way and is thrown again by it, and so is one in a log
+//     callback; libplm never sees it.
+//
+// The core of the library has names in namespace plm, too; the inline namespace keeps the two apart in a static link.
+#ifndef PLM_PLM_HPP
+#define PLM_PLM_HPP
+
+#include "plm/plm.h"
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <functional>
+#include <initializer_list>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace plm {
+inline namespace cpp {
+
+// ---- Errors ---------------------------------------------------------------------------------------------------
+
+/// Where and why a call failed.
+struct ErrorDetails {
+    plm_status status = PLM_ERR_INTERNAL;
+    std::int32_t reason = PLM_REASON_NONE; // PLM_REASON_...
+    std::int64_t index = -1;               // offending position in the argument, -1: none
+    std::int64_t library_code = 0;         // of LAPACK, ARPACK, the factorization or a callback
+    std::string function, argument;        // of plm.h
+};
+
+class Error : public std::runtime_error {
+  public:
+    Error(const std::string &text, ErrorDetails details)
+        : std::runtime_error(text), details_(std::make_shared<const ErrorDetails>(std::move(details))) {}
+    plm_status status() const noexcept { return details_->status; }
+    std::int32_t reason() const noexcept { return details_->reason; }
+    std::int64_t index() const noexcept { return details_->index; }
+    std::int64_t library_code() const noexcept { return details_->library_code; }
+    const std::string &function() const noexcept { return details_->function; }
+    const std::string &argument() const noexcept { return details_->argument; }
+
+  private:
+    std::shared_ptr<const ErrorDetails> details_; // shared: copying an exception must not throw
+};
+
+/// The progress callback stopped a call that has no partial result.
+class Cancelled : public Error {
+  public:
+    using Error::Error;
+};
+
+// ---- Arrays and matrices --------------------------------------------------------------------------------------
+
+/// A look at someone else's contiguous array; lives as long as the call it is an argument of.
+template <class T> class View {
+  public:
+    View() = default;
+    View(std::nullptr_t) {}
+    View(const T *data, std::int64_t size) : data_(data), size_(size) {}
+    View(std::initializer_list<T> list) : View(list.begin(), static_cast<std::int64_t>(list.size())) {}
+    template <class C, class = std::enable_if_t<std::is_same_v<
+                           std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<const C &>()))>>, T>>>
+    View(const C &container) : View(std::data(container), static_cast<std::int64_t>(std::size(container))) {}
+    const T *data() const { return data_; }
+    std::int64_t size() const { return size_; }
+
+  private:
+    const T *data_ = nullptr;
+    std::int64_t size_ = 0;
+};
+using Reals = View<double>;
+
+/// A look at integers of 32 or 64 bits; the C function with the same width is called.
+class Indices {
+  public:
+    Indices() = default;
+    Indices(std::initializer_list<std::int32_t> list) : narrow_(list) {}
+    template <class C, class = std::enable_if_t<std::is_convertible_v<const C &, View<std::int32_t>>>, class = void>
+    Indices(const C &container) : narrow_(container) {}
+    template <class C, class = std::enable_if_t<std::is_convertible_v<const C &, View<std::int64_t>>>>
+    Indices(const C &container) : wide_(container), is_wide_(true) {}
+    bool is_wide() const { return is_wide_; }
+    std::int64_t size() const { return is_wide_ ? wide_.size() : narrow_.size(); }
+    const std::int32_t *narrow() const { return narrow_.data(); }
+    const std::int64_t *wide() const { return wide_.data(); }
+
+  private:
+    View<std::int32_t> narrow_;
+    View<std::int64_t> wide_;
+    bool is_wide_ = false;
+};
+
+/// A sparse matrix in the caller's arrays, as Model::set_matrix takes it; made by csc, csr or triplets.
+struct Sparse {
+    std::int32_t storage = PLM_CSC, part = PLM_FULL, index_base = 0, ownership = PLM_COPY;
+    Indices a, b;
+    Reals value;
+
+    Sparse lower() const { return with(&Sparse::part, PLM_LOWER); } // only the lower triangle is stored
+    Sparse upper() const { return with(&Sparse::part, PLM_UPPER); }
+    Sparse base(std::int32_t index_base_) const { return with(&Sparse::index_base, index_base_); }
+    /// The arrays stay unchanged and alive until Model::build.
+    Sparse borrowed() const { return with(&Sparse::ownership, PLM_BORROW); }
+
+  private:
+    Sparse with(std::int32_t Sparse::*field, std::int32_t x) const {
+        Sparse s = *this;
+        s.*field = x;
+        return s;
+    }
+};
+inline Sparse sparse(std::int32_t storage, Indices a, Indices b, Reals value) {
+    Sparse s;
+    s.storage = storage, s.a = a, s.b = b, s.value = value;
+    return s;
+}
+inline Sparse csc(Indices col_ptr, Indices row, Reals value) {
+    return sparse(PLM_CSC, col_ptr, row, value);
+}
+inline Sparse csr(Indices row_ptr, Indices column, Reals value) {
+    return sparse(PLM_CSR, row_ptr, column, value);
+}
+inline Sparse triplets(Indices row, Indices column, Reals value) {
+    return sparse(PLM_TRIPLETS, row, column, value);
+}
+
+/// A dense matrix by columns.
+template <class T> struct Dense {
+    std::int64_t rows = 0, cols = 0;
+    std::vector<T> values;
+    const T &operator()(std::int64_t i, std::int64_t j) const {
+        return values[static_cast<std::size_t>(i + j * rows)];
+    }
+    const T *column(std::int64_t j) const { return values.data() + j * rows; }
+};
+
+/// A factorization of the host, made by the function given to Context::set_solver.
+class Factorization {
+  public:
+    virtual ~Factorization() = default;
+    /// x (n x n_rhs, leading dimension ld) becomes the solution. Throw on failure.
+    virtual void solve(double *x, std::int64_t n_rhs, std::int64_t ld) = 0;
+};
+/// The matrix it factors: lower triangle by columns, base 0.
+struct LowerTriangle {
+    std::int64_t n;
+    const std::int64_t *col_ptr, *row;
+    const double *value;
+    bool positive_definite;
+};
+
+// ---- The machinery --------------------------------------------------------------------------------------------
+
+namespace detail {
+
+inline std::size_t index(std::int64_t n) {
+    return static_cast<std::size_t>(n);
+}
+
+/// A text of unknown length: get(capacity, buffer, needed) is a plm function that copies it out.
+template <class Get> plm_status read_text(Get get, std::string &text) {
+    std::int64_t needed = 0;
+    plm_status s = get(std::int64_t(0), nullptr, &needed);
+    if (s != PLM_OK) return s;
+    text.assign(index(needed > 0 ? needed : 1), '\0');
+    s = get(static_cast<std::int64_t>(text.size()), &text[0], &needed);
+    text.resize(std::strlen(text.c_str()));
+    return s;
+}
+
+/// The C context with the callbacks of its owner; shared by all handles made in it.
+class State {
+  public:
+    using Log = std::function<void(int, std::string_view)>;
+    using Progress = std::function<bool(std::string_view, double)>;
+    using Factor = std::function<std::unique_ptr<Factorization>(const LowerTriangle &)>;
+
+    State() = default;
+    State(const State &) = delete;
+    State &operator=(const State &) = delete;
+    ~State() { plm_context_destroy(&context); }
+
+    /// Throws what a callback threw during the call, else an Error when the call failed.
+    void check(plm_status status, const char *function) {
+        if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
+        if (status < 0) fail(status, function);
+    }
+    /// For calls that have no result when they were cancelled.
+    plm_status finished(plm_status status, const char *function) {
+        check(status, function);
+        if (status == PLM_CANCELLED) fail(status, function);
+        return status;
+    }
+
+    [[noreturn]] void fail(plm_status status, const char *function) const {
+        ErrorDetails d;
+        std::string text;
+        read_text([&](auto... x) { return plm_context_get_error_function(context, x...); }, d.function);
+        plm_context_get_error_info(context, &d.status, &d.reason, &d.index, &d.library_code);
+        const bool known = d.function == function && d.status == status;
+        if (known) {
+            read_text([&](auto... x) { return plm_context_get_error_argument(context, x...); }, d.argument);
+            read_text([&](auto... x) { return plm_context_get_error_text(context, x...); }, text);
+        } else { // a dead handle, or a call from inside a callback: the context has not heard of it
+            d = ErrorDetails();
+            d.status = status, d.function = function;
+            read_text([&](auto... x) { return plm_status_text(status, x...); }, text);
+            text = std::string(function) + ": " + text;
+        }
+        if (status == PLM_CANCELLED) throw Cancelled(text, std::move(d));
+        throw Error(text, std::move(d));
+    }
+
+    void install() {
+        const bool any = log || progress;
+        check(plm_context_set_log(context, log ? on_log : nullptr, this), "plm_context_set_log");
+        check(plm_context_set_progress(context, any ? on_progress : nullptr, this), "plm_context_set_progress");
+    }
+    void install_solver() {
+        check(factor ? plm_context_set_solver(context, on_factor, on_solve, on_free, this)
+                     : plm_context_set_solver(context, nullptr, nullptr, nullptr, nullptr),
+              "plm_context_set_solver");
+    }
+
+    plm_context *context = nullptr;
+    Log log;
+    Progress progress;
+    Factor factor;
+    std::exception_ptr thrown; // by a callback, to be thrown again after the call
+
+  private:
+    /// Runs a callback; keeps its exception. False when there is one, of this or of an earlier callback.
+    template <class F> bool guarded(F f) noexcept {
+        if (thrown) return false;
+        try {
+            f();
+            return true;
+        } catch (...) {
+            thrown = std::current_exception();
+            return false;
+        }
+    }
+    static void on_log(plm_context *, std::int32_t level, const char *text, void *user) noexcept {
+        auto *s = static_cast<State *>(user);
+        s->guarded([&] { s->log(level, text); });
+    }
+    static std::int32_t on_progress(plm_context *, const char *stage, double fraction, void *user) noexcept {
+        auto *s = static_cast<State *>(user);
+        bool stop = false;
+        const bool fine = s->guarded([&] { stop = s->progress && s->progress(stage, fraction); });
+        return stop || !fine;
+    }
+    static std::int32_t on_factor(plm_context *, std::int64_t n, const std::int64_t *col_ptr,
+                                  const std::int64_t *row, const double *value, std::int32_t positive_definite,
+                                  void **out, void *user) noexcept {
+        auto *s = static_cast<State *>(user);
+        const bool fine = s->guarded(
+            [&] { *out = s->factor(LowerTriangle{n, col_ptr, row, value, positive_definite != 0}).release(); });
+        return fine ? 0 : 1;
+    }
+    static std::int32_t on_solve(plm_context *, void *f, std::int64_t n_rhs, double *x, std::int64_t ld,
+                                 void *user) noexcept {
+        auto *s = static_cast<State *>(user);
+        return s->guarded([&] { static_cast<Factorization *>(f)->solve(x, n_rhs, ld); }) ? 0 : 1;
+    }
+    static void on_free(plm_context *, void *f, void *) noexcept { delete static_cast<Factorization *>(f); }
+};
+using StatePtr = std::shared_ptr<State>;
+
+/// The C functions of each handle.
+template <class C> struct Api;
+#define PLM_HPP_SETTERS(noun)                                                                                \
+    static constexpr const char *name = #noun;                                                               \
+    static constexpr auto destroy = plm_##noun##_destroy;                                                    \
+    static constexpr auto set_int = plm_##noun##_set_int;                                                    \
+    static constexpr auto set_double = plm_##noun##_set_double;                                              \
+    static constexpr auto set_string = plm_##noun##_set_string;
+#define PLM_HPP_GETTERS(noun)                                                                                \
+    static constexpr auto get_int = plm_##noun##_get_int;                                                    \
+    static constexpr auto get_double = plm_##noun##_get_double;                                              \
+    static constexpr auto get_string = plm_##noun##_get_string;
+#define PLM_HPP_ARRAYS(noun)                                                                                 \
+    static constexpr auto get_array = plm_##noun##_get_array;                                                \
+    static constexpr auto get_int_array = plm_##noun##_get_int_array;
+template <> struct Api<plm_model> {
+    PLM_HPP_SETTERS(model) PLM_HPP_GETTERS(model) PLM_HPP_ARRAYS(model)
+};
+template <> struct Api<plm_sampler> {
+    PLM_HPP_SETTERS(sampler) PLM_HPP_GETTERS(sampler) PLM_HPP_ARRAYS(sampler)
+};
+template <> struct Api<plm_basis> {
+    PLM_HPP_SETTERS(basis) PLM_HPP_GETTERS(basis) PLM_HPP_ARRAYS(basis)
+};
+template <> struct Api<plm_hbm> {
+    PLM_HPP_SETTERS(hbm) PLM_HPP_GETTERS(hbm)
+};
+template <> struct Api<plm_branch> {
+    static constexpr const char *name = "branch";
+    static constexpr auto destroy = plm_branch_destroy;
+    PLM_HPP_GETTERS(branch) PLM_HPP_ARRAYS(branch)
+};
+#undef PLM_HPP_SETTERS
+#undef PLM_HPP_GETTERS
+#undef PLM_HPP_ARRAYS
+
+template <class T> inline constexpr bool always_false = false;
+
+/// What all handles share: ownership, results by key.
+template <class C> class Handle {
+  public:
+    Handle(Handle &&other) noexcept
+        : state_(std::move(other.state_)), handle_(std::exchange(other.handle_, nullptr)) {}
+    Handle &operator=(Handle &&other) noexcept {
+        std::swap(state_, other.state_);
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    Handle(const Handle &) = delete;
+    Handle &operator=(const Handle &) = delete;
+    ~Handle() { Api<C>::destroy(&handle_); }
+
+    /// The C handle, for functions of plm.h; stays owned here.
+    C *c_handle() const { return handle_; }
+
+    std::int64_t get_int(const char *key) const {
+        std::int64_t x = 0;
+        check(Api<C>::get_int(handle_, key, &x), "get_int");
+        return x;
+    }
+    double get_double(const char *key) const {
+        double x = 0;
+        check(Api<C>::get_double(handle_, key, &x), "get_double");
+        return x;
+    }
+    std::string get_string(const char *key) const {
+        std::string x;
+        check(read_text([&](auto... a) { return Api<C>::get_string(handle_, key, a...); }, x), "get_string");
+        return x;
+    }
+    std::vector<double> get_array(const char *key) const {
+        return array<double>(key, Api<C>::get_array, "get_array");
+    }
+    std::vector<std::int64_t> get_int_array(const char *key) const {
+        return array<std::int64_t>(key, Api<C>::get_int_array, "get_int_array");
+    }
+    /// T: an integer, double, std::string, std::vector<double> or std::vector<std::int64_t>.
+    template <class T> T get(const char *key) const {
+        if constexpr (std::is_integral_v<T>)
+            return static_cast<T>(get_int(key));
+        else if constexpr (std::is_floating_point_v<T>)
+            return static_cast<T>(get_double(key));
+        else if constexpr (std::is_same_v<T, std::string>)
+            return get_string(key);
+        else if constexpr (std::is_same_v<T, std::vector<double>>)
+            return get_array(key);
+        else if constexpr (std::is_same_v<T, std::vector<std::int64_t>>)
+            return get_int_array(key);
+        else
+            static_assert(always_false<T>, "results are integers, doubles, strings and vectors of these numbers");
+    }
+
+  protected:
+    Handle(StatePtr state, C *handle) : state_(std::move(state)), handle_(handle) {}
+
+    void check(plm_status status, const char *verb) const {
+        if (status < 0 || (state_ && state_->thrown)) living().check(status, full_name(verb).c_str());
+    }
+    plm_status finished(plm_status status, const char *verb) const {
+        return status == PLM_OK && !state_->thrown ? status : living().finished(status, full_name(verb).c_str());
+    }
+    /// Refuses an array that has not the size the function needs.
+    void require_size(std::int64_t size, std::int64_t needed, const char *verb, const char *argument) const {
+        if (size == needed) return;
+        ErrorDetails d;
+        d.status = PLM_ERR_ARGUMENT, d.function = full_name(verb), d.argument = argument;
+        throw Error(d.function + ": " + argument + " has " + std::to_string(size) + " entries, needed are " +
+                        std::to_string(needed),
+                    d);
+    }
+    static std::string full_name(const char *verb) { return std::string("plm_") + Api<C>::name + "_" + verb; }
+    State &living() const {
+        if (state_) return *state_;
+        ErrorDetails d; // moved from
+        d.status = PLM_ERR_HANDLE, d.function = std::string("plm_") + Api<C>::name;
+        throw Error(d.function + ": this object was moved from", d);
+    }
+
+    StatePtr state_;
+    C *handle_;
+
+  private:
+    template <class T, class Get> std::vector<T> array(const char *key, Get get, const char *verb) const {
+        std::int64_t n = 0;
+        check(get(handle_, key, 0, nullptr, &n), verb);
+        std::vector<T> x(index(n));
+        if (n > 0) check(get(handle_, key, n, x.data(), &n), verb);
+        return x;
+    }
+};
+
+/// A handle that has options, too. Self: the class made from it, returned by set for chains of calls.
+template <class Self, class C> class WithOptions : public Handle<C> {
+  public:
+    Self &set(const char *key, const char *value) { return done(Api<C>::set_string(h(), key, value), "set_string"); }
+    Self &set(const char *key, const std::string &value) { return set(key, value.c_str()); }
+    /// An integer (bool included) or floating-point value.
+    template <class T, class = std::enable_if_t<std::is_arithmetic_v<T>>> Self &set(const char *key, T value) {
+        if constexpr (std::is_integral_v<T>)
+            return done(Api<C>::set_int(h(), key, static_cast<std::int64_t>(value)), "set_int");
+        else
+            return done(Api<C>::set_double(h(), key, static_cast<double>(value)), "set_double");
+    }
+
+  protected:
+    using Handle<C>::Handle;
+
+  private:
+    C *h() const { return this->c_handle(); }
+    Self &done(plm_status status, const char *verb) {
+        this->check(status, verb);
+        return static_cast<Self &>(*this);
+    }
+};
+
+} // namespace detail
+
+// ---- Library --------------------------------------------------------------------------------------------------
+
+inline std::string status_text(plm_status status) {
+    std::string text;
+    detail::read_text([&](auto... x) { return plm_status_text(status, x...); }, text);
+    return text;
+}
+inline std::string build_info() {
+    std::string text;
+    detail::read_text([&](auto... x) { return plm_build_info(x...); }, text);
+    return text;
+}
+/// Major, minor, patch.
+inline std::array<int, 3> version() {
+    std::array<std::int32_t, 3> v{};
+    plm_version(&v[0], &v[1], &v[2]);
+    return {v[0], v[1], v[2]};
+}
+
+/// A row of the table of options and results.
+struct Key {
+    std::string name, description, default_text, choices;
+    std::int32_t type; // PLM_TYPE_...
+    bool is_option;
+    double minimum, maximum;
+};
+/// The table of a kind of handle, PLM_KIND_...; empty for an unknown kind.
+inline std::vector<Key> keys(std::int32_t kind) {
+    std::int32_t count = 0;
+    plm_key_count(kind, &count);
+    std::vector<Key> table;
+    for (std::int32_t i = 0; i < count; ++i) {
+        Key k{};
+        std::int32_t is_option = 0;
+        plm_key_info(kind, i, &k.type, &is_option, &k.minimum, &k.maximum);
+        k.is_option = is_option != 0;
+        const std::pair<std::int32_t, std::string *> fields[] = {{PLM_KEY_NAME, &k.name},
+                                                                 {PLM_KEY_DESCRIPTION, &k.description},
+                                                                 {PLM_KEY_DEFAULT, &k.default_text},
+                                                                 {PLM_KEY_CHOICES, &k.choices}};
+        for (const auto &field : fields)
+            detail::read_text([&](auto... x) { return plm_key_text(kind, i, field.first, x...); }, *field.second);
+        table.push_back(std::move(k));
+    }
+    return table;
+}
+
+/// Callbacks, solver and memory of a host; for one thread at a time. May be destroyed before what was made in it.
+class Context {
+  public:
+    Context() : Context([](plm_context **c) { return plm_context_create(PLM_API_VERSION, c); }) {}
+    /// All arrays come from `allocate`, which must be able to serve until the last object made in this context is gone.
+    Context(plm_allocate_fn allocate, plm_release_fn release, void *user)
+        : Context([=](plm_context **c) {
+              return plm_context_create_with_allocator(PLM_API_VERSION, allocate, release, user, c);
+          }) {}
+    Context(Context &&) noexcept = default;
+    Context &operator=(Context &&) noexcept = default;
+
+    /// f(level, text), level 0 detail, 1 information, 2 warning; the text lives during the call only.
+    template <class F> void on_log(F f) {
+        state_->log = std::move(f);
+        state_->install();
+    }
+    /// f(stage, fraction) may return nothing, or true to cancel.
+    template <class F> void on_progress(F f) {
+        if constexpr (std::is_void_v<std::invoke_result_t<F &, std::string_view, double>>)
+            state_->progress = [f = std::move(f)](std::string_view stage, double fraction) mutable {
+                f(stage, fraction);
+                return false;
+            };
+        else
+            state_->progress = std::move(f);
+        state_->install();
+    }
+    void silence() {
+        state_->log = nullptr;
+        state_->progress = nullptr;
+        state_->install();
+    }
+    /// f(const LowerTriangle &) returns a std::unique_ptr<Factorization>; for models built afterwards.
+    template <class F> void set_solver(F f) {
+        state_->factor = std::move(f);
+        state_->install_solver();
+    }
+    /// Back to the solver built in.
+    void reset_solver() {
+        plm_context_set_solver(state_->context, nullptr, nullptr, nullptr, nullptr);
+    }
+
+    plm_context *c_handle() const { return state_->context; }
+    const detail::StatePtr &state() const { return state_; }
+
+  private:
+    template <class Create, class = std::enable_if_t<std::is_invocable_v<Create, plm_context **>>>
+    explicit Context(Create create) : state_(std::make_shared<detail::State>()) {
+        state_->check(create(&state_->context), "plm_context_create");
+    }
+    detail::StatePtr state_;
+};
+
+// ---- Model ----------------------------------------------------------------------------------------------------
+
+struct Modes {
+    std::vector<double> frequency_hz;
+    Dense<double> shape; // n_dof x n, mass-normalised
+};
+struct Finding {
+    std::int32_t severity; // 0 fact, 1 worth a look, 2 probably wrong
+    double value;
+    std::string text;
+};
+
+class Model : public detail::WithOptions<Model, plm_model> {
+  public:
+    Model(const Context &context, std::int64_t n_dof) : WithOptions(context.state(), nullptr), n_dof_(n_dof) {
+        state_->check(plm_model_create(state_->context, n_dof, &handle_), "plm_model_create");
+    }
+    std::int64_t n_dof() const { return n_dof_; }
+
+    /// which: PLM_MASS, PLM_STIFFNESS or PLM_DAMPING.
+    void set_matrix(std::int32_t which, const Sparse &m) {
+        const bool wide = m.a.is_wide();
+        const char *verb = wide ? "set_matrix_i64" : "set_matrix_i32";
+        const std::int64_t nnz = m.value.size();
+        require_size(m.a.size(), m.storage == PLM_TRIPLETS ? nnz : n_dof_ + 1, verb, "a");
+        require_size(m.b.size(), nnz, verb, "b");
+        require_width(m.b, wide, verb, "b");
+        check(wide ? plm_model_set_matrix_i64(handle_, which, m.storage, m.part, m.index_base, m.ownership, nnz,
+                                              m.a.wide(), m.b.wide(), m.value.data())
+                   : plm_model_set_matrix_i32(handle_, which, m.storage, m.part, m.index_base, m.ownership, nnz,
+                                              m.a.narrow(), m.b.narrow(), m.value.data()),
+              verb);
+    }
+    void set_mass(const Sparse &m) { set_matrix(PLM_MASS, m); }
+    void set_stiffness(const Sparse &k) { set_matrix(PLM_STIFFNESS, k); }
+    void set_damping(const Sparse &c) { set_matrix(PLM_DAMPING, c); }
+    void set_rayleigh_damping(double alpha, double beta) {
+        check(plm_model_set_rayleigh_damping(handle_, alpha, beta), "set_rayleigh_damping");
+    }
+    void set_modal_damping(Reals ratio) {
+        check(plm_model_set_modal_damping(handle_, ratio.size(), ratio.data()), "set_modal_damping");
+    }
+    void set_structural_damping(double eta) {
+        check(plm_model_set_structural_damping(handle_, eta), "set_structural_damping");
+    }
+    void fix_dofs(Indices dof, std::int32_t index_base = 0) {
+        check(dof.is_wide() ? plm_model_fix_dofs_i64(handle_, index_base, dof.size(), dof.wide())
+                            : plm_model_fix_dofs_i32(handle_, index_base, dof.size(), dof.narrow()),
+              dof.is_wide() ? "fix_dofs_i64" : "fix_dofs_i32");
+    }
+
+    /// dof_a, dof_b, normal: 3 x n; stiffness: n (PLM_AUTO_STIFFNESS: chosen); gap: n or {} (zero).
+    void add_node_pairs(Indices dof_a, Indices dof_b, Reals normal, Reals stiffness, Reals gap = {},
+                        std::int32_t index_base = 0) {
+        const bool wide = dof_a.is_wide();
+        const char *verb = wide ? "add_node_pairs_i64" : "add_node_pairs_i32";
+        const std::int64_t n = stiffness.size();
+        require_size(dof_a.size(), 3 * n, verb, "dof_a");
+        require_size(dof_b.size(), 3 * n, verb, "dof_b");
+        require_width(dof_b, wide, verb, "dof_b");
+        require_pairs(normal, gap, n, verb);
+        check(wide ? plm_model_add_node_pairs_i64(handle_, index_base, n, dof_a.wide(), dof_b.wide(), normal.data(),
+                                                  stiffness.data(), gap.data())
+                   : plm_model_add_node_pairs_i32(handle_, index_base, n, dof_a.narrow(), dof_b.narrow(),
+                                                  normal.data(), stiffness.data(), gap.data()),
+              verb);
+    }
+    void add_ground_contacts(Indices dof, Reals normal, Reals stiffness, Reals gap = {},
+                             std::int32_t index_base = 0) {
+        const char *verb = dof.is_wide() ? "add_ground_contacts_i64" : "add_ground_contacts_i32";
+        const std::int64_t n = stiffness.size();
+        require_size(dof.size(), 3 * n, verb, "dof");
+        require_pairs(normal, gap, n, verb);
+        check(dof.is_wide() ? plm_model_add_ground_contacts_i64(handle_, index_base, n, dof.wide(), normal.data(),
+                                                                stiffness.data(), gap.data())
+                            : plm_model_add_ground_contacts_i32(handle_, index_base, n, dof.narrow(),
+                                                                normal.data(), stiffness.data(), gap.data()),
+              verb);
+    }
+    /// Rows of B: row_ptr (n + 1), dof and coefficient; stiffness: n.
+    void add_gap_rows(Indices row_ptr, Indices dof, Reals coefficient, Reals stiffness, Reals gap = {},
+                      std::int32_t index_base = 0) {
+        const bool wide = row_ptr.is_wide();
+        const char *verb = wide ? "add_gap_rows_i64" : "add_gap_rows_i32";
+        const std::int64_t n = stiffness.size();
+        require_size(row_ptr.size(), n + 1, verb, "row_ptr");
+        const std::int64_t nnz = (wide ? row_ptr.wide()[n] : std::int64_t(row_ptr.narrow()[n])) - index_base;
+        require_size(dof.size(), nnz, verb, "dof");
+        require_width(dof, wide, verb, "dof");
+        require_size(coefficient.size(), nnz, verb, "coefficient");
+        if (gap.data()) require_size(gap.size(), n, verb, "gap");
+        check(wide ? plm_model_add_gap_rows_i64(handle_, index_base, n, row_ptr.wide(), dof.wide(),
+                                                coefficient.data(), stiffness.data(), gap.data())
+                   : plm_model_add_gap_rows_i32(handle_, index_base, n, row_ptr.narrow(), dof.narrow(),
+                                                coefficient.data(), stiffness.data(), gap.data()),
+              verb);
+    }
+
+    /// nullptr removes it.
+    void set_preload(Reals force) {
+        check(plm_model_set_preload(handle_, force.data() ? force.size() : n_dof_, force.data()), "set_preload");
+    }
+    /// F(t) = Re((real + i imag) exp(i h omega t)); real nullptr removes harmonic h.
+    void set_excitation(std::int32_t harmonic, Reals real, Reals imag = {}) {
+        if (imag.data()) require_size(imag.size(), n_dof_, "set_excitation", "imag");
+        check(plm_model_set_excitation(handle_, harmonic, real.data() ? real.size() : n_dof_, real.data(),
+                                       imag.data()),
+              "set_excitation");
+    }
+
+    /// PLM_OK or PLM_WARNING.
+    plm_status build() { return finished(plm_model_build(handle_), "build"); }
+    plm_status solve_rest() { return finished(plm_model_solve_rest(handle_), "solve_rest"); }
+    /// The n lowest modes of PLM_SYSTEM_...; closed (n_pairs) for PLM_SYSTEM_GIVEN only.
+    Modes modes(std::int32_t system, std::int64_t n, View<std::int32_t> closed = {}) const {
+        if (closed.data()) require_size(closed.size(), get_int("n_pairs"), "get_modes", "closed");
+        require_count(n, "get_modes", "n");
+        Modes m;
+        m.frequency_hz.resize(detail::index(n));
+        m.shape = {n_dof_, n, std::vector<double>(detail::index(n * n_dof_))};
+        finished(plm_model_get_modes(handle_, system, closed.data(), n, m.frequency_hz.data(),
+                                     m.shape.values.data()),
+                 "get_modes");
+        return m;
+    }
+    std::vector<Finding> audit() const {
+        std::int64_t n = 0;
+        finished(plm_model_audit(handle_, &n), "audit");
+        std::vector<Finding> all;
+        for (std::int64_t i = 0; i < n; ++i) {
+            Finding f{};
+            check(detail::read_text(
+                      [&](auto... x) { return plm_model_get_finding(handle_, i, &f.severity, &f.value, x...); },
+                      f.text),
+                  "get_finding");
+            all.push_back(std::move(f));
+        }
+        return all;
+    }
+
+  private:
+    void require_pairs(Reals normal, Reals gap, std::int64_t n, const char *verb) const {
+        require_size(normal.size(), 3 * n, verb, "normal");
+        if (gap.data()) require_size(gap.size(), n, verb, "gap");
+    }
+    /// Both index arrays of a call have the same width; an empty one fits any.
+    void require_width(const Indices &x, bool wide, const char *verb, const char *argument) const {
+        if (x.size() == 0 || x.is_wide() == wide) return;
+        ErrorDetails d;
+        d.status = PLM_ERR_ARGUMENT, d.function = full_name(verb), d.argument = argument;
+        throw Error(d.function + ": " + argument + " has not the integer type of the array before it", d);
+    }
+    void require_count(std::int64_t n, const char *verb, const char *argument) const {
+        if (n < 0) require_size(n, 0, verb, argument);
+    }
+    std::int64_t n_dof_;
+};
+
+// ---- Sampler and basis ----------------------------------------------------------------------------------------
+
+class Sampler : public detail::WithOptions<Sampler, plm_sampler> {
+  public:
+    explicit Sampler(const Model &model);
+    void add_dominant_mode(std::int32_t system, std::int64_t mode) {
+        check(plm_sampler_add_dominant_mode(handle_, system, mode), "add_dominant_mode");
+    }
+    plm_status run() { return finished(plm_sampler_run(handle_), "run"); }
+};
+
+class Basis : public detail::WithOptions<Basis, plm_basis> {
+  public:
+    explicit Basis(const Model &model);
+    void set_sampler(const Sampler &sampler) {
+        check(plm_basis_set_sampler(handle_, sampler.c_handle()), "set_sampler");
+    }
+    void set_parent(const Basis &parent) { check(plm_basis_set_parent(handle_, parent.handle_), "set_parent"); }
+    void clear_parent() { check(plm_basis_set_parent(handle_, nullptr), "set_parent"); }
+    /// PLM_OK, or PLM_WARNING: see get_string("warning").
+    plm_status build() { return finished(plm_basis_build(handle_), "build"); }
+    /// P, or P_0 if is_static.
+    Dense<double> vectors(bool is_static = false) const {
+        const std::int64_t n = get_int(is_static ? "static_size" : "size");
+        Dense<double> p{n_dof_, n, std::vector<double>(detail::index(n * n_dof_))};
+        if (n > 0)
+            check(plm_basis_get_vectors(handle_, is_static, 0, n, p.values.data(), n_dof_), "get_vectors");
+        return p;
+    }
+    double residual(Reals q, bool is_static = false, bool use_mass = false) const {
+        double r = 0;
+        check(plm_basis_get_residual(handle_, is_static, use_mass, q.size(), q.data(), &r), "get_residual");
+        return r;
+    }
+
+  private:
+    std::int64_t n_dof_;
+};
+
+// ---- Response -------------------------------------------------------------------------------------------------
+
+struct Contact { // over the cycle, each n_pairs x n_times
+    Dense<double> penetration, force;
+    Dense<std::int32_t> closed;
+};
+
+class Branch : public detail::Handle<plm_branch> {
+  public:
+    /// PLM_OK, PLM_NOT_CONVERGED, PLM_TRUNCATED or PLM_CANCELLED, as the call that made it returned.
+    plm_status status() const { return status_; }
+    std::int64_t size() const { return get_int("n_points"); }
+    std::vector<double> frequency_hz() const { return get_array("frequency_hz"); }
+
+    /// measure: PLM_PEAK, PLM_HALF_PEAK_TO_PEAK, PLM_RMS or PLM_HARMONIC.
+    std::vector<double> amplitude(std::int64_t dof, std::int32_t measure = PLM_HALF_PEAK_TO_PEAK,
+                                  std::int32_t harmonic = 0) const {
+        std::int64_t n = size();
+        std::vector<double> a(detail::index(n));
+        check(plm_branch_get_amplitude(handle_, dof, measure, harmonic, n, a.data(), &n), "get_amplitude");
+        return a;
+    }
+    /// (2H + 1) x n: a0, a1, b1, ..., aH, bH of the DOFs [first_dof, first_dof + n).
+    Dense<double> coefficients(std::int64_t point, std::int64_t first_dof, std::int64_t n) const {
+        const std::int64_t rows = 2 * get_int("n_harmonics") + 1;
+        Dense<double> c{rows, n, std::vector<double>(detail::index(n > 0 ? rows * n : 0))};
+        check(plm_branch_get_coefficients(handle_, point, first_dof, n, c.values.data()), "get_coefficients");
+        return c;
+    }
+    std::vector<double> field(std::int64_t point, double time_fraction) const {
+        std::vector<double> q(detail::index(get_int("n_dof")));
+        check(plm_branch_get_field(handle_, point, time_fraction, static_cast<std::int64_t>(q.size()), q.data()),
+              "get_field");
+        return q;
+    }
+    Contact contact(std::int64_t point, std::int64_t n_times) const {
+        const std::int64_t z = get_int("n_pairs");
+        const std::size_t total = detail::index(n_times > 0 ? z * n_times : 0);
+        Contact c{{z, n_times, std::vector<double>(total)},
+                  {z, n_times, std::vector<double>(total)},
+                  {z, n_times, std::vector<std::int32_t>(total)}};
+        check(plm_branch_get_contact(handle_, point, n_times, c.penetration.values.data(), c.force.values.data(),
+                                     c.closed.values.data()),
+              "get_contact");
+        return c;
+    }
+    std::vector<double> closed_share(std::int64_t point) const {
+        std::vector<double> share(detail::index(get_int("n_pairs")));
+        check(plm_branch_get_closed_share(handle_, point, static_cast<std::int64_t>(share.size()), share.data()),
+              "get_closed_share");
+        return share;
+    }
+    double full_residual(std::int64_t point) const {
+        double r = 0;
+        finished(plm_branch_get_full_residual(handle_, point, &r), "get_full_residual");
+        return r;
+    }
+
+  private:
+    friend class Hbm;
+    Branch(detail::StatePtr state, plm_branch *handle, plm_status status)
+        : Handle(std::move(state), handle), status_(status) {}
+    plm_status status_;
+};
+
+struct Peak {
+    double frequency_hz, amplitude;
+    Branch branch; // of one point
+};
+
+class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
+  public:
+    explicit Hbm(const Basis &basis);
+    Branch sweep() {
+        plm_branch *b = nullptr;
+        const plm_status s = plm_hbm_sweep(handle_, &b);
+        return deliver(s, b, "sweep");
+    }
+    Branch solve(double frequency_hz) { return solve(frequency_hz, nullptr, 0); }
+    /// First guess: point `point` of `start`.
+    Branch solve(double frequency_hz, const Branch &start, std::int64_t point) {
+        return solve(frequency_hz, start.handle_, point);
+    }
+    Peak find_peak(const Branch &branch, std::int64_t dof, std::int32_t measure = PLM_HALF_PEAK_TO_PEAK,
+                   std::int32_t harmonic = 0) {
+        double hz = 0, amplitude = 0;
+        plm_branch *b = nullptr;
+        const plm_status s =
+            plm_hbm_find_peak(handle_, branch.handle_, dof, measure, harmonic, &hz, &amplitude, &b);
+        return {hz, amplitude, deliver(s, b, "find_peak")};
+    }
+
+  private:
+    Branch solve(double frequency_hz, plm_branch *start, std::int64_t point) {
+        plm_branch *b = nullptr;
+        const plm_status s = plm_hbm_solve(handle_, frequency_hz, start, point, &b);
+        return deliver(s, b, "solve");
+    }
+    Branch deliver(plm_status status, plm_branch *b, const char *verb) const {
+        Branch branch(state_, b, status); // first of all: check may throw
+        check(status, verb);
+        if (!b) living().fail(status, full_name(verb).c_str()); // stopped before the first point
+        return branch;
+    }
+};
+
+// The constructors read protected members of another handle only through these two.
+namespace detail {
+template <class C> struct Access : Handle<C> {
+    static const StatePtr &state(const Handle<C> &h) {
+        (h.*(&Access::living))();
+        return h.*(&Access::state_);
+    }
+};
+} // namespace detail
+
+inline Sampler::Sampler(const Model &model) : WithOptions(detail::Access<plm_model>::state(model), nullptr) {
+    check(plm_sampler_create(model.c_handle(), &handle_), "create");
+}
+inline Basis::Basis(const Model &model)
+    : WithOptions(detail::Access<plm_model>::state(model), nullptr), n_dof_(model.n_dof()) {
+    check(plm_basis_create(model.c_handle(), &handle_), "create");
+}
+inline Hbm::Hbm(const Basis &basis) : WithOptions(detail::Access<plm_basis>::state(basis), nullptr) {
+    check(plm_hbm_create(basis.c_handle(), &handle_), "create");
+}
+
+} // namespace cpp
+} // namespace plm
+
+#endif // PLM_PLM_HPP
