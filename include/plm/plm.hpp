@@ -406,11 +406,11 @@ template <class C> class Handle {
     C *handle_;
 
   private:
-    template <class T, class Get> std::vector<T> array(const char *key, Get get, const char *verb) const {
+    template <class T, class Read> std::vector<T> array(const char *key, Read read, const char *verb) const {
         std::int64_t n = 0;
-        check(get(handle_, key, 0, nullptr, &n), verb);
+        check(read(handle_, key, 0, nullptr, &n), verb);
         std::vector<T> x(index(n));
-        if (n > 0) check(get(handle_, key, n, x.data(), &n), verb);
+        if (n > 0) check(read(handle_, key, n, x.data(), &n), verb);
         return x;
     }
 };
@@ -502,37 +502,43 @@ class Context {
 
     /// f(level, text), level 0 detail, 1 information, 2 warning; the text lives during the call only.
     template <class F> void on_log(F f) {
-        state_->log = std::move(f);
-        state_->install();
+        state()->log = std::move(f);
+        state()->install();
     }
     /// f(stage, fraction) may return nothing, or true to cancel.
     template <class F> void on_progress(F f) {
         if constexpr (std::is_void_v<std::invoke_result_t<F &, std::string_view, double>>)
-            state_->progress = [f = std::move(f)](std::string_view stage, double fraction) mutable {
+            state()->progress = [f = std::move(f)](std::string_view stage, double fraction) mutable {
                 f(stage, fraction);
                 return false;
             };
         else
-            state_->progress = std::move(f);
-        state_->install();
+            state()->progress = std::move(f);
+        state()->install();
     }
     void silence() {
-        state_->log = nullptr;
-        state_->progress = nullptr;
-        state_->install();
+        state()->log = nullptr;
+        state()->progress = nullptr;
+        state()->install();
     }
     /// f(const LowerTriangle &) returns a std::unique_ptr<Factorization>; for models built afterwards.
     template <class F> void set_solver(F f) {
-        state_->factor = std::move(f);
-        state_->install_solver();
+        state()->factor = std::move(f);
+        state()->install_solver();
     }
     /// Back to the solver built in.
     void reset_solver() {
-        plm_context_set_solver(state_->context, nullptr, nullptr, nullptr, nullptr);
+        state()->factor = nullptr;
+        state()->install_solver();
     }
 
-    plm_context *c_handle() const { return state_->context; }
-    const detail::StatePtr &state() const { return state_; }
+    plm_context *c_handle() const { return state()->context; }
+    const detail::StatePtr &state() const {
+        if (state_) return state_;
+        ErrorDetails d;
+        d.status = PLM_ERR_HANDLE, d.function = "plm_context";
+        throw Error("plm_context: this object was moved from", d);
+    }
 
   private:
     template <class Create, class = std::enable_if_t<std::is_invocable_v<Create, plm_context **>>>

@@ -78,9 +78,11 @@ plm_status plm_status_text(plm_status status, std::int64_t capacity, char *buffe
 }
 
 plm_status plm_version(std::int32_t *major, std::int32_t *minor, std::int32_t *patch) {
-    if (!major || !minor || !patch) return PLM_ERR_ARGUMENT;
-    *major = PLM_VERSION_MAJOR, *minor = PLM_VERSION_MINOR, *patch = PLM_VERSION_PATCH;
-    return PLM_OK;
+    return call_free([&] {
+        for (const std::int32_t *output : {major, minor, patch}) require_pointer(output, "output");
+        *major = PLM_VERSION_MAJOR, *minor = PLM_VERSION_MINOR, *patch = PLM_VERSION_PATCH;
+        return PLM_OK;
+    });
 }
 
 plm_status plm_build_info(std::int64_t capacity, char *buffer, std::int64_t *needed) {

@@ -1,0 +1,471 @@
+! plm_model.f90: the finite-element model: matrices, supports, contact pairs, loads. DOFs count from 1.
+module plm_models
+    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_char, c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int32, int64, real64
+    use plm_constants
+    use plm_c
+    use plm_errors, only: finish, refuse, f_text
+    use plm_contexts, only: plm_context
+    use plm_keyed_handles, only: plm_settable
+    implicit none
+    private
+    public :: plm_model
+
+    ! Integer arrays may be of either kind. Everything is copied: no argument needs to outlive its call.
+    type, extends(plm_settable) :: plm_model
+    contains
+        procedure :: create
+        procedure :: destroy
+        procedure, private :: set_csc_int32, set_csc_int64, set_csr_int32, set_csr_int64
+        procedure, private :: set_triplets_int32, set_triplets_int64
+        procedure, private :: fix_dofs_int32, fix_dofs_int64, add_node_pairs_int32, add_node_pairs_int64
+        procedure, private :: add_ground_contacts_int32, add_ground_contacts_int64
+        procedure, private :: add_gap_rows_int32, add_gap_rows_int64
+        procedure, private :: set_excitation_real, set_excitation_complex
+        generic :: set_csc => set_csc_int32, set_csc_int64
+        generic :: set_csr => set_csr_int32, set_csr_int64
+        generic :: set_triplets => set_triplets_int32, set_triplets_int64
+        procedure :: set_rayleigh_damping
+        procedure :: set_modal_damping
+        procedure :: set_structural_damping
+        generic :: fix_dofs => fix_dofs_int32, fix_dofs_int64
+        generic :: add_node_pairs => add_node_pairs_int32, add_node_pairs_int64
+        generic :: add_ground_contacts => add_ground_contacts_int32, add_ground_contacts_int64
+        generic :: add_gap_rows => add_gap_rows_int32, add_gap_rows_int64
+        procedure :: set_preload
+        generic :: set_excitation => set_excitation_real, set_excitation_complex
+        procedure :: build
+        procedure :: solve_rest
+        procedure :: modes
+        procedure :: audit
+        procedure :: finding
+    end type plm_model
+
+contains
+
+    subroutine create(self, context, n_dof, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        type(plm_context), intent(in) :: context
+        integer, intent(in) :: n_dof
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        self%context = context%handle
+        self%kind = PLM_KIND_MODEL
+        call finish(self%context, plm_model_create(self%context, int(n_dof, int64), self%handle), stat, errmsg)
+    end subroutine create
+
+    subroutine destroy(self, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_destroy(self%handle), stat, errmsg)
+    end subroutine destroy
+
+    ! which: PLM_MASS, PLM_STIFFNESS, PLM_DAMPING; part: PLM_FULL, PLM_LOWER, PLM_UPPER; col_ptr(n_dof + 1), row(nnz)
+    subroutine set_csc_int32(self, which, part, col_ptr, row, value, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(plm_status), intent(in) :: which, part
+        integer(int32), intent(in), contiguous :: col_ptr(:), row(:)
+        real(real64), intent(in), contiguous :: value(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(row) /= size(value) .or. size(col_ptr) < 1) then
+            call refuse('set_csc: the lengths of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (size(col_ptr) /= n_dof_of(self) + 1) then
+            call refuse('set_csc: col_ptr must have n_dof + 1 entries', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_CSC, part, 1_c_int32_t, PLM_COPY, &
+            size(value, kind=int64), col_ptr, row, value), stat, errmsg)
+    end subroutine set_csc_int32
+
+    subroutine set_csc_int64(self, which, part, col_ptr, row, value, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(plm_status), intent(in) :: which, part
+        integer(int64), intent(in), contiguous :: col_ptr(:), row(:)
+        real(real64), intent(in), contiguous :: value(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(row) /= size(value) .or. size(col_ptr) < 1) then
+            call refuse('set_csc: the lengths of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (size(col_ptr) /= n_dof_of(self) + 1) then
+            call refuse('set_csc: col_ptr must have n_dof + 1 entries', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_CSC, part, 1_c_int32_t, PLM_COPY, &
+            size(value, kind=int64), col_ptr, row, value), stat, errmsg)
+    end subroutine set_csc_int64
+
+    ! compressed rows: row_ptr(n_dof + 1), column(nnz)
+    subroutine set_csr_int32(self, which, part, row_ptr, column, value, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(plm_status), intent(in) :: which, part
+        integer(int32), intent(in), contiguous :: row_ptr(:), column(:)
+        real(real64), intent(in), contiguous :: value(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(column) /= size(value) .or. size(row_ptr) < 1) then
+            call refuse('set_csr: the lengths of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (size(row_ptr) /= n_dof_of(self) + 1) then
+            call refuse('set_csr: row_ptr must have n_dof + 1 entries', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_CSR, part, 1_c_int32_t, PLM_COPY, &
+            size(value, kind=int64), row_ptr, column, value), stat, errmsg)
+    end subroutine set_csr_int32
+
+    subroutine set_csr_int64(self, which, part, row_ptr, column, value, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(plm_status), intent(in) :: which, part
+        integer(int64), intent(in), contiguous :: row_ptr(:), column(:)
+        real(real64), intent(in), contiguous :: value(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(column) /= size(value) .or. size(row_ptr) < 1) then
+            call refuse('set_csr: the lengths of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (size(row_ptr) /= n_dof_of(self) + 1) then
+            call refuse('set_csr: row_ptr must have n_dof + 1 entries', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_CSR, part, 1_c_int32_t, PLM_COPY, &
+            size(value, kind=int64), row_ptr, column, value), stat, errmsg)
+    end subroutine set_csr_int64
+
+    ! Entries in any order; those of the same place are summed.
+    subroutine set_triplets_int32(self, which, part, row, column, value, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(plm_status), intent(in) :: which, part
+        integer(int32), intent(in), contiguous :: row(:), column(:)
+        real(real64), intent(in), contiguous :: value(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(row) /= size(value) .or. size(column) /= size(value)) then
+            call refuse('set_triplets: the lengths of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_TRIPLETS, part, 1_c_int32_t, PLM_COPY, &
+            size(value, kind=int64), row, column, value), stat, errmsg)
+    end subroutine set_triplets_int32
+
+    subroutine set_triplets_int64(self, which, part, row, column, value, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(plm_status), intent(in) :: which, part
+        integer(int64), intent(in), contiguous :: row(:), column(:)
+        real(real64), intent(in), contiguous :: value(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(row) /= size(value) .or. size(column) /= size(value)) then
+            call refuse('set_triplets: the lengths of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_TRIPLETS, part, 1_c_int32_t, PLM_COPY, &
+            size(value, kind=int64), row, column, value), stat, errmsg)
+    end subroutine set_triplets_int64
+
+    ! C = alpha M + beta K
+    subroutine set_rayleigh_damping(self, alpha, beta, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        real(real64), intent(in) :: alpha, beta
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_rayleigh_damping(self%handle, alpha, beta), stat, errmsg)
+    end subroutine set_rayleigh_damping
+
+    ! Fractions of critical damping of the open modes; the last one holds for the rest. An empty array removes it.
+    subroutine set_modal_damping(self, ratio, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        real(real64), intent(in), contiguous :: ratio(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_modal_damping(self%handle, size(ratio, kind=int64), ratio), stat, errmsg)
+    end subroutine set_modal_damping
+
+    subroutine set_structural_damping(self, eta, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        real(real64), intent(in) :: eta
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_structural_damping(self%handle, eta), stat, errmsg)
+    end subroutine set_structural_damping
+
+    subroutine fix_dofs_int32(self, dof, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: dof(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_fix_dofs(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), stat, errmsg)
+    end subroutine fix_dofs_int32
+
+    subroutine fix_dofs_int64(self, dof, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int64), intent(in), contiguous :: dof(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_fix_dofs(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), stat, errmsg)
+    end subroutine fix_dofs_int64
+
+    ! dof_a, dof_b, normal: 3 x n, 0 for no such DOF; the normal points out of the body of a; stiffness(n): k_n or
+    ! PLM_AUTO_STIFFNESS; gap(n): initial distance, absent: 0
+    subroutine add_node_pairs_int32(self, dof_a, dof_b, normal, stiffness, gap, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: dof_a(:, :), dof_b(:, :)
+        real(real64), intent(in), contiguous :: normal(:, :), stiffness(:)
+        real(real64), intent(in), contiguous, optional :: gap(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (any( &
+            [shape(dof_a), shape(dof_b), shape(normal)] /= &
+            [3, size(stiffness), 3, size(stiffness), 3, size(stiffness)])) then
+            call refuse('add_node_pairs: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (.not. gap_fits(gap, size(stiffness))) then
+            call refuse('add_node_pairs: gap has the wrong length', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_add_node_pairs_i32(self%handle, 1_c_int32_t, size(stiffness, kind=int64), dof_a, &
+            dof_b, normal, stiffness, gap), stat, errmsg)
+    end subroutine add_node_pairs_int32
+
+    subroutine add_node_pairs_int64(self, dof_a, dof_b, normal, stiffness, gap, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int64), intent(in), contiguous :: dof_a(:, :), dof_b(:, :)
+        real(real64), intent(in), contiguous :: normal(:, :), stiffness(:)
+        real(real64), intent(in), contiguous, optional :: gap(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (any( &
+            [shape(dof_a), shape(dof_b), shape(normal)] /= &
+            [3, size(stiffness), 3, size(stiffness), 3, size(stiffness)])) then
+            call refuse('add_node_pairs: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (.not. gap_fits(gap, size(stiffness))) then
+            call refuse('add_node_pairs: gap has the wrong length', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_add_node_pairs_i64(self%handle, 1_c_int32_t, size(stiffness, kind=int64), dof_a, &
+            dof_b, normal, stiffness, gap), stat, errmsg)
+    end subroutine add_node_pairs_int64
+
+    ! The normal points into the ground.
+    subroutine add_ground_contacts_int32(self, dof, normal, stiffness, gap, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: dof(:, :)
+        real(real64), intent(in), contiguous :: normal(:, :), stiffness(:)
+        real(real64), intent(in), contiguous, optional :: gap(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (any([shape(dof), shape(normal)] /= [3, size(stiffness), 3, size(stiffness)])) then
+            call refuse('add_ground_contacts: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (.not. gap_fits(gap, size(stiffness))) then
+            call refuse('add_ground_contacts: gap has the wrong length', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_add_ground_contacts_i32(self%handle, 1_c_int32_t, size(stiffness, kind=int64), dof, &
+            normal, stiffness, gap), stat, errmsg)
+    end subroutine add_ground_contacts_int32
+
+    subroutine add_ground_contacts_int64(self, dof, normal, stiffness, gap, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int64), intent(in), contiguous :: dof(:, :)
+        real(real64), intent(in), contiguous :: normal(:, :), stiffness(:)
+        real(real64), intent(in), contiguous, optional :: gap(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (any([shape(dof), shape(normal)] /= [3, size(stiffness), 3, size(stiffness)])) then
+            call refuse('add_ground_contacts: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (.not. gap_fits(gap, size(stiffness))) then
+            call refuse('add_ground_contacts: gap has the wrong length', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_add_ground_contacts_i64(self%handle, 1_c_int32_t, size(stiffness, kind=int64), dof, &
+            normal, stiffness, gap), stat, errmsg)
+    end subroutine add_ground_contacts_int64
+
+    ! Rows of the gap matrix: u = sum of coefficient x q(dof) - gap, u > 0 closed.
+    subroutine add_gap_rows_int32(self, row_ptr, dof, coefficient, stiffness, gap, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: row_ptr(:), dof(:)
+        real(real64), intent(in), contiguous :: coefficient(:), stiffness(:)
+        real(real64), intent(in), contiguous, optional :: gap(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(row_ptr) /= size(stiffness) + 1 .or. size(dof) /= size(coefficient)) then
+            call refuse('add_gap_rows: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (.not. gap_fits(gap, size(stiffness))) then
+            call refuse('add_gap_rows: gap has the wrong length', stat, errmsg)
+            return
+        end if
+        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
+            call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), row_ptr, &
+            dof, coefficient, stiffness, gap), stat, errmsg)
+    end subroutine add_gap_rows_int32
+
+    subroutine add_gap_rows_int64(self, row_ptr, dof, coefficient, stiffness, gap, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int64), intent(in), contiguous :: row_ptr(:), dof(:)
+        real(real64), intent(in), contiguous :: coefficient(:), stiffness(:)
+        real(real64), intent(in), contiguous, optional :: gap(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(row_ptr) /= size(stiffness) + 1 .or. size(dof) /= size(coefficient)) then
+            call refuse('add_gap_rows: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (.not. gap_fits(gap, size(stiffness))) then
+            call refuse('add_gap_rows: gap has the wrong length', stat, errmsg)
+            return
+        end if
+        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
+            call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), row_ptr, &
+            dof, coefficient, stiffness, gap), stat, errmsg)
+    end subroutine add_gap_rows_int64
+
+    ! absent: none
+    subroutine set_preload(self, force, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        real(real64), intent(in), contiguous, optional :: force(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(int64) :: n
+        n = 0
+        if (present(force)) n = size(force, kind=int64)
+        if (.not. present(force)) n = n_dof_of(self)
+        call finish(self%context, plm_model_set_preload(self%handle, n, force), stat, errmsg)
+    end subroutine set_preload
+
+    ! F(t) = sum over h of Re(force_h exp(i h omega t))
+    subroutine set_excitation_real(self, harmonic, force, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(in) :: harmonic
+        real(real64), intent(in), contiguous :: force(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_excitation(self%handle, int(harmonic, c_int32_t), size(force, kind=int64), &
+            force), stat, errmsg)
+    end subroutine set_excitation_real
+
+    subroutine set_excitation_complex(self, harmonic, force, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(in) :: harmonic
+        complex(real64), intent(in) :: force(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_excitation(self%handle, int(harmonic, c_int32_t), size(force, kind=int64), &
+            real(force, real64), aimag(force)), stat, errmsg)
+    end subroutine set_excitation_complex
+
+    subroutine build(self, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_build(self%handle), stat, errmsg)
+    end subroutine build
+
+    ! Results: rest_displacement, rest_penetration, rest_closed, rest_force.
+    subroutine solve_rest(self, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_solve_rest(self%handle), stat, errmsg)
+    end subroutine solve_rest
+
+    ! The lowest size(frequency_hz) modes of a linear system: PLM_SYSTEM_OPEN, _SLIDING, _REST or _GIVEN (with closed).
+    subroutine modes(self, system, frequency_hz, shape, closed, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(plm_status), intent(in) :: system
+        real(real64), intent(inout), contiguous :: frequency_hz(:)
+        real(real64), intent(inout), contiguous, optional :: shape(:, :)
+        logical, intent(in), optional :: closed(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(c_int32_t), allocatable :: flags(:)
+        integer(int64) :: n_pairs
+        integer(plm_status) :: status
+        if (present(shape)) then
+            if (size(shape, 1) /= n_dof_of(self) .or. size(shape, 2) /= size(frequency_hz)) then
+                call refuse('modes: shape must be n_dof x size(frequency_hz)', stat, errmsg)
+                return
+            end if
+        end if
+        if (present(closed)) then
+            n_pairs = -1
+            status = plm_model_get_int(self%handle, 'n_pairs'//char(0), n_pairs)
+            if (status >= 0 .and. size(closed) /= n_pairs) then
+                call refuse('modes: closed must have n_pairs entries', stat, errmsg)
+                return
+            end if
+            flags = merge(1_c_int32_t, 0_c_int32_t, closed)
+        end if
+        ! flags not allocated: absent
+        call finish(self%context, plm_model_get_modes(self%handle, system, flags, size(frequency_hz, kind=int64), &
+            frequency_hz, shape), stat, errmsg)
+    end subroutine modes
+
+    subroutine audit(self, count, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(out) :: count
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(int64) :: found
+        found = 0
+        call finish(self%context, plm_model_audit(self%handle, found), stat, errmsg)
+        count = int(found)
+    end subroutine audit
+
+    ! Number i of the audit, from 1. severity: 0 a fact, 1 worth a look, 2 probably wrong.
+    subroutine finding(self, i, severity, value, text, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(in) :: i
+        integer, intent(out) :: severity
+        real(real64), intent(out) :: value
+        character(len=:), allocatable, intent(out) :: text
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        character(kind=c_char, len=2048) :: buffer
+        integer(c_int32_t) :: level
+        level = 0
+        value = 0
+        buffer = char(0)
+        call finish(self%context, plm_model_get_finding(self%handle, int(i - 1, int64), level, value, len(buffer, int64), buffer), &
+            stat, errmsg)
+        severity = int(level)
+        text = f_text(buffer)
+    end subroutine finding
+
+    ! what create was given; 0 when there is no model
+    integer(int64) function n_dof_of(self) result(n)
+        class(plm_model), intent(in) :: self
+        n = 0
+        if (plm_model_get_int(self%handle, 'n_dof'//char(0), n) < 0) n = 0
+    end function n_dof_of
+
+    pure logical function gap_fits(gap, n)
+        real(real64), intent(in), optional :: gap(:)
+        integer, intent(in) :: n
+        gap_fits = .true.
+        if (present(gap)) gap_fits = size(gap) == n
+    end function gap_fits
+
+end module plm_models

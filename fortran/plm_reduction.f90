@@ -1,0 +1,146 @@
+! plm_reduction.f90: the sampler of contact sets, and the bases made from it.
+module plm_reductions
+    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_constants
+    use plm_c
+    use plm_errors, only: finish, refuse
+    use plm_keyed_handles, only: plm_settable
+    use plm_models, only: plm_model
+    implicit none
+    private
+    public :: plm_sampler, plm_basis
+
+    type, extends(plm_settable) :: plm_sampler
+    contains
+        procedure :: create => sampler_create
+        procedure :: destroy => sampler_destroy
+        procedure :: add_dominant_mode
+        procedure :: run
+    end type plm_sampler
+
+    type, extends(plm_settable) :: plm_basis
+    contains
+        procedure :: create => basis_create
+        procedure :: destroy => basis_destroy
+        procedure :: set_sampler
+        procedure :: set_parent
+        procedure :: build
+        procedure :: vectors
+        procedure :: residual
+    end type plm_basis
+
+contains
+
+    subroutine sampler_create(self, model, stat, errmsg)
+        class(plm_sampler), intent(inout) :: self
+        type(plm_model), intent(in) :: model
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        self%context = model%context
+        self%kind = PLM_KIND_SAMPLER
+        call finish(self%context, plm_sampler_create(model%handle, self%handle), stat, errmsg)
+    end subroutine sampler_create
+
+    subroutine sampler_destroy(self, stat, errmsg)
+        class(plm_sampler), intent(inout) :: self
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_sampler_destroy(self%handle), stat, errmsg)
+    end subroutine sampler_destroy
+
+    ! system: PLM_SYSTEM_OPEN or PLM_SYSTEM_SLIDING; mode: 1, 2, ...
+    subroutine add_dominant_mode(self, system, mode, stat, errmsg)
+        class(plm_sampler), intent(inout) :: self
+        integer(plm_status), intent(in) :: system
+        integer, intent(in) :: mode
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_sampler_add_dominant_mode(self%handle, system, int(mode, int64)), stat, errmsg)
+    end subroutine add_dominant_mode
+
+    subroutine run(self, stat, errmsg)
+        class(plm_sampler), intent(inout) :: self
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_sampler_run(self%handle), stat, errmsg)
+    end subroutine run
+
+    subroutine basis_create(self, model, stat, errmsg)
+        class(plm_basis), intent(inout) :: self
+        type(plm_model), intent(in) :: model
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        self%context = model%context
+        self%kind = PLM_KIND_BASIS
+        call finish(self%context, plm_basis_create(model%handle, self%handle), stat, errmsg)
+    end subroutine basis_create
+
+    subroutine basis_destroy(self, stat, errmsg)
+        class(plm_basis), intent(inout) :: self
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_basis_destroy(self%handle), stat, errmsg)
+    end subroutine basis_destroy
+
+    subroutine set_sampler(self, sampler, stat, errmsg)
+        class(plm_basis), intent(inout) :: self
+        type(plm_sampler), intent(in) :: sampler
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_basis_set_sampler(self%handle, sampler%handle), stat, errmsg)
+    end subroutine set_sampler
+
+    ! parent: a built basis of kind craig_bampton or full; absent: none
+    subroutine set_parent(self, parent, stat, errmsg)
+        class(plm_basis), intent(inout) :: self
+        type(plm_basis), intent(in), optional :: parent
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        type(c_ptr) :: handle
+        handle = c_null_ptr
+        if (present(parent)) handle = parent%handle
+        call finish(self%context, plm_basis_set_parent(self%handle, handle), stat, errmsg)
+    end subroutine set_parent
+
+    subroutine build(self, stat, errmsg)
+        class(plm_basis), intent(inout) :: self
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_basis_build(self%handle), stat, errmsg)
+    end subroutine build
+
+    ! vector: n_dof x n receives the columns first, first + 1, ... (from 1) of P, or of P_0 when static is .true.
+    subroutine vectors(self, vector, first, static, stat, errmsg)
+        class(plm_basis), intent(inout) :: self
+        real(real64), intent(inout), contiguous :: vector(:, :)
+        integer, intent(in), optional :: first
+        logical, intent(in), optional :: static
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(int64) :: from
+        from = 0
+        if (present(first)) from = int(first, int64) - 1
+        call finish(self%context, plm_basis_get_vectors(self%handle, flag(static), from, size(vector, 2, int64), vector, &
+            size(vector, 1, int64)), stat, errmsg)
+    end subroutine vectors
+
+    ! How badly the basis represents q: |q - P eta| / |q| by least squares, in the norm of M when use_mass is .true.
+    subroutine residual(self, q, r, static, use_mass, stat, errmsg)
+        class(plm_basis), intent(inout) :: self
+        real(real64), intent(in), contiguous :: q(:)
+        real(real64), intent(inout) :: r
+        logical, intent(in), optional :: static, use_mass
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_basis_get_residual(self%handle, flag(static), flag(use_mass), &
+            size(q, kind=int64), q, r), stat, errmsg)
+    end subroutine residual
+
+    pure integer(c_int32_t) function flag(given)
+        logical, intent(in), optional :: given
+        flag = 0
+        if (present(given)) flag = merge(1_c_int32_t, 0_c_int32_t, given)
+    end function flag
+
+end module plm_reductions

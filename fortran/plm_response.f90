@@ -1,0 +1,249 @@
+! plm_response.f90: harmonic balance and the response curves it follows. DOFs, points and pairs count from 1.
+module plm_responses
+    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_constants
+    use plm_c
+    use plm_errors, only: finish, refuse
+    use plm_keyed_handles, only: plm_readable, plm_settable
+    use plm_reductions, only: plm_basis
+    implicit none
+    private
+    public :: plm_hbm, plm_branch
+
+    type, extends(plm_readable) :: plm_branch
+    contains
+        procedure :: destroy => branch_destroy
+        procedure :: amplitude
+        procedure :: coefficients
+        procedure :: field
+        procedure :: contact
+        procedure :: closed_share
+        procedure :: full_residual
+    end type plm_branch
+
+    type, extends(plm_settable) :: plm_hbm
+    contains
+        procedure :: create
+        procedure :: destroy
+        procedure :: sweep
+        procedure :: solve
+        procedure :: find_peak
+    end type plm_hbm
+
+contains
+
+    subroutine create(self, basis, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        type(plm_basis), intent(in) :: basis
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        self%context = basis%context
+        self%kind = PLM_KIND_HBM
+        call finish(self%context, plm_hbm_create(basis%handle, self%handle), stat, errmsg)
+    end subroutine create
+
+    subroutine destroy(self, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_hbm_destroy(self%handle), stat, errmsg)
+    end subroutine destroy
+
+    ! stat PLM_NOT_CONVERGED, PLM_TRUNCATED or PLM_CANCELLED: the branch holds what was found until then
+    subroutine sweep(self, branch, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        type(plm_branch), intent(inout) :: branch
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call prepare(self, branch)
+        call finish(self%context, plm_hbm_sweep(self%handle, branch%handle), stat, errmsg)
+    end subroutine sweep
+
+    ! One frequency; start, point: a branch whose point (1 if absent) is the first guess.
+    subroutine solve(self, frequency_hz, branch, start, point, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        real(real64), intent(in) :: frequency_hz
+        type(plm_branch), intent(inout) :: branch
+        type(plm_branch), intent(in), optional :: start
+        integer, intent(in), optional :: point
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        type(c_ptr) :: guess
+        integer(int64) :: at
+        guess = c_null_ptr
+        if (present(start)) guess = start%handle
+        at = 0
+        if (present(point)) at = int(point, int64) - 1
+        call prepare(self, branch)
+        call finish(self%context, plm_hbm_solve(self%handle, frequency_hz, guess, at, branch%handle), stat, errmsg)
+    end subroutine solve
+
+    ! The highest amplitude of a DOF on the exact curve. measure: PLM_PEAK (if absent), PLM_HALF_PEAK_TO_PEAK, PLM_RMS,
+    ! PLM_HARMONIC (of `harmonic`, 1 if absent); peak: that point as a branch.
+    subroutine find_peak(self, branch, dof, frequency_hz, amplitude, measure, harmonic, peak, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        type(plm_branch), intent(in) :: branch
+        integer, intent(in) :: dof
+        real(real64), intent(inout) :: frequency_hz, amplitude
+        integer(plm_status), intent(in), optional :: measure
+        integer, intent(in), optional :: harmonic
+        type(plm_branch), intent(inout), optional :: peak
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(plm_status) :: status
+        if (present(peak)) then
+            call prepare(self, peak)
+            status = plm_hbm_find_peak(self%handle, branch%handle, int(dof, int64) - 1, measure_of(measure), &
+                harmonic_of(harmonic), frequency_hz, amplitude, peak%handle)
+        else
+            status = plm_hbm_find_peak(self%handle, branch%handle, int(dof, int64) - 1, measure_of(measure), &
+                harmonic_of(harmonic), frequency_hz, amplitude)
+        end if
+        call finish(self%context, status, stat, errmsg)
+    end subroutine find_peak
+
+    ! an output branch: what it held before stays alive only through other copies
+    subroutine prepare(self, branch)
+        class(plm_hbm), intent(in) :: self
+        type(plm_branch), intent(inout) :: branch
+        branch%context = self%context
+        branch%kind = PLM_KIND_BRANCH
+    end subroutine prepare
+
+    pure integer(c_int32_t) function measure_of(measure)
+        integer(plm_status), intent(in), optional :: measure
+        measure_of = PLM_PEAK
+        if (present(measure)) measure_of = measure
+    end function measure_of
+
+    pure integer(c_int32_t) function harmonic_of(harmonic)
+        integer, intent(in), optional :: harmonic
+        harmonic_of = 1
+        if (present(harmonic)) harmonic_of = int(harmonic, c_int32_t)
+    end function harmonic_of
+
+    subroutine branch_destroy(self, stat, errmsg)
+        class(plm_branch), intent(inout) :: self
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_branch_destroy(self%handle), stat, errmsg)
+    end subroutine branch_destroy
+
+    ! value(n_points); measure and harmonic as in find_peak
+    subroutine amplitude(self, dof, value, measure, harmonic, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        integer, intent(in) :: dof
+        real(real64), allocatable, intent(inout) :: value(:)
+        integer(plm_status), intent(in), optional :: measure
+        integer, intent(in), optional :: harmonic
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        real(real64), allocatable :: found(:)
+        integer(plm_status) :: status
+        integer(int64) :: n
+        status = size_by_key(self, 'n_points', n)
+        allocate (found(n))
+        if (status >= 0) status = plm_branch_get_amplitude(self%handle, int(dof, int64) - 1, measure_of(measure), &
+            harmonic_of(harmonic), n, found, n)
+        if (status >= 0) call move_alloc(found, value)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine amplitude
+
+    ! value(2 H + 1, n): a0, a1, b1, ..., aH, bH of the DOFs first_dof, ..., first_dof + n - 1 (n is 1 if absent)
+    subroutine coefficients(self, point, first_dof, value, n, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        integer, intent(in) :: point, first_dof
+        real(real64), allocatable, intent(inout) :: value(:, :)
+        integer, intent(in), optional :: n
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        real(real64), allocatable :: found(:, :)
+        integer(plm_status) :: status
+        integer(int64) :: h, count
+        count = 1
+        if (present(n)) count = n
+        status = size_by_key(self, 'n_harmonics', h)
+        allocate (found(2*h + 1, max(count, 0_int64)))
+        if (status >= 0) status = plm_branch_get_coefficients(self%handle, int(point, int64) - 1, &
+            int(first_dof, int64) - 1, count, found)
+        if (status >= 0) call move_alloc(found, value)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine coefficients
+
+    ! q(n_dof) at the time time_fraction x period
+    subroutine field(self, point, time_fraction, q, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        integer, intent(in) :: point
+        real(real64), intent(in) :: time_fraction
+        real(real64), intent(inout), contiguous :: q(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_branch_get_field(self%handle, int(point, int64) - 1, time_fraction, &
+            size(q, kind=int64), q), stat, errmsg)
+    end subroutine field
+
+    ! At n_times equidistant times from 0, each n_pairs x n_times.
+    subroutine contact(self, point, n_times, penetration, force, closed, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        integer, intent(in) :: point, n_times
+        real(real64), allocatable, intent(inout), optional :: penetration(:, :), force(:, :)
+        logical, allocatable, intent(inout), optional :: closed(:, :)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        real(real64), allocatable :: u(:, :), f(:, :)
+        integer(c_int32_t), allocatable :: flags(:, :)
+        integer(plm_status) :: status
+        integer(int64) :: pairs
+        integer :: times
+        status = size_by_key(self, 'n_pairs', pairs)
+        times = max(n_times, 0)
+        allocate (u(pairs, times), f(pairs, times), flags(pairs, times))
+        if (status >= 0) status = plm_branch_get_contact(self%handle, int(point, int64) - 1, int(n_times, int64), u, f, flags)
+        if (status >= 0) then
+            if (present(penetration)) call move_alloc(u, penetration)
+            if (present(force)) call move_alloc(f, force)
+            if (present(closed)) closed = flags /= 0
+        end if
+        call finish(self%context, status, stat, errmsg)
+    end subroutine contact
+
+    ! share(n_pairs): the part of the period during which each pair is closed
+    subroutine closed_share(self, point, share, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        integer, intent(in) :: point
+        real(real64), allocatable, intent(inout) :: share(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        real(real64), allocatable :: found(:)
+        integer(plm_status) :: status
+        integer(int64) :: pairs
+        status = size_by_key(self, 'n_pairs', pairs)
+        allocate (found(pairs))
+        if (status >= 0) status = plm_branch_get_closed_share(self%handle, int(point, int64) - 1, pairs, found)
+        if (status >= 0) call move_alloc(found, share)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine closed_share
+
+    subroutine full_residual(self, point, relative_residual, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        integer, intent(in) :: point
+        real(real64), intent(inout) :: relative_residual
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_branch_get_full_residual(self%handle, int(point, int64) - 1, relative_residual), &
+            stat, errmsg)
+    end subroutine full_residual
+
+    ! n is 0 on failure
+    function size_by_key(self, key, n) result(status)
+        class(plm_branch), intent(in) :: self
+        character(len=*), intent(in) :: key
+        integer(int64), intent(out) :: n
+        integer(plm_status) :: status
+        n = 0
+        status = plm_branch_get_int(self%handle, key//char(0), n)
+        if (status < 0) n = 0
+    end function size_by_key
+
+end module plm_responses

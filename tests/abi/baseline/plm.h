@@ -1,0 +1,419 @@
+/* plm.h - libplm: piecewise-linear modes and harmonic balance for structures with intermittent contact.
+ *
+ * The whole C API. A typical host goes from top to bottom of this file:
+ *
+ *     plm_context  -> plm_model   hand over M, K, C, supports, contact pairs, pre-load, excitation; build
+ *                  -> plm_sampler dominant mode, contact-area sweep, samples, frequency window
+ *                  -> plm_basis   piecewise-linear modes (or Craig-Bampton, or the unreduced reference)
+ *                  -> plm_hbm     harmonic balance with continuation
+ *                  -> plm_branch  the response curve: amplitudes, contact, fields
+ *
+ * Rules that hold for every function
+ *   - It returns a plm_status: 0 done; > 0 done with an outcome to look at (results are valid); < 0 failed, and then
+ *     nothing has changed and no output has been written. The text of the failure waits on the context.
+ *   - Outputs come last. Pointers to outputs must not be NULL unless the declaration says "or NULL".
+ *   - Handles are opaque. A child keeps its parents alive, so they may be destroyed in any order; destroying a context
+ *     destroys what is left in it. A stale, foreign or wrong-kind handle gives PLM_ERR_HANDLE.
+ *   - The library never prints, exits, throws, or changes the floating-point environment, signals, locale, environment
+ *     or working directory of its host, and opens no file.
+ *   - One context belongs to one thread at a time; different contexts may run at once.
+ *   - Dense arrays are column-major. DOFs and pairs are numbered from 0 unless the function takes an `index_base`.
+ *   - Units are the caller's, consistent (mm-t-s, m-kg-s ...); frequencies are in Hz (1/time unit), angles in radian.
+ *   - Text is copied into a buffer of `capacity` bytes, always ended by NUL and cut if it must be; `needed` (or NULL)
+ *     receives the bytes the whole text takes with its NUL. With capacity 0 the buffer may be NULL.
+ *
+ * "paper" below: Zucca & Epureanu, Reduced order models for nonlinear dynamic analysis of structures with
+ * intermittent contacts, J. Vibration and Control 24(12), 2018, doi 10.1177/1077546316689214.
+ */
+#ifndef PLM_PLM_H
+#define PLM_PLM_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(_WIN32)
+#define PLM_API
+#elif defined(__GNUC__)
+#define PLM_API __attribute__((visibility("default")))
+#else
+#define PLM_API
+#endif
+
+/* Pass to plm_context_create: defaults that change answers are frozen per API version. */
+#define PLM_API_VERSION 1
+
+typedef struct plm_context plm_context;
+typedef struct plm_model plm_model;
+typedef struct plm_sampler plm_sampler;
+typedef struct plm_basis plm_basis;
+typedef struct plm_hbm plm_hbm;
+typedef struct plm_branch plm_branch;
+
+/* ---- Status ------------------------------------------------------------------------------------------------ */
+
+typedef int32_t plm_status;
+
+#define PLM_OK 0
+/* finished with an outcome: results are valid as far as they go */
+#define PLM_NOT_CONVERGED 1 /* a branch ended early because no corrector converged; see its "end_reason" */
+#define PLM_TRUNCATED 2     /* a branch ended at the allowed number of points */
+#define PLM_CANCELLED 3     /* the progress callback asked to stop; a branch holds what was found until then */
+#define PLM_WARNING 4       /* done, but something should be looked at: the handle's "warning" text says what */
+/* failed: nothing changed */
+#define PLM_ERR_HANDLE (-1)    /* NULL, stale, foreign or wrong-kind handle */
+#define PLM_ERR_ARGUMENT (-2)  /* an argument is out of its range, NaN, NULL or of the wrong size */
+#define PLM_ERR_KEY (-3)       /* no option or result has this name (the text proposes the nearest) */
+#define PLM_ERR_STATE (-4)     /* called too early, too late, or from inside a callback */
+#define PLM_ERR_MEMORY (-5)    /* an allocation failed */
+#define PLM_ERR_NOT_BUILT (-6) /* this part was left out of the build; the text names the build option */
+#define PLM_ERR_MATRIX (-7)    /* matrix not symmetric, NaN or Inf inside, duplicate or out-of-range index */
+#define PLM_ERR_NOT_POSITIVE_DEFINITE (-8) /* index: the DOF where the factorization broke down */
+#define PLM_ERR_SINGULAR (-9)              /* a linear system has no unique solution */
+#define PLM_ERR_EIGENSOLVER (-10)          /* ARPACK or LAPACK did not deliver the eigenpairs */
+#define PLM_ERR_CONVERGENCE (-11)          /* an iteration did not converge and there is no partial result */
+#define PLM_ERR_CALLBACK (-12)             /* a host callback reported a failure */
+#define PLM_ERR_INTERNAL (-13)             /* a defect of libplm: please report the text */
+
+/* Reasons a program can branch on (plm_context_get_error_info; "end_reason" of a branch). */
+#define PLM_REASON_NONE 0
+#define PLM_REASON_NOT_POSITIVE_DEFINITE 1
+#define PLM_REASON_SINGULAR 2
+#define PLM_REASON_RANGE_END 3       /* branch: left the frequency range (the normal end) */
+#define PLM_REASON_POINT_LIMIT 4     /* branch: "max_points" reached */
+#define PLM_REASON_CANCELLED 5
+#define PLM_REASON_STEP_MINIMUM 6    /* branch: step below its minimum */
+#define PLM_REASON_CONTACT_CHATTER 7 /* Newton cycled between contact sets */
+#define PLM_REASON_SINGULAR_TANGENT 8
+#define PLM_REASON_START_FAILED 9    /* branch: no solution was found at the first frequency */
+#define PLM_REASON_NO_EQUILIBRIUM 10 /* pre-load drives an unsupported rigid-body motion */
+#define PLM_REASON_LOOP_CLOSED 11    /* branch: came back to its first point */
+#define PLM_REASON_BASIS_TOO_SMALL 12
+
+/* Text that explains a status. Never fails on an unknown status: it says so. */
+PLM_API plm_status plm_status_text(plm_status status, int64_t capacity, char *buffer, int64_t *needed);
+
+PLM_API plm_status plm_version(int32_t *major, int32_t *minor, int32_t *patch);
+
+/* One line: version, factorization, eigensolver, Fourier transform, components built in. */
+PLM_API plm_status plm_build_info(int64_t capacity, char *buffer, int64_t *needed);
+
+/* ---- Options and results by key ------------------------------------------------------------------------------
+ * Every handle below has options (set before its build/run/sweep) and results (read after it), both named by string
+ * keys listed in one table, which these functions expose and from which the reference (docs/keys.md) is made.
+ * plm_X_set_int / _set_double / _set_string set an option (an int is taken for a double; an option set after the
+ * handle was built takes effect at the next build/run/sweep). plm_X_get_int / _get_double / _get_string read an option
+ * or a scalar result. plm_X_get_array / _get_int_array copy an array result: `count` receives its length; with
+ * values = NULL (capacity 0) only the length is asked; a capacity too small is PLM_ERR_ARGUMENT.
+ * An unknown key is PLM_ERR_KEY, a result asked for too early PLM_ERR_STATE. */
+
+/* kinds of handle */
+#define PLM_KIND_MODEL 1
+#define PLM_KIND_SAMPLER 2
+#define PLM_KIND_BASIS 3
+#define PLM_KIND_HBM 4
+#define PLM_KIND_BRANCH 5
+/* types of key */
+#define PLM_TYPE_INT 1
+#define PLM_TYPE_DOUBLE 2
+#define PLM_TYPE_STRING 3
+#define PLM_TYPE_ARRAY 4
+#define PLM_TYPE_INT_ARRAY 5
+/* texts of a key */
+#define PLM_KEY_NAME 1
+#define PLM_KEY_DESCRIPTION 2
+#define PLM_KEY_DEFAULT 3 /* empty for results */
+#define PLM_KEY_CHOICES 4 /* string options: the allowed words, separated by commas; else empty */
+
+PLM_API plm_status plm_key_count(int32_t kind, int32_t *count);
+/* is_option: 1 option, 0 result. minimum and maximum bound numeric options (both 0 for others). */
+PLM_API plm_status plm_key_info(int32_t kind, int32_t index, int32_t *type, int32_t *is_option, double *minimum,
+                                double *maximum);
+PLM_API plm_status plm_key_text(int32_t kind, int32_t index, int32_t field, int64_t capacity, char *buffer,
+                                int64_t *needed);
+
+/* ---- Context -------------------------------------------------------------------------------------------------- */
+
+/* Callbacks run on the calling thread, inside a call of this library. They must return (no longjmp, no exception) and
+ * must not call functions of the same context. */
+
+/* level: 0 detail, 1 information, 2 warning. The text lives during the call only. */
+typedef void (*plm_log_fn)(plm_context *ctx, int32_t level, const char *text, void *user);
+/* stage: a word such as "modes" or "sweep"; fraction in [0, 1]. Return non-zero to cancel. */
+typedef int32_t (*plm_progress_fn)(plm_context *ctx, const char *stage, double fraction, void *user);
+/* allocate returns NULL on failure; any alignment (at least that of void*) will do. */
+typedef void *(*plm_allocate_fn)(int64_t bytes, void *user);
+typedef void (*plm_release_fn)(void *block, void *user);
+/* The host's own sparse symmetric solver: lower triangle by columns, base 0, rows ascending. positive_definite 0 asks
+ * for a factorization of an indefinite matrix. Return 0 for success. x (n x nrhs, leading dimension ldx) is
+ * overwritten by the solution. */
+typedef int32_t (*plm_factor_fn)(plm_context *ctx, int64_t n, const int64_t *col_ptr, const int64_t *row,
+                                 const double *value, int32_t positive_definite, void **factor, void *user);
+typedef int32_t (*plm_solve_fn)(plm_context *ctx, void *factor, int64_t nrhs, double *x, int64_t ldx, void *user);
+typedef void (*plm_free_factor_fn)(plm_context *ctx, void *factor, void *user);
+
+/* api_version: PLM_API_VERSION. */
+PLM_API plm_status plm_context_create(int32_t api_version, plm_context **ctx);
+/* All arrays of the library made for this context come from `allocate`, which must be able to serve until the context
+ * is destroyed. (The factorization library and ARPACK keep their own malloc.) */
+PLM_API plm_status plm_context_create_with_allocator(int32_t api_version, plm_allocate_fn allocate,
+                                                     plm_release_fn release, void *user, plm_context **ctx);
+/* Destroys the context and all that is left in it; NULL and *ctx == NULL are accepted; *ctx becomes NULL. */
+PLM_API plm_status plm_context_destroy(plm_context **ctx);
+
+/* fn NULL: silence, the default. */
+PLM_API plm_status plm_context_set_log(plm_context *ctx, plm_log_fn fn, void *user);
+PLM_API plm_status plm_context_set_progress(plm_context *ctx, plm_progress_fn fn, void *user);
+/* All three or none (NULL, NULL, NULL: the built-in solver). Takes effect for models built afterwards. */
+PLM_API plm_status plm_context_set_solver(plm_context *ctx, plm_factor_fn factor, plm_solve_fn solve,
+                                          plm_free_factor_fn release, void *user);
+
+/* The last failure in this context: "function: what is wrong (argument, index); what to do". Empty if none. */
+PLM_API plm_status plm_context_get_error_text(plm_context *ctx, int64_t capacity, char *buffer, int64_t *needed);
+PLM_API plm_status plm_context_get_error_function(plm_context *ctx, int64_t capacity, char *buffer, int64_t *needed);
+PLM_API plm_status plm_context_get_error_argument(plm_context *ctx, int64_t capacity, char *buffer, int64_t *needed);
+/* index: the offending position in the argument (its own base), -1 if none; library_code: of LAPACK, ARPACK, the
+ * factorization or the host's callback, 0 if none. Each output may be NULL. */
+PLM_API plm_status plm_context_get_error_info(plm_context *ctx, plm_status *status, int32_t *reason, int64_t *index,
+                                              int64_t *library_code);
+
+/* ---- Model: M q'' + C q' + K q = F(t) - B^T N, N = max(k_n u, 0), u = B q - g (paper, eq. (2), (3)) ------------- */
+
+/* which matrix */
+#define PLM_MASS 1
+#define PLM_STIFFNESS 2
+#define PLM_DAMPING 3 /* viscous; adds to Rayleigh and modal damping */
+/* storage */
+#define PLM_CSC 1 /* compressed columns; for a symmetric matrix stored in full also compressed rows */
+#define PLM_TRIPLETS 2
+#define PLM_CSR 3 /* compressed rows */
+/* stored part */
+#define PLM_FULL 1
+#define PLM_LOWER 2
+#define PLM_UPPER 3
+/* ownership of the caller's arrays */
+#define PLM_COPY 1   /* the arrays are copied now */
+#define PLM_BORROW 2 /* the arrays stay the caller's, unchanged and alive until plm_model_build has returned 0 */
+/* contact stiffness: let the library choose ten times the local stiffness (1 / median contact flexibility) */
+#define PLM_AUTO_STIFFNESS (-1.0)
+/* "no DOF" in DOF lists of node pairs, in the index base of the call: base - 1 or below */
+
+PLM_API plm_status plm_model_create(plm_context *ctx, int64_t n_dof, plm_model **model);
+PLM_API plm_status plm_model_destroy(plm_model **model);
+
+/* M (positive semi-definite), K (positive semi-definite) or C (symmetric), n_dof x n_dof.
+ * PLM_CSC: a[n_dof + 1] column pointers, b[nnz] row numbers. PLM_CSR: a row pointers, b column numbers.
+ * PLM_TRIPLETS: a[nnz] row numbers, b[nnz] column numbers, duplicates are summed.
+ * Pointers and numbers count from index_base (0 or 1). Checked: ranges, monotone pointers, duplicates (compressed
+ * forms), NaN/Inf, wrong-triangle entries, and for PLM_FULL symmetry to 1e-8 of the largest entry.
+ * PLM_ERR_MATRIX with the position in b or value as index. A second call for the same matrix replaces it. */
+PLM_API plm_status plm_model_set_matrix_i32(plm_model *model, int32_t which, int32_t storage, int32_t part,
+                                            int32_t index_base, int32_t ownership, int64_t nnz, const int32_t *a,
+                                            const int32_t *b, const double *value);
+PLM_API plm_status plm_model_set_matrix_i64(plm_model *model, int32_t which, int32_t storage, int32_t part,
+                                            int32_t index_base, int32_t ownership, int64_t nnz, const int64_t *a,
+                                            const int64_t *b, const double *value);
+
+/* C = alpha M + beta K; alpha in 1/s, beta in s, both >= 0. */
+PLM_API plm_status plm_model_set_rayleigh_damping(plm_model *model, double alpha, double beta);
+/* ratio[j] (fraction of critical, in [0, 1)) for the j-th mode of the open system; modes beyond n: the last ratio up to
+ * the highest mode computed. C = sum 2 zeta omega (M phi)(M phi)^T. n = 0 removes it. */
+PLM_API plm_status plm_model_set_modal_damping(plm_model *model, int64_t n, const double *ratio);
+/* Structural (hysteretic) loss factor eta >= 0: K (1 + i eta) in every harmonic h >= 1. */
+PLM_API plm_status plm_model_set_structural_damping(plm_model *model, double eta);
+
+/* DOFs held at zero; repeated calls add up, repeated DOFs are accepted once. */
+PLM_API plm_status plm_model_fix_dofs_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *dof);
+PLM_API plm_status plm_model_fix_dofs_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *dof);
+
+/* n contact pairs of nodes a and b. dof_a, dof_b: 3 x n, the x, y, z DOFs of the nodes (base - 1: no such DOF).
+ * normal: 3 x n, unit, pointing out of a's body towards b. stiffness[n]: k_n > 0 (force/length) or PLM_AUTO_STIFFNESS.
+ * gap[n] or NULL (zero): initial distance, > 0 open, < 0 interference.
+ * penetration u = normal . (q_a - q_b) - gap, > 0 closed. */
+PLM_API plm_status plm_model_add_node_pairs_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *dof_a,
+                                                const int32_t *dof_b, const double *normal, const double *stiffness,
+                                                const double *gap);
+PLM_API plm_status plm_model_add_node_pairs_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *dof_a,
+                                                const int64_t *dof_b, const double *normal, const double *stiffness,
+                                                const double *gap);
+/* Node against rigid ground; the normal points from the node's body into the ground: u = normal . q - gap. */
+PLM_API plm_status plm_model_add_ground_contacts_i32(plm_model *model, int32_t index_base, int64_t n,
+                                                     const int32_t *dof, const double *normal,
+                                                     const double *stiffness, const double *gap);
+PLM_API plm_status plm_model_add_ground_contacts_i64(plm_model *model, int32_t index_base, int64_t n,
+                                                     const int64_t *dof, const double *normal,
+                                                     const double *stiffness, const double *gap);
+/* Raw rows of the gap matrix B (n x n_dof, compressed rows: row_ptr[n + 1], dof[nnz], coefficient[nnz]), for
+ * non-matching meshes or rotational DOFs: u = B q - gap. */
+PLM_API plm_status plm_model_add_gap_rows_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *row_ptr,
+                                              const int32_t *dof, const double *coefficient, const double *stiffness,
+                                              const double *gap);
+PLM_API plm_status plm_model_add_gap_rows_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *row_ptr,
+                                              const int64_t *dof, const double *coefficient, const double *stiffness,
+                                              const double *gap);
+
+/* Static pre-load, force[n_dof]; n must equal n_dof. NULL removes it. */
+PLM_API plm_status plm_model_set_preload(plm_model *model, int64_t n, const double *force);
+/* Harmonic h of the excitation: F(t) = sum_h Re(F_h exp(i h omega t)), F_h = real + i imag, each [n_dof], imag or
+ * NULL (zero). h = 0 is a static part that comes and goes with the excitation (imag must be NULL).
+ * real = NULL removes harmonic h. */
+PLM_API plm_status plm_model_set_excitation(plm_model *model, int32_t harmonic, int64_t n, const double *real,
+                                            const double *imag);
+
+PLM_API plm_status plm_model_set_int(plm_model *model, const char *key, int64_t value);
+PLM_API plm_status plm_model_set_double(plm_model *model, const char *key, double value);
+PLM_API plm_status plm_model_set_string(plm_model *model, const char *key, const char *value);
+PLM_API plm_status plm_model_get_int(plm_model *model, const char *key, int64_t *value);
+PLM_API plm_status plm_model_get_double(plm_model *model, const char *key, double *value);
+PLM_API plm_status plm_model_get_string(plm_model *model, const char *key, int64_t capacity, char *buffer,
+                                        int64_t *needed);
+PLM_API plm_status plm_model_get_array(plm_model *model, const char *key, int64_t capacity, double *values,
+                                       int64_t *count);
+PLM_API plm_status plm_model_get_int_array(plm_model *model, const char *key, int64_t capacity, int64_t *values,
+                                           int64_t *count);
+
+/* Checks the whole, removes the fixed DOFs, factors K. Afterwards the model no longer changes.
+ * PLM_ERR_STATE without M or K; PLM_ERR_NOT_POSITIVE_DEFINITE if K + sigma M is not. Rigid-body modes are allowed. */
+PLM_API plm_status plm_model_build(plm_model *model);
+
+/* Static equilibrium under the pre-load with unilateral contact (the minimum of the potential energy). Read it by
+ * "rest_displacement", "rest_penetration", "rest_closed", "rest_force". Called by the sampler when needed.
+ * PLM_ERR_CONVERGENCE with PLM_REASON_NO_EQUILIBRIUM when the load drives an unsupported motion. */
+PLM_API plm_status plm_model_solve_rest(plm_model *model);
+
+/* which linear system */
+#define PLM_SYSTEM_OPEN 0    /* no pair coupled */
+#define PLM_SYSTEM_SLIDING 1 /* every pair coupled by k_n along its normal */
+#define PLM_SYSTEM_REST 2    /* the pairs closed at rest are coupled */
+#define PLM_SYSTEM_GIVEN 3   /* the pairs with closed[i] != 0 are coupled */
+/* The n lowest natural frequencies (Hz) of a linear system; shape: n_dof x n, mass-normalised, or NULL.
+ * closed[n_pairs] for PLM_SYSTEM_GIVEN, else NULL. Relative accuracy: the model's "space_tolerance". */
+PLM_API plm_status plm_model_get_modes(plm_model *model, int32_t system, const int32_t *closed, int64_t n,
+                                       double *frequency_hz, double *shape);
+
+/* Looks the built model over: mass per direction, rigid-body modes, symmetry, definiteness, gap signs, contact
+ * stiffness against local stiffness, units that look off. count: number of findings, read one by one below. */
+PLM_API plm_status plm_model_audit(plm_model *model, int64_t *count);
+/* severity: 0 fact, 1 worth a look, 2 probably wrong. value: the number the finding is about. */
+PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_t *severity, double *value,
+                                         int64_t capacity, char *buffer, int64_t *needed);
+
+/* ---- Sampler: the evolution of the contact area (paper, 2.3.1 and 2.3.2) ---------------------------------------- */
+
+PLM_API plm_status plm_sampler_create(plm_model *model, plm_sampler **sampler);
+PLM_API plm_status plm_sampler_destroy(plm_sampler **sampler);
+PLM_API plm_status plm_sampler_set_int(plm_sampler *sampler, const char *key, int64_t value);
+PLM_API plm_status plm_sampler_set_double(plm_sampler *sampler, const char *key, double value);
+PLM_API plm_status plm_sampler_set_string(plm_sampler *sampler, const char *key, const char *value);
+PLM_API plm_status plm_sampler_get_int(plm_sampler *sampler, const char *key, int64_t *value);
+PLM_API plm_status plm_sampler_get_double(plm_sampler *sampler, const char *key, double *value);
+PLM_API plm_status plm_sampler_get_string(plm_sampler *sampler, const char *key, int64_t capacity, char *buffer,
+                                          int64_t *needed);
+PLM_API plm_status plm_sampler_get_array(plm_sampler *sampler, const char *key, int64_t capacity, double *values,
+                                         int64_t *count);
+PLM_API plm_status plm_sampler_get_int_array(plm_sampler *sampler, const char *key, int64_t capacity, int64_t *values,
+                                             int64_t *count);
+/* A further dominant mode whose sweep is sampled too. system: PLM_SYSTEM_OPEN or _SLIDING; mode: 1, 2, ... */
+PLM_API plm_status plm_sampler_add_dominant_mode(plm_sampler *sampler, int32_t system, int64_t mode);
+/* Finds the dominant mode, the sweep, the samples and the window. PLM_ERR_STATE when the model is not built or has no
+ * contact pair. */
+PLM_API plm_status plm_sampler_run(plm_sampler *sampler);
+
+/* ---- Basis: reduction matrices (paper, 2.3.3 and 2.3.4) ----------------------------------------------------------
+ * Option "kind": "plm" (needs a sampler), "craig_bampton" (contact DOFs retained), "full" (the unreduced structure,
+ * represented to "space_tolerance" of the model by exact modes and contact attachment vectors). */
+
+PLM_API plm_status plm_basis_create(plm_model *model, plm_basis **basis);
+PLM_API plm_status plm_basis_destroy(plm_basis **basis);
+PLM_API plm_status plm_basis_set_int(plm_basis *basis, const char *key, int64_t value);
+PLM_API plm_status plm_basis_set_double(plm_basis *basis, const char *key, double value);
+PLM_API plm_status plm_basis_set_string(plm_basis *basis, const char *key, const char *value);
+PLM_API plm_status plm_basis_get_int(plm_basis *basis, const char *key, int64_t *value);
+PLM_API plm_status plm_basis_get_double(plm_basis *basis, const char *key, double *value);
+PLM_API plm_status plm_basis_get_string(plm_basis *basis, const char *key, int64_t capacity, char *buffer,
+                                        int64_t *needed);
+PLM_API plm_status plm_basis_get_array(plm_basis *basis, const char *key, int64_t capacity, double *values,
+                                       int64_t *count);
+PLM_API plm_status plm_basis_get_int_array(plm_basis *basis, const char *key, int64_t capacity, int64_t *values,
+                                           int64_t *count);
+/* The samples (and the window) the piecewise-linear modes are made from; it must have run before the build. */
+PLM_API plm_status plm_basis_set_sampler(plm_basis *basis, plm_sampler *sampler);
+/* First reduction under the PLM, as in the paper: a built basis of kind "craig_bampton" or "full"; NULL for none. */
+PLM_API plm_status plm_basis_set_parent(plm_basis *basis, plm_basis *parent);
+/* PLM_WARNING when a sample does not keep the mode that matches the dominant one (the selection by bands can lose the
+ * resonance): see "warning". */
+PLM_API plm_status plm_basis_build(plm_basis *basis);
+/* Columns [first, first + n) of P, or of P_0 if is_static: vector is n_dof x n with leading dimension ld >= n_dof. */
+PLM_API plm_status plm_basis_get_vectors(plm_basis *basis, int32_t is_static, int64_t first, int64_t n, double *vector,
+                                         int64_t ld);
+/* r = |q - P eta| / |q| with eta by least squares (paper, eq. (12), (13)); use_mass: norm of M instead of the L2 norm
+ * over free DOFs; is_static: P_0 instead of P. q: n_dof. */
+PLM_API plm_status plm_basis_get_residual(plm_basis *basis, int32_t is_static, int32_t use_mass, int64_t n,
+                                          const double *q, double *r);
+
+/* ---- HBM: the periodic response (paper, 2.2, eq. (10)) -------------------------------------------------------- */
+
+PLM_API plm_status plm_hbm_create(plm_basis *basis, plm_hbm **hbm);
+PLM_API plm_status plm_hbm_destroy(plm_hbm **hbm);
+PLM_API plm_status plm_hbm_set_int(plm_hbm *hbm, const char *key, int64_t value);
+PLM_API plm_status plm_hbm_set_double(plm_hbm *hbm, const char *key, double value);
+PLM_API plm_status plm_hbm_set_string(plm_hbm *hbm, const char *key, const char *value);
+PLM_API plm_status plm_hbm_get_int(plm_hbm *hbm, const char *key, int64_t *value);
+PLM_API plm_status plm_hbm_get_double(plm_hbm *hbm, const char *key, double *value);
+PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t capacity, char *buffer,
+                                      int64_t *needed);
+/* Follows the response curve over [frequency_min_hz, frequency_max_hz] through its folds. PLM_NOT_CONVERGED,
+ * PLM_TRUNCATED or PLM_CANCELLED still deliver the branch found so far, if it has a point. */
+PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
+/* Response at one frequency. start: branch whose point `point` is the first guess (same basis and harmonics), or NULL
+ * for a cold start. PLM_ERR_CONVERGENCE when no strategy converges. */
+PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, int64_t point,
+                                 plm_branch **branch);
+/* The curve's highest amplitude of a DOF (see plm_branch_get_amplitude), located on the exact curve by corrected steps
+ * around the highest point of `branch` (which this hbm's basis computed). peak: that point as a branch, or NULL. */
+PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
+                                     double *frequency_hz, double *amplitude, plm_branch **peak);
+
+/* ---- Branch: points of a response curve, read-only ------------------------------------------------------------- */
+
+/* measures of amplitude over the period */
+#define PLM_PEAK 1              /* max |q(t)| */
+#define PLM_HALF_PEAK_TO_PEAK 2 /* (max q - min q) / 2 */
+#define PLM_RMS 3               /* root mean square, static part included */
+#define PLM_HARMONIC 4          /* magnitude of one harmonic (0: the mean, with its sign) */
+
+PLM_API plm_status plm_branch_destroy(plm_branch **branch);
+PLM_API plm_status plm_branch_get_int(plm_branch *branch, const char *key, int64_t *value);
+PLM_API plm_status plm_branch_get_double(plm_branch *branch, const char *key, double *value);
+PLM_API plm_status plm_branch_get_string(plm_branch *branch, const char *key, int64_t capacity, char *buffer,
+                                         int64_t *needed);
+PLM_API plm_status plm_branch_get_array(plm_branch *branch, const char *key, int64_t capacity, double *values,
+                                        int64_t *count);
+PLM_API plm_status plm_branch_get_int_array(plm_branch *branch, const char *key, int64_t capacity, int64_t *values,
+                                            int64_t *count);
+/* Amplitude of a DOF at every point: n_points values. harmonic is used by PLM_HARMONIC only. Exact extrema of the
+ * trigonometric polynomial, not of samples. */
+PLM_API plm_status plm_branch_get_amplitude(plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
+                                            int64_t capacity, double *amplitude, int64_t *count);
+/* Fourier coefficients a0, a1, b1, ..., aH, bH (q = a0 + sum a_h cos h omega t + b_h sin h omega t) of DOFs
+ * [first_dof, first_dof + n): coefficient is (2H + 1) x n. */
+PLM_API plm_status plm_branch_get_coefficients(plm_branch *branch, int64_t point, int64_t first_dof, int64_t n,
+                                               double *coefficient);
+/* All DOFs at time t = time_fraction * period: q[n_dof] (recovery q = P eta, paper, eq. (11)). */
+PLM_API plm_status plm_branch_get_field(plm_branch *branch, int64_t point, double time_fraction, int64_t n, double *q);
+/* Contact over the cycle at n_times equidistant times from 0: penetration, force, closed are n_pairs x n_times,
+ * each may be NULL. */
+PLM_API plm_status plm_branch_get_contact(plm_branch *branch, int64_t point, int64_t n_times, double *penetration,
+                                          double *force, int32_t *closed);
+/* Share of the period during which each pair is closed, from its exact switching instants: share[n_pairs]. */
+PLM_API plm_status plm_branch_get_closed_share(plm_branch *branch, int64_t point, int64_t n, double *share);
+/* How well the recovered field satisfies the full (unreduced) harmonic-balance equations: the residual in the norm of
+ * the inverse stiffness over the energy norm of the field. One solve per harmonic with the full matrices. */
+PLM_API plm_status plm_branch_get_full_residual(plm_branch *branch, int64_t point, double *relative_residual);
+
+#ifdef __cplusplus
+}
+#endif
+#endif /* PLM_PLM_H */

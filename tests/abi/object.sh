@@ -1,0 +1,26 @@
+#!/bin/sh
+# object.sh LIBPLM_SO SONAME REQUIRED FORBIDDEN: what the loader sees. REQUIRED and FORBIDDEN are extended regular
+# expressions on the NEEDED names ("-": no condition); besides REQUIRED only the system's runtimes are allowed.
+set -eu
+library=$1 soname=$2 required=$3 forbidden=$4
+dynamic=$(readelf -dW "$library")
+fail() { echo "$1"; exit 1; }
+
+printf '%s\n' "$dynamic" | grep -q "SONAME.*\[$soname\]" || fail "SONAME is not $soname"
+printf '%s\n' "$dynamic" | grep -qE 'TEXTREL' && fail "text relocations"
+printf '%s\n' "$dynamic" | grep -qE 'RPATH|RUNPATH' && fail "a run path of the build machine"
+stack=$(readelf -lW "$library" | grep GNU_STACK) || fail "no GNU_STACK header: the stack would be executable"
+printf '%s\n' "$stack" | grep -q RWE && fail "executable stack"
+readelf -lW "$library" | awk '$1 == "LOAD" && /RWE/ {exit 1}' || fail "a segment both writable and executable"
+nm -D --defined-only "$library" | grep -E ' [uVvWBDR] ' && fail "exports data or weak symbols"
+
+needed=$(printf '%s\n' "$dynamic" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p')
+echo "NEEDED:" $needed
+[ "$required" != - ] || exit 0
+runtimes='^(libstdc\+\+|libm|libmvec|libgcc_s|libc|libpthread|ld-linux[-a-z0-9_]*|libgfortran|libquadmath)\.so'
+for pattern in $(printf '%s' "$required" | tr '|' ' '); do
+    printf '%s\n' "$needed" | grep -qE "^lib$pattern\.so" || fail "does not need lib$pattern"
+done
+strangers=$(printf '%s\n' "$needed" | grep -vE "$runtimes" | grep -vE "^lib($required)\.so") || true
+[ -z "$strangers" ] || fail "also needs: $strangers"
+[ "$forbidden" = - ] || ! printf '%s\n' "$needed" | grep -E "^lib($forbidden)\.so" || fail "needs what it should carry itself"

@@ -1,0 +1,276 @@
+// What plm.hpp adds to plm.h: ownership, exceptions, containers and callbacks.
+#include <plm/plm.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#if __cplusplus >= 202002L
+#include <span>
+#endif
+
+namespace {
+
+int failures = 0;
+#define CHECK(condition)                                                                                     \
+    ((condition) ? void() : (std::printf("%s:%d: %s\n", __FILE__, __LINE__, #condition), void(++failures)))
+
+/// The exception of type E that f throws; counts a failure when it throws none.
+template <class E = plm::Error, class F> E caught(F f) {
+    try {
+        f();
+    } catch (const E &e) {
+        return e;
+    }
+    std::printf("nothing was thrown\n");
+    std::exit(1);
+}
+
+constexpr std::int64_t n = 3;
+
+/// Three masses in a row, the first held by a spring, the last beside a stop; built.
+void fill(plm::Model &model) {
+    const std::vector<std::int32_t> col_ptr{0, 2, 4, 5}, row{0, 1, 1, 2, 2};
+    const std::array<double, 5> k{200, -100, 200, -100, 100};
+    model.set_mass(plm::triplets({0, 1, 2}, {0, 1, 2}, {1.0, 1.0, 1.0}));
+    model.set_stiffness(plm::csc(col_ptr, row, k).lower());
+    model.set_rayleigh_damping(0, 2e-3);
+    model.add_ground_contacts({2, -1, -1}, {1, 0, 0}, {50.0});
+    model.set_excitation(1, {0.0, 0.0, 1.0});
+}
+plm::Model built(const plm::Context &context) {
+    plm::Model model(context, n);
+    fill(model);
+    model.build();
+    return model;
+}
+plm::Basis basis_of(const plm::Model &model) {
+    plm::Sampler sampler(model);
+    sampler.set("mode", 1).run();
+    plm::Basis basis(model);
+    basis.set_sampler(sampler);
+    basis.build();
+    return basis;
+}
+
+static_assert(!std::is_copy_constructible_v<plm::Model> && std::is_nothrow_move_constructible_v<plm::Model>);
+static_assert(!std::is_copy_constructible_v<plm::Branch> && std::is_nothrow_move_assignable_v<plm::Branch>);
+static_assert(std::is_nothrow_copy_constructible_v<plm::Error>);
+
+void the_run() {
+    plm::Hbm hbm(basis_of(built(plm::Context()))); // all parents are gone
+    const plm::Branch curve = hbm.set("n_harmonics", 3).sweep();
+    CHECK(curve.status() == PLM_OK && curve.size() > 10);
+    const plm::Peak peak = hbm.find_peak(curve, 2);
+    const plm::Branch again = hbm.solve(peak.frequency_hz, curve, curve.size() / 2);
+    CHECK(std::abs(again.amplitude(2)[0] / peak.amplitude - 1) < 1e-3);
+    CHECK(peak.branch.contact(0, 16).force.values.size() == 16);
+    CHECK(curve.get<std::vector<double>>("frequency_hz") == curve.frequency_hz());
+    CHECK(curve.get<std::string>("end_text").size() > 3 && curve.get<int>("n_harmonics") == 3);
+    CHECK(hbm.get<std::string>("direction") == "down" && hbm.get<double>("force_scale") == 1);
+    CHECK(hbm.set("tolerance", 1e-8f).get_double("tolerance") == static_cast<double>(1e-8f));
+}
+
+void bases() {
+    const plm::Model model = built(plm::Context());
+    plm::Basis full(model), basis = basis_of(model);
+    full.set("kind", "full").set("frequency_max_hz", 3.0).build();
+    plm::Sampler sampler(model);
+    sampler.set("mode", 1);
+    sampler.add_dominant_mode(PLM_SYSTEM_SLIDING, 1);
+    sampler.run();
+    CHECK(sampler.get_int("n_dominant") == 2);
+    basis.set_sampler(sampler);
+    basis.set_parent(full);
+    basis.build();
+    const plm::Dense<double> p = basis.vectors();
+    CHECK(p.rows == n && p.cols == basis.get_int("size"));
+    CHECK(basis.residual(std::vector<double>(p.column(0), p.column(0) + n)) < 1e-10);
+    basis.clear_parent();
+    CHECK(model.audit().size() > 3 && !model.audit()[0].text.empty());
+    const plm::Modes given = model.modes(PLM_SYSTEM_GIVEN, 2, {1}), sliding = model.modes(PLM_SYSTEM_SLIDING, 2);
+    CHECK(std::abs(given.frequency_hz[1] - sliding.frequency_hz[1]) < 1e-9 && given.shape(0, 0) != 0);
+}
+
+void containers() {
+    const plm::Context context;
+    plm::Model model(context, n);
+    double raw[] = {1, 2, 3};
+    model.set_preload(raw);
+    model.set_preload(std::array<double, 3>{1, 2, 3});
+    model.set_preload({raw, 3});
+    model.set_preload(nullptr);
+    model.set_modal_damping({0.01, 0.02});
+    model.set_structural_damping(0.01);
+    model.set_damping(plm::triplets({0}, {0}, {1.0}));
+    model.fix_dofs({1}, 1);
+    model.fix_dofs(std::vector<std::int64_t>{0});
+    const std::vector<std::int64_t> a{1, 2, -1}, b{2, 0, -1};
+    model.add_node_pairs(a, b, {1, 0, 0}, {PLM_AUTO_STIFFNESS});
+    const std::vector<std::int64_t> start{0, 1}, dof{1};
+    model.add_gap_rows(start, dof, {1.0}, {50.0});
+    const std::vector<std::int64_t> col_ptr{1, 2, 3, 4}, row{1, 2, 3}; // counting from 1
+    model.set_mass(plm::csr(col_ptr, row, raw).base(1).borrowed());
+    model.set_excitation(2, raw, raw);
+    model.set_excitation(2, nullptr);
+#if __cplusplus >= 202002L
+    model.set_preload(std::span<const double>(raw));
+    model.fix_dofs(std::span<std::int64_t>());
+#endif
+    CHECK(model.get_int("n_pairs") == 2);
+    CHECK(plm::keys(PLM_KIND_SAMPLER).size() > 20 && plm::keys(PLM_KIND_HBM)[0].name == "n_harmonics");
+    CHECK(plm::keys(99).empty());
+    CHECK(plm::version()[0] >= 0 && !plm::build_info().empty() && !plm::status_text(PLM_ERR_KEY).empty());
+}
+
+void refusals() {
+    plm::Context context;
+    plm::Model model(context, n);
+    plm::Error e = caught([&] { model.set("space_tolerence", 1e-3); });
+    CHECK(e.status() == PLM_ERR_KEY && e.function() == "plm_model_set_double" && e.argument() == "key");
+    CHECK(std::string(e.what()).find("space_tolerance") != std::string::npos); // the nearest is named
+    e = caught([&] { model.fix_dofs({0, 7}); });
+    CHECK(e.status() == PLM_ERR_ARGUMENT && e.function() == "plm_model_fix_dofs_i32" && e.argument() == "dof" &&
+          e.index() == 1);
+    e = caught([&] { model.set_mass(plm::triplets({0, 1}, {0, 1}, {1.0, NAN})); });
+    CHECK(e.status() == PLM_ERR_MATRIX && e.index() == 1);
+    e = caught([&] { model.set_preload({1.0}); });
+    CHECK(e.status() == PLM_ERR_ARGUMENT && e.function() == "plm_model_set_preload");
+    e = caught([&] { model.add_ground_contacts({0, -1}, {1, 0, 0}, {1.0}); }); // found by the header itself
+    CHECK(e.status() == PLM_ERR_ARGUMENT && e.argument() == "dof" &&
+          e.function() == "plm_model_add_ground_contacts_i32");
+    e = caught([&] { model.add_gap_rows({0, 1}, std::vector<std::int64_t>{0}, {1.0}, {1.0}); });
+    CHECK(e.argument() == "dof");
+    e = caught([&] { model.build(); });
+    CHECK(e.status() == PLM_ERR_STATE && e.function() == "plm_model_build");
+    e = caught([&] { plm::Sampler(model).run(); });
+    CHECK(e.status() == PLM_ERR_STATE && e.function() == "plm_sampler_run");
+    e = caught([&] { plm::Model(context, -1); });
+    CHECK(e.status() == PLM_ERR_ARGUMENT && e.argument() == "n_dof");
+    const plm::Model taken = std::move(model);
+    e = caught([&] { model.build(); }); // NOLINT: that is the point
+    CHECK(e.status() == PLM_ERR_HANDLE);
+    plm::Context other = std::move(context);
+    CHECK(caught([&] { plm::Model(context, 1); }).status() == PLM_ERR_HANDLE); // NOLINT
+    const plm::Model elsewhere = built(plm::Context());
+    e = caught([&] { basis_of(taken.c_handle() ? elsewhere : taken).set_sampler(plm::Sampler(taken)); });
+    CHECK(e.status() == PLM_ERR_HANDLE && e.argument() == "sampler");
+}
+
+struct OfTheHost {
+    int what;
+};
+
+void callbacks() {
+    plm::Context context;
+    int logged = 0, progressed = 0;
+    context.on_log([&](int, std::string_view text) { logged += !text.empty(); });
+    context.on_progress([&](std::string_view stage, double fraction) {
+        progressed += !stage.empty() && fraction >= 0 && fraction <= 1;
+    });
+    const plm::Model model = built(context);
+    const plm::Basis basis = basis_of(model);
+    plm::Hbm hbm(basis);
+    hbm.sweep();
+    CHECK(progressed > 3);
+
+    for (int k : {1, 2, 5}) { // thrown in the k-th call, through a build, a run or a sweep
+        int calls = 0;
+        context.on_progress([&](std::string_view, double) {
+            if (++calls == k) throw OfTheHost{k};
+        });
+        CHECK(caught<OfTheHost>([&] { plm::Hbm(basis).sweep(); }).what == k);
+        CHECK(calls == k); // it was cancelled at once
+    }
+    context.on_progress([](std::string_view stage, double fraction) { return stage == "sweep" && fraction > 0.3; });
+    const plm::Branch part = hbm.sweep();
+    CHECK(part.status() == PLM_CANCELLED && part.size() > 0);
+    context.on_progress([&](std::string_view, double) { return true; });
+    CHECK(caught<plm::Cancelled>([&] { plm::Sampler(model).set("mode", 1).run(); }).status() == PLM_CANCELLED);
+    context.on_log([](int, std::string_view) { throw OfTheHost{42}; });
+    context.on_progress([](std::string_view, double) {});
+    if (logged) CHECK(caught<OfTheHost>([&] { basis_of(built(context)); }).what == 42);
+    context.silence();
+    CHECK(plm::Hbm(basis).sweep().status() == PLM_OK); // still usable
+}
+
+/// Dense Cholesky of the lower triangle.
+class DenseCholesky : public plm::Factorization {
+  public:
+    DenseCholesky(const plm::LowerTriangle &a, int *alive, bool fails)
+        : size_(a.n), l_(static_cast<std::size_t>(a.n * a.n)), alive_(alive), fails_(fails) {
+        for (std::int64_t j = 0; j < size_; ++j)
+            for (std::int64_t p = a.col_ptr[j]; p < a.col_ptr[j + 1]; ++p) at(a.row[p], j) = a.value[p];
+        for (std::int64_t j = 0; j < size_; ++j) {
+            for (std::int64_t k = 0; k < j; ++k)
+                for (std::int64_t i = j; i < size_; ++i) at(i, j) -= at(i, k) * at(j, k) * at(k, k);
+            for (std::int64_t i = j + 1; i < size_; ++i) at(i, j) /= at(j, j); // L D L'
+        }
+        ++*alive_;
+    }
+    ~DenseCholesky() override { --*alive_; }
+    void solve(double *x, std::int64_t n_rhs, std::int64_t ld) override {
+        if (fails_) throw OfTheHost{7};
+        for (std::int64_t c = 0; c < n_rhs; ++c) solve(x + c * ld);
+    }
+
+  private:
+    double &at(std::int64_t i, std::int64_t j) { return l_[static_cast<std::size_t>(i + j * size_)]; }
+    void solve(double *x) {
+        for (std::int64_t i = 0; i < size_; ++i)
+            for (std::int64_t j = 0; j < i; ++j) x[i] -= at(i, j) * x[j];
+        for (std::int64_t i = 0; i < size_; ++i) x[i] /= at(i, i);
+        for (std::int64_t i = size_; i-- > 0;)
+            for (std::int64_t j = i + 1; j < size_; ++j) x[i] -= at(j, i) * x[j];
+    }
+    std::int64_t size_;
+    std::vector<double> l_;
+    int *alive_;
+    bool fails_;
+};
+
+void solver_of_the_host() {
+    int alive = 0;
+    {
+        plm::Context context;
+        const double hz = built(context).modes(PLM_SYSTEM_OPEN, 1).frequency_hz[0];
+        context.set_solver([&](const plm::LowerTriangle &a) { return std::make_unique<DenseCholesky>(a, &alive, false); });
+        const plm::Model model = built(context);
+        CHECK(alive > 0);
+        CHECK(std::abs(model.modes(PLM_SYSTEM_OPEN, 1).frequency_hz[0] / hz - 1) < 1e-10);
+        context.set_solver([&](const plm::LowerTriangle &a) { return std::make_unique<DenseCholesky>(a, &alive, true); });
+        CHECK(caught<OfTheHost>([&] { built(context).modes(PLM_SYSTEM_OPEN, 1); }).what == 7);
+        context.set_solver([&](const plm::LowerTriangle &) -> std::unique_ptr<plm::Factorization> { throw OfTheHost{8}; });
+        CHECK(caught<OfTheHost>([&] { built(context); }).what == 8);
+        context.reset_solver();
+        built(context);
+    }
+    CHECK(alive == 0);
+}
+
+std::int64_t blocks = 0;
+void memory_of_the_host() {
+    {
+        const plm::Context context(
+            [](std::int64_t bytes, void *) { return ++blocks, std::malloc(static_cast<std::size_t>(bytes)); },
+            [](void *block, void *) { blocks -= block != nullptr, std::free(block); }, nullptr);
+        built(context);
+        const plm::Model model = built(context);
+        CHECK(blocks > 0);
+    }
+    CHECK(blocks == 0);
+}
+
+} // namespace
+
+int main() {
+    the_run();
+    bases();
+    containers();
+    refusals();
+    callbacks();
+    solver_of_the_host();
+    memory_of_the_host();
+    std::printf("%d failure(s)\n", failures);
+    return failures != 0;
+}

@@ -1,0 +1,158 @@
+/* scenario.c: the scene that every language runs. All of them print the same lines, to the last digit:
+ *
+ *     name                        a heading: the numbers that follow belong to it
+ *     %.17g                       one number per line (integers without a point)
+ *
+ * The scene: ten masses of 1 kg in a chain, the first one held; springs of 1e4 N/m; two pairs (masses 3 and 6; mass 9
+ * against a stop 1 mm away), a static pre-load, a harmonic force. Every input is a short decimal, so that all languages
+ * hold the same doubles. Nothing printed depends on time. */
+#include <plm/plm.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { N = 10, H = 5, PAIRS = 2, TIMES = 8, WATCHED = 7 };
+
+static plm_context *ctx;
+
+static void must(plm_status status) {
+    char text[512] = "";
+    if (status >= 0) return;
+    plm_context_get_error_text(ctx, sizeof text, text, NULL);
+    fprintf(stderr, "%s\n", text);
+    exit(1);
+}
+
+static void heading(const char *name) {
+    printf("%s\n", name);
+}
+static void real(double x) {
+    printf("%.17g\n", x);
+}
+static void whole(int64_t i) {
+    printf("%lld\n", (long long)i);
+}
+static void reals(const char *name, int64_t n, const double *x) {
+    heading(name);
+    for (int64_t i = 0; i < n; i++) real(x[i]);
+}
+
+static plm_model *make_model(void) {
+    int32_t diagonal[N], row[2 * N - 1], column[2 * N - 1];
+    double mass[N], stiffness[2 * N - 1], force[N] = {0}, preload[N] = {0};
+    /* pair 0: u = q_2 - q_5, pair 1: u = q_8 - 0.001 */
+    const int32_t row_start[] = {0, 2, 3}, dof[] = {2, 5, 8};
+    const double coefficient[] = {1, -1, 1}, contact_stiffness[] = {PLM_AUTO_STIFFNESS, 20000}, gap[] = {0, 0.001};
+    int32_t k = 0;
+    plm_model *model = NULL;
+    for (int32_t i = 0; i < N; i++) {
+        diagonal[i] = i, mass[i] = 1;
+        row[k] = i, column[k] = i, stiffness[k++] = i < N - 1 ? 20000 : 10000;
+        if (i > 0) row[k] = i, column[k] = i - 1, stiffness[k++] = -10000; /* lower triangle */
+    }
+    force[4] = 10;
+    preload[8] = 5;
+    must(plm_model_create(ctx, N, &model));
+    must(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, N, diagonal, diagonal, mass));
+    must(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, k, row, column,
+                                  stiffness));
+    must(plm_model_set_rayleigh_damping(model, 0.5, 0.0002));
+    must(plm_model_add_gap_rows_i32(model, 0, PAIRS, row_start, dof, coefficient, contact_stiffness, gap));
+    must(plm_model_set_preload(model, N, preload));
+    must(plm_model_set_excitation(model, 1, N, force, NULL));
+    must(plm_model_build(model));
+    return model;
+}
+
+static void print_model(plm_model *model) {
+    double x[N], hz[3];
+    int64_t n = 0, count = 0;
+    must(plm_model_get_int(model, "n_free", &n));
+    heading("n_free"), whole(n);
+    must(plm_model_get_array(model, "contact_stiffness", N, x, &count));
+    reals("contact_stiffness", count, x);
+    must(plm_model_solve_rest(model));
+    must(plm_model_get_array(model, "rest_displacement", N, x, &count));
+    reals("rest_displacement", count, x);
+    must(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 3, hz, NULL));
+    reals("open_hz", 3, hz);
+    must(plm_model_get_modes(model, PLM_SYSTEM_SLIDING, NULL, 3, hz, NULL));
+    reals("sliding_hz", 3, hz);
+}
+
+static plm_basis *make_basis(plm_model *model) {
+    double x[64];
+    int64_t integer[64], n = 0;
+    plm_sampler *sampler = NULL;
+    plm_basis *basis = NULL;
+    must(plm_sampler_create(model, &sampler));
+    must(plm_sampler_set_string(sampler, "system", "open"));
+    must(plm_sampler_set_int(sampler, "mode", 1));
+    must(plm_sampler_set_int(sampler, "n_samples", 3));
+    must(plm_sampler_run(sampler));
+    must(plm_sampler_get_double(sampler, "blf_hz", x));
+    reals("blf_hz", 1, x);
+    must(plm_sampler_get_array(sampler, "sweep_alpha", 64, x, &n));
+    reals("sweep_alpha", n, x);
+    must(plm_sampler_get_int_array(sampler, "selected_samples", 64, integer, &n));
+    heading("selected_samples");
+    for (int64_t i = 0; i < n; i++) whole(integer[i]);
+
+    must(plm_basis_create(model, &basis));
+    must(plm_basis_set_sampler(basis, sampler));
+    must(plm_basis_set_int(basis, "n_harmonics", H));
+    must(plm_basis_build(basis));
+    must(plm_basis_get_array(basis, "singular_values", 64, x, &n));
+    reals("singular_values", n, x);
+    must(plm_sampler_destroy(&sampler));
+    return basis;
+}
+
+static void print_point(plm_branch *branch, int64_t point) {
+    double x[2 * H + 1 + N], penetration[PAIRS * TIMES], force[PAIRS * TIMES];
+    int32_t closed[PAIRS * TIMES];
+    must(plm_branch_get_coefficients(branch, point, WATCHED, 1, x));
+    reals("coefficients", 2 * H + 1, x);
+    must(plm_branch_get_field(branch, point, 0.25, N, x));
+    reals("field", N, x);
+    must(plm_branch_get_contact(branch, point, TIMES, penetration, force, closed));
+    reals("penetration", PAIRS * TIMES, penetration);
+    reals("force", PAIRS * TIMES, force);
+    heading("closed");
+    for (int i = 0; i < PAIRS * TIMES; i++) whole(closed[i]);
+    must(plm_branch_get_closed_share(branch, point, PAIRS, x));
+    reals("closed_share", PAIRS, x);
+    must(plm_branch_get_full_residual(branch, point, x));
+    reals("full_residual", 1, x);
+}
+
+static void print_response(plm_basis *basis) {
+    plm_hbm *hbm = NULL;
+    plm_branch *curve = NULL, *top = NULL;
+    double *x, peak[2];
+    int64_t n = 0;
+    must(plm_hbm_create(basis, &hbm));
+    must(plm_hbm_set_int(hbm, "n_harmonics", H));
+    must(plm_hbm_set_string(hbm, "unknowns", "modal"));
+    must(plm_hbm_set_double(hbm, "max_step", 0.05));
+    must(plm_hbm_sweep(hbm, &curve));
+    must(plm_branch_get_int(curve, "n_points", &n));
+    heading("n_points"), whole(n);
+    x = malloc((size_t)n * sizeof *x);
+    if (!x) exit(1);
+    must(plm_branch_get_array(curve, "frequency_hz", n, x, &n));
+    reals("frequency_hz", n, x);
+    must(plm_branch_get_amplitude(curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, n, x, &n));
+    reals("amplitude", n, x);
+    free(x);
+    must(plm_hbm_find_peak(hbm, curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, &peak[0], &peak[1], &top));
+    reals("peak", 2, peak);
+    print_point(top, 0);
+}
+
+int main(void) {
+    if (plm_context_create(PLM_API_VERSION, &ctx)) return 1;
+    plm_model *model = make_model();
+    print_model(model);
+    print_response(make_basis(model));
+    return plm_context_destroy(&ctx);
+}

@@ -1,0 +1,101 @@
+// The scene of scenario.c in C++.
+#include <cstdio>
+#include <plm/plm.hpp>
+
+namespace {
+
+constexpr int n_masses = 10, n_harmonics = 5, watched = 7;
+
+void print(double x) {
+    std::printf("%.17g\n", x);
+}
+void print(std::int64_t i) {
+    std::printf("%lld\n", static_cast<long long>(i));
+}
+void print(std::int32_t i) {
+    std::printf("%d\n", i);
+}
+template <class T> void print(const char *name, const std::vector<T> &values) {
+    std::puts(name);
+    for (T x : values) print(x);
+}
+
+plm::Model make_model(const plm::Context &context) {
+    std::vector<std::int32_t> diagonal, row, column;
+    std::vector<double> stiffness, force(n_masses), preload(n_masses);
+    for (int i = 0; i < n_masses; ++i) {
+        diagonal.push_back(i);
+        row.push_back(i), column.push_back(i), stiffness.push_back(i < n_masses - 1 ? 20000 : 10000);
+        if (i > 0) row.push_back(i), column.push_back(i - 1), stiffness.push_back(-10000);
+    }
+    force[4] = 10;
+    preload[8] = 5;
+    plm::Model model(context, n_masses);
+    model.set_mass(plm::triplets(diagonal, diagonal, std::vector<double>(n_masses, 1.0)).lower());
+    model.set_stiffness(plm::triplets(row, column, stiffness).lower());
+    model.set_rayleigh_damping(0.5, 0.0002);
+    model.add_gap_rows({0, 2, 3}, {2, 5, 8}, {1, -1, 1}, {PLM_AUTO_STIFFNESS, 20000}, {0, 0.001});
+    model.set_preload(preload);
+    model.set_excitation(1, force);
+    model.build();
+    return model;
+}
+
+void print_model(plm::Model &model) {
+    print("n_free", std::vector{model.get_int("n_free")});
+    print("contact_stiffness", model.get_array("contact_stiffness"));
+    model.solve_rest();
+    print("rest_displacement", model.get_array("rest_displacement"));
+    print("open_hz", model.modes(PLM_SYSTEM_OPEN, 3).frequency_hz);
+    print("sliding_hz", model.modes(PLM_SYSTEM_SLIDING, 3).frequency_hz);
+}
+
+plm::Basis make_basis(const plm::Model &model) {
+    plm::Sampler sampler(model);
+    sampler.set("system", "open").set("mode", 1).set("n_samples", 3).run();
+    print("blf_hz", std::vector{sampler.get_double("blf_hz")});
+    print("sweep_alpha", sampler.get_array("sweep_alpha"));
+    print("selected_samples", sampler.get_int_array("selected_samples"));
+
+    plm::Basis basis(model);
+    basis.set_sampler(sampler);
+    basis.set("n_harmonics", n_harmonics).build();
+    print("singular_values", basis.get_array("singular_values"));
+    return basis;
+}
+
+void print_point(const plm::Branch &branch, std::int64_t point) {
+    print("coefficients", branch.coefficients(point, watched, 1).values);
+    print("field", branch.field(point, 0.25));
+    const plm::Contact contact = branch.contact(point, 8);
+    print("penetration", contact.penetration.values);
+    print("force", contact.force.values);
+    print("closed", contact.closed.values);
+    print("closed_share", branch.closed_share(point));
+    print("full_residual", std::vector{branch.full_residual(point)});
+}
+
+void print_response(const plm::Basis &basis) {
+    plm::Hbm hbm(basis);
+    hbm.set("n_harmonics", n_harmonics).set("unknowns", "modal").set("max_step", 0.05);
+    const plm::Branch curve = hbm.sweep();
+    print("n_points", std::vector{curve.size()});
+    print("frequency_hz", curve.frequency_hz());
+    print("amplitude", curve.amplitude(watched));
+    const plm::Peak peak = hbm.find_peak(curve, watched);
+    print("peak", std::vector{peak.frequency_hz, peak.amplitude});
+    print_point(peak.branch, 0);
+}
+
+} // namespace
+
+int main() {
+    try {
+        plm::Model model = make_model(plm::Context());
+        print_model(model);
+        print_response(make_basis(model));
+    } catch (const plm::Error &e) {
+        std::fprintf(stderr, "%s\n", e.what());
+        return 1;
+    }
+}
