@@ -10,7 +10,7 @@
 !
 ! Every procedure ends with the optional arguments stat (a PLM_... status) and errmsg. Without stat a failure is written
 ! to error_unit and the program stops with error stop. DOFs, points and columns count from 1; 0 stands for "no DOF".
-! There are no finalizers: what is not destroyed goes with its context. Objects copied by assignment are the same object.
+! There are no finalizers: what is not destroyed goes with its context. A copy by assignment is the same object.
 module plm
     use plm_constants
     use plm_contexts, only: plm_context, plm_logger, plm_watcher

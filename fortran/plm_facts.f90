@@ -35,11 +35,12 @@ contains
         real(c_double) :: minimum, maximum
         n = 0
         if (plm_key_count(kind, n) < 0) return
-        do i = 0, n - 1
+        do i = 0_c_int32_t, n - 1_c_int32_t
             is_option = 0
             if (plm_key_info(kind, i, type, is_option, minimum, maximum) < 0) cycle
             if (is_option /= 0) then
-                write (unit, '(a)') 'option '//field(PLM_KEY_NAME)//' = '//field(PLM_KEY_DEFAULT)//': '//field(PLM_KEY_DESCRIPTION)
+                write (unit, '(a)') 'option '//field(PLM_KEY_NAME)//' = '//field(PLM_KEY_DEFAULT)//': '// &
+                    field(PLM_KEY_DESCRIPTION)
             else
                 write (unit, '(a)') 'result '//field(PLM_KEY_NAME)//': '//field(PLM_KEY_DESCRIPTION)
             end if

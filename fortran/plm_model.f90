@@ -13,6 +13,7 @@ module plm_models
 
     ! Integer arrays may be of either kind. Everything is copied: no argument needs to outlive its call.
     type, extends(plm_settable) :: plm_model
+        integer, private :: n_dof = 0 ! as given to create
     contains
         procedure :: create
         procedure :: destroy
@@ -51,6 +52,7 @@ contains
         character(len=*), intent(inout), optional :: errmsg
         self%context = context%handle
         self%kind = PLM_KIND_MODEL
+        self%n_dof = n_dof
         call finish(self%context, plm_model_create(self%context, int(n_dof, int64), self%handle), stat, errmsg)
     end subroutine create
 
@@ -73,7 +75,7 @@ contains
             call refuse('set_csc: the lengths of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (size(col_ptr) /= n_dof_of(self) + 1) then
+        if (self%n_dof > 0 .and. size(col_ptr) /= self%n_dof + 1) then
             call refuse('set_csc: col_ptr must have n_dof + 1 entries', stat, errmsg)
             return
         end if
@@ -92,7 +94,7 @@ contains
             call refuse('set_csc: the lengths of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (size(col_ptr) /= n_dof_of(self) + 1) then
+        if (self%n_dof > 0 .and. size(col_ptr) /= self%n_dof + 1) then
             call refuse('set_csc: col_ptr must have n_dof + 1 entries', stat, errmsg)
             return
         end if
@@ -112,7 +114,7 @@ contains
             call refuse('set_csr: the lengths of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (size(row_ptr) /= n_dof_of(self) + 1) then
+        if (self%n_dof > 0 .and. size(row_ptr) /= self%n_dof + 1) then
             call refuse('set_csr: row_ptr must have n_dof + 1 entries', stat, errmsg)
             return
         end if
@@ -131,7 +133,7 @@ contains
             call refuse('set_csr: the lengths of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (size(row_ptr) /= n_dof_of(self) + 1) then
+        if (self%n_dof > 0 .and. size(row_ptr) /= self%n_dof + 1) then
             call refuse('set_csr: row_ptr must have n_dof + 1 entries', stat, errmsg)
             return
         end if
@@ -185,7 +187,8 @@ contains
         real(real64), intent(in), contiguous :: ratio(:)
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_set_modal_damping(self%handle, size(ratio, kind=int64), ratio), stat, errmsg)
+        call finish(self%context, plm_model_set_modal_damping(self%handle, size(ratio, kind=int64), ratio), &
+            stat, errmsg)
     end subroutine set_modal_damping
 
     subroutine set_structural_damping(self, eta, stat, errmsg)
@@ -201,7 +204,8 @@ contains
         integer(int32), intent(in), contiguous :: dof(:)
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_fix_dofs(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), stat, errmsg)
+        call finish(self%context, plm_model_fix_dofs(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), &
+            stat, errmsg)
     end subroutine fix_dofs_int32
 
     subroutine fix_dofs_int64(self, dof, stat, errmsg)
@@ -209,7 +213,8 @@ contains
         integer(int64), intent(in), contiguous :: dof(:)
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_fix_dofs(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), stat, errmsg)
+        call finish(self%context, plm_model_fix_dofs(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), &
+            stat, errmsg)
     end subroutine fix_dofs_int64
 
     ! dof_a, dof_b, normal: 3 x n, 0 for no such DOF; the normal points out of the body of a; stiffness(n): k_n or
@@ -231,8 +236,8 @@ contains
             call refuse('add_node_pairs: gap has the wrong length', stat, errmsg)
             return
         end if
-        call finish(self%context, plm_model_add_node_pairs_i32(self%handle, 1_c_int32_t, size(stiffness, kind=int64), dof_a, &
-            dof_b, normal, stiffness, gap), stat, errmsg)
+        call finish(self%context, plm_model_add_node_pairs_i32(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
+            dof_a, dof_b, normal, stiffness, gap), stat, errmsg)
     end subroutine add_node_pairs_int32
 
     subroutine add_node_pairs_int64(self, dof_a, dof_b, normal, stiffness, gap, stat, errmsg)
@@ -252,8 +257,8 @@ contains
             call refuse('add_node_pairs: gap has the wrong length', stat, errmsg)
             return
         end if
-        call finish(self%context, plm_model_add_node_pairs_i64(self%handle, 1_c_int32_t, size(stiffness, kind=int64), dof_a, &
-            dof_b, normal, stiffness, gap), stat, errmsg)
+        call finish(self%context, plm_model_add_node_pairs_i64(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
+            dof_a, dof_b, normal, stiffness, gap), stat, errmsg)
     end subroutine add_node_pairs_int64
 
     ! The normal points into the ground.
@@ -272,8 +277,8 @@ contains
             call refuse('add_ground_contacts: gap has the wrong length', stat, errmsg)
             return
         end if
-        call finish(self%context, plm_model_add_ground_contacts_i32(self%handle, 1_c_int32_t, size(stiffness, kind=int64), dof, &
-            normal, stiffness, gap), stat, errmsg)
+        call finish(self%context, plm_model_add_ground_contacts_i32(self%handle, 1_c_int32_t, &
+            size(stiffness, kind=int64), dof, normal, stiffness, gap), stat, errmsg)
     end subroutine add_ground_contacts_int32
 
     subroutine add_ground_contacts_int64(self, dof, normal, stiffness, gap, stat, errmsg)
@@ -291,8 +296,8 @@ contains
             call refuse('add_ground_contacts: gap has the wrong length', stat, errmsg)
             return
         end if
-        call finish(self%context, plm_model_add_ground_contacts_i64(self%handle, 1_c_int32_t, size(stiffness, kind=int64), dof, &
-            normal, stiffness, gap), stat, errmsg)
+        call finish(self%context, plm_model_add_ground_contacts_i64(self%handle, 1_c_int32_t, &
+            size(stiffness, kind=int64), dof, normal, stiffness, gap), stat, errmsg)
     end subroutine add_ground_contacts_int64
 
     ! Rows of the gap matrix: u = sum of coefficient x q(dof) - gap, u > 0 closed.
@@ -315,8 +320,8 @@ contains
             call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
             return
         end if
-        call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), row_ptr, &
-            dof, coefficient, stiffness, gap), stat, errmsg)
+        call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
+            row_ptr, dof, coefficient, stiffness, gap), stat, errmsg)
     end subroutine add_gap_rows_int32
 
     subroutine add_gap_rows_int64(self, row_ptr, dof, coefficient, stiffness, gap, stat, errmsg)
@@ -338,8 +343,8 @@ contains
             call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
             return
         end if
-        call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), row_ptr, &
-            dof, coefficient, stiffness, gap), stat, errmsg)
+        call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
+            row_ptr, dof, coefficient, stiffness, gap), stat, errmsg)
     end subroutine add_gap_rows_int64
 
     ! absent: none
@@ -349,9 +354,8 @@ contains
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
         integer(int64) :: n
-        n = 0
+        n = self%n_dof
         if (present(force)) n = size(force, kind=int64)
-        if (.not. present(force)) n = n_dof_of(self)
         call finish(self%context, plm_model_set_preload(self%handle, n, force), stat, errmsg)
     end subroutine set_preload
 
@@ -362,8 +366,8 @@ contains
         real(real64), intent(in), contiguous :: force(:)
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_set_excitation(self%handle, int(harmonic, c_int32_t), size(force, kind=int64), &
-            force), stat, errmsg)
+        call finish(self%context, plm_model_set_excitation(self%handle, int(harmonic, c_int32_t), &
+            size(force, kind=int64), force), stat, errmsg)
     end subroutine set_excitation_real
 
     subroutine set_excitation_complex(self, harmonic, force, stat, errmsg)
@@ -372,8 +376,8 @@ contains
         complex(real64), intent(in) :: force(:)
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_set_excitation(self%handle, int(harmonic, c_int32_t), size(force, kind=int64), &
-            real(force, real64), aimag(force)), stat, errmsg)
+        call finish(self%context, plm_model_set_excitation(self%handle, int(harmonic, c_int32_t), &
+            size(force, kind=int64), real(force, real64), aimag(force)), stat, errmsg)
     end subroutine set_excitation_complex
 
     subroutine build(self, stat, errmsg)
@@ -404,7 +408,7 @@ contains
         integer(int64) :: n_pairs
         integer(plm_status) :: status
         if (present(shape)) then
-            if (size(shape, 1) /= n_dof_of(self) .or. size(shape, 2) /= size(frequency_hz)) then
+            if (self%n_dof > 0 .and. any(ubound(shape) /= [self%n_dof, size(frequency_hz)])) then
                 call refuse('modes: shape must be n_dof x size(frequency_hz)', stat, errmsg)
                 return
             end if
@@ -416,7 +420,8 @@ contains
                 call refuse('modes: closed must have n_pairs entries', stat, errmsg)
                 return
             end if
-            flags = merge(1_c_int32_t, 0_c_int32_t, closed)
+            allocate (flags(size(closed)))
+            flags(:) = merge(1_c_int32_t, 0_c_int32_t, closed)
         end if
         ! flags not allocated: absent
         call finish(self%context, plm_model_get_modes(self%handle, system, flags, size(frequency_hz, kind=int64), &
@@ -448,18 +453,11 @@ contains
         level = 0
         value = 0
         buffer = char(0)
-        call finish(self%context, plm_model_get_finding(self%handle, int(i - 1, int64), level, value, len(buffer, int64), buffer), &
-            stat, errmsg)
+        call finish(self%context, plm_model_get_finding(self%handle, int(i - 1, int64), level, value, &
+            len(buffer, int64), buffer), stat, errmsg)
         severity = int(level)
         text = f_text(buffer)
     end subroutine finding
-
-    ! what create was given; 0 when there is no model
-    integer(int64) function n_dof_of(self) result(n)
-        class(plm_model), intent(in) :: self
-        n = 0
-        if (plm_model_get_int(self%handle, 'n_dof'//char(0), n) < 0) n = 0
-    end function n_dof_of
 
     pure logical function gap_fits(gap, n)
         real(real64), intent(in), optional :: gap(:)

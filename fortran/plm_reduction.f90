@@ -121,8 +121,8 @@ contains
         integer(int64) :: from
         from = 0
         if (present(first)) from = int(first, int64) - 1
-        call finish(self%context, plm_basis_get_vectors(self%handle, flag(static), from, size(vector, 2, int64), vector, &
-            size(vector, 1, int64)), stat, errmsg)
+        call finish(self%context, plm_basis_get_vectors(self%handle, flag(static), from, &
+            size(vector, 2, int64), vector, size(vector, 1, int64)), stat, errmsg)
     end subroutine vectors
 
     ! How badly the basis represents q: |q - P eta| / |q| by least squares, in the norm of M when use_mass is .true.

@@ -199,7 +199,8 @@ contains
         status = size_by_key(self, 'n_pairs', pairs)
         times = max(n_times, 0)
         allocate (u(pairs, times), f(pairs, times), flags(pairs, times))
-        if (status >= 0) status = plm_branch_get_contact(self%handle, int(point, int64) - 1, int(n_times, int64), u, f, flags)
+        if (status >= 0) status = plm_branch_get_contact(self%handle, int(point, int64) - 1, int(n_times, int64), &
+            u, f, flags)
         if (status >= 0) then
             if (present(penetration)) call move_alloc(u, penetration)
             if (present(force)) call move_alloc(f, force)

@@ -14,7 +14,7 @@
 namespace plm {
 namespace {
 
-constexpr double fixed_mode_margin = 1.5; // Craig-Bampton: fixed-interface modes beyond the highest frequency
+constexpr double fixed_mode_margin = 4; // Craig-Bampton: fixed-interface modes up to this multiple (amplitudes to 1e-3)
 constexpr std::int64_t least_open_modes = 10;
 
 void check_parents(const Model &model, const Sampler *sampler, const Basis *parent, BasisKind kind) {
@@ -52,7 +52,8 @@ std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &mo
                                           Watch watch) {
     const double highest = 2 * M_PI * highest_hz;
     if (o.kind == BasisKind::craig_bampton)
-        return make_craig_bampton_space(model, o.n_fixed_modes, fixed_mode_margin * highest, watch);
+        return make_craig_bampton_space(model, {o.n_fixed_modes, fixed_mode_margin * highest, o.load_vectors},
+                                        watch);
     if (o.kind == BasisKind::plm && parent) {
         if (parent->space()->highest_frequency < highest * (1 - 1e-9))
             watch.log(1, format("the parent basis is made for frequencies up to %.6g Hz, modes are taken up to %.6g Hz",

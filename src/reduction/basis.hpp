@@ -16,8 +16,8 @@ struct BasisOptions {
     double below_factor = 1.1;         // rule "below": all modes below below_factor * n_harmonics * f_f
     double svd_tolerance = 1e-6;       // singular values relative to the largest (paper, 2.3.3)
     bool static_augmentation = true;   // P_0 = [P q_PS] (paper, eq. (9)); not used without pre-load
-    bool load_vectors = true;          // P also holds the static responses to the excitation
-    std::int64_t n_fixed_modes = 0;    // Craig-Bampton: fixed-interface modes; 0: all below below_factor * H * f_f * 1.5
+    bool load_vectors = true;          // P also holds the static responses to the loads
+    std::int64_t n_fixed_modes = 0;    // Craig-Bampton: fixed-interface modes; 0: all below 4 below_factor H f_f
 };
 
 /// What became of one sample's modes.
@@ -69,9 +69,13 @@ class Basis {
 /// r of paper eq. (12) for any vector over the free DOFs, against P (or P_0).
 double projection_residual(const Basis &basis, bool is_static, bool use_mass, const double *q_free);
 
-/// Craig-Bampton (Craig & Bampton 1968): all DOFs with an entry in B retained, `n_fixed` fixed-interface modes
-/// (or all below `highest_frequency` rad/s when n_fixed = 0); diagonalised.
-std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Model> model, std::int64_t n_fixed,
-                                                      double highest_frequency, Watch watch);
+struct CraigBamptonOptions {
+    std::int64_t n_fixed = 0;     // fixed-interface modes; 0: all below highest_frequency
+    double highest_frequency = 0; // rad/s
+    bool load_vectors = true;     // static responses of the interior to pre-load and excitation as further modes
+};
+/// Craig-Bampton (Craig & Bampton 1968): all DOFs with an entry in B retained; diagonalised.
+std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Model> model,
+                                                      const CraigBamptonOptions &options, Watch watch);
 
 } // namespace plm

@@ -74,7 +74,27 @@ class Interior {
         }
     }
 
+    /// Static responses of the fixed-interface interior to the loads on it, M-orthonormal among themselves and to the
+    /// fixed-interface modes `phi`, which carry little of the deformation around a point load.
+    Matrix load_modes(const Matrix &loads, const Matrix &phi) const {
+        Matrix basis = phi;
+        Matrix x = static_response(loads);
+        for (std::int64_t j = 0; j < x.cols(); ++j) {
+            Matrix column = x.columns(j, 1);
+            const double before = mass_norm(column);
+            for (int pass = 0; pass < 2; ++pass) // twice is enough
+                gemm('N', 'N', -1.0, basis, product('T', 'N', basis, multiply(m_, column)), 1.0, column);
+            const double after = mass_norm(column);
+            if (!(after > 1e-8 * before)) continue;
+            for (std::int64_t i = 0; i < n_; ++i) column(i, 0) /= after;
+            basis.append(column);
+        }
+        return basis.columns(phi.cols(), basis.cols() - phi.cols());
+    }
+
   private:
+    double mass_norm(const Matrix &x) const { return std::sqrt(dot(n_, x.data(), multiply(m_, x).data())); }
+
     // K_ii is singular when a part of the interior is held by nothing but the contact: then K_ii + sigma M_ii.
     void factor_interior() {
         try {
@@ -131,8 +151,25 @@ class Interior {
     double shift_ = 0;
 };
 
+// The loads on the interior DOFs as columns: pre-load and excitation.
+Matrix interior_loads(const Model &model, const Partition &p) {
+    Matrix loads(static_cast<std::int64_t>(p.interior_dof.size()), 0);
+    const auto append = [&](const vector<double> &load) {
+        if (load.empty()) return;
+        Matrix column(loads.rows(), 1);
+        for (std::int64_t i = 0; i < loads.rows(); ++i) column(i, 0) = load[p.interior_dof[i]];
+        if (norm2(column.rows(), column.data()) > 0) loads.append(column);
+    };
+    append(model.preload());
+    for (const auto &entry : model.excitation()) {
+        append(entry.second.real);
+        append(entry.second.imag);
+    }
+    return loads;
+}
+
 // T = [I 0; Psi Phi] on the free DOFs.
-Matrix transformation(const Model &model, const Partition &p, std::int64_t n_fixed, double highest, Watch watch) {
+Matrix transformation(const Model &model, const Partition &p, const CraigBamptonOptions &o, Watch watch) {
     const std::int64_t n_boundary = static_cast<std::int64_t>(p.boundary_dof.size());
     Matrix t(model.n_free(), n_boundary);
     for (std::int64_t j = 0; j < n_boundary; ++j) t(p.boundary_dof[j], j) = 1;
@@ -142,7 +179,8 @@ Matrix transformation(const Model &model, const Partition &p, std::int64_t n_fix
     for (std::int64_t j = 0; j < n_boundary; ++j)
         for (std::size_t i = 0; i < p.interior_dof.size(); ++i)
             t(p.interior_dof[i], j) = psi(static_cast<std::int64_t>(i), j);
-    const Matrix phi = interior.fixed_modes(n_fixed, highest);
+    Matrix phi = interior.fixed_modes(o.n_fixed, o.highest_frequency);
+    if (o.load_vectors) phi.append(interior.load_modes(interior_loads(model, p), phi));
     Matrix fixed(model.n_free(), phi.cols());
     for (std::int64_t j = 0; j < phi.cols(); ++j)
         for (std::size_t i = 0; i < p.interior_dof.size(); ++i)
@@ -205,10 +243,10 @@ void clear_rigid_values(std::int64_t n_rigid, vector<double> &lambda) {
 
 } // namespace
 
-std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Model> model, std::int64_t n_fixed,
-                                                      double highest_frequency, Watch watch) {
+std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Model> model,
+                                                      const CraigBamptonOptions &options, Watch watch) {
     const Partition p = partition(*model);
-    const Matrix t = transformation(*model, p, n_fixed, highest_frequency, watch);
+    const Matrix t = transformation(*model, p, options, watch);
     Matrix k = product('T', 'N', t, multiply(model->stiffness(), t));
     Matrix m = product('T', 'N', t, multiply(model->mass(), t));
     symmetrise(k);
@@ -221,9 +259,9 @@ std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Mode
     space->vectors = product('N', 'N', t, eigen.vectors);
     space->lambda = std::move(eigen.values);
     clear_rigid_values(model->rigid_modes().cols(), space->lambda);
-    space->highest_frequency = highest_frequency;
+    space->highest_frequency = options.highest_frequency;
     const long long n_boundary = static_cast<long long>(p.boundary_dof.size());
-    space->description = format("Craig-Bampton: %lld contact DOFs and %lld fixed-interface modes", n_boundary,
+    space->description = format("Craig-Bampton: %lld contact DOFs and %lld fixed-interface modes and load vectors", n_boundary,
                                 static_cast<long long>(t.cols()) - n_boundary);
     project_onto(*space);
     watch.log(1, space->description);

@@ -13,7 +13,7 @@ using SpacePtr = std::shared_ptr<const plm::Space>;
 
 SpacePtr space_of(const exact::Structure &s, std::int64_t n_fixed, double highest = 1.0,
                   plm::Monitor *monitor = nullptr) {
-    return plm::make_craig_bampton_space(test::make_model(s), n_fixed, highest, plm::Watch(monitor));
+    return plm::make_craig_bampton_space(test::make_model(s), {n_fixed, highest, false}, plm::Watch(monitor));
 }
 
 plm::vector<double> exact_values(const exact::Structure &s) {

@@ -1,0 +1,44 @@
+"""libplm: piecewise-linear modes and harmonic balance for structures with intermittent contact.
+
+    model = plm.Model(mass, stiffness)                  # scipy.sparse
+    model.set_rayleigh_damping(0, 2e-4)
+    model.add_node_pairs(dof_a, dof_b, normal)
+    model.set_excitation(force)
+    model.build()
+    sampler = plm.Sampler(model, mode=1, n_samples=4).run()
+    basis = plm.Basis(model, sampler).build()
+    hbm = plm.Hbm(basis, n_harmonics=7)
+    curve = hbm.sweep(progress=True)
+    peak = hbm.find_peak(curve, dof=12)
+    plm.plot.response(curve, dof=12)
+
+Options and results are attributes; help(plm.Sampler) lists those of a sampler. What a function computes is said in plm.h.
+"""
+import importlib
+
+from . import _c
+from ._context import Context, build_info, default_context, status_text, version
+from ._errors import PlmCancelled, PlmError, PlmKeyError
+from ._handle import Key, keys
+from ._model import Finding, Model
+from ._reduction import Basis, Sampler
+from ._response import Branch, Contact, Hbm, Peak
+
+__version__ = "0.1.0"
+__all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Peak", "Contact", "Finding", "Key", "PlmError",
+           "PlmKeyError", "PlmCancelled", "build_info", "default_context", "keys", "plot", "status_text", "version"]
+
+_constants = [name for name in vars(_c) if name.isupper() and isinstance(getattr(_c, name), (int, float))]
+globals().update({name: getattr(_c, name) for name in _constants})  # plm.ERR_KEY, plm.REASON_SINGULAR, ...
+__all__ += _constants
+
+
+def __getattr__(name):
+    """matplotlib is loaded with the first use of plm.plot."""
+    if name == "plot":
+        return importlib.import_module(".plot", __name__)
+    raise AttributeError(f"module 'plm' has no attribute {name!r}")
+
+
+def __dir__():
+    return sorted(set(globals()) | set(__all__))

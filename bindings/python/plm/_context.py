@@ -1,0 +1,270 @@
+"""The context: callbacks, the host's solver, failures turned into exceptions, cancel by Ctrl-C."""
+import contextlib
+import ctypes
+import logging
+import signal
+import threading
+
+import numpy
+import scipy.sparse
+
+from . import _c
+from ._errors import make_error
+from ._progress import make_bar
+
+_logger = logging.getLogger("plm")
+_LEVELS = (logging.DEBUG, logging.INFO, logging.WARNING)
+
+
+def _log_to_logging(level, text):
+    _logger.log(_LEVELS[max(0, min(level, 2))], "%s", text)
+
+
+class _Host:
+    """What runs inside a call: the user's functions, and what they raised. Apart from Context, so that no cycle forms."""
+
+    def __init__(self):
+        self.log = self.progress = self.bar = self.solver = None
+        self.raised = None  # what a callback raised
+        self.interrupted = False  # Ctrl-C
+        self.factors = {}
+
+    def on_log(self, _ctx, level, text, _user):
+        self._guarded(lambda: self.log(level, text.decode("utf-8", "replace")))
+
+    def on_progress(self, _ctx, stage, fraction, _user):
+        stop = self._guarded(lambda: self._progress_now(stage.decode("utf-8", "replace"), fraction))
+        return int(bool(stop) or self.raised is not None or self.interrupted)
+
+    def _progress_now(self, stage, fraction):
+        if self.bar is not None:
+            return self.bar(stage, fraction)
+        return self.progress(stage, fraction) if callable(self.progress) else False
+
+    def _guarded(self, function):
+        """Calls a function of the user; keeps the first exception for the end of the call under way."""
+        if self.raised is not None:
+            return None
+        try:
+            return function()
+        except BaseException as error:  # pylint: disable=broad-except
+            self.raised = error
+            return None
+
+    def on_factor(self, _ctx, n, col_ptr, row, value, positive_definite, out, _user):
+        def factor():
+            starts = _look(col_ptr, n + 1, ctypes.c_int64).copy()
+            nnz = int(starts[n])
+            lower = scipy.sparse.csc_matrix((_look(value, nnz, ctypes.c_double).copy(),
+                                             _look(row, nnz, ctypes.c_int64).copy(), starts), shape=(n, n))
+            matrix = (lower + scipy.sparse.tril(lower, -1).T).tocsc()
+            solve = self.solver(matrix, bool(positive_definite))
+            key = max(self.factors, default=0) + 1
+            self.factors[key] = (solve, n)
+            out[0] = key
+            return True
+        return 0 if self._guarded(factor) else 1
+
+    def on_solve(self, _ctx, key, n_rhs, x, ld, _user):
+        def run():
+            solve, n = self.factors[key]
+            columns = _look(x, ld * n_rhs, ctypes.c_double).reshape((ld, n_rhs), order="F")[:n]
+            columns[...] = numpy.asarray(solve(columns.copy(order="F"))).reshape(columns.shape)
+            return True
+        return 0 if self._guarded(run) else 1
+
+    def on_free(self, _ctx, key, _user):
+        self.factors.pop(key, None)
+
+
+class Context:
+    """What models share: log, progress, solver, the last error. Belongs to one thread at a time.
+
+    log       None: silence; True: the logger "plm"; or a function of (level, text), level 0 detail, 1 information, 2 warning
+    progress  None; True: a bar (tqdm if present); or a function of (stage, fraction) that returns True to cancel
+
+    An exception that leaves a function given here stops the call under way, which raises it again; so does Ctrl-C.
+    """
+
+    def __init__(self, log=None, progress=None):
+        self._h = ctypes.c_void_p()
+        self._depth = 0  # calls under way: more than one when a callback calls in
+        self._orphans = []  # handles that were collected while a call was under way
+        self._host = _Host()
+        # kept alive here: ctypes does not
+        self._callbacks = [_c.LOG_FN(self._host.on_log), _c.PROGRESS_FN(self._host.on_progress)]
+        self._solver_callbacks = [_c.FACTOR_FN(self._host.on_factor), _c.SOLVE_FN(self._host.on_solve),
+                                  _c.FREE_FACTOR_FN(self._host.on_free)]
+        status = _c.lib.plm_context_create(_c.API_VERSION, ctypes.byref(self._h))
+        if status != _c.OK:
+            raise make_error("plm_context_create: " + status_text(status), status, function="plm_context_create")
+        # always there: Ctrl-C cancels by way of it
+        self.call("plm_context_set_progress", self._h, ctypes.cast(self._callbacks[1], ctypes.c_void_p), None)
+        self.log, self.progress = log, progress
+
+    def __del__(self):
+        if getattr(self, "_h", None):
+            _c.lib.plm_context_destroy(ctypes.byref(self._h))
+
+    # ---- callbacks ----
+
+    @property
+    def log(self):
+        """Where the log goes; see the class."""
+        return self._host.log
+
+    @log.setter
+    def log(self, log):
+        self._host.log = _log_to_logging if log is True else (log or None)
+        function = ctypes.cast(self._callbacks[0], ctypes.c_void_p) if self._host.log else None
+        self.call("plm_context_set_log", self._h, function, None)
+
+    @property
+    def progress(self):
+        """What is told of the progress; see the class."""
+        return self._host.progress
+
+    @progress.setter
+    def progress(self, progress):
+        self._host.progress = progress
+
+    # ---- the user's own solver ----
+
+    def set_solver(self, factor):
+        """Factorization by the user, for models built afterwards; None: the one built in.
+
+        factor(matrix, positive_definite) receives a symmetric scipy.sparse.csc_matrix and returns a function that solves:
+        solve(right_hand_sides) -> solutions, both n x n_rhs. Example:
+
+            context.set_solver(lambda matrix, positive_definite: scipy.sparse.linalg.splu(matrix).solve)
+        """
+        self._host.solver = factor
+        functions = [ctypes.cast(f, ctypes.c_void_p) if factor else None for f in self._solver_callbacks]
+        self.call("plm_context_set_solver", self._h, *functions, None)
+
+    # ---- calls ----
+
+    def call(self, name, *arguments):
+        """Calls a C function; returns its status when that is >= 0, else raises."""
+        return self._checked(name, self._run(name, arguments))
+
+    def run(self, name, *arguments, progress=None):
+        """The same for work that takes time: with progress, Ctrl-C cancels. The status is checked by `finish`."""
+        with self._showing(progress), self._interruptible():
+            return self._run(name, arguments)
+
+    def finish(self, name, status, has_result=False):
+        """What `run` returned, or an exception; a cancelled call without a result is one, too."""
+        self._checked(name, status)
+        if status == _c.CANCELLED and not has_result:
+            self._fail(name, status)
+        return status
+
+    def _run(self, name, arguments):
+        if not self._depth:
+            self._host.raised = None
+            while self._orphans:
+                destroy, handle = self._orphans.pop()
+                destroy(ctypes.byref(handle))
+        self._depth += 1
+        try:
+            return getattr(_c.lib, name)(*arguments)
+        finally:
+            self._depth -= 1
+
+    def _checked(self, name, status):
+        if self._depth == 0 and self._host.raised is not None:
+            error, self._host.raised = self._host.raised, None
+            raise error
+        if self._depth == 0 and self._host.interrupted:
+            self._host.interrupted = False
+            raise KeyboardInterrupt
+        if status < 0:
+            self._fail(name, status)
+        return status
+
+    def _fail(self, name, status):
+        function = _c.text_of(_c.lib.plm_context_get_error_function, self._h)
+        known, reason = ctypes.c_int32(0), ctypes.c_int32(0)
+        index, code = ctypes.c_int64(-1), ctypes.c_int64(0)
+        _c.lib.plm_context_get_error_info(self._h, *map(ctypes.byref, (known, reason, index, code)))
+        if function != name or known.value != status:
+            # a dead handle, or a call from inside a callback: the context has not heard of it
+            raise make_error(f"{name}: {status_text(status)}", status, function=name)
+        raise make_error(_c.text_of(_c.lib.plm_context_get_error_text, self._h), status, reason=reason.value,
+                         function=function, index=index.value, library_code=code.value,
+                         argument=_c.text_of(_c.lib.plm_context_get_error_argument, self._h))
+
+    def destroy(self, function, handle):
+        """Destroys a child, or remembers to do so when a call is under way (garbage collected inside a callback)."""
+        if self._depth:
+            self._orphans.append((function, handle))
+        else:
+            function(ctypes.byref(handle))
+
+    @contextlib.contextmanager
+    def _showing(self, progress):
+        """progress of one call: None: the context's own; True: a bar; False: nothing; or a function."""
+        before, bar = self._host.bar, None
+        wanted = self.progress if progress is None else progress
+        if wanted is True:
+            self._host.bar = bar = make_bar()
+        elif progress is not None:
+            self._host.bar = progress or (lambda stage, fraction: False)
+        try:
+            yield
+        finally:
+            self._host.bar = before
+            if bar is not None:
+                bar.close()
+
+    @contextlib.contextmanager
+    def _interruptible(self):
+        """For the life of the scope Ctrl-C is noted and cancels at the next progress call."""
+        main = threading.current_thread() is threading.main_thread()
+        if self._depth or not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+            yield
+            return
+
+        def note(_number, _frame):
+            self._host.interrupted = True
+        self._host.interrupted = False
+        signal.signal(signal.SIGINT, note)
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+def _look(address, n, kind):
+    """A NumPy array over n values in memory of the library."""
+    if n == 0:
+        return numpy.empty(0, dtype=kind)
+    return numpy.ctypeslib.as_array(ctypes.cast(address, ctypes.POINTER(kind)), shape=(n,))
+
+
+def status_text(status):
+    """What a status means."""
+    return _c.text_of(_c.lib.plm_status_text, status)
+
+
+def version():
+    """(major, minor, patch) of the library."""
+    parts = [ctypes.c_int32() for _ in range(3)]
+    _c.lib.plm_version(*map(ctypes.byref, parts))
+    return tuple(p.value for p in parts)
+
+
+def build_info():
+    """One line: version, factorization, eigensolver, Fourier transform, components built in."""
+    return _c.text_of(_c.lib.plm_build_info)
+
+
+_default = threading.local()
+
+
+def default_context():
+    """The context of models made without one; each thread has its own."""
+    if not hasattr(_default, "context"):
+        _default.context = Context()
+    return _default.context

@@ -1,0 +1,210 @@
+"""Handles, and their options and results as attributes made from the library's own table."""
+import ctypes
+import numbers
+import re
+from typing import NamedTuple
+
+import numpy
+
+from . import _c
+
+
+class Key(NamedTuple):
+    """A row of the table."""
+    name: str
+    type: int
+    is_option: bool
+    description: str
+    default: str
+    choices: str
+    minimum: float
+    maximum: float
+
+    def doc(self):
+        """What help() shows."""
+        if not self.is_option:
+            return self.description
+        allowed = self.choices
+        if not allowed and self.maximum:
+            upper = "" if self.maximum >= 1e300 else f"{self.maximum:.12g}"
+            allowed = f"{self.minimum:.12g} .. {upper}" if self.minimum > -1e300 else "any number"
+        return f"{self.description} [option; default {self.default}; {allowed}]"
+
+
+def keys(kind):
+    """The table of a kind of handle (plm.KIND_...), in its order."""
+    count = ctypes.c_int32(0)
+    _c.lib.plm_key_count(kind, ctypes.byref(count))
+    table = []
+    for i in range(count.value):
+        kind_of_value, is_option = ctypes.c_int32(), ctypes.c_int32()
+        low, high = ctypes.c_double(), ctypes.c_double()
+        _c.lib.plm_key_info(kind, i, *map(ctypes.byref, (kind_of_value, is_option, low, high)))
+        name, text, default, choices = (_c.text_of(_c.lib.plm_key_text, kind, i, field) for field in
+                                        (_c.KEY_NAME, _c.KEY_DESCRIPTION, _c.KEY_DEFAULT, _c.KEY_CHOICES))
+        table.append(Key(name, kind_of_value.value, bool(is_option.value), text, default, choices, low.value, high.value))
+    return table
+
+
+def attribute_name(key):
+    """"lambda" is a word of Python: its attribute is lambda_."""
+    return key + "_" if key == "lambda" else key
+
+
+def _make_property(key):
+    def read(self):
+        return self.get(key.name)
+
+    def write(self, value):
+        self.set(key.name, value)
+    return property(read, write if key.is_option else None, doc=key.doc())
+
+
+class Handle:
+    """Base of Model, Sampler, Basis, Hbm and Branch.
+
+    Options and results are attributes (tab completion and help() show them all), and items: sampler["n_samples"].
+    """
+
+    def __init_subclass__(cls, noun="", kind=0, **more):
+        super().__init_subclass__(**more)
+        cls._noun, cls.keys = noun, {key.name: key for key in keys(kind)}
+        lines = []
+        for key in cls.keys.values():
+            name = attribute_name(key.name)
+            if hasattr(cls, name):
+                raise TypeError(f"{cls.__name__}.{name} hides the key of this name")
+            setattr(cls, name, _make_property(key))
+            lines.append(f"    {name}: {key.doc()}")
+        cls.__doc__ = (cls.__doc__ or "") + "\n\nOptions and results:\n\n" + "\n".join(lines) + "\n"
+
+    def __init__(self, context):
+        object.__setattr__(self, "context", context)
+        object.__setattr__(self, "_h", ctypes.c_void_p())
+
+    def __del__(self):
+        if getattr(self, "_h", None):
+            self.context.destroy(getattr(_c.lib, f"plm_{self._noun}_destroy"), self._h)
+
+    def __setattr__(self, name, value):
+        if name.startswith("_") or hasattr(type(self), name):
+            object.__setattr__(self, name, value)
+        else:
+            self.set(name, value)  # the library refuses and names the nearest key
+
+    # ---- options and results ----
+
+    def set(self, key, value):
+        """Sets an option to an int, float or str."""
+        if self._noun == "branch":
+            raise AttributeError(f"a branch is read-only: {key}")
+        name = key.encode()
+        if isinstance(value, (bool, numpy.bool_, numbers.Integral)):
+            self._call("set_int", name, int(value))
+        elif isinstance(value, str):
+            self._call("set_string", name, value.encode())
+        elif isinstance(value, numbers.Real):
+            self._call("set_double", name, float(value))
+        else:
+            raise TypeError(f"{key}: options are int, float or str, not {type(value).__name__}")
+
+    def set_options(self, options):
+        """Sets options from a dict."""
+        for key, value in options.items():
+            self.set(key, value)
+
+    def get(self, key):
+        """An option or result: int, float, str or NumPy array; arrays over pairs are n_pairs x n."""
+        row = self.keys.get(key)
+        kind = row.type if row else _c.TYPE_INT  # unknown: the library refuses and names the nearest
+        name = key.encode()
+        if kind == _c.TYPE_STRING:
+            return self._get_string(name)
+        if kind == _c.TYPE_ARRAY:
+            return self._shaped(row, self._get_array("get_array", name, numpy.float64))
+        if kind == _c.TYPE_INT_ARRAY:
+            return self._shaped(row, self._get_array("get_int_array", name, numpy.int64))
+        value = ctypes.c_int64() if kind == _c.TYPE_INT else ctypes.c_double()
+        self._call("get_int" if kind == _c.TYPE_INT else "get_double", name, ctypes.byref(value))
+        return value.value
+
+    def options(self):
+        """All options with their present values."""
+        return {name: self.get(name) for name, key in self.keys.items() if key.is_option}
+
+    def __getitem__(self, key):
+        return self.get(key)
+
+    def __setitem__(self, key, value):
+        self.set(key, value)
+
+    def _ipython_key_completions_(self):
+        return list(self.keys)
+
+    def _get_string(self, name):
+        needed = ctypes.c_int64(0)
+        self._call("get_string", name, 0, None, ctypes.byref(needed))
+        buffer = ctypes.create_string_buffer(max(needed.value, 1))
+        self._call("get_string", name, len(buffer), buffer, None)
+        return buffer.value.decode("utf-8", "replace")
+
+    def _get_array(self, verb, name, dtype):
+        count = ctypes.c_int64(0)
+        self._call(verb, name, 0, None, ctypes.byref(count))
+        values = numpy.empty(count.value, dtype=dtype)
+        if count.value:
+            self._call(verb, name, values.size, address(values), ctypes.byref(count))
+        return values
+
+    def _shaped(self, key, values):
+        if re.search(r"\bn_pairs x\b", key.description) and self._n_pairs():
+            return values.reshape((self._n_pairs(), -1), order="F")
+        return values
+
+    def _n_pairs(self):
+        return 0
+
+    # ---- calls ----
+
+    def _call(self, verb, *arguments):
+        return self.context.call(f"plm_{self._noun}_{verb}", self._h, *arguments)
+
+    def _work(self, verb, *arguments, progress=None):
+        name = f"plm_{self._noun}_{verb}"
+        return self.context.finish(name, self.context.run(name, self._h, *arguments, progress=progress))
+
+
+def address(array):
+    """Where the values of an array (or None) are."""
+    return None if array is None else array.ctypes.data
+
+
+def reals(values, shape, name):
+    """A contiguous array of doubles of this shape (a number is repeated); None stays None."""
+    if values is None:
+        return None
+    array = numpy.asarray(values, dtype=numpy.float64)
+    try:
+        array = numpy.broadcast_to(array, shape)
+    except ValueError:
+        raise ValueError(f"{name} has shape {array.shape}; needed is {shape}") from None
+    return numpy.ascontiguousarray(array)
+
+
+def integers(values, name):
+    """A contiguous array of int32 or int64, without a copy where it is one already."""
+    array = numpy.asarray(values)
+    if array.size == 0 or array.dtype == numpy.bool_:
+        array = array.astype(numpy.int64)
+    if not numpy.issubdtype(array.dtype, numpy.integer):
+        raise TypeError(f"{name} must hold integers, not {array.dtype}")
+    if array.dtype not in (numpy.int32, numpy.int64):
+        array = array.astype(numpy.int64)
+    return numpy.ascontiguousarray(array)
+
+
+def alike(*arrays):
+    """Integer arrays of one common width, and the ending of the C function for it."""
+    wide = any(a.dtype != numpy.int32 for a in arrays)
+    dtype = numpy.int64 if wide else numpy.int32
+    return [numpy.ascontiguousarray(a, dtype=dtype) for a in arrays], "_i64" if wide else "_i32"

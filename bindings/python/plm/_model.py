@@ -1,0 +1,200 @@
+"""The model: matrices, supports, contact pairs, loads."""
+import ctypes
+from typing import NamedTuple
+
+import numpy
+import scipy.sparse
+
+from . import _c
+from ._context import default_context
+from ._handle import Handle, address, alike, integers, reals
+
+SYSTEMS = {"open": _c.SYSTEM_OPEN, "sliding": _c.SYSTEM_SLIDING, "rest": _c.SYSTEM_REST, "given": _c.SYSTEM_GIVEN}
+PARTS = {"full": _c.FULL, "lower": _c.LOWER, "upper": _c.UPPER}
+
+
+def choice(value, words, name):
+    """The number behind a word."""
+    if value in words:
+        return words[value]
+    if value in words.values():
+        return value
+    raise ValueError(f"{name} is {value!r}; it must be one of {', '.join(words)}")
+
+
+class Finding(NamedTuple):
+    """One line of Model.audit. severity: 0 fact, 1 worth a look, 2 probably wrong."""
+    severity: int
+    value: float
+    text: str
+
+
+class Model(Handle, noun="model", kind=_c.KIND_MODEL):
+    """M q'' + C q' + K q = F(t) - B' N, N = max(k_n u, 0), u = B q - gap.
+
+    Model(mass, stiffness, damping=None, n_dof=None, part="full", context=None, **options)
+
+    Matrices are scipy.sparse (CSC, CSR or COO of double and 32- or 64-bit indices are used where they are, without a
+    copy: leave them unchanged until build) or dense. part: "full", or the triangle that is stored, "lower" or "upper".
+    DOFs and pairs count from 0. Call build() when all is set; afterwards the model no longer changes.
+    """
+
+    def __init__(self, mass=None, stiffness=None, damping=None, *, n_dof=None, part="full", context=None, **options):
+        super().__init__(context or default_context())
+        self._borrowed = {}  # arrays the library looks at until build
+        if n_dof is None:
+            given = [m for m in (mass, stiffness, damping) if m is not None]
+            if not given:
+                raise TypeError("Model needs a matrix or n_dof")
+            n_dof = given[0].shape[0]
+        self.context.call("plm_model_create", self.context._h, n_dof, ctypes.byref(self._h))
+        for which, matrix in ((_c.MASS, mass), (_c.STIFFNESS, stiffness), (_c.DAMPING, damping)):
+            if matrix is not None:
+                self._set_matrix(which, matrix, part)
+        self.set_options(options)
+
+    # ---- matrices, damping, supports ----
+
+    def set_mass(self, matrix, part="full"):
+        """M, symmetric positive semi-definite."""
+        self._set_matrix(_c.MASS, matrix, part)
+
+    def set_stiffness(self, matrix, part="full"):
+        """K, symmetric positive semi-definite."""
+        self._set_matrix(_c.STIFFNESS, matrix, part)
+
+    def set_damping(self, matrix, part="full"):
+        """C, symmetric; adds to the other kinds of damping."""
+        self._set_matrix(_c.DAMPING, matrix, part)
+
+    def _set_matrix(self, which, matrix, part):
+        if not scipy.sparse.issparse(matrix):
+            matrix = scipy.sparse.csc_matrix(numpy.asarray(matrix, dtype=numpy.float64))
+        if matrix.shape != (self.n_dof, self.n_dof):
+            raise ValueError(f"the matrix is {matrix.shape[0]} x {matrix.shape[1]}; needed is {self.n_dof} x {self.n_dof}")
+        if matrix.format == "coo":
+            storage, a, b = _c.TRIPLETS, matrix.row, matrix.col
+        else:
+            if matrix.format not in ("csc", "csr"):
+                matrix = matrix.tocsc()
+            storage, a, b = _c.CSC if matrix.format == "csc" else _c.CSR, matrix.indptr, matrix.indices
+        (a, b), width = alike(a, b)
+        nnz = matrix.nnz
+        value = reals(matrix.data[:nnz], (nnz,), "matrix.data")
+        self._call("set_matrix" + width, which, storage, choice(part, PARTS, "part"), 0, _c.BORROW, nnz,
+                   address(a), address(b), address(value))
+        self._borrowed[which] = (a, b, value)
+
+    def set_rayleigh_damping(self, alpha, beta):
+        """C = alpha M + beta K; alpha in 1/s, beta in s."""
+        self._call("set_rayleigh_damping", alpha, beta)
+
+    def set_modal_damping(self, ratio):
+        """Fraction of critical damping per mode of the open system; modes beyond: the last one. []: none."""
+        ratio = numpy.ascontiguousarray(numpy.atleast_1d(ratio), dtype=numpy.float64)
+        self._call("set_modal_damping", ratio.size, address(ratio))
+
+    def set_structural_damping(self, eta):
+        """Loss factor: K (1 + i eta)."""
+        self._call("set_structural_damping", eta)
+
+    def fix_dofs(self, dof):
+        """DOFs held at zero: numbers, or a mask of n_dof."""
+        dof = numpy.asarray(dof)
+        if dof.dtype == numpy.bool_:
+            dof = numpy.flatnonzero(dof)
+        (dof,), width = alike(integers(dof, "dof").ravel())
+        self._call("fix_dofs" + width, 0, dof.size, address(dof))
+
+    # ---- contact ----
+
+    def add_node_pairs(self, dof_a, dof_b, normal, stiffness=None, gap=None):
+        """n pairs of nodes. dof_a, dof_b: n x 3, the x, y, z DOFs of the nodes (-1: none). normal: n x 3 or 3, unit, out
+        of a's body towards b. stiffness: k_n (a number or n; None: chosen by the library). gap: a number or n; > 0 open.
+        u = normal . (q_a - q_b) - gap, > 0 closed."""
+        (a, b), width = alike(integers(dof_a, "dof_a").reshape(-1, 3), integers(dof_b, "dof_b").reshape(-1, 3))
+        if len(a) != len(b):
+            raise ValueError(f"dof_a has {len(a)} nodes, dof_b {len(b)}")
+        normal, stiffness, gap = self._pairs(len(a), normal, stiffness, gap)
+        self._call("add_node_pairs" + width, 0, len(a), address(a), address(b), address(normal), address(stiffness),
+                   address(gap))
+
+    def add_ground_contacts(self, dof, normal, stiffness=None, gap=None):
+        """Nodes against rigid ground; the normal points into the ground: u = normal . q - gap. Else as add_node_pairs."""
+        (dof,), width = alike(integers(dof, "dof").reshape(-1, 3))
+        normal, stiffness, gap = self._pairs(len(dof), normal, stiffness, gap)
+        self._call("add_ground_contacts" + width, 0, len(dof), address(dof), address(normal), address(stiffness),
+                   address(gap))
+
+    def add_gap_rows(self, rows, stiffness=None, gap=None):
+        """Rows of the gap matrix B (n x n_dof, sparse or dense): u = B q - gap."""
+        rows = scipy.sparse.csr_matrix(rows, dtype=numpy.float64)
+        n = rows.shape[0]
+        if rows.shape[1] != self.n_dof:
+            raise ValueError(f"rows has {rows.shape[1]} columns; needed is n_dof = {self.n_dof}")
+        (start, dof), width = alike(rows.indptr, rows.indices)
+        _, stiffness, gap = self._pairs(n, None, stiffness, gap)
+        self._call("add_gap_rows" + width, 0, n, address(start), address(dof), address(rows.data), address(stiffness),
+                   address(gap))
+
+    @staticmethod
+    def _pairs(n, normal, stiffness, gap):
+        stiffness = _c.AUTO_STIFFNESS if stiffness is None else stiffness
+        return reals(normal, (n, 3), "normal"), reals(stiffness, (n,), "stiffness"), reals(gap, (n,), "gap")
+
+    # ---- loads ----
+
+    def set_preload(self, force):
+        """Static force, n_dof; None removes it."""
+        force = reals(force, (self.n_dof,), "force")
+        self._call("set_preload", self.n_dof, address(force))
+
+    def set_excitation(self, force, harmonic=1):
+        """F(t) = sum Re(F_h exp(i h omega t)); force: F_h, n_dof, real or complex. None removes the harmonic."""
+        imaginary = None
+        if numpy.iscomplexobj(force):
+            imaginary = reals(numpy.imag(force), (self.n_dof,), "force")
+            force = numpy.real(force)
+        force = reals(force, (self.n_dof,), "force")
+        self._call("set_excitation", harmonic, self.n_dof, address(force), address(imaginary))
+
+    # ---- work ----
+
+    def build(self, progress=None):
+        """Checks the whole, removes the fixed DOFs, factors K. Returns the model."""
+        self._work("build", progress=progress)
+        self._borrowed.clear()
+        return self
+
+    def solve_rest(self, progress=None):
+        """Static equilibrium under the pre-load; read by rest_displacement, rest_penetration, rest_closed, rest_force."""
+        self._work("solve_rest", progress=progress)
+        return self
+
+    def modes(self, n, system="open", closed=None, shapes=False):
+        """The n lowest natural frequencies (Hz) of the system "open", "sliding", "rest" or "given" (by closed, n_pairs);
+        with shapes also the mass-normalised shapes, n_dof x n."""
+        if closed is not None:
+            closed = numpy.ascontiguousarray(numpy.broadcast_to(closed, (self.n_pairs,)), dtype=numpy.int32)
+            system = "given"
+        frequency = numpy.empty(max(n, 0))
+        shape = numpy.empty((self.n_dof, max(n, 0)), order="F") if shapes else None
+        self._work("get_modes", choice(system, SYSTEMS, "system"), address(closed), n, address(frequency), address(shape))
+        return (frequency, shape) if shapes else frequency
+
+    def audit(self):
+        """Findings about the built model: mass, rigid-body modes, gaps, stiffness, units that look off."""
+        count = ctypes.c_int64(0)
+        self._work("audit", ctypes.byref(count))
+        return [self._finding(i) for i in range(count.value)]
+
+    def _finding(self, index):
+        severity, value, needed = ctypes.c_int32(), ctypes.c_double(), ctypes.c_int64()
+        numbers = (ctypes.byref(severity), ctypes.byref(value))
+        self._call("get_finding", index, *numbers, 0, None, ctypes.byref(needed))
+        buffer = ctypes.create_string_buffer(max(needed.value, 1))
+        self._call("get_finding", index, *numbers, len(buffer), buffer, None)
+        return Finding(severity.value, value.value, buffer.value.decode("utf-8", "replace"))
+
+    def _n_pairs(self):
+        return self.n_pairs

@@ -1,0 +1,90 @@
+"""Sampler and Basis: from the model to the reduction matrices."""
+import ctypes
+
+import numpy
+
+from . import _c
+from ._handle import Handle, address, reals
+from ._model import SYSTEMS, choice
+
+
+class Sampler(Handle, noun="sampler", kind=_c.KIND_SAMPLER):
+    """The evolution of the contact area: dominant mode, sweep, samples, frequency window.
+
+    Sampler(model, **options), e.g. Sampler(model, system="open", mode=1, n_samples=4).run()
+    """
+
+    def __init__(self, model, **options):
+        super().__init__(model.context)
+        self._model = model
+        self.context.call("plm_sampler_create", model._h, ctypes.byref(self._h))
+        self.set_options(options)
+
+    @property
+    def model(self):
+        """The model it was made of."""
+        return self._model
+
+    def add_dominant_mode(self, system, mode):
+        """A further dominant mode, 1, 2, ... of the system "open" or "sliding"."""
+        self._call("add_dominant_mode", choice(system, SYSTEMS, "system"), mode)
+
+    def run(self, progress=None):
+        """Finds the dominant mode, the sweep, the samples and the window. Returns the sampler."""
+        self._work("run", progress=progress)
+        return self
+
+    def _n_pairs(self):
+        return self._model.n_pairs
+
+
+class Basis(Handle, noun="basis", kind=_c.KIND_BASIS):
+    """Reduction matrices P (h >= 1) and P_0 (h = 0).
+
+    Basis(model, sampler=None, parent=None, **options), e.g. Basis(model, sampler).build()
+    """
+
+    def __init__(self, model, sampler=None, parent=None, **options):
+        super().__init__(model.context)
+        self._model = model
+        self.context.call("plm_basis_create", model._h, ctypes.byref(self._h))
+        if sampler is not None:
+            self.set_sampler(sampler)
+        if parent is not None:
+            self.set_parent(parent)
+        self.set_options(options)
+
+    @property
+    def model(self):
+        """The model it was made of."""
+        return self._model
+
+    def set_sampler(self, sampler):
+        """The samples the piecewise-linear modes are made from; it must have run before the build."""
+        self._call("set_sampler", sampler._h)
+
+    def set_parent(self, parent):
+        """A first reduction under this one: a built basis of kind "craig_bampton" or "full"; None for none."""
+        self._call("set_parent", parent._h if parent is not None else None)
+
+    def build(self, progress=None):
+        """Makes the basis; look at .warning afterwards. Returns the basis."""
+        self._work("build", progress=progress)
+        return self
+
+    def vectors(self, static=False):
+        """P, or P_0 if static: n_dof x size."""
+        n_dof, n = self._model.n_dof, self.static_size if static else self.size
+        vectors = numpy.empty((n_dof, n), order="F")
+        self._call("get_vectors", int(static), 0, n, address(vectors), n_dof)
+        return vectors
+
+    def residual(self, q, static=False, mass=False):
+        """|q - P eta| / |q|, eta by least squares; mass: in the norm of M."""
+        q = reals(q, (self._model.n_dof,), "q")
+        value = ctypes.c_double()
+        self._call("get_residual", int(static), int(mass), q.size, address(q), ctypes.byref(value))
+        return value.value
+
+    def _n_pairs(self):
+        return self._model.n_pairs

@@ -1,0 +1,79 @@
+"""The scene of scenario.c in Python."""
+import sys
+
+import numpy
+import plm
+import scipy.sparse
+
+N, H, WATCHED = 10, 5, 7
+
+
+def show(name, values):
+    print(name)
+    for x in numpy.ravel(values, order="F"):
+        print("%d" % x if isinstance(x, numpy.integer) else "%.17g" % x)
+
+
+def make_model():
+    stiffness = scipy.sparse.diags([[20000.0] * (N - 1) + [10000.0], [-10000.0] * (N - 1)], [0, -1], format="coo")
+    model = plm.Model(scipy.sparse.identity(N, format="coo"), stiffness, part="lower")
+    model.set_rayleigh_damping(0.5, 0.0002)
+    rows = numpy.zeros((2, N))
+    rows[0, [2, 5]] = 1, -1
+    rows[1, 8] = 1
+    model.add_gap_rows(rows, [plm.AUTO_STIFFNESS, 20000], [0, 0.001])
+    force, preload = numpy.zeros(N), numpy.zeros(N)
+    force[4], preload[8] = 10, 5
+    model.set_preload(preload)
+    model.set_excitation(force)
+    return model.build()
+
+
+def show_model(model):
+    show("n_free", numpy.int64(model.n_free))
+    show("contact_stiffness", model.contact_stiffness)
+    show("rest_displacement", model.solve_rest().rest_displacement)
+    show("open_hz", model.modes(3))
+    show("sliding_hz", model.modes(3, "sliding"))
+
+
+def make_basis(model):
+    sampler = plm.Sampler(model, system="open", mode=1, n_samples=3).run()
+    show("blf_hz", sampler.blf_hz)
+    show("sweep_alpha", sampler.sweep_alpha)
+    show("selected_samples", sampler.selected_samples)
+    basis = plm.Basis(model, sampler, n_harmonics=H).build()
+    show("singular_values", basis.singular_values)
+    return basis
+
+
+def show_point(branch, point):
+    show("coefficients", branch.coefficients(point, WATCHED))
+    show("field", branch.field(point, 0.25))
+    contact = branch.contact(point, 8)
+    show("penetration", contact.penetration)
+    show("force", contact.force)
+    show("closed", contact.closed)
+    show("closed_share", branch.closed_share(point))
+    show("full_residual", branch.full_residual(point))
+
+
+def show_response(basis):
+    hbm = plm.Hbm(basis, n_harmonics=H, unknowns="modal", max_step=0.05)
+    curve = hbm.sweep()
+    show("n_points", numpy.int64(len(curve)))
+    show("frequency_hz", curve.frequency_hz)
+    show("amplitude", curve.amplitude(WATCHED))
+    peak = hbm.find_peak(curve, WATCHED)
+    show("peak", [peak.frequency_hz, peak.amplitude])
+    show_point(peak.branch, 0)
+
+
+def main():
+    model = make_model()
+    show_model(model)
+    show_response(make_basis(model))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
