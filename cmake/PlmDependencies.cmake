@@ -30,6 +30,8 @@ if(PLM_WITH_FFTW)
     target_link_libraries(plm_dep_fftw INTERFACE ${PLM_FFTW_LIBRARY})
 endif()
 
+include(PlmSelfContained)
+
 if(PLM_BUILD_TESTS)
     find_package(PkgConfig REQUIRED)
     pkg_check_modules(cmocka REQUIRED IMPORTED_TARGET cmocka)

@@ -437,7 +437,7 @@ subroutine plmmmd(handle, n, ratio, ierr)
     ierr = int(plm_model_set_modal_damping(as_pointer(handle), int(n, int64), ratio))
 end subroutine plmmmd
 
-subroutine plmmsd(handle, eta, ierr)
+subroutine plmmhd(handle, eta, ierr)
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_c, only: plm_model_set_structural_damping
     use plm_f77_support, only: as_pointer
@@ -446,7 +446,7 @@ subroutine plmmsd(handle, eta, ierr)
     real(real64), intent(in) :: eta
     integer, intent(out) :: ierr
     ierr = int(plm_model_set_structural_damping(as_pointer(handle), eta))
-end subroutine plmmsd
+end subroutine plmmhd
 
 subroutine plmmfx(handle, n, idof, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t
@@ -479,7 +479,7 @@ subroutine plmmnp(handle, n, idofa, idofb, dnorm, stiff, gap, ierr)
         gap))
 end subroutine plmmnp
 
-subroutine plmmgc(handle, n, idof, dnorm, stiff, gap, ierr)
+subroutine plmmrg(handle, n, idof, dnorm, stiff, gap, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_c, only: plm_model_add_ground_contacts
@@ -493,7 +493,7 @@ subroutine plmmgc(handle, n, idof, dnorm, stiff, gap, ierr)
     real(real64), intent(in) :: gap(*)
     integer, intent(out) :: ierr
     ierr = int(plm_model_add_ground_contacts(as_pointer(handle), 1_c_int32_t, int(n, int64), idof, dnorm, stiff, gap))
-end subroutine plmmgc
+end subroutine plmmrg
 
 subroutine plmmgr(handle, n, irow, idof, coeff, stiff, gap, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t

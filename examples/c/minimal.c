@@ -3,7 +3,9 @@
 #include <stdio.h>
 
 #define TRY(call)                                                                                                      \
-    if ((call) < 0) return 1
+    do {                                                                                                               \
+        if ((call) < 0) return 1;                                                                                      \
+    } while (0)
 
 static int find_peak(plm_context *ctx, double *hz, double *amplitude) {
     /* kg, N, m, s. M = diag(1, 1), K = [20000 -10000; -10000 10000], lower triangles by triplets, base 0 */

@@ -56,7 +56,7 @@ void study_close(study *s) {
 static void print_rest(study *s) {
     int64_t n_closed = 0;
     if (!s->options->with_preload) {
-        printf("Closed at rest   no pre-load: the contact is at rest without force\n");
+        printf("Closed at rest   without pre-load the contact carries no force at rest\n");
         return;
     }
     if (plm_model_solve_rest(s->model) < 0 || plm_model_get_int(s->model, "rest_n_closed", &n_closed)) return;
@@ -77,7 +77,7 @@ static void print_window(plm_sampler *sampler) {
 void study_print_found(study *s) {
     char text[STUDY_TEXT] = "";
     int64_t mode = 0, n_sets = 0;
-    double hz = 0, participation = 0, error = 0;
+    double hz = 0, participation = 0;
     const study_options *o = s->options;
     printf("\nScene            %s (%s size), %" PRId64 " DOFs, %" PRId64 " contact pairs, H = %" PRId64 "\n", o->scene,
            o->size, s->scene->n_dof, s->scene->n_pairs, o->n_harmonics);
@@ -92,7 +92,6 @@ void study_print_found(study *s) {
     plm_sampler_get_int(s->sampler, "n_sweep_samples", &n_sets);
     printf("Contact sweep    %" PRId64 " different contact sets to take samples from\n", n_sets);
     plm_sampler_get_string(s->sampler, "space_description", sizeof text, text, NULL);
-    plm_sampler_get_double(s->sampler, "space_error", &error);
-    printf("Contact space    %s; error of the contact receptances %.1e\n", text, error);
+    printf("Contact space    %s\n", text);
     printf("contact space (shared): %.2f s, once for all samplers and the full order\n\n", s->contact_space);
 }

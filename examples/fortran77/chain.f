@@ -15,7 +15,7 @@ C
       INTEGER IERR
       DOUBLE PRECISION HZ, AMPL
       CALL ASSEMB
-      CALL LINK(MODEL, IERR)
+      CALL HANDOV(MODEL, IERR)
       IF (IERR .LT. 0) CALL ABEND('model')
       CALL MODES(MODEL)
       CALL FOLLOW(MODEL, CURVE)
@@ -54,7 +54,7 @@ C     Mass and stiffness, lower triangles by columns, into /MATRIX/
       END
 
 C     Hands the chain over: matrices, damping, stops, force on the end
-      SUBROUTINE LINK(MODEL, IERR)
+      SUBROUTINE HANDOV(MODEL, IERR)
       INCLUDE 'plmf.inc'
       INTEGER*8 MODEL
       INTEGER IERR

@@ -42,7 +42,11 @@ class Study:
         self.curves = {m: self.read(f"curves_{m}.csv") for m in self.table}
         self.cycles = {m: self.read(f"contact_{m}.csv") for m in self.table}
         self.n_pairs = int(self.facts["n_pairs"])
-        self.unit = "" if self.facts["scene"] == "bilinear_oscillator" else " in mm"
+        oscillator = self.facts["scene"] == "bilinear_oscillator"  # the one scene without units
+        self.unit, self.length = ("", 1.0) if oscillator else (" in µm", 1e3)
+
+    def amplitude(self, method):
+        return self.length * self.curves[method]["amplitude"]
 
     def read(self, name):
         return np.atleast_1d(np.genfromtxt(self.folder / name, delimiter=",", names=True))
@@ -81,9 +85,8 @@ def names_columns(axes, handles_from=None, columns=4):
     axes.figure.legend(handles, labels, loc="lower center", ncol=columns, frameon=False)
 
 
-def region_of_peak(curve):
+def region_of_peak(f, a):
     """(f_low, f_high, a_low, a_high) of the top of a curve."""
-    f, a = curve["frequency_hz"], curve["amplitude"]
     top = int(np.argmax(a))
     first, last = top, top
     while first > 0 and a[first - 1] > 0.9 * a[top]:
@@ -99,7 +102,8 @@ def draw_curves(axes, study):
     for method, style in study.styles().items():
         curve = study.curves[method]
         size = int(study.number(method, "basis_size"))
-        axes.plot(curve["frequency_hz"], curve["amplitude"], label=f"{label_of(method)}, r = {size}", **line(style))
+        axes.plot(curve["frequency_hz"], study.amplitude(method), label=f"{label_of(method)}, r = {size}",
+                  **line(style))
 
 
 def plot_curves(study, path, dpi):
@@ -109,8 +113,8 @@ def plot_curves(study, path, dpi):
     axes.set_title(study.title(), fontsize=11)
     axes.grid(alpha=0.3)
     axes.set_ylim(bottom=0, top=1.08 * axes.get_ylim()[1])
-    curve = study.curves.get(REFERENCE, next(iter(study.curves.values())))
-    f_low, f_high, a_low, a_high = region_of_peak(curve)
+    shown = REFERENCE if REFERENCE in study.curves else next(iter(study.curves))
+    f_low, f_high, a_low, a_high = region_of_peak(study.curves[shown]["frequency_hz"], study.amplitude(shown))
     x0, x1 = axes.get_xlim()
     left = 0.5 * (f_low + f_high) > 0.5 * (x0 + x1)  # the emptier side
     inset = axes.inset_axes([0.1 if left else 0.66, 0.5, 0.31, 0.44])
@@ -133,7 +137,7 @@ class Labels:
 
     def __init__(self, axes):
         self.axes = axes
-        self.points, self.texts = [], []
+        self.points, self.texts, self.lines = [], [], []
 
     def add(self, x, y, text, color):
         self.points.append((x, y))
@@ -144,6 +148,9 @@ class Labels:
         dots = self.axes.transData.transform(self.points) if self.points else []
         taken = [matplotlib.transforms.Bbox.from_bounds(x - 6, y - 6, 12, 12) for x, y in dots]
         frame = self.axes.get_window_extent(renderer)
+        for x in self.lines:
+            across = self.axes.transData.transform((x, 1))[0]
+            taken.append(matplotlib.transforms.Bbox.from_extents(across - 3, frame.y0, across + 3, frame.y1))
         for x, y, text, color in self.texts:
             for place in self.places:
                 side = "left" if place[0] > 0 else "right" if place[0] < 0 else "center"
@@ -167,12 +174,25 @@ def seconds_of(study, method, whole):
     return seconds
 
 
+def set_time_ticks(axes):
+    """Round numbers, also where the axis spans less than a decade."""
+    low, high = axes.get_xlim()
+    if high / low < 8:
+        ticks = ticker.MaxNLocator(6).tick_values(low, high)
+    else:
+        ticks = [m * 10.0 ** e for e in range(-6, 6) for m in ((1, 2, 5) if high / low < 200 else (1,))]
+    axes.xaxis.set_major_locator(ticker.FixedLocator([t for t in ticks if low <= t <= high]))
+    axes.xaxis.set_minor_locator(ticker.NullLocator())
+    axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda v, _: f"{v:g}"))
+
+
 def draw_errors(axes, study, column, whole):
     labels = Labels(axes)
     for method, style in study.styles().items():
         seconds = seconds_of(study, method, whole)
         if method == REFERENCE:
             axes.axvline(seconds, color="0.72", linewidth=3, label="full order (error 0)")
+            labels.lines.append(seconds)
             continue
         error = max(study.number(method, column), 1e-12)
         size = int(study.number(method, "basis_size"))
@@ -182,10 +202,8 @@ def draw_errors(axes, study, column, whole):
     axes.set(xscale="log", yscale="log")
     axes.margins(0.18)
     axes.autoscale_view()
-    axes.grid(alpha=0.3, which="both")
-    axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda v, _: f"{v:g}"))
-    axes.xaxis.set_minor_formatter(ticker.FuncFormatter(lambda v, _: f"{v:g}" if f"{v:.0e}"[0] in "235" else ""))
-    axes.tick_params(axis="x", which="both", labelsize=9)
+    set_time_ticks(axes)
+    axes.grid(alpha=0.3)
     return labels
 
 
@@ -229,7 +247,7 @@ def draw_share(axes, study):
                 axes.plot(curve["frequency_hz"], scale * curve[column], color="0.55", linewidth=1, zorder=1)
             note = dict(color=GREY, fontsize=8, ha="center", xycoords=("axes fraction", "axes fraction"))
             axes.annotate("thin grey: most and fewest in the cycle, full order", (0.5, 0.955), **note)
-    axes.set(xlabel="excitation frequency in Hz", ylim=(-3, 112))
+    axes.set(xlabel="excitation frequency in Hz", ylabel="closed pairs in %", ylim=(-3, 112))
     axes.set_yticks(range(0, 101, 20))
     axes.set_title("mean over the cycle, along the curve", fontsize=10)
 

@@ -3,6 +3,7 @@
 // size of the dense system is the number of pairs that open and close over the period times (2H + 1),
 // whatever the size of the model. Pairs that stay open or closed are eliminated harmonic by harmonic,
 // exactly, and come back the moment they move.
+#include "hbm/pair_elimination.hpp"
 #include "hbm/receptance.hpp"
 #include "hbm/system.hpp"
 #include <algorithm>
@@ -20,14 +21,24 @@ Matrix select_rows(const Matrix &a, const vector<std::int64_t> &rows) {
     return s;
 }
 
-// What the elimination of the pairs with a constant tangent leaves of one harmonic.
-struct Eliminated {
-    vector<std::int64_t> pairs; // eliminated: their tangent in this harmonic is kappa, constant in time
+// Coefficient of harmonic h of item i as c - i s, in an array whose coefficient columns are `stride` long.
+Complex read(const double *v, std::int64_t stride, std::int64_t h, std::int64_t i) {
+    return h == 0 ? Complex(v[i]) : Complex(v[(2 * h - 1) * stride + i], -v[2 * h * stride + i]);
+}
+void write(Complex value, std::int64_t stride, std::int64_t h, std::int64_t i, double *v) {
+    if (h == 0) {
+        v[i] = value.real();
+    } else {
+        v[(2 * h - 1) * stride + i] = value.real();
+        v[2 * h * stride + i] = -value.imag();
+    }
+}
+
+// The pairs whose tangent in one harmonic is kappa != 0, constant in time, and their elimination.
+struct Constant {
+    vector<std::int64_t> pairs;
     vector<double> kappa;
-    ComplexLu closed;                // I + G_EE kappa
-    vector<Complex> to_eliminated;   // G_ES, e x s
-    vector<Complex> from_eliminated; // G_SE kappa, s x e
-    Matrix real, imag;               // reduced receptance of the moving pairs, s x s
+    PairElimination elimination;
 };
 
 class GapSystem final : public HbmSystem {
@@ -35,7 +46,7 @@ class GapSystem final : public HbmSystem {
     GapSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
         : m_(std::move(reduced)), h_(options.n_harmonics), n_(2 * h_ + 1), z_(m_->n_pairs()), r_(m_->size()),
           r0_(m_->static_size()), force_(make_contact_force(options, z_)), stiffness_(m_->contact_stiffness),
-          gap_(m_->initial_gap), u_(z_, n_), contact_(z_, n_), receptance_(h_ + 1), eliminated_(h_ + 1),
+          gap_(m_->initial_gap), u_(z_, n_), contact_(z_, n_), receptance_(h_ + 1), constant_(h_ + 1),
           eta_(h_ + 1), force_scale_(options.force_scale) {
         update_static();
     }
@@ -90,7 +101,7 @@ class GapSystem final : public HbmSystem {
         for (std::int64_t i = 0; i < z_; ++i)
             if (indicator_.state[i] == PairState::switching) moving_.push_back(i);
         for (std::int64_t h = 0; h <= h_; ++h) eliminate(h);
-        const std::int64_t s = static_cast<std::int64_t>(moving_.size());
+        const std::int64_t s = n_moving();
         if (s == 0) return;
         tangent_.reset(n_ * n_, s);
         for (std::int64_t p = 0; p < s; ++p) {
@@ -256,7 +267,7 @@ class GapSystem final : public HbmSystem {
     }
 
     void eliminate(std::int64_t h) {
-        Eliminated &e = eliminated_[h];
+        Constant &e = constant_[h];
         e.pairs.clear();
         e.kappa.clear();
         for (std::int64_t i = 0; i < z_; ++i) {
@@ -266,64 +277,26 @@ class GapSystem final : public HbmSystem {
             e.pairs.push_back(i);
             e.kappa.push_back(kappa);
         }
-        const std::int64_t s = static_cast<std::int64_t>(moving_.size()),
-                           n = static_cast<std::int64_t>(e.pairs.size());
         vector<std::int64_t> all = moving_;
         all.insert(all.end(), e.pairs.begin(), e.pairs.end());
         Matrix real, imag;
         receptance_of(h, all, real, imag);
-        vector<Complex> closed(n * n);
-        e.to_eliminated.resize(n * s);
-        e.from_eliminated.resize(s * n);
-        for (std::int64_t j = 0; j < n; ++j) {
-            for (std::int64_t i = 0; i < n; ++i)
-                closed[i + j * n] =
-                    Complex(real(s + i, s + j), imag(s + i, s + j)) * e.kappa[j] + (i == j ? 1.0 : 0.0);
-            for (std::int64_t i = 0; i < s; ++i) {
-                e.from_eliminated[i + j * s] = Complex(real(i, s + j), imag(i, s + j)) * e.kappa[j];
-                e.to_eliminated[j + i * n] = Complex(real(s + j, i), imag(s + j, i));
-            }
-        }
-        if (n > 0) e.closed.factor(n, closed);
-        e.real.reset(s, s);
-        e.imag.reset(s, s);
-        vector<Complex> x = e.to_eliminated; // (I + G_EE kappa)^-1 G_ES
-        if (n > 0 && s > 0) e.closed.solve(x.data(), s, n);
-        for (std::int64_t j = 0; j < s; ++j)
-            for (std::int64_t i = 0; i < s; ++i) {
-                e.real(i, j) = real(i, j);
-                e.imag(i, j) = imag(i, j);
-            }
-        subtract_product(e.from_eliminated, x, s, n, e.real, e.imag);
-    }
-
-    // (real + i imag) -= A B, A s x n, B n x s, by three real products
-    static void subtract_product(const vector<Complex> &a, const vector<Complex> &b, std::int64_t s,
-                                 std::int64_t n, Matrix &real, Matrix &imag) {
-        if (n == 0 || s == 0) return;
-        Matrix ar(s, n), ai(s, n), br(n, s), bi(n, s);
-        for (std::int64_t k = 0; k < s * n; ++k) {
-            ar.data()[k] = a[k].real(), ai.data()[k] = a[k].imag();
-            br.data()[k] = b[k].real(), bi.data()[k] = b[k].imag();
-        }
-        gemm('N', 'N', -1.0, ar, br, 1.0, real);
-        gemm('N', 'N', 1.0, ai, bi, 1.0, real);
-        gemm('N', 'N', -1.0, ar, bi, 1.0, imag);
-        gemm('N', 'N', -1.0, ai, br, 1.0, imag);
+        e.elimination.build(real, imag, n_moving(), e.kappa);
     }
 
     // I + G J over the moving pairs; unknown (coefficient c, moving pair p) at c s + p.
     void assemble() {
-        const std::int64_t s = static_cast<std::int64_t>(moving_.size());
+        const std::int64_t s = n_moving();
         jacobian_.reset(s * n_, s * n_);
         for (std::int64_t c = 0; c < n_; ++c)
             for (std::int64_t q = 0; q < s; ++q) {
                 double *column = jacobian_.col(c * s + q);
                 const double *tangent = tangent_.col(q) + c * n_; // J(:, c) of pair q
-                const double *g0 = eliminated_[0].real.col(q);
+                const double *g0 = constant_[0].elimination.real().col(q);
                 for (std::int64_t p = 0; p < s; ++p) column[p] = g0[p] * tangent[0];
                 for (std::int64_t h = 1; h <= h_; ++h) {
-                    const double *gr = eliminated_[h].real.col(q), *gi = eliminated_[h].imag.col(q);
+                    const double *gr = constant_[h].elimination.real().col(q),
+                                 *gi = constant_[h].elimination.imag().col(q);
                     const double yc = tangent[2 * h - 1], ys = tangent[2 * h];
                     double *cosine = column + (2 * h - 1) * s, *sine = cosine + s;
                     for (std::int64_t p = 0; p < s; ++p) { // u_c - i u_s = G (y_c - i y_s)
@@ -336,90 +309,65 @@ class GapSystem final : public HbmSystem {
     }
 
     void solve_one(double *b) {
-        const std::int64_t s = static_cast<std::int64_t>(moving_.size());
-        vector<double> reduced(s * n_), y(s * n_);
-        std::vector<vector<Complex>> held(h_ + 1); // (I + G_EE kappa)^-1 b_E
-        for (std::int64_t h = 0; h <= h_; ++h) reduce_rhs(h, b, held[h], reduced.data());
-        if (s > 0) lu_.solve(reduced.data(), 1, s * n_);
-        for (std::int64_t p = 0; p < s; ++p) // y = J du of the moving pairs
+        const std::int64_t s = n_moving();
+        vector<double> moving(s * n_), y(s * n_);
+        std::vector<vector<Complex>> held(h_ + 1);
+        for (std::int64_t h = 0; h <= h_; ++h) condense(h, b, held[h], moving.data());
+        if (s > 0) lu_.solve(moving.data(), 1, s * n_);
+        for (std::int64_t p = 0; p < s; ++p) // y = J du
             for (std::int64_t c = 0; c < n_; ++c) {
                 const double *tangent = tangent_.col(p) + c * n_;
                 for (std::int64_t row = 0; row < n_; ++row)
-                    y[row * s + p] += tangent[row] * reduced[c * s + p];
+                    y[row * s + p] += tangent[row] * moving[c * s + p];
             }
-        for (std::int64_t h = 0; h <= h_; ++h) expand_solution(h, held[h], reduced.data(), y.data(), b);
+        for (std::int64_t h = 0; h <= h_; ++h) expand(h, held[h], moving.data(), y.data(), b);
     }
 
-    Complex entry(const double *b, std::int64_t h, std::int64_t i) const {
-        return h == 0 ? Complex(b[i]) : Complex(b[(2 * h - 1) * z_ + i], -b[2 * h * z_ + i]);
-    }
-    void store(Complex v, std::int64_t h, std::int64_t i, double *b) const {
-        if (h == 0) {
-            b[i] = v.real();
-        } else {
-            b[(2 * h - 1) * z_ + i] = v.real();
-            b[2 * h * z_ + i] = -v.imag();
-        }
-    }
-
-    void reduce_rhs(std::int64_t h, const double *b, vector<Complex> &held, double *reduced) const {
-        const Eliminated &e = eliminated_[h];
-        const std::int64_t s = static_cast<std::int64_t>(moving_.size()),
-                           n = static_cast<std::int64_t>(e.pairs.size());
-        held.resize(n);
-        for (std::int64_t j = 0; j < n; ++j) held[j] = entry(b, h, e.pairs[j]);
-        if (n > 0) e.closed.solve(held.data(), 1, n);
-        for (std::int64_t p = 0; p < s; ++p) {
-            Complex v = entry(b, h, moving_[p]);
-            for (std::int64_t j = 0; j < n; ++j) v -= e.from_eliminated[p + j * s] * held[j];
-            if (h == 0) {
-                reduced[p] = v.real();
-            } else {
-                reduced[(2 * h - 1) * s + p] = v.real();
-                reduced[2 * h * s + p] = -v.imag();
-            }
-        }
+    // Right-hand side of the moving pairs in harmonic h; `held` keeps what expand() needs.
+    void condense(std::int64_t h, const double *b, vector<Complex> &held, double *moving) const {
+        const Constant &e = constant_[h];
+        for (std::int64_t i : e.pairs) held.push_back(read(b, z_, h, i));
+        vector<Complex> v;
+        for (std::int64_t i : moving_) v.push_back(read(b, z_, h, i));
+        e.elimination.condense(held, v.data());
+        for (std::int64_t p = 0; p < n_moving(); ++p) write(v[p], n_moving(), h, p, moving);
     }
 
     // Writes du of harmonic h for all pairs: moving and eliminated ones as solved, the others from B D B' y.
-    void expand_solution(std::int64_t h, vector<Complex> &held, const double *reduced, const double *y,
-                         double *b) {
-        const Eliminated &e = eliminated_[h];
-        const std::int64_t s = static_cast<std::int64_t>(moving_.size()),
-                           n = static_cast<std::int64_t>(e.pairs.size());
-        const auto moving_force = [&](std::int64_t p) {
-            return h == 0 ? Complex(y[p]) : Complex(y[(2 * h - 1) * s + p], -y[2 * h * s + p]);
-        };
-        vector<Complex> coupled(n);
-        for (std::int64_t p = 0; p < s; ++p)
-            for (std::int64_t j = 0; j < n; ++j) coupled[j] += e.to_eliminated[j + p * n] * moving_force(p);
-        if (n > 0) e.closed.solve(coupled.data(), 1, n);
-        for (std::int64_t j = 0; j < n; ++j) held[j] -= coupled[j];
-
+    void expand(std::int64_t h, vector<Complex> &held, const double *moving, const double *y, double *b) {
+        const Constant &e = constant_[h];
+        vector<Complex> forces;
+        for (std::int64_t p = 0; p < n_moving(); ++p) forces.push_back(read(y, n_moving(), h, p));
+        e.elimination.expand(forces, held);
         vector<double> c(z_, 0.0), q(z_, 0.0); // contact force y = c - i q of all pairs
-        for (std::int64_t p = 0; p < s; ++p)
-            c[moving_[p]] = moving_force(p).real(), q[moving_[p]] = -moving_force(p).imag();
-        for (std::int64_t j = 0; j < n; ++j)
+        for (std::int64_t p = 0; p < n_moving(); ++p)
+            c[moving_[p]] = forces[p].real(), q[moving_[p]] = -forces[p].imag();
+        for (std::size_t j = 0; j < e.pairs.size(); ++j)
             c[e.pairs[j]] = e.kappa[j] * held[j].real(), q[e.pairs[j]] = -e.kappa[j] * held[j].imag();
+        subtract_response(h, c, q, b);
+        for (std::size_t j = 0; j < e.pairs.size(); ++j) write(held[j], z_, h, e.pairs[j], b);
+        for (std::int64_t p = 0; p < n_moving(); ++p)
+            write(read(moving, n_moving(), h, p), z_, h, moving_[p], b);
+    }
+
+    // b -= B D B' (c - i q) in harmonic h
+    void subtract_response(std::int64_t h, const vector<double> &c, const vector<double> &q, double *b) {
         if (h == 0) {
             vector<double> v(r0_);
             gemv('T', 1.0, m_->gap_0, c.data(), 0.0, v.data());
             apply_static(v.data());
             gemv('N', -1.0, m_->gap_0, v.data(), 1.0, b);
-        } else {
-            vector<Complex> v;
-            gather(c.data(), q.data(), 1.0, v);
-            receptance_[h].apply(v.data());
-            vector<double> gaps(2 * z_);
-            write_gaps(v, 1.0, gaps.data());
-            for (std::int64_t k = 0; k < 2 * z_; ++k) b[(2 * h - 1) * z_ + k] -= gaps[k];
+            return;
         }
-        for (std::int64_t j = 0; j < n; ++j) store(held[j], h, e.pairs[j], b);
-        for (std::int64_t p = 0; p < s; ++p)
-            store(h == 0 ? Complex(reduced[p])
-                         : Complex(reduced[(2 * h - 1) * s + p], -reduced[2 * h * s + p]),
-                  h, moving_[p], b);
+        vector<Complex> v;
+        gather(c.data(), q.data(), 1.0, v);
+        receptance_[h].apply(v.data());
+        vector<double> gaps(2 * z_);
+        write_gaps(v, 1.0, gaps.data());
+        for (std::int64_t k = 0; k < 2 * z_; ++k) b[(2 * h - 1) * z_ + k] -= gaps[k];
     }
+
+    std::int64_t n_moving() const { return static_cast<std::int64_t>(moving_.size()); }
 
     std::shared_ptr<const ReducedModel> m_;
     std::int64_t h_, n_, z_, r_, r0_;
@@ -428,7 +376,7 @@ class GapSystem final : public HbmSystem {
     vector<double> gap_;
     Matrix u_, contact_;
     std::vector<Receptance> receptance_;
-    std::vector<Eliminated> eliminated_;
+    std::vector<Constant> constant_;
     std::vector<vector<Complex>> eta_; // harmonics >= 1
     vector<double> eta_0_, reference_, real_, imag_;
     DenseCholesky static_cholesky_;
