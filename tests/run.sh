@@ -16,7 +16,7 @@ case ${1-} in
 '') set -- dev ;;
 esac
 
-need_packages g++ cmake ninja-build pkg-config libopenblas-dev liblapack-dev libarpack2-dev libfftw3-dev \
+need_packages g++ gfortran cmake ninja-build pkg-config libopenblas-dev liblapack-dev libarpack2-dev libfftw3-dev \
     libsuitesparse-dev libeigen3-dev libcmocka-dev python3 calculix-ccx
 
 jobs=2

@@ -103,8 +103,8 @@ PLM_API plm_status plm_build_info(int64_t capacity, char *buffer, int64_t *neede
 /* ---- Options and results by key ------------------------------------------------------------------------------
  * Every handle below has options (set before its build/run/sweep) and results (read after it), both named by string
  * keys listed in one table, which these functions expose and from which the reference (docs/keys.md) is made.
- * plm_X_set_int / _set_double / _set_string set an option (an int is taken for a double; an option set after the
- * handle was built takes effect at the next build/run/sweep). plm_X_get_int / _get_double / _get_string read an option
+ * plm_X_set_int / _set_double / _set_string set an option (an int is taken for a double). An option set after a
+ * build/run/sweep takes effect at the next one; a model is built once, so its options come before. plm_X_get_int / _get_double / _get_string read an option
  * or a scalar result. plm_X_get_array / _get_int_array copy an array result: `count` receives its length; with
  * values = NULL (capacity 0) only the length is asked; a capacity too small is PLM_ERR_ARGUMENT.
  * An unknown key is PLM_ERR_KEY, a result asked for too early PLM_ERR_STATE. */

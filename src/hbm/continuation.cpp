@@ -61,7 +61,8 @@ class Continuation {
     // The metric follows the largest response met, so that the flanks cost few points.
     void grow_scale() {
         scale_ = std::max(scale_, dynamic_norm(now_.x));
-        if (scale_ == 0) scale_ = std::max(norm2(n_, now_.x.data()), 1e-300);
+        if (scale_ == 0) scale_ = norm2(n_, now_.x.data());
+        if (scale_ == 0) scale_ = 1; // nothing moves and nothing rests: any measure will do
     }
 
     double product(const vector<double> &a, double a_omega, const vector<double> &b, double b_omega) const {

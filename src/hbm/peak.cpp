@@ -55,6 +55,7 @@ class PeakSearch {
     void set_chord() {
         const std::int64_t n = system_.size();
         scale_ = norm2(n, three_[1].x.data());
+        if (scale_ == 0) scale_ = 1;
         direction_.resize(n);
         for (std::int64_t i = 0; i < n; ++i) direction_[i] = three_[2].x[i] - three_[0].x[i];
         direction_omega_ = three_[2].omega - three_[0].omega;

@@ -1,0 +1,82 @@
+"""Figures with matplotlib. Every function draws into `ax` (None: a new figure) and returns it."""
+import numpy
+from matplotlib import pyplot
+
+
+def _axes(ax, xlabel, ylabel):
+    if ax is None:
+        ax = pyplot.figure(layout="constrained").add_subplot()
+    ax.set_xlabel(xlabel)
+    ax.set_ylabel(ylabel)
+    ax.grid(alpha=0.3)
+    return ax
+
+
+def response(branches, dof, measure="half_peak_to_peak", harmonic=0, labels=None, peaks=(), ax=None):
+    """Amplitude of a DOF over frequency: one branch or several, with their folds; peaks: results of Hbm.find_peak."""
+    branches = branches if isinstance(branches, (list, tuple)) else [branches]
+    ax = _axes(ax, "frequency (Hz)", f"amplitude of DOF {dof} ({measure.replace('_', ' ')})")
+    for i, branch in enumerate(branches):
+        marker = "o" if len(branch) == 1 else ""
+        ax.plot(branch.frequency_hz, branch.amplitude(dof, measure, harmonic), marker=marker, markersize=4,
+                label=labels[i] if labels else None)
+    for peak in peaks:
+        ax.plot(peak.frequency_hz, peak.amplitude, "k+", markersize=9)
+        ax.annotate(f"{peak.amplitude:.4g} at {peak.frequency_hz:.4g} Hz", (peak.frequency_hz, peak.amplitude),
+                    textcoords="offset points", xytext=(6, 4))
+    if labels:
+        ax.legend()
+    return ax
+
+
+def contact_over_frequency(branch, n_times=64, ax=None):
+    """Share of the pairs that are closed, over frequency: mean over the period, and from the least to the most closed."""
+    ax = _axes(ax, "frequency (Hz)", "share of the pairs that are closed")
+    mean = [branch.closed_share(i).mean() for i in range(len(branch))]
+    area = numpy.array([branch.contact(i, n_times).closed.mean(axis=0) for i in range(len(branch))])
+    frequency = branch.frequency_hz
+    for limit, label in ((area.min(axis=1), "least in the period"), (area.max(axis=1), "most in the period")):
+        ax.plot(frequency, limit, lw=0.8, color="C7", ls="--" if label.startswith("least") else "-.", label=label)
+    ax.plot(frequency, mean, color="C0", label="mean over the period")
+    ax.set_ylim(-0.03, 1.03)
+    ax.legend()
+    return ax
+
+
+def contact_over_cycle(branch, point, n_times=256, ax=None):
+    """Which pairs are closed during the period at a point of the branch, and their share."""
+    ax = _axes(ax, "time / period", "pair")
+    contact = branch.contact(point, n_times)
+    n_pairs = len(contact.closed)
+    ax.imshow(contact.closed, aspect="auto", interpolation="nearest", cmap="Greys", vmin=0, vmax=2, origin="lower",
+              extent=(0, 1, -0.5, n_pairs - 0.5))
+    ax.grid(False)
+    share = ax.twinx()
+    share.plot(contact.time, contact.closed.mean(axis=0), color="C3", drawstyle="steps-post")
+    share.set_ylim(-0.03, 1.03)
+    share.set_ylabel("share of the pairs that are closed", color="C3")
+    ax.set_title(f"{branch.frequency_hz[point]:.5g} Hz; dark: closed")
+    return ax
+
+
+def harmonics(branch, point, dofs, labels=None, ax=None):
+    """Magnitude of every harmonic of some DOFs at a point of the branch."""
+    dofs = numpy.atleast_1d(dofs)
+    ax = _axes(ax, "harmonic", "magnitude")
+    width = 0.8 / len(dofs)
+    for i, dof in enumerate(dofs):
+        magnitude = numpy.abs(branch.harmonics(point, int(dof)))
+        ax.bar(numpy.arange(len(magnitude)) + (i - (len(dofs) - 1) / 2) * width, magnitude, width,
+               label=labels[i] if labels else f"DOF {dof}")
+    ax.set_yscale("log")
+    ax.legend()
+    return ax
+
+
+def error_over_time(seconds, error, labels=None, ax=None):
+    """Error of several reductions against their run time."""
+    ax = _axes(ax, "run time (s)", "relative error")
+    ax.loglog(seconds, error, "o")
+    for t, e, label in zip(seconds, error, labels or [""] * len(seconds)):
+        ax.annotate(label, (t, e), textcoords="offset points", xytext=(6, 4))
+    return ax

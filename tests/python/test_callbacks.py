@@ -1,0 +1,175 @@
+"""Log, progress, cancel, Ctrl-C, the user's own solver."""
+import gc
+import signal
+import sys
+import types
+import unittest
+
+import numpy
+import plm
+import scipy.sparse.linalg
+
+import models
+
+
+class OfTheUser(Exception):
+    pass
+
+
+class Callbacks(unittest.TestCase):
+    def setUp(self):
+        self.context = plm.Context()
+        self.basis = models.basis(self.context)
+
+    def sweep(self, progress=None, **options):
+        return plm.Hbm(self.basis, **options).sweep(progress=progress)
+
+    def test_progress_is_told(self):
+        calls = []
+        self.sweep(lambda stage, fraction: calls.append((stage, fraction)))
+        self.assertTrue(all(isinstance(stage, str) and 0 <= fraction <= 1 for stage, fraction in calls))
+        self.assertIn("sweep", [stage for stage, _ in calls])
+
+    def test_true_cancels(self):
+        curve = self.sweep(lambda stage, fraction: stage == "sweep" and fraction > 0.3)
+        self.assertEqual(curve.status, plm.CANCELLED)
+        self.assertEqual(curve.end_reason, plm.REASON_CANCELLED)
+        self.assertIn("cancel", curve.status_text.lower())
+        self.assertLess(len(curve), len(self.sweep()))
+        with self.assertRaises(plm.PlmCancelled):
+            plm.Sampler(self.basis.model).run(progress=lambda *_: True)
+
+    def test_exceptions_come_back(self):
+        def fail(stage, fraction):
+            calls.append(stage)
+            if len(calls) == when:
+                raise OfTheUser(when)
+        for when in (1, 2, 6):
+            calls = []
+            with self.assertRaisesRegex(OfTheUser, str(when)):
+                self.sweep(fail)
+            self.assertEqual(len(calls), when)  # it stopped at once
+        self.assertEqual(self.sweep().status, plm.OK)  # still usable
+
+    def test_context_progress(self):
+        calls = []
+        self.context.progress = lambda *x: calls.append(x)
+        self.sweep(progress=False)
+        self.assertFalse(calls)
+        self.sweep()
+        self.assertTrue(calls and self.context.progress)
+
+    def test_calls_from_inside_are_refused(self):
+        def call_in(_stage, _fraction):
+            self.basis.set("n_harmonics", 3)
+        with self.assertRaises(plm.PlmError) as caught:
+            self.sweep(call_in)
+        self.assertEqual((caught.exception.status, caught.exception.function), (plm.ERR_STATE, "plm_basis_set_int"))
+
+    def test_ctrl_c(self):
+        def interrupt(stage, fraction):
+            if stage == "sweep" and fraction > 0.3:
+                signal.raise_signal(signal.SIGINT)
+        with self.assertRaises(KeyboardInterrupt) as caught:
+            self.sweep(interrupt)
+        self.assertGreater(len(caught.exception.branch), 0)
+        with self.assertRaises(KeyboardInterrupt):
+            plm.Sampler(self.basis.model).run(progress=lambda *_: signal.raise_signal(signal.SIGINT))
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+        self.assertEqual(self.sweep().status, plm.OK)
+
+    def test_log(self):
+        lines = []
+        self.context.log = lambda level, text: lines.append((level, text))
+        models.basis(self.context)
+        self.sweep()
+        self.assertTrue(all(level in (0, 1, 2) and text for level, text in lines))
+        if lines:
+            self.context.log = lambda level, text: (_ for _ in ()).throw(OfTheUser("log"))
+            with self.assertRaises(OfTheUser):
+                models.basis(self.context)
+            self.sweep_log_to_logging()
+        self.context.log = None
+
+    def sweep_log_to_logging(self):
+        self.context.log = True
+        with self.assertLogs("plm", level="DEBUG"):
+            models.basis(self.context)
+
+    def test_bar(self):
+        self.sweep(progress=True)  # tqdm or a plain line
+        shown = []
+
+        class Bar:
+            n = 0
+
+            def __init__(self, **_options):
+                shown.append("made")
+
+            def set_description(self, text, refresh):
+                shown.append(text)
+
+            def refresh(self):
+                shown.append(self.n)
+
+            def close(self):
+                shown.append("closed")
+        fakes = {"tqdm": types.ModuleType("tqdm"), "tqdm.auto": types.ModuleType("tqdm.auto")}
+        fakes["tqdm.auto"].tqdm = Bar
+        before = {name: sys.modules.get(name) for name in fakes}
+        sys.modules.update(fakes)
+        try:
+            self.sweep(progress=True)
+        finally:
+            for name, module in before.items():
+                if module is None:
+                    del sys.modules[name]
+                else:
+                    sys.modules[name] = module
+        self.assertEqual((shown[0], shown[-1]), ("made", "closed"))
+        self.assertIn("sweep", shown)
+
+    def test_garbage_collected_inside_a_callback(self):
+        waste = [models.model(context=self.context)]
+
+        def collect(_stage, _fraction):
+            waste.clear()
+        self.sweep(collect)
+        self.assertEqual(len(self.context._orphans), 1)
+        self.sweep()
+        self.assertEqual(len(self.context._orphans), 0)
+
+    def test_own_solver(self):
+        wanted, calls = self.basis.model.modes(2), []
+
+        def factor(matrix, positive_definite):
+            calls.append((matrix.shape, positive_definite))
+            self.assertEqual(abs(matrix - matrix.T).max(), 0)
+            return scipy.sparse.linalg.splu(matrix).solve
+        self.context.set_solver(factor)
+        numpy.testing.assert_allclose(models.model(context=self.context).build().modes(2), wanted, rtol=1e-9)
+        self.assertTrue(calls and calls[0][0] == (models.DOFS, models.DOFS))
+
+        def fail(matrix, positive_definite):
+            raise OfTheUser("factor")
+        self.context.set_solver(fail)
+        with self.assertRaises(OfTheUser):
+            models.model(context=self.context).build()
+        self.context.set_solver(None)
+        models.model(context=self.context).build()
+        gc.collect()
+        self.assertFalse(self.context._host.factors)  # all released with their models
+
+    def test_a_context_goes_with_its_last_user(self):
+        import weakref
+        context = plm.Context()
+        model = models.model(context=context)
+        watch = weakref.ref(context)
+        del context
+        self.assertIsNotNone(watch())
+        del model
+        self.assertIsNone(watch())  # without the help of the garbage collector
+
+
+if __name__ == "__main__":
+    unittest.main()

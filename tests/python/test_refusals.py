@@ -1,0 +1,92 @@
+"""What is refused, and what the exception tells."""
+import math
+import unittest
+
+import numpy
+import plm
+import scipy.sparse
+
+import models
+
+
+class Refusals(unittest.TestCase):
+    def refused(self, attempt, /, *arguments, kind=plm.PlmError, **fields):
+        with self.assertRaises(kind) as caught:
+            attempt(*arguments)
+        for name, value in fields.items():
+            self.assertEqual(getattr(caught.exception, name), value, name)
+        self.assertTrue(str(caught.exception))
+        return caught.exception
+
+    def test_matrix_entries(self):
+        mass, stiffness = models.matrices()
+        stiffness.data[5] = math.nan
+        self.refused(plm.Model, mass, stiffness, status=plm.ERR_MATRIX, function="plm_model_set_matrix_i32",
+                     argument="value", index=5)
+        stiffness.data[5] = 3
+        self.refused(plm.Model, mass, stiffness, status=plm.ERR_MATRIX)  # not symmetric
+        twice = scipy.sparse.csc_matrix((numpy.ones(3), [0, 0, 1], [0, 2, 3]), shape=(2, 2))
+        self.refused(plm.Model, twice, status=plm.ERR_MATRIX, argument="b")
+
+    def test_dofs(self):
+        model = plm.Model(n_dof=4)
+        self.refused(model.fix_dofs, [0, 4], status=plm.ERR_ARGUMENT, function="plm_model_fix_dofs_i64", argument="dof",
+                     index=1)
+        self.refused(model.fix_dofs, [0.5], kind=TypeError)
+        self.refused(model.add_ground_contacts, [0, 1, 2], [2, 0, 0], status=plm.ERR_ARGUMENT, argument="normal")
+        self.refused(model.add_ground_contacts, [0, 1, 2], [1, 0], kind=ValueError)
+        self.refused(model.add_node_pairs, [0, 1, 2], [0, 1, 2, 1, 2, 3], [1, 0, 0], kind=ValueError)
+        self.refused(model.add_gap_rows, numpy.eye(3), kind=ValueError)
+        self.refused(model.set_preload, [1, 2], kind=ValueError)
+        self.refused(model.set_mass, numpy.eye(3), kind=ValueError)
+        self.refused(plm.Model, kind=TypeError)
+
+    def test_not_positive_definite(self):
+        mass, stiffness = models.matrices()
+        stiffness[9, 6] = stiffness[6, 9] = -1e6
+        self.refused(plm.Model(mass, stiffness).build, status=plm.ERR_NOT_POSITIVE_DEFINITE, function="plm_model_build",
+                     reason=plm.REASON_NOT_POSITIVE_DEFINITE)
+
+    def test_keys(self):
+        model = models.model()
+        for attempt in (lambda: setattr(model, "space_tolerence", 1e-3), lambda: model.set("space_tolerence", 1e-3),
+                        lambda: plm.Model(n_dof=2, space_tolerence=1e-3), lambda: model.get("space_tolerence")):
+            error = self.refused(attempt, kind=plm.PlmKeyError, status=plm.ERR_KEY, argument="key")
+            self.assertIn("space_tolerance", str(error))  # the nearest
+        self.assertFalse(hasattr(model, "no_such_thing"))
+        self.refused(setattr, model, "space_tolerance", 2.0, status=plm.ERR_ARGUMENT)
+        self.refused(model.set, "space_tolerance", [1], kind=TypeError)
+        self.refused(setattr, model, "n_free", 3, kind=AttributeError)
+        self.refused(lambda: model.modes(3, "slidding"), kind=ValueError)
+
+    def test_order(self):
+        model = models.model()
+        self.refused(plm.Sampler(model).run, status=plm.ERR_STATE, function="plm_sampler_run")
+        self.refused(lambda: model.rest_force, status=plm.ERR_STATE)
+        model.build()
+        self.refused(model.fix_dofs, [0], status=plm.ERR_STATE)
+        self.refused(plm.Model(n_dof=2).build, status=plm.ERR_STATE)
+
+    def test_contexts_do_not_mix(self):
+        basis = models.basis(plm.Context())
+        other = models.model(context=plm.Context()).build()
+        self.refused(basis.set_sampler, plm.Sampler(other), status=plm.ERR_HANDLE, argument="sampler")
+
+    def test_points(self):
+        curve = plm.Hbm(models.basis()).sweep()
+        self.refused(curve.field, len(curve), status=plm.ERR_ARGUMENT, argument="point")
+        self.refused(curve.amplitude, models.DOFS, status=plm.ERR_ARGUMENT, argument="dof")
+        self.refused(curve.set, "n_points", 3, kind=AttributeError)
+
+    def test_any_order_of_destruction(self):
+        context = plm.Context()
+        basis = models.basis(context)
+        hbm = plm.Hbm(basis)
+        del context, basis
+        curve = hbm.sweep()
+        del hbm
+        self.assertGreater(len(curve), 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
