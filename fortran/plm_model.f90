@@ -232,12 +232,17 @@ contains
             call refuse('add_node_pairs: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (.not. gap_fits(gap, size(stiffness))) then
-            call refuse('add_node_pairs: gap has the wrong length', stat, errmsg)
-            return
+        if (present(gap)) then
+            if (size(gap) /= size(stiffness)) then
+                call refuse('add_node_pairs: gap has the wrong length', stat, errmsg)
+                return
+            end if
+            call finish(self%context, plm_model_add_node_pairs_i32(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
+                dof_a, dof_b, normal, stiffness, gap), stat, errmsg)
+        else
+            call finish(self%context, plm_model_add_node_pairs_i32(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
+                dof_a, dof_b, normal, stiffness), stat, errmsg)
         end if
-        call finish(self%context, plm_model_add_node_pairs_i32(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
-            dof_a, dof_b, normal, stiffness, gap), stat, errmsg)
     end subroutine add_node_pairs_int32
 
     subroutine add_node_pairs_int64(self, dof_a, dof_b, normal, stiffness, gap, stat, errmsg)
@@ -253,12 +258,17 @@ contains
             call refuse('add_node_pairs: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (.not. gap_fits(gap, size(stiffness))) then
-            call refuse('add_node_pairs: gap has the wrong length', stat, errmsg)
-            return
+        if (present(gap)) then
+            if (size(gap) /= size(stiffness)) then
+                call refuse('add_node_pairs: gap has the wrong length', stat, errmsg)
+                return
+            end if
+            call finish(self%context, plm_model_add_node_pairs_i64(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
+                dof_a, dof_b, normal, stiffness, gap), stat, errmsg)
+        else
+            call finish(self%context, plm_model_add_node_pairs_i64(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
+                dof_a, dof_b, normal, stiffness), stat, errmsg)
         end if
-        call finish(self%context, plm_model_add_node_pairs_i64(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
-            dof_a, dof_b, normal, stiffness, gap), stat, errmsg)
     end subroutine add_node_pairs_int64
 
     ! The normal points into the ground.
@@ -273,12 +283,17 @@ contains
             call refuse('add_ground_contacts: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (.not. gap_fits(gap, size(stiffness))) then
-            call refuse('add_ground_contacts: gap has the wrong length', stat, errmsg)
-            return
+        if (present(gap)) then
+            if (size(gap) /= size(stiffness)) then
+                call refuse('add_ground_contacts: gap has the wrong length', stat, errmsg)
+                return
+            end if
+            call finish(self%context, plm_model_add_ground_contacts_i32(self%handle, 1_c_int32_t, &
+                size(stiffness, kind=int64), dof, normal, stiffness, gap), stat, errmsg)
+        else
+            call finish(self%context, plm_model_add_ground_contacts_i32(self%handle, 1_c_int32_t, &
+                size(stiffness, kind=int64), dof, normal, stiffness), stat, errmsg)
         end if
-        call finish(self%context, plm_model_add_ground_contacts_i32(self%handle, 1_c_int32_t, &
-            size(stiffness, kind=int64), dof, normal, stiffness, gap), stat, errmsg)
     end subroutine add_ground_contacts_int32
 
     subroutine add_ground_contacts_int64(self, dof, normal, stiffness, gap, stat, errmsg)
@@ -292,12 +307,17 @@ contains
             call refuse('add_ground_contacts: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (.not. gap_fits(gap, size(stiffness))) then
-            call refuse('add_ground_contacts: gap has the wrong length', stat, errmsg)
-            return
+        if (present(gap)) then
+            if (size(gap) /= size(stiffness)) then
+                call refuse('add_ground_contacts: gap has the wrong length', stat, errmsg)
+                return
+            end if
+            call finish(self%context, plm_model_add_ground_contacts_i64(self%handle, 1_c_int32_t, &
+                size(stiffness, kind=int64), dof, normal, stiffness, gap), stat, errmsg)
+        else
+            call finish(self%context, plm_model_add_ground_contacts_i64(self%handle, 1_c_int32_t, &
+                size(stiffness, kind=int64), dof, normal, stiffness), stat, errmsg)
         end if
-        call finish(self%context, plm_model_add_ground_contacts_i64(self%handle, 1_c_int32_t, &
-            size(stiffness, kind=int64), dof, normal, stiffness, gap), stat, errmsg)
     end subroutine add_ground_contacts_int64
 
     ! Rows of the gap matrix: u = sum of coefficient x q(dof) - gap, u > 0 closed.
@@ -312,16 +332,21 @@ contains
             call refuse('add_gap_rows: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (.not. gap_fits(gap, size(stiffness))) then
-            call refuse('add_gap_rows: gap has the wrong length', stat, errmsg)
+        if (present(gap)) then
+            if (size(gap) /= size(stiffness)) then
+                call refuse('add_gap_rows: gap has the wrong length', stat, errmsg)
             return
         end if
         if (row_ptr(size(row_ptr)) > size(dof) + 1) then
             call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
-            return
+                return
+            end if
+            call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
+                row_ptr, dof, coefficient, stiffness, gap), stat, errmsg)
+        else
+            call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
+                row_ptr, dof, coefficient, stiffness), stat, errmsg)
         end if
-        call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
-            row_ptr, dof, coefficient, stiffness, gap), stat, errmsg)
     end subroutine add_gap_rows_int32
 
     subroutine add_gap_rows_int64(self, row_ptr, dof, coefficient, stiffness, gap, stat, errmsg)
@@ -335,16 +360,21 @@ contains
             call refuse('add_gap_rows: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (.not. gap_fits(gap, size(stiffness))) then
-            call refuse('add_gap_rows: gap has the wrong length', stat, errmsg)
+        if (present(gap)) then
+            if (size(gap) /= size(stiffness)) then
+                call refuse('add_gap_rows: gap has the wrong length', stat, errmsg)
             return
         end if
         if (row_ptr(size(row_ptr)) > size(dof) + 1) then
             call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
-            return
+                return
+            end if
+            call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
+                row_ptr, dof, coefficient, stiffness, gap), stat, errmsg)
+        else
+            call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
+                row_ptr, dof, coefficient, stiffness), stat, errmsg)
         end if
-        call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
-            row_ptr, dof, coefficient, stiffness, gap), stat, errmsg)
     end subroutine add_gap_rows_int64
 
     ! absent: none
@@ -353,10 +383,11 @@ contains
         real(real64), intent(in), contiguous, optional :: force(:)
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
-        integer(int64) :: n
-        n = self%n_dof
-        if (present(force)) n = size(force, kind=int64)
-        call finish(self%context, plm_model_set_preload(self%handle, n, force), stat, errmsg)
+        if (present(force)) then
+            call finish(self%context, plm_model_set_preload(self%handle, size(force, kind=int64), force), stat, errmsg)
+        else
+            call finish(self%context, plm_model_set_preload(self%handle, int(self%n_dof, int64)), stat, errmsg)
+        end if
     end subroutine set_preload
 
     ! F(t) = sum over h of Re(force_h exp(i h omega t))
@@ -424,8 +455,12 @@ contains
             flags(:) = merge(1_c_int32_t, 0_c_int32_t, closed)
         end if
         ! flags not allocated: absent
-        call finish(self%context, plm_model_get_modes(self%handle, system, flags, size(frequency_hz, kind=int64), &
-            frequency_hz, shape), stat, errmsg)
+        if (present(shape)) then
+            status = plm_model_get_modes(self%handle, system, flags, size(frequency_hz, kind=int64), frequency_hz, shape)
+        else
+            status = plm_model_get_modes(self%handle, system, flags, size(frequency_hz, kind=int64), frequency_hz)
+        end if
+        call finish(self%context, status, stat, errmsg)
     end subroutine modes
 
     subroutine audit(self, count, stat, errmsg)
@@ -458,12 +493,5 @@ contains
         severity = int(level)
         text = f_text(buffer)
     end subroutine finding
-
-    pure logical function gap_fits(gap, n)
-        real(real64), intent(in), optional :: gap(:)
-        integer, intent(in) :: n
-        gap_fits = .true.
-        if (present(gap)) gap_fits = size(gap) == n
-    end function gap_fits
 
 end module plm_models

@@ -50,7 +50,9 @@ contains
         call finish(self%context, plm_hbm_destroy(self%handle), stat, errmsg)
     end subroutine destroy
 
-    ! stat PLM_NOT_CONVERGED, PLM_TRUNCATED or PLM_CANCELLED: the branch holds what was found until then
+    ! stat PLM_NOT_CONVERGED, PLM_TRUNCATED or PLM_CANCELLED: the branch holds what was found until then; it is left
+    ! alone when that is not even one point. A branch that this one replaces lives on until its context goes: destroy
+    ! it before.
     subroutine sweep(self, branch, stat, errmsg)
         class(plm_hbm), intent(inout) :: self
         type(plm_branch), intent(inout) :: branch
@@ -103,7 +105,7 @@ contains
         call finish(self%context, status, stat, errmsg)
     end subroutine find_peak
 
-    ! an output branch: what it held before stays alive only through other copies
+    ! an output branch knows its context and kind before it has a handle
     subroutine prepare(self, branch)
         class(plm_hbm), intent(in) :: self
         type(plm_branch), intent(inout) :: branch

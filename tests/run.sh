@@ -17,7 +17,8 @@ case ${1-} in
 esac
 
 need_packages g++ gfortran cmake ninja-build pkg-config libopenblas-dev liblapack-dev libarpack2-dev libfftw3-dev \
-    libsuitesparse-dev libeigen3-dev libcmocka-dev python3 calculix-ccx
+    libsuitesparse-dev libeigen3-dev libcmocka-dev python3 python3-numpy python3-scipy python3-matplotlib \
+    python3-pip calculix-ccx
 
 jobs=2
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"

@@ -3,9 +3,9 @@
  *
  *     cracked_plate_study [--help]
  *
- * Takes the cracked plate of the paper (section 3.2) or another scene, computes its response near one resonance on
- * bases from 1 to 8 contact samples, by Craig-Bampton and without reduction, and compares resonance frequency and peak
- * amplitude with the unreduced ones at the same number of harmonics.
+ * Takes the cracked plate of the paper (section 3.2) or another scene, computes its response near one
+ * resonance on bases from 1 to 8 contact samples, by Craig-Bampton and without reduction, and compares
+ * resonance frequency and peak amplitude with the unreduced ones at the same number of harmonics.
  */
 #include <stdio.h>
 #include <string.h>
@@ -19,7 +19,8 @@ static int compare_methods(study *s) {
     int failed = study_write_facts(s);
     for (int32_t i = 0; i < n; i++) {
         study_run_method(s, &method[i], &result[i]);
-        if (result[i].error[0] && strcmp(method[i].selection, "bands")) failed = 1; /* the bands may be empty */
+        if (result[i].error[0] && strcmp(method[i].selection, "bands"))
+            failed = 1; /* the bands may be empty */
     }
     study_compare(result, n);
     study_print_table(result, n);

@@ -61,10 +61,13 @@ static void print_kind(int32_t kind, const char *handle) {
 
 int main(void) {
     printf("# Options and results by key\n\n"
-           "Options are set by `plm_<handle>_set_int`, `_set_double` and `_set_string` before the handle is built or run;\n"
-           "results are read by `plm_<handle>_get_...` of their type afterwards. Units are the model's own unless a unit is\n"
+           "Options are set by `plm_<handle>_set_int`, `_set_double` and `_set_string` before the handle is "
+           "built or run;\n"
+           "results are read by `plm_<handle>_get_...` of their type afterwards. Units are the model's own "
+           "unless a unit is\n"
            "given; pairs run fastest in matrices over pairs.\n\n"
-           "Printed by `list_keys` (`examples/c/list_keys.c`) from the library itself; a test compares. To renew:\n\n"
+           "Printed by `list_keys` (`examples/c/list_keys.c`) from the library itself; a test compares. To "
+           "renew:\n\n"
            "    build/dev/examples/c/list_keys > docs/keys.md\n");
     print_kind(PLM_KIND_MODEL, "plm_model");
     print_kind(PLM_KIND_SAMPLER, "plm_sampler");

@@ -1,10 +1,11 @@
-/* minimal.c: two masses on springs, one of them beside a stop; the peak of the response near the first resonance. */
+/* minimal.c: two masses on springs, one of them beside a stop; the peak of the response near the first
+ * resonance. */
 #include <plm/plm.h>
 #include <stdio.h>
 
-#define TRY(call)                                                                                                      \
-    do {                                                                                                               \
-        if ((call) < 0) return 1;                                                                                      \
+#define TRY(call)                                                                                            \
+    do {                                                                                                     \
+        if ((call) < 0) return 1;                                                                            \
     } while (0)
 
 static int find_peak(plm_context *ctx, double *hz, double *amplitude) {
@@ -22,7 +23,8 @@ static int find_peak(plm_context *ctx, double *hz, double *amplitude) {
     plm_branch *curve = NULL;
 
     TRY(plm_model_create(ctx, 2, &model));
-    TRY(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 2, diagonal, diagonal, mass));
+    TRY(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 2, diagonal, diagonal,
+                                 mass));
     TRY(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 3, row, column,
                                  stiffness));
     TRY(plm_model_set_rayleigh_damping(model, 0, 2e-4));

@@ -1,4 +1,5 @@
-/* study.h: what the parts of cracked_plate_study share: one scene, the methods compared on it, their results. */
+/* study.h: what the parts of cracked_plate_study share: one scene, the methods compared on it, their results.
+ */
 #ifndef STUDY_H
 #define STUDY_H
 
@@ -28,18 +29,20 @@ typedef struct study {
     scene *scene;
     plm_context *ctx;
     plm_model *model;
-    plm_sampler *sampler;  /* of the first run; gives the window to the methods that need no samples */
-    double begin;          /* study_seconds() of the start */
-    double last_note;      /* of the last sign of life */
-    double contact_space;  /* seconds of the first sampler run; every later one shares its space */
+    plm_sampler *sampler; /* of the first run; gives the window to the methods that need no samples */
+    double begin;         /* study_seconds() of the start */
+    double last_note;     /* of the last sign of life */
+    double contact_space; /* seconds of the first sampler run; every later one shares its space */
 } study;
 
-/* Makes the scene, hands it over, finds the dominant mode and the window. 0, or 1 with the reason on stderr. */
+/* Makes the scene, hands it over, finds the dominant mode and the window. 0, or 1 with the reason on stderr.
+ */
 int study_open(study *s, const study_options *options);
 void study_close(study *s);
 /* Prints what was found. */
 void study_print_found(study *s);
-/* A sampler that takes n_samples from the sweep of the scene's dominant mode. Returns the first bad status. */
+/* A sampler that takes n_samples from the sweep of the scene's dominant mode. Returns the first bad status.
+ */
 plm_status study_sample(study *s, int64_t n_samples, plm_sampler **sampler);
 
 /* ---- one method: study_method.c ---- */
@@ -63,7 +66,8 @@ typedef struct study_result {
     double error_hz, error_amplitude; /* relative, against the full order; NaN: unknown */
 } study_result;
 
-/* All methods of the options: samples in ascending order of the list, the bands rule, Craig-Bampton, full order last. */
+/* All methods of the options: samples in ascending order of the list, the bands rule, Craig-Bampton, full
+ * order last. */
 int32_t study_methods(const study_options *options, study_method method[STUDY_METHODS]);
 /* Basis, curve and peak; writes the method's CSV files. A failure is text in the result. */
 void study_run_method(study *s, const study_method *method, study_result *result);

@@ -7,8 +7,8 @@
 #include "study.h"
 
 plm_status study_sample(study *s, int64_t n_samples, plm_sampler **sampler) {
-    /* The engineer knows which resonance is studied; without these two the library would propose the mode that takes
-     * the largest part in the response of the driven DOF. */
+    /* The engineer knows which resonance is studied; without these two the library would propose the mode
+     * that takes the largest part in the response of the driven DOF. */
     const char *system = s->scene->dominant_system == SCENE_OPEN ? "open" : "sliding";
     plm_status status = plm_sampler_create(s->model, sampler);
     if (!status) status = plm_sampler_set_string(*sampler, "system", system);
@@ -35,7 +35,8 @@ int study_open(study *s, const study_options *o) {
         fprintf(stderr, "%s, %s: %s\n", o->scene, o->size, scene_error_text(made));
         return 1;
     }
-    study_say(s, "scene made: %" PRId64 " DOFs, %" PRId64 " contact pairs", s->scene->n_dof, s->scene->n_pairs);
+    study_say(s, "scene made: %" PRId64 " DOFs, %" PRId64 " contact pairs", s->scene->n_dof,
+              s->scene->n_pairs);
     if (plm_context_create(PLM_API_VERSION, &s->ctx)) return 1;
     plm_context_set_progress(s->ctx, study_progress, s);
     if (scene_to_model(s->ctx, s->scene, &s->model)) return complain(s->ctx, "model");
@@ -79,14 +80,15 @@ void study_print_found(study *s) {
     int64_t mode = 0, n_sets = 0;
     double hz = 0, participation = 0;
     const study_options *o = s->options;
-    printf("\nScene            %s (%s size), %" PRId64 " DOFs, %" PRId64 " contact pairs, H = %" PRId64 "\n", o->scene,
-           o->size, s->scene->n_dof, s->scene->n_pairs, o->n_harmonics);
+    printf("\nScene            %s (%s size), %" PRId64 " DOFs, %" PRId64 " contact pairs, H = %" PRId64 "\n",
+           o->scene, o->size, s->scene->n_dof, s->scene->n_pairs, o->n_harmonics);
     plm_sampler_get_string(s->sampler, "dominant_system", sizeof text, text, NULL);
     plm_sampler_get_int(s->sampler, "dominant_mode", &mode);
     plm_sampler_get_double(s->sampler, "dominant_frequency_hz", &hz);
     plm_sampler_get_double(s->sampler, "dominant_participation", &participation);
-    printf("Dominant mode    number %" PRId64 " of the %s system, %.1f Hz, %.0f %% of the drive-point response\n", mode,
-           text, hz, 100 * participation);
+    printf("Dominant mode    number %" PRId64
+           " of the %s system, %.1f Hz, %.0f %% of the drive-point response\n",
+           mode, text, hz, 100 * participation);
     print_rest(s);
     print_window(s->sampler);
     plm_sampler_get_int(s->sampler, "n_sweep_samples", &n_sets);

@@ -30,7 +30,8 @@ static int close_file(FILE *file) {
     return (fclose(file) != 0) | failed;
 }
 
-/* Closed pairs over the period: their number at each of n_times instants, and its mean from the switching instants. */
+/* Closed pairs over the period: their number at each of n_times instants, and its mean from the switching
+ * instants. */
 typedef struct cycle {
     int64_t at[n_times], least, most;
     double mean;
@@ -79,12 +80,15 @@ static int read_columns(plm_branch *b, int64_t dof, columns *c) {
 }
 
 static int write_points(FILE *file, plm_branch *curve, int64_t n_pairs, const columns *c) {
-    fprintf(file, "frequency_hz,amplitude,arclength,closed_mean,closed_min,closed_max,newton_iterations,residual\n");
+    fprintf(
+        file,
+        "frequency_hz,amplitude,arclength,closed_mean,closed_min,closed_max,newton_iterations,residual\n");
     for (int64_t i = 0; i < c->n; i++) {
         cycle contact;
         if (read_cycle(curve, i, n_pairs, &contact)) return 1;
-        fprintf(file, "%.15g,%.15g,%.15g,%.6f,%" PRId64 ",%" PRId64 ",%" PRId64 ",%.3e\n", c->hz[i], c->amplitude[i],
-                c->arclength[i], contact.mean, contact.least, contact.most, c->iterations[i], c->residual[i]);
+        fprintf(file, "%.15g,%.15g,%.15g,%.6f,%" PRId64 ",%" PRId64 ",%" PRId64 ",%.3e\n", c->hz[i],
+                c->amplitude[i], c->arclength[i], contact.mean, contact.least, contact.most, c->iterations[i],
+                c->residual[i]);
     }
     return 0;
 }
@@ -128,14 +132,16 @@ static void put_text(FILE *file, const char *text) {
 int study_write_table(const study_options *o, const study_result *result, int32_t n) {
     FILE *file = open_file(o, "table", "");
     if (!file) return 1;
-    fprintf(file, "method,samples,contact_sets,collected_vectors,basis_size,setup_seconds,seconds_per_iteration,"
-                  "curve_seconds,points,newton_iterations,peak_hz,peak_amplitude,error_frequency,error_amplitude,"
-                  "full_residual,unknowns,end,warning,error\n");
+    fprintf(file,
+            "method,samples,contact_sets,collected_vectors,basis_size,setup_seconds,seconds_per_iteration,"
+            "curve_seconds,points,newton_iterations,peak_hz,peak_amplitude,error_frequency,error_amplitude,"
+            "full_residual,unknowns,end,warning,error\n");
     for (int32_t i = 0; i < n; i++) {
         const study_result *r = &result[i];
-        fprintf(file, "%s,%" PRId64 ",%" PRId64 ",%" PRId64 ",%" PRId64 ",%.6g,%.6g,%.6g,%" PRId64 ",%" PRId64,
-                r->method.name, r->method.n_samples, r->contact_sets, r->n_collected, r->basis_size, r->setup_seconds,
-                r->iteration_seconds, r->curve_seconds, r->n_points, r->newton_iterations);
+        fprintf(file,
+                "%s,%" PRId64 ",%" PRId64 ",%" PRId64 ",%" PRId64 ",%.6g,%.6g,%.6g,%" PRId64 ",%" PRId64,
+                r->method.name, r->method.n_samples, r->contact_sets, r->n_collected, r->basis_size,
+                r->setup_seconds, r->iteration_seconds, r->curve_seconds, r->n_points, r->newton_iterations);
         fprintf(file, ",%.15g,%.15g,%.3e,%.3e,%.3e,%s,", r->peak_hz, r->peak_amplitude, r->error_hz,
                 r->error_amplitude, r->full_residual, r->unknowns);
         put_text(file, r->end);

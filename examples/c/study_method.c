@@ -32,10 +32,10 @@ typedef struct handles {
     plm_branch *curve, *peak;
 } handles;
 
-#define TRY(call)                                                                                                      \
-    do {                                                                                                               \
-        const plm_status status_ = (call);                                                                             \
-        if (status_ < 0) return status_;                                                                               \
+#define TRY(call)                                                                                            \
+    do {                                                                                                     \
+        const plm_status status_ = (call);                                                                   \
+        if (status_ < 0) return status_;                                                                     \
     } while (0)
 
 static plm_status build_basis(study *s, const study_method *m, handles *h, study_result *r) {
@@ -77,12 +77,12 @@ static plm_status find_peak(study *s, handles *h, study_result *r) {
 
 static plm_status run(study *s, const study_method *m, handles *h, study_result *r) {
     TRY(build_basis(s, m, h, r));
-    study_say(s, "%s: basis of %" PRId64 " from %" PRId64 " vectors, %.3f s", m->label, r->basis_size, r->n_collected,
-              r->setup_seconds);
+    study_say(s, "%s: basis of %" PRId64 " from %" PRId64 " vectors, %.3f s", m->label, r->basis_size,
+              r->n_collected, r->setup_seconds);
     TRY(follow_curve(s, h, r));
     TRY(find_peak(s, h, r));
-    study_say(s, "%s: %" PRId64 " points in %.3f s, peak %.6g at %.6g Hz; %s", m->label, r->n_points, r->curve_seconds,
-              r->peak_amplitude, r->peak_hz, r->end);
+    study_say(s, "%s: %" PRId64 " points in %.3f s, peak %.6g at %.6g Hz; %s", m->label, r->n_points,
+              r->curve_seconds, r->peak_amplitude, r->peak_hz, r->end);
     return PLM_OK;
 }
 

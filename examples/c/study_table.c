@@ -7,16 +7,18 @@
 
 static void print_head(const char *title) {
     printf("\n%s\n", title);
-    printf("                     basis   set-up  Newton it.    curve  points  resonance    error   peak ampl.    error"
+    printf("                     basis   set-up  Newton it.    curve  points  resonance    error   peak "
+           "ampl.    error"
            "  residual in the\n");
-    printf("method                size        s          ms        s                Hz                               "
+    printf("method                size        s          ms        s                Hz                       "
+           "        "
            "  full equations\n");
 }
 
 static void print_row(const study_result *r) {
     printf("%-18s  %6" PRId64 "  %7.3f  %10.3f  %7.3f  %6" PRId64 "  %9.3f  %7.1e  %11.5e  %7.1e  %15.1e\n",
-           r->method.label, r->basis_size, r->setup_seconds, 1e3 * r->iteration_seconds, r->curve_seconds, r->n_points,
-           r->peak_hz, r->error_hz, r->peak_amplitude, r->error_amplitude, r->full_residual);
+           r->method.label, r->basis_size, r->setup_seconds, 1e3 * r->iteration_seconds, r->curve_seconds,
+           r->n_points, r->peak_hz, r->error_hz, r->peak_amplitude, r->error_amplitude, r->full_residual);
 }
 
 /* What a reader of the row has to know. */

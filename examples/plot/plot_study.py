@@ -178,7 +178,7 @@ def set_time_ticks(axes):
     """Round numbers, also where the axis spans less than a decade."""
     low, high = axes.get_xlim()
     if high / low < 8:
-        ticks = ticker.MaxNLocator(6).tick_values(low, high)
+        ticks = ticker.MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(low, high)
     else:
         ticks = [m * 10.0 ** e for e in range(-6, 6) for m in ((1, 2, 5) if high / low < 200 else (1,))]
     axes.xaxis.set_major_locator(ticker.FixedLocator([t for t in ticks if low <= t <= high]))
@@ -272,7 +272,8 @@ def main():
     arguments = parser.parse_args()
     study = Study(arguments.folder)
     to = pathlib.Path(arguments.to or arguments.folder)
-    for draw, name in ((plot_curves, "curves"), (plot_errors, "error_against_time"), (plot_contact, "contact_over_cycle")):
+    pictures = {"curves": plot_curves, "error_against_time": plot_errors, "contact_over_cycle": plot_contact}
+    for name, draw in pictures.items():
         draw(study, to / f"{name}.png", arguments.dpi)
         print(to / f"{name}.png")
 

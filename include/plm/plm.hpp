@@ -1,17 +1,24 @@
-// plm.hpp - libplm for C++17 and later: handles that clean up after themselves, exceptions, containers, lambdas.
+// plm.hpp - libplm for C++17 and later: handles that clean up after themselves, exceptions, containers,
+// lambdas.
 //
-// Header only, over plm.h alone; nothing is exported, any compiler will do. What a function computes is said in plm.h
-// beside the C function of the same name; this page says only what C++ adds:
+// Header only, over plm.h alone; nothing is exported, any compiler will do. What a function computes is said
+// in plm.h beside the C function of the same name; this page says only what C++ adds:
 //
-//   - Model, Sampler, Basis, Hbm and Branch are move-only and may outlive one another and the Context in any order.
-//   - A failure throws plm::Error with everything the context knows about it. PLM_NOT_CONVERGED, PLM_TRUNCATED and
-//     PLM_CANCELLED of a sweep do not throw: see Branch::status(). A cancelled build or run throws plm::Cancelled.
-//   - Arrays in: any contiguous container (std::vector, std::array, std::span, Eigen vectors, {1, 2, 3}); its size is
+//   - Model, Sampler, Basis, Hbm and Branch are move-only and may outlive one another and the Context in any
+//   order.
+//   - A failure throws plm::Error with everything the context knows about it. PLM_NOT_CONVERGED,
+//   PLM_TRUNCATED and
+//     PLM_CANCELLED of a sweep do not throw: see Branch::status(). A cancelled build or run throws
+//     plm::Cancelled.
+//   - Arrays in: any contiguous container (std::vector, std::array, std::span, Eigen vectors, {1, 2, 3}); its
+//   size is
 //     checked. Arrays out: std::vector, matrices by columns.
-//   - An exception that leaves a callback stops the call under way and is thrown again by it, and so is one in a log
+//   - An exception that leaves a callback stops the call under way and is thrown again by it, and so is one
+//   in a log
 //     callback; libplm never sees it.
 //
-// The core of the library has names in namespace plm, too; the inline namespace keeps the two apart in a static link.
+// The core of the library has names in namespace plm, too; the inline namespace keeps the two apart in a
+// static link.
 #ifndef PLM_PLM_HPP
 #define PLM_PLM_HPP
 
@@ -34,7 +41,8 @@
 namespace plm {
 inline namespace cpp {
 
-// ---- Errors ---------------------------------------------------------------------------------------------------
+// ---- Errors
+// ---------------------------------------------------------------------------------------------------
 
 /// Where and why a call failed.
 struct ErrorDetails {
@@ -66,7 +74,8 @@ class Cancelled : public Error {
     using Error::Error;
 };
 
-// ---- Arrays and matrices --------------------------------------------------------------------------------------
+// ---- Arrays and matrices
+// --------------------------------------------------------------------------------------
 
 /// A look at someone else's contiguous array; lives as long as the call it is an argument of.
 template <class T> class View {
@@ -75,8 +84,10 @@ template <class T> class View {
     View(std::nullptr_t) {}
     View(const T *data, std::int64_t size) : data_(data), size_(size) {}
     View(std::initializer_list<T> list) : View(list.begin(), static_cast<std::int64_t>(list.size())) {}
-    template <class C, class = std::enable_if_t<std::is_same_v<
-                           std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<const C &>()))>>, T>>>
+    template <
+        class C,
+        class = std::enable_if_t<std::is_same_v<
+            std::remove_cv_t<std::remove_pointer_t<decltype(std::data(std::declval<const C &>()))>>, T>>>
     View(const C &container) : View(std::data(container), static_cast<std::int64_t>(std::size(container))) {}
     const T *data() const { return data_; }
     std::int64_t size() const { return size_; }
@@ -92,7 +103,8 @@ class Indices {
   public:
     Indices() = default;
     Indices(std::initializer_list<std::int32_t> list) : narrow_(list) {}
-    template <class C, class = std::enable_if_t<std::is_convertible_v<const C &, View<std::int32_t>>>, class = void>
+    template <class C, class = std::enable_if_t<std::is_convertible_v<const C &, View<std::int32_t>>>,
+              class = void>
     Indices(const C &container) : narrow_(container) {}
     template <class C, class = std::enable_if_t<std::is_convertible_v<const C &, View<std::int64_t>>>>
     Indices(const C &container) : wide_(container), is_wide_(true) {}
@@ -166,7 +178,8 @@ struct LowerTriangle {
     bool positive_definite;
 };
 
-// ---- The machinery --------------------------------------------------------------------------------------------
+// ---- The machinery
+// --------------------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -231,7 +244,8 @@ class State {
     void install() {
         const bool any = log || progress;
         check(plm_context_set_log(context, log ? on_log : nullptr, this), "plm_context_set_log");
-        check(plm_context_set_progress(context, any ? on_progress : nullptr, this), "plm_context_set_progress");
+        check(plm_context_set_progress(context, any ? on_progress : nullptr, this),
+              "plm_context_set_progress");
     }
     void install_solver() {
         check(factor ? plm_context_set_solver(context, on_factor, on_solve, on_free, this)
@@ -268,11 +282,12 @@ class State {
         return stop || !fine;
     }
     static std::int32_t on_factor(plm_context *, std::int64_t n, const std::int64_t *col_ptr,
-                                  const std::int64_t *row, const double *value, std::int32_t positive_definite,
-                                  void **out, void *user) noexcept {
+                                  const std::int64_t *row, const double *value,
+                                  std::int32_t positive_definite, void **out, void *user) noexcept {
         auto *s = static_cast<State *>(user);
-        const bool fine = s->guarded(
-            [&] { *out = s->factor(LowerTriangle{n, col_ptr, row, value, positive_definite != 0}).release(); });
+        const bool fine = s->guarded([&] {
+            *out = s->factor(LowerTriangle{n, col_ptr, row, value, positive_definite != 0}).release();
+        });
         return fine ? 0 : 1;
     }
     static std::int32_t on_solve(plm_context *, void *f, std::int64_t n_rhs, double *x, std::int64_t ld,
@@ -299,18 +314,12 @@ template <class C> struct Api;
 #define PLM_HPP_ARRAYS(noun)                                                                                 \
     static constexpr auto get_array = plm_##noun##_get_array;                                                \
     static constexpr auto get_int_array = plm_##noun##_get_int_array;
-template <> struct Api<plm_model> {
-    PLM_HPP_SETTERS(model) PLM_HPP_GETTERS(model) PLM_HPP_ARRAYS(model)
-};
+template <> struct Api<plm_model> { PLM_HPP_SETTERS(model) PLM_HPP_GETTERS(model) PLM_HPP_ARRAYS(model) };
 template <> struct Api<plm_sampler> {
     PLM_HPP_SETTERS(sampler) PLM_HPP_GETTERS(sampler) PLM_HPP_ARRAYS(sampler)
 };
-template <> struct Api<plm_basis> {
-    PLM_HPP_SETTERS(basis) PLM_HPP_GETTERS(basis) PLM_HPP_ARRAYS(basis)
-};
-template <> struct Api<plm_hbm> {
-    PLM_HPP_SETTERS(hbm) PLM_HPP_GETTERS(hbm)
-};
+template <> struct Api<plm_basis> { PLM_HPP_SETTERS(basis) PLM_HPP_GETTERS(basis) PLM_HPP_ARRAYS(basis) };
+template <> struct Api<plm_hbm> { PLM_HPP_SETTERS(hbm) PLM_HPP_GETTERS(hbm) };
 template <> struct Api<plm_branch> {
     static constexpr const char *name = "branch";
     static constexpr auto destroy = plm_branch_destroy;
@@ -373,7 +382,8 @@ template <class C> class Handle {
         else if constexpr (std::is_same_v<T, std::vector<std::int64_t>>)
             return get_int_array(key);
         else
-            static_assert(always_false<T>, "results are integers, doubles, strings and vectors of these numbers");
+            static_assert(always_false<T>,
+                          "results are integers, doubles, strings and vectors of these numbers");
     }
 
   protected:
@@ -383,7 +393,8 @@ template <class C> class Handle {
         if (status < 0 || (state_ && state_->thrown)) living().check(status, full_name(verb).c_str());
     }
     plm_status finished(plm_status status, const char *verb) const {
-        return status == PLM_OK && !state_->thrown ? status : living().finished(status, full_name(verb).c_str());
+        return status == PLM_OK && !state_->thrown ? status
+                                                   : living().finished(status, full_name(verb).c_str());
     }
     /// Refuses an array that has not the size the function needs.
     void require_size(std::int64_t size, std::int64_t needed, const char *verb, const char *argument) const {
@@ -418,10 +429,13 @@ template <class C> class Handle {
 /// A handle that has options, too. Self: the class made from it, returned by set for chains of calls.
 template <class Self, class C> class WithOptions : public Handle<C> {
   public:
-    Self &set(const char *key, const char *value) { return done(Api<C>::set_string(h(), key, value), "set_string"); }
+    Self &set(const char *key, const char *value) {
+        return done(Api<C>::set_string(h(), key, value), "set_string");
+    }
     Self &set(const char *key, const std::string &value) { return set(key, value.c_str()); }
     /// An integer (bool included) or floating-point value.
-    template <class T, class = std::enable_if_t<std::is_arithmetic_v<T>>> Self &set(const char *key, T value) {
+    template <class T, class = std::enable_if_t<std::is_arithmetic_v<T>>>
+    Self &set(const char *key, T value) {
         if constexpr (std::is_integral_v<T>)
             return done(Api<C>::set_int(h(), key, static_cast<std::int64_t>(value)), "set_int");
         else
@@ -441,7 +455,8 @@ template <class Self, class C> class WithOptions : public Handle<C> {
 
 } // namespace detail
 
-// ---- Library --------------------------------------------------------------------------------------------------
+// ---- Library
+// --------------------------------------------------------------------------------------------------
 
 inline std::string status_text(plm_status status) {
     std::string text;
@@ -482,17 +497,20 @@ inline std::vector<Key> keys(std::int32_t kind) {
                                                                  {PLM_KEY_DEFAULT, &k.default_text},
                                                                  {PLM_KEY_CHOICES, &k.choices}};
         for (const auto &field : fields)
-            detail::read_text([&](auto... x) { return plm_key_text(kind, i, field.first, x...); }, *field.second);
+            detail::read_text([&](auto... x) { return plm_key_text(kind, i, field.first, x...); },
+                              *field.second);
         table.push_back(std::move(k));
     }
     return table;
 }
 
-/// Callbacks, solver and memory of a host; for one thread at a time. May be destroyed before what was made in it.
+/// Callbacks, solver and memory of a host; for one thread at a time. May be destroyed before what was made in
+/// it.
 class Context {
   public:
     Context() : Context([](plm_context **c) { return plm_context_create(PLM_API_VERSION, c); }) {}
-    /// All arrays come from `allocate`, which must be able to serve until the last object made in this context is gone.
+    /// All arrays come from `allocate`, which must be able to serve until the last object made in this
+    /// context is gone.
     Context(plm_allocate_fn allocate, plm_release_fn release, void *user)
         : Context([=](plm_context **c) {
               return plm_context_create_with_allocator(PLM_API_VERSION, allocate, release, user, c);
@@ -548,7 +566,8 @@ class Context {
     detail::StatePtr state_;
 };
 
-// ---- Model ----------------------------------------------------------------------------------------------------
+// ---- Model
+// ----------------------------------------------------------------------------------------------------
 
 struct Modes {
     std::vector<double> frequency_hz;
@@ -575,10 +594,10 @@ class Model : public detail::WithOptions<Model, plm_model> {
         require_size(m.a.size(), m.storage == PLM_TRIPLETS ? nnz : n_dof_ + 1, verb, "a");
         require_size(m.b.size(), nnz, verb, "b");
         require_width(m.b, wide, verb, "b");
-        check(wide ? plm_model_set_matrix_i64(handle_, which, m.storage, m.part, m.index_base, m.ownership, nnz,
-                                              m.a.wide(), m.b.wide(), m.value.data())
-                   : plm_model_set_matrix_i32(handle_, which, m.storage, m.part, m.index_base, m.ownership, nnz,
-                                              m.a.narrow(), m.b.narrow(), m.value.data()),
+        check(wide ? plm_model_set_matrix_i64(handle_, which, m.storage, m.part, m.index_base, m.ownership,
+                                              nnz, m.a.wide(), m.b.wide(), m.value.data())
+                   : plm_model_set_matrix_i32(handle_, which, m.storage, m.part, m.index_base, m.ownership,
+                                              nnz, m.a.narrow(), m.b.narrow(), m.value.data()),
               verb);
     }
     void set_mass(const Sparse &m) { set_matrix(PLM_MASS, m); }
@@ -609,8 +628,8 @@ class Model : public detail::WithOptions<Model, plm_model> {
         require_size(dof_b.size(), 3 * n, verb, "dof_b");
         require_width(dof_b, wide, verb, "dof_b");
         require_pairs(normal, gap, n, verb);
-        check(wide ? plm_model_add_node_pairs_i64(handle_, index_base, n, dof_a.wide(), dof_b.wide(), normal.data(),
-                                                  stiffness.data(), gap.data())
+        check(wide ? plm_model_add_node_pairs_i64(handle_, index_base, n, dof_a.wide(), dof_b.wide(),
+                                                  normal.data(), stiffness.data(), gap.data())
                    : plm_model_add_node_pairs_i32(handle_, index_base, n, dof_a.narrow(), dof_b.narrow(),
                                                   normal.data(), stiffness.data(), gap.data()),
               verb);
@@ -621,8 +640,8 @@ class Model : public detail::WithOptions<Model, plm_model> {
         const std::int64_t n = stiffness.size();
         require_size(dof.size(), 3 * n, verb, "dof");
         require_pairs(normal, gap, n, verb);
-        check(dof.is_wide() ? plm_model_add_ground_contacts_i64(handle_, index_base, n, dof.wide(), normal.data(),
-                                                                stiffness.data(), gap.data())
+        check(dof.is_wide() ? plm_model_add_ground_contacts_i64(handle_, index_base, n, dof.wide(),
+                                                                normal.data(), stiffness.data(), gap.data())
                             : plm_model_add_ground_contacts_i32(handle_, index_base, n, dof.narrow(),
                                                                 normal.data(), stiffness.data(), gap.data()),
               verb);
@@ -648,7 +667,8 @@ class Model : public detail::WithOptions<Model, plm_model> {
 
     /// nullptr removes it.
     void set_preload(Reals force) {
-        check(plm_model_set_preload(handle_, force.data() ? force.size() : n_dof_, force.data()), "set_preload");
+        check(plm_model_set_preload(handle_, force.data() ? force.size() : n_dof_, force.data()),
+              "set_preload");
     }
     /// F(t) = Re((real + i imag) exp(i h omega t)); real nullptr removes harmonic h.
     void set_excitation(std::int32_t harmonic, Reals real, Reals imag = {}) {
@@ -679,10 +699,11 @@ class Model : public detail::WithOptions<Model, plm_model> {
         std::vector<Finding> all;
         for (std::int64_t i = 0; i < n; ++i) {
             Finding f{};
-            check(detail::read_text(
-                      [&](auto... x) { return plm_model_get_finding(handle_, i, &f.severity, &f.value, x...); },
-                      f.text),
-                  "get_finding");
+            check(
+                detail::read_text(
+                    [&](auto... x) { return plm_model_get_finding(handle_, i, &f.severity, &f.value, x...); },
+                    f.text),
+                "get_finding");
             all.push_back(std::move(f));
         }
         return all;
@@ -706,7 +727,8 @@ class Model : public detail::WithOptions<Model, plm_model> {
     std::int64_t n_dof_;
 };
 
-// ---- Sampler and basis ----------------------------------------------------------------------------------------
+// ---- Sampler and basis
+// ----------------------------------------------------------------------------------------
 
 class Sampler : public detail::WithOptions<Sampler, plm_sampler> {
   public:
@@ -723,7 +745,9 @@ class Basis : public detail::WithOptions<Basis, plm_basis> {
     void set_sampler(const Sampler &sampler) {
         check(plm_basis_set_sampler(handle_, sampler.c_handle()), "set_sampler");
     }
-    void set_parent(const Basis &parent) { check(plm_basis_set_parent(handle_, parent.handle_), "set_parent"); }
+    void set_parent(const Basis &parent) {
+        check(plm_basis_set_parent(handle_, parent.handle_), "set_parent");
+    }
     void clear_parent() { check(plm_basis_set_parent(handle_, nullptr), "set_parent"); }
     /// PLM_OK, or PLM_WARNING: see get_string("warning").
     plm_status build() { return finished(plm_basis_build(handle_), "build"); }
@@ -745,7 +769,8 @@ class Basis : public detail::WithOptions<Basis, plm_basis> {
     std::int64_t n_dof_;
 };
 
-// ---- Response -------------------------------------------------------------------------------------------------
+// ---- Response
+// -------------------------------------------------------------------------------------------------
 
 struct Contact { // over the cycle, each n_pairs x n_times
     Dense<double> penetration, force;
@@ -776,7 +801,8 @@ class Branch : public detail::Handle<plm_branch> {
     }
     std::vector<double> field(std::int64_t point, double time_fraction) const {
         std::vector<double> q(detail::index(get_int("n_dof")));
-        check(plm_branch_get_field(handle_, point, time_fraction, static_cast<std::int64_t>(q.size()), q.data()),
+        check(plm_branch_get_field(handle_, point, time_fraction, static_cast<std::int64_t>(q.size()),
+                                   q.data()),
               "get_field");
         return q;
     }
@@ -786,14 +812,15 @@ class Branch : public detail::Handle<plm_branch> {
         Contact c{{z, n_times, std::vector<double>(total)},
                   {z, n_times, std::vector<double>(total)},
                   {z, n_times, std::vector<std::int32_t>(total)}};
-        check(plm_branch_get_contact(handle_, point, n_times, c.penetration.values.data(), c.force.values.data(),
-                                     c.closed.values.data()),
+        check(plm_branch_get_contact(handle_, point, n_times, c.penetration.values.data(),
+                                     c.force.values.data(), c.closed.values.data()),
               "get_contact");
         return c;
     }
     std::vector<double> closed_share(std::int64_t point) const {
         std::vector<double> share(detail::index(get_int("n_pairs")));
-        check(plm_branch_get_closed_share(handle_, point, static_cast<std::int64_t>(share.size()), share.data()),
+        check(plm_branch_get_closed_share(handle_, point, static_cast<std::int64_t>(share.size()),
+                                          share.data()),
               "get_closed_share");
         return share;
     }

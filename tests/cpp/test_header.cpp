@@ -88,7 +88,8 @@ void bases() {
     CHECK(basis.residual(std::vector<double>(p.column(0), p.column(0) + n)) < 1e-10);
     basis.clear_parent();
     CHECK(model.audit().size() > 3 && !model.audit()[0].text.empty());
-    const plm::Modes given = model.modes(PLM_SYSTEM_GIVEN, 2, {1}), sliding = model.modes(PLM_SYSTEM_SLIDING, 2);
+    const plm::Modes given = model.modes(PLM_SYSTEM_GIVEN, 2, {1}),
+                     sliding = model.modes(PLM_SYSTEM_SLIDING, 2);
     CHECK(std::abs(given.frequency_hz[1] - sliding.frequency_hz[1]) < 1e-9 && given.shape(0, 0) != 0);
 }
 
@@ -130,8 +131,8 @@ void refusals() {
     CHECK(e.status() == PLM_ERR_KEY && e.function() == "plm_model_set_double" && e.argument() == "key");
     CHECK(std::string(e.what()).find("space_tolerance") != std::string::npos); // the nearest is named
     e = caught([&] { model.fix_dofs({0, 7}); });
-    CHECK(e.status() == PLM_ERR_ARGUMENT && e.function() == "plm_model_fix_dofs_i32" && e.argument() == "dof" &&
-          e.index() == 1);
+    CHECK(e.status() == PLM_ERR_ARGUMENT && e.function() == "plm_model_fix_dofs_i32" &&
+          e.argument() == "dof" && e.index() == 1);
     e = caught([&] { model.set_mass(plm::triplets({0, 1}, {0, 1}, {1.0, NAN})); });
     CHECK(e.status() == PLM_ERR_MATRIX && e.index() == 1);
     e = caught([&] { model.set_preload({1.0}); });
@@ -172,7 +173,7 @@ void callbacks() {
     const plm::Basis basis = basis_of(model);
     plm::Hbm hbm(basis);
     hbm.sweep();
-    CHECK(progressed > 3);
+    CHECK(progressed > 3 && logged > 0);
 
     for (int k : {1, 2, 5}) { // thrown in the k-th call, through a build, a run or a sweep
         int calls = 0;
@@ -182,14 +183,16 @@ void callbacks() {
         CHECK(caught<OfTheHost>([&] { plm::Hbm(basis).sweep(); }).what == k);
         CHECK(calls == k); // it was cancelled at once
     }
-    context.on_progress([](std::string_view stage, double fraction) { return stage == "sweep" && fraction > 0.3; });
+    context.on_progress(
+        [](std::string_view stage, double fraction) { return stage == "sweep" && fraction > 0.3; });
     const plm::Branch part = hbm.sweep();
     CHECK(part.status() == PLM_CANCELLED && part.size() > 0);
     context.on_progress([&](std::string_view, double) { return true; });
-    CHECK(caught<plm::Cancelled>([&] { plm::Sampler(model).set("mode", 1).run(); }).status() == PLM_CANCELLED);
+    CHECK(caught<plm::Cancelled>([&] { plm::Sampler(model).set("mode", 1).run(); }).status() ==
+          PLM_CANCELLED);
     context.on_log([](int, std::string_view) { throw OfTheHost{42}; });
     context.on_progress([](std::string_view, double) {});
-    if (logged) CHECK(caught<OfTheHost>([&] { basis_of(built(context)); }).what == 42);
+    CHECK(caught<OfTheHost>([&] { basis_of(built(context)); }).what == 42);
     context.silence();
     CHECK(plm::Hbm(basis).sweep().status() == PLM_OK); // still usable
 }
@@ -234,13 +237,16 @@ void solver_of_the_host() {
     {
         plm::Context context;
         const double hz = built(context).modes(PLM_SYSTEM_OPEN, 1).frequency_hz[0];
-        context.set_solver([&](const plm::LowerTriangle &a) { return std::make_unique<DenseCholesky>(a, &alive, false); });
+        context.set_solver(
+            [&](const plm::LowerTriangle &a) { return std::make_unique<DenseCholesky>(a, &alive, false); });
         const plm::Model model = built(context);
         CHECK(alive > 0);
         CHECK(std::abs(model.modes(PLM_SYSTEM_OPEN, 1).frequency_hz[0] / hz - 1) < 1e-10);
-        context.set_solver([&](const plm::LowerTriangle &a) { return std::make_unique<DenseCholesky>(a, &alive, true); });
+        context.set_solver(
+            [&](const plm::LowerTriangle &a) { return std::make_unique<DenseCholesky>(a, &alive, true); });
         CHECK(caught<OfTheHost>([&] { built(context).modes(PLM_SYSTEM_OPEN, 1); }).what == 7);
-        context.set_solver([&](const plm::LowerTriangle &) -> std::unique_ptr<plm::Factorization> { throw OfTheHost{8}; });
+        context.set_solver(
+            [&](const plm::LowerTriangle &) -> std::unique_ptr<plm::Factorization> { throw OfTheHost{8}; });
         CHECK(caught<OfTheHost>([&] { built(context); }).what == 8);
         context.reset_solver();
         built(context);

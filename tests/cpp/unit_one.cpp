@@ -1,4 +1,5 @@
-// The header comes first and alone, in two units of one program: it needs nothing before it and defines nothing twice.
+// The header comes first and alone, in two units of one program: it needs nothing before it and defines
+// nothing twice.
 #include <plm/plm.hpp>
 
 #include "units.hpp"

@@ -25,7 +25,7 @@ int main(void) {
     memset(&l, 0, sizeof l);
     EXPECT(plm_context_create(PLM_API_VERSION, &ctx) == PLM_OK);
     EXPECT(plm_context_set_progress(ctx, on_progress, &l) == PLM_OK);
-    EXPECT(whole_run(ctx, &want) >= 0);
+    EXPECT(whole_run(ctx, CURVE, &want) >= 0);
     plm_context_destroy(&ctx);
     total = l.calls;
     EXPECT(total > 20);
@@ -34,13 +34,13 @@ int main(void) {
         plm_context_create(PLM_API_VERSION, &ctx);
         plm_context_set_progress(ctx, on_progress, &l);
         l.calls = 0, l.cancel_at = k;
-        status = whole_run(ctx, &got);
+        status = whole_run(ctx, CURVE, &got);
         EXPECT(status == PLM_CANCELLED && l.calls == k);
         if (status != PLM_CANCELLED || l.calls != k)
             printf("callback %d of %d (%s): status %d, %d callbacks\n", k, total, l.stage, (int)status, l.calls);
         l.cancel_at = 0;
         if (k % 8 == 1) {
-            EXPECT(whole_run(ctx, &got) >= 0);
+            EXPECT(whole_run(ctx, CURVE, &got) >= 0);
             EXPECT(memcmp(&want, &got, sizeof want) == 0);
         }
         EXPECT(plm_context_destroy(&ctx) == PLM_OK);

@@ -27,7 +27,7 @@ int main(int argc, char **argv) {
     plm_context *ctx = NULL;
     int64_t k, total, step = argc > 1 ? atol(argv[1]) : 1, tried = 0;
     plm_context_create_with_allocator(PLM_API_VERSION, allocate, release, &c, &ctx);
-    EXPECT(whole_run(ctx, &want) >= 0);
+    EXPECT(whole_run(ctx, SMALL, &want) >= 0);
     plm_context_destroy(&ctx);
     total = c.total;
     EXPECT(total > 100 && c.live == 0);
@@ -35,12 +35,12 @@ int main(int argc, char **argv) {
         plm_status status;
         c.total = 0, c.fail_at = k;
         status = plm_context_create_with_allocator(PLM_API_VERSION, allocate, release, &c, &ctx);
-        if (status == PLM_OK) status = whole_run(ctx, &got);
+        if (status == PLM_OK) status = whole_run(ctx, SMALL, &got);
         EXPECT(status == PLM_ERR_MEMORY);
         if (status != PLM_ERR_MEMORY) printf("allocation %ld of %ld: status %d\n", (long)k, (long)total, (int)status);
         c.fail_at = 0;
         if (ctx && k % 16 == 1) { /* still usable */
-            EXPECT(whole_run(ctx, &got) >= 0);
+            EXPECT(whole_run(ctx, SMALL, &got) >= 0);
             EXPECT(memcmp(&want, &got, sizeof want) == 0);
         }
         plm_context_destroy(&ctx);

@@ -23,10 +23,10 @@ int main(void) {
     EXPECT(plm_context_create(PLM_API_VERSION, &ctx) == PLM_OK);
     EXPECT(plm_context_set_progress(ctx, on_progress, NULL) == PLM_OK);
     unset = 0;
-    EXPECT(whole_run(ctx, &plain) >= 0);
+    EXPECT(whole_run(ctx, CURVE, &plain) >= 0);
     calls = unset = 0;
     feenableexcept(TRAPS);
-    EXPECT(whole_run(ctx, &trapped) >= 0);
+    EXPECT(whole_run(ctx, CURVE, &trapped) >= 0);
     EXPECT(fegetexcept() == TRAPS);
     EXPECT(plm_context_destroy(&ctx) == PLM_OK);
     EXPECT(fegetexcept() == TRAPS);

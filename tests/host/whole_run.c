@@ -22,7 +22,7 @@ static plm_status read_branch(plm_branch *branch, outcome *o) {
     return plm_branch_get_amplitude(branch, WATCHED, PLM_PEAK, 0, 1, &o->amplitude, &n);
 }
 
-plm_status whole_run(plm_context *ctx, outcome *o) {
+plm_status whole_run(plm_context *ctx, run_size size, outcome *o) {
     plm_model *model = NULL;
     plm_sampler *sampler = NULL;
     plm_basis *full = NULL, *basis = NULL;
@@ -37,6 +37,7 @@ plm_status whole_run(plm_context *ctx, outcome *o) {
     TRY(plm_model_get_array(model, "rest_displacement", CHAIN_DOFS, q, &n));
     TRY(plm_model_get_modes(model, PLM_SYSTEM_SLIDING, NULL, 3, o->hz, shape));
     TRY(plm_sampler_create(model, &sampler));
+    if (size == SMALL) TRY(plm_sampler_set_int(sampler, "n_samples", 3));
     TRY(plm_sampler_run(sampler));
     TRY(plm_sampler_get_double(sampler, "blf_hz", &o->blf_hz));
     TRY(plm_basis_create(model, &full));
@@ -45,14 +46,15 @@ plm_status whole_run(plm_context *ctx, outcome *o) {
     TRY(plm_basis_build(full));
     TRY(plm_basis_create(model, &basis));
     TRY(plm_basis_set_sampler(basis, sampler));
-    TRY(plm_basis_set_parent(basis, full));
+    if (size == CURVE) TRY(plm_basis_set_parent(basis, full));
     TRY(plm_basis_build(basis));
     TRY(plm_basis_get_residual(basis, 0, 1, CHAIN_DOFS, shape, &residual));
     TRY(plm_hbm_create(basis, &hbm));
-    TRY(plm_hbm_set_int(hbm, "n_harmonics", 5));
+    TRY(plm_hbm_set_int(hbm, "n_harmonics", size == SMALL ? 1 : 5));
+    TRY(plm_hbm_set_int(hbm, "max_points", size == SMALL ? 2 : 1000));
     TRY(plm_hbm_sweep(hbm, &curve));
     TRY(plm_branch_get_int(curve, "n_points", &o->points));
     TRY(plm_hbm_find_peak(hbm, curve, WATCHED, PLM_PEAK, 0, &o->peak_hz, &o->peak_amplitude, NULL));
-    TRY(plm_hbm_solve(hbm, o->blf_hz, curve, 0, &one));
+    TRY(plm_hbm_solve(hbm, size == SMALL ? 1.0 : o->blf_hz, size == SMALL ? NULL : curve, 0, &one));
     return read_branch(one, o);
 }

@@ -10,7 +10,10 @@ typedef struct {
     int64_t points;
 } outcome;
 
+/* SMALL: three points with one harmonic */
+typedef enum { SMALL, CURVE } run_size;
+
 /* The first failure (< 0) or cancellation is returned, and `o` is then incomplete. */
-plm_status whole_run(plm_context *ctx, outcome *o);
+plm_status whole_run(plm_context *ctx, run_size size, outcome *o);
 
 #endif

@@ -17,8 +17,13 @@ endif()
 set(PLM_PYTHON_ENVIRONMENT PLM_LIBRARY=$<TARGET_FILE:plm> PYTHONPATH=${PROJECT_SOURCE_DIR}/bindings/python
                            PYTHONDONTWRITEBYTECODE=1 MPLBACKEND=Agg MPLCONFIGDIR=${PROJECT_BINARY_DIR}/matplotlib)
 if(PLM_SANITIZE)
-    # the interpreter is not built with the sanitizers; Python and NumPy keep memory until the end
-    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=libasan.so OUTPUT_VARIABLE asan
-                    OUTPUT_STRIP_TRAILING_WHITESPACE)
-    list(APPEND PLM_PYTHON_ENVIRONMENT LD_PRELOAD=${asan} ASAN_OPTIONS=detect_leaks=0)
+    # The interpreter is not built with the sanitizers, so they are loaded before it, and with them the C++ library, whose
+    # throw they wrap. Python and NumPy keep memory until the end: no search for leaks.
+    foreach(library libasan.so libstdc++.so.6)
+        execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=${library} OUTPUT_VARIABLE found
+                        OUTPUT_STRIP_TRAILING_WHITESPACE)
+        list(APPEND preload ${found})
+    endforeach()
+    list(JOIN preload ":" preload)
+    list(APPEND PLM_PYTHON_ENVIRONMENT LD_PRELOAD=${preload} ASAN_OPTIONS=detect_leaks=0)
 endif()

@@ -23,7 +23,8 @@ class Refusals(unittest.TestCase):
         stiffness.data[5] = math.nan
         self.refused(plm.Model, mass, stiffness, status=plm.ERR_MATRIX, function="plm_model_set_matrix_i32",
                      argument="value", index=5)
-        stiffness.data[5] = 3
+        stiffness = models.matrices()[1]
+        stiffness[0, 3] = -5e3
         self.refused(plm.Model, mass, stiffness, status=plm.ERR_MATRIX)  # not symmetric
         twice = scipy.sparse.csc_matrix((numpy.ones(3), [0, 0, 1], [0, 2, 3]), shape=(2, 2))
         self.refused(plm.Model, twice, status=plm.ERR_MATRIX, argument="b")
@@ -56,6 +57,8 @@ class Refusals(unittest.TestCase):
         self.assertFalse(hasattr(model, "no_such_thing"))
         self.refused(setattr, model, "space_tolerance", 2.0, status=plm.ERR_ARGUMENT)
         self.refused(model.set, "space_tolerance", [1], kind=TypeError)
+        self.refused(model.set, "space_tolerance", "fine", function="plm_model_set_string")
+        self.refused(model._get_string, b"space_tolerance", function="plm_model_get_string")
         self.refused(setattr, model, "n_free", 3, kind=AttributeError)
         self.refused(lambda: model.modes(3, "slidding"), kind=ValueError)
 

@@ -51,6 +51,11 @@ class Run(unittest.TestCase):
         self.assertEqual(set(hbm.options()), {k.name for k in plm.keys(plm.KIND_HBM) if k.is_option})
         self.assertEqual(hbm.sweep().status, plm.TRUNCATED)
 
+    def test_options_of_every_handle(self):
+        self.assertEqual(models.model(verify_counts=True, space_tolerance=1e-9).build().verify_counts, 1)
+        sampler = plm.Sampler(self.model, mode=1, window_half_width=0.04).run()
+        self.assertEqual(plm.Basis(self.model, sampler, svd_tolerance=1e-8).build().svd_tolerance, 1e-8)
+
     def test_peak_and_points(self):
         peak = self.hbm.find_peak(self.curve, models.WATCHED)
         self.assertGreaterEqual(peak.amplitude, self.curve.amplitude(models.WATCHED).max() * (1 - 1e-9))

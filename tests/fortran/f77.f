@@ -1,0 +1,159 @@
+C     f77.f: the FORTRAN 77 layer beyond the example: texts, options and
+C     results by key, node pairs, contact over the cycle, errors, cancel
+C     and remarks. Prints what fails; STOP 1.
+      PROGRAM F77
+      INTEGER NFAIL
+      COMMON /FAILED/ NFAIL
+      NFAIL = 0
+      CALL FACTS
+      CALL RUN
+      IF (NFAIL .GT. 0) STOP 1
+      WRITE (*, *) 'ALL PROPERTIES HOLD'
+      END
+
+      SUBROUTINE CHECK(LHOLDS, TEXT)
+      LOGICAL LHOLDS
+      CHARACTER*(*) TEXT
+      INTEGER NFAIL
+      COMMON /FAILED/ NFAIL
+      IF (LHOLDS) RETURN
+      WRITE (*, *) 'FAILED: ', TEXT
+      NFAIL = NFAIL + 1
+      END
+
+      SUBROUTINE FACTS
+      INCLUDE 'plmf.inc'
+      INTEGER I, J, K, N, ITYPE, ISOPT, IERR
+      DOUBLE PRECISION DMIN, DMAX
+      CHARACTER*80 TEXT
+      CHARACTER*4 SHORT
+      CALL PLMVER(I, J, K, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. I + J + K .GT. 0, 'version')
+      CALL PLMBLD(TEXT, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. TEXT .NE. ' ', 'build line')
+      CALL PLMSTX(PLMEKY, TEXT, IERR)
+      CALL PLMSTX(PLMEKY, SHORT, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. SHORT .EQ. TEXT(1:4), 'cut text')
+      CALL PLMKCN(PLMKHB, N, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. N .GT. 5, 'number of keys')
+      CALL PLMKTX(PLMKHB, 1, PLMKNM, TEXT, IERR)
+      CALL CHECK(TEXT .EQ. 'n_harmonics', 'name of the first key')
+      CALL PLMKIN(PLMKHB, 1, ITYPE, ISOPT, DMIN, DMAX, IERR)
+      CALL CHECK(ITYPE .EQ. 1 .AND. ISOPT .EQ. 1 .AND. DMIN .LE. 1.0D0,
+     1           'first key')
+      END
+
+C     two nodes that clap: each on its own spring, three DOFs, a pair
+      SUBROUTINE RUN
+      INCLUDE 'plmf.inc'
+      INTEGER NDOF, NT
+      PARAMETER (NDOF = 6, NT = 16)
+      INTEGER*8 LCTX, MODEL, IBASIS, LHBM, CURVE, LNULL
+      INTEGER I, IERR, N, ISTAT, IREASN, INDEX, ICODE
+      INTEGER IDIAG(NDOF), IA(3), IB(3), ICLOSD(NT), IT(2000)
+      DOUBLE PRECISION XM(NDOF), XK(NDOF), XNORM(3), FRE(NDOF)
+      DOUBLE PRECISION FIM(NDOF), HZ(2000), AMPL(2000), PEN(NT), FRC(NT)
+      DOUBLE PRECISION FREQ(2), SHAPE(NDOF, 2), R
+      CHARACTER*200 TEXT
+      EXTERNAL WATCH, REMARK
+      INTEGER NCALLS, NSTOPS, NLINES
+      COMMON /COUNTS/ NCALLS, NSTOPS, NLINES
+      DATA IA /1, 2, 3/, IB /4, 5, 6/
+      DATA XNORM /1.0D0, 0.0D0, 0.0D0/
+      NCALLS = 0
+      NSTOPS = 100000
+      NLINES = 0
+      LCTX = 0
+      LNULL = 0
+      DO 10 I = 1, NDOF
+        IDIAG(I) = I
+        XM(I) = 1.0D0
+        XK(I) = 1.0D4 * I
+        FRE(I) = 0.0D0
+        FIM(I) = 0.0D0
+   10 CONTINUE
+      FIM(1) = 5.0D0
+      CALL PLMCCR(LCTX, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. LCTX .NE. 0, 'context')
+      CALL PLMCSL(LCTX, REMARK, IERR)
+      MODEL = 0
+      CALL PLMMCR(LCTX, NDOF, MODEL, IERR)
+      CALL PLMMMX(MODEL, PLMMAS, PLMTRI, PLMFUL, NDOF, IDIAG, IDIAG, XM,
+     1            IERR)
+      CALL PLMMMX(MODEL, PLMSTF, PLMTRI, PLMFUL, NDOF, IDIAG, IDIAG, XK,
+     1            IERR)
+      CALL PLMMRD(MODEL, 1.0D0, 1.0D-4, IERR)
+      CALL PLMMNP(MODEL, 1, IA, IB, XNORM, 2.0D4, 0.0D0, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'node pair')
+      CALL PLMMEX(MODEL, 1, NDOF, FRE, FIM, IERR)
+      CALL PLMMSI(MODEL, 'max_blcks', 3, IERR)
+      CALL PLMCET(LCTX, TEXT, I)
+      CALL CHECK(IERR .EQ. PLMEKY, 'wrong key')
+      CALL CHECK(TEXT(1:17) .EQ. 'plm_model_set_int', 'error text')
+      CALL PLMCEI(LCTX, ISTAT, IREASN, INDEX, ICODE, I)
+      CALL CHECK(ISTAT .EQ. PLMEKY .AND. IREASN .EQ. PLMRNO, 'status')
+      CALL PLMMBU(LNULL, IERR)
+      CALL CHECK(IERR .EQ. PLMEHD, 'handle 0')
+      CALL PLMMBU(MODEL, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'build')
+      CALL PLMMMO(MODEL, PLMGIV, 1, 2, FREQ, SHAPE, IERR)
+C     closed: the x motion of the pair and the y motion of node a both
+C     have lambda = 2.0D4
+      DO 15 I = 1, 2
+        CALL CHECK(IERR .EQ. PLMOK .AND.
+     1             ABS(FREQ(I) - 22.5079079D0) .LT. 1.0D-6, 'modes')
+   15 CONTINUE
+      IBASIS = 0
+      CALL PLMBCR(MODEL, IBASIS, IERR)
+      CALL PLMBSC(IBASIS, 'kind', 'full', IERR)
+      CALL PLMBGC(IBASIS, 'kind   ', TEXT, IERR)
+      CALL CHECK(TEXT .EQ. 'full', 'a word is set and read')
+      CALL PLMBSD(IBASIS, 'frequency_min_hz', 14.0D0, IERR)
+      CALL PLMBSD(IBASIS, 'frequency_max_hz', 24.0D0, IERR)
+      CALL PLMBBU(IBASIS, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'basis')
+      CALL PLMBGD(IBASIS, 'frequency_max_hz', R, IERR)
+      CALL CHECK(ABS(R - 24.0D0) .LE. 0.0D0, 'a real is set and read')
+      LHBM = 0
+      CURVE = 0
+      CALL PLMHCR(IBASIS, LHBM, IERR)
+      CALL PLMHSW(LHBM, CURVE, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'sweep')
+      CALL PLMRGA(CURVE, 'frequency_hz', 2000, HZ, N, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. N .GT. 5, 'an array')
+      CALL CHECK(HZ(1) .GT. HZ(N), 'a sweep goes down')
+      CALL PLMRGN(CURVE, 'iterations', 2000, IT, I, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. I .EQ. N, 'an integer array')
+      CALL PLMRGN(CURVE, 'iterations', 1, IT, I, IERR)
+      CALL CHECK(IERR .EQ. PLMEAR, 'an array too short')
+      CALL PLMRAM(CURVE, 1, PLMPKM, 0, 2000, AMPL, I, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. AMPL(N) .GT. 0.0D0, 'amplitude')
+      CALL PLMRCT(CURVE, N, NT, PEN, FRC, ICLOSD, IERR)
+      DO 20 I = 1, NT
+        CALL CHECK((ICLOSD(I) .EQ. 1) .EQV. (PEN(I) .GT. 0.0D0),
+     1             'closed where the penetration is positive')
+   20 CONTINUE
+      NSTOPS = 8
+      CALL PLMCSP(LCTX, WATCH, IERR)
+      CALL PLMHSW(LHBM, CURVE, IERR)
+      CALL CHECK(IERR .EQ. PLMCAN, 'cancelled')
+      CALL CHECK(NLINES .GT. 0, 'remarks')
+      CALL PLMCDE(LCTX, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. LCTX .EQ. 0, 'destroy')
+      END
+
+      SUBROUTINE WATCH(STAGE, FRACTN, ICANCL)
+      CHARACTER*(*) STAGE
+      DOUBLE PRECISION FRACTN
+      INTEGER ICANCL, NCALLS, NSTOPS, NLINES
+      COMMON /COUNTS/ NCALLS, NSTOPS, NLINES
+      IF (STAGE .NE. ' ' .AND. FRACTN .GE. 0.0D0) NCALLS = NCALLS + 1
+      IF (NCALLS .GE. NSTOPS) ICANCL = 1
+      END
+
+      SUBROUTINE REMARK(LEVEL, TEXT)
+      INTEGER LEVEL, NCALLS, NSTOPS, NLINES
+      CHARACTER*(*) TEXT
+      COMMON /COUNTS/ NCALLS, NSTOPS, NLINES
+      IF (LEVEL .GE. 0 .AND. TEXT .NE. ' ') NLINES = NLINES + 1
+      END

@@ -1,0 +1,15 @@
+#!/bin/sh
+# fuzz.sh CLANG INCLUDE LIBPLM_SO FOLDER SECONDS: builds fuzz.c with libFuzzer and runs it.
+set -eu
+here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
+clang=$1 include=$2 library=$3 folder=$4 seconds=$5
+mkdir -p "$folder/corpus"
+printf 'int LLVMFuzzerTestOneInput(const unsigned char *d, unsigned long n) { (void)d, (void)n; return 0; }' >"$folder/try.c"
+"$clang" -fsanitize=fuzzer "$folder/try.c" -o "$folder/try" 2>"$folder/try.log" ||
+    { echo "skipped: this clang has no libFuzzer (Debian: libclang-rt-dev)"; exit 77; }
+"$clang" -g -O1 -fsanitize=fuzzer,address,undefined -I"$include" "$here/fuzz.c" "$library" \
+    -Wl,-rpath,"$(dirname "$library")" -o "$folder/fuzz"
+cd "$folder"
+OPENBLAS_NUM_THREADS=1 ./fuzz -max_total_time="$seconds" -max_len=700 -timeout=20 -rss_limit_mb=2000 -print_final_stats=1 \
+    corpus 2>log || { tail -60 log; exit 1; }
+grep -E 'stat::number_of_executed_units|DONE' log
