@@ -18,7 +18,7 @@ esac
 
 need_packages g++ gfortran cmake ninja-build pkg-config libopenblas-dev liblapack-dev libarpack2-dev libfftw3-dev \
     libsuitesparse-dev libeigen3-dev libcmocka-dev python3 python3-numpy python3-scipy python3-matplotlib \
-    python3-pip calculix-ccx
+    python3-pip calculix-ccx abigail-tools valgrind doxygen
 
 jobs=2
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"

@@ -30,11 +30,11 @@ void cracked_plate_paper(cracked_plate_params *p) {
     p->quality_factor = 100;
     p->quality_frequency_hz = 1700;
     /*
-     * Two oblique forces on the top edge, a quarter of the length to either side of the crack, towards each other
-     * and downwards. Their thrust presses the faces together, their bending opens the mouth: the two rows of pairs
-     * next to the front of the crack stay closed, 10 of 90, and the opening grows evenly towards the mouth. The
-     * size gives openings at rest like those of the vibration under 1 N at the resonance, about 5e-4 mm, so that
-     * every pair opens and closes there.
+     * Two oblique forces on the top edge, a quarter of the length to either side of the crack, towards each
+     * other and downwards. Their thrust presses the faces together, their bending opens the mouth: the two
+     * rows of pairs next to the front of the crack stay closed, 10 of 90, and the opening grows evenly
+     * towards the mouth. The size gives openings at rest like those of the vibration under 1 N at the
+     * resonance, about 5e-4 mm, so that every pair opens and closes there.
      */
     p->n_loads = 2;
     p->load_x[0] = 37.5;

@@ -25,6 +25,7 @@
  * "paper" below: Zucca & Epureanu, Reduced order models for nonlinear dynamic analysis of structures with
  * intermittent contacts, J. Vibration and Control 24(12), 2018, doi 10.1177/1077546316689214.
  */
+/* clang-format off */
 #ifndef PLM_PLM_H
 #define PLM_PLM_H
 

@@ -56,8 +56,9 @@ void add_options(std::vector<Key> &keys) {
                                           "selection below: up to this multiple of n_harmonics x window end"),
             real_option<&O::svd_tolerance>("svd_tolerance", 0, 0.5,
                                            "singular values below this share of the largest are dropped"),
-            int_option<&O::load_vectors>("load_vectors", 0, 1,
-                                         "plm, craig_bampton: 1: the static responses to the loads are in the basis, too"),
+            int_option<&O::load_vectors>(
+                "load_vectors", 0, 1,
+                "plm, craig_bampton: 1: the static responses to the loads are in the basis, too"),
             int_option<&O::static_augmentation>(
                 "static_augmentation", 0, 1,
                 "1: the static response to the pre-load joins the basis of h = 0"),

@@ -43,7 +43,8 @@ plm_status plm_sampler_run(plm_sampler *sampler) {
                              "the model has no contact pair, so there is no contact area to sample; use "
                              "a basis of kind full or craig_bampton")
                 .argument("sampler");
-        s.core = std::make_shared<const plm::Sampler>(model, s.sampler_options, s.owner->watch(), s.model->space);
+        s.core =
+            std::make_shared<const plm::Sampler>(model, s.sampler_options, s.owner->watch(), s.model->space);
         s.model->space = s.core->space(); // the next sampler of this model starts from it
         return PLM_OK;
     });

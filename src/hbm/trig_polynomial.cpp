@@ -40,8 +40,9 @@ Matrix trig_grid(std::int64_t n_harmonics, std::int64_t n) {
 
 namespace {
 
-// Newton from `t` kept inside a bracket that shrinks; falls back to bisection when a step leaves it. Convergence is
-// quadratic, so the step after a change below 1e-9 is below rounding and is not taken. `order` 0: zero of x, 1: of x'.
+// Newton from `t` kept inside a bracket that shrinks; falls back to bisection when a step leaves it.
+// Convergence is quadratic, so the step after a change below 1e-9 is below rounding and is not taken. `order`
+// 0: zero of x, 1: of x'.
 double safeguarded_newton(const double *x, std::int64_t n_harmonics, double low, double high, double t,
                           bool low_positive, int order) {
     for (int k = 0; k < 60; ++k) {
@@ -58,8 +59,8 @@ double safeguarded_newton(const double *x, std::int64_t n_harmonics, double low,
     return t;
 }
 
-// Zero of the cubic with the values and slopes of both ends, by the chord and two Newton steps: within the fourth power
-// of the bracket's width.
+// Zero of the cubic with the values and slopes of both ends, by the chord and two Newton steps: within the
+// fourth power of the bracket's width.
 double cubic_guess(const TrigEnd &low, const TrigEnd &high) {
     const double h = high.t - low.t, d = high.value - low.value;
     const double c2 = 3 * d - h * (2 * low.slope + high.slope), c3 = h * (low.slope + high.slope) - 2 * d;
@@ -81,7 +82,8 @@ double trig_root(const double *x, std::int64_t n_harmonics, TrigEnd low, TrigEnd
 
 double trig_stationary(const double *x, std::int64_t n_harmonics, TrigEnd low, TrigEnd high) {
     const double share = low.slope / (low.slope - high.slope); // chord of x'
-    return safeguarded_newton(x, n_harmonics, low.t, high.t, low.t + share * (high.t - low.t), low.slope > 0, 1);
+    return safeguarded_newton(x, n_harmonics, low.t, high.t, low.t + share * (high.t - low.t), low.slope > 0,
+                              1);
 }
 
 TrigRange trig_range(const double *x, std::int64_t n_harmonics) {

@@ -11,17 +11,18 @@ struct EigenPairs {
 };
 
 struct EigsOptions {
-    double tolerance = 0;           // relative accuracy of the Ritz values; 0 = machine precision
+    double tolerance = 0; // relative accuracy of the Ritz values; 0 = machine precision
     std::int64_t max_restarts = 300;
     std::function<bool()> cancelled; // polled before each operation; true stops (PLM_CANCELLED)
 };
 
-/// The n_wanted eigenpairs of K x = lambda M x that lie closest above `shift`, where `factor` is of K - shift M and
-/// no eigenvalue lies below `shift` (positive definite factor). K and M symmetric, M positive semi-definite.
-/// Fewer are returned when the pencil has fewer finite eigenvalues. Multiple eigenvalues come with all their copies.
-/// Small, nearly mass-less or fully wanted problems are solved densely. Deterministic start vector.
-/// ARPACK's hidden state is guarded: one problem runs at a time in the process (others wait), also while a host solver's
-/// callback or `cancelled` runs; a second problem started from inside one of these is PLM_ERR_STATE.
+/// The n_wanted eigenpairs of K x = lambda M x that lie closest above `shift`, where `factor` is of K - shift
+/// M and no eigenvalue lies below `shift` (positive definite factor). K and M symmetric, M positive
+/// semi-definite. Fewer are returned when the pencil has fewer finite eigenvalues. Multiple eigenvalues come
+/// with all their copies. Small, nearly mass-less or fully wanted problems are solved densely. Deterministic
+/// start vector. ARPACK's hidden state is guarded: one problem runs at a time in the process (others wait),
+/// also while a host solver's callback or `cancelled` runs; a second problem started from inside one of these
+/// is PLM_ERR_STATE.
 EigenPairs lowest_eigenpairs(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
                              std::int64_t n_wanted, const EigsOptions &options = {});
 

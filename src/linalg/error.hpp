@@ -35,6 +35,7 @@ class Error : public std::runtime_error {
 #if defined(__GNUC__)
 __attribute__((format(printf, 1, 2)))
 #endif
-std::string format(const char *pattern, ...);
+std::string
+format(const char *pattern, ...);
 
 } // namespace plm

@@ -1,5 +1,5 @@
-// Sparse symmetric factorization behind one seam: CHOLMOD by default, Eigen's LDLT in the permissive build, or the
-// host's own through callbacks. Nothing above this header knows which one serves.
+// Sparse symmetric factorization behind one seam: CHOLMOD by default, Eigen's LDLT in the permissive build,
+// or the host's own through callbacks. Nothing above this header knows which one serves.
 #pragma once
 #include "sparse.hpp"
 #include <memory>
@@ -27,10 +27,12 @@ enum class FactorKind {
                        // PLM_ERR_SINGULAR with index() = column at a zero pivot
 };
 
-/// The host's own solver: status 0 is success, anything else fails with that code (PLM_ERR_CALLBACK). The arrays given
-/// to `factor` are valid during that call only; `release` is called once for each success of `factor`.
+/// The host's own solver: status 0 is success, anything else fails with that code (PLM_ERR_CALLBACK). The
+/// arrays given to `factor` are valid during that call only; `release` is called once for each success of
+/// `factor`.
 struct HostSolver {
-    // factor: column pointers n + 1, rows, values of the lower triangle (base 0, sorted). *handle is the host's.
+    // factor: column pointers n + 1, rows, values of the lower triangle (base 0, sorted). *handle is the
+    // host's.
     int (*factor)(std::int64_t n, const std::int64_t *ptr, const std::int64_t *row, const double *val,
                   int positive_definite, void **handle, void *user) = nullptr;
     int (*solve)(void *handle, std::int64_t nrhs, double *x, std::int64_t ldx, void *user) = nullptr;

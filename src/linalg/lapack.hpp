@@ -58,8 +58,8 @@ class ComplexLu {
     vector<int> pivots_;
 };
 
-/// Cholesky of a small dense symmetric positive definite matrix (dpotrf). Returns false if not positive definite;
-/// then nothing may be solved.
+/// Cholesky of a small dense symmetric positive definite matrix (dpotrf). Returns false if not positive
+/// definite; then nothing may be solved.
 class DenseCholesky {
   public:
     bool factor(Matrix &a); // by swap; lower triangle read

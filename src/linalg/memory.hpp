@@ -7,8 +7,8 @@
 
 namespace plm {
 
-/// The host's allocation functions. allocate == null means malloc and free; release == null with an allocate of the
-/// host's own means that nothing is to be freed (an arena).
+/// The host's allocation functions. allocate == null means malloc and free; release == null with an allocate
+/// of the host's own means that nothing is to be freed (an arena).
 struct Allocator {
     void *(*allocate)(std::size_t bytes, void *user) = nullptr;
     void (*release)(void *block, void *user) = nullptr;

@@ -1,4 +1,5 @@
-// Sparse matrices: compressed columns, 64-bit indices, sorted rows, both triangles of a symmetric matrix stored.
+// Sparse matrices: compressed columns, 64-bit indices, sorted rows, both triangles of a symmetric matrix
+// stored.
 #pragma once
 #include "dense.hpp"
 

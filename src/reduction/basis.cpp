@@ -14,7 +14,8 @@
 namespace plm {
 namespace {
 
-constexpr double fixed_mode_margin = 4; // Craig-Bampton: fixed-interface modes up to this multiple (amplitudes to 1e-3)
+constexpr double fixed_mode_margin =
+    4; // Craig-Bampton: fixed-interface modes up to this multiple (amplitudes to 1e-3)
 constexpr std::int64_t least_open_modes = 10;
 
 void check_parents(const Model &model, const Sampler *sampler, const Basis *parent, BasisKind kind) {
@@ -27,7 +28,8 @@ void check_parents(const Model &model, const Sampler *sampler, const Basis *pare
     if (parent->model().get() != &model)
         throw Error(PLM_ERR_ARGUMENT, "the parent basis belongs to another model").argument("parent");
     if (parent->options().kind == BasisKind::plm)
-        throw Error(PLM_ERR_ARGUMENT, "the parent must be of kind \"craig_bampton\" or \"full\"").argument("parent");
+        throw Error(PLM_ERR_ARGUMENT, "the parent must be of kind \"craig_bampton\" or \"full\"")
+            .argument("parent");
 }
 
 SelectionRule make_rule(const BasisOptions &o, const Sampler *sampler) {
@@ -38,11 +40,12 @@ SelectionRule make_rule(const BasisOptions &o, const Sampler *sampler) {
     rule.min_hz = o.frequency_min_hz > 0 || !sampler ? o.frequency_min_hz : sampler->window().min_hz;
     rule.max_hz = o.frequency_max_hz > 0 || !sampler ? o.frequency_max_hz : sampler->window().max_hz;
     if (!(rule.max_hz > 0))
-        throw Error(PLM_ERR_ARGUMENT, "frequency_max_hz is needed when there is no sampler to give the window")
+        throw Error(PLM_ERR_ARGUMENT,
+                    "frequency_max_hz is needed when there is no sampler to give the window")
             .argument("frequency_max_hz");
     if (!(rule.min_hz < rule.max_hz))
-        throw Error(PLM_ERR_ARGUMENT,
-                    format("frequency_min_hz (%g) must be below frequency_max_hz (%g)", rule.min_hz, rule.max_hz))
+        throw Error(PLM_ERR_ARGUMENT, format("frequency_min_hz (%g) must be below frequency_max_hz (%g)",
+                                             rule.min_hz, rule.max_hz))
             .argument("frequency_min_hz");
     return rule;
 }
@@ -56,8 +59,11 @@ std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &mo
                                         watch);
     if (o.kind == BasisKind::plm && parent) {
         if (parent->space()->highest_frequency < highest * (1 - 1e-9))
-            watch.log(1, format("the parent basis is made for frequencies up to %.6g Hz, modes are taken up to %.6g Hz",
-                                parent->space()->highest_frequency / (2 * M_PI), highest_hz));
+            watch.log(
+                1,
+                format(
+                    "the parent basis is made for frequencies up to %.6g Hz, modes are taken up to %.6g Hz",
+                    parent->space()->highest_frequency / (2 * M_PI), highest_hz));
         return parent->space();
     }
     if (sampler && sampler->space()->highest_frequency >= highest * (1 - 1e-9)) return sampler->space();
@@ -120,8 +126,8 @@ double mass_residual(const Matrix &p, const SparseMatrix &mass, const vector<dou
     return std::sqrt(std::max(0.0, dot(n, rest.data(), momentum.data())) / size);
 }
 
-Reduction reduce_to_plm(const Space &space, const Sampler &sampler, const SelectionRule &rule, const BasisOptions &o,
-                        Watch watch) {
+Reduction reduce_to_plm(const Space &space, const Sampler &sampler, const SelectionRule &rule,
+                        const BasisOptions &o, Watch watch) {
     CollectedModes collected =
         collect_modes(space, sampler.samples(), dominant_coordinates(sampler, space), rule, watch);
     Reduction r;

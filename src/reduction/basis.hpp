@@ -1,4 +1,5 @@
-// Reduction bases: piecewise-linear modes, Craig-Bampton and the unreduced reference, each giving a ReducedModel.
+// Reduction bases: piecewise-linear modes, Craig-Bampton and the unreduced reference, each giving a
+// ReducedModel.
 #pragma once
 #include "reduction/reduced_model.hpp"
 #include "sampling/sampler.hpp"
@@ -6,44 +7,48 @@
 namespace plm {
 
 enum class BasisKind { plm, craig_bampton, full };
-enum class ModeSelection { bands, below }; // paper 2.3.4: windows [h f_i, h f_f]; or all below the highest window
+enum class ModeSelection {
+    bands,
+    below
+}; // paper 2.3.4: windows [h f_i, h f_f]; or all below the highest window
 
 struct BasisOptions {
     BasisKind kind = BasisKind::plm;
     ModeSelection selection = ModeSelection::below;
-    std::int64_t n_harmonics = 5;      // windows h = 1..n_harmonics
+    std::int64_t n_harmonics = 5;                      // windows h = 1..n_harmonics
     double frequency_min_hz = 0, frequency_max_hz = 0; // f_i, f_f; 0: the sampler's window
-    double below_factor = 1.1;         // rule "below": all modes below below_factor * n_harmonics * f_f
-    double svd_tolerance = 1e-6;       // singular values relative to the largest (paper, 2.3.3)
-    bool static_augmentation = true;   // P_0 = [P q_PS] (paper, eq. (9)); not used without pre-load
-    bool load_vectors = true;          // P also holds the static responses to the loads
-    std::int64_t n_fixed_modes = 0;    // Craig-Bampton: fixed-interface modes; 0: all below 4 below_factor H f_f
+    double below_factor = 1.1;       // rule "below": all modes below below_factor * n_harmonics * f_f
+    double svd_tolerance = 1e-6;     // singular values relative to the largest (paper, 2.3.3)
+    bool static_augmentation = true; // P_0 = [P q_PS] (paper, eq. (9)); not used without pre-load
+    bool load_vectors = true;        // P also holds the static responses to the loads
+    std::int64_t n_fixed_modes = 0; // Craig-Bampton: fixed-interface modes; 0: all below 4 below_factor H f_f
 };
 
 /// What became of one sample's modes.
 struct SampleSelection {
-    vector<double> frequency_hz;       // all its modes computed
-    vector<char> kept;                 // selected by the rule
-    std::int64_t matched = -1;         // index of the mode with the highest MAC with the dominant mode
+    vector<double> frequency_hz; // all its modes computed
+    vector<char> kept;           // selected by the rule
+    std::int64_t matched = -1;   // index of the mode with the highest MAC with the dominant mode
     double matched_mac = 0;
     bool matched_kept = false;
 };
 
 struct BasisReport {
     std::vector<SampleSelection> samples;
-    std::int64_t n_collected = 0;      // columns before conditioning
-    vector<double> singular_values;    // scaled by the largest
-    double preload_residual = 0;       // paper, eq. (12): q_PS against P, L2 norm over the free DOFs; 0 without pre-load
-    double preload_residual_mass = 0;  // the same in the M-norm
-    std::string warning;               // empty: nothing to say
+    std::int64_t n_collected = 0;   // columns before conditioning
+    vector<double> singular_values; // scaled by the largest
+    double preload_residual =
+        0; // paper, eq. (12): q_PS against P, L2 norm over the free DOFs; 0 without pre-load
+    double preload_residual_mass = 0; // the same in the M-norm
+    std::string warning;              // empty: nothing to say
     double setup_seconds = 0;
-    double highest_frequency_hz = 0;   // upper end of the rule
+    double highest_frequency_hz = 0; // upper end of the rule
 };
 
 class Basis {
   public:
-    /// sampler: needed for kind plm. parent: first reduction under PLM or null. window_hz are taken from options or
-    /// sampler; kinds craig_bampton and full need options.frequency_max_hz or a sampler.
+    /// sampler: needed for kind plm. parent: first reduction under PLM or null. window_hz are taken from
+    /// options or sampler; kinds craig_bampton and full need options.frequency_max_hz or a sampler.
     Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> sampler,
           std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch);
 
@@ -72,7 +77,7 @@ double projection_residual(const Basis &basis, bool is_static, bool use_mass, co
 struct CraigBamptonOptions {
     std::int64_t n_fixed = 0;     // fixed-interface modes; 0: all below highest_frequency
     double highest_frequency = 0; // rad/s
-    bool load_vectors = true;     // static responses of the interior to pre-load and excitation as further modes
+    bool load_vectors = true; // static responses of the interior to pre-load and excitation as further modes
 };
 /// Craig-Bampton (Craig & Bampton 1968): all DOFs with an entry in B retained; diagonalised.
 std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Model> model,

@@ -22,7 +22,8 @@ void check_options(const BasisOptions &o) {
     demand(std::isfinite(o.below_factor) && o.below_factor > 0, "below_factor",
            format("below_factor is %g; it must be above 0", o.below_factor));
     demand(o.svd_tolerance >= 0 && o.svd_tolerance < 1, "svd_tolerance",
-           format("svd_tolerance is %g; a share of the largest singular value in [0, 1) is wanted", o.svd_tolerance));
+           format("svd_tolerance is %g; a share of the largest singular value in [0, 1) is wanted",
+                  o.svd_tolerance));
     demand(o.n_fixed_modes >= 0, "n_fixed_modes",
            format("n_fixed_modes is %lld; it must not be negative", static_cast<long long>(o.n_fixed_modes)));
 }

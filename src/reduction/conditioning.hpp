@@ -17,7 +17,8 @@ struct Conditioned {
     Coordinates coordinates;
     vector<double> singular_values; // of the columns in the M-inner product, scaled by the largest
 };
-/// SVD of mass-normalised columns; directions whose scaled singular value is not above `tolerance` are dropped.
+/// SVD of mass-normalised columns; directions whose scaled singular value is not above `tolerance` are
+/// dropped.
 Conditioned condition_columns(const Space &space, const Matrix &columns, double tolerance);
 
 } // namespace plm

@@ -1,5 +1,5 @@
-// Craig & Bampton (1968): the contact DOFs are retained, the interior is represented by constraint modes and by
-// fixed-interface modes.
+// Craig & Bampton (1968): the contact DOFs are retained, the interior is represented by constraint modes and
+// by fixed-interface modes.
 #include "linalg/eigs.hpp"
 #include "linalg/lapack.hpp"
 #include "reduction/basis.hpp"
@@ -74,8 +74,8 @@ class Interior {
         }
     }
 
-    /// Static responses of the fixed-interface interior to the loads on it, M-orthonormal among themselves and to the
-    /// fixed-interface modes `phi`, which carry little of the deformation around a point load.
+    /// Static responses of the fixed-interface interior to the loads on it, M-orthonormal among themselves
+    /// and to the fixed-interface modes `phi`, which carry little of the deformation around a point load.
     Matrix load_modes(const Matrix &loads, const Matrix &phi) const {
         Matrix basis = phi;
         Matrix x = static_response(loads);
@@ -95,7 +95,8 @@ class Interior {
   private:
     double mass_norm(const Matrix &x) const { return std::sqrt(dot(n_, x.data(), multiply(m_, x).data())); }
 
-    // K_ii is singular when a part of the interior is held by nothing but the contact: then K_ii + sigma M_ii.
+    // K_ii is singular when a part of the interior is held by nothing but the contact: then K_ii + sigma
+    // M_ii.
     void factor_interior() {
         try {
             factor_ = make_factor(k_, FactorKind::positive_definite, model_.host_solver());
@@ -115,8 +116,9 @@ class Interior {
         return x;
     }
 
-    // K_ii^-1 F for loads that do no work on interior rigid-body motion. With the shifted factor this is an iteration
-    // that converges by sigma / (lambda + sigma) per step; what is slow lies in the fixed-interface modes anyway.
+    // K_ii^-1 F for loads that do no work on interior rigid-body motion. With the shifted factor this is an
+    // iteration that converges by sigma / (lambda + sigma) per step; what is slow lies in the fixed-interface
+    // modes anyway.
     Matrix static_response(const Matrix &loads) const {
         Matrix x = loads;
         factor_->solve(x);
@@ -135,7 +137,8 @@ class Interior {
         for (double omega = highest; omega < 1.01 * highest; omega *= 1.003) {
             try {
                 const SparseMatrix shifted = add(1.0, k_, -omega * omega, m_);
-                return make_factor(shifted, FactorKind::indefinite, model_.host_solver())->negative_eigenvalues();
+                return make_factor(shifted, FactorKind::indefinite, model_.host_solver())
+                    ->negative_eigenvalues();
             } catch (const Error &e) {
                 if (e.status() != PLM_ERR_SINGULAR) throw; // the cutoff hit an eigenvalue: move it
             }
@@ -200,22 +203,25 @@ Matrix congruence(const Matrix &a, const Matrix &t) {
     return r;
 }
 
-// A basis of the directions that carry mass, the mass-less ones following statically: x_n = -K_nn^-1 K_nr x_r.
+// A basis of the directions that carry mass, the mass-less ones following statically: x_n = -K_nn^-1 K_nr
+// x_r.
 Matrix condense_massless(const Matrix &k, const Matrix &m, Watch watch) {
     const SymmetricEigen eigen = symmetric_eigen(m);
     std::int64_t n_null = 0;
     while (n_null < m.cols() && eigen.values[n_null] <= 1e-15 * eigen.values.back()) ++n_null;
     if (n_null == 0) return eigen.vectors;
-    watch.log(2, format("%lld mass-less directions of the contact DOFs are condensed statically in Craig-Bampton; "
-                        "contact forces do not deform them",
-                        static_cast<long long>(n_null)));
+    watch.log(
+        2, format("%lld mass-less directions of the contact DOFs are condensed statically in Craig-Bampton; "
+                  "contact forces do not deform them",
+                  static_cast<long long>(n_null)));
     const Matrix none = eigen.vectors.columns(0, n_null);
     Matrix rest = eigen.vectors.columns(n_null, m.cols() - n_null);
     Matrix knn = congruence(k, none);
     Matrix follow = product('T', 'N', none, product('N', 'N', k, rest));
     DenseCholesky cholesky;
     if (!cholesky.factor(knn))
-        throw Error(PLM_ERR_SINGULAR, "a contact DOF has neither mass nor stiffness").reason(PLM_REASON_SINGULAR);
+        throw Error(PLM_ERR_SINGULAR, "a contact DOF has neither mass nor stiffness")
+            .reason(PLM_REASON_SINGULAR);
     cholesky.solve(follow.data(), follow.cols(), follow.rows());
     gemm('N', 'N', -1.0, none, follow, 1.0, rest);
     return rest;
@@ -233,7 +239,8 @@ SymmetricEigen diagonalise(const Matrix &k, const Matrix &m, Watch watch) {
     }
 }
 
-// Rigid-body modes lie in the space (but for too few fixed-interface modes of an interior that is free itself).
+// Rigid-body modes lie in the space (but for too few fixed-interface modes of an interior that is free
+// itself).
 void clear_rigid_values(std::int64_t n_rigid, vector<double> &lambda) {
     const std::int64_t size = static_cast<std::int64_t>(lambda.size());
     const double flexible = n_rigid < size ? lambda[n_rigid] : 1.0;
@@ -261,8 +268,9 @@ std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Mode
     clear_rigid_values(model->rigid_modes().cols(), space->lambda);
     space->highest_frequency = options.highest_frequency;
     const long long n_boundary = static_cast<long long>(p.boundary_dof.size());
-    space->description = format("Craig-Bampton: %lld contact DOFs and %lld fixed-interface modes and load vectors", n_boundary,
-                                static_cast<long long>(t.cols()) - n_boundary);
+    space->description =
+        format("Craig-Bampton: %lld contact DOFs and %lld fixed-interface modes and load vectors", n_boundary,
+               static_cast<long long>(t.cols()) - n_boundary);
     project_onto(*space);
     watch.log(1, space->description);
     return space;

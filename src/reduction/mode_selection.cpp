@@ -6,7 +6,8 @@
 namespace plm {
 
 double SelectionRule::highest_hz() const {
-    return static_cast<double>(n_harmonics) * max_hz * (selection == ModeSelection::below ? below_factor : 1.0);
+    return static_cast<double>(n_harmonics) * max_hz *
+           (selection == ModeSelection::below ? below_factor : 1.0);
 }
 
 bool SelectionRule::keeps(double hz) const {
@@ -35,10 +36,12 @@ SampleSelection select_modes(const MatchedModes &found, const SelectionRule &rul
 }
 
 Matrix kept_columns(const SpaceModes &modes, const vector<char> &kept) {
-    Matrix columns(modes.vectors.rows(), std::count_if(kept.begin(), kept.end(), [](char k) { return k != 0; }));
+    Matrix columns(modes.vectors.rows(),
+                   std::count_if(kept.begin(), kept.end(), [](char k) { return k != 0; }));
     std::int64_t next = 0;
     for (std::size_t j = 0; j < kept.size(); ++j)
-        if (kept[j]) std::copy_n(modes.vectors.col(static_cast<std::int64_t>(j)), columns.rows(), columns.col(next++));
+        if (kept[j])
+            std::copy_n(modes.vectors.col(static_cast<std::int64_t>(j)), columns.rows(), columns.col(next++));
     return columns;
 }
 
@@ -50,12 +53,14 @@ std::string lost_mode_warning(const std::vector<SampleSelection> &samples, const
     }
     if (n_lost == 0) return {};
     const SampleSelection &s = samples[first];
-    std::string text = format("sample %zu does not keep its mode at %.6g Hz, which resembles the dominant mode (MAC "
-                              "%.2f)",
-                              first, s.frequency_hz[s.matched], s.matched_mac);
+    std::string text =
+        format("sample %zu does not keep its mode at %.6g Hz, which resembles the dominant mode (MAC "
+               "%.2f)",
+               first, s.frequency_hz[s.matched], s.matched_mac);
     if (n_lost > 1) text += format(", nor do %zu other samples keep theirs", n_lost - 1);
     text += rule.selection == ModeSelection::bands
-                ? format("; the resonance may be lost: widen the window [%.6g, %.6g] Hz or choose selection \"below\"",
+                ? format("; the resonance may be lost: widen the window [%.6g, %.6g] Hz or choose selection "
+                         "\"below\"",
                          rule.min_hz, rule.max_hz)
                 : format("; raise below_factor or frequency_max_hz (modes are kept up to %.6g Hz)",
                          rule.highest_hz());
@@ -65,9 +70,11 @@ std::string lost_mode_warning(const std::vector<SampleSelection> &samples, const
 } // namespace
 
 CollectedModes collect_modes(const Space &space, const std::vector<SelectedSample> &samples,
-                             const std::vector<vector<double>> &dominant, const SelectionRule &rule, Watch watch) {
+                             const std::vector<vector<double>> &dominant, const SelectionRule &rule,
+                             Watch watch) {
     CollectedModes collected;
-    const double omega = 2 * M_PI * rule.highest_hz() * (1 + 1e-12); // the upper end itself belongs to the rule
+    const double omega =
+        2 * M_PI * rule.highest_hz() * (1 + 1e-12); // the upper end itself belongs to the rule
     for (std::size_t i = 0; i < samples.size(); ++i) {
         watch.step("modes", static_cast<double>(i) / static_cast<double>(samples.size()));
         const MatchedModes found =
@@ -76,10 +83,12 @@ CollectedModes collect_modes(const Space &space, const std::vector<SelectedSampl
         collected.columns.append(kept_columns(found.modes, collected.samples.back().kept));
     }
     if (collected.columns.cols() == 0)
-        throw Error(PLM_ERR_ARGUMENT,
-                    format("no sample has a mode in the windows of %lld harmonics of [%.6g, %.6g] Hz; widen the window "
-                           "or choose selection \"below\"",
-                           static_cast<long long>(rule.n_harmonics), rule.min_hz, rule.max_hz))
+        throw Error(
+            PLM_ERR_ARGUMENT,
+            format(
+                "no sample has a mode in the windows of %lld harmonics of [%.6g, %.6g] Hz; widen the window "
+                "or choose selection \"below\"",
+                static_cast<long long>(rule.n_harmonics), rule.min_hz, rule.max_hz))
             .argument("selection")
             .reason(PLM_REASON_BASIS_TOO_SMALL);
     collected.warning = lost_mode_warning(collected.samples, rule);

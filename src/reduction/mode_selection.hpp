@@ -25,6 +25,7 @@ struct CollectedModes {
 
 /// dominant: coordinates of the dominant modes in this space.
 CollectedModes collect_modes(const Space &space, const std::vector<SelectedSample> &samples,
-                             const std::vector<vector<double>> &dominant, const SelectionRule &rule, Watch watch);
+                             const std::vector<vector<double>> &dominant, const SelectionRule &rule,
+                             Watch watch);
 
 } // namespace plm

@@ -1,7 +1,7 @@
 // Galerkin projection of a space onto reduced coordinates (paper, eq. (11)).
 #pragma once
-#include "reduction/static_basis.hpp"
 #include "reduction/reduced_model.hpp"
+#include "reduction/static_basis.hpp"
 
 namespace plm {
 

@@ -9,8 +9,8 @@ struct StaticBasis {
     Coordinates coordinates; // of P_0 when not the same
 };
 
-/// q_PS: rest displacement in the space's coordinates (zero without pre-load). It is orthogonalised against P and
-/// left out when less than 1e-10 of it remains.
+/// q_PS: rest displacement in the space's coordinates (zero without pre-load). It is orthogonalised against P
+/// and left out when less than 1e-10 of it remains.
 StaticBasis make_static_basis(const Space &space, const Coordinates &dynamic, const vector<double> &q_ps);
 
 /// Relative part of q outside the span of orthonormal columns y: paper, eq. (12), in the M-norm.

@@ -1,7 +1,7 @@
 #include "sampling/contact_sweep.hpp"
 #include <algorithm>
-#include <cstdlib>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 namespace plm {
@@ -21,7 +21,8 @@ vector<Switch> find_switches(const vector<double> &offset, const vector<double> 
     vector<Switch> switches;
     for (std::size_t i = 0; i < dv.size(); ++i)
         if (largest > 0 && std::abs(dv[i]) >= never * largest)
-            switches.push_back({-offset[i] / dv[i] + 0.0, static_cast<std::int64_t>(i)}); // + 0.0: no negative zero
+            switches.push_back(
+                {-offset[i] / dv[i] + 0.0, static_cast<std::int64_t>(i)}); // + 0.0: no negative zero
     std::stable_sort(switches.begin(), switches.end(),
                      [](const Switch &a, const Switch &b) { return a.alpha < b.alpha; });
     return switches;
@@ -54,7 +55,8 @@ void group_switches(const vector<Switch> &switches, ContactSweep &sweep) {
 }
 
 // Status of every pair below the lowest threshold.
-vector<char> first_sample(const vector<double> &offset, const vector<double> &dv, const vector<Switch> &switches) {
+vector<char> first_sample(const vector<double> &offset, const vector<double> &dv,
+                          const vector<Switch> &switches) {
     vector<char> closed(offset.size());
     for (std::size_t i = 0; i < offset.size(); ++i) closed[i] = ContactLaw::closed(offset[i]);
     for (const Switch &s : switches) closed[s.pair] = dv[s.pair] < 0;
@@ -68,7 +70,8 @@ vector<double> representative_alphas(const vector<double> &thresholds) {
     if (!(margin > 0)) margin = first != 0 ? 0.05 * std::abs(first) : 1.0;
     vector<double> alpha;
     alpha.push_back(first - margin);
-    for (std::size_t i = 1; i < thresholds.size(); ++i) alpha.push_back(0.5 * (thresholds[i - 1] + thresholds[i]));
+    for (std::size_t i = 1; i < thresholds.size(); ++i)
+        alpha.push_back(0.5 * (thresholds[i - 1] + thresholds[i]));
     alpha.push_back(last + margin);
     return alpha;
 }
@@ -133,7 +136,8 @@ vector<std::int64_t> equally_spaced(const ContactSweep &sweep, std::int64_t n_sa
         return chosen;
     }
     for (std::int64_t i = 0; i < n_samples; ++i) {
-        const double n = static_cast<double>(n_samples), s = static_cast<double>(size), x = static_cast<double>(i);
+        const double n = static_cast<double>(n_samples), s = static_cast<double>(size),
+                     x = static_cast<double>(i);
         const double position = with_ends ? std::round(x * (s - 1) / (n - 1)) : std::floor((x + 0.5) * s / n);
         const std::int64_t index = std::min(size - 1, static_cast<std::int64_t>(position));
         if (chosen.empty() || chosen.back() != index) chosen.push_back(index);
@@ -148,14 +152,15 @@ std::vector<SelectedSample> select_samples(const std::vector<ContactSweep> &swee
         vector<std::int64_t> chosen = equally_spaced(sweeps[d], n_samples, with_ends);
         if (with_rest && sweeps[d].offset_is_rest) move_nearest(chosen, position_at_rest(sweeps[d]));
         for (std::int64_t i : chosen)
-            add_unless_present(samples, make_sample(sweeps[d].samples[i], static_cast<std::int64_t>(d), i, false));
+            add_unless_present(samples,
+                               make_sample(sweeps[d].samples[i], static_cast<std::int64_t>(d), i, false));
     }
     const std::size_t n_selected = complements ? samples.size() : 0;
     for (std::size_t i = 0; i < n_selected; ++i) {
         vector<char> inverted = samples[i].closed;
         for (char &c : inverted) c = !c;
-        add_unless_present(samples,
-                           make_sample(std::move(inverted), samples[i].dominant, samples[i].sweep_index, true));
+        add_unless_present(
+            samples, make_sample(std::move(inverted), samples[i].dominant, samples[i].sweep_index, true));
     }
     return samples;
 }

@@ -1,12 +1,15 @@
-// The evolution of the contact area along dX = offset + alpha dV (paper, eq. (5)) and the choice of a few samples.
+// The evolution of the contact area along dX = offset + alpha dV (paper, eq. (5)) and the choice of a few
+// samples.
 #pragma once
 #include "sampling/sampler.hpp"
 
 namespace plm {
 
-/// All contact sets from alpha -> -infinity to +infinity. A pair with |dV| < 1e-9 max |dV| never switches: its offset
-/// says whether it is closed. Thresholds that differ by less than 1e-9 of their size are one (symmetric meshes).
-ContactSweep sweep_contact(const vector<double> &offset, bool offset_is_rest, const vector<double> &mode_penetration);
+/// All contact sets from alpha -> -infinity to +infinity. A pair with |dV| < 1e-9 max |dV| never switches:
+/// its offset says whether it is closed. Thresholds that differ by less than 1e-9 of their size are one
+/// (symmetric meshes).
+ContactSweep sweep_contact(const vector<double> &offset, bool offset_is_rest,
+                           const vector<double> &mode_penetration);
 
 /// Positions in the sweep's list of n_samples equally spaced samples, ascending, without duplicates.
 /// with_ends: first and last included; n_samples = 1: the sample at alpha = 0.
@@ -15,9 +18,9 @@ vector<std::int64_t> equally_spaced(const ContactSweep &sweep, std::int64_t n_sa
 /// Position of the sample at alpha = 0: the contact set at rest when the offset is the rest penetration.
 std::int64_t position_at_rest(const ContactSweep &sweep);
 
-/// The selected samples of all sweeps, then (complements) those with every status inverted; no contact set twice.
-/// with_rest: where the offset is the rest penetration, the selected position nearest to rest is moved there, since
-/// small vibration takes place in that contact set alone.
+/// The selected samples of all sweeps, then (complements) those with every status inverted; no contact set
+/// twice. with_rest: where the offset is the rest penetration, the selected position nearest to rest is moved
+/// there, since small vibration takes place in that contact set alone.
 std::vector<SelectedSample> select_samples(const std::vector<ContactSweep> &sweeps, std::int64_t n_samples,
                                            bool with_ends, bool complements, bool with_rest);
 

@@ -19,17 +19,22 @@ bool is_homogeneous(const Model &model) {
 
 LinearSystem reference_system(LinearSystem asked, const RestState &rest, bool homogeneous) {
     if (asked != LinearSystem::automatic) return asked;
-    // Either would do without pre-load (paper, 2.3.2); in the sliding system the shapes belong to the assembly.
+    // Either would do without pre-load (paper, 2.3.2); in the sliding system the shapes belong to the
+    // assembly.
     if (homogeneous) return LinearSystem::sliding;
-    const auto n_closed = std::count_if(rest.closed.begin(), rest.closed.end(), [](char c) { return c != 0; });
-    return 2 * n_closed > static_cast<std::int64_t>(rest.closed.size()) ? LinearSystem::sliding : LinearSystem::open;
+    const auto n_closed =
+        std::count_if(rest.closed.begin(), rest.closed.end(), [](char c) { return c != 0; });
+    return 2 * n_closed > static_cast<std::int64_t>(rest.closed.size()) ? LinearSystem::sliding
+                                                                        : LinearSystem::open;
 }
 
 namespace {
 
 constexpr std::int64_t n_proposed = 20; // modes a proposal looks at when no range is given
 
-const char *name_of(LinearSystem system) { return system == LinearSystem::sliding ? "sliding" : "open"; }
+const char *name_of(LinearSystem system) {
+    return system == LinearSystem::sliding ? "sliding" : "open";
+}
 
 // At least `count` modes and one above `hz`, or all there are.
 SpaceModes lowest_modes(const Space &space, LinearSystem system, std::int64_t count, double hz) {
@@ -37,13 +42,14 @@ SpaceModes lowest_modes(const Space &space, LinearSystem system, std::int64_t co
     const double reach = 2 * std::max(space.highest_frequency, 2 * M_PI * hz);
     if (reach > 0) {
         SpaceModes modes = modes_of_contact_set(space, closed, reach * reach);
-        if (modes.vectors.cols() >= count && !modes.values.empty() && to_hz(modes.values.back()) > hz) return modes;
+        if (modes.vectors.cols() >= count && !modes.values.empty() && to_hz(modes.values.back()) > hz)
+            return modes;
     }
     return modes_of_contact_set(space, closed, std::numeric_limits<double>::infinity());
 }
 
-// |phi . F|^2 / omega^4: the squared resonance amplitude of each mode at equal Q, up to a common factor; 0 for
-// rigid-body modes. F is the first harmonic of the excitation (or its lowest one).
+// |phi . F|^2 / omega^4: the squared resonance amplitude of each mode at equal Q, up to a common factor; 0
+// for rigid-body modes. F is the first harmonic of the excitation (or its lowest one).
 vector<double> responses(const Space &space, const SpaceModes &modes) {
     vector<double> response(modes.values.size(), 0.0);
     const auto load = space.excitation.upper_bound(0);
@@ -87,29 +93,34 @@ std::int64_t by_number(const SpaceModes &modes, const ModeRequest &request) {
 std::int64_t by_frequency(const SpaceModes &modes, double hz) {
     std::int64_t best = -1;
     for (std::int64_t j = 0; j < modes.vectors.cols(); ++j)
-        if (best < 0 || std::abs(to_hz(modes.values[j]) - hz) < std::abs(to_hz(modes.values[best]) - hz)) best = j;
+        if (best < 0 || std::abs(to_hz(modes.values[j]) - hz) < std::abs(to_hz(modes.values[best]) - hz))
+            best = j;
     return best;
 }
 
 std::int64_t by_response(const vector<double> &response, const vector<std::int64_t> &among,
                          const ModeRequest &request, Watch watch) {
     if (among.empty())
-        throw Error(PLM_ERR_ARGUMENT, format("the %s system has no flexible mode in [%g, %g] Hz; widen the search or "
-                                             "name the mode",
-                                             name_of(request.system), request.search_min_hz, request.search_max_hz))
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("the %s system has no flexible mode in [%g, %g] Hz; widen the search or "
+                           "name the mode",
+                           name_of(request.system), request.search_min_hz, request.search_max_hz))
             .argument(request.search_max_hz > 0 ? "search_max_hz" : "mode");
     const auto weaker = [&](std::int64_t i, std::int64_t j) { return response[i] < response[j]; };
     const std::int64_t best = *std::max_element(among.begin(), among.end(), weaker);
     if (response[best] > 0) return best;
-    watch.log(2, "the excitation moves no mode searched: the lowest flexible one is taken as the dominant mode; name "
-                 "the mode if another is meant");
+    watch.log(
+        2,
+        "the excitation moves no mode searched: the lowest flexible one is taken as the dominant mode; name "
+        "the mode if another is meant");
     return among.front();
 }
 
-std::int64_t choose(const SpaceModes &modes, const vector<double> &response, const vector<std::int64_t> &among,
-                    const ModeRequest &request, Watch watch) {
+std::int64_t choose(const SpaceModes &modes, const vector<double> &response,
+                    const vector<std::int64_t> &among, const ModeRequest &request, Watch watch) {
     if (request.mode > 0) return by_number(modes, request);
-    if (request.frequency_hz > 0 && modes.vectors.cols() > 0) return by_frequency(modes, request.frequency_hz);
+    if (request.frequency_hz > 0 && modes.vectors.cols() > 0)
+        return by_frequency(modes, request.frequency_hz);
     return by_response(response, among, request, watch);
 }
 

@@ -22,16 +22,20 @@ double matched_frequency(const Space &space, const DominantMode &dominant, const
     MacRow row;
     row.system = name;
     row.best = matched.best;
-    const std::int64_t listed = std::min(matched.modes.vectors.cols(), std::max<std::int64_t>(10, matched.best + 3));
+    const std::int64_t listed =
+        std::min(matched.modes.vectors.cols(), std::max<std::int64_t>(10, matched.best + 3));
     for (std::int64_t j = 0; j < listed; ++j) {
         row.frequency_hz.push_back(to_hz(matched.modes.values[j]));
         row.mac.push_back(matched.mac[j]);
     }
     const double best = row.mac[row.best], hz = row.frequency_hz[row.best];
     if (best < 0.5)
-        watch.log(2, format("no mode of %s resembles the dominant mode: the best, at %.6g Hz, has a MAC of %.2f; check "
-                            "the frequency window or choose another dominant mode",
-                            name, hz, best));
+        watch.log(
+            2,
+            format(
+                "no mode of %s resembles the dominant mode: the best, at %.6g Hz, has a MAC of %.2f; check "
+                "the frequency window or choose another dominant mode",
+                name, hz, best));
     window.mac.push_back(std::move(row));
     return hz;
 }
@@ -45,20 +49,23 @@ void estimate(double half_width, FrequencyWindow &w) {
     const double percent = 100 * half_width;
     if (!w.preload_case) {
         around(w.blf_hz, w.blf_hz, half_width, w);
-        w.why = format("bilinear frequency %.6g Hz of the half-cycle frequencies %.6g and %.6g Hz, -+ %.3g %%",
-                       w.blf_hz, w.f1_hz, w.f2_hz, percent);
+        w.why =
+            format("bilinear frequency %.6g Hz of the half-cycle frequencies %.6g and %.6g Hz, -+ %.3g %%",
+                   w.blf_hz, w.f1_hz, w.f2_hz, percent);
     } else if (w.blf_hz > 0) {
         around(std::min(w.rest_hz, w.blf_hz), std::max(w.rest_hz, w.blf_hz), half_width, w);
-        w.why = format("from the frequency with the contact as at rest, %.6g Hz, to the bilinear frequency, %.6g Hz "
-                       "(of %.6g and %.6g Hz), -+ %.3g %%",
-                       w.rest_hz, w.blf_hz, w.f1_hz, w.f2_hz, percent);
+        w.why = format(
+            "from the frequency with the contact as at rest, %.6g Hz, to the bilinear frequency, %.6g Hz "
+            "(of %.6g and %.6g Hz), -+ %.3g %%",
+            w.rest_hz, w.blf_hz, w.f1_hz, w.f2_hz, percent);
     } else { // a rigid-body half cycle has no frequency
         around(w.rest_hz, w.rest_hz, half_width, w);
         w.why = format("frequency with the contact as at rest, %.6g Hz, -+ %.3g %%", w.rest_hz, percent);
     }
     if (w.max_hz > 0) return;
-    throw Error(PLM_ERR_ARGUMENT, "no frequency window follows from the dominant mode, which is a rigid-body motion of "
-                                  "the linear systems compared; choose a flexible mode or give the window")
+    throw Error(PLM_ERR_ARGUMENT,
+                "no frequency window follows from the dominant mode, which is a rigid-body motion of "
+                "the linear systems compared; choose a flexible mode or give the window")
         .argument("mode");
 }
 

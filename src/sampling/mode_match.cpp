@@ -14,11 +14,14 @@ double mac(std::int64_t n, const double *x, const double *y) {
     return cosine * cosine;
 }
 
-double to_hz(double eigenvalue) { return std::sqrt(std::max(eigenvalue, 0.0)) / (2 * M_PI); }
+double to_hz(double eigenvalue) {
+    return std::sqrt(std::max(eigenvalue, 0.0)) / (2 * M_PI);
+}
 
 namespace {
 
-MatchedModes match_below(const Space &space, const vector<char> &closed, const vector<double> &shape, double upper) {
+MatchedModes match_below(const Space &space, const vector<char> &closed, const vector<double> &shape,
+                         double upper) {
     MatchedModes matched;
     matched.modes = modes_of_contact_set(space, closed, upper);
     const std::int64_t count = matched.modes.vectors.cols();
@@ -40,7 +43,8 @@ bool is_settled(const MatchedModes &matched) {
 
 } // namespace
 
-MatchedModes match_modes(const Space &space, const vector<char> &closed, const vector<double> &shape, double upper) {
+MatchedModes match_modes(const Space &space, const vector<char> &closed, const vector<double> &shape,
+                         double upper) {
     for (int attempt = 0; attempt < 3 && upper > 0; ++attempt, upper *= 9) {
         MatchedModes matched = match_below(space, closed, shape, upper);
         if (is_settled(matched) || matched.modes.vectors.cols() == space.size()) return matched;

@@ -1,5 +1,6 @@
-// Which mode of one linear system resembles a given shape: the mass-weighted modal assurance criterion (MAC). In the
-// coordinates of a Space shapes are M-orthonormal, so the MAC is the squared cosine of two coordinate vectors.
+// Which mode of one linear system resembles a given shape: the mass-weighted modal assurance criterion (MAC).
+// In the coordinates of a Space shapes are M-orthonormal, so the MAC is the squared cosine of two coordinate
+// vectors.
 #pragma once
 #include "model/space.hpp"
 
@@ -17,8 +18,10 @@ struct MatchedModes {
     std::int64_t best = -1; // the highest; the lower frequency wins a tie. -1: the space has no mode
 };
 
-/// The modes of a contact set below `upper` (rad^2/s^2), and beyond it as far as is needed to be sure of the best
-/// match: all modes together make up the shape, so the search ends when those found leave too little for a better one.
-MatchedModes match_modes(const Space &space, const vector<char> &closed, const vector<double> &shape, double upper);
+/// The modes of a contact set below `upper` (rad^2/s^2), and beyond it as far as is needed to be sure of the
+/// best match: all modes together make up the shape, so the search ends when those found leave too little for
+/// a better one.
+MatchedModes match_modes(const Space &space, const vector<char> &closed, const vector<double> &shape,
+                         double upper);
 
 } // namespace plm

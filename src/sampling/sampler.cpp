@@ -18,7 +18,8 @@ constexpr double space_margin = 1.1; // accurate this far beyond the highest har
 double first_guess(const SamplerOptions &o) {
     const double factor = 2 * M_PI * space_margin * static_cast<double>(o.n_harmonics);
     if (o.window_max_hz > 0) return factor * o.window_max_hz;
-    if (o.mode == 0 && o.mode_frequency_hz > 0) return factor * o.mode_frequency_hz * (1 + 2 * o.window_half_width);
+    if (o.mode == 0 && o.mode_frequency_hz > 0)
+        return factor * o.mode_frequency_hz * (1 + 2 * o.window_half_width);
     return 2 * M_PI * o.search_max_hz;
 }
 
@@ -59,8 +60,9 @@ bool moves_contact(const Space &space, const DominantMode &d) {
 ContactSweep sweep_of(const Space &space, const RestState &rest, bool homogeneous, const DominantMode &d,
                       Watch watch) {
     if (!moves_contact(space, d)) {
-        watch.log(2, format("the dominant mode at %.6g Hz does not move the contact: there is one sample only",
-                            d.frequency_hz));
+        watch.log(2,
+                  format("the dominant mode at %.6g Hz does not move the contact: there is one sample only",
+                         d.frequency_hz));
         return sweep_contact(rest.penetration, !homogeneous, vector<double>(space.n_pairs(), 0.0));
     }
     if (!homogeneous) return sweep_contact(rest.penetration, true, d.mode_penetration);
@@ -82,20 +84,24 @@ Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &optio
         rest_ = solve_rest(*space_);
         dominant_ = find_dominant_modes(*space_, rest_, homogeneous, options, watch);
         sweeps_.clear();
-        for (const DominantMode &d : dominant_) sweeps_.push_back(sweep_of(*space_, rest_, homogeneous, d, watch));
+        for (const DominantMode &d : dominant_)
+            sweeps_.push_back(sweep_of(*space_, rest_, homogeneous, d, watch));
         window_ = find_window(*space_, dominant_.front(), sweeps_.front(), rest_, options, watch);
-        const double needed = 2 * M_PI * space_margin * static_cast<double>(options.n_harmonics) * window_.max_hz;
+        const double needed =
+            2 * M_PI * space_margin * static_cast<double>(options.n_harmonics) * window_.max_hz;
         if (space_->highest_frequency >= needed) break;
         highest = 1.01 * needed; // the frequencies move a little in the better space
     }
     samples_ = select_samples(sweeps_, options.n_samples, options.include_ends, options.complements,
                               options.include_rest);
-    watch.log(1, format("dominant mode %lld of the %s system at %.6g Hz; %zu contact sets in its sweep, %zu samples; "
-                        "window [%.6g, %.6g] Hz: %s",
-                        static_cast<long long>(dominant_.front().mode),
-                        dominant_.front().system == LinearSystem::sliding ? "sliding" : "open",
-                        dominant_.front().frequency_hz, sweeps_.front().samples.size(), samples_.size(),
-                        window_.min_hz, window_.max_hz, window_.why.c_str()));
+    watch.log(
+        1,
+        format("dominant mode %lld of the %s system at %.6g Hz; %zu contact sets in its sweep, %zu samples; "
+               "window [%.6g, %.6g] Hz: %s",
+               static_cast<long long>(dominant_.front().mode),
+               dominant_.front().system == LinearSystem::sliding ? "sliding" : "open",
+               dominant_.front().frequency_hz, sweeps_.front().samples.size(), samples_.size(),
+               window_.min_hz, window_.max_hz, window_.why.c_str()));
 }
 
 } // namespace plm

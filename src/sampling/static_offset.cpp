@@ -5,7 +5,8 @@
 namespace plm {
 namespace {
 
-// The open structure as its contact sees it: flexibility of the pairs and their motion in the rigid-body modes.
+// The open structure as its contact sees it: flexibility of the pairs and their motion in the rigid-body
+// modes.
 struct ContactFlexibility {
     Matrix flexible; // R = G_f diag(1 / lambda_f) G_f^T
     Matrix rigid;    // G_r
@@ -36,14 +37,15 @@ void solve_deflated(const Matrix &t, vector<double> &x) {
 // The springs' forces s = k u with every pair coupled, under contact forces d, from
 //     (1/k + R) s - G_r x_r = -R d,   G_r^T s = -G_r^T d.
 // In this form nothing is lost for very stiff or very soft springs.
-vector<double> sliding_forces(const ContactFlexibility &f, const vector<double> &stiffness, const vector<double> &d,
-                              const vector<double> &opening) {
+vector<double> sliding_forces(const ContactFlexibility &f, const vector<double> &stiffness,
+                              const vector<double> &d, const vector<double> &opening) {
     const std::int64_t z = f.flexible.rows(), r = f.rigid.cols();
     Matrix a = f.flexible;
     for (std::int64_t i = 0; i < z; ++i) a(i, i) += 1 / stiffness[i];
     DenseCholesky cholesky;
     if (!cholesky.factor(a))
-        throw Error(PLM_ERR_SINGULAR, "the contact flexibility of the sliding system is not positive definite")
+        throw Error(PLM_ERR_SINGULAR,
+                    "the contact flexibility of the sliding system is not positive definite")
             .reason(PLM_REASON_SINGULAR);
     vector<double> s(opening);
     cholesky.solve(s.data(), 1, z);
@@ -60,7 +62,8 @@ vector<double> sliding_forces(const ContactFlexibility &f, const vector<double> 
 
 } // namespace
 
-vector<double> static_offset(const Space &space, LinearSystem system, const vector<double> &mode_penetration) {
+vector<double> static_offset(const Space &space, LinearSystem system,
+                             const vector<double> &mode_penetration) {
     const std::int64_t z = space.n_pairs();
     const ContactFlexibility f = contact_flexibility(space);
     vector<double> d(z), opening(z, 0.0);

@@ -19,7 +19,7 @@ make_stub "$cc" "$python" "$here/baseline/plm/plm.h" "$folder/baseline.so"
 make_stub "$cc" "$python" "$include/plm/plm.h" "$folder/now.so"
 compare "$include" "$folder/now.so"
 echo "the header keeps the baseline"
-if readelf --debug-dump=info "$library" 2>/dev/null | grep -q 'DW_AT_name.*: plm_hbm_find_peak$'; then
+if readelf --debug-dump=info "$library" 2>/dev/null | grep -q 'DW_AT_name.*: plm_status$'; then
     compare "$include" "$library"
     echo "the shared object keeps the baseline"
 else

@@ -2,7 +2,7 @@
 # object.sh LIBPLM_SO SONAME "REQUIRED...": what the loader sees. REQUIRED are names of libraries, each an
 # extended regular expression ("-": no condition on NEEDED); besides them only the runtimes of the compilers are allowed.
 set -eu
-library=$1 soname=$2 required=$3
+library=$1 soname=$2 required=${3-}
 dynamic=$(readelf -dW "$library")
 fail() { echo "$1"; exit 1; }
 

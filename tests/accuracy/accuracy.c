@@ -1,6 +1,7 @@
-/* accuracy SIZE: the accuracy that libplm promises, measured against the full-order solution at the same number of
- * harmonics, on the scenes of examples/scenes at "quick" (the test suite) or "paper" size (about ten minutes).
- * One line per promise: what was measured, the bound, and whether it holds. Ends with 1 if one does not. */
+/* accuracy SIZE: the accuracy that libplm promises, measured against the full-order solution at the same
+ * number of harmonics, on the scenes of examples/scenes at "quick" (the test suite) or "paper" size (about
+ * ten minutes). One line per promise: what was measured, the bound, and whether it holds. Ends with 1 if one
+ * does not. */
 #include "scene_model.h"
 #include <math.h>
 #include <stdio.h>
@@ -35,11 +36,13 @@ static study begin(const char *name, const char *size, int with_preload, int n_s
     must(NULL, plm_context_create(PLM_API_VERSION, &t.ctx), "context");
     must(t.ctx, scene_to_model(t.ctx, t.s, &t.model), "model");
     must(t.ctx, plm_sampler_create(t.model, &t.sampler), "sampler");
-    must(t.ctx, plm_sampler_set_string(t.sampler, "system", t.s->dominant_system ? "sliding" : "open"), "system");
+    must(t.ctx, plm_sampler_set_string(t.sampler, "system", t.s->dominant_system ? "sliding" : "open"),
+         "system");
     must(t.ctx, plm_sampler_set_int(t.sampler, "mode", t.s->dominant_mode), "mode");
     must(t.ctx, plm_sampler_set_int(t.sampler, "n_samples", n_samples), "n_samples");
     must(t.ctx, plm_sampler_run(t.sampler), "sampler run");
-    printf("%s, %s size, %s, %d samples\n", name, size, with_preload ? "with pre-load" : "no pre-load", n_samples);
+    printf("%s, %s size, %s, %d samples\n", name, size, with_preload ? "with pre-load" : "no pre-load",
+           n_samples);
     return t;
 }
 
@@ -69,7 +72,8 @@ static answer peak(const study *t, plm_basis *b, double force_scale) {
     must(t->ctx, plm_hbm_set_double(h, "force_scale", force_scale), "force_scale");
     must(t->ctx, plm_hbm_sweep(h, &curve), "sweep");
     must(t->ctx,
-         plm_hbm_find_peak(h, curve, t->s->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, &a.frequency, &a.amplitude, &top),
+         plm_hbm_find_peak(h, curve, t->s->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, &a.frequency, &a.amplitude,
+                           &top),
          "peak");
     must(t->ctx, plm_branch_get_full_residual(top, 0, &a.residual), "residual");
     must(t->ctx, plm_basis_get_int(b, "size", &a.size), "size");
@@ -99,7 +103,8 @@ static void compare(const char *what, answer got, answer want, double frequency,
     promise(text, fabs(got.amplitude / want.amplitude - 1), amplitude);
 }
 
-/* Without pre-load and gap the equations are homogeneous: the frequency stays, the amplitude follows the force. */
+/* Without pre-load and gap the equations are homogeneous: the frequency stays, the amplitude follows the
+ * force. */
 static void homogeneous(const study *t) {
     int warned;
     double frequency = 0, amplitude = 0;

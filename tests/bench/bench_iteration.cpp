@@ -1,5 +1,6 @@
-// Cost of one Newton iteration in reduced coordinates (residual, Jacobian, factorization, one solution): medians over
-// many runs for 90 pairs and 5 harmonics, with the flops that the loop needs. Not a test: prints Markdown.
+// Cost of one Newton iteration in reduced coordinates (residual, Jacobian, factorization, one solution):
+// medians over many runs for 90 pairs and 5 harmonics, with the flops that the loop needs. Not a test: prints
+// Markdown.
 #include "hbm/start.hpp"
 #include "hbm/system.hpp"
 #include <algorithm>
@@ -46,7 +47,8 @@ double median_milliseconds(std::int64_t r, std::int64_t pairs, std::int64_t harm
         system->residual(x.data(), 1.0, b.data());
         system->linearize();
         system->solve(b.data(), 1);
-        times.push_back(1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        times.push_back(1e3 *
+                        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }
     std::nth_element(times.begin(), times.begin() + 100, times.end());
     return times[100];
@@ -56,7 +58,8 @@ double median_milliseconds(std::int64_t r, std::int64_t pairs, std::int64_t harm
 
 int main() {
     const std::int64_t pairs = 90, harmonics = 5;
-    std::printf("residual + Jacobian + factorization + solve, Z = %d, H = %d\n\n| r | unknowns | median ms | Mflop |\n"
+    std::printf("residual + Jacobian + factorization + solve, Z = %d, H = %d\n\n| r | unknowns | median ms | "
+                "Mflop |\n"
                 "|---|---|---|---|\n",
                 static_cast<int>(pairs), static_cast<int>(harmonics));
     for (std::int64_t r : {8, 10, 16, 24, 42, 60}) {

@@ -1,9 +1,10 @@
-/* beam.c: the beam of examples/fortran from the C scenes' own brick code; prints the numbers that example prints. */
+/* beam.c: the beam of examples/fortran from the C scenes' own brick code; prints the numbers that example
+ * prints. */
 #include "cracked_plate.h"
 #include <plm/plm.h>
 #include <stdio.h>
 
-#define TRY(call)                                                                                                      \
+#define TRY(call)                                                                                            \
     if ((call) < 0) return 1
 
 static scene *make_scene(void) {
@@ -22,13 +23,14 @@ static scene *make_scene(void) {
 
 static int make_model(plm_context *ctx, const scene *s, plm_model **model) {
     TRY(plm_model_create(ctx, s->n_dof, model));
-    TRY(plm_model_set_matrix_i64(*model, PLM_MASS, PLM_CSC, PLM_FULL, 0, PLM_COPY, s->nnz, s->col_ptr, s->row, s->m));
-    TRY(plm_model_set_matrix_i64(*model, PLM_STIFFNESS, PLM_CSC, PLM_FULL, 0, PLM_COPY, s->nnz, s->col_ptr, s->row,
-                                 s->k));
+    TRY(plm_model_set_matrix_i64(*model, PLM_MASS, PLM_CSC, PLM_FULL, 0, PLM_COPY, s->nnz, s->col_ptr, s->row,
+                                 s->m));
+    TRY(plm_model_set_matrix_i64(*model, PLM_STIFFNESS, PLM_CSC, PLM_FULL, 0, PLM_COPY, s->nnz, s->col_ptr,
+                                 s->row, s->k));
     TRY(plm_model_set_rayleigh_damping(*model, s->mass_damping, s->stiffness_damping));
     TRY(plm_model_fix_dofs_i64(*model, 0, s->n_fixed, s->fixed));
-    TRY(plm_model_add_node_pairs_i64(*model, 0, s->n_pairs, s->dof_a, s->dof_b, s->normal, s->contact_stiffness,
-                                     s->gap));
+    TRY(plm_model_add_node_pairs_i64(*model, 0, s->n_pairs, s->dof_a, s->dof_b, s->normal,
+                                     s->contact_stiffness, s->gap));
     TRY(plm_model_set_excitation(*model, 1, s->n_dof, s->force, NULL));
     TRY(plm_model_build(*model));
     return 0;

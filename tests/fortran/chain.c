@@ -4,10 +4,12 @@
 
 enum { MASSES = 12, STOPS = 3, NNZ = 2 * MASSES - 1, COEFFICIENTS = 15 };
 
-#define TRY(call)                                                                                                      \
+#define TRY(call)                                                                                            \
     if ((call) < 0) return 1
 
-static void print(const char *name, double value) { printf("%-18s %24.16e\n", name, value); }
+static void print(const char *name, double value) {
+    printf("%-18s %24.16e\n", name, value);
+}
 
 static int make_model(plm_context *ctx, plm_model **model) {
     int32_t m_col[MASSES + 1], m_row[MASSES], k_col[MASSES + 1], k_row[NNZ], n = 0;
@@ -27,7 +29,8 @@ static int make_model(plm_context *ctx, plm_model **model) {
     force[MASSES - 1] = 1;
     TRY(plm_model_create(ctx, MASSES, model));
     TRY(plm_model_set_matrix_i32(*model, PLM_MASS, PLM_CSC, PLM_LOWER, 0, PLM_COPY, MASSES, m_col, m_row, m));
-    TRY(plm_model_set_matrix_i32(*model, PLM_STIFFNESS, PLM_CSC, PLM_LOWER, 0, PLM_COPY, NNZ, k_col, k_row, k));
+    TRY(plm_model_set_matrix_i32(*model, PLM_STIFFNESS, PLM_CSC, PLM_LOWER, 0, PLM_COPY, NNZ, k_col, k_row,
+                                 k));
     TRY(plm_model_set_rayleigh_damping(*model, 0.5, 0.0001220703125));
     TRY(plm_model_add_gap_rows_i32(*model, 0, STOPS, start, stop, unit, stiffness, gap));
     TRY(plm_model_set_excitation(*model, 1, MASSES, force, NULL));
@@ -91,8 +94,8 @@ int main(void) {
     plm_hbm *hbm = NULL;
     plm_branch *curve = NULL;
     TRY(plm_context_create(PLM_API_VERSION, &ctx));
-    const int failed =
-        make_model(ctx, &model) || print_modes(model) || follow(model, &hbm, &curve) || print_peak(hbm, curve);
+    const int failed = make_model(ctx, &model) || print_modes(model) || follow(model, &hbm, &curve) ||
+                       print_peak(hbm, curve);
     if (failed) {
         plm_context_get_error_text(ctx, sizeof text, text, NULL);
         fprintf(stderr, "%s\n", text);

@@ -1,5 +1,5 @@
-// Harmonic balance at the edges of its range: nothing to do, nothing to damp, nothing to hold, many harmonics, odd
-// units.
+// Harmonic balance at the edges of its range: nothing to do, nothing to damp, nothing to hold, many
+// harmonics, odd units.
 #include "hbm/hbm.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include "support/small_reduced.hpp"
@@ -102,7 +102,8 @@ void one_to_fifty_harmonics_converge_to_one_answer(void **) {
     assert_true(close_to(a[3], a.back(), 1e-1));
 }
 
-// The same chain in other units: mass and stiffness times mu, time the same, force times mu lambda, length times lambda.
+// The same chain in other units: mass and stiffness times mu, time the same, force times mu lambda, length
+// times lambda.
 double unit_error(double mu, double lambda) {
     const exact::Structure s = test::chain(5, 0.03, 8, 0.02, 0.3, 0.2, {1, 3, 4});
     exact::Structure t = s;
@@ -134,7 +135,8 @@ void units_do_not_matter(void **) {
 // The force grows through the moment of first touch: the amplitude has no jump there.
 double largest_jump_through_grazing() {
     const Model m = test::reduce_exactly(test::bilinear_oscillator(0.05, 1e3, 1.0, 1, 0));
-    double last = 0, jump = 0, touch = 1 / std::hypot(1 - 0.64, 2 * 0.05 * 0.8); // amplitude per force when open
+    double last = 0, jump = 0,
+           touch = 1 / std::hypot(1 - 0.64, 2 * 0.05 * 0.8); // amplitude per force when open
     for (int i = -20; i <= 20; ++i) {
         HbmOptions o;
         o.n_harmonics = 9;
@@ -146,7 +148,9 @@ double largest_jump_through_grazing() {
     }
     return jump;
 }
-void grazing_is_passed_without_a_jump(void **) { assert_true(below(largest_jump_through_grazing(), 1e-3)); }
+void grazing_is_passed_without_a_jump(void **) {
+    assert_true(below(largest_jump_through_grazing(), 1e-3));
+}
 
 } // namespace
 

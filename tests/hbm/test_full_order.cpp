@@ -1,5 +1,5 @@
-// The whole chain below the C API - model, contact space, basis "full", harmonic balance, recovery - against exact
-// periodic orbits of the same structure.
+// The whole chain below the C API - model, contact space, basis "full", harmonic balance, recovery - against
+// exact periodic orbits of the same structure.
 #include "hbm/hbm.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/small_models.hpp"
@@ -10,7 +10,8 @@ namespace {
 
 constexpr int n_chain = 6;
 
-// Two chains of six masses with contacts between their last three; one end driven, both pressed together a little.
+// Two chains of six masses with contacts between their last three; one end driven, both pressed together a
+// little.
 exact::Structure structure() {
     exact::Structure s = test::two_chains(n_chain, 3, 3.0, true);
     const double first = 0.24; // about the lowest frequency
@@ -72,7 +73,8 @@ void full_order_agrees_with_exact_time_marching(void **) {
     const Solved s = errors_against_exact_orbits(plm::BasisKind::full);
     print("full order", s);
     for (double e : s.errors) assert_true(below(e, 1e-3));
-    assert_true(below(s.full_residual, 1e-6)); // the contact space's tolerance of 1e-7, with an amplified part
+    assert_true(
+        below(s.full_residual, 1e-6)); // the contact space's tolerance of 1e-7, with an amplified part
 }
 
 void craig_bampton_agrees_with_exact_time_marching(void **) {

@@ -1,5 +1,5 @@
-/* check_host.h: EXPECT counts what is wrong and says where; a test program returns wrong(). No longjmp, so that it also
- * holds under sanitizers, valgrind and traps. */
+/* check_host.h: EXPECT counts what is wrong and says where; a test program returns wrong(). No longjmp, so
+ * that it also holds under sanitizers, valgrind and traps. */
 #ifndef CHECK_HOST_H
 #define CHECK_HOST_H
 
@@ -9,7 +9,8 @@ static int wrong_count;
 
 #define EXPECT(condition)                                                                                    \
     do {                                                                                                     \
-        if (!(condition) && ++wrong_count <= 20) printf("%s:%d: not so: %s\n", __FILE__, __LINE__, #condition); \
+        if (!(condition) && ++wrong_count <= 20)                                                             \
+            printf("%s:%d: not so: %s\n", __FILE__, __LINE__, #condition);                                   \
     } while (0)
 
 static int wrong(void) {

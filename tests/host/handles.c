@@ -1,6 +1,6 @@
-/* Every function of plm.h, from a table made from the header: with a handle that is NULL, foreign, stale or of another
- * kind it answers PLM_ERR_HANDLE; called from inside a callback, PLM_ERR_STATE; with a good handle and nothing else it
- * answers something. Never a crash (the sanitizer presets and valgrind run this too). */
+/* Every function of plm.h, from a table made from the header: with a handle that is NULL, foreign, stale or
+ * of another kind it answers PLM_ERR_HANDLE; called from inside a callback, PLM_ERR_STATE; with a good handle
+ * and nothing else it answers something. Never a crash (the sanitizer presets and valgrind run this too). */
 #include "calls.h"
 #include "chain.h"
 #include "check_host.h"
@@ -84,7 +84,8 @@ static void bad_second_handles(void) {
         if (!f->second) continue;
         if ((s = f->second(live.of[f->kind], somewhere)) >= 0) note(f, "foreign second handle", s);
         for (j = 0; j < N_KINDS; ++j)
-            if ((s = f->second(live.of[f->kind], foreign.of[j])) >= 0) note(f, "second handle of another context", s);
+            if ((s = f->second(live.of[f->kind], foreign.of[j])) >= 0)
+                note(f, "second handle of another context", s);
     }
     plm_context_destroy((plm_context **)&live.of[KIND_CONTEXT]);
     plm_context_destroy((plm_context **)&foreign.of[KIND_CONTEXT]);
@@ -119,7 +120,8 @@ static void nothing_but_a_handle(void) {
             plm_status s;
             if (f->how == DESTROYS || (f->how == TAKES && !h.of[f->kind])) continue;
             s = f->call(h.of[f->kind]);
-            if (s == PLM_ERR_INTERNAL || (s == PLM_ERR_HANDLE && !f->second) || s < PLM_ERR_INTERNAL || s > PLM_WARNING)
+            if (s == PLM_ERR_INTERNAL || (s == PLM_ERR_HANDLE && !f->second) || s < PLM_ERR_INTERNAL ||
+                s > PLM_WARNING)
                 note(f, "all zero", s);
         }
         EXPECT(plm_context_destroy((plm_context **)&h.of[KIND_CONTEXT]) == PLM_OK);

@@ -1,5 +1,5 @@
-/* The k-th allocation fails, for every k of a full run: PLM_ERR_MEMORY, the same context then does the whole run with
- * the results it has always had, and nothing is left when it is destroyed. */
+/* The k-th allocation fails, for every k of a full run: PLM_ERR_MEMORY, the same context then does the whole
+ * run with the results it has always had, and nothing is left when it is destroyed. */
 #include "check_host.h"
 #include "whole_run.h"
 #include <stdlib.h>
@@ -37,15 +37,17 @@ int main(int argc, char **argv) {
         status = plm_context_create_with_allocator(PLM_API_VERSION, allocate, release, &c, &ctx);
         if (status == PLM_OK) status = whole_run(ctx, SMALL, &got);
         EXPECT(status == PLM_ERR_MEMORY);
-        if (status != PLM_ERR_MEMORY) printf("allocation %ld of %ld: status %d\n", (long)k, (long)total, (int)status);
+        if (status != PLM_ERR_MEMORY)
+            printf("allocation %ld of %ld: status %d\n", (long)k, (long)total, (int)status);
         c.fail_at = 0;
-        if (ctx && k % 16 == 1) { /* still usable */
+        if (ctx && tried % 16 == 0) { /* still usable */
             EXPECT(whole_run(ctx, SMALL, &got) >= 0);
             EXPECT(memcmp(&want, &got, sizeof want) == 0);
         }
         plm_context_destroy(&ctx);
         EXPECT(c.live == 0);
-        if (wrong_count) printf("allocation %ld of %ld: %ld blocks left\n", (long)k, (long)total, (long)c.live);
+        if (wrong_count)
+            printf("allocation %ld of %ld: %ld blocks left\n", (long)k, (long)total, (long)c.live);
     }
     printf("%ld of %ld allocations failed in turn\n", (long)tried, (long)total);
     return wrong();

@@ -25,6 +25,7 @@ int main(void) {
     plm_status s = plm_context_create(PLM_API_VERSION, &ctx);
     if (!s) s = whole_run(ctx, CURVE, &o);
     if (s) plm_context_get_error_text(ctx, sizeof text, text, NULL);
-    printf("status %d, %d points, peak %.6g at %.6g Hz %s\n", (int)s, (int)o.points, o.peak_amplitude, o.peak_hz, text);
+    printf("status %d, %d points, peak %.6g at %.6g Hz %s\n", (int)s, (int)o.points, o.peak_amplitude,
+           o.peak_hz, text);
     return plm_context_destroy(&ctx) || s < 0;
 }

@@ -1,4 +1,5 @@
-/* Two threads with a context each, at once: the results of one alone. Preset tsan runs it under ThreadSanitizer. */
+/* Two threads with a context each, at once: the results of one alone. Preset tsan runs it under
+ * ThreadSanitizer. */
 #define _POSIX_C_SOURCE 200809L
 #include "check_host.h"
 #include "whole_run.h"

@@ -1,5 +1,5 @@
-/* A host that traps floating-point exceptions: the full run raises none in its hands, and the traps are still set when
- * its own code runs (callbacks, after the call). */
+/* A host that traps floating-point exceptions: the full run raises none in its hands, and the traps are still
+ * set when its own code runs (callbacks, after the call). */
 #define _GNU_SOURCE
 #include "check_host.h"
 #include "whole_run.h"

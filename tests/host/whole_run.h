@@ -1,5 +1,5 @@
-/* whole_run.h: everything a host does with the library, on the chain of tests/capi: model, rest, modes, sampler, bases,
- * sweep, peak, one solution, fields. */
+/* whole_run.h: everything a host does with the library, on the chain of tests/capi: model, rest, modes,
+ * sampler, bases, sweep, peak, one solution, fields. */
 #ifndef WHOLE_RUN_H
 #define WHOLE_RUN_H
 

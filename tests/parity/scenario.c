@@ -3,9 +3,9 @@
  *     name                        a heading: the numbers that follow belong to it
  *     %.17g                       one number per line (integers without a point)
  *
- * The scene: ten masses of 1 kg in a chain, the first one held; springs of 1e4 N/m; two pairs (masses 3 and 6; mass 9
- * against a stop 1 mm away), a static pre-load, a harmonic force. Every input is a short decimal, so that all languages
- * hold the same doubles. Nothing printed depends on time. */
+ * The scene: ten masses of 1 kg in a chain, the first one held; springs of 1e4 N/m; two pairs (masses 3 and
+ * 6; mass 9 against a stop 1 mm away), a static pre-load, a harmonic force. Every input is a short decimal,
+ * so that all languages hold the same doubles. Nothing printed depends on time. */
 #include <plm/plm.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,7 +41,8 @@ static plm_model *make_model(void) {
     double mass[N], stiffness[2 * N - 1], force[N] = {0}, preload[N] = {0};
     /* pair 0: u = q_2 - q_5, pair 1: u = q_8 - 0.001 */
     const int32_t row_start[] = {0, 2, 3}, dof[] = {2, 5, 8};
-    const double coefficient[] = {1, -1, 1}, contact_stiffness[] = {PLM_AUTO_STIFFNESS, 20000}, gap[] = {0, 0.001};
+    const double coefficient[] = {1, -1, 1}, contact_stiffness[] = {PLM_AUTO_STIFFNESS, 20000},
+                 gap[] = {0, 0.001};
     int32_t k = 0;
     plm_model *model = NULL;
     for (int32_t i = 0; i < N; i++) {
@@ -52,7 +53,8 @@ static plm_model *make_model(void) {
     force[4] = 10;
     preload[8] = 5;
     must(plm_model_create(ctx, N, &model));
-    must(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, N, diagonal, diagonal, mass));
+    must(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, N, diagonal,
+                                  diagonal, mass));
     must(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, k, row, column,
                                   stiffness));
     must(plm_model_set_rayleigh_damping(model, 0.5, 0.0002));

@@ -47,7 +47,8 @@ Case make_case(const exact::Structure &s, const test::ModelExtras &extras = {},
 }
 
 std::shared_ptr<const Basis> build(const Case &c, const BasisOptions &o,
-                                   std::shared_ptr<const Basis> parent = nullptr, plm::Monitor *monitor = nullptr) {
+                                   std::shared_ptr<const Basis> parent = nullptr,
+                                   plm::Monitor *monitor = nullptr) {
     return std::make_shared<Basis>(c.model, c.sampler, parent, o, plm::Watch(monitor));
 }
 
@@ -63,9 +64,10 @@ BasisOptions kind(BasisKind kind) {
     return o;
 }
 
-// Frequencies the rule keeps, by dense eigenproblems K_j over all DOFs; written out independently of SelectionRule.
-std::vector<double> dense_selection(const Case &c, const plm::vector<char> &closed, ModeSelection selection, double lo,
-                                    double hi, int harmonics) {
+// Frequencies the rule keeps, by dense eigenproblems K_j over all DOFs; written out independently of
+// SelectionRule.
+std::vector<double> dense_selection(const Case &c, const plm::vector<char> &closed, ModeSelection selection,
+                                    double lo, double hi, int harmonics) {
     std::vector<double> kept;
     for (double value : test::dense_modes(c.structure, closed).values) {
         const double f = std::sqrt(value) / (2 * M_PI);
@@ -82,20 +84,23 @@ double selection_error(const Case &c, ModeSelection selection) {
     const auto basis = build(c, rule(selection));
     double worst = 0;
     for (std::size_t i = 0; i < c.sampler->samples().size(); ++i) {
-        const auto want = dense_selection(c, c.sampler->samples()[i].closed, selection, basis->window_min_hz(),
-                                          basis->window_max_hz(), 5);
+        const auto want = dense_selection(c, c.sampler->samples()[i].closed, selection,
+                                          basis->window_min_hz(), basis->window_max_hz(), 5);
         const plm::SampleSelection &s = basis->report().samples[i];
         std::vector<double> got;
         for (std::size_t j = 0; j < s.kept.size(); ++j)
             if (s.kept[j]) got.push_back(s.frequency_hz[j]);
         if (got.size() != want.size()) return 1;
-        for (std::size_t j = 0; j < got.size(); ++j) worst = std::max(worst, std::abs(got[j] - want[j]) / want[j]);
+        for (std::size_t j = 0; j < got.size(); ++j)
+            worst = std::max(worst, std::abs(got[j] - want[j]) / want[j]);
     }
     return worst;
 }
 
 // P^T A P over all DOFs.
-Matrix congruence(const Matrix &p, const Matrix &a) { return plm::product('T', 'N', p, plm::product('N', 'N', a, p)); }
+Matrix congruence(const Matrix &p, const Matrix &a) {
+    return plm::product('T', 'N', p, plm::product('N', 'N', a, p));
+}
 
 Matrix dense_mass(const exact::Structure &s) {
     Matrix m(s.n, s.n);
@@ -264,8 +269,8 @@ Matrix modal_damping_matrix(const exact::Structure &s, double zeta) { // sum 2 z
     for (int k = 0; k < s.n; ++k)
         for (int i = 0; i < s.n; ++i)
             for (int j = 0; j < s.n; ++j)
-                c(i, j) += 2 * zeta * std::sqrt(modes.values[k]) * s.mass[i] * modes.vectors(i, k) * s.mass[j] *
-                           modes.vectors(j, k);
+                c(i, j) += 2 * zeta * std::sqrt(modes.values[k]) * s.mass[i] * modes.vectors(i, k) *
+                           s.mass[j] * modes.vectors(j, k);
     return c;
 }
 
@@ -305,7 +310,8 @@ void the_full_kind_is_the_whole_space(void **) {
     const auto full = build(c, kind(BasisKind::full));
     assert_true(full->reduced()->same_static && full->reduced()->size() == full->space()->size());
     assert_true(below(full_size_defect(c, *full, false).mass, 1e-8)); // the space's own orthonormality
-    assert_true(below(plm::projection_residual(*full, false, true, c.sampler->rest().displacement.data()), 1e-8));
+    assert_true(
+        below(plm::projection_residual(*full, false, true, c.sampler->rest().displacement.data()), 1e-8));
     BasisOptions o = kind(BasisKind::full); // without a sampler the range must be given
     const test::Failure f = test::failure_of([&] { Basis(c.model, nullptr, nullptr, o, plm::Watch()); });
     assert_string_equal(f.argument.c_str(), "frequency_max_hz");
@@ -314,7 +320,8 @@ void the_full_kind_is_the_whole_space(void **) {
     assert_true(alone->space()->highest_frequency >= 2 * M_PI * 1.1 * 5 * 0.5 * (1 - 1e-12));
 }
 
-// PLM made on a Craig-Bampton model with many modes (the paper's secondary reduction) equal those made directly.
+// PLM made on a Craig-Bampton model with many modes (the paper's secondary reduction) equal those made
+// directly.
 void a_craig_bampton_parent_gives_the_same_modes(void **) {
     const Case c = make_case(pressed_chains());
     BasisOptions cb = kind(BasisKind::craig_bampton);
@@ -356,7 +363,8 @@ void a_free_structure_keeps_its_rigid_body_mode(void **) {
     const auto basis = build(c, rule(ModeSelection::below));
     assert_true(basis->reduced()->lambda[0] == 0 && basis->reduced()->lambda[1] > 1e-6);
     assert_true(all_small(full_size_defect(c, *basis, false)));
-    assert_true(below(plm::projection_residual(*basis, false, true, plm::vector<double>(80, 1.0).data()), 1e-7));
+    assert_true(
+        below(plm::projection_residual(*basis, false, true, plm::vector<double>(80, 1.0).data()), 1e-7));
 }
 
 } // namespace

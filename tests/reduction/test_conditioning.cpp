@@ -53,8 +53,9 @@ void the_band_rule_keeps_windows_around_the_harmonics(void **) {
     rule.selection = ModeSelection::bands;
     rule.min_hz = 95, rule.max_hz = 105, rule.n_harmonics = 3;
     assert_true(rule.highest_hz() == 315);
-    assert_string_equal(kept(rule, {0, 94.9, 95, 100, 105, 105.1, 189, 190, 210, 211, 284, 285, 315, 316}).c_str(),
-                        "..xxx..xx..xx.");
+    assert_string_equal(
+        kept(rule, {0, 94.9, 95, 100, 105, 105.1, 189, 190, 210, 211, 284, 285, 315, 316}).c_str(),
+        "..xxx..xx..xx.");
 }
 
 void the_below_rule_keeps_everything_up_to_its_end(void **) {
@@ -67,7 +68,8 @@ void the_below_rule_keeps_everything_up_to_its_end(void **) {
 void repeated_columns_are_dropped(void **) {
     const Space space = space_with({1, 4, 9});
     const double c = std::cos(1e-8), s = std::sin(1e-8);
-    const auto result = plm::condition_columns(space, columns(3, {1, 0, 0, 0, 1, 0, 1, 0, 0, c, s, 0, c, 0, s}), 1e-6);
+    const auto result =
+        plm::condition_columns(space, columns(3, {1, 0, 0, 0, 1, 0, 1, 0, 0, c, s, 0, c, 0, s}), 1e-6);
     assert_int_equal(result.coordinates.y.cols(), 2);
     assert_int_equal(result.singular_values.size(), 3);
     assert_true(result.singular_values[0] == 1 && result.singular_values[2] < 1e-7);
@@ -81,7 +83,8 @@ void repeated_columns_are_dropped(void **) {
 
 void reduced_stiffness_is_diagonal_and_mass_the_identity(void **) {
     const Space space = space_with({1, 4, 9, 400});
-    const auto result = plm::condition_columns(space, columns(4, {.8, .6, 0, 0, .6, 0, .8, 0, 0, 0, .6, .8}), 1e-6);
+    const auto result =
+        plm::condition_columns(space, columns(4, {.8, .6, 0, 0, .6, 0, .8, 0, 0, 0, .6, .8}), 1e-6);
     assert_int_equal(result.coordinates.y.cols(), 3);
     assert_true(below(defect(space, result.coordinates), 1e-14));
     assert_true(std::is_sorted(result.coordinates.lambda.begin(), result.coordinates.lambda.end()));
@@ -95,7 +98,8 @@ void rigid_body_motion_stays_exactly_without_stiffness(void **) {
 
 void the_static_basis_contains_the_rest_displacement(void **) {
     const Space space = space_with({1, 4, 9, 16});
-    const auto dynamic = plm::condition_columns(space, columns(4, {.8, .6, 0, 0, .6, 0, .8, 0}), 1e-6).coordinates;
+    const auto dynamic =
+        plm::condition_columns(space, columns(4, {.8, .6, 0, 0, .6, 0, .8, 0}), 1e-6).coordinates;
     const plm::vector<double> q = plm::vector<double>({3, -1, 2, 5});
     const auto basis = plm::make_static_basis(space, dynamic, q);
     assert_false(basis.same);

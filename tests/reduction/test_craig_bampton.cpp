@@ -24,7 +24,8 @@ plm::vector<double> exact_values(const exact::Structure &s) {
 struct Deviation {
     double above = 0, below = 0;
 };
-Deviation deviation(const SpacePtr &space, const exact::Structure &s, std::int64_t count, std::int64_t n_rigid = 0) {
+Deviation deviation(const SpacePtr &space, const exact::Structure &s, std::int64_t count,
+                    std::int64_t n_rigid = 0) {
     const plm::vector<double> want = exact_values(s);
     Deviation d;
     for (std::int64_t j = n_rigid; j < count; ++j) {

@@ -9,7 +9,8 @@
 
 namespace test {
 
-/// damping_ratios: modal damping instead of the structure's C when not empty; explicit_damping: C as a matrix.
+/// damping_ratios: modal damping instead of the structure's C when not empty; explicit_damping: C as a
+/// matrix.
 struct ModelExtras {
     std::vector<double> modal_ratio;
     double alpha = 0, beta = 0;
@@ -18,8 +19,9 @@ struct ModelExtras {
 std::shared_ptr<const plm::Model> make_model(const exact::Structure &s, const ModelExtras &extras = {},
                                              const plm::SpaceOptions &options = {});
 
-/// Two chains of n masses side by side, each fixed at one end (or free), coupled by weak springs, with a contact pair
-/// between masses i of both for the last n_pairs masses. Everything a little uneven: no symmetric ties.
+/// Two chains of n masses side by side, each fixed at one end (or free), coupled by weak springs, with a
+/// contact pair between masses i of both for the last n_pairs masses. Everything a little uneven: no
+/// symmetric ties.
 exact::Structure two_chains(int n, int n_pairs, double contact_stiffness, bool supported);
 
 /// Eigenvalues and M-orthonormal vectors of K + B^T k B over the closed pairs, dense over all DOFs.

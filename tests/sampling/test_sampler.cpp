@@ -1,4 +1,5 @@
-// The sampler as a whole: which mode dominates, which sweep follows, that its space is accurate enough, and its errors.
+// The sampler as a whole: which mode dominates, which sweep follows, that its space is accurate enough, and
+// its errors.
 #include "sampling/contact_sweep.hpp"
 #include "sampling/mode_match.hpp"
 #include "sampling/sampler.hpp"
@@ -25,7 +26,9 @@ exact::Structure pressed_chains(double force, int n_pairs = 9) { // on the free 
     return s;
 }
 
-plm::vector<char> all(int z, char value) { return plm::vector<char>(z, value); }
+plm::vector<char> all(int z, char value) {
+    return plm::vector<char>(z, value);
+}
 
 exact::Structure forced_in_mode(int j) { // F = M phi_j of the open system: no other mode responds
     exact::Structure s = test::two_chains(40, 9, 300, true);
@@ -116,7 +119,8 @@ void the_search_range_limits_the_proposal(void **) {
 }
 
 void the_reference_system_follows_the_contact_at_rest(void **) {
-    assert_true(run(test::two_chains(40, 9, 300, true))->dominant()[0].system == LinearSystem::sliding); // homogeneous
+    assert_true(run(test::two_chains(40, 9, 300, true))->dominant()[0].system ==
+                LinearSystem::sliding); // homogeneous
     const auto closed = run(pressed_chains(50)), open = run(pressed_chains(-50));
     const auto n_closed = [](const Sampler &s) {
         return std::count(s.rest().closed.begin(), s.rest().closed.end(), 1);
@@ -170,7 +174,8 @@ void without_excitation_the_lowest_flexible_mode_is_taken_with_a_warning(void **
 void two_runs_agree_to_the_last_bit(void **) {
     const auto a = run(pressed_chains(2)), b = run(pressed_chains(2));
     assert_true(a->dominant()[0].coordinates == b->dominant()[0].coordinates);
-    assert_true(a->window().min_hz == b->window().min_hz && a->sweeps()[0].thresholds == b->sweeps()[0].thresholds);
+    assert_true(a->window().min_hz == b->window().min_hz &&
+                a->sweeps()[0].thresholds == b->sweeps()[0].thresholds);
 }
 
 test::Failure failure_with(void (*change)(SamplerOptions &)) {
@@ -195,7 +200,10 @@ void options_are_checked(void **) {
         {[](SamplerOptions &o) { o.window_max_hz = 1; }, "window_min_hz"},
         {[](SamplerOptions &o) { o.search_min_hz = 1; }, "search_max_hz"},
         {[](SamplerOptions &o) { o.search_min_hz = 70, o.search_max_hz = 80; }, "search_max_hz"},
-        {[](SamplerOptions &o) { o.extra.push_back({LinearSystem::open, 0}); }, "mode"},
+        {[](SamplerOptions &o) {
+             o.extra.push_back({LinearSystem::open, 0});
+         },
+         "mode"},
     };
     for (const auto &c : cases) {
         const test::Failure f = failure_with(c.change);

@@ -8,7 +8,9 @@ using plm::SelectedSample;
 
 namespace {
 
-plm::vector<double> numbers(std::initializer_list<double> v) { return plm::vector<double>(v); }
+plm::vector<double> numbers(std::initializer_list<double> v) {
+    return plm::vector<double>(v);
+}
 
 std::string text(const plm::vector<char> &closed) {
     std::string s;
@@ -34,7 +36,8 @@ std::string positions(std::int64_t size, std::int64_t n, bool ends) {
     sweep.samples.resize(size);
     for (std::int64_t i = 1; i < size; ++i) sweep.thresholds.push_back(static_cast<double>(i) - 2.5);
     std::string s;
-    for (std::int64_t i : plm::equally_spaced(sweep, n, ends)) s += (s.empty() ? "" : " ") + std::to_string(i);
+    for (std::int64_t i : plm::equally_spaced(sweep, n, ends))
+        s += (s.empty() ? "" : " ") + std::to_string(i);
     return s;
 }
 
@@ -79,7 +82,8 @@ void a_pair_that_hardly_moves_does_not_blur_the_others(void **) {
 }
 
 void motionless_pairs_never_switch(void **) {
-    const ContactSweep sweep = plm::sweep_contact(numbers({1, -1, 0, 0.3}), true, numbers({1e-10, 1e-12, 0, 1}));
+    const ContactSweep sweep =
+        plm::sweep_contact(numbers({1, -1, 0, 0.3}), true, numbers({1e-10, 1e-12, 0, 1}));
     assert_int_equal(sweep.thresholds.size(), 1);
     assert_string_equal(text(sweep).c_str(), "x... x..x");
     const ContactSweep still = plm::sweep_contact(numbers({1, -1}), true, numbers({0, 0}));
@@ -128,7 +132,8 @@ void complements_come_after_and_only_when_new(void **) {
     const std::vector<ContactSweep> one(1, sweep);
     assert_string_equal(text(plm::select_samples(one, 4, true, false, false)).c_str(), "..x x.x x.. xx.");
     // the complement of ..x is xx., that of xx. is ..x: both are there already
-    assert_string_equal(text(plm::select_samples(one, 4, true, true, false)).c_str(), "..x x.x x.. xx. .x.' .xx'");
+    assert_string_equal(text(plm::select_samples(one, 4, true, true, false)).c_str(),
+                        "..x x.x x.. xx. .x.' .xx'");
     assert_string_equal(text(plm::select_samples(one, 2, true, true, false)).c_str(), "..x xx.");
     const auto selected = plm::select_samples(one, 4, true, true, false);
     assert_int_equal(selected[4].sweep_index, 1);
@@ -137,7 +142,7 @@ void complements_come_after_and_only_when_new(void **) {
 
 void several_dominant_modes_share_their_samples(void **) {
     std::vector<ContactSweep> two;
-    two.push_back(plm::sweep_contact(numbers({1, -1}), true, numbers({1, 1})));   // .. x. xx
+    two.push_back(plm::sweep_contact(numbers({1, -1}), true, numbers({1, 1})));    // .. x. xx
     two.push_back(plm::sweep_contact(numbers({1, -1}), true, numbers({-1, 0.5}))); // x. .. .x
     const auto samples = plm::select_samples(two, 10, true, true, false);
     assert_string_equal(text(samples).c_str(), ".. x. xx .x");

@@ -14,11 +14,14 @@ namespace {
 
 const double hz = 1 / (2 * M_PI);
 
-FrequencyWindow window_of(const exact::Structure &s, const SamplerOptions &o, test::Recorder *recorder = nullptr) {
+FrequencyWindow window_of(const exact::Structure &s, const SamplerOptions &o,
+                          test::Recorder *recorder = nullptr) {
     return plm::Sampler(test::make_model(s), o, plm::Watch(recorder)).window();
 }
 
-exact::Structure chain_with_preload() { return test::chain(8, 0.01, 40, 0, 1, -0.5, {1, 4, 7}); }
+exact::Structure chain_with_preload() {
+    return test::chain(8, 0.01, 40, 0, 1, -0.5, {1, 4, 7});
+}
 
 // Frequency of the system closed as at rest whose mode resembles the dominant one best, over all DOFs.
 double dense_rest_frequency(const plm::Sampler &sampler, const exact::Structure &s) {
@@ -101,7 +104,8 @@ void rest_frequency_equals_the_dense_one(void **) {
     const plm::Sampler sampler(test::make_model(s), SamplerOptions(), plm::Watch());
     assert_true(close_to(sampler.window().rest_hz, dense_rest_frequency(sampler, s), 1e-9));
     const plm::MacRow &row = sampler.window().mac[2];
-    assert_true(row.mac[row.best] > 0.5 && close_to(row.frequency_hz[row.best], sampler.window().rest_hz, 1e-15));
+    assert_true(row.mac[row.best] > 0.5 &&
+                close_to(row.frequency_hz[row.best], sampler.window().rest_hz, 1e-15));
 }
 
 void the_callers_window_takes_precedence(void **) {

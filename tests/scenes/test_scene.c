@@ -84,7 +84,7 @@ static void check_pairs(const scene *s) {
         assert_true(b != a && b % 3 == 0 && b >= 0 && b < s->n_dof);
         for (int c = 0; c < 3; c++) assert_true(s->xyz[a + c] == s->xyz[b + c]);
         assert_true(s->contact_stiffness[p] != 0); /* positive, or the choice left to the library */
-        heights(s, a, n, &low, &high); /* body a lies behind its normal */
+        heights(s, a, n, &low, &high);             /* body a lies behind its normal */
         assert_true(low < -0.1 && high < 1e-12);
         heights(s, b, n, &low, &high); /* body b lies before it; a concave surface may also reach back */
         assert_true(high > 0.1);

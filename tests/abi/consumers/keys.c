@@ -1,5 +1,6 @@
-/* keys.c: one line per key: kind, name, option or result, type, default. With a file of such lines as argument: every
- * line of the file is still true (keys may be added; none goes, and no default that could move an answer changes). */
+/* keys.c: one line per key: kind, name, option or result, type, default. With a file of such lines as
+ * argument: every line of the file is still true (keys may be added; none goes, and no default that could
+ * move an answer changes). */
 #include <plm/plm.h>
 #include <stdio.h>
 #include <string.h>
@@ -38,7 +39,9 @@ static int print(const char *line, void *user) {
     puts(line);
     return 0;
 }
-static int is_it(const char *line, void *user) { return strcmp(line, (const char *)user) == 0; }
+static int is_it(const char *line, void *user) {
+    return strcmp(line, (const char *)user) == 0;
+}
 
 int main(int argc, char **argv) {
     char line[LINE];

@@ -1,4 +1,5 @@
-/* run.c: a host of the first version in C89: the way from matrices to the peak of a response, with every callback. */
+/* run.c: a host of the first version in C89: the way from matrices to the peak of a response, with every
+ * callback. */
 #include <plm/plm.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,7 +31,8 @@ static int32_t on_progress(plm_context *ctx, const char *stage, double fraction,
     } while (0)
 
 static int peak(plm_context *ctx, double *hz, double *amplitude) {
-    static const int32_t diagonal[] = {0, 1}, row[] = {0, 1, 1}, column[] = {0, 0, 1}, start[] = {0, 1}, dof[] = {1};
+    static const int32_t diagonal[] = {0, 1}, row[] = {0, 1, 1}, column[] = {0, 0, 1}, start[] = {0, 1},
+                         dof[] = {1};
     static const double mass[] = {1, 1}, stiffness[] = {20000, -10000, 10000}, force[] = {0, 1}, one[] = {1},
                         stop[] = {5000}, gap[] = {0};
     plm_model *model = NULL;
@@ -42,7 +44,8 @@ static int peak(plm_context *ctx, double *hz, double *amplitude) {
     int32_t closed[8];
     int64_t points = 0;
     TRY(plm_model_create(ctx, 2, &model));
-    TRY(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 2, diagonal, diagonal, mass));
+    TRY(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 2, diagonal, diagonal,
+                                 mass));
     TRY(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 3, row, column,
                                  stiffness));
     TRY(plm_model_set_rayleigh_damping(model, 0, 2e-4));
@@ -70,13 +73,14 @@ int main(void) {
     plm_context *ctx = NULL;
     char text[512] = "";
     int failed = plm_context_create_with_allocator(PLM_API_VERSION, allocate, release, &blocks, &ctx);
-    if (!failed) failed = plm_context_set_log(ctx, on_log, NULL) || plm_context_set_progress(ctx, on_progress, NULL);
+    if (!failed)
+        failed = plm_context_set_log(ctx, on_log, NULL) || plm_context_set_progress(ctx, on_progress, NULL);
     if (!failed) failed = peak(ctx, &hz, &amplitude);
     if (failed) plm_context_get_error_text(ctx, sizeof text, text, NULL);
     failed |= plm_context_destroy(&ctx) != 0 || blocks != 0 || calls_of_progress == 0 || calls_of_log == 0;
     /* the peak as the first version found it */
     failed |= !(hz > 11.364 && hz < 11.367 && amplitude > 0.010878 && amplitude < 0.010882);
-    printf("%s: %.6g at %.6g Hz, progress %d, log %d, blocks left %d %s\n", failed ? "wrong" : "right", amplitude, hz,
-           calls_of_progress, calls_of_log, (int)blocks, text);
+    printf("%s: %.6g at %.6g Hz, progress %d, log %d, blocks left %d %s\n", failed ? "wrong" : "right",
+           amplitude, hz, calls_of_progress, calls_of_log, (int)blocks, text);
     return failed;
 }
