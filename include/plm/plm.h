@@ -1,3 +1,4 @@
+/* clang-format off */
 /* plm.h - libplm: piecewise-linear modes and harmonic balance for structures with intermittent contact.
  *
  * The whole C API. A typical host goes from top to bottom of this file:
@@ -25,7 +26,6 @@
  * "paper" below: Zucca & Epureanu, Reduced order models for nonlinear dynamic analysis of structures with
  * intermittent contacts, J. Vibration and Control 24(12), 2018, doi 10.1177/1077546316689214.
  */
-/* clang-format off */
 #ifndef PLM_PLM_H
 #define PLM_PLM_H
 
