@@ -65,4 +65,5 @@ program chain
     call peak%field(1, 0.25_real64, q)
     write (output_unit, '(a, t20, es24.16e3)') ('field', q(i), i=1, masses)
     call context%destroy()
+    deallocate (coefficient, share) ! a main program's allocatables live on, and leak checkers report them
 end program chain
