@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds libplm with its tests and runs them.
 #     sh tests/run.sh             preset dev
-#     sh tests/run.sh --all       presets dev, asan and permissive
+#     sh tests/run.sh --all       presets dev, asan, permissive and release
 #     sh tests/run.sh PRESET...   these presets of CMakePresets.json
 # Missing packages are installed where that is possible. Works from any folder; everything goes to build/.
 set -u
@@ -11,7 +11,7 @@ cd "$root" || exit 1
 
 case ${1-} in
 -h | --help) sed -n '2,6s/^# //p' tests/run.sh; exit 0 ;;
---all) set -- dev asan permissive ;;
+--all) set -- dev asan permissive release ;;
 -*) echo "run.sh: unknown option $1 (see --help)" >&2; exit 2 ;;
 '') set -- dev ;;
 esac
