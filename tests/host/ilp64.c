@@ -1,12 +1,14 @@
-/* A host whose BLAS has 64-bit integers under the usual names. A library that shares its BLAS says so at once instead
- * of computing nonsense; a self-contained one does not care. */
+/* A host whose BLAS has 64-bit integers under the usual names. A library that shares its BLAS says so at once
+ * instead of computing nonsense; a self-contained one does not care. */
 #include "check_host.h"
 #include "plm/plm.h"
 
 static int called;
 
-double ddot_(const int64_t *n, const double *x, const int64_t *step_x, const double *y, const int64_t *step_y);
-double ddot_(const int64_t *n, const double *x, const int64_t *step_x, const double *y, const int64_t *step_y) {
+double ddot_(const int64_t *n, const double *x, const int64_t *step_x, const double *y,
+             const int64_t *step_y);
+double ddot_(const int64_t *n, const double *x, const int64_t *step_x, const double *y,
+             const int64_t *step_y) {
     double sum = 0;
     int64_t k;
     ++called;
