@@ -2,7 +2,8 @@
 """doxygen_filter.py PLM_H: plm.h as Doxygen wants it. The header itself stays plain C to read.
 
 Its sections "/* ---- Title ---- */" become groups, one page per handle; a comment belongs to the declarations right below
-it; what has none is one of the functions that every handle has, and gets their text."""
+it; what has none is one of the functions that every handle has, and gets their text. Every function gets its example from
+docs/examples."""
 import re
 import sys
 
@@ -16,6 +17,16 @@ GENERIC = [
     (r"^plm_key_count$", "How many keys a kind of handle has."),
 ]
 NAMES = {"Options and results by key": "keys"}
+
+
+def example(declaration):
+    """The snippet of a function. The test docs.every_function_has_an_example tells what is missing in docs/examples."""
+    name = re.match(r"PLM_API\s+plm_status\s+(plm_\w+)", declaration)
+    if not name:
+        return ""
+    noun = name.group(1).split("_")[1]
+    file = noun if noun in ("context", "model", "sampler", "basis", "hbm", "branch") else "library"
+    return f"\n * \\par Example\n * \\snippet {file}.c {name.group(1)}\n"
 
 
 def escaped(text):
@@ -73,7 +84,7 @@ for item in re.findall(r"/\*.*?\*/|\n[ \t]*\n|[^\n]+?(?=/\*|\n|$)|\n", text, re.
         words = doc or generic(item)
         one_of_many = item.startswith("#define") and not re.match(r"#define PLM_(API|PLM_H)\b", item)
         if words:
-            out.append(f"/** {words if not doc else escaped(words)} */\n")
+            out.append(f"/** {words if not doc else escaped(words)}{example(item)} */\n")
         elif one_of_many:
             out.append("/** " + item.split()[1].lower().replace("plm_", "").replace("_", " ") + " */\n")
         out.append(item)

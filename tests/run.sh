@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds libplm with its tests and runs them.
 #     sh tests/run.sh             preset dev
-#     sh tests/run.sh --all       presets dev, asan, permissive and release
+#     sh tests/run.sh --all       presets dev, asan, tsan, permissive and release; fuzzes for a minute
 #     sh tests/run.sh PRESET...   these presets of CMakePresets.json
 # Missing packages are installed where that is possible. Works from any folder; everything goes to build/.
 set -u
@@ -9,16 +9,17 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
 cd "$root" || exit 1
 . cmake/packages.sh
 
+fuzz_for_a_minute=
 case ${1-} in
 -h | --help) sed -n '2,6s/^# //p' tests/run.sh; exit 0 ;;
---all) set -- dev asan permissive release ;;
+--all) set -- dev asan tsan permissive release; fuzz_for_a_minute=dev ;;
 -*) echo "run.sh: unknown option $1 (see --help)" >&2; exit 2 ;;
 '') set -- dev ;;
 esac
 
 need_packages g++ gfortran cmake ninja-build pkg-config libopenblas-dev liblapack-dev libarpack2-dev libfftw3-dev \
     libsuitesparse-dev libeigen3-dev libcmocka-dev python3 python3-numpy python3-scipy python3-matplotlib \
-    python3-pip calculix-ccx abigail-tools valgrind doxygen
+    python3-pip calculix-ccx abigail-tools valgrind doxygen clang libclang-rt-dev make
 
 jobs=2
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
@@ -41,6 +42,11 @@ stage() {
 }
 
 for preset; do
+    if [ -n "$fuzz_for_a_minute" ]; then
+        PLM_FUZZ_SECONDS=5
+        [ "$preset" = "$fuzz_for_a_minute" ] && PLM_FUZZ_SECONDS=60
+        export PLM_FUZZ_SECONDS
+    fi
     stage "$preset: configure" cmake --preset "$preset" &&
         stage "$preset: build" cmake --build --preset "$preset" --parallel $jobs &&
         stage "$preset: test" ctest --preset "$preset" --parallel $jobs --no-tests=error

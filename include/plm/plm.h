@@ -93,6 +93,13 @@ typedef int32_t plm_status;
 #define PLM_REASON_LOOP_CLOSED 11    /* branch: came back to its first point */
 #define PLM_REASON_BASIS_TOO_SMALL 12
 
+/* What a point of a branch is ("bifurcation" of a branch). */
+#define PLM_BIFURCATION_NONE 0
+#define PLM_BIFURCATION_FOLD 1
+#define PLM_BIFURCATION_BRANCH_POINT 2
+#define PLM_BIFURCATION_PERIOD_DOUBLING 3
+#define PLM_BIFURCATION_NEIMARK_SACKER 4
+
 /* Text that explains a status. Never fails on an unknown status: it says so. */
 PLM_API plm_status plm_status_text(plm_status status, int64_t capacity, char *buffer, int64_t *needed);
 

@@ -1,8 +1,7 @@
 #include "capi/context.hpp"
 #include "capi/arguments.hpp"
 #include "capi/barrier.hpp"
-
-extern "C" double ddot_(const int *n, const double *x, const int *step_x, const double *y, const int *step_y);
+#include "linalg/blas_host.hpp"
 
 namespace plm::capi {
 namespace {
@@ -33,23 +32,12 @@ void host_free_factor(void *handle, void *user) {
     s.release(s.context->handle, handle, s.user);
 }
 
-// Did the loader give us a BLAS with 64-bit integers under the usual names? It would read count as a negative
-// number and answer 0; nothing out of bounds is read either way.
-bool blas_takes_other_integers() {
-#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-    const int count[2] = {2, -1}, stride[2] = {1, 0};
-    const double one[2] = {1, 1};
-    return ddot_(count, one, stride, one, stride) != 2;
-#else
-    return false;
-#endif
-}
-
 plm_status create(std::int32_t api_version, plm_allocate_fn allocate, plm_release_fn release, void *user,
                   plm_context **ctx) {
     if (!ctx || api_version != PLM_API_VERSION) return PLM_ERR_ARGUMENT;
     return call_free([&]() -> plm_status {
         if (blas_takes_other_integers()) return PLM_ERR_NOT_BUILT; // there is no context yet to hold a text
+        keep_own_blas_to_one_thread();
         auto context = std::make_shared<Context>();
         if (allocate) {
             context->allocate = allocate, context->release = release, context->allocate_user = user;

@@ -20,7 +20,16 @@ template <class Out, class Get> Out per_point(const B &b, Get get) {
 const std::vector<Key> &hbm_keys() {
     using O = HbmOptions;
     static const std::vector<Key> keys = {
-        int_option<&O::n_harmonics>("n_harmonics", 1, 1000, "harmonics H of the solution"),
+        int_option<&O::n_harmonics>("n_harmonics", 0, 1000,
+                                    "harmonics H of the solution; 0: as many as each point needs"),
+        int_option<&O::max_harmonics>("max_harmonics", 1, 1000, "with n_harmonics = 0: the most allowed"),
+        real_option<&O::harmonic_tolerance>(
+            "harmonic_tolerance", 1e-12, 1,
+            "with n_harmonics = 0: allowed share of the next harmonics in the motion of the gaps"),
+        choice_option<&O::tail_correction>("tail_correction", "off,on",
+                                           "add the next harmonics that follow from the exact contact force"),
+        int_option<&O::period_multiple>("period_multiple", 1, 64,
+                                        "excitation periods in a period of the response (sub-harmonics)"),
         choice_option<&O::aft>(
             "aft", "event,sampled",
             "contact forces integrated between exact switching instants, or from time samples"),
@@ -44,6 +53,11 @@ const std::vector<Key> &hbm_keys() {
                                       "first arc-length step, 1 = the window; 0: automatic"),
         real_option<&O::min_step>("min_step", 1e-14, 1, "smallest arc-length step"),
         real_option<&O::max_step>("max_step", 1e-12, 10, "largest arc-length step"),
+        choice_option<&O::stability>("stability", "off,auto,floquet",
+                                     "Floquet multipliers of every point; auto: up to 24 coordinates"),
+        choice_option<&O::bifurcations>("bifurcations", "off,on",
+                                        "locate folds and branch points, with stability also period doublings and "
+                                        "Neimark-Sacker points"),
     };
     return keys;
 }
@@ -54,7 +68,7 @@ const std::vector<Key> &branch_keys() {
     static const std::vector<Key> keys = {
         result<B>("n_points", "points of the curve",
                   [](const B &b) { return static_cast<std::int64_t>(built(b)->points().size()); }),
-        result<B>("n_harmonics", "harmonics H", [](const B &b) { return built(b)->n_harmonics(); }),
+        result<B>("n_harmonics", "harmonics H of the coefficients: the largest of all points", [](const B &b) { return built(b)->n_harmonics(); }),
         result<B>("n_pairs", "contact pairs", [](const B &b) { return built(b)->reduced().n_pairs(); }),
         result<B>("n_dof", "DOFs of the model",
                   [](const B &b) { return built(b)->reduced().model->n_dof(); }),
@@ -71,6 +85,19 @@ const std::vector<Key> &branch_keys() {
                   [](const B &b) { return per_point<Ints>(b, [](auto &p) { return p.iterations; }); }),
         result<B>("n_switching", "pairs that open and close in the period, of every point",
                   [](const B &b) { return per_point<Ints>(b, [](auto &p) { return p.n_switching; }); }),
+        result<B>("harmonics", "harmonics every point was solved for",
+                  [](const B &b) { return per_point<Ints>(b, [](auto &p) { return p.n_harmonics; }); }),
+        result<B>("harmonic_tail", "share of the next harmonics in the motion of the gaps, of every point; -1: unknown",
+                  [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.harmonic_tail; }); }),
+        result<B>("period_multiple", "excitation periods in a period of the response; harmonics count from the latter",
+                  [](const B &b) { return built(b)->period_multiple(); }),
+        result<B>("force_scales", "factor on the excitation of every point",
+                  [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.force_scale; }); }),
+        result<B>("bifurcation", "PLM_BIFURCATION_... of every point", [](const B &b) {
+            return per_point<Ints>(b, [](auto &p) { return static_cast<std::int64_t>(p.bifurcation); });
+        }),
+        result<B>("stable", "1 stable, 0 unstable, -1 not computed, of every point",
+                  [](const B &b) { return per_point<Ints>(b, [](auto &p) { return stability_of(p); }); }),
         result<B>("end_reason", "why the branch ended: PLM_REASON_...",
                   [](const B &b) { return static_cast<std::int64_t>(built(b)->end_reason); }),
         result<B>("end_text", "the same in words", [](const B &b) { return end_text(built(b)->end_reason); }),
@@ -82,7 +109,7 @@ const std::vector<Key> &branch_keys() {
         result<B>("seconds", "time of the run (s)", [](const B &b) { return built(b)->seconds; }),
         result<B>("seconds_per_iteration", "time of a Newton iteration (s)",
                   [](const B &b) { return built(b)->seconds_per_iteration; }),
-        result<B>("unknowns", "nonlinear unknowns used: modal or gaps",
+        result<B>("unknowns", "nonlinear unknowns used: modal, gaps or both",
                   [](const B &b) { return built(b)->space_used; }),
     };
     return keys;

@@ -1,9 +1,48 @@
 #include "hbm/branch.hpp"
 #include "hbm/contact_force.hpp"
 #include "hbm/trig_polynomial.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace plm {
+
+std::int64_t stability_of(const BranchPoint &point) {
+    if (point.multipliers.empty()) return -1;
+    for (const std::complex<double> &m : point.multipliers)
+        if (std::abs(m) > 1 + 1e-9) return 0;
+    return 1;
+}
+
+void set_harmonics(Matrix &eta, std::int64_t n) {
+    if (eta.cols() == 2 * n) return;
+    Matrix changed(eta.rows(), 2 * n);
+    const std::int64_t kept = std::min(eta.cols(), 2 * n) * eta.rows();
+    std::copy(eta.data(), eta.data() + kept, changed.data());
+    eta = std::move(changed);
+}
+
+BranchPoint on_longer_period(const BranchPoint &point, std::int64_t multiple) {
+    if (multiple == 1) return point;
+    BranchPoint longer = point;
+    const std::int64_t h = point.eta.cols() / 2, r = point.eta.rows();
+    longer.n_harmonics = multiple * point.n_harmonics;
+    longer.eta.reset(r, 2 * multiple * h);
+    for (std::int64_t k = 1; k <= h; ++k)
+        std::copy(point.eta.col(2 * k - 2), point.eta.col(2 * k - 2) + 2 * r, longer.eta.col(2 * multiple * k - 2));
+    longer.multipliers.clear(); // those of the longer period are powers
+    return longer;
+}
+
+void Branch::append(BranchPoint point) {
+    const std::int64_t n = point.eta.cols() / 2;
+    if (n > n_harmonics_) {
+        n_harmonics_ = n;
+        for (BranchPoint &p : points_) set_harmonics(p.eta, n);
+    } else {
+        set_harmonics(point.eta, n_harmonics_);
+    }
+    points_.push_back(std::move(point));
+}
 
 vector<double> Branch::coefficients(std::int64_t point, std::int64_t dof) const {
     const BranchPoint &p = points_[point];

@@ -2,15 +2,21 @@
 // them.
 #pragma once
 #include "reduction/reduced_model.hpp"
+#include <complex>
 
 namespace plm {
 
 /// Coordinates of one point: static part (r_0) and cosine/sine parts (r x 2H), all a caller can ask follows
 /// from it.
 struct BranchPoint {
-    double omega = 0;             // rad/s
+    double omega = 0;             // rad/s, of the excitation
     vector<double> eta_0;         // r_0
     Matrix eta;                   // r x 2H: columns a1, b1, a2, b2, ...
+    std::int64_t n_harmonics = 0; // solved for; further columns are zero or the tail that follows from them
+    double harmonic_tail = -1;    // share of the gaps' motion in the next harmonics, from the exact force
+    double force_scale = 1;       // factor on the excitation
+    std::int32_t bifurcation = PLM_BIFURCATION_NONE;
+    vector<std::complex<double>> multipliers; // Floquet multipliers; empty: not computed
     double arclength = 0;         // scaled, from the branch's first point
     double residual = 0;          // relative residual reached
     std::int64_t iterations = 0;  // Newton iterations spent
@@ -24,23 +30,35 @@ enum class Measure {
     harmonic = PLM_HARMONIC
 };
 
+/// +1 stable (all multipliers inside the unit circle), 0 unstable, -1 not computed.
+std::int64_t stability_of(const BranchPoint &point);
+
+/// The same coefficients with n harmonics: padded with zeros or cut.
+void set_harmonics(Matrix &eta, std::int64_t n);
+
+/// The same motion on a period `multiple` times as long: harmonic h becomes multiple x h.
+BranchPoint on_longer_period(const BranchPoint &point, std::int64_t multiple);
+
 class Branch {
   public:
-    Branch(std::shared_ptr<const ReducedModel> reduced, std::int64_t n_harmonics, double force_scale)
-        : reduced_(std::move(reduced)), n_harmonics_(n_harmonics), force_scale_(force_scale) {}
+    Branch(std::shared_ptr<const ReducedModel> reduced, double force_scale, std::int64_t period_multiple = 1)
+        : reduced_(std::move(reduced)), force_scale_(force_scale), period_multiple_(period_multiple) {}
 
-    void append(BranchPoint point) { points_.push_back(std::move(point)); }
+    /// Points may differ in their number of harmonics; all are padded with zeros to the largest.
+    void append(BranchPoint point);
     const std::vector<BranchPoint> &points() const { return points_; }
     const ReducedModel &reduced() const { return *reduced_; }
     const std::shared_ptr<const ReducedModel> &reduced_model() const { return reduced_; }
     std::int64_t n_harmonics() const { return n_harmonics_; }
     double force_scale() const { return force_scale_; }
+    /// Periods of the excitation in one period of the response; harmonics count from the latter.
+    std::int64_t period_multiple() const { return period_multiple_; }
 
     // how it ended and what it cost
     std::int32_t end_reason = PLM_REASON_NONE; // PLM_REASON_...
     std::int64_t newton_iterations = 0, failed_steps = 0, factorizations = 0;
     double seconds = 0, seconds_per_iteration = 0;
-    std::string space_used; // "modal" or "gaps"
+    std::string space_used; // "modal", "gaps" or "both"
 
     /// (2H + 1) coefficients a0, a1, b1, ... of a full-model DOF (base 0; zeros when fixed) at a point.
     vector<double> coefficients(std::int64_t point, std::int64_t dof) const;
@@ -56,8 +74,9 @@ class Branch {
 
   private:
     std::shared_ptr<const ReducedModel> reduced_;
-    std::int64_t n_harmonics_;
+    std::int64_t n_harmonics_ = 0;
     double force_scale_;
+    std::int64_t period_multiple_;
     std::vector<BranchPoint> points_;
 };
 

@@ -10,35 +10,61 @@ struct State {
     double omega = 0;
 };
 
+double value_of(const vector<double> &tests, std::size_t k) {
+    return k < tests.size() ? tests[k] : 0;
+}
+
 class Continuation {
   public:
     Continuation(HbmSystem &system, const PathOptions &options, PathOwner &owner)
         : system_(system), options_(options), owner_(owner), n_(system.size()), low_(options.low),
-          high_(options.high), width_(high_ - low_), scratch_(n_) {}
+          high_(options.high), width_(high_ - low_), scratch_(n_) {
+        kinds_ = {PLM_BIFURCATION_FOLD, PLM_BIFURCATION_BRANCH_POINT};
+        for (std::int32_t kind : owner.test_kinds()) kinds_.push_back(kind);
+    }
 
-    PathOutcome run(const vector<double> &x, double omega, double residual) {
-        now_ = {x, omega};
-        first_ = now_;
-        grow_scale();
-        record(residual, 0);
-        linearize_here();
-        make_tangent(nullptr);
-        double step = options_.initial_step > 0 ? options_.initial_step : 0.2 * options_.max_step;
-        while (out_.end_reason == PLM_REASON_NONE) {
+    PathOutcome run(const PathStart &start) {
+        begin(start);
+        step_ = options_.initial_step > 0 ? options_.initial_step : 0.2 * options_.max_step;
+        while (out_.end_reason == PLM_REASON_NONE && !interrupted_) {
             if (n_recorded_ >= options_.max_points) {
                 end(PLM_REASON_POINT_LIMIT);
             } else if (owner_.cancelled(progress())) {
                 end(PLM_REASON_CANCELLED);
             } else {
-                advance(step);
+                advance(step_);
             }
         }
         out_.x = now_.x;
         out_.parameter = now_.omega;
+        out_.direction_x = tangent_.x;
+        out_.direction_parameter = tangent_.omega;
+        out_.scale = scale_;
+        out_.arclength = arclength_;
+        out_.step = step_;
+        out_.n_points = n_recorded_;
         return out_;
     }
 
   private:
+    void begin(const PathStart &start) {
+        now_ = {start.x, start.parameter};
+        from_start_ = start.end_x.empty();
+        target_ = start.end_x.empty() ? now_ : State{start.end_x, start.end_parameter};
+        scale_ = start.scale;
+        grow_scale();
+        linearize_here();
+        if (start.direction_x.empty()) {
+            make_tangent(nullptr);
+        } else {
+            const State direction{start.direction_x, start.direction_parameter};
+            make_tangent(&direction);
+        }
+        target_tangent_ = start.end_x.empty() ? tangent_ : State{start.end_direction_x, start.end_direction_parameter};
+        evaluate(tests_);
+        if (start.record) record(start.residual, 0, PLM_BIFURCATION_NONE);
+    }
+
     void end(std::int32_t reason) { out_.end_reason = reason; }
 
     void linearize_here() {
@@ -101,23 +127,25 @@ class Continuation {
         return p;
     }
 
-    NewtonOutcome correct(State &s) {
-        vector<double> weight(tangent_.x);
+    // Back to the path in the hyperplane across `direction` through the first guess.
+    NewtonOutcome correct(State &s, const State &direction, double min_damping, bool factored) {
+        vector<double> weight(direction.x);
         for (double &w : weight) w /= scale_ * scale_;
-        SideCondition side{&weight, tangent_.omega / (width_ * width_)};
+        const SideCondition side{&weight, direction.omega / (width_ * width_)};
         NewtonLimits limits;
         limits.tolerance = options_.tolerance;
         limits.max_iterations = std::min<std::int64_t>(options_.max_iterations, 12);
-        limits.min_damping = 0.2;
+        limits.min_damping = min_damping;
         limits.omega_scale = width_;
-        limits.factored = factored_;
-        return newton(system_, side, limits, s.x, s.omega);
+        limits.factored = factored;
+        const NewtonOutcome out = newton(system_, side, limits, s.x, s.omega);
+        count(out);
+        return out;
     }
 
     void advance(double &step) {
         State next = predict(step);
-        const NewtonOutcome out = correct(next);
-        count(out);
+        const NewtonOutcome out = correct(next, tangent_, 0.2, factored_);
         const double moved = out.converged ? distance(next, now_) : 0;
         if (!out.converged || moved > 2 * step || moved < 0.3 * step) return retry(step, out.reason);
 
@@ -128,7 +156,7 @@ class Continuation {
         make_tangent(&old_tangent);
         const double cosine = product(tangent_.x, tangent_.omega, old_tangent.x, old_tangent.omega);
         const double angle = std::acos(std::min(1.0, std::max(-1.0, cosine)));
-        if (angle > 1.0 && step > 20 * options_.min_step) { // a corner, or another branch: come closer first
+        if (angle > 0.6 && step > 20 * options_.min_step) { // a corner, or another branch: come closer first
             now_ = before;
             tangent_ = old_tangent;
             factored_ = false;
@@ -145,28 +173,181 @@ class Continuation {
         out_.factorizations += out.factorizations;
     }
 
+    State difference(const State &a, const State &b) const {
+        State d = a;
+        for (std::int64_t i = 0; i < n_; ++i) d.x[i] -= b.x[i];
+        d.omega -= b.omega;
+        return d;
+    }
+
     double distance(const State &a, const State &b) const {
-        vector<double> d(n_);
-        for (std::int64_t i = 0; i < n_; ++i) d[i] = a.x[i] - b.x[i];
-        return std::sqrt(product(d, a.omega - b.omega, d, a.omega - b.omega));
+        const State d = difference(a, b);
+        return std::sqrt(product(d.x, d.omega, d.x, d.omega));
     }
 
     void accept(const NewtonOutcome &out, double moved, const State &old_tangent, const State &before) {
-        arclength_ += moved;
         last_step_ = moved;
         last_tangent_ = old_tangent;
         plain_predictor_ = false;
         rescued_ = false;
-        if (now_.omega < low_ || now_.omega > high_) return leave_range(before);
-        record(out.residual, out.iterations);
+        if (now_.omega < low_ || now_.omega > high_) return leave_range(before, old_tangent);
+        const vector<double> old_tests = tests_;
+        evaluate(tests_);
+        locate(before, old_tangent, moved, old_tests);
+        arclength_ += moved;
+        if (closes(before, moved)) return close_loop();
+        record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
         const double old_scale = scale_;
         grow_scale();
         if (scale_ != old_scale) last_step_ = 0; // the metric changed: one plain predictor
-        if (n_recorded_ > 10 && distance(now_, first_) < 0.5 * moved) end(PLM_REASON_LOOP_CLOSED);
+        interrupted_ = owner_.interrupt();
+    }
+
+    // The step from `before` passed the point where the loop began, in the direction it was left.
+    bool closes(const State &before, double moved) const {
+        if (from_start_ && n_recorded_ < 6) return false;
+        const State chord = difference(now_, before), back = difference(target_, before);
+        const double along = product(chord.x, chord.omega, back.x, back.omega) / (moved * moved);
+        if (!(along > 0 && along <= 1)) return false;
+        const double distance = std::sqrt(product(back.x, back.omega, back.x, back.omega));
+        return std::sqrt(std::max(0.0, distance * distance - along * along * moved * moved)) < 0.2 * moved &&
+               product(tangent_.x, tangent_.omega, target_tangent_.x, target_tangent_.omega) > 0;
+    }
+
+    void close_loop() {
+        now_ = target_;
+        linearize_here();
+        record(0.0, 0, PLM_BIFURCATION_NONE);
+        end(PLM_REASON_LOOP_CLOSED);
+    }
+
+    // --- test functions: the tangent's share of p (fold), the smallest stretch of the bordered tangent (branch
+    // point), the owner's
+    void evaluate(vector<double> &tests) {
+        if (!options_.locate) return;
+        vector<double> mine;
+        owner_.test(now_.x, now_.omega, mine);
+        tests = {tangent_.omega * width_, branch_test()};
+        tests.insert(tests.end(), mine.begin(), mine.end());
+    }
+
+    // sign(det) of the tangent bordered by the path's direction, over the size of its solution for a fixed
+    // right-hand side: passes through zero like the smallest singular value.
+    double branch_test() {
+        vector<double> a(n_), border(n_);
+        for (std::int64_t i = 0; i < n_; ++i) a[i] = 0.5 + std::fmod(0.754877666 * static_cast<double>(i + 1), 1.0);
+        system_.solve(a.data(), 1);
+        system_.omega_derivative(border.data());
+        system_.solve(border.data(), 1);
+        const double along = tangent_.omega * dot(n_, tangent_.x.data(), a.data()) / (scale_ * scale_);
+        for (std::int64_t i = 0; i < n_; ++i) a[i] += along * border[i];
+        const double size = norm2(n_, a.data());
+        const double sign = system_.determinant_sign() * (tangent_.omega < 0 ? -1.0 : 1.0);
+        return size > 0 && std::isfinite(size) ? sign / size : 0;
+    }
+
+    struct Crossing {
+        double position = 0; // on the chord, 0 to 1
+        State state;
+        std::int32_t kind = 0;
+        double residual = 0;
+    };
+
+    // Records what lies between `before` and the present point, in order, and comes back to the latter.
+    void locate(const State &before, const State &old_tangent, double moved, const vector<double> &old_tests) {
+        if (!options_.locate) return;
+        const State after = now_, new_tangent = tangent_;
+        std::vector<Crossing> found;
+        for (std::size_t k = 0; k < kinds_.size(); ++k) {
+            const double left = value_of(old_tests, k), right = value_of(tests_, k);
+            if (!(left * right < 0)) continue;
+            const Step step{before, after, old_tangent, new_tangent, moved};
+            Crossing c;
+            if (find_zero(step, k, left, right, c)) found.push_back(std::move(c));
+        }
+        if (found.empty()) {
+            if (now_.omega != after.omega || now_.x != after.x) restore(after, new_tangent);
+            return;
+        }
+        std::sort(found.begin(), found.end(),
+                  [](const Crossing &a, const Crossing &b) { return a.position < b.position; });
+        const double base = arclength_;
+        for (const Crossing &c : found) {
+            restore(c.state, new_tangent);
+            arclength_ = base + c.position * moved;
+            record(c.residual, 0, c.kind);
+        }
+        arclength_ = base;
+        restore(after, new_tangent);
+    }
+
+    void restore(const State &s, const State &tangent) {
+        now_ = s;
+        linearize_here();
+        tangent_ = tangent;
+    }
+
+    struct Step {
+        const State &before, &after, &tangent_before, &tangent_after;
+        double length;
+    };
+
+    // Cubic through both ends with their tangents.
+    State between(const Step &s, double t) const {
+        const double b = t * t * (3 - 2 * t), a = 1 - b, da = s.length * t * (1 - t) * (1 - t),
+                     db = s.length * t * t * (t - 1);
+        State p = s.before;
+        for (std::int64_t i = 0; i < n_; ++i)
+            p.x[i] = a * s.before.x[i] + b * s.after.x[i] + da * s.tangent_before.x[i] + db * s.tangent_after.x[i];
+        p.omega = a * s.before.omega + b * s.after.omega + da * s.tangent_before.omega + db * s.tangent_after.omega;
+        return p;
+    }
+
+    // The point of the path at t of the way with its test functions; leaves it as the present point.
+    bool move_to(const Step &s, double t, const State &chord, vector<double> &tests, double &residual) {
+        State p = between(s, t);
+        const NewtonOutcome out = correct(p, chord, 1e-3, false);
+        if (!out.converged) return false;
+        residual = out.residual;
+        now_ = std::move(p);
+        linearize_here();
+        make_tangent(&s.tangent_before);
+        evaluate(tests);
+        return true;
+    }
+
+    // Regula falsi (Illinois) with bisection on the chord. False when the function jumps instead of vanishing.
+    bool find_zero(const Step &s, std::size_t k, double left, double right, Crossing &c) {
+        const State chord = difference(s.after, s.before);
+        const double size = std::min(std::abs(left), std::abs(right));
+        double a = 0, b = 1, best = 1e300;
+        int last_side = 0;
+        for (int i = 0; i < 60 && b - a > 1e-10; ++i) {
+            double t = i % 4 == 3 ? 0.5 * (a + b) : (a * right - b * left) / (right - left);
+            t = std::min(b - 1e-3 * (b - a), std::max(a + 1e-3 * (b - a), t));
+            vector<double> tests;
+            double residual = 0;
+            if (!move_to(s, t, chord, tests, residual)) break;
+            const double value = value_of(tests, k);
+            if (std::abs(value) < best) {
+                best = std::abs(value);
+                c = {t, now_, kinds_[k], residual};
+            }
+            if (best <= 1e-9 * size) break;
+            const bool keeps_left = value * left > 0;
+            if (keeps_left) {
+                if (last_side == 1) right *= 0.5;
+                a = t, left = value, last_side = 1;
+            } else {
+                if (last_side == -1) left *= 0.5;
+                b = t, right = value, last_side = -1;
+            }
+        }
+        return best <= 1e-3 * size;
     }
 
     // The last point lies on the boundary of the range.
-    void leave_range(const State &before) {
+    void leave_range(const State &before, const State &old_tangent) {
         const double edge = now_.omega < low_ ? low_ : high_;
         const double part = (edge - before.omega) / (now_.omega - before.omega);
         for (std::int64_t i = 0; i < n_; ++i) now_.x[i] = before.x[i] + part * (now_.x[i] - before.x[i]);
@@ -177,9 +358,16 @@ class Continuation {
         limits.omega_scale = width_;
         const NewtonOutcome out = newton(system_, SideCondition(), limits, now_.x, now_.omega);
         count(out);
-        if (out.converged && distance(now_, before) < 4 * options_.max_step)
-            record(out.residual, out.iterations);
         end(PLM_REASON_RANGE_END);
+        const double moved = distance(now_, before);
+        if (!out.converged || moved > 4 * options_.max_step) return;
+        linearize_here();
+        make_tangent(&old_tangent);
+        const vector<double> old_tests = tests_;
+        evaluate(tests_);
+        locate(before, old_tangent, moved, old_tests);
+        arclength_ += moved;
+        record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
     }
 
     // A smaller step with a new factorization; then the other predictor; then a fresh start a little further
@@ -211,15 +399,16 @@ class Continuation {
             linearize_here();
             make_tangent(&old_tangent);
             last_step_ = 0;
-            record(0.0, 0);
+            evaluate(tests_);
+            record(0.0, 0, PLM_BIFURCATION_NONE);
             return true;
         }
         return false;
     }
 
-    void record(double residual, std::int64_t iterations) {
+    void record(double residual, std::int64_t iterations, std::int32_t bifurcation) {
         ++n_recorded_;
-        owner_.record({now_.x, now_.omega, arclength_, residual, iterations});
+        owner_.record({now_.x, now_.omega, arclength_, residual, iterations, bifurcation});
     }
 
     static constexpr double target_angle = 0.25; // rad between neighbouring tangents
@@ -229,9 +418,12 @@ class Continuation {
     PathOwner &owner_;
     std::int64_t n_;
     double low_, high_, width_;
-    State now_, first_, tangent_, last_tangent_; // State::omega is the path's parameter
-    double scale_ = 0, arclength_ = 0, last_step_ = 0;
-    bool factored_ = false, plain_predictor_ = false, rescued_ = false;
+    State now_, target_, tangent_, target_tangent_, last_tangent_; // State::omega is the path's parameter
+    double scale_ = 0, arclength_ = 0, last_step_ = 0, step_ = 0;
+    bool factored_ = false, plain_predictor_ = false, rescued_ = false, interrupted_ = false,
+         from_start_ = true;
+    std::vector<std::int32_t> kinds_; // of the test functions
+    vector<double> tests_;            // at the present point
     std::int64_t n_recorded_ = 0;
     vector<double> scratch_;
     PathOutcome out_;
@@ -239,9 +431,9 @@ class Continuation {
 
 } // namespace
 
-PathOutcome follow_path(HbmSystem &system, const PathOptions &options, const vector<double> &x,
-                        double parameter, double first_residual, PathOwner &owner) {
-    return Continuation(system, options, owner).run(x, parameter, first_residual);
+PathOutcome follow_path(HbmSystem &system, const PathOptions &options, const PathStart &start,
+                        PathOwner &owner) {
+    return Continuation(system, options, owner).run(start);
 }
 
 } // namespace plm

@@ -32,9 +32,32 @@ class EventForce final : public ContactForce {
         }
     }
 
+    SwitchingInstants instants(const Matrix &u) {
+        SwitchingInstants all;
+        if (u.rows() == 0) return all;
+        gemm('N', 'T', 1.0, grid_, u, 0.0, values_);
+        for (std::int64_t i = 0; i < u.rows(); ++i) {
+            for (std::int64_t c = 0; c < u.cols(); ++c) x_[c] = u(i, c);
+            search(values_.col(i));
+            all.closed_first.push_back(ContactLaw::closed(values_(0, i)));
+            all.instants.push_back(roots_);
+        }
+        return all;
+    }
+
   private:
     PairState pair(const double *value, double *average) {
         const bool closed_first = ContactLaw::closed(value[0]);
+        search(value);
+        if (roots_.empty()) {
+            average[0] = closed_first ? 1 : 0;
+            return closed_first ? PairState::closed : PairState::open;
+        }
+        integrate(closed_first, average);
+        return PairState::switching;
+    }
+
+    void search(const double *value) {
         double wave = 0, bend = 0; // bounds of |u - a0| and |u''|
         for (std::int64_t h = 1; h <= h_; ++h) {
             const double r = std::abs(x_[2 * h - 1]) + std::abs(x_[2 * h]);
@@ -43,12 +66,6 @@ class EventForce final : public ContactForce {
         }
         roots_.clear();
         if (std::abs(x_[0]) <= wave) find_roots(value, 0.125 * width_ * width_ * bend);
-        if (roots_.empty()) {
-            average[0] = closed_first ? 1 : 0;
-            return closed_first ? PairState::closed : PairState::open;
-        }
-        integrate(closed_first, average);
-        return PairState::switching;
     }
 
     // A chord over a cell is nowhere further from u than `sagitta`: cells whose ends clear it hold no zero.
@@ -105,6 +122,10 @@ class EventForce final : public ContactForce {
 };
 
 } // namespace
+
+SwitchingInstants switching_instants(const Matrix &u) {
+    return EventForce((u.cols() - 1) / 2, u.rows()).instants(u);
+}
 
 std::unique_ptr<ContactForce> make_event_force(std::int64_t n_harmonics, std::int64_t n_pairs) {
     return std::make_unique<EventForce>(n_harmonics, n_pairs);

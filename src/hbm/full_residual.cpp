@@ -10,8 +10,9 @@ namespace {
 // One harmonic of the full-order residual: cosine and sine column; h = 0 uses the first only.
 class FullResidual {
   public:
-    FullResidual(const ReducedModel &reduced, const BranchPoint &point, double force_scale)
-        : reduced_(reduced), model_(*reduced.model), point_(point), force_scale_(force_scale) {}
+    FullResidual(const ReducedModel &reduced, const BranchPoint &point, std::int64_t period_multiple)
+        : reduced_(reduced), model_(*reduced.model), point_(point), period_multiple_(period_multiple),
+          omega_(point.omega / static_cast<double>(period_multiple)) {}
 
     // contact: Z x (2H + 1) force coefficients. Adds |R|^2 in the K^-1 norm and |q|^2 in the K norm.
     void add(std::int64_t h, const Matrix &contact, double &residual, double &energy) const {
@@ -42,7 +43,7 @@ class FullResidual {
 
     // -(h w)^2 M q and the damping, which couples cosine and sine.
     void add_dynamics(std::int64_t h, const Matrix &q, const Matrix &kq, Matrix &r) const {
-        const double w = static_cast<double>(h) * point_.omega;
+        const double w = static_cast<double>(h) * omega_;
         const Damping &damping = model_.damping();
         const Matrix mq = multiply(model_.mass(), q);
         Matrix loss = mq; // C q w + eta K q
@@ -87,18 +88,20 @@ class FullResidual {
         }
         if (h == 0 && model_.has_preload())
             for (std::int64_t i = 0; i < r.rows(); ++i) r(i, 0) -= model_.preload()[i];
-        const auto found = model_.excitation().find(static_cast<int>(h));
+        if (h % period_multiple_ != 0) return;
+        const auto found = model_.excitation().find(static_cast<int>(h / period_multiple_));
         if (found == model_.excitation().end()) return;
         for (std::int64_t i = 0; i < r.rows(); ++i) {
-            r(i, 0) -= force_scale_ * found->second.real[i];
-            if (h > 0 && !found->second.imag.empty()) r(i, 1) += force_scale_ * found->second.imag[i];
+            r(i, 0) -= point_.force_scale * found->second.real[i];
+            if (h > 0 && !found->second.imag.empty()) r(i, 1) += point_.force_scale * found->second.imag[i];
         }
     }
 
     const ReducedModel &reduced_;
     const Model &model_;
     const BranchPoint &point_;
-    double force_scale_;
+    std::int64_t period_multiple_;
+    double omega_; // of the response
 };
 
 } // namespace
@@ -109,9 +112,9 @@ double Branch::full_residual(std::int64_t point) const {
     make_event_force(n_harmonics_, u.rows())->indicator(u, indicator);
     Matrix contact;
     apply_indicator(indicator, reduced_->contact_stiffness, u, contact);
-    const FullResidual full(*reduced_, points_[point], force_scale_);
+    const FullResidual full(*reduced_, points_[point], period_multiple_);
     double residual = 0, energy = 0;
-    for (std::int64_t h = 0; h <= n_harmonics_; ++h) full.add(h, contact, residual, energy);
+    for (std::int64_t h = 0; h <= points_[point].n_harmonics; ++h) full.add(h, contact, residual, energy);
     return energy > 0 ? std::sqrt(std::max(0.0, residual) / energy) : std::sqrt(std::max(0.0, residual));
 }
 

@@ -119,6 +119,9 @@ class GapSystem final : public HbmSystem {
         for (std::int64_t k = 0; k < n; ++k) solve_one(b + k * size());
     }
 
+    // The eliminated parts do not change the sign: complex for h >= 1, positive definite for h = 0.
+    int determinant_sign() const override { return n_moving() == 0 ? 1 : lu_.determinant_sign(); }
+
     void omega_derivative(double *r) override {
         std::fill(r, r + size(), 0.0);
         vector<Complex> v(r_);
@@ -145,6 +148,7 @@ class GapSystem final : public HbmSystem {
         residual(x, omega, scratch.data());
         point.omega = omega;
         point.eta_0 = eta_0_;
+        point.n_harmonics = h_;
         point.eta.reset(r_, 2 * h_);
         for (std::int64_t h = 1; h <= h_; ++h)
             for (std::int64_t j = 0; j < r_; ++j) {
@@ -154,8 +158,9 @@ class GapSystem final : public HbmSystem {
     }
 
     void from_point(const BranchPoint &point, double *x) override {
-        Matrix dynamic(z_, 2 * h_);
-        gemm('N', 'N', 1.0, m_->gap, point.eta, 0.0, dynamic);
+        Matrix dynamic(z_, 2 * h_), eta = point.eta;
+        set_harmonics(eta, h_);
+        gemm('N', 'N', 1.0, m_->gap, eta, 0.0, dynamic);
         for (std::int64_t i = 0; i < z_; ++i) x[i] = -gap_[i];
         gemv('N', 1.0, m_->gap_0, point.eta_0.data(), 1.0, x);
         std::copy(dynamic.data(), dynamic.data() + z_ * 2 * h_, x + z_);

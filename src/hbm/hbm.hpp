@@ -2,17 +2,23 @@
 #pragma once
 #include "hbm/branch.hpp"
 #include "linalg/monitor.hpp"
+#include <chrono>
 
 namespace plm {
 
 enum class AftKind { event, sampled };
 enum class UnknownSpace { automatic, modal, gaps };
+enum class StabilityKind { off, automatic, floquet };
 
 struct HbmOptions {
-    std::int64_t n_harmonics = 5;
+    std::int64_t n_harmonics = 0;                    // 0: as many as each point needs
+    std::int64_t max_harmonics = 60;                 // n_harmonics = 0 only
+    double harmonic_tolerance = 1e-3;                // n_harmonics = 0: allowed share of the next harmonics
+    bool tail_correction = false;                    // adds the next harmonics that follow from the exact force
+    std::int64_t period_multiple = 1;                // response period over excitation period
     AftKind aft = AftKind::event;
-    std::int64_t time_samples = 256;                   // sampled AFT only
-    UnknownSpace unknowns = UnknownSpace::automatic;   // reduced coordinates or contact gaps, by cost
+    std::int64_t time_samples = 256;                 // sampled AFT only
+    UnknownSpace unknowns = UnknownSpace::automatic; // reduced coordinates or contact gaps, by cost
     double frequency_min_hz = 0, frequency_max_hz = 0; // 0: the basis' window
     bool upward = false;                               // direction of a sweep; downwards starts are safer
     double force_scale = 1;                            // scales the excitation, not the pre-load
@@ -22,6 +28,8 @@ struct HbmOptions {
     double initial_step = 0; // arc length relative to the curve's scale; 0: automatic
     double min_step = 1e-7,
            max_step = 0.15; // arc length, where 1 = the window's width or the response's scale
+    StabilityKind stability = StabilityKind::automatic; // Floquet multipliers of each point
+    bool bifurcations = true;                           // locate folds, branch points, ...
 };
 
 /// What plm_hbm_find_peak returns.
@@ -42,7 +50,17 @@ class Hbm {
     std::shared_ptr<const Branch> solve(double frequency_hz, const Branch *start, std::int64_t point) const;
     Peak find_peak(const Branch &branch, std::int64_t dof, Measure measure, std::int64_t harmonic) const;
 
+    /// The curve that crosses a located branch point of `branch`, or leaves a period doubling (with twice the
+    /// period); `mirrored` takes the other side.
+    std::shared_ptr<const Branch> switch_branch(const Branch &branch, std::int64_t point, bool mirrored) const;
+
   private:
+    using Clock = std::chrono::steady_clock;
+    std::shared_ptr<Branch> new_branch() const;
+    void finish(Branch &branch, Clock::time_point begin) const;
+    bool solve_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const;
+    BranchPoint first_guess(const Branch &start, std::int64_t point) const;
+
     std::shared_ptr<const ReducedModel> reduced_;
     HbmOptions options_;
     Watch watch_;

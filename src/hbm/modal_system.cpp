@@ -82,13 +82,18 @@ class ModalSystem final : public HbmSystem {
     }
 
     void linearize() override {
-        jacobian_.reset(size(), size());
-        if (z_ > 0) add_contact();
-        add_linear();
+        assemble();
         lu_.factor(jacobian_);
     }
 
+    void jacobian(Matrix &out) override {
+        assemble();
+        out = jacobian_;
+    }
+
     void solve(double *b, std::int64_t n) override { lu_.solve(b, n, size()); }
+
+    int determinant_sign() const override { return lu_.determinant_sign(); }
 
     void omega_derivative(double *r) override {
         std::fill(r, r + size(), 0.0);
@@ -120,17 +125,26 @@ class ModalSystem final : public HbmSystem {
     void to_point(const double *x, double omega, BranchPoint &point) override {
         point.omega = omega;
         point.eta_0.assign(x, x + r0_);
+        point.n_harmonics = h_;
         point.eta.reset(r_, 2 * h_);
         std::copy(x + r0_, x + size(), point.eta.data());
     }
 
     void from_point(const BranchPoint &point, double *x) override {
         std::copy(point.eta_0.begin(), point.eta_0.end(), x);
-        std::copy(point.eta.data(), point.eta.data() + r_ * 2 * h_, x + r0_);
+        const std::int64_t known = std::min(point.eta.cols(), 2 * h_) * r_;
+        std::copy(point.eta.data(), point.eta.data() + known, x + r0_);
+        std::fill(x + r0_ + known, x + size(), 0.0);
     }
 
   private:
     std::int64_t cosine_at(std::int64_t h) const { return r0_ + 2 * (h - 1) * r_; }
+
+    void assemble() {
+        jacobian_.reset(size(), size());
+        if (z_ > 0) add_contact();
+        add_linear();
+    }
 
     void fill_excitation() {
         excitation_.assign(size(), 0.0);

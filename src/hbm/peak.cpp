@@ -107,7 +107,8 @@ class PeakSearch {
         out.point.iterations = newton_out.iterations;
         system_.to_point(out.x.data(), out.omega, out.point);
         out.point.n_switching = system_.indicator().n_switching;
-        Branch one(reduced_, options_.n_harmonics, options_.force_scale);
+        out.point.force_scale = options_.force_scale;
+        Branch one(reduced_, options_.force_scale, options_.period_multiple);
         one.append(out.point);
         out.amplitude = one.amplitude(0, dof_, measure_, harmonic_);
         return true;
@@ -128,9 +129,8 @@ class PeakSearch {
 } // namespace
 
 Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
-    if (branch.reduced_model() != reduced_ || branch.n_harmonics() != options_.n_harmonics)
-        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis or number of harmonics")
-            .argument("branch");
+    if (branch.reduced_model() != reduced_)
+        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("branch");
     const std::int64_t n = static_cast<std::int64_t>(branch.points().size());
     std::int64_t top = 0;
     double highest = -1;
@@ -139,16 +139,19 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         if (a > highest) highest = a, top = i;
     }
     Peak peak;
-    auto one = std::make_shared<Branch>(reduced_, options_.n_harmonics, branch.force_scale());
+    auto one = std::make_shared<Branch>(reduced_, branch.force_scale(), branch.period_multiple());
     one->end_reason = PLM_REASON_RANGE_END;
     BranchPoint point = branch.points()[top];
     if (top > 0 && top < n - 1) { // a maximum at an end of the curve stays where it is
         HbmOptions options = options_;
-        options.force_scale = branch.force_scale();
-        const auto system = make_system(reduced_, options, &one->space_used);
+        options.force_scale = point.force_scale;
+        options.period_multiple = branch.period_multiple();
+        options.n_harmonics = point.n_harmonics / options.period_multiple;
+        const auto system = make_system(reduced_, options);
         point = PeakSearch(*system, options, reduced_, dof, measure, harmonic).run(branch, top).point;
     }
     one->append(std::move(point));
+    one->space_used = prefers_modal(*reduced_, options_.unknowns) ? "modal" : "gaps";
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);
     peak.branch = one;

@@ -1,5 +1,6 @@
 #include "hbm/start.hpp"
 #include "hbm/continuation.hpp"
+#include "hbm/wrapped_system.hpp"
 #include "model/rest.hpp"
 #include <algorithm>
 #include <cmath>
@@ -9,13 +10,11 @@ namespace {
 
 // Another parameter in the place of the frequency: the force, p = 0 at rest, or the gap, p = 0 with contact
 // out of reach; p = 1 is the problem asked for.
-class StartPath final : public HbmSystem {
+class StartPath final : public WrappedSystem {
   public:
     enum class Kind { force, gap };
     StartPath(HbmSystem &inner, Kind kind, double omega, double full)
-        : inner_(inner), kind_(kind), omega_(omega), full_(full) {}
-    std::int64_t size() const override { return inner_.size(); }
-    std::int64_t static_size() const override { return inner_.static_size(); }
+        : WrappedSystem(inner), kind_(kind), omega_(omega), full_(full) {}
     void residual(const double *x, double p, double *r) override {
         if (kind_ == Kind::force) {
             inner_.set_force_scale(p * full_);
@@ -24,8 +23,6 @@ class StartPath final : public HbmSystem {
         }
         inner_.residual(x, omega_, r);
     }
-    void linearize() override { inner_.linearize(); }
-    void solve(double *b, std::int64_t n) override { inner_.solve(b, n); }
     void omega_derivative(double *r) override {
         kind_ == Kind::force ? inner_.force_derivative(r) : inner_.gap_derivative(r);
         const double factor = kind_ == Kind::force ? full_ : -full_;
@@ -34,17 +31,9 @@ class StartPath final : public HbmSystem {
     void linear_response(const vector<double> &share, double, double *x) override {
         inner_.linear_response(share, omega_, x);
     }
-    double residual_scale() const override { return inner_.residual_scale(); }
     void to_point(const double *x, double, BranchPoint &point) override { inner_.to_point(x, omega_, point); }
-    void from_point(const BranchPoint &point, double *x) override { inner_.from_point(point, x); }
-    void set_force_scale(double scale) override { inner_.set_force_scale(scale); }
-    void force_derivative(double *r) override { inner_.force_derivative(r); }
-    void set_extra_gap(double gap) override { inner_.set_extra_gap(gap); }
-    void gap_derivative(double *r) override { inner_.gap_derivative(r); }
-    const ContactIndicator &indicator() const override { return inner_.indicator(); }
 
   private:
-    HbmSystem &inner_;
     Kind kind_;
     double omega_, full_;
 };
@@ -145,7 +134,7 @@ class Starter {
     bool follow(StartPath &path) {
         PathOptions range = path_options(0, 1);
         range.upward = true;
-        return arrived(follow_path(path, range, x_, 0, 0, quiet_), 1.0);
+        return arrived(follow_path(path, range, {x_}, quiet_), 1.0);
     }
 
     // From well above the resonances, where the response is nearly linear, down to the frequency asked for.
@@ -158,7 +147,7 @@ class Starter {
             limits.omega_scale = omega_;
             double omega = far * omega_;
             if (!newton(system_, SideCondition(), limits, x_, omega).converged) continue;
-            if (arrived(follow_path(system_, path, x_, omega, 0, quiet_), omega_) && attempt()) return true;
+            if (arrived(follow_path(system_, path, {x_, omega}, quiet_), omega_) && attempt()) return true;
         }
         return false;
     }

@@ -1,4 +1,5 @@
 #include "hbm/system.hpp"
+#include "hbm/wrapped_system.hpp"
 #include "linalg/lapack.hpp"
 #include <algorithm>
 #include <cmath>
@@ -10,8 +11,6 @@ std::unique_ptr<ContactForce> make_contact_force(const HbmOptions &options, std:
                ? make_event_force(options.n_harmonics, n_pairs)
                : make_sampled_force(options.n_harmonics, options.time_samples, n_pairs);
 }
-
-namespace {
 
 // Rigid-body modes that even closed contact does not hold have no static receptance to condense with.
 bool can_condense(const ReducedModel &m) {
@@ -26,17 +25,65 @@ bool can_condense(const ReducedModel &m) {
     return m.n_pairs() >= n_rigid && held.values.back() > 1e-9 * size;
 }
 
+bool prefers_modal(const ReducedModel &reduced, UnknownSpace unknowns) {
+    if (unknowns != UnknownSpace::automatic || reduced.n_pairs() == 0)
+        return unknowns == UnknownSpace::modal || reduced.n_pairs() == 0;
+    // The dense factorization dominates both; its order is r (2H + 1) or, at the most, Z (2H + 1).
+    return reduced.size() <= reduced.n_pairs() || !can_condense(reduced);
+}
+
+namespace {
+
+// The same structure on a period `multiple` times as long: harmonic h of the excitation is its harmonic
+// multiple x h.
+class SubharmonicSystem final : public WrappedSystem {
+  public:
+    SubharmonicSystem(std::unique_ptr<HbmSystem> inner, std::int64_t multiple)
+        : WrappedSystem(*inner), owned_(std::move(inner)), multiple_(static_cast<double>(multiple)) {}
+    void residual(const double *x, double omega, double *r) override {
+        inner_.residual(x, omega / multiple_, r);
+    }
+    void omega_derivative(double *r) override {
+        inner_.omega_derivative(r);
+        for (std::int64_t i = 0; i < size(); ++i) r[i] /= multiple_;
+    }
+    void linear_response(const vector<double> &share, double omega, double *x) override {
+        inner_.linear_response(share, omega / multiple_, x);
+    }
+    void to_point(const double *x, double omega, BranchPoint &point) override {
+        inner_.to_point(x, omega / multiple_, point);
+        point.omega = omega;
+    }
+
+  private:
+    std::unique_ptr<HbmSystem> owned_;
+    double multiple_;
+};
+
+std::shared_ptr<const ReducedModel> on_longer_period(const ReducedModel &reduced, std::int64_t multiple) {
+    auto longer = std::make_shared<ReducedModel>(reduced);
+    longer->excitation.clear();
+    for (const auto &[harmonic, load] : reduced.excitation)
+        longer->excitation[harmonic * static_cast<int>(multiple)] = load;
+    return longer;
+}
+
 } // namespace
 
-std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
-                                       std::string *kind) {
-    // The dense factorization dominates both; its order is r (2H + 1) or, at the most, Z (2H + 1).
-    bool modal = options.unknowns == UnknownSpace::modal || reduced->n_pairs() == 0;
-    if (options.unknowns == UnknownSpace::automatic && !modal)
-        modal = reduced->size() <= reduced->n_pairs() || !can_condense(*reduced);
-    *kind = modal ? "modal" : "gaps";
-    return modal ? make_modal_system(std::move(reduced), options)
-                 : make_gap_system(std::move(reduced), options);
+std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduced,
+                                       const HbmOptions &options) {
+    const bool modal = prefers_modal(*reduced, options.unknowns);
+    HbmOptions inner = options;
+    const std::int64_t multiple = options.period_multiple;
+    if (multiple > 1) {
+        inner.n_harmonics *= multiple;
+        inner.time_samples *= multiple;
+        reduced = on_longer_period(*reduced, multiple);
+    }
+    auto system = modal ? make_modal_system(std::move(reduced), inner)
+                        : make_gap_system(std::move(reduced), inner);
+    if (multiple == 1) return system;
+    return std::make_unique<SubharmonicSystem>(std::move(system), multiple);
 }
 
 } // namespace plm

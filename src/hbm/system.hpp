@@ -21,6 +21,13 @@ class HbmSystem {
     virtual void linearize() = 0;
     /// Overwrites n right-hand sides (leading dimension size()) by (dR/dx)^-1 b.
     virtual void solve(double *b, std::int64_t n) = 0;
+    /// dR/dx itself at the last residual(), size() x size(): what systems with more equations are built from.
+    /// Reduced coordinates only.
+    virtual void jacobian(Matrix &) {
+        throw Error(PLM_ERR_INTERNAL, "these unknowns have no assembled Jacobian; use reduced coordinates");
+    }
+    /// Sign of det(dR/dx) at the last linearize(), up to a factor constant along a path.
+    virtual int determinant_sign() const = 0;
     /// dR/domega at the x and omega of the last residual().
     virtual void omega_derivative(double *r) = 0;
     /// Solution x of the linear equations with every pair coupled by share[i] k_n at all times.
@@ -46,10 +53,14 @@ class HbmSystem {
     ContactIndicator indicator_;
 };
 
-/// Takes the smaller of the two by cost when options.unknowns is automatic. `kind` receives "modal" or
-/// "gaps".
-std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
-                                       std::string *kind);
+/// The form options.unknowns asks for, automatic: the smaller one when all pairs move. options.n_harmonics > 0
+/// counts per period of the excitation; with options.period_multiple the system repeats after that many
+/// periods.
+std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
+/// Reduced coordinates (true) or contact gaps when all pairs move.
+bool prefers_modal(const ReducedModel &reduced, UnknownSpace unknowns);
+/// Whether the contact gaps can be the unknowns at all.
+bool can_condense(const ReducedModel &reduced);
 std::unique_ptr<HbmSystem> make_modal_system(std::shared_ptr<const ReducedModel> reduced,
                                              const HbmOptions &options);
 std::unique_ptr<HbmSystem> make_gap_system(std::shared_ptr<const ReducedModel> reduced,

@@ -52,6 +52,9 @@ void dgecon_(const char *, const blas_int *, const double *, const blas_int *, c
 void zgetrf_(const blas_int *, const blas_int *, complex_t *, const blas_int *, blas_int *, blas_int *);
 void zgetrs_(const char *, const blas_int *, const blas_int *, const complex_t *, const blas_int *,
              const blas_int *, complex_t *, const blas_int *, blas_int *, strlen_t);
+void dgeev_(const char *, const char *, const blas_int *, double *, const blas_int *, double *, double *,
+            double *, const blas_int *, double *, const blas_int *, double *, const blas_int *, blas_int *,
+            strlen_t, strlen_t);
 void dpotrf_(const char *, const blas_int *, double *, const blas_int *, blas_int *, strlen_t);
 void dpotrs_(const char *, const blas_int *, const blas_int *, const double *, const blas_int *, double *,
              const blas_int *, blas_int *, strlen_t);

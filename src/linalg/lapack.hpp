@@ -17,6 +17,15 @@ SymmetricEigen symmetric_eigen_below(const Matrix &a, double upper);
 /// A x = lambda B x, B positive definite; vectors B-orthonormal (dsygvd).
 SymmetricEigen symmetric_eigen_general(const Matrix &a, const Matrix &b);
 
+struct GeneralEigen {
+    vector<std::complex<double>> values;  // conjugate pairs stand together, positive imaginary part first
+    vector<std::complex<double>> vectors; // n x n column-major, Euclidean norm 1
+};
+/// Eigenvalues of a real square matrix that need not be symmetric (dgeev), largest modulus first.
+vector<std::complex<double>> general_eigenvalues(const Matrix &a);
+/// The same with right eigenvectors, column j belonging to value j.
+GeneralEigen general_eigen(const Matrix &a);
+
 struct Svd {
     vector<double> values; // descending
     Matrix u, vt;          // thin factors

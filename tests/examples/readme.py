@@ -1,4 +1,4 @@
-"""readme.py MINIMAL ROOT: README.md shows minimal.c as it is and what it prints, and its links lead somewhere."""
+"""readme.py MINIMAL ROOT: README.md says what minimal prints, and its links lead somewhere."""
 import pathlib
 import re
 import subprocess
@@ -7,10 +7,6 @@ import sys
 program, root = sys.argv[1], pathlib.Path(sys.argv[2])
 readme = (root / "README.md").read_text(encoding="utf-8")
 failures = []
-
-blocks = re.findall(r"```c\n(.*?)```", readme, re.DOTALL)
-if (root / "examples/c/minimal.c").read_text(encoding="utf-8") not in blocks:
-    failures.append("no C block of README.md is examples/c/minimal.c, verbatim")
 
 said = subprocess.run([program], stdout=subprocess.PIPE, check=True).stdout.decode()
 if said not in readme:

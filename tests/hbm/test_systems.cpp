@@ -21,8 +21,7 @@ HbmOptions options_with(int harmonics, UnknownSpace unknowns) {
 }
 
 std::unique_ptr<HbmSystem> system_of(std::shared_ptr<ReducedModel> m, int harmonics, UnknownSpace unknowns) {
-    std::string kind;
-    return plm::make_system(m, options_with(harmonics, unknowns), &kind);
+    return plm::make_system(m, options_with(harmonics, unknowns));
 }
 
 exact::Structure chain_with(double preload, double gap) {

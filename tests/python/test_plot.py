@@ -33,6 +33,31 @@ class Plot(unittest.TestCase):
         numpy.testing.assert_array_equal(ax.lines[0].get_ydata(), self.curve.amplitude(models.WATCHED))
         self.assertIs(plm.plot.response(self.curve, models.WATCHED, "rms", ax=ax), ax)
 
+    def test_stability(self):
+        n = len(self.curve)
+        stable = numpy.ones(n, dtype=bool)
+        stable[n // 3:n // 2] = False
+        ax = plm.plot.response(self.curve, models.WATCHED, stable=stable, labels=["curve"])
+        self.assertEqual([line.get_linestyle() for line in ax.lines], ["-", "--", "-"])
+        self.assertEqual(len({line.get_color() for line in ax.lines}), 1)
+        drawn = numpy.concatenate([line.get_xdata()[:-1] for line in ax.lines[:-1]] + [ax.lines[-1].get_xdata()])
+        numpy.testing.assert_array_equal(drawn, self.curve.frequency_hz)  # no gap and no point twice
+        self.assertEqual(ax.lines[1].get_xdata()[0], self.curve.frequency_hz[n // 3])
+        self.assertEqual(len(ax.get_legend().get_texts()), 1)
+        both = plm.plot.response([self.curve, self.curve], models.WATCHED, stable=[None, ~stable])
+        self.assertEqual([line.get_linestyle() for line in both.lines], ["-", "--", "-", "--"])
+        with self.assertRaisesRegex(ValueError, "points"):
+            plm.plot.response(self.curve, models.WATCHED, stable=stable[1:])
+
+    def test_contact_area(self):
+        point = int(numpy.argmax(self.curve.amplitude(models.WATCHED)))
+        ax = plm.plot.contact_area_over_cycle(self.curve, point, 512, area=[2.0, 3.0])
+        area = numpy.array(ax.lines[0].get_ydata())
+        self.assertTrue(set(area) <= {0, 2, 3, 5} and len(set(area)) > 1)
+        mean = self.curve.closed_share(point) @ [2.0, 3.0]
+        self.assertLess(abs(area[:-1].mean() - mean), 5 * 4 / 512)  # each switching instant is off by one sample at most
+        self.assertEqual(plm.plot.contact_area_over_cycle(self.curve, point).get_ylabel(), "pairs in contact")
+
     def test_contact(self):
         ax = plm.plot.contact_over_frequency(self.curve)
         least, most, mean = (line.get_ydata() for line in ax.lines)
@@ -42,9 +67,14 @@ class Plot(unittest.TestCase):
     def test_harmonics(self):
         ax = plm.plot.harmonics(self.curve, 0, [models.WATCHED, 0])
         self.assertEqual(len(ax.patches), 12)
+        heights = [patch.get_height() for patch in ax.patches]
+        numpy.testing.assert_allclose(heights[:6], numpy.abs(self.curve.harmonics(0, models.WATCHED)))
 
     def test_error_over_time(self):
-        self.assertEqual(len(plm.plot.error_over_time([1, 2], [0.1, 0.01], ["a", "b"]).texts), 2)
+        ax = plm.plot.error_over_time([1, 2, 3], [0.1, 0.01, 0], ["a", "b", "reference"])
+        self.assertEqual([text.get_text() for text in ax.texts], ["a", "b"])
+        numpy.testing.assert_array_equal(ax.lines[0].get_xdata(), [1, 2])
+        self.assertEqual((ax.get_xscale(), ax.get_yscale()), ("log", "log"))
 
 
 if __name__ == "__main__":

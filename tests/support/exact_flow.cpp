@@ -225,6 +225,19 @@ double Orbit::peak(int dof) const {
     return best;
 }
 
+std::vector<double> period_map(const Structure &s, double omega, const std::vector<double> &start,
+                               std::vector<double> *monodromy) {
+    Flow flow(s, omega);
+    Square tangent = identity(flow.dim());
+    const Vec end = one_period(flow, start, 200, monodromy ? &tangent : nullptr, nullptr);
+    if (monodromy) {
+        monodromy->clear();
+        for (int i = 0; i < 2 * s.n; ++i)
+            for (int j = 0; j < 2 * s.n; ++j) monodromy->push_back(tangent(i, j));
+    }
+    return end;
+}
+
 Orbit periodic_orbit(const Structure &s, double omega, std::vector<double> guess, int transient_periods,
                      int n_samples) {
     Flow flow(s, omega);

@@ -25,6 +25,10 @@ struct Orbit {
     double peak(int dof) const;               // max |q|, from samples refined by parabolas
 };
 
+/// State (2n) one forcing period after `start`; monodromy, if not null, receives the 2n x 2n derivative, row-major.
+std::vector<double> period_map(const Structure &s, double omega, const std::vector<double> &start,
+                               std::vector<double> *monodromy);
+
 /// Periodic orbit of the forcing period by Newton on the Poincare map with the exact monodromy matrix, from
 /// `guess` (2n, may be empty: zero) after `transient_periods` of marching.
 Orbit periodic_orbit(const Structure &s, double omega, std::vector<double> guess, int transient_periods,

@@ -12,14 +12,37 @@ def _axes(ax, xlabel, ylabel):
     return ax
 
 
-def response(branches, dof, measure="half_peak_to_peak", harmonic=0, labels=None, peaks=(), ax=None):
-    """Amplitude of a DOF over frequency: one branch or several, with their folds; peaks: results of Hbm.find_peak."""
-    branches = branches if isinstance(branches, (list, tuple)) else [branches]
+def _runs(flags):
+    """(first, last, flag) of every run of equal flags; a run reaches to the first point of the next one."""
+    starts = [0, *(numpy.flatnonzero(flags[1:] != flags[:-1]) + 1), len(flags)]
+    return [(a, min(b, len(flags) - 1), flags[a]) for a, b in zip(starts[:-1], starts[1:])]
+
+
+def _curve(ax, x, y, stable, label):
+    """A line whose unstable parts are dashed, in one colour."""
+    marker = {"marker": "o" if len(x) == 1 else "", "markersize": 4}
+    if stable is None:
+        ax.plot(x, y, label=label, **marker)
+        return
+    flags = numpy.asarray(stable, dtype=bool)
+    if flags.shape != numpy.shape(x):
+        raise ValueError(f"stable has the shape {flags.shape}, the branch has {len(x)} points")
+    colour = None
+    for first, last, flag in _runs(flags):
+        line, = ax.plot(x[first:last + 1], y[first:last + 1], ls="-" if flag else "--", color=colour, label=label, **marker)
+        colour, label = line.get_color(), None  # one entry of the legend
+
+
+def response(branches, dof, measure="half_peak_to_peak", harmonic=0, labels=None, peaks=(), stable=None, ax=None):
+    """Amplitude of a DOF over frequency: one branch or several, with their folds; peaks: results of Hbm.find_peak.
+    stable: for every point of the branch whether its motion is stable (of several branches a list, with None where it is
+    not known); unstable parts are dashed."""
+    if not isinstance(branches, (list, tuple)):
+        branches, stable = [branches], [stable]
+    stable = stable or [None] * len(branches)
     ax = _axes(ax, "frequency (Hz)", f"amplitude of DOF {dof} ({measure.replace('_', ' ')})")
     for i, branch in enumerate(branches):
-        marker = "o" if len(branch) == 1 else ""
-        ax.plot(branch.frequency_hz, branch.amplitude(dof, measure, harmonic), marker=marker, markersize=4,
-                label=labels[i] if labels else None)
+        _curve(ax, branch.frequency_hz, branch.amplitude(dof, measure, harmonic), stable[i], labels[i] if labels else None)
     for peak in peaks:
         ax.plot(peak.frequency_hz, peak.amplitude, "k+", markersize=9)
         ax.annotate(f"{peak.amplitude:.4g} at {peak.frequency_hz:.4g} Hz", (peak.frequency_hz, peak.amplitude),
@@ -73,10 +96,24 @@ def harmonics(branch, point, dofs, labels=None, ax=None):
     return ax
 
 
+def contact_area_over_cycle(branch, point, n_times=256, area=None, ax=None):
+    """Contact area during the period at a point of the branch; area: that of each pair (None: the pairs are counted)."""
+    contact = branch.contact(point, n_times)
+    area = numpy.ones(len(contact.closed)) if area is None else numpy.asarray(area)
+    ax = _axes(ax, "time / period", "pairs in contact" if (area == 1).all() else "contact area")
+    ax.plot(numpy.append(contact.time, 1), numpy.append(area @ contact.closed, area @ contact.closed[:, 0]),
+            drawstyle="steps-post", label=f"{branch.frequency_hz[point]:.5g} Hz")
+    ax.set_ylim(-0.03 * area.sum(), 1.03 * area.sum())
+    ax.legend()
+    return ax
+
+
 def error_over_time(seconds, error, labels=None, ax=None):
-    """Error of several reductions against their run time."""
+    """Error of several reductions against their run time. An error of 0, as the reference has it, has no place on the axis
+    and is left out."""
     ax = _axes(ax, "run time (s)", "relative error")
-    ax.loglog(seconds, error, "o")
-    for t, e, label in zip(seconds, error, labels or [""] * len(seconds)):
-        ax.annotate(label, (t, e), textcoords="offset points", xytext=(6, 4))
+    shown = [i for i, e in enumerate(error) if e > 0]
+    ax.loglog([seconds[i] for i in shown], [error[i] for i in shown], "o")
+    for i in shown if labels else ():
+        ax.annotate(labels[i], (seconds[i], error[i]), textcoords="offset points", xytext=(6, 4))
     return ax

@@ -1,0 +1,81 @@
+/* basis.c: the columns a structure is reduced to. */
+#include "example.h"
+#include <stdio.h>
+
+static int build(plm_model *model, plm_sampler *sampler) {
+    /* [plm_basis_create] [plm_basis_destroy] */
+    plm_basis *basis = NULL, *full = NULL;
+    TRY(plm_basis_create(model, &basis));
+    TRY(plm_basis_destroy(&basis));
+    /* [plm_basis_create] [plm_basis_destroy] */
+    TRY(plm_basis_create(model, &basis));
+    TRY(plm_basis_create(model, &full));
+
+    /* [plm_basis_set_sampler] */
+    TRY(plm_basis_set_sampler(basis, sampler)); /* a sampler that has run */
+    /* [plm_basis_set_sampler] */
+
+    /* [plm_basis_set_int] [plm_basis_set_double] [plm_basis_set_string] */
+    TRY(plm_basis_set_string(basis, "selection", "below"));
+    TRY(plm_basis_set_int(basis, "n_harmonics", 7));
+    TRY(plm_basis_set_double(basis, "svd_tolerance", 1e-8));
+    /* [plm_basis_set_int] [plm_basis_set_double] [plm_basis_set_string] */
+
+    /* [plm_basis_set_parent] */
+    TRY(plm_basis_set_string(full, "kind", "full"));
+    TRY(plm_basis_set_sampler(full, sampler));
+    TRY(plm_basis_build(full));
+    TRY(plm_basis_set_parent(basis, full)); /* the modes are then computed in the columns of `full` */
+    /* [plm_basis_set_parent] */
+
+    /* [plm_basis_build] [plm_basis_get_string] */
+    const plm_status built = plm_basis_build(basis);
+    if (built == PLM_WARNING) {
+        char warning[300];
+        TRY(plm_basis_get_string(basis, "warning", sizeof warning, warning, NULL));
+        printf("the basis may have lost the resonance: %s\n", warning);
+    }
+    /* [plm_basis_build] [plm_basis_get_string] */
+    EXPECT(built >= 0);
+
+    /* [plm_basis_get_int] [plm_basis_get_double] */
+    int64_t size;
+    double residual;
+    TRY(plm_basis_get_int(basis, "size", &size));
+    TRY(plm_basis_get_double(basis, "preload_residual", &residual));
+    printf("%d columns, residual of the pre-load %.2g\n", (int)size, residual);
+    /* [plm_basis_get_int] [plm_basis_get_double] */
+
+    /* [plm_basis_get_array] [plm_basis_get_int_array] */
+    double hz[8];
+    int64_t count, kept[64];
+    TRY(plm_basis_get_array(basis, "frequencies_hz", 8, hz, &count));
+    TRY(plm_basis_get_int_array(basis, "sample_kept", 0, NULL, &count)); /* capacity 0: how many? */
+    if (count <= 64) TRY(plm_basis_get_int_array(basis, "sample_kept", 64, kept, &count));
+    /* [plm_basis_get_array] [plm_basis_get_int_array] */
+
+    /* [plm_basis_get_vectors] */
+    double p[2 * 2]; /* all columns of P: n_dof x size, the leading dimension is n_dof */
+    EXPECT(size <= 2);
+    TRY(plm_basis_get_vectors(basis, 0, 0, size, p, 2));
+    /* [plm_basis_get_vectors] */
+
+    /* [plm_basis_get_residual] */
+    const double deflection[] = {1, 2};
+    double r;
+    TRY(plm_basis_get_residual(basis, 0, 0, 2, deflection, &r));
+    printf("the basis misses %.2g of this deflection\n", r);
+    /* [plm_basis_get_residual] */
+    EXPECT(r < 1e-9 && hz[0] > 0 && kept[0] == 1);
+    return 0;
+}
+
+int example(plm_context *ctx) {
+    plm_model *model = NULL;
+    plm_sampler *sampler = NULL;
+    TRY(start_model(ctx, &model));
+    TRY(plm_model_build(model));
+    TRY(plm_sampler_create(model, &sampler));
+    TRY(plm_sampler_run(sampler));
+    return build(model, sampler);
+}

@@ -1,0 +1,173 @@
+/* model.c: from matrices to a built model, and what can be asked of it. */
+#include "example.h"
+#include <stdio.h>
+
+/* the same two masses again and again, in every way to hand things over */
+static int matrices(plm_context *ctx) {
+    /* [plm_model_create] [plm_model_destroy] */
+    plm_model *model = NULL;
+    TRY(plm_model_create(ctx, 2, &model)); /* two DOFs */
+    TRY(plm_model_destroy(&model));
+    /* [plm_model_create] [plm_model_destroy] */
+    TRY(plm_model_create(ctx, 2, &model));
+
+    /* [plm_model_set_matrix_i32] */
+    /* lower triangle by compressed columns, counted from 0 as in C */
+    const int32_t column_start[] = {0, 2, 3}, row[] = {0, 1, 1};
+    const double stiffness[] = {20000, -10000, 10000};
+    TRY(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_CSC, PLM_LOWER, 0, PLM_COPY, 3, column_start, row,
+                                 stiffness));
+    /* [plm_model_set_matrix_i32] */
+
+    /* [plm_model_set_matrix_i64] */
+    /* triplets with wide integers, counted from 1 as in Fortran; entries of the same place are summed */
+    const int64_t i[] = {1, 2, 2}, j[] = {1, 2, 2};
+    const double mass[] = {1, 0.5, 0.5};
+    TRY(plm_model_set_matrix_i64(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 1, PLM_COPY, 3, i, j, mass));
+    /* [plm_model_set_matrix_i64] */
+
+    /* [plm_model_set_rayleigh_damping] */
+    TRY(plm_model_set_rayleigh_damping(model, 0.5, 2e-4)); /* C = 0.5 M + 0.0002 K */
+    /* [plm_model_set_rayleigh_damping] */
+
+    /* [plm_model_set_modal_damping] */
+    const double ratio[] = {0.01, 0.02}; /* the first mode 1 %, all others 2 % */
+    TRY(plm_model_set_modal_damping(model, 2, ratio));
+    /* [plm_model_set_modal_damping] */
+
+    /* [plm_model_set_structural_damping] */
+    TRY(plm_model_set_structural_damping(model, 0.002)); /* K (1 + 0.002 i) */
+    /* [plm_model_set_structural_damping] */
+    return plm_model_build(model);
+}
+
+static int contacts(plm_context *ctx) {
+    plm_model *model = NULL;
+    TRY(plm_model_create(ctx, 6, &model)); /* two nodes with three DOFs each */
+    const double k_n[] = {5000}, normal[] = {1, 0, 0}, gap[] = {0.001};
+
+    /* [plm_model_fix_dofs_i32] */
+    const int32_t held[] = {1, 2};
+    TRY(plm_model_fix_dofs_i32(model, 0, 2, held));
+    /* [plm_model_fix_dofs_i32] */
+    /* [plm_model_fix_dofs_i64] */
+    const int64_t held_too[] = {5, 6}; /* counted from 1 */
+    TRY(plm_model_fix_dofs_i64(model, 1, 2, held_too));
+    /* [plm_model_fix_dofs_i64] */
+
+    /* [plm_model_add_node_pairs_i32] */
+    /* node 0 against node 1 along x, touching at first, the stiffness chosen by the library */
+    const int32_t a[] = {0, 1, 2}, b[] = {3, 4, 5};
+    const double chosen[] = {PLM_AUTO_STIFFNESS};
+    TRY(plm_model_add_node_pairs_i32(model, 0, 1, a, b, normal, chosen, NULL));
+    /* [plm_model_add_node_pairs_i32] */
+    /* [plm_model_add_node_pairs_i64] */
+    const int64_t far_a[] = {1, 0, 0}, far_b[] = {4, 0, 0}; /* from 1, so that 0 is "no such DOF" */
+    TRY(plm_model_add_node_pairs_i64(model, 1, 1, far_a, far_b, normal, k_n, gap));
+    /* [plm_model_add_node_pairs_i64] */
+
+    /* [plm_model_add_ground_contacts_i32] */
+    const int32_t node[] = {3, 4, 5}; /* 1 mm before it runs into a wall at its right */
+    TRY(plm_model_add_ground_contacts_i32(model, 0, 1, node, normal, k_n, gap));
+    /* [plm_model_add_ground_contacts_i32] */
+    /* [plm_model_add_ground_contacts_i64] */
+    const int64_t node_64[] = {3, -1, -1};
+    TRY(plm_model_add_ground_contacts_i64(model, 0, 1, node_64, normal, k_n, gap));
+    /* [plm_model_add_ground_contacts_i64] */
+
+    /* [plm_model_add_gap_rows_i32] */
+    /* u = q_0 - (q_3 + q_4) / 2: a node against the middle of an edge */
+    const int32_t row_ptr[] = {0, 3}, dof[] = {0, 3, 4};
+    const double coefficient[] = {1, -0.5, -0.5};
+    TRY(plm_model_add_gap_rows_i32(model, 0, 1, row_ptr, dof, coefficient, k_n, gap));
+    /* [plm_model_add_gap_rows_i32] */
+    /* [plm_model_add_gap_rows_i64] */
+    const int64_t wide_ptr[] = {0, 1}, wide_dof[] = {3};
+    TRY(plm_model_add_gap_rows_i64(model, 0, 1, wide_ptr, wide_dof, coefficient, k_n, NULL));
+    /* [plm_model_add_gap_rows_i64] */
+    return 0;
+}
+
+static int loads_and_options(plm_model *model) {
+    /* [plm_model_set_preload] */
+    const double pressing[] = {0, 3};
+    TRY(plm_model_set_preload(model, 2, pressing));
+    /* [plm_model_set_preload] */
+
+    /* [plm_model_set_excitation] */
+    const double real[] = {0, 1}, imaginary[] = {0, -0.5};
+    TRY(plm_model_set_excitation(model, 1, 2, real, imaginary)); /* cos + 0.5 sin */
+    TRY(plm_model_set_excitation(model, 2, 2, real, NULL));      /* and the second harmonic */
+    TRY(plm_model_set_excitation(model, 2, 2, NULL, NULL));      /* which is taken back */
+    /* [plm_model_set_excitation] */
+
+    /* [plm_model_set_int] [plm_model_set_double] [plm_model_set_string] */
+    TRY(plm_model_set_int(model, "verify_counts", 1));
+    TRY(plm_model_set_double(model, "space_tolerance", 1e-8));
+    /* a model has no option with words: this is PLM_ERR_KEY and changes nothing */
+    const plm_status refused = plm_model_set_string(model, "solver", "fast");
+    /* [plm_model_set_int] [plm_model_set_double] [plm_model_set_string] */
+    EXPECT(refused == PLM_ERR_KEY);
+    return 0;
+}
+
+static int results(plm_model *model) {
+    /* [plm_model_build] */
+    const plm_status built = plm_model_build(model);
+    if (built < 0) return __LINE__; /* e.g. PLM_ERR_NOT_POSITIVE_DEFINITE: see plm_context_get_error_text */
+    /* [plm_model_build] */
+
+    /* [plm_model_get_int] [plm_model_get_double] */
+    int64_t free_dofs;
+    double local;
+    TRY(plm_model_get_int(model, "n_free", &free_dofs));
+    TRY(plm_model_get_double(model, "local_stiffness", &local));
+    printf("%d free DOFs, local stiffness %.4g N/m\n", (int)free_dofs, local);
+    /* [plm_model_get_int] [plm_model_get_double] */
+
+    /* [plm_model_get_string] */
+    char word[40]; /* no result of a model is a text yet: PLM_ERR_KEY */
+    const plm_status no_text = plm_model_get_string(model, "description", sizeof word, word, NULL);
+    /* [plm_model_get_string] */
+    EXPECT(no_text == PLM_ERR_KEY);
+
+    /* [plm_model_solve_rest] [plm_model_get_array] [plm_model_get_int_array] */
+    double penetration[1];
+    int64_t closed[1], count;
+    TRY(plm_model_solve_rest(model));
+    TRY(plm_model_get_array(model, "rest_penetration", 1, penetration, &count));
+    TRY(plm_model_get_int_array(model, "rest_closed", 1, closed, &count));
+    printf("at rest the stop is %s, u = %.3g m\n", closed[0] ? "closed" : "open", penetration[0]);
+    /* [plm_model_solve_rest] [plm_model_get_array] [plm_model_get_int_array] */
+
+    /* [plm_model_get_modes] */
+    const int32_t all_closed[] = {1};
+    double hz[2], shape[2 * 2];
+    TRY(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 2, hz, NULL));
+    TRY(plm_model_get_modes(model, PLM_SYSTEM_GIVEN, all_closed, 2, hz, shape)); /* shape: 2 x 2 */
+    /* [plm_model_get_modes] */
+
+    /* [plm_model_audit] [plm_model_get_finding] */
+    int64_t findings;
+    TRY(plm_model_audit(model, &findings));
+    for (int64_t k = 0; k < findings; k++) {
+        int32_t severity;
+        double value;
+        char text[200];
+        TRY(plm_model_get_finding(model, k, &severity, &value, sizeof text, text, NULL));
+        if (severity > 0) printf("look at this: %s\n", text);
+    }
+    /* [plm_model_audit] [plm_model_get_finding] */
+    EXPECT(findings > 0 && closed[0] == 1 && hz[0] > 0);
+    return 0;
+}
+
+int example(plm_context *ctx) {
+    plm_model *model = NULL;
+    int line = matrices(ctx);
+    if (!line) line = contacts(ctx);
+    if (line) return line;
+    TRY(start_model(ctx, &model));
+    line = loads_and_options(model);
+    return line ? line : results(model);
+}

@@ -1,0 +1,27 @@
+// One response curve from a first point on: the continuation with the number of harmonics and the unknowns
+// chosen again wherever the response asks for it, and with the stability of its points.
+#pragma once
+#include "hbm/continuation.hpp"
+#include "linalg/monitor.hpp"
+
+namespace plm {
+
+struct CurveStart {
+    BranchPoint point;
+    /// Not empty: a second point beside the first, on the side to which the curve is followed; otherwise
+    /// options.upward decides.
+    std::vector<BranchPoint> towards;
+};
+
+/// Appends the curve's points to `branch` and sets its ending and its cost. n_harmonics of the options is the
+/// number to begin with when they are chosen by point (options.n_harmonics = 0: the start's).
+void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch);
+
+/// Corrects `point` at its frequency with more harmonics until the next ones are negligible (or the allowed
+/// number is reached): what one point needs. `point` is unchanged where a correction fails.
+void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, BranchPoint &point);
+
+/// Options with the number of harmonics to begin with in place of 0.
+HbmOptions with_first_harmonics(const ReducedModel &reduced, const HbmOptions &options);
+
+} // namespace plm

@@ -1,0 +1,75 @@
+// Phase-resonant response: the periodic solutions whose displacement stands in quadrature to the force,
+// Re(F^H q) = 0 in the lowest harmonic h of the excitation (q: the displacement that does work against it), so
+// that no drive point need be named. Followed over the force they are the backbone of a resonance (Peeters,
+// Kerschen and Golinval 2011); where the force they need is not monotonic in amplitude, an isolated branch
+// exists.
+#pragma once
+#include "hbm/augmented_system.hpp"
+#include "linalg/monitor.hpp"
+
+namespace plm {
+
+/// Re(F^H q) in the excitation's lowest dynamic harmonic; zero at phase resonance, positive below and negative
+/// above a resonance. Does not depend on the force scale.
+double phase_of(const ReducedModel &reduced, const BranchPoint &point, std::int64_t period_multiple);
+
+/// y = (x, (omega - omega_reference) unit), parameter: the force scale. `inner` has modal unknowns.
+class PhaseResonantSystem final : public AugmentedSystem {
+  public:
+    PhaseResonantSystem(HbmSystem &inner, const ReducedModel &reduced, std::int64_t period_multiple,
+                        double omega_reference, double unit);
+    void residual(const double *y, double force, double *r) override;
+    void omega_derivative(double *r) override;
+    void linear_response(const vector<double> &share, double force, double *y) override;
+    void to_point(const double *y, double force, BranchPoint &point) override;
+    void from_point(const BranchPoint &point, double *y) override;
+
+  protected:
+    void assemble(Matrix &jacobian) override;
+
+  private:
+    double omega_of(const double *y) const { return omega_reference_ + y[inner_.size()] / unit_; }
+    double omega_reference_, unit_;
+    vector<double> phase_; // the last equation is phase_ . x = 0
+};
+
+struct BackboneOptions {
+    HbmOptions hbm;       // n_harmonics > 0; its force_scale is the force whose crossings are wanted
+    double force_max = 0; // the backbone is followed up to this force scale; 0: 8 force_scale
+};
+
+struct Backbone {
+    std::shared_ptr<Branch> branch; // points by increasing arc length, each with its force scale and omega; folds
+                                    // (PLM_BIFURCATION_FOLD) are the extrema of the force
+    vector<std::size_t> crossings;  // points of `branch` at the force scale asked for
+};
+
+/// Finds and follows phase-resonant solutions.
+class PhaseResonance {
+  public:
+    PhaseResonance(std::shared_ptr<const ReducedModel> reduced, const BackboneOptions &options, Watch watch);
+
+    /// Newton's method for (x, omega) at a given force scale. False: `point` is unchanged.
+    bool correct(double force, BranchPoint &point) const;
+    /// The backbones that begin at the resonances about rest inside the frequency range. None for a structure
+    /// that touches without pre-load: the force changes nothing but the size there.
+    std::vector<Backbone> backbones() const;
+    /// The backbone through a phase-resonant point, to both sides.
+    Backbone through(const BranchPoint &point) const;
+    /// The phase-resonant points of a response curve at its force, in the order of the curve.
+    std::vector<BranchPoint> on_curve(const Branch &curve) const;
+    /// |x - x'| over the dynamic part and |omega - omega'|, both relative; small for the same solution.
+    double distance(const BranchPoint &a, const BranchPoint &b) const;
+
+  private:
+    struct Followed;
+    std::vector<BranchPoint> linear_resonances() const;
+    bool linear_range(const vector<double> &share, const BranchPoint &point, double &force) const;
+    Backbone follow(const BranchPoint &start, bool upward) const;
+
+    std::shared_ptr<const ReducedModel> reduced_;
+    BackboneOptions options_;
+    Watch watch_;
+};
+
+} // namespace plm

@@ -1,0 +1,73 @@
+#include "hbm/stability.hpp"
+#include "hbm/contact_force.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+
+namespace {
+
+// The matrix exponentials cost about n^3 each, for two events of every moving pair: beyond this size more than
+// the curve itself.
+constexpr std::int64_t automatic_size = 24;
+
+} // namespace
+
+Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
+    : reduced_(std::move(reduced)), period_multiple_(options.period_multiple),
+      wanted_(options.stability == StabilityKind::floquet ||
+              (options.stability == StabilityKind::automatic && reduced_->static_size() <= automatic_size)) {
+    if (wanted_ && reduced_->structural == 0) flow_ = std::make_shared<FlowModel>(reduced_);
+}
+
+vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) const {
+    const auto intervals = contact_intervals(*reduced_, point, period_multiple_);
+    if (flow_) return plm::multipliers(monodromy(*flow_, intervals));
+    return plm::multipliers(monodromy(FlowModel(reduced_, point.omega), intervals));
+}
+
+std::vector<ContactInterval> contact_intervals(const ReducedModel &m, const BranchPoint &point,
+                                               std::int64_t period_multiple) {
+    const double period = 2 * M_PI / point.omega * static_cast<double>(period_multiple);
+    const std::int64_t z = m.n_pairs(), h = point.n_harmonics;
+    if (z == 0) return {{period, {}}};
+    Matrix eta = point.eta, u(z, 2 * h + 1);
+    set_harmonics(eta, h);
+    for (std::int64_t i = 0; i < z; ++i) u(i, 0) = -m.initial_gap[i];
+    gemv('N', 1.0, m.gap_0, point.eta_0.data(), 1.0, u.col(0));
+    const Matrix dynamic = product('N', 'N', m.gap, eta);
+    std::copy(dynamic.data(), dynamic.data() + z * 2 * h, u.col(1));
+
+    const SwitchingInstants switching = switching_instants(u);
+    std::vector<std::pair<double, std::int64_t>> events;
+    for (std::int64_t i = 0; i < z; ++i)
+        for (double t : switching.instants[i]) events.emplace_back(t, i);
+    std::sort(events.begin(), events.end());
+    std::vector<ContactInterval> intervals;
+    vector<char> closed = switching.closed_first;
+    double before = 0;
+    for (const auto &[t, pair] : events) {
+        if (t > before) intervals.push_back({(t - before) / (2 * M_PI) * period, closed});
+        closed[pair] = !closed[pair];
+        before = std::max(before, t);
+    }
+    if (before < 2 * M_PI) intervals.push_back({(2 * M_PI - before) / (2 * M_PI) * period, closed});
+    return intervals;
+}
+
+vector<double> bifurcation_tests(const vector<std::complex<double>> &multipliers) {
+    double doubling = 1, nearest = 1;
+    std::int64_t outside = 0;
+    for (const std::complex<double> &m : multipliers) {
+        if (m.imag() == 0) {
+            doubling *= m.real() + 1;
+            continue;
+        }
+        doubling *= std::sqrt(std::norm(m + 1.0)); // its conjugate gives the other half
+        nearest = std::min(nearest, std::abs(std::abs(m) - 1));
+        outside += m.imag() > 0 && std::abs(m) > 1;
+    }
+    return {doubling, outside % 2 == 0 ? nearest : -nearest};
+}
+
+} // namespace plm

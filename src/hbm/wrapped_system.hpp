@@ -1,0 +1,35 @@
+// A system made from another one by giving p another meaning or adding equations: forwards what it does not
+// change.
+#pragma once
+#include "hbm/system.hpp"
+
+namespace plm {
+
+class WrappedSystem : public HbmSystem {
+  public:
+    explicit WrappedSystem(HbmSystem &inner) : inner_(inner) {}
+    std::int64_t size() const override { return inner_.size(); }
+    std::int64_t static_size() const override { return inner_.static_size(); }
+    void residual(const double *x, double p, double *r) override { inner_.residual(x, p, r); }
+    void linearize() override { inner_.linearize(); }
+    void solve(double *b, std::int64_t n) override { inner_.solve(b, n); }
+    void jacobian(Matrix &out) override { inner_.jacobian(out); }
+    void omega_derivative(double *r) override { inner_.omega_derivative(r); }
+    int determinant_sign() const override { return inner_.determinant_sign(); }
+    void linear_response(const vector<double> &share, double p, double *x) override {
+        inner_.linear_response(share, p, x);
+    }
+    double residual_scale() const override { return inner_.residual_scale(); }
+    void to_point(const double *x, double p, BranchPoint &point) override { inner_.to_point(x, p, point); }
+    void from_point(const BranchPoint &point, double *x) override { inner_.from_point(point, x); }
+    void set_force_scale(double scale) override { inner_.set_force_scale(scale); }
+    void force_derivative(double *r) override { inner_.force_derivative(r); }
+    void set_extra_gap(double gap) override { inner_.set_extra_gap(gap); }
+    void gap_derivative(double *r) override { inner_.gap_derivative(r); }
+    const ContactIndicator &indicator() const override { return inner_.indicator(); }
+
+  protected:
+    HbmSystem &inner_;
+};
+
+} // namespace plm

@@ -1,0 +1,244 @@
+#include "transient/exact_flow.hpp"
+#include "transient/polynomial.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plm {
+namespace {
+
+constexpr double longest_step = 2.0; // rate x duration of a piece: about 26 terms, of which none exceeds 2
+constexpr double truncation = 1e-17;
+constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+constexpr std::int64_t watch_interval = 64; // pieces
+constexpr int side_corrections = 8; // one is usual; more when pairs that rest at zero act on each other
+
+} // namespace
+
+ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, double force_scale, Watch watch)
+    : model_(std::move(model)), omega_(omega), force_scale_(force_scale), watch_(watch), system_(*model_),
+      closed_(model_->n_pairs()), at_zero_(model_->n_pairs()), row_norm_(model_->n_pairs()),
+      noise_(model_->n_pairs()), sides_(model_->n_pairs()), polynomial_(max_polynomial_degree + 1),
+      event_limit_(1000 + 100 * model_->n_pairs()) {
+    if (!(omega > 0 && std::isfinite(omega) && std::isfinite(force_scale)))
+        throw Error(PLM_ERR_ARGUMENT, "the flow needs a positive, finite frequency and a finite force scale")
+            .argument("omega");
+    for (const auto &entry : model_->excitation())
+        fastest_force_ = std::max(fastest_force_, static_cast<double>(entry.first) * omega);
+    for (std::int64_t i = 0; i < model_->n_pairs(); ++i) {
+        double sum = 0;
+        for (std::int64_t j = 0; j < model_->size(); ++j) sum += model_->gap()(i, j) * model_->gap()(i, j);
+        row_norm_[i] = std::sqrt(sum);
+    }
+}
+
+void ExactFlow::check(const FlowState &state, double t_end) const {
+    const std::size_t n = static_cast<std::size_t>(model_->size());
+    if (state.y.size() != n || state.v.size() != n)
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("the state has %zu displacements and %zu velocities where the model has %zu",
+                           state.y.size(), state.v.size(), n))
+            .argument("state");
+    double sum = state.time - state.time + (t_end - t_end);
+    for (std::size_t j = 0; j < n; ++j) sum += (state.y[j] - state.y[j]) + (state.v[j] - state.v[j]);
+    if (sum != 0) throw Error(PLM_ERR_ARGUMENT, "NaN or Inf in the state or its times").argument("state");
+    if (t_end < state.time)
+        throw Error(PLM_ERR_ARGUMENT, "the flow runs forward in time only").argument("t_end");
+}
+
+void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) {
+    check(state, t_end);
+    const double begin = state.time;
+    const double periods = std::max(1.0, std::ceil((t_end - begin) / period()));
+    const double most_events = static_cast<double>(event_limit_) * periods;
+    double events = 0;
+    guess_contact(state);
+    while (state.time < t_end) {
+        if (n_steps_++ % watch_interval == 0)
+            watch_.step("exact flow", (state.time - begin) / (t_end - begin));
+        const double left = t_end - state.time;
+        double duration = 0;
+        for (int attempt = 0;; ++attempt) {
+            system_.assign(closed_);
+            duration = step_length(left);
+            expand(state, duration);
+            if (attempt == side_corrections || !correct_sides(state, duration)) break;
+        }
+        std::int64_t pair = -1;
+        const double share = first_event(pair);
+        if (recorder) report(state, share, duration, *recorder);
+        move_to(state, share, duration);
+        std::fill(at_zero_.begin(), at_zero_.end(), char(0));
+        if (pair < 0) continue;
+        closed_[pair] = !closed_[pair];
+        at_zero_[pair] = 1;
+        ++n_events_;
+        if (++events > most_events)
+            throw Error(
+                PLM_ERR_CONVERGENCE,
+                format("more than %lld contact events per period, the last one of pair %lld at t = %g s",
+                       static_cast<long long>(event_limit_), static_cast<long long>(pair), state.time))
+                .reason(PLM_REASON_CONTACT_CHATTER)
+                .index(pair);
+    }
+}
+
+// By the penetration alone; pairs at zero get their side from the series.
+void ExactFlow::guess_contact(const FlowState &state) {
+    std::fill(at_zero_.begin(), at_zero_.end(), char(0));
+    vector<double> &u = noise_; // not in use yet
+    for (std::int64_t i = 0; i < model_->n_pairs(); ++i) u[i] = -model_->initial_gap()[i];
+    if (!u.empty()) gemv('N', 1.0, model_->gap(), state.y.data(), 1.0, u.data());
+    for (std::int64_t i = 0; i < model_->n_pairs(); ++i) closed_[i] = ContactLaw::closed(u[i]);
+}
+
+double ExactFlow::step_length(double left) {
+    const double rate = std::max(system_.rate(), fastest_force_);
+    double duration = std::min(left, 0.125 * period());
+    if (rate * duration > longest_step) duration = longest_step / rate;
+    n_terms_ = std::min(taylor_terms(rate * duration, truncation) + 3, max_polynomial_degree + 1);
+    return duration;
+}
+
+// (k + 1)(k + 2) y_{k+2} = duration^2 (f_k - K y_k) - duration (k + 1) C y_{k+1}, powers of s = t / duration.
+void ExactFlow::expand(const FlowState &state, double duration) {
+    const std::int64_t n = model_->size(), z = model_->n_pairs();
+    expand_forces(state.time, duration);
+    coefficient_.reset(n, n_terms_);
+    for (std::int64_t j = 0; j < n; ++j) {
+        coefficient_(j, 0) = state.y[j];
+        coefficient_(j, 1) = duration * state.v[j];
+    }
+    for (std::int64_t k = 2; k < n_terms_; ++k) {
+        const double order = static_cast<double>(k), factor = duration * duration / (order * (order - 1));
+        const double *before = coefficient_.col(k - 1);
+        double *next = coefficient_.col(k);
+        std::copy_n(force_.col(k - 2), n, next);
+        gemv('N', -factor, system_.stiffness(), coefficient_.col(k - 2), factor, next);
+        if (model_->has_diagonal_damping()) {
+            const vector<double> &c = model_->damping_diagonal();
+            for (std::int64_t j = 0; j < n; ++j) next[j] -= duration / order * c[j] * before[j];
+        } else {
+            gemv('N', -duration / order, model_->damping(), before, 1.0, next);
+        }
+    }
+    penetration_.reset(z, n_terms_);
+    if (z == 0) return;
+    gemm('N', 'N', 1.0, model_->gap(), coefficient_, 0.0, penetration_);
+    for (std::int64_t i = 0; i < z; ++i) penetration_(i, 0) -= model_->initial_gap()[i];
+}
+
+// Taylor coefficients of all forces but K y: Re(F_h exp(i h w t)) has F_h exp(i h w t_0) (i h w duration)^k /
+// k!.
+void ExactFlow::expand_forces(double time, double duration) {
+    const std::int64_t n = model_->size();
+    force_.reset(n, n_terms_);
+    for (std::int64_t j = 0; j < n; ++j) force_(j, 0) = model_->preload()[j] + system_.gap_force()[j];
+    for (const auto &[harmonic, load] : model_->excitation()) {
+        const double step = static_cast<double>(harmonic) * omega_ * duration;
+        std::complex<double> z = std::polar(force_scale_, static_cast<double>(harmonic) * omega_ * time);
+        for (std::int64_t k = 0; k + 2 < n_terms_; ++k) {
+            double *f = force_.col(k);
+            for (std::int64_t j = 0; j < n; ++j) f[j] += z.real() * load.real[j];
+            if (harmonic == 0) break;
+            for (std::int64_t j = 0; j < n; ++j) f[j] -= z.imag() * load.imag[j];
+            z *= std::complex<double>(0.0, step / static_cast<double>(k + 1));
+        }
+    }
+}
+
+// The contact set that the motion itself confirms: each pair on the side to which it first moves away from
+// zero. Continuity of the force makes this well defined: a pair that leaves zero by its j-th derivative has
+// no influence on derivatives up to j + 1. True when a pair changed sides.
+bool ExactFlow::correct_sides(const FlowState &state, double duration) {
+    const std::int64_t n = model_->size();
+    const double reach = norm2(n, state.y.data()) + duration * norm2(n, state.v.data());
+    bool changed = false;
+    for (std::int64_t i = 0; i < model_->n_pairs(); ++i) {
+        noise_[i] = rounding * (std::abs(model_->initial_gap()[i]) + row_norm_[i] * reach);
+        sides_[i] = side_of(i, noise_[i]);
+        if (sides_[i].power < 0 || sides_[i].closed == (closed_[i] != 0)) continue;
+        closed_[i] = sides_[i].closed;
+        changed = true;
+    }
+    return changed;
+}
+
+ExactFlow::Side ExactFlow::side_of(std::int64_t pair, double noise) const {
+    for (std::int64_t k = at_zero_[pair] ? 1 : 0; k < n_terms_; ++k) {
+        const double c = penetration_(pair, k);
+        if (std::abs(c) > noise) return {k, ContactLaw::closed(c)};
+    }
+    return {-1, closed_[pair] != 0}; // rests at zero: either side is right
+}
+
+// Share of the piece after which the first pair leaves its side, 1 and pair -1 when none does. A zero at the
+// beginning is divided out, so that it is not found again.
+double ExactFlow::first_event(std::int64_t &pair) {
+    double share = 1;
+    for (std::int64_t i = 0; i < model_->n_pairs(); ++i) {
+        const std::int64_t power = sides_[i].power;
+        if (power < 0) continue;
+        const double sign = closed_[i] ? 1.0 : -1.0, first = sign * penetration_(i, power);
+        if (!(first > 0)) continue; // no side was found that the motion confirms
+        double reach = 0;
+        for (std::int64_t k = power + 1; k < n_terms_; ++k) reach += std::abs(penetration_(i, k));
+        if (first >= reach) continue;
+        double scale = sign; // the rest of the piece is of no interest once an event is known
+        for (std::int64_t k = power; k < n_terms_; ++k, scale *= share)
+            polynomial_[k - power] = scale * penetration_(i, k);
+        const double at = first_crossing(polynomial_.data(), n_terms_ - 1 - power, noise_[i]);
+        if (at < 0) continue;
+        share *= at;
+        pair = i;
+    }
+    return share;
+}
+
+void ExactFlow::move_to(FlowState &state, double share, double duration) {
+    const std::int64_t n = model_->size();
+    std::fill(state.y.begin(), state.y.end(), 0.0);
+    std::fill(state.v.begin(), state.v.end(), 0.0);
+    for (std::int64_t k = n_terms_ - 1; k >= 0; --k) { // Horner for value and derivative
+        const double *c = coefficient_.col(k);
+        for (std::int64_t j = 0; j < n; ++j) {
+            state.v[j] = state.v[j] * share + state.y[j];
+            state.y[j] = state.y[j] * share + c[j];
+        }
+    }
+    for (std::int64_t j = 0; j < n; ++j) state.v[j] /= duration;
+    state.time += share * duration;
+}
+
+void ExactFlow::report(const FlowState &state, double share, double duration, FlowRecorder &recorder) {
+    if (!(share > 0)) return;
+    if (share == 1) {
+        recorder.record({state.time, duration, coefficient_, closed_});
+        return;
+    }
+    shortened_ = coefficient_;
+    double scale = 1;
+    for (std::int64_t k = 0; k < n_terms_; ++k, scale *= share)
+        for (std::int64_t j = 0; j < model_->size(); ++j) shortened_(j, k) *= scale;
+    recorder.record({state.time, share * duration, shortened_, closed_});
+}
+
+void ContactHistory::record(const FlowPiece &piece) {
+    if (intervals_.empty() || intervals_.back().closed != piece.closed)
+        intervals_.push_back({0.0, piece.closed});
+    intervals_.back().duration += piece.duration;
+}
+
+void PeakRecorder::record(const FlowPiece &piece) {
+    const std::int64_t degree = piece.coefficient.cols() - 1;
+    values_.reset(rows_.rows(), degree + 1);
+    if (rows_.rows() == 0) return;
+    gemm('N', 'N', 1.0, rows_, piece.coefficient, 0.0, values_);
+    polynomial_.resize(degree + 1);
+    for (std::int64_t i = 0; i < rows_.rows(); ++i) {
+        for (std::int64_t k = 0; k <= degree; ++k) polynomial_[k] = values_(i, k);
+        peak_[i] = largest_magnitude(polynomial_.data(), degree, peak_[i]);
+    }
+}
+
+} // namespace plm

@@ -1,0 +1,25 @@
+// The monodromy matrix of a piecewise-linear motion: the product of the exponentials of its contact
+// intervals. The contact force is continuous at an event, so no saltation matrix comes in between.
+#pragma once
+#include "linalg/monitor.hpp"
+#include "transient/flow_model.hpp"
+#include <complex>
+
+namespace plm {
+
+/// A time span in which the same pairs are closed (Z flags).
+struct ContactInterval {
+    double duration = 0;
+    vector<char> closed;
+};
+
+/// d(y, y') at the end / d(y, y') at the beginning, 2n x 2n, for a given sequence of contact sets;
+/// `tolerance` bounds the truncation error of each interval. PLM_ERR_ARGUMENT for a wrong number of pairs or
+/// a duration that is not finite and >= 0.
+Matrix monodromy(const FlowModel &model, const std::vector<ContactInterval> &intervals,
+                 double tolerance = 1e-15, Watch watch = Watch());
+
+/// Floquet multipliers: the eigenvalues of a monodromy matrix, largest modulus first.
+vector<std::complex<double>> multipliers(const Matrix &monodromy);
+
+} // namespace plm

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""provoked.py SOURCE BUILD FOLDER CC CXX NM LIBPLM_SO LIBPLM_A SCENARIO_C: every gate bites. Each is given a copy in which
+something is wrong, must refuse it, and must say what. docs/gates.md tells which gate guards what.
+(abi.abidiff, abi.consumers, abi.barrier, host.ilp64 and host.own_solver provoke themselves, too.)"""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+source, build, folder = (pathlib.Path(a).resolve() for a in sys.argv[1:4])
+cc, cxx, nm, library, archive, scenario = sys.argv[4:]
+tests, python = source / "tests", sys.executable
+header = source / "include/plm/plm.h"
+failures, count = [], 0
+
+
+def refused(gate, what, said, *command):
+    """The command must fail and print a line that matches `said`."""
+    global count
+    count += 1
+    done = subprocess.run([str(c) for c in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    line = next((line.strip() for line in done.stdout.splitlines() if re.search(said, line)), None)
+    if done.returncode in (0, 77) or line is None:
+        failures.append(f"{gate}: {what} is NOT refused as it should (exit code {done.returncode}):\n{done.stdout}")
+    else:
+        print(f"{gate}: {what}\n    {line}")
+
+
+def changed(path, old, new, name=None):
+    """A copy of a file with one change."""
+    text = pathlib.Path(path).read_text(encoding="utf-8")
+    out = folder / (name or pathlib.Path(path).name)
+    out.parent.mkdir(parents=True, exist_ok=True)
+    if not re.search(old, text, re.M):
+        sys.exit(f"{path}: nothing matches {old}")
+    out.write_text(re.sub(old, new, text, count=1, flags=re.M), encoding="utf-8")
+    return out
+
+
+def shared_object(name, code, *flags):
+    (folder / f"{name}.c").write_text(code, encoding="utf-8")
+    out = folder / f"{name}.so"
+    subprocess.run([cc, "-shared", "-fPIC", "-Wl,-soname,libplm.so.0", folder / f"{name}.c", *flags, "-o", out], check=True)
+    return out
+
+
+shutil.rmtree(folder, ignore_errors=True)
+folder.mkdir(parents=True)
+NEW = r"PLM_API plm_status plm_model_forget(plm_model *model);\n"
+FIRST = r"^(PLM_API plm_status plm_model_build)"
+grown = changed(header, FIRST, NEW + r"\1", "grown/plm/plm.h")  # a function that nothing else knows
+
+# ---- abi
+ledger = [python, tests / "abi/ledger.py", nm, library, archive]
+symbols = tests / "abi/symbols.txt"
+refused("abi.ledger", "a function in the header alone", "plm_model_forget: in the header, not in the ledger",
+        *ledger, grown, symbols)
+refused("abi.ledger", "a function taken out of the ledger", "plm_hbm_sweep: in the shared object, not in the ledger",
+        *ledger, header, changed(symbols, "^plm_hbm_sweep .*\n", ""))
+refused("abi.ledger", "another version for a function", "plm_hbm_sweep: introduced in 9.9 says the ledger",
+        *ledger, header, changed(symbols, "^plm_hbm_sweep .*", "plm_hbm_sweep 9.9"))
+refused("abi.constants", "a constant with another value", "PLM_TRUNCATED: was 2, is 7", python, tests / "abi/constants.py",
+        tests / "abi/baseline/plm/plm.h", changed(header, "PLM_TRUNCATED 2", "PLM_TRUNCATED 7"))
+shutil.copytree(source / "src/capi", folder / "capi")
+changed(source / "src/capi/context.cpp", r'return call<Context>\("plm_context_set_log"', r"check(ctx); \g<0>", "capi/context.cpp")
+refused("abi.barrier", "work in front of the exception barrier", "plm_context_set_log works outside the barrier", python,
+        tests / "abi/barrier.py", header, folder / "capi")
+changed(header, r"^(typedef int32_t plm_status;)", r"\1 // a comment of C99", "c99/plm/plm.h")
+refused("abi.header", "a comment of C99 in the header", "error: C\\+\\+ style comments|error: // comments|plm.h.*error", "sh",
+        tests / "abi/header.sh", cc, cxx, folder / "c99", folder / "header", library)
+plain = "int plm_x(void); int plm_x(void) { return 0; }\n"
+objects = ["sh", tests / "abi/object.sh"]
+refused("abi.object", "another SONAME", "SONAME is not libplm.so.9", *objects, library, "libplm.so.9", "-")
+refused("abi.object", "an executable stack", "executable stack", *objects,
+        shared_object("stack", plain, "-Wl,-z,execstack"), "libplm.so.0", "-")
+refused("abi.object", "a run path", "a run path of the build machine", *objects,
+        shared_object("rpath", plain, "-Wl,-rpath,/home/me"), "libplm.so.0", "-")
+refused("abi.object", "exported data", "exports data", *objects,
+        shared_object("data", plain + "int plm_counter = 1;\n"), "libplm.so.0", "-")
+refused("abi.object", "a library more than is known", "also needs: libcholmod|also needs: libm|also needs", *objects,
+        shared_object("needs", plain, "-Wl,--no-as-needed", "-lopenblas"), "libplm.so.0", "")
+refused("install.symbols", "an export that is not plm_", "^helper|T helper", "sh", tests / "install/symbols.sh",
+        shared_object("helper", "int helper(void); int helper(void) { return 0; }\n"), "libplm.so.0")
+
+# ---- every function, in every layer
+refused("capi.every_function", "a function no test calls", "plm_model_forget", python, tests / "capi/every_function.py", grown,
+        tests)
+layered = folder / "layered"  # the sources of the layers beside the header that grew
+shutil.copytree(source / "fortran", layered / "fortran")
+shutil.copytree(source / "include", layered / "include")
+shutil.copy(grown, layered / "include/plm/plm.h")
+refused("parity.functions_cpp", "a function plm.hpp lacks", "plm_model_forget", "sh", tests / "parity/functions.sh", cxx,
+        layered / "include")
+refused("fortran.generated", "bind(C) interfaces that lag behind", "not what the header asks for: plm_c.f90", python,
+        layered / "fortran/generate.py", "--check")
+refused("fortran.covers_the_header", "a function the layers lack", "module plm: plm_model_forget", python,
+        tests / "fortran/covers_the_header.py", layered)
+refused("fortran.constants", "another value in plmf.inc", "PLMTRU is 7, PLM_TRUNCATED is 2", python,
+        tests / "fortran/constants.py", header, changed(source / "fortran/plmf.inc", r"PLMTRU = 2", "PLMTRU = 7"))
+refused("fortran.constants", "a constant plmf.inc lacks", "PLM_OFTEN has no six letters", python,
+        tests / "fortran/constants.py", changed(header, r"^#define PLM_TRUNCATED 2", r"#define PLM_OFTEN 2\n\g<0>"),
+        source / "fortran/plmf.inc")
+refused("docs.every_function_has_an_example", "a function without an example", "plm_model_forget: no example", python,
+        tests / "docs/every_function.py", source, grown)
+
+# ---- pages and numbers
+refused("parity.*", "the last bit of one number in one language", "line 90 .*in the reference", python,
+        tests / "parity/compare.py", scenario, "--", "sh", "-c",
+        f"{scenario} | awk 'NR == 90 {{ printf \"%.17g\\n\", $0 * (1 + 2.3e-16); next }} {{ print }}'")
+refused("install.readme", "a recipe that lost its mark", "marks the files", python, tests / "install/recipes.py",
+        changed(source / "README.md", "<!-- run: make -->", ""), folder, folder)
+lister = build / "examples/c/list_keys"
+if lister.exists():
+    refused("examples.keys", "a page of keys that lags behind", "out of date; renew it", python, tests / "examples/keys.py",
+            lister, changed(source / "docs/keys.md", "`n_samples`", "`samples`"))
+doxyfile = build / "docs/Doxyfile"
+if doxyfile.exists() and shutil.which("doxygen"):
+    text = doxyfile.read_text(encoding="utf-8") + f"\nINPUT = {grown}\nOUTPUT_DIRECTORY = {folder}\n"
+    (folder / "Doxyfile").write_text(text, encoding="utf-8")
+    refused("docs.reference", "a function without an example", "plm_model_forget", "doxygen", folder / "Doxyfile")
+
+# ---- hosts
+if shutil.which("valgrind"):
+    (folder / "leak.c").write_text("#include <stdlib.h>\nvoid *volatile p;\nint main(void) { p = malloc(8); p = 0; return 0; }\n",
+                                   encoding="utf-8")
+    subprocess.run([cc, folder / "leak.c", "-o", folder / "leak"], check=True)
+    refused("host.valgrind", "eight bytes lost", "definitely lost: 8 bytes|8 bytes in 1 blocks", "sh",
+            tests / "host/valgrind.sh", folder / "leak")
+
+print("\n".join(failures) or f"{count} provocations, each refused")
+sys.exit(bool(failures))

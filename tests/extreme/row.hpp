@@ -1,0 +1,41 @@
+// A row of the extreme table: one case, its truth, and what the library made of it.
+#pragma once
+#include "solver.hpp"
+#include <functional>
+
+namespace extreme {
+
+/// What one run of a case gave, with the default or with the sampled contact forces.
+struct Measured {
+    double error = 1e300; // against the row's truth; what it is a share of stands in Row::truth
+    std::int32_t reason = PLM_REASON_NONE;
+    std::string outcome;
+    Work work;
+    double time_limit = 0; // seconds that a sweep of `work` may take; 0: any
+};
+
+struct Row {
+    std::string name, parameters;
+    std::string truth;    // what the error is measured against
+    double tolerance = 0; // why this one stands beside the row's definition
+    bool quick = true;    // among the rows ctest runs
+    std::function<Measured(bool sampled)> measure;
+    bool has_sampled = true; // the sampled contact forces can do this case at all
+};
+
+std::vector<Row> stiffness_rows(); // contact stiffness from soft to rigid
+std::vector<Row> limit_rows();     // grazing, forces, damping, harmonics, always open or closed
+std::vector<Row> structure_rows(); // many pairs, rigid-body modes, mass-less DOFs, units, close resonances
+std::vector<Row> basis_rows();     // samples that nearly coincide
+std::vector<Row> standard_rows();  // the literature's oscillator; cold starts on the plate
+
+/// A sweep's end in words.
+Measured outcome_of(const Curve &curve);
+/// Error of the peak amplitude of `dof` against exact periodic orbits started from the curve's own state: the
+/// largest over n_points spread over the curve, the highest one among them.
+double orbit_error(const exact::Structure &s, const Curve &curve, int dof, int n_points, int samples);
+/// Largest relative error of the peak amplitude against the linear answer over all points.
+double linear_error(const exact::Structure &s, const std::vector<bool> &closed, const Curve &curve, int dof,
+                    const std::vector<double> *full_mass = nullptr);
+
+} // namespace extreme

@@ -1,0 +1,326 @@
+// Folds, period doublings, branch points and Neimark-Sacker points of small oscillators against the exact
+// piecewise-linear flow, whose code is independent of the library; the curves that leave there; loops that close.
+#include "hbm/hbm.hpp"
+#include "hbm/trig_polynomial.hpp"
+#include "support/small_reduced.hpp"
+#include "support/test.hpp"
+#include <algorithm>
+#include <vector>
+
+using plm::Branch;
+using plm::HbmOptions;
+using Vec = std::vector<double>;
+
+namespace {
+
+using Model = std::shared_ptr<const plm::ReducedModel>;
+using BranchPtr = std::shared_ptr<const Branch>;
+
+plm::Hbm solver(Model m, const HbmOptions &o, double low, double high) {
+    return plm::Hbm(std::move(m), low / (2 * M_PI), high / (2 * M_PI), o, plm::Watch());
+}
+
+std::vector<std::int64_t> of_kind(const Branch &b, std::int32_t kind) {
+    std::vector<std::int64_t> found;
+    for (std::size_t i = 0; i < b.points().size(); ++i)
+        if (b.points()[i].bifurcation == kind) found.push_back(static_cast<std::int64_t>(i));
+    return found;
+}
+
+// q, q' of every DOF at t = 0
+Vec state_of(const plm::ReducedModel &m, const plm::BranchPoint &p, double response_omega) {
+    Vec s;
+    const std::int64_t n = m.vectors.rows();
+    for (int part = 0; part < 2; ++part)
+        for (std::int64_t dof = 0; dof < n; ++dof) {
+            const auto q = test::displacement(m, p.eta_0, p.eta, dof);
+            const plm::TrigValue v = plm::evaluate_trig(q.data(), p.eta.cols() / 2, 0.0);
+            s.push_back(part == 0 ? v.value : response_omega * v.slope);
+        }
+    return s;
+}
+
+// One degree of freedom: 1 -+ trace + det of the monodromy matrix vanishes with a multiplier at +-1.
+struct Exact {
+    double omega = 0;
+    Vec state;
+};
+double characteristic(const Vec &monodromy, double sign) {
+    return 1 - sign * (monodromy[0] + monodromy[3]) + monodromy[0] * monodromy[3] - monodromy[1] * monodromy[2];
+}
+
+// Residuals of "periodic, with a multiplier at `sign`" in the unknowns q, q', omega.
+Vec residuals(const exact::Structure &s, double sign, const Vec &x) {
+    Vec monodromy;
+    const Vec end = exact::period_map(s, x[2], {x[0], x[1]}, &monodromy);
+    return {end[0] - x[0], end[1] - x[1], characteristic(monodromy, sign)};
+}
+
+Vec solve3(std::vector<Vec> a, Vec b) {
+    for (int k = 0; k < 3; ++k) {
+        int p = k;
+        for (int i = k + 1; i < 3; ++i)
+            if (std::abs(a[i][k]) > std::abs(a[p][k])) p = i;
+        std::swap(a[k], a[p]);
+        std::swap(b[k], b[p]);
+        for (int i = k + 1; i < 3; ++i) {
+            const double f = a[i][k] / a[k][k];
+            for (int j = k; j < 3; ++j) a[i][j] -= f * a[k][j];
+            b[i] -= f * b[k];
+        }
+    }
+    for (int i = 2; i >= 0; --i) {
+        for (int j = i + 1; j < 3; ++j) b[i] -= a[i][j] * b[j];
+        b[i] /= a[i][i];
+    }
+    return b;
+}
+
+// Newton with central differences; NaN when it does not converge.
+double exact_bifurcation(const exact::Structure &s, double sign, const Vec &state, double omega) {
+    Vec x = {state[0], state[1], omega};
+    for (int k = 0; k < 12; ++k) {
+        const Vec r = residuals(s, sign, x);
+        std::vector<Vec> a(3, Vec(3));
+        for (int j = 0; j < 3; ++j) {
+            const double h = 1e-6 * std::max(std::abs(x[j]), 1e-2);
+            Vec up = x, down = x;
+            up[j] += h;
+            down[j] -= h;
+            const Vec ru = residuals(s, sign, up), rd = residuals(s, sign, down);
+            for (int i = 0; i < 3; ++i) a[i][j] = (ru[i] - rd[i]) / (2 * h);
+        }
+        const Vec step = solve3(a, r);
+        for (int j = 0; j < 3; ++j) x[j] -= step[j];
+        if (std::abs(step[2]) < 1e-12 * omega && std::abs(step[0]) < 1e-10) return x[2];
+    }
+    return NAN;
+}
+
+// Largest relative error of the frequencies of all points of a kind.
+struct Located {
+    int n = 0;
+    double error = 0;
+};
+Located errors_of(const exact::Structure &s, std::int32_t kind, double sign, double low, double high, int harmonics) {
+    const Model m = test::reduce_exactly(s);
+    HbmOptions o;
+    o.n_harmonics = harmonics;
+    const BranchPtr branch = solver(m, o, low, high).sweep();
+    Located found;
+    for (std::int64_t i : of_kind(*branch, kind)) {
+        const plm::BranchPoint &p = branch->points()[i];
+        const double truth = exact_bifurcation(s, sign, state_of(*m, p, p.omega), p.omega);
+        const double error = std::abs(p.omega / truth - 1);
+        std::printf("    kind %d at %.9f, exact %.9f\n", kind, p.omega, truth);
+        found.error = std::isfinite(error) ? std::max(found.error, error) : 1e300;
+        ++found.n;
+    }
+    return found;
+}
+
+void period_doublings_of_the_bilinear_oscillator_are_exact(void **) {
+    const Located f = errors_of(test::bilinear_oscillator(0.02, 3, 0, 1, 0), PLM_BIFURCATION_PERIOD_DOUBLING, -1, 2.0,
+                                3.8, 60);
+    assert_int_equal(f.n, 2);
+    assert_true(below(f.error, 1e-6));
+}
+
+void folds_of_the_bilinear_oscillator_are_exact(void **) {
+    const Located f = errors_of(test::bilinear_oscillator(0.01, 3, 1.0, 0.1, 0), PLM_BIFURCATION_FOLD, 1, 0.9, 1.5, 60);
+    assert_true(f.n >= 2);
+    assert_true(below(f.error, 1e-6));
+}
+
+// Between two stops the response loses its symmetry. The exact value: the characteristic along the symmetric
+// orbits changes sign; interpolated between exact orbits on both sides.
+exact::Structure two_stops() {
+    exact::Structure s = test::bilinear_oscillator(0.05, 10, 0.2, 1, 0);
+    s.z = 2;
+    s.gap_rows = {1, -1};
+    s.gap = {0.2, 0.2};
+    s.contact_stiffness = {10, 10};
+    return s;
+}
+double exact_symmetry_breaking(const exact::Structure &s, const Vec &state, double omega) {
+    double x[3], y[3];
+    for (int k = 0; k < 3; ++k) {
+        x[k] = omega + (k - 1) * 3e-4;
+        const exact::Orbit orbit = exact::periodic_orbit(s, x[k], state, 0, 400);
+        if (!orbit.converged) return NAN;
+        Vec monodromy;
+        exact::period_map(s, x[k], orbit.start, &monodromy);
+        y[k] = characteristic(monodromy, 1);
+    }
+    double zero = 0; // inverse quadratic interpolation
+    for (int k = 0; k < 3; ++k) {
+        double l = x[k];
+        for (int j = 0; j < 3; ++j)
+            if (j != k) l *= y[j] / (y[j] - y[k]);
+        zero += l;
+    }
+    return zero;
+}
+struct Symmetry {
+    double error = 1e300, asymmetry = 0, mirrored = 0, orbit_defect = 1e300;
+    std::int32_t reason = 0;
+};
+Symmetry symmetry_breaking() {
+    const exact::Structure s = two_stops();
+    const Model m = test::reduce_exactly(s);
+    HbmOptions o;
+    o.n_harmonics = 60;
+    const plm::Hbm hbm = solver(m, o, 1.2, 2.0);
+    const BranchPtr branch = hbm.sweep();
+    Symmetry found;
+    const auto points = of_kind(*branch, PLM_BIFURCATION_BRANCH_POINT);
+    if (points.size() != 1) return found;
+    const plm::BranchPoint &p = branch->points()[points[0]];
+    const double truth = exact_symmetry_breaking(s, state_of(*m, p, p.omega), p.omega);
+    std::printf("    branch point at %.9f, exact %.9f\n", p.omega, truth);
+    found.error = std::abs(p.omega / truth - 1);
+    // The asymmetric curve, both sides, and one of its points followed exactly.
+    const BranchPtr left = hbm.switch_branch(*branch, points[0], false),
+                    right = hbm.switch_branch(*branch, points[0], true);
+    found.reason = left->end_reason;
+    const auto mean = [&](const plm::BranchPoint &q) { return q.eta_0[0] * m->vectors(0, 0); };
+    for (const auto &q : left->points()) found.asymmetry = std::max(found.asymmetry, std::abs(mean(q)));
+    found.mirrored = mean(left->points()[1]) * mean(right->points()[1]);
+    const plm::BranchPoint &q = left->points()[left->points().size() / 4];
+    const Vec start = state_of(*m, q, q.omega), end = exact::period_map(s, q.omega, start, nullptr);
+    found.orbit_defect = std::hypot(end[0] - start[0], (end[1] - start[1]) / q.omega) / std::abs(start[0]);
+    return found;
+}
+void symmetry_breaking_is_exact_and_both_sides_are_found(void **) {
+    const Symmetry f = symmetry_breaking();
+    assert_true(below(f.error, 1e-6));
+    assert_true(f.asymmetry > 0.01);
+    assert_true(f.mirrored < 0);
+    assert_true(below(f.orbit_defect, 1e-3)); // the truncation at H = 60, carried over one period
+}
+
+// The doubled orbit repeats after two periods of the excitation and not after one, by the exact flow.
+struct Doubled {
+    double after_one = 0, after_two = 1e300;
+    std::int64_t multiple = 0;
+    std::int32_t reason = 0;
+};
+Doubled doubled_orbit() {
+    const exact::Structure s = test::bilinear_oscillator(0.02, 3, 0, 1, 0);
+    const Model m = test::reduce_exactly(s);
+    HbmOptions o;
+    o.n_harmonics = 20;
+    const plm::Hbm hbm = solver(m, o, 2.0, 3.8);
+    const BranchPtr branch = hbm.sweep();
+    Doubled d;
+    const auto points = of_kind(*branch, PLM_BIFURCATION_PERIOD_DOUBLING);
+    if (points.empty()) return d;
+    const BranchPtr doubled = hbm.switch_branch(*branch, points.back(), false);
+    d.multiple = doubled->period_multiple();
+    d.reason = doubled->end_reason;
+    const plm::BranchPoint &p = doubled->points()[doubled->points().size() / 4];
+    const Vec start = state_of(*m, p, p.omega / 2), once = exact::period_map(s, p.omega, start, nullptr),
+              twice = exact::period_map(s, p.omega, once, nullptr);
+    const auto distance = [&](const Vec &a) {
+        return std::hypot(a[0] - start[0], (a[1] - start[1]) / p.omega) /
+               std::hypot(start[0], start[1] / p.omega);
+    };
+    d.after_one = distance(once);
+    d.after_two = distance(twice);
+    return d;
+}
+void the_doubled_response_repeats_after_two_periods(void **) {
+    const Doubled d = doubled_orbit();
+    assert_int_equal(d.multiple, 2);
+    assert_int_equal(d.reason, PLM_REASON_LOOP_CLOSED); // back through the other period doubling
+    assert_true(d.after_one > 0.1);
+    assert_true(below(d.after_two, 1e-4)); // the truncation at 20 harmonics
+}
+
+// Eigenvalues of the exact monodromy matrix of a 2-DOF orbit: |mu|^2 of the complex pair from its characteristic
+// polynomial, by the largest modulus of powers of the matrix.
+double spectral_radius(Vec a, int n) {
+    double log_scale = 0;
+    int power = 1;
+    for (int k = 0; k < 30; ++k) { // a^(2^30), scaled
+        Vec b(a.size(), 0.0);
+        double size = 0;
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; j < n; ++j) {
+                for (int l = 0; l < n; ++l) b[i * n + j] += a[i * n + l] * a[l * n + j];
+                size = std::max(size, std::abs(b[i * n + j]));
+            }
+        for (double &v : b) v /= size;
+        log_scale = 2 * log_scale + std::log(size);
+        a = b;
+        power *= 2;
+    }
+    return std::exp(log_scale / power);
+}
+// Largest modulus of the exact orbit's multipliers; `state` is the first guess and becomes the orbit's.
+double exact_radius(const exact::Structure &s, double omega, Vec &state) {
+    const exact::Orbit orbit = exact::periodic_orbit(s, omega, state, 0, 400);
+    if (!orbit.converged) return NAN;
+    state = orbit.start;
+    Vec monodromy;
+    exact::period_map(s, omega, state, &monodromy);
+    return spectral_radius(monodromy, 2 * s.n);
+}
+// Where it passes 1, by secants.
+double exact_torus(const exact::Structure &s, double omega, Vec state) {
+    double a = omega, b = omega * (1 + 1e-4), fa = exact_radius(s, a, state) - 1, fb = exact_radius(s, b, state) - 1;
+    for (int k = 0; k < 20 && std::abs(b - a) > 1e-10; ++k) {
+        const double c = b - fb * (b - a) / (fb - fa);
+        a = b, fa = fb;
+        b = c, fb = exact_radius(s, b, state) - 1;
+    }
+    return std::abs(fb) < 1e-8 ? b : NAN;
+}
+struct Torus {
+    std::size_t n = 0;
+    double error = 0;
+};
+Torus neimark_sacker() {
+    exact::Structure s; // two unit masses, unit springs, a stop of stiffness 100 at distance 1
+    s.n = 2;
+    s.z = 1;
+    s.mass = {1, 1};
+    s.stiffness = {2, -1, -1, 1};
+    s.damping = {0.06, -0.03, -0.03, 0.03};
+    s.gap_rows = {1, 0};
+    s.contact_stiffness = {100};
+    s.gap = {1};
+    s.force = {0, 0.1};
+    s.preload = {0, 0};
+    const Model m = test::reduce_exactly(s);
+    HbmOptions o;
+    o.n_harmonics = 60;
+    const BranchPtr branch = solver(m, o, 0.575, 0.72).sweep();
+    Torus t;
+    for (std::int64_t i : of_kind(*branch, PLM_BIFURCATION_NEIMARK_SACKER)) {
+        const plm::BranchPoint &p = branch->points()[i];
+        const double truth = exact_torus(s, p.omega, state_of(*m, p, p.omega));
+        std::printf("    Neimark-Sacker at %.8f, exact %.8f\n", p.omega, truth);
+        t.error = std::isfinite(truth) ? std::max(t.error, std::abs(p.omega / truth - 1)) : 1e300;
+        ++t.n;
+    }
+    return t;
+}
+void neimark_sacker_points_agree_with_the_exact_flow(void **) {
+    const Torus t = neimark_sacker();
+    assert_true(t.n >= 1);
+    assert_true(below(t.error, 1e-3)); // hits at a stiff stop converge slowly in H; the flow is exact for their instants
+}
+
+} // namespace
+
+int main() {
+    const CMUnitTest tests[] = {
+        cmocka_unit_test(period_doublings_of_the_bilinear_oscillator_are_exact),
+        cmocka_unit_test(folds_of_the_bilinear_oscillator_are_exact),
+        cmocka_unit_test(symmetry_breaking_is_exact_and_both_sides_are_found),
+        cmocka_unit_test(the_doubled_response_repeats_after_two_periods),
+        cmocka_unit_test(neimark_sacker_points_agree_with_the_exact_flow),
+    };
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

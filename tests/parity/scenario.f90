@@ -1,0 +1,145 @@
+! scenario.f90: the scene of scenario.c in modern Fortran. DOFs, pairs and points count from 1 here.
+program scenario
+    use, intrinsic :: iso_fortran_env, only: real64, output_unit
+    use plm
+    implicit none
+    integer, parameter :: n_masses = 10, n_harmonics = 5, n_times = 8, watched = 8
+    type(plm_context) :: context
+    type(plm_model) :: model
+    type(plm_basis) :: basis
+
+    call context%create()
+    call make_model(context, model)
+    call show_model(model)
+    call make_basis(model, basis)
+    call show_response(basis)
+    call context%destroy()
+
+contains
+
+    subroutine show(name, values)
+        character(len=*), intent(in) :: name
+        real(real64), intent(in) :: values(:)
+        write (output_unit, '(a)') name
+        write (output_unit, '(es24.16e3)') values
+    end subroutine show
+
+    subroutine show_integers(name, values)
+        character(len=*), intent(in) :: name
+        integer, intent(in) :: values(:)
+        write (output_unit, '(a)') name
+        write (output_unit, '(i0)') values
+    end subroutine show_integers
+
+    subroutine make_model(context, model)
+        type(plm_context), intent(in) :: context
+        type(plm_model), intent(inout) :: model
+        real(real64) :: force(n_masses), preload(n_masses)
+        integer :: i
+        call model%create(context, n_masses)
+        call model%set_triplets(PLM_MASS, PLM_LOWER, [(i, i=1, n_masses)], [(i, i=1, n_masses)], &
+            [(1.0_real64, i=1, n_masses)])
+        call model%set_triplets(PLM_STIFFNESS, PLM_LOWER, [(i, i=1, n_masses), (i, i=2, n_masses)], &
+            [(i, i=1, n_masses), (i - 1, i=2, n_masses)], &
+            [(2e4_real64, i=1, n_masses - 1), 1e4_real64, (-1e4_real64, i=2, n_masses)])
+        call model%set_rayleigh_damping(0.5_real64, 0.0002_real64)
+        call model%add_gap_rows([1, 3, 4], [3, 6, 9], [1.0_real64, -1.0_real64, 1.0_real64], &
+            [PLM_AUTO_STIFFNESS, 2e4_real64], [0.0_real64, 0.001_real64])
+        force = 0
+        force(5) = 10
+        preload = 0
+        preload(9) = 5
+        call model%set_preload(preload)
+        call model%set_excitation(1, force)
+        call model%build()
+    end subroutine make_model
+
+    subroutine show_model(model)
+        type(plm_model), intent(inout) :: model
+        real(real64), allocatable :: values(:)
+        real(real64) :: hz(3)
+        integer :: n
+        call model%get('n_free', n)
+        call show_integers('n_free', [n])
+        call model%get('contact_stiffness', values)
+        call show('contact_stiffness', values)
+        call model%solve_rest()
+        call model%get('rest_displacement', values)
+        call show('rest_displacement', values)
+        call model%modes(PLM_SYSTEM_OPEN, hz)
+        call show('open_hz', hz)
+        call model%modes(PLM_SYSTEM_SLIDING, hz)
+        call show('sliding_hz', hz)
+    end subroutine show_model
+
+    subroutine make_basis(model, basis)
+        type(plm_model), intent(in) :: model
+        type(plm_basis), intent(inout) :: basis
+        type(plm_sampler) :: sampler
+        real(real64), allocatable :: values(:)
+        integer, allocatable :: closed(:)
+        real(real64) :: blf_hz
+        call sampler%create(model)
+        call sampler%set('system', 'open')
+        call sampler%set('mode', 1)
+        call sampler%set('n_samples', 3)
+        call sampler%run()
+        call sampler%get('blf_hz', blf_hz)
+        call show('blf_hz', [blf_hz])
+        call sampler%get('sweep_alpha', values)
+        call show('sweep_alpha', values)
+        call sampler%get('selected_samples', closed)
+        call show_integers('selected_samples', closed)
+        call basis%create(model)
+        call basis%set_sampler(sampler)
+        call basis%set('n_harmonics', n_harmonics)
+        call basis%build()
+        call basis%get('singular_values', values)
+        call show('singular_values', values)
+        call sampler%destroy()
+    end subroutine make_basis
+
+    subroutine show_response(basis)
+        type(plm_basis), intent(in) :: basis
+        type(plm_hbm) :: hbm
+        type(plm_branch) :: curve, peak
+        real(real64), allocatable :: values(:)
+        real(real64) :: hz, amplitude
+        integer :: n
+        call hbm%create(basis)
+        call hbm%set('n_harmonics', n_harmonics)
+        call hbm%set('unknowns', 'modal')
+        call hbm%set('max_step', 0.05_real64)
+        call hbm%sweep(curve)
+        call curve%get('n_points', n)
+        call show_integers('n_points', [n])
+        call curve%get('frequency_hz', values)
+        call show('frequency_hz', values)
+        call curve%amplitude(watched, values, PLM_HALF_PEAK_TO_PEAK)
+        call show('amplitude', values)
+        call hbm%find_peak(curve, watched, hz, amplitude, PLM_HALF_PEAK_TO_PEAK, peak=peak)
+        call show('peak', [hz, amplitude])
+        call show_point(peak, 1)
+    end subroutine show_response
+
+    subroutine show_point(branch, point)
+        type(plm_branch), intent(in) :: branch
+        integer, intent(in) :: point
+        real(real64), allocatable :: coefficient(:, :), penetration(:, :), force(:, :), share(:)
+        logical, allocatable :: closed(:, :)
+        real(real64) :: q(n_masses), residual
+        call branch%coefficients(point, watched, coefficient)
+        call show('coefficients', coefficient(:, 1))
+        call branch%field(point, 0.25_real64, q)
+        call show('field', q)
+        call branch%contact(point, n_times, penetration, force, closed)
+        call show('penetration', [penetration])
+        call show('force', [force])
+        call show_integers('closed', merge(1, 0, [closed]))
+        call branch%closed_share(point, share)
+        call show('closed_share', share)
+        call branch%full_residual(point, residual)
+        call show('full_residual', [residual])
+    end subroutine show_point
+
+end program scenario
