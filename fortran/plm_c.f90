@@ -38,6 +38,11 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_REASON_NO_EQUILIBRIUM = 10_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_LOOP_CLOSED = 11_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_BASIS_TOO_SMALL = 12_c_int32_t
+    integer(c_int32_t), parameter :: PLM_BIFURCATION_NONE = 0_c_int32_t
+    integer(c_int32_t), parameter :: PLM_BIFURCATION_FOLD = 1_c_int32_t
+    integer(c_int32_t), parameter :: PLM_BIFURCATION_BRANCH_POINT = 2_c_int32_t
+    integer(c_int32_t), parameter :: PLM_BIFURCATION_PERIOD_DOUBLING = 3_c_int32_t
+    integer(c_int32_t), parameter :: PLM_BIFURCATION_NEIMARK_SACKER = 4_c_int32_t
     integer(c_int32_t), parameter :: PLM_KIND_MODEL = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_KIND_SAMPLER = 2_c_int32_t
     integer(c_int32_t), parameter :: PLM_KIND_BASIS = 3_c_int32_t

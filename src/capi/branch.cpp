@@ -153,6 +153,33 @@ plm_status plm_branch_get_closed_share(plm_branch *branch, std::int64_t point, s
     });
 }
 
+plm_status plm_branch_get_multipliers(plm_branch *branch, std::int64_t point, std::int64_t capacity, double *real,
+                                      double *imag, std::int64_t *count) {
+    return call<BranchHandle>("plm_branch_get_multipliers", branch, [&](BranchHandle &b) {
+        require_point(*b.core, point);
+        if (capacity > 0) {
+            require_pointer(real, "real");
+            require_pointer(imag, "imag");
+        }
+        plm::vector<double> parts[2];
+        for (const std::complex<double> &m : b.core->points()[static_cast<std::size_t>(point)].multipliers) {
+            parts[0].push_back(m.real());
+            parts[1].push_back(m.imag());
+        }
+        put_array(parts[0], capacity, real, count);
+        return put_array(parts[1], capacity, imag, count);
+    });
+}
+
+plm_status plm_branch_get_periodicity_defect(plm_branch *branch, std::int64_t point, double *defect) {
+    return call<BranchHandle>("plm_branch_get_periodicity_defect", branch, [&](BranchHandle &b) {
+        require_point(*b.core, point);
+        require_pointer(defect, "defect");
+        *defect = b.core->periodicity_defect(point);
+        return PLM_OK;
+    });
+}
+
 plm_status plm_branch_get_full_residual(plm_branch *branch, std::int64_t point, double *relative_residual) {
     return call<BranchHandle>("plm_branch_get_full_residual", branch, [&](BranchHandle &b) {
         require_point(*b.core, point);

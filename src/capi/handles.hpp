@@ -3,6 +3,7 @@
 #pragma once
 #include "capi/context.hpp"
 #include "hbm/hbm.hpp"
+#include "hbm/isolated.hpp"
 #include "model/audit.hpp"
 #include "model/rest.hpp"
 #include "reduction/basis.hpp"
@@ -57,6 +58,12 @@ struct BasisHandle final : HandleOf<plm_basis, Kind::basis> {
     std::shared_ptr<const Basis> core;
 };
 
+/// A curve found by a search, and the force scales between which it exists (NaN: unknown).
+struct FoundBranch {
+    std::shared_ptr<const Branch> branch;
+    double force_low, force_high;
+};
+
 struct HbmHandle final : HandleOf<plm_hbm, Kind::hbm> {
     HbmHandle(std::shared_ptr<Context> c, std::shared_ptr<BasisHandle> b)
         : HandleOf(std::move(c)), basis(std::move(b)) {}
@@ -64,6 +71,7 @@ struct HbmHandle final : HandleOf<plm_hbm, Kind::hbm> {
 
     std::shared_ptr<BasisHandle> basis;
     HbmOptions hbm_options;
+    std::vector<FoundBranch> found; // by the last plm_hbm_find_...
 };
 
 struct BranchHandle final : HandleOf<plm_branch, Kind::branch> {

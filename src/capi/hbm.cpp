@@ -2,13 +2,10 @@
 #include "capi/barrier.hpp"
 #include "capi/branch_end.hpp"
 #include "capi/branch_input.hpp"
+#include "capi/hbm_input.hpp"
 
 namespace plm::capi {
-namespace {
 
-using BranchPtr = std::shared_ptr<const Branch>;
-
-/// A solver with the options as they are now.
 Hbm solver(const HbmHandle &h) {
     const Basis &basis = *built(*h.basis);
     return Hbm(basis.reduced(), basis.window_min_hz(), basis.window_max_hz(), h.hbm_options,
@@ -19,7 +16,6 @@ plm_branch *publish_branch(const HbmHandle &h, BranchPtr core) {
     return publish(std::make_shared<BranchHandle>(h.owner, std::move(core)));
 }
 
-/// A branch among the arguments: of the same reduced model, since its coordinates mean nothing in another.
 std::shared_ptr<BranchHandle> own_branch(const HbmHandle &h, const plm_branch *branch, const char *name) {
     std::shared_ptr<BranchHandle> b = same_context<BranchHandle>(h, branch, name);
     if (b->core->reduced_model() != built(*h.basis)->reduced())
@@ -31,7 +27,6 @@ std::shared_ptr<BranchHandle> own_branch(const HbmHandle &h, const plm_branch *b
     return b;
 }
 
-} // namespace
 } // namespace plm::capi
 
 using namespace plm::capi;
@@ -69,11 +64,6 @@ plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, s
         if (start) {
             first = own_branch(h, start, "start");
             require_point(*first->core, point);
-            if (first->core->n_harmonics() != h.hbm_options.n_harmonics)
-                bad_argument("start", -1,
-                             plm::format("start has %lld harmonics, this hbm %lld; set n_harmonics alike",
-                                         static_cast<long long>(first->core->n_harmonics()),
-                                         static_cast<long long>(h.hbm_options.n_harmonics)));
         }
         BranchPtr found = solver(h).solve(frequency_hz, first ? first->core.get() : nullptr, point);
         const plm_status status = end_status(found->end_reason);

@@ -85,13 +85,13 @@ const std::vector<Key> &branch_keys() {
                   [](const B &b) { return per_point<Ints>(b, [](auto &p) { return p.iterations; }); }),
         result<B>("n_switching", "pairs that open and close in the period, of every point",
                   [](const B &b) { return per_point<Ints>(b, [](auto &p) { return p.n_switching; }); }),
-        result<B>("harmonics", "harmonics every point was solved for",
+        result<B>("point_harmonics", "harmonics every point was solved for",
                   [](const B &b) { return per_point<Ints>(b, [](auto &p) { return p.n_harmonics; }); }),
         result<B>("harmonic_tail", "share of the next harmonics in the motion of the gaps, of every point; -1: unknown",
                   [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.harmonic_tail; }); }),
         result<B>("period_multiple", "excitation periods in a period of the response; harmonics count from the latter",
                   [](const B &b) { return built(b)->period_multiple(); }),
-        result<B>("force_scales", "factor on the excitation of every point",
+        result<B>("point_force_scale", "factor on the excitation of every point",
                   [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.force_scale; }); }),
         result<B>("bifurcation", "PLM_BIFURCATION_... of every point", [](const B &b) {
             return per_point<Ints>(b, [](auto &p) { return static_cast<std::int64_t>(p.bifurcation); });

@@ -1,6 +1,7 @@
 #include "hbm/branch.hpp"
 #include "hbm/contact_force.hpp"
 #include "hbm/trig_polynomial.hpp"
+#include "transient/shooting.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -99,6 +100,14 @@ Matrix Branch::penetration_coefficients(std::int64_t point) const {
         for (std::int64_t k = 0; k < 2 * n_harmonics_; ++k) u(k + 1, i) = dynamic(i, k);
     }
     return u;
+}
+
+double Branch::periodicity_defect(std::int64_t point) const {
+    const BranchPoint &p = points_[point];
+    const auto model = std::make_shared<const FlowModel>(reduced_, p.omega);
+    ExactFlow flow(model, p.omega, p.force_scale);
+    const double response_omega = p.omega / static_cast<double>(period_multiple_);
+    return plm::periodicity_defect(flow, model->state(p.eta_0, p.eta, response_omega, 0.0), period_multiple_);
 }
 
 vector<double> Branch::closed_share(std::int64_t point) const {

@@ -13,7 +13,7 @@ enum class StabilityKind { off, automatic, floquet };
 struct HbmOptions {
     std::int64_t n_harmonics = 0;                    // 0: as many as each point needs
     std::int64_t max_harmonics = 60;                 // n_harmonics = 0 only
-    double harmonic_tolerance = 1e-3;                // n_harmonics = 0: allowed share of the next harmonics
+    double harmonic_tolerance = 5e-4;                // n_harmonics = 0: allowed share of the next harmonics
     bool tail_correction = false;                    // adds the next harmonics that follow from the exact force
     std::int64_t period_multiple = 1;                // response period over excitation period
     AftKind aft = AftKind::event;
@@ -38,6 +38,9 @@ struct Peak {
     std::shared_ptr<const Branch> branch; // one point
 };
 
+struct IsolatedSearch; // isolated.hpp
+struct Backbone;       // phase_resonance.hpp
+
 class Hbm {
   public:
     Hbm(std::shared_ptr<const ReducedModel> reduced, double window_min_hz, double window_max_hz,
@@ -53,6 +56,12 @@ class Hbm {
     /// The curve that crosses a located branch point of `branch`, or leaves a period doubling (with twice the
     /// period); `mirrored` takes the other side.
     std::shared_ptr<const Branch> switch_branch(const Branch &branch, std::int64_t point, bool mirrored) const;
+
+    /// See plm_hbm_find_isolated, plm_hbm_find_backbones, plm_hbm_track_fold.
+    IsolatedSearch find_isolated(const Branch &main, double force_max) const;
+    std::vector<Backbone> find_backbones(double force_max) const;
+    std::shared_ptr<const Branch> track_fold(const Branch &branch, std::int64_t point, double force_min,
+                                             double force_max) const;
 
   private:
     using Clock = std::chrono::steady_clock;

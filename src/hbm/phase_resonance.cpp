@@ -215,7 +215,12 @@ Backbone PhaseResonance::through(const BranchPoint &point) const {
         p.arclength += below.back().arclength;
         all.branch->append(std::move(p));
     }
+    if (point.force_scale == options_.hbm.force_scale) all.crossings.push_back(joint);
     for (std::size_t i : up.crossings) all.crossings.push_back(joint + i);
+    all.branch->newton_iterations = down.branch->newton_iterations + up.branch->newton_iterations;
+    all.branch->factorizations = down.branch->factorizations + up.branch->factorizations;
+    all.branch->failed_steps = down.branch->failed_steps + up.branch->failed_steps;
+    all.branch->space_used = up.branch->space_used;
     return all;
 }
 

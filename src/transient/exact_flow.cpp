@@ -11,6 +11,7 @@ constexpr double longest_step = 2.0; // rate x duration of a piece: about 26 ter
 constexpr double truncation = 1e-17;
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr std::int64_t watch_interval = 64; // pieces
+constexpr double no_progress = 1e-12;       // share of a piece
 constexpr int side_corrections = 8; // one is usual; more when pairs that rest at zero act on each other
 
 } // namespace
@@ -18,8 +19,7 @@ constexpr int side_corrections = 8; // one is usual; more when pairs that rest a
 ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, double force_scale, Watch watch)
     : model_(std::move(model)), omega_(omega), force_scale_(force_scale), watch_(watch), system_(*model_),
       closed_(model_->n_pairs()), at_zero_(model_->n_pairs()), row_norm_(model_->n_pairs()),
-      noise_(model_->n_pairs()), sides_(model_->n_pairs()), polynomial_(max_polynomial_degree + 1),
-      event_limit_(1000 + 100 * model_->n_pairs()) {
+      noise_(model_->n_pairs()), sides_(model_->n_pairs()), polynomial_(max_polynomial_degree + 1) {
     if (!(omega > 0 && std::isfinite(omega) && std::isfinite(force_scale)))
         throw Error(PLM_ERR_ARGUMENT, "the flow needs a positive, finite frequency and a finite force scale")
             .argument("omega");
@@ -30,6 +30,10 @@ ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, doubl
         for (std::int64_t j = 0; j < model_->size(); ++j) sum += model_->gap()(i, j) * model_->gap()(i, j);
         row_norm_[i] = std::sqrt(sum);
     }
+    closed_.assign(closed_.size(), 1);
+    system_.assign(closed_);
+    const double pairs = static_cast<double>(model_->n_pairs()), switches = system_.rate() * period() / M_PI;
+    event_limit_ = static_cast<std::int64_t>(std::min(1000 + pairs * (100 + switches), 1e15));
 }
 
 void ExactFlow::check(const FlowState &state, double t_end) const {
@@ -49,9 +53,8 @@ void ExactFlow::check(const FlowState &state, double t_end) const {
 void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) {
     check(state, t_end);
     const double begin = state.time;
-    const double periods = std::max(1.0, std::ceil((t_end - begin) / period()));
-    const double most_events = static_cast<double>(event_limit_) * periods;
-    double events = 0;
+    events_left_ = static_cast<double>(event_limit_) * std::max(1.0, std::ceil((t_end - begin) / period()));
+    stalled_ = 0;
     guess_contact(state);
     while (state.time < t_end) {
         if (n_steps_++ % watch_interval == 0)
@@ -69,18 +72,22 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
         if (recorder) report(state, share, duration, *recorder);
         move_to(state, share, duration);
         std::fill(at_zero_.begin(), at_zero_.end(), char(0));
-        if (pair < 0) continue;
-        closed_[pair] = !closed_[pair];
-        at_zero_[pair] = 1;
-        ++n_events_;
-        if (++events > most_events)
-            throw Error(
-                PLM_ERR_CONVERGENCE,
-                format("more than %lld contact events per period, the last one of pair %lld at t = %g s",
-                       static_cast<long long>(event_limit_), static_cast<long long>(pair), state.time))
-                .reason(PLM_REASON_CONTACT_CHATTER)
-                .index(pair);
+        if (pair >= 0) switch_pair(pair, share, state.time);
     }
+}
+
+void ExactFlow::switch_pair(std::int64_t pair, double share, double time) {
+    closed_[pair] = !closed_[pair];
+    at_zero_[pair] = 1;
+    ++n_events_;
+    stalled_ = share > no_progress ? 0 : stalled_ + 1;
+    if (--events_left_ >= 0 && stalled_ <= 100 + 20 * model_->n_pairs()) return;
+    throw Error(PLM_ERR_CONVERGENCE,
+                stalled_ > 0 ? format("contact events follow each other without end at t = %g s", time)
+                             : format("more than %lld contact events per period; the last one at t = %g s",
+                                      static_cast<long long>(event_limit_), time))
+        .reason(PLM_REASON_CONTACT_CHATTER)
+        .index(pair);
 }
 
 // By the penetration alone; pairs at zero get their side from the series.

@@ -30,8 +30,9 @@ class ExactFlow {
               Watch watch = Watch());
 
     /// Advances the state to t_end >= state.time. A recorder, if any, sees every piece in order.
-    /// PLM_ERR_CONVERGENCE with PLM_REASON_CONTACT_CHATTER when there are more events than event_limit() per
-    /// period; PLM_ERR_ARGUMENT for wrong sizes, NaN or Inf; PLM_CANCELLED.
+    /// PLM_ERR_CONVERGENCE with PLM_REASON_CONTACT_CHATTER and the pair as index when events follow each
+    /// other without time going on, or when there are more of them than event_limit() per period;
+    /// PLM_ERR_ARGUMENT for wrong sizes, NaN or Inf; PLM_CANCELLED.
     void advance(FlowState &state, double t_end, FlowRecorder *recorder = nullptr);
 
     const FlowModel &model() const { return *model_; }
@@ -40,6 +41,7 @@ class ExactFlow {
     const vector<char> &closed() const { return closed_; } // the present contact set
     std::int64_t n_events() const { return n_events_; }    // since construction
     std::int64_t n_steps() const { return n_steps_; }
+    /// By default each pair may switch twice per oscillation of the fastest motion, and some more.
     std::int64_t event_limit() const { return event_limit_; }
     void set_event_limit(std::int64_t per_period) { event_limit_ = per_period; }
 
@@ -58,6 +60,7 @@ class ExactFlow {
     bool correct_sides(const FlowState &state, double duration);
     Side side_of(std::int64_t pair, double noise) const;
     double first_event(std::int64_t &pair);
+    void switch_pair(std::int64_t pair, double share, double time);
     void move_to(FlowState &state, double share, double duration);
     void report(const FlowState &state, double share, double duration, FlowRecorder &recorder);
 
@@ -70,7 +73,8 @@ class ExactFlow {
     std::vector<Side> sides_;
     Matrix coefficient_, force_, penetration_, shortened_;
     vector<double> polynomial_;
-    std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_;
+    std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_ = 0, stalled_ = 0;
+    double events_left_ = 0;
 };
 
 /// Keeps the sequence of contact sets, as monodromy() takes it.

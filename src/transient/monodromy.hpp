@@ -16,6 +16,9 @@ struct ContactInterval {
 /// d(y, y') at the end / d(y, y') at the beginning, 2n x 2n, for a given sequence of contact sets;
 /// `tolerance` bounds the truncation error of each interval. PLM_ERR_ARGUMENT for a wrong number of pairs or
 /// a duration that is not finite and >= 0.
+/// Cost of an interval of length dt, x = rate dt (contact_set.hpp): (12 + 5 x) 4 n^3 flops about, up to x =
+/// 3, and (85 + 16 log2 x) n^3 beyond. Measured, 180 intervals with x near 1 (and 3.5) on one core: 2 (3) ms
+/// for n = 12, 8 (11) ms for n = 24, 32 (47) ms for n = 42.
 Matrix monodromy(const FlowModel &model, const std::vector<ContactInterval> &intervals,
                  double tolerance = 1e-15, Watch watch = Watch());
 

@@ -1,0 +1,91 @@
+#include "capi/arguments.hpp"
+#include "capi/barrier.hpp"
+#include "capi/branch_end.hpp"
+#include "capi/branch_input.hpp"
+#include "capi/hbm_input.hpp"
+#include <limits>
+
+using namespace plm::capi;
+
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+void require_force(double force, const char *name) {
+    require_finite(force, name);
+    if (force < 0) bad_argument(name, -1, plm::format("%s is %g; a force scale cannot be negative here", name, force));
+}
+
+} // namespace
+
+plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, std::int64_t point, std::int32_t mirrored,
+                                 plm_branch **other) {
+    return call<HbmHandle>("plm_hbm_switch_branch", hbm, [&](HbmHandle &h) {
+        const std::shared_ptr<BranchHandle> curve = own_branch(h, branch, "branch");
+        require_point(*curve->core, point);
+        require_range(mirrored, 0, 1, "mirrored");
+        require_pointer(other, "other");
+        BranchPtr found = solver(h).switch_branch(*curve->core, point, mirrored == 1);
+        const plm_status status = end_status(found->end_reason);
+        *other = publish_branch(h, std::move(found));
+        return status;
+    });
+}
+
+plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double force_max, std::int64_t *count) {
+    return call<HbmHandle>("plm_hbm_find_isolated", hbm, [&](HbmHandle &h) {
+        const std::shared_ptr<BranchHandle> curve = own_branch(h, main_branch, "main_branch");
+        require_force(force_max, "force_max");
+        require_pointer(count, "count");
+        const plm::IsolatedSearch search = solver(h).find_isolated(*curve->core, force_max);
+        h.found.clear();
+        for (const plm::IsolatedBranch &b : search.branches)
+            h.found.push_back({b.branch, b.birth_force, b.merge_force});
+        *count = static_cast<std::int64_t>(h.found.size());
+        return PLM_OK;
+    });
+}
+
+plm_status plm_hbm_find_backbones(plm_hbm *hbm, double force_max, std::int64_t *count) {
+    return call<HbmHandle>("plm_hbm_find_backbones", hbm, [&](HbmHandle &h) {
+        require_force(force_max, "force_max");
+        require_pointer(count, "count");
+        const std::vector<plm::Backbone> backbones = solver(h).find_backbones(force_max);
+        h.found.clear();
+        for (const plm::Backbone &b : backbones) h.found.push_back({b.branch, unknown, unknown});
+        *count = static_cast<std::int64_t>(h.found.size());
+        return PLM_OK;
+    });
+}
+
+plm_status plm_hbm_get_found(plm_hbm *hbm, std::int64_t index, double *force_range, plm_branch **branch) {
+    return call<HbmHandle>("plm_hbm_get_found", hbm, [&](HbmHandle &h) {
+        const std::int64_t n = static_cast<std::int64_t>(h.found.size());
+        if (n == 0)
+            throw plm::Error(PLM_ERR_STATE, "this hbm has found no branch; call a plm_hbm_find_... function first")
+                .argument("index");
+        require_range(index, 0, n - 1, "index");
+        require_pointer(branch, "branch");
+        const FoundBranch &found = h.found[static_cast<std::size_t>(index)];
+        *branch = publish_branch(h, found.branch);
+        if (force_range) force_range[0] = found.force_low, force_range[1] = found.force_high;
+        return PLM_OK;
+    });
+}
+
+plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, std::int64_t point, double force_min,
+                              double force_max, plm_branch **folds) {
+    return call<HbmHandle>("plm_hbm_track_fold", hbm, [&](HbmHandle &h) {
+        const std::shared_ptr<BranchHandle> curve = own_branch(h, branch, "branch");
+        require_point(*curve->core, point);
+        require_force(force_min, "force_min");
+        require_force(force_max, "force_max");
+        if (!(force_max > force_min))
+            bad_argument("force_max", -1, plm::format("the range of forces [%g, %g] is empty", force_min, force_max));
+        require_pointer(folds, "folds");
+        BranchPtr found = solver(h).track_fold(*curve->core, point, force_min, force_max);
+        const plm_status status = end_status(found->end_reason);
+        *folds = publish_branch(h, std::move(found));
+        return status;
+    });
+}

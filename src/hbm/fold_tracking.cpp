@@ -1,0 +1,260 @@
+#include "hbm/fold_tracking.hpp"
+#include "hbm/continuation.hpp"
+#include "hbm/trig_polynomial.hpp"
+#include <cmath>
+
+namespace plm {
+
+FoldSystem::FoldSystem(HbmSystem &inner, std::shared_ptr<const ReducedModel> reduced, const BranchPoint &about,
+                       double unit)
+    : AugmentedSystem(inner, 1), reduced_(std::move(reduced)), omega_reference_(about.omega), unit_(unit),
+      y_(inner.size() + 1), scratch_(inner.size()) {
+    choose_borders(about);
+}
+
+// b and c near the left and right null vectors, by inverse iteration.
+void FoldSystem::choose_borders(const BranchPoint &about) {
+    const std::int64_t n = inner_.size();
+    inner_.set_force_scale(about.force_scale);
+    inner_.from_point(about, y_.data());
+    inner_.residual(y_.data(), about.omega, scratch_.data());
+    inner_.jacobian(jacobian_);
+    for (const bool transposed : {false, true}) {
+        Matrix a = transposed ? jacobian_.transposed() : jacobian_;
+        lu_.factor(a);
+        vector<double> &v = transposed ? b_ : c_;
+        v.assign(n, 1.0);
+        for (int k = 0; k < 4; ++k) {
+            lu_.solve(v.data(), 1, n);
+            const double size = norm2(n, v.data());
+            for (double &e : v) e /= size;
+        }
+    }
+    for (double &e : b_) e *= about.omega * about.omega; // like the other equations
+}
+
+// [J b; c^T 0]^-1 or its transposed applied to (0, 1), for the Jacobian at hand.
+void FoldSystem::bordered(bool transposed, vector<double> &solution) {
+    const std::int64_t n = inner_.size();
+    matrix_.reset(n + 1, n + 1);
+    for (std::int64_t j = 0; j < n; ++j) {
+        for (std::int64_t i = 0; i < n; ++i) matrix_(i, j) = transposed ? jacobian_(j, i) : jacobian_(i, j);
+        matrix_(n, j) = transposed ? b_[j] : c_[j];
+        matrix_(j, n) = transposed ? c_[j] : b_[j];
+    }
+    lu_.factor(matrix_);
+    solution.assign(n + 1, 0.0);
+    solution[n] = 1;
+    lu_.solve(solution.data(), 1, n + 1);
+}
+
+void FoldSystem::residual(const double *y, double force, double *r) {
+    const std::int64_t n = inner_.size();
+    y_.assign(y, y + n + 1);
+    force_ = force;
+    inner_.set_force_scale(force);
+    inner_.residual(y, omega_of(y), r);
+    inner_.jacobian(jacobian_);
+    vector<double> v;
+    bordered(false, v);
+    r[n] = v[n];
+}
+
+void FoldSystem::assemble(Matrix &jacobian) {
+    const std::int64_t n = inner_.size();
+    vector<double> v, w, gradient(n, 0.0);
+    bordered(false, v);
+    bordered(true, w);
+    contact_gradient(w, v, gradient.data());
+    const double along_frequency = dot(n, w.data(), frequency_derivative(v).data());
+    assemble_inner(jacobian);
+    inner_.omega_derivative(jacobian.col(n));
+    for (std::int64_t i = 0; i < n; ++i) {
+        jacobian(i, n) /= unit_;
+        jacobian(n, i) = -gradient[i];
+    }
+    jacobian(n, n) = -along_frequency / unit_;
+}
+
+// (dJ/domega) v: dR/domega is linear in x and the same matrix.
+vector<double> FoldSystem::frequency_derivative(const vector<double> &v) {
+    vector<double> change(inner_.size());
+    inner_.residual(v.data(), omega_of(y_.data()), scratch_.data());
+    inner_.omega_derivative(change.data());
+    inner_.residual(y_.data(), omega_of(y_.data()), scratch_.data());
+    return change;
+}
+
+// Z x (2H + 1) coefficients of the gaps' motion for unknowns x; as weights of residuals the harmonics count
+// twice, and the initial gap has no part in it.
+Matrix FoldSystem::penetration(const double *x, bool weights) const {
+    const ReducedModel &m = *reduced_;
+    const std::int64_t z = m.n_pairs(), r = m.size(), columns = (inner_.size() - m.static_size()) / r;
+    Matrix eta(r, columns), u(z, columns + 1);
+    std::copy(x + m.static_size(), x + inner_.size(), eta.data());
+    gemv('N', 1.0, m.gap_0, x, 0.0, u.col(0));
+    Matrix dynamic(z, columns);
+    gemm('N', 'N', weights ? 2.0 : 1.0, m.gap, eta, 0.0, dynamic);
+    std::copy(dynamic.data(), dynamic.data() + z * columns, u.col(1));
+    return u;
+}
+
+// d(w^T J v) = mean over the period of k_n ds W V, and ds = du / |u'| at each switching instant.
+void FoldSystem::contact_gradient(const vector<double> &w, const vector<double> &v, double *gradient) {
+    const ReducedModel &m = *reduced_;
+    const std::int64_t z = m.n_pairs(), r = m.size();
+    if (z == 0) return;
+    Matrix u = penetration(y_.data(), false);
+    for (std::int64_t i = 0; i < z; ++i) u(i, 0) -= m.initial_gap[i];
+    const SwitchingInstants switching = switching_instants(u);
+    const Matrix ut = u.transposed(), vt = penetration(v.data(), false).transposed(),
+                 wt = penetration(w.data(), true).transposed();
+    const std::int64_t columns = u.cols() - 1, h = columns / 2;
+    Matrix change(z, columns + 1);
+    for (std::int64_t i = 0; i < z; ++i)
+        for (double t : switching.instants[i]) {
+            const double speed = std::abs(evaluate_trig(ut.col(i), h, t).slope);
+            if (speed == 0) continue;
+            const double weight = m.contact_stiffness[i] * evaluate_trig(vt.col(i), h, t).value *
+                                  evaluate_trig(wt.col(i), h, t).value / (2 * M_PI * speed);
+            change(i, 0) += weight;
+            for (std::int64_t k = 1; k <= h; ++k) {
+                change(i, 2 * k - 1) += weight * std::cos(static_cast<double>(k) * t);
+                change(i, 2 * k) += weight * std::sin(static_cast<double>(k) * t);
+            }
+        }
+    gemv('T', 1.0, m.gap_0, change.col(0), 0.0, gradient);
+    for (std::int64_t c = 0; c < columns; ++c)
+        gemv('T', 1.0, m.gap, change.col(c + 1), 0.0, gradient + m.static_size() + c * r);
+}
+
+void FoldSystem::omega_derivative(double *r) { // J does not depend on the force
+    inner_.force_derivative(r);
+    r[inner_.size()] = 0;
+}
+
+void FoldSystem::linear_response(const vector<double> &share, double force, double *y) {
+    inner_.set_force_scale(force);
+    inner_.linear_response(share, omega_reference_, y);
+    y[inner_.size()] = 0;
+}
+
+void FoldSystem::to_point(const double *y, double force, BranchPoint &point) {
+    inner_.to_point(y, omega_of(y), point);
+    point.force_scale = force;
+}
+
+void FoldSystem::from_point(const BranchPoint &point, double *y) {
+    inner_.from_point(point, y);
+    y[inner_.size()] = (point.omega - omega_reference_) * unit_;
+}
+
+namespace {
+
+class FoldPath final : public PathOwner {
+  public:
+    FoldPath(std::shared_ptr<const ReducedModel> reduced, const FoldOptions &options, const BranchPoint &about,
+             Watch watch)
+        : options_(options), watch_(watch) {
+        HbmOptions &o = options_.hbm;
+        o.unknowns = UnknownSpace::modal;
+        o.aft = AftKind::event;
+        o.n_harmonics = about.n_harmonics / o.period_multiple;
+        inner_ = make_system(reduced, o);
+        vector<double> x(inner_->size());
+        inner_->from_point(about, x.data());
+        const std::int64_t s = inner_->static_size();
+        scale_ = norm2(inner_->size() - s, x.data() + s);
+        // a change of omega by a twentieth counts as much as one of the response by itself
+        system_ = std::make_unique<FoldSystem>(*inner_, reduced, about, scale_ / (0.05 * about.omega));
+        branch_ = std::make_shared<Branch>(reduced, o.force_scale, o.period_multiple);
+    }
+
+    bool correct(double force, BranchPoint &point) {
+        vector<double> y(system_->size());
+        system_->from_point(point, y.data());
+        NewtonLimits limits;
+        limits.tolerance = options_.hbm.tolerance;
+        limits.max_iterations = options_.hbm.max_iterations;
+        double parameter = force;
+        const NewtonOutcome out = newton(*system_, SideCondition(), limits, y, parameter);
+        if (!out.converged) return false;
+        point.residual = out.residual;
+        point.iterations = out.iterations;
+        system_->to_point(y.data(), force, point);
+        return point.omega > 0;
+    }
+
+    std::shared_ptr<Branch> follow(const BranchPoint &start) {
+        PathOptions range;
+        range.low = options_.force_min;
+        range.high = options_.force_max;
+        range.upward = options_.upward;
+        range.tolerance = options_.hbm.tolerance;
+        range.max_iterations = options_.hbm.max_iterations;
+        range.max_points = options_.hbm.max_points;
+        range.min_step = options_.hbm.min_step;
+        range.max_step = options_.hbm.max_step;
+        range.initial_step = 0.05 * range.max_step; // an extremum may be close
+        range.locate = true;
+        PathStart from;
+        from.x.resize(system_->size());
+        system_->from_point(start, from.x.data());
+        from.parameter = start.force_scale;
+        from.residual = start.residual;
+        from.scale = scale_;
+        const PathOutcome out = follow_path(*system_, range, from, *this);
+        branch_->end_reason = out.end_reason;
+        branch_->newton_iterations = out.newton_iterations;
+        branch_->factorizations = out.factorizations;
+        branch_->failed_steps = out.failed_steps;
+        branch_->space_used = "modal";
+        return branch_;
+    }
+
+    void record(const PathPoint &p) override {
+        BranchPoint point;
+        point.arclength = p.arclength;
+        point.residual = p.residual;
+        point.iterations = p.iterations;
+        point.bifurcation = p.bifurcation;
+        system_->to_point(p.x.data(), p.parameter, point);
+        point.n_switching = system_->indicator().n_switching;
+        turned_ = turned_ || p.bifurcation == PLM_BIFURCATION_FOLD;
+        branch_->append(std::move(point));
+    }
+    bool cancelled(double fraction) override {
+        watch_.step("folds", fraction);
+        return false;
+    }
+    bool rescue(double, vector<double> &) override { return false; }
+    bool interrupt() override { return options_.stop_at_turn && turned_; }
+
+  private:
+    FoldOptions options_;
+    Watch watch_;
+    std::unique_ptr<HbmSystem> inner_;
+    std::unique_ptr<FoldSystem> system_;
+    std::shared_ptr<Branch> branch_;
+    double scale_ = 0;
+    bool turned_ = false;
+};
+
+} // namespace
+
+bool correct_fold(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, double force,
+                  BranchPoint &point) {
+    FoldOptions o;
+    o.hbm = options;
+    return FoldPath(std::move(reduced), o, point, Watch()).correct(force, point);
+}
+
+std::shared_ptr<Branch> follow_folds(std::shared_ptr<const ReducedModel> reduced, const FoldOptions &options,
+                                     const BranchPoint &fold, Watch watch) {
+    FoldPath path(std::move(reduced), options, fold, watch);
+    BranchPoint start = fold;
+    if (!path.correct(fold.force_scale, start)) return nullptr;
+    return path.follow(start);
+}
+
+} // namespace plm

@@ -1,0 +1,48 @@
+// The searches of Hbm: checks, and the options they run with.
+#include "hbm/curve.hpp"
+#include "hbm/fold_tracking.hpp"
+#include "hbm/isolated.hpp"
+
+namespace plm {
+
+IsolatedSearch Hbm::find_isolated(const Branch &main, double force_max) const {
+    if (main.reduced_model() != reduced_)
+        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("main_branch");
+    return plm::find_isolated(reduced_, options_, main, force_max, watch_);
+}
+
+std::vector<Backbone> Hbm::find_backbones(double force_max) const {
+    BackboneOptions options;
+    options.hbm = with_first_harmonics(*reduced_, options_);
+    options.force_max = force_max;
+    return PhaseResonance(reduced_, options, watch_).backbones();
+}
+
+std::shared_ptr<const Branch> Hbm::track_fold(const Branch &branch, std::int64_t point, double force_min,
+                                              double force_max) const {
+    const BranchPoint &fold = branch.points().at(static_cast<std::size_t>(point));
+    if (branch.reduced_model() != reduced_)
+        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("branch");
+    if (fold.bifurcation != PLM_BIFURCATION_FOLD)
+        throw Error(PLM_ERR_ARGUMENT, format("point %lld is no fold; see the branch's \"bifurcation\"",
+                                             static_cast<long long>(point)))
+            .argument("point")
+            .index(point);
+    if (!(fold.force_scale >= force_min && fold.force_scale <= force_max))
+        throw Error(PLM_ERR_ARGUMENT, format("the fold's force scale %g is outside the range [%g, %g]",
+                                             fold.force_scale, force_min, force_max))
+            .argument("force_min");
+    FoldOptions options;
+    options.hbm = options_;
+    options.hbm.period_multiple = branch.period_multiple();
+    options.force_min = force_min;
+    options.force_max = force_max;
+    const auto folds = follow_folds(reduced_, options, fold, watch_);
+    if (!folds)
+        throw Error(PLM_ERR_CONVERGENCE, "the fold could not be corrected at its own force")
+            .argument("point")
+            .reason(PLM_REASON_START_FAILED);
+    return folds;
+}
+
+} // namespace plm

@@ -1,0 +1,216 @@
+#include "hbm/isolated.hpp"
+#include "hbm/curve.hpp"
+#include "hbm/fold_tracking.hpp"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+constexpr double same_solution = 1e-5;        // relative distance of phase-resonant points
+constexpr std::int64_t largest_system = 400;  // unknowns of the backbone when harmonics are chosen by point
+constexpr double weakest_resonance = 0.05;    // of the main branch, against its largest response
+
+// A crossing of the backbone with the force, and the extrema of the force on either side of it.
+struct Seed {
+    BranchPoint point;
+    double below = NAN, above = NAN; // nearest local minimum and maximum of the force along the backbone
+    double reach = 0;                // relative distance to the next crossing: the size of the loop
+};
+
+class Search {
+  public:
+    Search(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, const Branch &main,
+           double force_max, Watch watch)
+        : reduced_(std::move(reduced)), options_(options), main_(main), watch_(watch),
+          force_max_(force_max > 0 ? force_max : 8 * options.force_scale),
+          resonance_(reduced_, backbone_options(), watch) {}
+
+    IsolatedSearch run() {
+        const auto begin = std::chrono::steady_clock::now();
+        known_ = resonance_.on_curve(main_);
+        out_.backbones = resonance_.backbones();
+        add_backbones_of_main();
+        std::vector<Seed> seeds;
+        for (const Backbone &backbone : out_.backbones) collect(backbone, seeds);
+        // from the largest response down: the top of a loop is its safest entry
+        std::sort(seeds.begin(), seeds.end(),
+                  [this](const Seed &a, const Seed &b) { return size_of(a.point) > size_of(b.point); });
+        for (const Seed &seed : seeds)
+            if (!is_known(seed.point)) trace(seed);
+        out_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        return std::move(out_);
+    }
+
+  private:
+    BackboneOptions backbone_options() const {
+        BackboneOptions o;
+        o.hbm = options_;
+        o.force_max = force_max_;
+        if (options_.n_harmonics > 0) return o;
+        const std::int64_t first = with_first_harmonics(*reduced_, options_).n_harmonics;
+        const std::int64_t room = largest_system / (2 * std::max<std::int64_t>(1, reduced_->size()));
+        std::int64_t most = 0;
+        for (const BranchPoint &p : main_.points()) most = std::max(most, p.n_harmonics / options_.period_multiple);
+        o.hbm.n_harmonics = std::max(first, std::min(room, most));
+        return o;
+    }
+
+    double size_of(const BranchPoint &p) const { return norm2(p.eta.rows() * p.eta.cols(), p.eta.data()); }
+
+    bool is_known(const BranchPoint &p) const {
+        return std::any_of(known_.begin(), known_.end(), [&](const BranchPoint &k) {
+            return resonance_.distance(k, p) < same_solution;
+        });
+    }
+
+    // Resonances of the main branch that no backbone from rest has met.
+    void add_backbones_of_main() {
+        double largest = 0;
+        for (const BranchPoint &p : main_.points()) largest = std::max(largest, size_of(p));
+        for (const BranchPoint &p : known_) {
+            if (size_of(p) < weakest_resonance * largest || met(p)) continue;
+            out_.backbones.push_back(resonance_.through(p));
+        }
+    }
+
+    bool met(const BranchPoint &p) const {
+        for (const Backbone &b : out_.backbones)
+            for (std::size_t i : b.crossings)
+                if (resonance_.distance(b.branch->points()[i], p) < 1e-3) return true;
+        return false;
+    }
+
+    void collect(const Backbone &backbone, std::vector<Seed> &seeds) const {
+        const auto &points = backbone.branch->points();
+        for (std::size_t k = 0; k < backbone.crossings.size(); ++k) {
+            const std::size_t at = backbone.crossings[k];
+            Seed seed{points[at]};
+            if (!resonance_.correct(options_.force_scale, seed.point)) continue;
+            if (std::any_of(seeds.begin(), seeds.end(), [&](const Seed &s) {
+                    return resonance_.distance(s.point, seed.point) < same_solution;
+                }))
+                continue;
+            for (std::size_t other : backbone.crossings) {
+                const double d = resonance_.distance(points[other], points[at]);
+                if (other != at && (seed.reach == 0 || d < seed.reach)) seed.reach = d;
+            }
+            for (std::size_t i = at; i-- > 0;) // an isolated branch lies on the far side of a maximum
+                if (note_extremum(points[i], seed)) break;
+            for (std::size_t i = at; i < points.size(); ++i)
+                if (note_extremum(points[i], seed)) break;
+            seeds.push_back(std::move(seed));
+        }
+        complete(seeds);
+    }
+
+    bool note_extremum(const BranchPoint &p, Seed &seed) const {
+        if (p.bifurcation != PLM_BIFURCATION_FOLD) return false;
+        (p.force_scale < options_.force_scale ? seed.below : seed.above) = p.force_scale;
+        return true;
+    }
+
+    // The crossing above the minimum knows the minimum only; the maximum is that of the crossing below it.
+    static void complete(std::vector<Seed> &seeds) {
+        for (Seed &s : seeds)
+            for (const Seed &t : seeds)
+                if (s.below == t.below && std::isnan(s.above)) s.above = t.above;
+    }
+
+    void trace(const Seed &seed) {
+        HbmOptions options = options_;
+        options.upward = true;
+        if (seed.reach > 0) options.max_step = std::max(10 * options.min_step, std::min(options.max_step, 0.3 * seed.reach));
+        options.initial_step = 0.1 * options.max_step;
+        BranchPoint start = seed.point;
+        settle_harmonics(reduced_, options, start);
+        IsolatedBranch found;
+        found.branch = std::make_shared<Branch>(reduced_, options.force_scale, options.period_multiple);
+        trace_curve(options, {start, {}}, watch_, *found.branch);
+        found.closed = found.branch->end_reason == PLM_REASON_LOOP_CLOSED;
+        if (!found.closed) add_other_side(options, start, found);
+        const std::vector<BranchPoint> met = resonance_.on_curve(*found.branch);
+        for (const BranchPoint &p : met)
+            if (p.omega != seed.point.omega && is_known(p)) return; // the main branch, or one found already
+        known_.push_back(seed.point);
+        known_.insert(known_.end(), met.begin(), met.end());
+        find_range(seed, found);
+        out_.branches.push_back(std::move(found));
+    }
+
+    // Leaves the frequency range: the way to the other side in front of it.
+    void add_other_side(HbmOptions options, const BranchPoint &start, IsolatedBranch &found) {
+        options.upward = false;
+        Branch other(reduced_, options.force_scale, options.period_multiple);
+        trace_curve(options, {start, {}}, watch_, other);
+        auto whole = std::make_shared<Branch>(reduced_, options.force_scale, options.period_multiple);
+        const auto &before = other.points(), &after = found.branch->points();
+        const double length = before.back().arclength;
+        for (std::size_t i = before.size(); i-- > 1;) {
+            BranchPoint p = before[i];
+            p.arclength = length - p.arclength;
+            whole->append(std::move(p));
+        }
+        for (BranchPoint p : after) {
+            p.arclength += length;
+            whole->append(std::move(p));
+        }
+        whole->end_reason = found.branch->end_reason;
+        whole->newton_iterations = found.branch->newton_iterations + other.newton_iterations;
+        whole->factorizations = found.branch->factorizations + other.factorizations;
+        whole->failed_steps = found.branch->failed_steps + other.failed_steps;
+        whole->space_used = found.branch->space_used;
+        found.branch = whole;
+    }
+
+    // Births and mergers are extrema of the force along the curve of folds; those next to the backbone's.
+    void find_range(const Seed &seed, IsolatedBranch &found) const {
+        found.birth_force = seed.below;
+        found.merge_force = seed.above;
+        bool birth = false, merge = false;
+        for (const BranchPoint &fold : found.branch->points()) {
+            if (fold.bifurcation != PLM_BIFURCATION_FOLD) continue;
+            if (!std::isnan(seed.below)) birth |= turn(fold, false, seed.below, found.birth_force, birth);
+            if (!std::isnan(seed.above)) merge |= turn(fold, true, seed.above, found.merge_force, merge);
+        }
+        found.tracked = birth && merge;
+    }
+
+    bool turn(const BranchPoint &fold, bool upward, double estimate, double &force, bool have) const {
+        FoldOptions o;
+        o.hbm = options_;
+        o.force_min = upward ? 0.5 * options_.force_scale : 0.5 * estimate;
+        o.force_max = upward ? 2 * estimate : 2 * options_.force_scale;
+        o.upward = upward;
+        o.stop_at_turn = true;
+        const auto folds = follow_folds(reduced_, o, fold, watch_);
+        if (!folds) return false;
+        for (const BranchPoint &p : folds->points()) {
+            const bool beyond = upward ? p.force_scale > options_.force_scale : p.force_scale < options_.force_scale;
+            if (p.bifurcation != PLM_BIFURCATION_FOLD || !beyond) continue;
+            if (have && std::abs(p.force_scale - estimate) >= std::abs(force - estimate)) return false;
+            force = p.force_scale;
+            return true;
+        }
+        return false;
+    }
+
+    std::shared_ptr<const ReducedModel> reduced_;
+    HbmOptions options_;
+    const Branch &main_;
+    Watch watch_;
+    double force_max_;
+    PhaseResonance resonance_;
+    std::vector<BranchPoint> known_; // phase-resonant points of the branches known
+    IsolatedSearch out_;
+};
+
+} // namespace
+
+IsolatedSearch find_isolated(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                             const Branch &main, double force_max, Watch watch) {
+    return Search(std::move(reduced), options, main, force_max, watch).run();
+}
+
+} // namespace plm
