@@ -48,6 +48,7 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_KIND_BASIS = 3_c_int32_t
     integer(c_int32_t), parameter :: PLM_KIND_HBM = 4_c_int32_t
     integer(c_int32_t), parameter :: PLM_KIND_BRANCH = 5_c_int32_t
+    integer(c_int32_t), parameter :: PLM_KIND_TRANSIENT = 6_c_int32_t
     integer(c_int32_t), parameter :: PLM_TYPE_INT = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_TYPE_DOUBLE = 2_c_int32_t
     integer(c_int32_t), parameter :: PLM_TYPE_STRING = 3_c_int32_t
@@ -906,6 +907,74 @@ module plm_c
             type(c_ptr), intent(inout), optional :: peak
             integer(plm_status) :: code
         end function plm_hbm_find_peak
+        function plm_hbm_switch_branch(hbm, branch, point, mirrored, other) bind(c) result(code)
+            import :: c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: hbm
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: point
+            integer(c_int32_t), value :: mirrored
+            type(c_ptr), intent(inout) :: other
+            integer(plm_status) :: code
+        end function plm_hbm_switch_branch
+        function plm_hbm_find_isolated(hbm, main_branch, force_max, count) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: hbm
+            type(c_ptr), value :: main_branch
+            real(c_double), value :: force_max
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_hbm_find_isolated
+        function plm_hbm_find_backbones(hbm, force_max, count) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: hbm
+            real(c_double), value :: force_max
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_hbm_find_backbones
+        function plm_hbm_get_found(hbm, index, force_range, branch) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: hbm
+            integer(c_int64_t), value :: index
+            real(c_double), intent(inout), optional :: force_range(*)
+            type(c_ptr), intent(inout) :: branch
+            integer(plm_status) :: code
+        end function plm_hbm_get_found
+        function plm_hbm_track_fold(hbm, branch, point, force_min, force_max, folds) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: hbm
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: point
+            real(c_double), value :: force_min
+            real(c_double), value :: force_max
+            type(c_ptr), intent(inout) :: folds
+            integer(plm_status) :: code
+        end function plm_hbm_track_fold
+        function plm_hbm_find_by_marching(hbm, n_known, known, n_frequencies, n_states, count) bind(c) result(code)
+            import :: c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: hbm
+            integer(c_int64_t), value :: n_known
+            type(c_ptr), intent(in), optional :: known(*)
+            integer(c_int64_t), value :: n_frequencies
+            integer(c_int64_t), value :: n_states
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_hbm_find_by_marching
+        function plm_hbm_find_nonlinear_mode(hbm, mode, dof, amplitude_max, branch) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: hbm
+            integer(c_int64_t), value :: mode
+            integer(c_int64_t), value :: dof
+            real(c_double), value :: amplitude_max
+            type(c_ptr), intent(inout) :: branch
+            integer(plm_status) :: code
+        end function plm_hbm_find_nonlinear_mode
         function plm_branch_destroy(branch) bind(c) result(code)
             import :: c_ptr, plm_status
             implicit none
@@ -1011,6 +1080,34 @@ module plm_c
             real(c_double), intent(inout) :: share(*)
             integer(plm_status) :: code
         end function plm_branch_get_closed_share
+        function plm_branch_get_energy(branch, point, energy, contact_area) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: point
+            real(c_double), intent(inout), optional :: energy
+            real(c_double), intent(inout), optional :: contact_area
+            integer(plm_status) :: code
+        end function plm_branch_get_energy
+        function plm_branch_get_multipliers(branch, point, capacity, real, imag, count) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: point
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: real(*)
+            real(c_double), intent(inout), optional :: imag(*)
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_branch_get_multipliers
+        function plm_branch_get_periodicity_defect(branch, point, defect) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: point
+            real(c_double), intent(inout) :: defect
+            integer(plm_status) :: code
+        end function plm_branch_get_periodicity_defect
         function plm_branch_get_full_residual(branch, point, relative_residual) bind(c) result(code)
             import :: c_double, c_int64_t, c_ptr, plm_status
             implicit none
@@ -1019,6 +1116,166 @@ module plm_c
             real(c_double), intent(inout) :: relative_residual
             integer(plm_status) :: code
         end function plm_branch_get_full_residual
+        function plm_transient_create(model, basis, transient) bind(c) result(code)
+            import :: c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            type(c_ptr), value :: basis
+            type(c_ptr), intent(inout) :: transient
+            integer(plm_status) :: code
+        end function plm_transient_create
+        function plm_transient_destroy(transient) bind(c) result(code)
+            import :: c_ptr, plm_status
+            implicit none
+            type(c_ptr), intent(inout) :: transient
+            integer(plm_status) :: code
+        end function plm_transient_destroy
+        function plm_transient_set_int(transient, key, value) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            character(kind=c_char), intent(in) :: key(*)
+            integer(c_int64_t), value :: value
+            integer(plm_status) :: code
+        end function plm_transient_set_int
+        function plm_transient_set_double(transient, key, value) bind(c) result(code)
+            import :: c_char, c_double, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            character(kind=c_char), intent(in) :: key(*)
+            real(c_double), value :: value
+            integer(plm_status) :: code
+        end function plm_transient_set_double
+        function plm_transient_set_string(transient, key, value) bind(c) result(code)
+            import :: c_char, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            character(kind=c_char), intent(in) :: key(*)
+            character(kind=c_char), intent(in) :: value(*)
+            integer(plm_status) :: code
+        end function plm_transient_set_string
+        function plm_transient_get_int(transient, key, value) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            character(kind=c_char), intent(in) :: key(*)
+            integer(c_int64_t), intent(inout) :: value
+            integer(plm_status) :: code
+        end function plm_transient_get_int
+        function plm_transient_get_double(transient, key, value) bind(c) result(code)
+            import :: c_char, c_double, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            character(kind=c_char), intent(in) :: key(*)
+            real(c_double), intent(inout) :: value
+            integer(plm_status) :: code
+        end function plm_transient_get_double
+        function plm_transient_get_string(transient, key, capacity, buffer, needed) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            character(kind=c_char), intent(in) :: key(*)
+            integer(c_int64_t), value :: capacity
+            character(kind=c_char), intent(inout), optional :: buffer(*)
+            integer(c_int64_t), intent(inout), optional :: needed
+            integer(plm_status) :: code
+        end function plm_transient_get_string
+        function plm_transient_get_array(transient, key, capacity, values, count) bind(c) result(code)
+            import :: c_char, c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            character(kind=c_char), intent(in) :: key(*)
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: values(*)
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_transient_get_array
+        function plm_transient_get_int_array(transient, key, capacity, values, count) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            character(kind=c_char), intent(in) :: key(*)
+            integer(c_int64_t), value :: capacity
+            integer(c_int64_t), intent(inout), optional :: values(*)
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_transient_get_int_array
+        function plm_transient_observe_i32(transient, index_base, n, dof) bind(c) result(code)
+            import :: c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), intent(in) :: dof(*)
+            integer(plm_status) :: code
+        end function plm_transient_observe_i32
+        function plm_transient_observe_i64(transient, index_base, n, dof) bind(c) result(code)
+            import :: c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int64_t), intent(in) :: dof(*)
+            integer(plm_status) :: code
+        end function plm_transient_observe_i64
+        function plm_transient_set_state(transient, n, q, v) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            integer(c_int64_t), value :: n
+            real(c_double), intent(in), optional :: q(*)
+            real(c_double), intent(in), optional :: v(*)
+            integer(plm_status) :: code
+        end function plm_transient_set_state
+        function plm_transient_start_at(transient, branch, point) bind(c) result(code)
+            import :: c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: point
+            integer(plm_status) :: code
+        end function plm_transient_start_at
+        function plm_transient_run(transient) bind(c) result(code)
+            import :: c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            integer(plm_status) :: code
+        end function plm_transient_run
+        function plm_transient_find_periodic(transient) bind(c) result(code)
+            import :: c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            integer(plm_status) :: code
+        end function plm_transient_find_periodic
+        function plm_transient_get_state(transient, n, q, v) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            integer(c_int64_t), value :: n
+            real(c_double), intent(inout), optional :: q(*)
+            real(c_double), intent(inout), optional :: v(*)
+            integer(plm_status) :: code
+        end function plm_transient_get_state
+        function plm_transient_get_history(transient, observed, capacity, values, count) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            integer(c_int64_t), value :: observed
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: values(*)
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_transient_get_history
+        function plm_transient_get_multipliers(transient, capacity, real, imag, count) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: transient
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: real(*)
+            real(c_double), intent(inout), optional :: imag(*)
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_transient_get_multipliers
     end interface
 
     ! by the kind of the integer arrays
@@ -1036,5 +1293,8 @@ module plm_c
     end interface
     interface plm_model_add_gap_rows
         procedure :: plm_model_add_gap_rows_i32, plm_model_add_gap_rows_i64
+    end interface
+    interface plm_transient_observe
+        procedure :: plm_transient_observe_i32, plm_transient_observe_i64
     end interface
 end module plm_c

@@ -873,6 +873,136 @@ subroutine plmhpk(handle, branch, idof, imeas, iharm, freq, ampl, peak, ierr)
     if (as_handle(made) /= 0) peak = as_handle(made)
 end subroutine plmhpk
 
+subroutine plmhsb(handle, branch, ipoint, mirror, other, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t, c_null_ptr, c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_hbm_switch_branch
+    use plm_f77_support, only: as_pointer, as_handle
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer(int64), intent(in) :: branch
+    integer, intent(in) :: ipoint
+    integer, intent(in) :: mirror
+    integer(int64), intent(inout) :: other
+    integer, intent(out) :: ierr
+    type(c_ptr) :: made
+    made = c_null_ptr
+    ierr = int(plm_hbm_switch_branch(as_pointer(handle), as_pointer(branch), int(ipoint, int64) - 1, &
+        int(mirror, c_int32_t), made))
+    if (as_handle(made) /= 0) other = as_handle(made)
+end subroutine plmhsb
+
+subroutine plmhfi(handle, branch, fmax, count, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_hbm_find_isolated
+    use plm_f77_support, only: as_pointer, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer(int64), intent(in) :: branch
+    real(real64), intent(in) :: fmax
+    integer, intent(inout) :: count
+    integer, intent(out) :: ierr
+    integer(int64) :: found
+    found = 0
+    ierr = int(plm_hbm_find_isolated(as_pointer(handle), as_pointer(branch), fmax, found))
+    if (ierr >= 0) call narrow(found, count, ierr)
+end subroutine plmhfi
+
+subroutine plmhfb(handle, fmax, count, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_hbm_find_backbones
+    use plm_f77_support, only: as_pointer, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    real(real64), intent(in) :: fmax
+    integer, intent(inout) :: count
+    integer, intent(out) :: ierr
+    integer(int64) :: found
+    found = 0
+    ierr = int(plm_hbm_find_backbones(as_pointer(handle), fmax, found))
+    if (ierr >= 0) call narrow(found, count, ierr)
+end subroutine plmhfb
+
+subroutine plmhfm(handle, nknown, curves, nfreq, nstate, count, ierr)
+    use, intrinsic :: iso_c_binding, only: c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_hbm_find_by_marching
+    use plm_f77_support, only: as_pointer, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: nknown
+    integer(int64), intent(in) :: curves(*)
+    integer, intent(in) :: nfreq
+    integer, intent(in) :: nstate
+    integer, intent(inout) :: count
+    integer, intent(out) :: ierr
+    integer(int64) :: found
+    type(c_ptr), allocatable :: known(:)
+    integer :: i
+    allocate(known(max(nknown, 0)))
+    do i = 1, nknown
+        known(i) = as_pointer(curves(i))
+    end do
+    found = 0
+    ierr = int(plm_hbm_find_by_marching(as_pointer(handle), int(nknown, int64), known, int(nfreq, int64), &
+        int(nstate, int64), found))
+    if (ierr >= 0) call narrow(found, count, ierr)
+end subroutine plmhfm
+
+subroutine plmhgf(handle, number, frange, branch, ierr)
+    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_hbm_get_found
+    use plm_f77_support, only: as_pointer, as_handle
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: number
+    real(real64), intent(inout) :: frange(*)
+    integer(int64), intent(inout) :: branch
+    integer, intent(out) :: ierr
+    type(c_ptr) :: made
+    made = c_null_ptr
+    ierr = int(plm_hbm_get_found(as_pointer(handle), int(number, int64) - 1, frange, made))
+    if (as_handle(made) /= 0) branch = as_handle(made)
+end subroutine plmhgf
+
+subroutine plmhtf(handle, branch, ipoint, fmin, fmax, folds, ierr)
+    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_hbm_track_fold
+    use plm_f77_support, only: as_pointer, as_handle
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer(int64), intent(in) :: branch
+    integer, intent(in) :: ipoint
+    real(real64), intent(in) :: fmin
+    real(real64), intent(in) :: fmax
+    integer(int64), intent(inout) :: folds
+    integer, intent(out) :: ierr
+    type(c_ptr) :: made
+    made = c_null_ptr
+    ierr = int(plm_hbm_track_fold(as_pointer(handle), as_pointer(branch), int(ipoint, int64) - 1, fmin, fmax, made))
+    if (as_handle(made) /= 0) folds = as_handle(made)
+end subroutine plmhtf
+
+subroutine plmhnm(handle, mode, idof, amax, branch, ierr)
+    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_hbm_find_nonlinear_mode
+    use plm_f77_support, only: as_pointer, as_handle
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: mode
+    integer, intent(in) :: idof
+    real(real64), intent(in) :: amax
+    integer(int64), intent(inout) :: branch
+    integer, intent(out) :: ierr
+    type(c_ptr) :: made
+    made = c_null_ptr
+    ierr = int(plm_hbm_find_nonlinear_mode(as_pointer(handle), int(mode, int64), int(idof, int64) - 1, amax, made))
+    if (as_handle(made) /= 0) branch = as_handle(made)
+end subroutine plmhnm
+
 subroutine plmrde(handle, ierr)
     use, intrinsic :: iso_c_binding, only: c_ptr
     use, intrinsic :: iso_fortran_env, only: int64
@@ -975,6 +1105,49 @@ subroutine plmrcs(handle, ipoint, npairs, share, ierr)
     ierr = int(plm_branch_get_closed_share(as_pointer(handle), int(ipoint, int64) - 1, int(npairs, int64), share))
 end subroutine plmrcs
 
+subroutine plmren(handle, ipoint, energy, area, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_branch_get_energy
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: ipoint
+    real(real64), intent(inout) :: energy
+    real(real64), intent(inout) :: area
+    integer, intent(out) :: ierr
+    ierr = int(plm_branch_get_energy(as_pointer(handle), int(ipoint, int64) - 1, energy, area))
+end subroutine plmren
+
+subroutine plmrmu(handle, ipoint, n, dreal, dimag, count, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_branch_get_multipliers
+    use plm_f77_support, only: as_pointer, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: ipoint
+    integer, intent(in) :: n
+    real(real64), intent(inout) :: dreal(*)
+    real(real64), intent(inout) :: dimag(*)
+    integer, intent(inout) :: count
+    integer, intent(out) :: ierr
+    integer(int64) :: found
+    found = 0
+    ierr = int(plm_branch_get_multipliers(as_pointer(handle), int(ipoint, int64) - 1, int(n, int64), dreal, dimag, found))
+    if (ierr >= 0) call narrow(found, count, ierr)
+end subroutine plmrmu
+
+subroutine plmrdf(handle, ipoint, defect, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_branch_get_periodicity_defect
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: ipoint
+    real(real64), intent(inout) :: defect
+    integer, intent(out) :: ierr
+    ierr = int(plm_branch_get_periodicity_defect(as_pointer(handle), int(ipoint, int64) - 1, defect))
+end subroutine plmrdf
+
 subroutine plmrfr(handle, ipoint, r, ierr)
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_c, only: plm_branch_get_full_residual
@@ -986,3 +1159,138 @@ subroutine plmrfr(handle, ipoint, r, ierr)
     integer, intent(out) :: ierr
     ierr = int(plm_branch_get_full_residual(as_pointer(handle), int(ipoint, int64) - 1, r))
 end subroutine plmrfr
+
+subroutine plmtcr(parent, basis, handle, ierr)
+    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_transient_create
+    use plm_f77_support, only: as_pointer, as_handle
+    implicit none
+    integer(int64), intent(in) :: parent
+    integer(int64), intent(in) :: basis
+    integer(int64), intent(inout) :: handle
+    integer, intent(out) :: ierr
+    type(c_ptr) :: made
+    made = c_null_ptr
+    ierr = int(plm_transient_create(as_pointer(parent), as_pointer(basis), made))
+    if (ierr >= 0) handle = as_handle(made)
+end subroutine plmtcr
+
+subroutine plmtde(handle, ierr)
+    use, intrinsic :: iso_c_binding, only: c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_transient_destroy
+    use plm_f77_support, only: as_pointer, as_handle
+    implicit none
+    integer(int64), intent(inout) :: handle
+    integer, intent(out) :: ierr
+    type(c_ptr) :: gone
+    gone = as_pointer(handle)
+    ierr = int(plm_transient_destroy(gone))
+    if (ierr >= 0) handle = as_handle(gone)
+end subroutine plmtde
+
+subroutine plmtob(handle, n, idof, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_transient_observe
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    integer, intent(in) :: idof(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_transient_observe(as_pointer(handle), 1_c_int32_t, int(n, int64), idof))
+end subroutine plmtob
+
+subroutine plmtss(handle, ndof, q, v, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_transient_set_state
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: ndof
+    real(real64), intent(in) :: q(*)
+    real(real64), intent(in) :: v(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_transient_set_state(as_pointer(handle), int(ndof, int64), q, v))
+end subroutine plmtss
+
+subroutine plmtsa(handle, branch, ipoint, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_transient_start_at
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer(int64), intent(in) :: branch
+    integer, intent(in) :: ipoint
+    integer, intent(out) :: ierr
+    ierr = int(plm_transient_start_at(as_pointer(handle), as_pointer(branch), int(ipoint, int64) - 1))
+end subroutine plmtsa
+
+subroutine plmtrn(handle, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_transient_run
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(out) :: ierr
+    ierr = int(plm_transient_run(as_pointer(handle)))
+end subroutine plmtrn
+
+subroutine plmtfp(handle, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_transient_find_periodic
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(out) :: ierr
+    ierr = int(plm_transient_find_periodic(as_pointer(handle)))
+end subroutine plmtfp
+
+subroutine plmtgs(handle, ndof, q, v, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_transient_get_state
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: ndof
+    real(real64), intent(inout) :: q(*)
+    real(real64), intent(inout) :: v(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_transient_get_state(as_pointer(handle), int(ndof, int64), q, v))
+end subroutine plmtgs
+
+subroutine plmthi(handle, number, n, value, count, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_transient_get_history
+    use plm_f77_support, only: as_pointer, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: number
+    integer, intent(in) :: n
+    real(real64), intent(inout) :: value(*)
+    integer, intent(inout) :: count
+    integer, intent(out) :: ierr
+    integer(int64) :: found
+    found = 0
+    ierr = int(plm_transient_get_history(as_pointer(handle), int(number, int64) - 1, int(n, int64), value, found))
+    if (ierr >= 0) call narrow(found, count, ierr)
+end subroutine plmthi
+
+subroutine plmtmu(handle, n, dreal, dimag, count, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_transient_get_multipliers
+    use plm_f77_support, only: as_pointer, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    real(real64), intent(inout) :: dreal(*)
+    real(real64), intent(inout) :: dimag(*)
+    integer, intent(inout) :: count
+    integer, intent(out) :: ierr
+    integer(int64) :: found
+    found = 0
+    ierr = int(plm_transient_get_multipliers(as_pointer(handle), int(n, int64), dreal, dimag, found))
+    if (ierr >= 0) call narrow(found, count, ierr)
+end subroutine plmtmu

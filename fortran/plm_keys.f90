@@ -46,6 +46,8 @@ contains
             status = plm_basis_set_int(self%handle, c_text(key), value)
         case (PLM_KIND_HBM)
             status = plm_hbm_set_int(self%handle, c_text(key), value)
+        case (PLM_KIND_TRANSIENT)
+            status = plm_transient_set_int(self%handle, c_text(key), value)
         case default
             status = PLM_ERR_HANDLE
         end select
@@ -86,6 +88,8 @@ contains
             status = plm_basis_set_double(self%handle, c_text(key), value)
         case (PLM_KIND_HBM)
             status = plm_hbm_set_double(self%handle, c_text(key), value)
+        case (PLM_KIND_TRANSIENT)
+            status = plm_transient_set_double(self%handle, c_text(key), value)
         case default
             status = PLM_ERR_HANDLE
         end select
@@ -116,6 +120,8 @@ contains
             status = plm_basis_set_string(self%handle, c_text(key), c_text(value))
         case (PLM_KIND_HBM)
             status = plm_hbm_set_string(self%handle, c_text(key), c_text(value))
+        case (PLM_KIND_TRANSIENT)
+            status = plm_transient_set_string(self%handle, c_text(key), c_text(value))
         case default
             status = PLM_ERR_HANDLE
         end select
@@ -140,6 +146,8 @@ contains
             status = plm_hbm_get_int(self%handle, c_text(key), value)
         case (PLM_KIND_BRANCH)
             status = plm_branch_get_int(self%handle, c_text(key), value)
+        case (PLM_KIND_TRANSIENT)
+            status = plm_transient_get_int(self%handle, c_text(key), value)
         case default
             status = PLM_ERR_HANDLE
         end select
@@ -188,6 +196,8 @@ contains
             status = plm_hbm_get_double(self%handle, c_text(key), value)
         case (PLM_KIND_BRANCH)
             status = plm_branch_get_double(self%handle, c_text(key), value)
+        case (PLM_KIND_TRANSIENT)
+            status = plm_transient_get_double(self%handle, c_text(key), value)
         case default
             status = PLM_ERR_HANDLE
         end select
@@ -212,6 +222,8 @@ contains
             status = plm_hbm_get_string(self%handle, c_text(key), capacity, buffer, needed)
         case (PLM_KIND_BRANCH)
             status = plm_branch_get_string(self%handle, c_text(key), capacity, buffer, needed)
+        case (PLM_KIND_TRANSIENT)
+            status = plm_transient_get_string(self%handle, c_text(key), capacity, buffer, needed)
         case default
             status = PLM_ERR_HANDLE
         end select
@@ -252,6 +264,8 @@ contains
             status = plm_basis_get_array(self%handle, c_text(key), capacity, values, n)
         case (PLM_KIND_BRANCH)
             status = plm_branch_get_array(self%handle, c_text(key), capacity, values, n)
+        case (PLM_KIND_TRANSIENT)
+            status = plm_transient_get_array(self%handle, c_text(key), capacity, values, n)
         case (PLM_KIND_HBM)
             status = PLM_ERR_KEY ! has no arrays
         case default
@@ -294,6 +308,8 @@ contains
             status = plm_basis_get_int_array(self%handle, c_text(key), capacity, values, n)
         case (PLM_KIND_BRANCH)
             status = plm_branch_get_int_array(self%handle, c_text(key), capacity, values, n)
+        case (PLM_KIND_TRANSIENT)
+            status = plm_transient_get_int_array(self%handle, c_text(key), capacity, values, n)
         case (PLM_KIND_HBM)
             status = PLM_ERR_KEY
         case default

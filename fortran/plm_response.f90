@@ -19,6 +19,9 @@ module plm_responses
         procedure :: field
         procedure :: contact
         procedure :: closed_share
+        procedure :: energy
+        procedure :: multipliers
+        procedure :: periodicity_defect
         procedure :: full_residual
     end type plm_branch
 
@@ -29,6 +32,13 @@ module plm_responses
         procedure :: sweep
         procedure :: solve
         procedure :: find_peak
+        procedure :: switch_branch
+        procedure :: find_isolated
+        procedure :: find_backbones
+        procedure :: find_by_marching
+        procedure :: found
+        procedure :: track_fold
+        procedure :: find_nonlinear_mode
     end type plm_hbm
 
 contains
@@ -104,6 +114,129 @@ contains
         end if
         call finish(self%context, status, stat, errmsg)
     end subroutine find_peak
+
+    ! The curve that crosses `branch` at its located branch point `point`, or leaves it at a period doubling; mirrored: on
+    ! the other side. The points located are those where the result 'bifurcation' is not 0.
+    subroutine switch_branch(self, branch, point, other, mirrored, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        type(plm_branch), intent(in) :: branch
+        integer, intent(in) :: point
+        type(plm_branch), intent(inout) :: other
+        logical, intent(in), optional :: mirrored
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(c_int32_t) :: side
+        side = 0
+        if (present(mirrored)) side = merge(1_c_int32_t, 0_c_int32_t, mirrored)
+        call prepare(self, other)
+        call finish(self%context, plm_hbm_switch_branch(self%handle, branch%handle, int(point, int64) - 1, side, &
+            other%handle), stat, errmsg)
+    end subroutine switch_branch
+
+    ! Isolated branches beside the curve main_branch; force_max: largest force scale looked at (if absent eight times
+    ! the option 'force_scale'); count: branches found, read by found.
+    subroutine find_isolated(self, main_branch, count, force_max, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        type(plm_branch), intent(in) :: main_branch
+        integer, intent(inout) :: count
+        real(real64), intent(in), optional :: force_max
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(int64) :: n
+        integer(plm_status) :: status
+        n = 0
+        status = plm_hbm_find_isolated(self%handle, main_branch%handle, force_of(force_max), n)
+        if (status >= 0) count = int(n)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine find_isolated
+
+    ! The phase-resonant backbones, read by found; force_max as in find_isolated.
+    subroutine find_backbones(self, count, force_max, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        integer, intent(inout) :: count
+        real(real64), intent(in), optional :: force_max
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(int64) :: n
+        integer(plm_status) :: status
+        n = 0
+        status = plm_hbm_find_backbones(self%handle, force_of(force_max), n)
+        if (status >= 0) count = int(n)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine find_backbones
+
+    ! Branches on none of the `known` curves, by marching in time from n_states states at n_frequencies frequencies;
+    ! read by found.
+    subroutine find_by_marching(self, n_frequencies, n_states, count, known, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        integer, intent(in) :: n_frequencies, n_states
+        integer, intent(inout) :: count
+        type(plm_branch), intent(in), optional :: known(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        type(c_ptr), allocatable :: curves(:)
+        integer(int64) :: n
+        integer :: i, n_known
+        integer(plm_status) :: status
+        n_known = 0
+        if (present(known)) n_known = size(known)
+        allocate (curves(n_known))
+        do i = 1, n_known
+            curves(i) = known(i)%handle
+        end do
+        n = 0
+        status = plm_hbm_find_by_marching(self%handle, int(n_known, int64), curves, int(n_frequencies, int64), &
+            int(n_states, int64), n)
+        if (status >= 0) count = int(n)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine find_by_marching
+
+    ! Branch number `index` (from 1) of the last find_...; force_range: the force scales between which an isolated
+    ! branch exists, NaN where unknown.
+    subroutine found(self, index, branch, force_range, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        integer, intent(in) :: index
+        type(plm_branch), intent(inout) :: branch
+        real(real64), intent(inout), optional :: force_range(2)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call prepare(self, branch)
+        call finish(self%context, plm_hbm_get_found(self%handle, int(index, int64) - 1, force_range, branch%handle), &
+            stat, errmsg)
+    end subroutine found
+
+    ! The curve of folds over frequency and force scale from the located fold `point` of `branch`.
+    subroutine track_fold(self, branch, point, force_min, force_max, folds, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        type(plm_branch), intent(in) :: branch
+        integer, intent(in) :: point
+        real(real64), intent(in) :: force_min, force_max
+        type(plm_branch), intent(inout) :: folds
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call prepare(self, folds)
+        call finish(self%context, plm_hbm_track_fold(self%handle, branch%handle, int(point, int64) - 1, force_min, &
+            force_max, folds%handle), stat, errmsg)
+    end subroutine track_fold
+
+    ! From mode `mode` (1, 2, ...) about the contact at rest up to amplitude_max of the first harmonic of a DOF.
+    subroutine find_nonlinear_mode(self, mode, dof, amplitude_max, branch, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        integer, intent(in) :: mode, dof
+        real(real64), intent(in) :: amplitude_max
+        type(plm_branch), intent(inout) :: branch
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call prepare(self, branch)
+        call finish(self%context, plm_hbm_find_nonlinear_mode(self%handle, int(mode, int64), int(dof, int64) - 1, &
+            amplitude_max, branch%handle), stat, errmsg)
+    end subroutine find_nonlinear_mode
+
+    pure real(real64) function force_of(force_max)
+        real(real64), intent(in), optional :: force_max
+        force_of = 0
+        if (present(force_max)) force_of = force_max
+    end function force_of
 
     ! an output branch knows its context and kind before it has a handle
     subroutine prepare(self, branch)
@@ -227,6 +360,46 @@ contains
         if (status >= 0) call move_alloc(found, share)
         call finish(self%context, status, stat, errmsg)
     end subroutine closed_share
+
+    ! mean mechanical energy over the period, and mean closed share of the pairs
+    subroutine energy(self, point, mean_energy, contact_area, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        integer, intent(in) :: point
+        real(real64), intent(inout), optional :: mean_energy, contact_area
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_branch_get_energy(self%handle, int(point, int64) - 1, mean_energy, contact_area), &
+            stat, errmsg)
+    end subroutine energy
+
+    ! Floquet multipliers, largest modulus first; none where they were not computed (option 'stability')
+    subroutine multipliers(self, point, value, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        integer, intent(in) :: point
+        complex(real64), allocatable, intent(inout) :: value(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        real(real64), allocatable :: re(:), im(:)
+        integer(plm_status) :: status
+        integer(int64) :: n
+        n = 0
+        status = plm_branch_get_multipliers(self%handle, int(point, int64) - 1, 0_int64, count=n)
+        allocate (re(n), im(n))
+        if (status >= 0) status = plm_branch_get_multipliers(self%handle, int(point, int64) - 1, n, re, im, n)
+        if (status >= 0) value = cmplx(re, im, real64)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine multipliers
+
+    ! how nearly the point is a periodic motion of the reduced model in time
+    subroutine periodicity_defect(self, point, defect, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        integer, intent(in) :: point
+        real(real64), intent(inout) :: defect
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_branch_get_periodicity_defect(self%handle, int(point, int64) - 1, defect), stat, &
+            errmsg)
+    end subroutine periodicity_defect
 
     subroutine full_residual(self, point, relative_residual, stat, errmsg)
         class(plm_branch), intent(in) :: self

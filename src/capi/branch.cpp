@@ -2,6 +2,7 @@
 #include "capi/barrier.hpp"
 #include "capi/branch_end.hpp"
 #include "capi/branch_input.hpp"
+#include "hbm/formulation.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include <algorithm>
 
@@ -126,16 +127,19 @@ plm_status plm_branch_get_contact(plm_branch *branch, std::int64_t point, std::i
         require_point(*b.core, point);
         require_range(n_times, 1, 1 << 24, "n_times");
         const plm::Matrix u = b.core->penetration_coefficients(point);
-        const plm::vector<double> &stiffness = b.core->reduced().contact_stiffness;
+        const plm::ContactMotion law = plm::contact_motion(
+            b.core->reduced(), b.core->points()[static_cast<std::size_t>(point)]);
+        const plm::Matrix motion = law.u.transposed();
         const std::int64_t z = u.cols();
         for (std::int64_t k = 0; k < n_times; ++k)
             for (std::int64_t i = 0; i < z; ++i) {
                 const double t = 2 * M_PI * static_cast<double>(k) / static_cast<double>(n_times);
-                const double x = plm::evaluate_trig(u.col(i), b.core->n_harmonics(), t).value;
-                if (penetration) penetration[i + k * z] = x;
+                const double v = plm::evaluate_trig(motion.col(i), (motion.rows() - 1) / 2, t).value;
+                if (penetration)
+                    penetration[i + k * z] = plm::evaluate_trig(u.col(i), b.core->n_harmonics(), t).value;
                 if (force)
-                    force[i + k * z] = plm::ContactLaw::force(stiffness[static_cast<std::size_t>(i)], x);
-                if (closed) closed[i + k * z] = plm::ContactLaw::closed(x);
+                    force[i + k * z] = plm::ContactLaw::force((*law.stiffness)[static_cast<std::size_t>(i)], v);
+                if (closed) closed[i + k * z] = plm::ContactLaw::closed(v);
             }
         return PLM_OK;
     });

@@ -37,6 +37,9 @@ const std::vector<Key> &hbm_keys() {
                                      "samples per period of the sampled contact forces"),
         choice_option<&O::unknowns>("unknowns", "auto,modal,gaps",
                                     "nonlinear unknowns: reduced coordinates or contact gaps; auto: by cost"),
+        choice_option<&O::formulation>(
+            "formulation", "auto,penalty,compliance",
+            "contact law as a stiff spring, or with the force as unknown, which has the rigid limit; auto: by stiffness"),
         real_option<&O::frequency_min_hz>("frequency_min_hz", 0, huge,
                                           "lower end of a sweep (Hz); 0: the basis' window"),
         real_option<&O::frequency_max_hz>("frequency_max_hz", 0, huge,

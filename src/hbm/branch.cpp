@@ -1,5 +1,6 @@
 #include "hbm/branch.hpp"
 #include "hbm/contact_force.hpp"
+#include "hbm/formulation.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include "transient/shooting.hpp"
 #include <algorithm>
@@ -111,9 +112,9 @@ double Branch::periodicity_defect(std::int64_t point) const {
 }
 
 vector<double> Branch::closed_share(std::int64_t point) const {
-    const Matrix u = penetration_coefficients(point).transposed();
+    const Matrix u = contact_motion(*reduced_, points_[point]).u;
     ContactIndicator indicator;
-    make_event_force(n_harmonics_, u.rows())->indicator(u, indicator);
+    make_event_force((u.cols() - 1) / 2, u.rows())->indicator(u, indicator);
     vector<double> share(u.rows());
     for (std::int64_t i = 0; i < u.rows(); ++i) share[i] = indicator.averages(0, i);
     return share;

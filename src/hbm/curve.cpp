@@ -1,4 +1,5 @@
 #include "hbm/curve.hpp"
+#include "hbm/formulation.hpp"
 #include "hbm/harmonic_tail.hpp"
 #include "hbm/stability.hpp"
 #include "hbm/start.hpp"
@@ -47,8 +48,9 @@ class CurveTracer final : public PathOwner {
 
     void run(const CurveStart &start) {
         options_.n_harmonics = start.point.n_harmonics / options_.period_multiple;
-        wants_modal_ = modal_ = prefers_modal(*reduced_, options_.unknowns);
+        wants_modal_ = modal_ = prefers_modal(*reduced_, options_);
         options_.unknowns = modal_ ? UnknownSpace::modal : UnknownSpace::gaps;
+        compliant_ = make_formulation(*reduced_, options_).compliant;
         branch_.space_used = modal_ ? "modal" : "gaps";
         system_ = make_system(reduced_, options_);
         PathStart path = first(start);
@@ -163,7 +165,7 @@ class CurveTracer final : public PathOwner {
     // By the cubic cost of the dense factorization, with some inertia.
     void choose_space() {
         wants_modal_ = modal_;
-        if (asked_.unknowns == UnknownSpace::automatic && reduced_->n_pairs() > 0) {
+        if (asked_.unknowns == UnknownSpace::automatic && reduced_->n_pairs() > 0 && !compliant_) {
             const double r = static_cast<double>(reduced_->size()), moving = static_cast<double>(moved_most_);
             if (modal_ && 1.5 * moving < r && can_condense(*reduced_)) wants_modal_ = false;
             if (!modal_ && moving > 1.2 * r) wants_modal_ = true;
@@ -263,7 +265,7 @@ class CurveTracer final : public PathOwner {
     std::shared_ptr<const ReducedModel> reduced_;
     Stability stability_;
     std::unique_ptr<HbmSystem> system_;
-    bool modal_ = true, wants_modal_ = true, cancelled_ = false;
+    bool compliant_ = false, modal_ = true, wants_modal_ = true, cancelled_ = false;
     std::int64_t fewest_, wanted_harmonics_ = 0, since_change_ = 0, blocked_ = 0, moved_most_ = 0;
     double base_arclength_ = 0;
     vector<double> known_x_;

@@ -7,7 +7,7 @@ namespace plm {
 
 FoldSystem::FoldSystem(HbmSystem &inner, std::shared_ptr<const ReducedModel> reduced, const BranchPoint &about,
                        double unit)
-    : AugmentedSystem(inner, 1), reduced_(std::move(reduced)), omega_reference_(about.omega), unit_(unit),
+    : WrappedSystem(inner), reduced_(std::move(reduced)), omega_reference_(about.omega), unit_(unit),
       y_(inner.size() + 1), scratch_(inner.size()) {
     choose_borders(about);
 }
@@ -18,63 +18,84 @@ void FoldSystem::choose_borders(const BranchPoint &about) {
     inner_.set_force_scale(about.force_scale);
     inner_.from_point(about, y_.data());
     inner_.residual(y_.data(), about.omega, scratch_.data());
-    inner_.jacobian(jacobian_);
-    for (const bool transposed : {false, true}) {
-        Matrix a = transposed ? jacobian_.transposed() : jacobian_;
-        lu_.factor(a);
-        vector<double> &v = transposed ? b_ : c_;
-        v.assign(n, 1.0);
-        for (int k = 0; k < 4; ++k) {
-            lu_.solve(v.data(), 1, n);
-            const double size = norm2(n, v.data());
-            for (double &e : v) e /= size;
-        }
+    inner_.jacobian(matrix_);
+    linear_.factor(matrix_);
+    b_.assign(n, 1.0);
+    c_.assign(n, 1.0);
+    for (int k = 0; k < 4; ++k) {
+        linear_.solve_transposed(b_.data(), 1, n);
+        linear_.solve(c_.data(), 1, n);
+        const double left = norm2(n, b_.data()), right = norm2(n, c_.data());
+        for (std::int64_t i = 0; i < n; ++i) b_[i] /= left, c_[i] /= right;
     }
     for (double &e : b_) e *= about.omega * about.omega; // like the other equations
 }
 
-// [J b; c^T 0]^-1 or its transposed applied to (0, 1), for the Jacobian at hand.
-void FoldSystem::bordered(bool transposed, vector<double> &solution) {
+void FoldSystem::factor_bordered() {
     const std::int64_t n = inner_.size();
+    Matrix inner;
+    inner_.jacobian(inner);
     matrix_.reset(n + 1, n + 1);
     for (std::int64_t j = 0; j < n; ++j) {
-        for (std::int64_t i = 0; i < n; ++i) matrix_(i, j) = transposed ? jacobian_(j, i) : jacobian_(i, j);
-        matrix_(n, j) = transposed ? b_[j] : c_[j];
-        matrix_(j, n) = transposed ? c_[j] : b_[j];
+        std::copy(inner.col(j), inner.col(j) + n, matrix_.col(j));
+        matrix_(n, j) = c_[j];
+        matrix_(j, n) = b_[j];
     }
-    lu_.factor(matrix_);
-    solution.assign(n + 1, 0.0);
-    solution[n] = 1;
-    lu_.solve(solution.data(), 1, n + 1);
+    bordered_.factor(matrix_);
+    fresh_ = true;
 }
 
 void FoldSystem::residual(const double *y, double force, double *r) {
     const std::int64_t n = inner_.size();
     y_.assign(y, y + n + 1);
-    force_ = force;
     inner_.set_force_scale(force);
     inner_.residual(y, omega_of(y), r);
-    inner_.jacobian(jacobian_);
-    vector<double> v;
-    bordered(false, v);
-    r[n] = v[n];
+    factor_bordered();
+    v_.assign(n + 1, 0.0);
+    v_[n] = 1;
+    bordered_.solve(v_.data(), 1, n + 1);
+    r[n] = v_[n];
 }
 
-void FoldSystem::assemble(Matrix &jacobian) {
+void FoldSystem::linearize() {
     const std::int64_t n = inner_.size();
-    vector<double> v, w, gradient(n, 0.0);
-    bordered(false, v);
-    bordered(true, w);
-    contact_gradient(w, v, gradient.data());
-    const double along_frequency = dot(n, w.data(), frequency_derivative(v).data());
-    assemble_inner(jacobian);
-    inner_.omega_derivative(jacobian.col(n));
-    for (std::int64_t i = 0; i < n; ++i) {
-        jacobian(i, n) /= unit_;
-        jacobian(n, i) = -gradient[i];
-    }
-    jacobian(n, n) = -along_frequency / unit_;
+    if (!fresh_) factor_bordered();
+    std::swap(linear_, bordered_);
+    fresh_ = false;
+    null_ = v_;
+    vector<double> w(n + 1, 0.0);
+    w[n] = 1;
+    linear_.solve_transposed(w.data(), 1, n + 1);
+    gradient_ = contact_gradient(w, v_);
+    gradient_.push_back(-dot(n, w.data(), frequency_derivative(v_).data()) / unit_);
+    frequency_.assign(n + 1, 0.0);
+    inner_.omega_derivative(frequency_.data());
+    for (std::int64_t i = 0; i < n; ++i) frequency_[i] /= -unit_;
+    linear_.solve(frequency_.data(), 1, n + 1);
+    determinant_ = null_[n] * (dot(n, gradient_.data(), frequency_.data()) + gradient_[n]) -
+                   frequency_[n] * dot(n, gradient_.data(), null_.data());
 }
+
+// x = a + beta v + s z with (a, alpha) = M^-1 (r, 0): J x + s dR/dy_omega = r asks for
+// alpha + beta g + s zeta = 0, the last equation for dg/dy . (x, s) = r_last.
+void FoldSystem::solve(double *b, std::int64_t columns) {
+    const std::int64_t n = inner_.size();
+    const double gv = dot(n, gradient_.data(), null_.data()),
+                 gz = dot(n, gradient_.data(), frequency_.data()) + gradient_[n];
+    for (std::int64_t k = 0; k < columns; ++k) {
+        double *x = b + k * (n + 1);
+        const double last = x[n];
+        x[n] = 0;
+        linear_.solve(x, 1, n + 1);
+        const double first = -x[n], second = last - dot(n, gradient_.data(), x);
+        const double beta = (first * gz - frequency_[n] * second) / determinant_,
+                     s = (null_[n] * second - gv * first) / determinant_;
+        for (std::int64_t i = 0; i < n; ++i) x[i] += beta * null_[i] + s * frequency_[i];
+        x[n] = s;
+    }
+}
+
+int FoldSystem::determinant_sign() const { return determinant_ < 0 ? -linear_.determinant_sign() : linear_.determinant_sign(); }
 
 // (dJ/domega) v: dR/domega is linear in x and the same matrix.
 vector<double> FoldSystem::frequency_derivative(const vector<double> &v) {
@@ -85,30 +106,29 @@ vector<double> FoldSystem::frequency_derivative(const vector<double> &v) {
     return change;
 }
 
-// Z x (2H + 1) coefficients of the gaps' motion for unknowns x; as weights of residuals the harmonics count
-// twice, and the initial gap has no part in it.
-Matrix FoldSystem::penetration(const double *x, bool weights) const {
+// Z x (2H + 1) coefficients of the gaps for unknowns x, without the initial gap; the harmonics times `factor`.
+Matrix FoldSystem::gap_motion(const vector<double> &x, double factor) const {
     const ReducedModel &m = *reduced_;
     const std::int64_t z = m.n_pairs(), r = m.size(), columns = (inner_.size() - m.static_size()) / r;
-    Matrix eta(r, columns), u(z, columns + 1);
-    std::copy(x + m.static_size(), x + inner_.size(), eta.data());
-    gemv('N', 1.0, m.gap_0, x, 0.0, u.col(0));
-    Matrix dynamic(z, columns);
-    gemm('N', 'N', weights ? 2.0 : 1.0, m.gap, eta, 0.0, dynamic);
+    Matrix eta(r, columns), u(z, columns + 1), dynamic(z, columns);
+    std::copy(x.data() + m.static_size(), x.data() + inner_.size(), eta.data());
+    gemv('N', 1.0, m.gap_0, x.data(), 0.0, u.col(0));
+    gemm('N', 'N', factor, m.gap, eta, 0.0, dynamic);
     std::copy(dynamic.data(), dynamic.data() + z * columns, u.col(1));
     return u;
 }
 
-// d(w^T J v) = mean over the period of k_n ds W V, and ds = du / |u'| at each switching instant.
-void FoldSystem::contact_gradient(const vector<double> &w, const vector<double> &v, double *gradient) {
+// dg = -d(w^T J v), the mean over the period of k_n ds W V with ds = du / |u'| at each switching instant; the
+// residual of a harmonic is twice a mean, so that w's harmonics count twice in W(t).
+vector<double> FoldSystem::contact_gradient(const vector<double> &w, const vector<double> &v) const {
     const ReducedModel &m = *reduced_;
     const std::int64_t z = m.n_pairs(), r = m.size();
-    if (z == 0) return;
-    Matrix u = penetration(y_.data(), false);
+    vector<double> gradient(inner_.size(), 0.0);
+    if (z == 0) return gradient;
+    Matrix u = gap_motion(y_, 1);
     for (std::int64_t i = 0; i < z; ++i) u(i, 0) -= m.initial_gap[i];
     const SwitchingInstants switching = switching_instants(u);
-    const Matrix ut = u.transposed(), vt = penetration(v.data(), false).transposed(),
-                 wt = penetration(w.data(), true).transposed();
+    const Matrix ut = u.transposed(), vt = gap_motion(v, 1).transposed(), wt = gap_motion(w, 2).transposed();
     const std::int64_t columns = u.cols() - 1, h = columns / 2;
     Matrix change(z, columns + 1);
     for (std::int64_t i = 0; i < z; ++i)
@@ -123,9 +143,10 @@ void FoldSystem::contact_gradient(const vector<double> &w, const vector<double> 
                 change(i, 2 * k) += weight * std::sin(static_cast<double>(k) * t);
             }
         }
-    gemv('T', 1.0, m.gap_0, change.col(0), 0.0, gradient);
+    gemv('T', -1.0, m.gap_0, change.col(0), 0.0, gradient.data());
     for (std::int64_t c = 0; c < columns; ++c)
-        gemv('T', 1.0, m.gap, change.col(c + 1), 0.0, gradient + m.static_size() + c * r);
+        gemv('T', -1.0, m.gap, change.col(c + 1), 0.0, gradient.data() + m.static_size() + c * r);
+    return gradient;
 }
 
 void FoldSystem::omega_derivative(double *r) { // J does not depend on the force

@@ -1,42 +1,52 @@
 // The curve of folds of a response over (frequency, force). Where it turns back in the force, an isolated
 // branch is born or joins another one: these are the ends of the range of forces in which the branch exists.
 #pragma once
-#include "hbm/augmented_system.hpp"
+#include "hbm/wrapped_system.hpp"
+#include "linalg/lapack.hpp"
 #include "linalg/monitor.hpp"
 
 namespace plm {
 
 /// y = (x, (omega - omega_reference) unit), parameter: the force scale. Equations R = 0 and g = 0, with g from
-/// the bordered system [J b; c^T 0] [v; g] = [0; 1], which is regular at a fold (Griewank and Reddien 1984;
-/// minimally augmented). Its derivative is -w^T (dJ) v: of the contact only the switching instants contribute.
+/// the bordered system M [v; g] = [0; 1], M = [J b; c^T 0], which is regular at a fold (Griewank and Reddien
+/// 1984; minimally augmented). Its derivative is -w^T (dJ) v: of the contact only the switching instants
+/// contribute. One factorization, of M, serves g, its derivative and Newton's corrections.
 /// `inner` has modal unknowns and the event-exact force.
-class FoldSystem final : public AugmentedSystem {
+class FoldSystem final : public WrappedSystem {
   public:
     /// `about`: near a fold; b and c are taken from the null vectors there.
     FoldSystem(HbmSystem &inner, std::shared_ptr<const ReducedModel> reduced, const BranchPoint &about, double unit);
+    std::int64_t size() const override { return inner_.size() + 1; }
     void residual(const double *y, double force, double *r) override;
+    void linearize() override;
+    void solve(double *b, std::int64_t n) override;
+    int determinant_sign() const override;
     void omega_derivative(double *r) override;
     void linear_response(const vector<double> &share, double force, double *y) override;
     void to_point(const double *y, double force, BranchPoint &point) override;
     void from_point(const BranchPoint &point, double *y) override;
 
-  protected:
-    void assemble(Matrix &jacobian) override;
-
   private:
     double omega_of(const double *y) const { return omega_reference_ + y[inner_.size()] / unit_; }
-    void bordered(bool transposed, vector<double> &solution);
+    void factor_bordered();
     void choose_borders(const BranchPoint &about);
     vector<double> frequency_derivative(const vector<double> &v);
-    void contact_gradient(const vector<double> &w, const vector<double> &v, double *gradient);
-    Matrix penetration(const double *x, bool weights) const;
+    vector<double> contact_gradient(const vector<double> &w, const vector<double> &v) const;
+    Matrix gap_motion(const vector<double> &x, double factor) const;
 
     std::shared_ptr<const ReducedModel> reduced_;
     double omega_reference_, unit_;
-    vector<double> b_, c_, y_, scratch_;
-    double force_ = 0;
-    Matrix jacobian_, matrix_;
-    RealLu lu_;
+    vector<double> b_, c_; // borders
+    // at the last residual()
+    vector<double> y_, v_; // v_: (v, g)
+    RealLu bordered_;
+    bool fresh_ = false; // bordered_ has not moved to linear_ yet
+    // at the last linearize()
+    RealLu linear_;
+    vector<double> null_, frequency_, gradient_; // (v, g); (z, zeta) = -M^-1 (dR/dy_omega, 0); dg/dy
+    double determinant_ = 1;                     // of the two scalar equations left
+    Matrix matrix_;
+    vector<double> scratch_;
 };
 
 /// Corrects (x, omega) to a fold at the force scale given. False: `point` is unchanged.

@@ -2,6 +2,7 @@
 // harmonic.
 #include "hbm/branch.hpp"
 #include "hbm/contact_force.hpp"
+#include "hbm/formulation.hpp"
 #include <cmath>
 
 namespace plm {
@@ -107,11 +108,11 @@ class FullResidual {
 } // namespace
 
 double Branch::full_residual(std::int64_t point) const {
-    const Matrix u = penetration_coefficients(point).transposed();
+    const ContactMotion motion = contact_motion(*reduced_, points_[point]);
     ContactIndicator indicator;
-    make_event_force(n_harmonics_, u.rows())->indicator(u, indicator);
+    make_event_force(points_[point].n_harmonics, motion.u.rows())->indicator(motion.u, indicator);
     Matrix contact;
-    apply_indicator(indicator, reduced_->contact_stiffness, u, contact);
+    apply_indicator(indicator, *motion.stiffness, motion.u, contact);
     const FullResidual full(*reduced_, points_[point], period_multiple_);
     double residual = 0, energy = 0;
     for (std::int64_t h = 0; h <= points_[point].n_harmonics; ++h) full.add(h, contact, residual, energy);

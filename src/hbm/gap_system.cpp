@@ -1,8 +1,10 @@
-// Harmonic balance in the contact gaps: U + g = B D(omega) (F - B' N(U)), D the receptance of the open
+// Harmonic balance in the contact gaps: U + g = B D(omega) (F - B' N(U)) + slack N (formulation.hpp; slack is 0 in the
+// penalty form), D the receptance of the open
 // structure in the reduced model's coordinates. Exact for the same reduced model as modal_system.cpp; the
 // size of the dense system is the number of pairs that open and close over the period times (2H + 1),
 // whatever the size of the model. Pairs that stay open or closed are eliminated harmonic by harmonic,
 // exactly, and come back the moment they move.
+#include "hbm/formulation.hpp"
 #include "hbm/pair_elimination.hpp"
 #include "hbm/receptance.hpp"
 #include "hbm/system.hpp"
@@ -45,10 +47,11 @@ class GapSystem final : public HbmSystem {
   public:
     GapSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
         : m_(std::move(reduced)), h_(options.n_harmonics), n_(2 * h_ + 1), z_(m_->n_pairs()), r_(m_->size()),
-          r0_(m_->static_size()), force_(make_contact_force(options, z_)), stiffness_(m_->contact_stiffness),
+          r0_(m_->static_size()), force_(make_contact_force(options, z_)), form_(make_formulation(*m_, options)),
           gap_(m_->initial_gap), u_(z_, n_), contact_(z_, n_), receptance_(h_ + 1), constant_(h_ + 1),
           eta_(h_ + 1), force_scale_(options.force_scale) {
         update_static();
+        if (form_.compliant) law_ = std::make_shared<const vector<double>>(form_.stiffness);
     }
 
     std::int64_t size() const override { return z_ * n_; }
@@ -90,7 +93,7 @@ class GapSystem final : public HbmSystem {
         std::copy(x, x + size(), u_.data());
         set_frequency(omega);
         force_->indicator(u_, indicator_);
-        apply_indicator(indicator_, stiffness_, u_, contact_);
+        apply_indicator(indicator_, form_.stiffness, u_, contact_);
         respond();
         gaps_of_response(r);
         for (std::int64_t k = 0; k < size(); ++k) r[k] = u_.data()[k] - r[k];
@@ -108,7 +111,7 @@ class GapSystem final : public HbmSystem {
             const double *average = indicator_.averages.col(moving_[p]);
             for (std::int64_t c = 0; c < n_; ++c)
                 for (std::int64_t row = 0; row < n_; ++row)
-                    tangent_(row + c * n_, p) = stiffness_[moving_[p]] * indicator_entry(average, row, c);
+                    tangent_(row + c * n_, p) = form_.stiffness[moving_[p]] * indicator_entry(average, row, c);
             tangent_(0, p) -= reference_[moving_[p]];
         }
         assemble();
@@ -155,15 +158,24 @@ class GapSystem final : public HbmSystem {
                 point.eta(j, 2 * h - 2) = eta_[h][j].real(); // eta = a - i b
                 point.eta(j, 2 * h - 1) = -eta_[h][j].imag();
             }
+        point.contact_stiffness = law_;
+        if (law_) point.contact_motion = u_;
     }
 
     void from_point(const BranchPoint &point, double *x) override {
+        if (law_ && point.contact_stiffness && *point.contact_stiffness == *law_) {
+            const std::int64_t known = std::min(n_, point.contact_motion.cols()) * z_;
+            std::copy(point.contact_motion.data(), point.contact_motion.data() + known, x);
+            std::fill(x + known, x + size(), 0.0);
+            return;
+        }
         Matrix dynamic(z_, 2 * h_), eta = point.eta;
         set_harmonics(eta, h_);
         gemm('N', 'N', 1.0, m_->gap, eta, 0.0, dynamic);
         for (std::int64_t i = 0; i < z_; ++i) x[i] = -gap_[i];
         gemv('N', 1.0, m_->gap_0, point.eta_0.data(), 1.0, x);
         std::copy(dynamic.data(), dynamic.data() + z_ * 2 * h_, x + z_);
+        if (law_) add_slack_of_penalty(x);
     }
 
   private:
@@ -175,7 +187,7 @@ class GapSystem final : public HbmSystem {
         reference_.assign(z_, 0.0);
         if (!rigid) return;
         Matrix k(r0_, r0_), scaled = m_->gap_0;
-        for (std::int64_t i = 0; i < z_; ++i) reference_[i] = 0.5 * stiffness_[i];
+        for (std::int64_t i = 0; i < z_; ++i) reference_[i] = 0.5 * form_.stiffness[i];
         for (std::int64_t j = 0; j < r0_; ++j)
             for (std::int64_t i = 0; i < z_; ++i) scaled(i, j) *= reference_[i];
         gemm('T', 'N', 1.0, m_->gap_0, scaled, 0.0, k);
@@ -244,22 +256,40 @@ class GapSystem final : public HbmSystem {
         gemv('N', factor, m_->gap, imag_.data(), 0.0, out + z_);
     }
 
-    // out = B eta - g
+    // x = u becomes v = u + slack N with the force of the penalty law: a first guess.
+    void add_slack_of_penalty(double *x) {
+        std::copy(x, x + size(), u_.data());
+        force_->indicator(u_, indicator_);
+        apply_indicator(indicator_, m_->contact_stiffness, u_, contact_);
+        for (std::int64_t k = 0; k < size(); ++k) x[k] += form_.slack[k % z_] * contact_.data()[k];
+    }
+
+    // out = B eta - g + slack N
     void gaps_of_response(double *out) {
         for (std::int64_t i = 0; i < z_; ++i) out[i] = -gap_[i];
         gemv('N', 1.0, m_->gap_0, eta_0_.data(), 1.0, out);
         for (std::int64_t h = 1; h <= h_; ++h) write_gaps(eta_[h], 1.0, out + (2 * h - 1) * z_);
+        if (form_.compliant)
+            for (std::int64_t k = 0; k < size(); ++k) out[k] += form_.slack[k % z_] * contact_.data()[k];
     }
 
     // Tangent of a pair that does not switch, in harmonic h, less the part in the reference system.
     double constant_tangent(std::int64_t i, std::int64_t h) const {
-        const double k = indicator_.state[i] == PairState::closed ? stiffness_[i] : 0.0;
+        const double k = indicator_.state[i] == PairState::closed ? form_.stiffness[i] : 0.0;
         return h == 0 ? k - reference_[i] : k;
     }
 
     void receptance_of(std::int64_t h, const vector<std::int64_t> &pairs, Matrix &real, Matrix &imag) const {
         const Matrix rows = select_rows(h == 0 ? m_->gap_0 : m_->gap, pairs);
-        if (h > 0) return receptance_[h].contact_receptance(rows, real, imag);
+        if (h > 0) {
+            receptance_[h].contact_receptance(rows, real, imag);
+        } else {
+            static_receptance(rows, real, imag);
+        }
+        for (std::size_t p = 0; p < pairs.size(); ++p) real(p, p) -= form_.slack[pairs[p]];
+    }
+
+    void static_receptance(const Matrix &rows, Matrix &real, Matrix &imag) const {
         Matrix solved = rows.transposed();
         if (static_is_dense_) {
             static_cholesky_.solve(solved.data(), solved.cols(), r0_);
@@ -362,6 +392,7 @@ class GapSystem final : public HbmSystem {
             gemv('T', 1.0, m_->gap_0, c.data(), 0.0, v.data());
             apply_static(v.data());
             gemv('N', -1.0, m_->gap_0, v.data(), 1.0, b);
+            for (std::int64_t i = 0; i < z_; ++i) b[i] += form_.slack[i] * c[i];
             return;
         }
         vector<Complex> v;
@@ -370,6 +401,10 @@ class GapSystem final : public HbmSystem {
         vector<double> gaps(2 * z_);
         write_gaps(v, 1.0, gaps.data());
         for (std::int64_t k = 0; k < 2 * z_; ++k) b[(2 * h - 1) * z_ + k] -= gaps[k];
+        for (std::int64_t i = 0; i < z_; ++i) {
+            b[(2 * h - 1) * z_ + i] += form_.slack[i] * c[i];
+            b[2 * h * z_ + i] += form_.slack[i] * q[i];
+        }
     }
 
     std::int64_t n_moving() const { return static_cast<std::int64_t>(moving_.size()); }
@@ -377,7 +412,8 @@ class GapSystem final : public HbmSystem {
     std::shared_ptr<const ReducedModel> m_;
     std::int64_t h_, n_, z_, r_, r0_;
     std::unique_ptr<ContactForce> force_;
-    const vector<double> &stiffness_;
+    Formulation form_;
+    std::shared_ptr<const vector<double>> law_; // for points; null: penalty
     vector<double> gap_;
     Matrix u_, contact_;
     std::vector<Receptance> receptance_;

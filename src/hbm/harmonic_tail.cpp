@@ -1,22 +1,11 @@
 #include "hbm/harmonic_tail.hpp"
 #include "hbm/contact_force.hpp"
+#include "hbm/formulation.hpp"
 #include "hbm/receptance.hpp"
 #include <cmath>
 
 namespace plm {
 namespace {
-
-// Coefficients of the penetration, Z x (2 n + 1), of the first `kept` harmonics.
-Matrix penetration(const ReducedModel &m, const BranchPoint &p, std::int64_t kept, std::int64_t n) {
-    const std::int64_t z = m.n_pairs();
-    Matrix u(z, 2 * n + 1), eta = p.eta;
-    set_harmonics(eta, kept);
-    for (std::int64_t i = 0; i < z; ++i) u(i, 0) = -m.initial_gap[i];
-    gemv('N', 1.0, m.gap_0, p.eta_0.data(), 1.0, u.col(0));
-    const Matrix dynamic = product('N', 'N', m.gap, eta);
-    std::copy(dynamic.data(), dynamic.data() + z * 2 * kept, u.col(1));
-    return u;
-}
 
 double norm_of_harmonics(const Matrix &u, std::int64_t first, std::int64_t last) {
     return first > last ? 0 : norm2(u.rows() * 2 * (last - first + 1), u.col(2 * first - 1));
@@ -51,11 +40,13 @@ HarmonicContent harmonic_content(const ReducedModel &m, const BranchPoint &p, st
     const std::int64_t z = m.n_pairs(), solved = p.n_harmonics, n = 2 * solved + 2;
     content.tail_response.reset(m.size(), 2 * (solved + 2));
     if (z == 0) return content;
-    const Matrix u = penetration(m, p, solved, n);
+    const ContactMotion contact = contact_motion(m, p);
+    Matrix u(z, 2 * n + 1);
+    std::copy(contact.u.data(), contact.u.data() + z * (2 * solved + 1), u.data());
     ContactIndicator indicator;
     Matrix force;
     make_event_force(n, z)->indicator(u, indicator);
-    apply_indicator(indicator, m.contact_stiffness, u, force);
+    apply_indicator(indicator, *contact.stiffness, u, force);
     for (std::int64_t h = solved + 1; h <= n; ++h) {
         const std::int64_t column = 2 * (h - solved - 1);
         respond(m, h, p, multiple, force, content.tail_response.col(column), content.tail_response.col(column + 1));

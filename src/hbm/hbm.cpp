@@ -13,6 +13,8 @@ void check(const HbmOptions &o) {
         throw Error(PLM_ERR_ARGUMENT, text).argument(name);
     };
     if (o.n_harmonics < 0) refuse("n_harmonics", "n_harmonics must be positive, or 0 for automatic");
+    if (o.unknowns == UnknownSpace::modal && o.formulation == FormulationKind::compliance)
+        refuse("formulation", "the compliance formulation has the contact gaps as unknowns; set unknowns to gaps or auto");
     if (o.period_multiple < 1) refuse("period_multiple", "period_multiple must be at least 1");
     if (!(o.frequency_min_hz > 0 && o.frequency_max_hz > o.frequency_min_hz))
         refuse("frequency_min_hz",
@@ -125,7 +127,7 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
     if (stability.wanted()) result.multipliers = stability.multipliers(result);
     branch->append(std::move(result));
     branch->end_reason = PLM_REASON_RANGE_END;
-    branch->space_used = prefers_modal(*reduced_, options_.unknowns) ? "modal" : "gaps";
+    branch->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
     finish(*branch, begin);
     return branch;
 }

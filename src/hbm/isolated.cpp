@@ -13,10 +13,13 @@ constexpr std::int64_t largest_system = 400;  // unknowns of the backbone when h
 constexpr double weakest_resonance = 0.05;    // of the main branch, against its largest response
 
 // A crossing of the backbone with the force, and the extrema of the force on either side of it.
+// A crossing of the backbone with the force, and the extrema of the force (points of the backbone) between it
+// and its neighbours: a loop exists from the minimum above its lower crossing to the maximum below it.
 struct Seed {
     BranchPoint point;
-    double below = NAN, above = NAN; // nearest local minimum and maximum of the force along the backbone
-    double reach = 0;                // relative distance to the next crossing: the size of the loop
+    std::shared_ptr<const Branch> backbone;
+    std::ptrdiff_t minimum = -1, maximum = -1;
+    double reach = 0; // relative distance to the next crossing: the size of the loop
 };
 
 class Search {
@@ -84,38 +87,38 @@ class Search {
 
     void collect(const Backbone &backbone, std::vector<Seed> &seeds) const {
         const auto &points = backbone.branch->points();
-        for (std::size_t k = 0; k < backbone.crossings.size(); ++k) {
-            const std::size_t at = backbone.crossings[k];
-            Seed seed{points[at]};
+        const auto &at = backbone.crossings;
+        std::ptrdiff_t minimum = -1, maximum = -1;
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            if (k > 0) {
+                const std::ptrdiff_t i = extremum(points, at[k - 1], at[k]);
+                const bool over = i >= 0 && points[i].force_scale > options_.force_scale;
+                (over ? maximum : minimum) = i;
+                if (over && k + 1 < at.size()) minimum = extremum(points, at[k], at[k + 1]);
+            }
+            Seed seed{points[at[k]], backbone.branch, minimum, maximum};
             if (!resonance_.correct(options_.force_scale, seed.point)) continue;
             if (std::any_of(seeds.begin(), seeds.end(), [&](const Seed &s) {
                     return resonance_.distance(s.point, seed.point) < same_solution;
                 }))
                 continue;
-            for (std::size_t other : backbone.crossings) {
-                const double d = resonance_.distance(points[other], points[at]);
-                if (other != at && (seed.reach == 0 || d < seed.reach)) seed.reach = d;
+            for (std::size_t other : at) {
+                const double d = resonance_.distance(points[other], points[at[k]]);
+                if (other != at[k] && (seed.reach == 0 || d < seed.reach)) seed.reach = d;
             }
-            for (std::size_t i = at; i-- > 0;) // an isolated branch lies on the far side of a maximum
-                if (note_extremum(points[i], seed)) break;
-            for (std::size_t i = at; i < points.size(); ++i)
-                if (note_extremum(points[i], seed)) break;
             seeds.push_back(std::move(seed));
         }
-        complete(seeds);
     }
 
-    bool note_extremum(const BranchPoint &p, Seed &seed) const {
-        if (p.bifurcation != PLM_BIFURCATION_FOLD) return false;
-        (p.force_scale < options_.force_scale ? seed.below : seed.above) = p.force_scale;
-        return true;
-    }
-
-    // The crossing above the minimum knows the minimum only; the maximum is that of the crossing below it.
-    static void complete(std::vector<Seed> &seeds) {
-        for (Seed &s : seeds)
-            for (const Seed &t : seeds)
-                if (s.below == t.below && std::isnan(s.above)) s.above = t.above;
+    // The point furthest from the force asked for between two crossings.
+    std::ptrdiff_t extremum(const std::vector<BranchPoint> &points, std::size_t from, std::size_t to) const {
+        std::ptrdiff_t best = -1;
+        double most = 0;
+        for (std::size_t i = from + 1; i < to; ++i) {
+            const double d = std::abs(points[i].force_scale - options_.force_scale);
+            if (d > most) most = d, best = static_cast<std::ptrdiff_t>(i);
+        }
+        return best;
     }
 
     void trace(const Seed &seed) {
@@ -164,20 +167,35 @@ class Search {
         found.branch = whole;
     }
 
-    // Births and mergers are extrema of the force along the curve of folds; those next to the backbone's.
+    // Births and mergers are extrema of the force along the curve of folds, next to those of the backbone.
     void find_range(const Seed &seed, IsolatedBranch &found) const {
-        found.birth_force = seed.below;
-        found.merge_force = seed.above;
-        bool birth = false, merge = false;
-        for (const BranchPoint &fold : found.branch->points()) {
-            if (fold.bifurcation != PLM_BIFURCATION_FOLD) continue;
-            if (!std::isnan(seed.below)) birth |= turn(fold, false, seed.below, found.birth_force, birth);
-            if (!std::isnan(seed.above)) merge |= turn(fold, true, seed.above, found.merge_force, merge);
-        }
+        const bool birth = find_end(seed, seed.minimum, false, found, found.birth_force),
+                   merge = find_end(seed, seed.maximum, true, found, found.merge_force);
         found.tracked = birth && merge;
     }
 
-    bool turn(const BranchPoint &fold, bool upward, double estimate, double &force, bool have) const {
+    // From the fold nearest to the backbone's extremum; the others when that leads elsewhere.
+    bool find_end(const Seed &seed, std::ptrdiff_t at, bool upward, const IsolatedBranch &found, double &force) const {
+        force = NAN;
+        if (at < 0) return false;
+        const BranchPoint &extremum = seed.backbone->points()[at];
+        force = extremum.force_scale;
+        std::vector<BranchPoint> folds;
+        for (const BranchPoint &p : found.branch->points())
+            if (p.bifurcation == PLM_BIFURCATION_FOLD) folds.push_back(p);
+        std::sort(folds.begin(), folds.end(), [&](const BranchPoint &a, const BranchPoint &b) {
+            return std::abs(a.omega - extremum.omega) < std::abs(b.omega - extremum.omega);
+        });
+        for (const BranchPoint &fold : folds) {
+            const double turn = first_turn(fold, upward, extremum.force_scale);
+            if (!(std::abs(turn / extremum.force_scale - 1) < 0.3)) continue;
+            force = turn;
+            return true;
+        }
+        return false;
+    }
+
+    double first_turn(const BranchPoint &fold, bool upward, double estimate) const {
         FoldOptions o;
         o.hbm = options_;
         o.force_min = upward ? 0.5 * options_.force_scale : 0.5 * estimate;
@@ -185,15 +203,10 @@ class Search {
         o.upward = upward;
         o.stop_at_turn = true;
         const auto folds = follow_folds(reduced_, o, fold, watch_);
-        if (!folds) return false;
-        for (const BranchPoint &p : folds->points()) {
-            const bool beyond = upward ? p.force_scale > options_.force_scale : p.force_scale < options_.force_scale;
-            if (p.bifurcation != PLM_BIFURCATION_FOLD || !beyond) continue;
-            if (have && std::abs(p.force_scale - estimate) >= std::abs(force - estimate)) return false;
-            force = p.force_scale;
-            return true;
-        }
-        return false;
+        if (folds)
+            for (const BranchPoint &p : folds->points())
+                if (p.bifurcation == PLM_BIFURCATION_FOLD) return p.force_scale;
+        return NAN;
     }
 
     std::shared_ptr<const ReducedModel> reduced_;

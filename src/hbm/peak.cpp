@@ -151,7 +151,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         point = PeakSearch(*system, options, reduced_, dof, measure, harmonic).run(branch, top).point;
     }
     one->append(std::move(point));
-    one->space_used = prefers_modal(*reduced_, options_.unknowns) ? "modal" : "gaps";
+    one->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);
     peak.branch = one;

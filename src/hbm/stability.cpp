@@ -1,5 +1,6 @@
 #include "hbm/stability.hpp"
 #include "hbm/contact_force.hpp"
+#include "hbm/formulation.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -29,16 +30,9 @@ vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) co
 std::vector<ContactInterval> contact_intervals(const ReducedModel &m, const BranchPoint &point,
                                                std::int64_t period_multiple) {
     const double period = 2 * M_PI / point.omega * static_cast<double>(period_multiple);
-    const std::int64_t z = m.n_pairs(), h = point.n_harmonics;
+    const std::int64_t z = m.n_pairs();
     if (z == 0) return {{period, {}}};
-    Matrix eta = point.eta, u(z, 2 * h + 1);
-    set_harmonics(eta, h);
-    for (std::int64_t i = 0; i < z; ++i) u(i, 0) = -m.initial_gap[i];
-    gemv('N', 1.0, m.gap_0, point.eta_0.data(), 1.0, u.col(0));
-    const Matrix dynamic = product('N', 'N', m.gap, eta);
-    std::copy(dynamic.data(), dynamic.data() + z * 2 * h, u.col(1));
-
-    const SwitchingInstants switching = switching_instants(u);
+    const SwitchingInstants switching = switching_instants(contact_motion(m, point).u);
     std::vector<std::pair<double, std::int64_t>> events;
     for (std::int64_t i = 0; i < z; ++i)
         for (double t : switching.instants[i]) events.emplace_back(t, i);

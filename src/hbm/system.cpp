@@ -1,3 +1,4 @@
+#include "hbm/formulation.hpp"
 #include "hbm/system.hpp"
 #include "hbm/wrapped_system.hpp"
 #include "linalg/lapack.hpp"
@@ -25,10 +26,12 @@ bool can_condense(const ReducedModel &m) {
     return m.n_pairs() >= n_rigid && held.values.back() > 1e-9 * size;
 }
 
-bool prefers_modal(const ReducedModel &reduced, UnknownSpace unknowns) {
+bool prefers_modal(const ReducedModel &reduced, const HbmOptions &options) {
+    const UnknownSpace unknowns = options.unknowns;
     if (unknowns != UnknownSpace::automatic || reduced.n_pairs() == 0)
         return unknowns == UnknownSpace::modal || reduced.n_pairs() == 0;
     // The dense factorization dominates both; its order is r (2H + 1) or, at the most, Z (2H + 1).
+    if (make_formulation(reduced, options).compliant) return false;
     return reduced.size() <= reduced.n_pairs() || !can_condense(reduced);
 }
 
@@ -72,7 +75,7 @@ std::shared_ptr<const ReducedModel> on_longer_period(const ReducedModel &reduced
 
 std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduced,
                                        const HbmOptions &options) {
-    const bool modal = prefers_modal(*reduced, options.unknowns);
+    const bool modal = prefers_modal(*reduced, options);
     HbmOptions inner = options;
     const std::int64_t multiple = options.period_multiple;
     if (multiple > 1) {

@@ -42,6 +42,7 @@ class RealLu {
     /// eps * max|a| and singular() says so, since a continuation may pass through a fold.
     void factor(Matrix &a);
     void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const;
+    void solve_transposed(double *x, std::int64_t nrhs, std::int64_t ldx) const; // A^T x = b
     bool singular() const { return singular_; }
     double reciprocal_condition() const; // 1-norm estimate, dgecon
     /// Sign of the determinant: +1 or -1 (branch and fold detection).
@@ -49,6 +50,7 @@ class RealLu {
     std::int64_t size() const { return lu_.rows(); }
 
   private:
+    void solve(char op, double *x, std::int64_t nrhs, std::int64_t ldx) const;
     Matrix lu_;
     vector<int> pivots_;
     double norm1_ = 0;

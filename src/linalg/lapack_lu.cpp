@@ -38,12 +38,16 @@ void RealLu::factor(Matrix &a) {
         if (lu_(i, i) == 0) lu_(i, i) = tiny;
 }
 
-void RealLu::solve(double *x, std::int64_t nrhs, std::int64_t ldx) const {
+void RealLu::solve(double *x, std::int64_t nrhs, std::int64_t ldx) const { solve('N', x, nrhs, ldx); }
+
+void RealLu::solve_transposed(double *x, std::int64_t nrhs, std::int64_t ldx) const { solve('T', x, nrhs, ldx); }
+
+void RealLu::solve(char op, double *x, std::int64_t nrhs, std::int64_t ldx) const {
     const blas_int n = to_blas(size()), lda = leading(size()), m = to_blas(nrhs), ldb = to_blas(ldx);
     if (n == 0 || m == 0) return;
     require(ldx >= size(), "RealLu: leading dimension");
     blas_int info = 0;
-    dgetrs_("N", &n, &m, lu_.data(), &lda, pivots_.data(), x, &ldb, &info, 1);
+    dgetrs_(&op, &n, &m, lu_.data(), &lda, pivots_.data(), x, &ldb, &info, 1);
     require_valid(info, "dgetrs");
 }
 

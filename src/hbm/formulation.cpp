@@ -1,0 +1,57 @@
+#include "hbm/formulation.hpp"
+#include <algorithm>
+
+namespace plm {
+namespace {
+
+constexpr double stiff = 3e3;     // k_n over the local stiffness: beyond, few harmonics follow their own ripples
+constexpr double moderate = 100; // e over the local stiffness: softer converges more slowly in H, stiffer takes more steps
+
+// 1 / median static flexibility of the pairs in the open structure; 0 when rigid-body modes leave it without one.
+double local_stiffness(const ReducedModel &m) {
+    vector<double> flexibility(m.n_pairs(), 0.0);
+    for (std::int64_t j = 0; j < m.static_size(); ++j) {
+        if (m.lambda_0[j] <= 0) return 0;
+        for (std::int64_t i = 0; i < m.n_pairs(); ++i) flexibility[i] += m.gap_0(i, j) * m.gap_0(i, j) / m.lambda_0[j];
+    }
+    if (flexibility.empty()) return 0;
+    const auto middle = flexibility.begin() + static_cast<std::ptrdiff_t>(flexibility.size() / 2);
+    std::nth_element(flexibility.begin(), middle, flexibility.end());
+    return *middle > 0 ? 1 / *middle : 0;
+}
+
+} // namespace
+
+Formulation make_formulation(const ReducedModel &m, const HbmOptions &options) {
+    Formulation f;
+    f.stiffness = m.contact_stiffness;
+    f.slack.assign(m.n_pairs(), 0.0);
+    const bool possible = options.unknowns != UnknownSpace::modal;
+    if (!possible || options.formulation == FormulationKind::penalty) return f;
+    const double local = local_stiffness(m);
+    if (local == 0) return f; // the static reference of rigid-body modes needs the penalty form
+    const double limit = options.formulation == FormulationKind::compliance ? moderate : stiff;
+    for (std::int64_t i = 0; i < m.n_pairs(); ++i) {
+        if (m.contact_stiffness[i] <= limit * local) continue;
+        f.stiffness[i] = moderate * local;
+        f.slack[i] = 1 / f.stiffness[i] - 1 / m.contact_stiffness[i];
+        f.compliant = true;
+    }
+    return f;
+}
+
+ContactMotion contact_motion(const ReducedModel &m, const BranchPoint &point) {
+    if (point.contact_stiffness) return {point.contact_motion, point.contact_stiffness.get()};
+    const std::int64_t z = m.n_pairs(), h = point.n_harmonics;
+    Matrix u(z, 2 * h + 1), eta = point.eta;
+    if (z > 0) {
+        set_harmonics(eta, h);
+        for (std::int64_t i = 0; i < z; ++i) u(i, 0) = -m.initial_gap[i];
+        gemv('N', 1.0, m.gap_0, point.eta_0.data(), 1.0, u.col(0));
+        const Matrix dynamic = product('N', 'N', m.gap, eta);
+        std::copy(dynamic.data(), dynamic.data() + z * 2 * h, u.col(1));
+    }
+    return {std::move(u), &m.contact_stiffness};
+}
+
+} // namespace plm
