@@ -4,12 +4,12 @@
 // Header only, over plm.h alone; nothing is exported, any compiler will do. What a function computes is said
 // in plm.h beside the C function of the same name; this page says only what C++ adds:
 //
-//   - Model, Sampler, Basis, Hbm and Branch are move-only and may outlive one another and the Context in any
-//   order.
+//   - Model, Sampler, Basis, Hbm, Branch and Transient are move-only and may outlive one another and the
+//   Context in any order.
 //   - A failure throws plm::Error with everything the context knows about it. PLM_NOT_CONVERGED,
 //   PLM_TRUNCATED and
-//     PLM_CANCELLED of a sweep do not throw: see Branch::status(). A cancelled build or run throws
-//     plm::Cancelled.
+//     PLM_CANCELLED of a sweep do not throw: see Branch::status(), nor do those of Transient::run and
+//     find_periodic, which return them. A cancelled build or sampler throws plm::Cancelled.
 //   - Arrays in: any contiguous container (std::vector, std::array, std::span, Eigen vectors, {1, 2, 3}); its
 //   size is
 //     checked. Arrays out: std::vector, matrices by columns.
@@ -24,6 +24,7 @@
 
 #include "plm/plm.h"
 #include <array>
+#include <complex>
 #include <cstdint>
 #include <cstring>
 #include <exception>
@@ -325,6 +326,9 @@ template <> struct Api<plm_branch> {
     static constexpr auto destroy = plm_branch_destroy;
     PLM_HPP_GETTERS(branch) PLM_HPP_ARRAYS(branch)
 };
+template <> struct Api<plm_transient> {
+    PLM_HPP_SETTERS(transient) PLM_HPP_GETTERS(transient) PLM_HPP_ARRAYS(transient)
+};
 #undef PLM_HPP_SETTERS
 #undef PLM_HPP_GETTERS
 #undef PLM_HPP_ARRAYS
@@ -404,6 +408,16 @@ template <class C> class Handle {
         throw Error(d.function + ": " + argument + " has " + std::to_string(size) + " entries, needed are " +
                         std::to_string(needed),
                     d);
+    }
+    /// Real and imaginary parts of unknown number: get(capacity, real, imag, count) copies them out.
+    template <class Get> std::vector<std::complex<double>> complex_array(Get get, const char *verb) const {
+        std::int64_t n = 0;
+        check(get(std::int64_t(0), nullptr, nullptr, &n), verb);
+        std::vector<double> real(index(n)), imag(index(n));
+        if (n > 0) check(get(n, real.data(), imag.data(), &n), verb);
+        std::vector<std::complex<double>> values;
+        for (std::size_t i = 0; i < real.size(); ++i) values.emplace_back(real[i], imag[i]);
+        return values;
     }
     static std::string full_name(const char *verb) { return std::string("plm_") + Api<C>::name + "_" + verb; }
     State &living() const {
@@ -772,6 +786,10 @@ class Basis : public detail::WithOptions<Basis, plm_basis> {
 // ---- Response
 // -------------------------------------------------------------------------------------------------
 
+struct Energy {          // over the period
+    double energy;       // mean kinetic, elastic and contact energy
+    double contact_area; // mean closed share of the pairs
+};
 struct Contact { // over the cycle, each n_pairs x n_times
     Dense<double> penetration, force;
     Dense<std::int32_t> closed;
@@ -783,6 +801,10 @@ class Branch : public detail::Handle<plm_branch> {
     plm_status status() const { return status_; }
     std::int64_t size() const { return get_int("n_points"); }
     std::vector<double> frequency_hz() const { return get_array("frequency_hz"); }
+    /// PLM_BIFURCATION_... of every point.
+    std::vector<std::int64_t> bifurcation() const { return get_int_array("bifurcation"); }
+    /// 1 stable, 0 unstable, -1 not computed, of every point.
+    std::vector<std::int64_t> stable() const { return get_int_array("stable"); }
 
     /// measure: PLM_PEAK, PLM_HALF_PEAK_TO_PEAK, PLM_RMS or PLM_HARMONIC.
     std::vector<double> amplitude(std::int64_t dof, std::int32_t measure = PLM_HALF_PEAK_TO_PEAK,
@@ -824,6 +846,21 @@ class Branch : public detail::Handle<plm_branch> {
               "get_closed_share");
         return share;
     }
+    Energy energy(std::int64_t point) const {
+        Energy e{};
+        finished(plm_branch_get_energy(handle_, point, &e.energy, &e.contact_area), "get_energy");
+        return e;
+    }
+    /// Floquet multipliers, largest modulus first; empty where they were not computed (option "stability").
+    std::vector<std::complex<double>> multipliers(std::int64_t point) const {
+        return complex_array([&](auto... x) { return plm_branch_get_multipliers(handle_, point, x...); },
+                             "get_multipliers");
+    }
+    double periodicity_defect(std::int64_t point) const {
+        double defect = 0;
+        finished(plm_branch_get_periodicity_defect(handle_, point, &defect), "get_periodicity_defect");
+        return defect;
+    }
     double full_residual(std::int64_t point) const {
         double r = 0;
         finished(plm_branch_get_full_residual(handle_, point, &r), "get_full_residual");
@@ -840,6 +877,10 @@ class Branch : public detail::Handle<plm_branch> {
 struct Peak {
     double frequency_hz, amplitude;
     Branch branch; // of one point
+};
+struct Isolated {
+    Branch branch;
+    std::array<double, 2> force_range; // force scales between which it exists, NaN where unknown
 };
 
 class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
@@ -864,7 +905,67 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
         return {hz, amplitude, deliver(s, b, "find_peak")};
     }
 
+    /// The curve that leaves `branch` at a located branch point or period doubling, see Branch::bifurcation.
+    Branch switch_branch(const Branch &branch, std::int64_t point, bool mirrored = false) {
+        plm_branch *b = nullptr;
+        const plm_status s = plm_hbm_switch_branch(handle_, branch.handle_, point, mirrored, &b);
+        return deliver(s, b, "switch_branch");
+    }
+    /// Isolated branches beside the whole main curve; force_max 0: eight times "force_scale".
+    std::vector<Isolated> find_isolated(const Branch &main_branch, double force_max = 0) {
+        std::int64_t n = 0;
+        finished(plm_hbm_find_isolated(handle_, main_branch.handle_, force_max, &n), "find_isolated");
+        std::vector<Isolated> all;
+        for (std::int64_t i = 0; i < n; ++i) {
+            std::array<double, 2> range{};
+            Branch b = found(i, range.data());
+            all.push_back({std::move(b), range});
+        }
+        return all;
+    }
+    /// The phase-resonant backbones: resonance against force, see "point_force_scale" of their points.
+    std::vector<Branch> find_backbones(double force_max = 0) {
+        std::int64_t n = 0;
+        finished(plm_hbm_find_backbones(handle_, force_max, &n), "find_backbones");
+        return found(n);
+    }
+    /// Branches on none of the known ones, by marching in time. known: a range of Branch or of
+    /// std::reference_wrapper<const Branch>, or {curve, other}.
+    template <class Curves = std::initializer_list<std::reference_wrapper<const Branch>>>
+    std::vector<Branch> find_by_marching(const Curves &known, std::int64_t n_frequencies,
+                                         std::int64_t n_states) {
+        std::vector<plm_branch *> curves;
+        for (const Branch &b : known) curves.push_back(b.handle_);
+        std::int64_t n = 0;
+        finished(plm_hbm_find_by_marching(handle_, static_cast<std::int64_t>(curves.size()), curves.data(),
+                                          n_frequencies, n_states, &n),
+                 "find_by_marching");
+        return found(n);
+    }
+    /// The curve of folds over frequency and force scale from a located fold.
+    Branch track_fold(const Branch &branch, std::int64_t point, double force_min, double force_max) {
+        plm_branch *b = nullptr;
+        const plm_status s = plm_hbm_track_fold(handle_, branch.handle_, point, force_min, force_max, &b);
+        return deliver(s, b, "track_fold");
+    }
+    /// From mode 1, 2, ... about the contact at rest up to an amplitude of the DOF's first harmonic.
+    Branch find_nonlinear_mode(std::int64_t mode, std::int64_t dof, double amplitude_max) {
+        plm_branch *b = nullptr;
+        const plm_status s = plm_hbm_find_nonlinear_mode(handle_, mode, dof, amplitude_max, &b);
+        return deliver(s, b, "find_nonlinear_mode");
+    }
+
   private:
+    Branch found(std::int64_t i, double *force_range) {
+        plm_branch *b = nullptr;
+        const plm_status s = plm_hbm_get_found(handle_, i, force_range, &b);
+        return deliver(s, b, "get_found");
+    }
+    std::vector<Branch> found(std::int64_t n) {
+        std::vector<Branch> all;
+        for (std::int64_t i = 0; i < n; ++i) all.push_back(found(i, nullptr));
+        return all;
+    }
     Branch solve(double frequency_hz, plm_branch *start, std::int64_t point) {
         plm_branch *b = nullptr;
         const plm_status s = plm_hbm_solve(handle_, frequency_hz, start, point, &b);
@@ -876,6 +977,73 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
         if (!b) living().fail(status, full_name(verb).c_str()); // stopped before the first point
         return branch;
     }
+};
+
+// ---- Transient
+// ------------------------------------------------------------------------------------------------
+
+struct MotionState {
+    std::vector<double> q, v; // displacement and velocity of all DOFs
+};
+
+class Transient : public detail::WithOptions<Transient, plm_transient> {
+  public:
+    /// The full model, by implicit time steps.
+    explicit Transient(const Model &model) : Transient(model, nullptr) {}
+    /// The reduced model, by its exact flow.
+    Transient(const Model &model, const Basis &basis) : Transient(model, basis.c_handle()) {}
+
+    /// The DOFs whose motion the next runs record; {} records none.
+    void observe(Indices dof, std::int32_t index_base = 0) {
+        check(dof.is_wide() ? plm_transient_observe_i64(handle_, index_base, dof.size(), dof.wide())
+                            : plm_transient_observe_i32(handle_, index_base, dof.size(), dof.narrow()),
+              dof.is_wide() ? "observe_i64" : "observe_i32");
+    }
+    /// q and v: n_dof or nullptr (zero), at the beginning of a period.
+    void set_state(Reals q, Reals v = {}) {
+        if (q.data() && v.data()) require_size(v.size(), q.size(), "set_state", "v");
+        const std::int64_t n = q.data() ? q.size() : v.data() ? v.size() : n_dof_;
+        finished(plm_transient_set_state(handle_, n, q.data(), v.data()), "set_state");
+    }
+    /// State, frequency and force scale of a point of a response curve.
+    void start_at(const Branch &branch, std::int64_t point) {
+        finished(plm_transient_start_at(handle_, branch.c_handle(), point), "start_at");
+    }
+    /// PLM_OK, or PLM_CANCELLED: what was marched is kept.
+    plm_status run() {
+        const plm_status s = plm_transient_run(handle_);
+        check(s, "run");
+        return s;
+    }
+    /// PLM_OK, or PLM_NOT_CONVERGED or PLM_CANCELLED: see "periodicity_defect".
+    plm_status find_periodic() {
+        const plm_status s = plm_transient_find_periodic(handle_);
+        check(s, "find_periodic");
+        return s;
+    }
+    MotionState state() const {
+        MotionState now;
+        now.q.resize(detail::index(n_dof_)), now.v.resize(detail::index(n_dof_));
+        check(plm_transient_get_state(handle_, n_dof_, now.q.data(), now.v.data()), "get_state");
+        return now;
+    }
+    /// Displacement of the observed DOF number `observed` at the instants get_array("time").
+    std::vector<double> history(std::int64_t observed) const {
+        std::int64_t n = 0;
+        check(plm_transient_get_history(handle_, observed, 0, nullptr, &n), "get_history");
+        std::vector<double> values(detail::index(n));
+        if (n > 0) check(plm_transient_get_history(handle_, observed, n, values.data(), &n), "get_history");
+        return values;
+    }
+    /// Floquet multipliers of the motion find_periodic found.
+    std::vector<std::complex<double>> multipliers() const {
+        return complex_array([&](auto... x) { return plm_transient_get_multipliers(handle_, x...); },
+                             "get_multipliers");
+    }
+
+  private:
+    Transient(const Model &model, plm_basis *basis);
+    std::int64_t n_dof_;
 };
 
 // The constructors read protected members of another handle only through these two.
@@ -897,6 +1065,10 @@ inline Basis::Basis(const Model &model)
 }
 inline Hbm::Hbm(const Basis &basis) : WithOptions(detail::Access<plm_basis>::state(basis), nullptr) {
     check(plm_hbm_create(basis.c_handle(), &handle_), "create");
+}
+inline Transient::Transient(const Model &model, plm_basis *basis)
+    : WithOptions(detail::Access<plm_model>::state(model), nullptr), n_dof_(model.n_dof()) {
+    check(plm_transient_create(model.c_handle(), basis, &handle_), "create");
 }
 
 } // namespace cpp

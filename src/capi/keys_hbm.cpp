@@ -56,8 +56,9 @@ const std::vector<Key> &hbm_keys() {
                                       "first arc-length step, 1 = the window; 0: automatic"),
         real_option<&O::min_step>("min_step", 1e-14, 1, "smallest arc-length step"),
         real_option<&O::max_step>("max_step", 1e-12, 10, "largest arc-length step"),
-        choice_option<&O::stability>("stability", "off,auto,floquet",
-                                     "Floquet multipliers of every point; auto: up to 24 coordinates"),
+        choice_option<&O::stability>("stability", "off,auto,floquet,hill",
+                                     "Floquet multipliers of every point, by the exact flow or by Hill's method; auto: by the "
+                                     "flow, up to 24 coordinates"),
         choice_option<&O::bifurcations>("bifurcations", "off,on",
                                         "locate folds and branch points, with stability also period doublings and "
                                         "Neimark-Sacker points"),

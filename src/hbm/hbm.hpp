@@ -9,7 +9,7 @@ namespace plm {
 enum class AftKind { event, sampled };
 enum class UnknownSpace { automatic, modal, gaps };
 enum class FormulationKind { automatic, penalty, compliance };
-enum class StabilityKind { off, automatic, floquet };
+enum class StabilityKind { off, automatic, floquet, hill };
 
 struct HbmOptions {
     std::int64_t n_harmonics = 0;                    // 0: as many as each point needs

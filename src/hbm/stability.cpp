@@ -1,6 +1,7 @@
 #include "hbm/stability.hpp"
 #include "hbm/contact_force.hpp"
 #include "hbm/formulation.hpp"
+#include "hbm/hill.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -16,15 +17,16 @@ constexpr std::int64_t automatic_size = 24;
 
 Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
     : reduced_(std::move(reduced)), period_multiple_(options.period_multiple),
-      wanted_(options.stability == StabilityKind::floquet ||
-              (options.stability == StabilityKind::automatic && reduced_->static_size() <= automatic_size)) {
+      wanted_(options.stability == StabilityKind::floquet || options.stability == StabilityKind::hill ||
+              (options.stability == StabilityKind::automatic && reduced_->static_size() <= automatic_size)),
+      hill_(options.stability == StabilityKind::hill) {
     if (wanted_ && reduced_->structural == 0) flow_ = std::make_shared<FlowModel>(reduced_);
 }
 
 vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) const {
-    const auto intervals = contact_intervals(*reduced_, point, period_multiple_);
-    if (flow_) return plm::multipliers(monodromy(*flow_, intervals));
-    return plm::multipliers(monodromy(FlowModel(reduced_, point.omega), intervals));
+    const auto flow = flow_ ? flow_ : std::make_shared<FlowModel>(reduced_, point.omega);
+    if (hill_) return hill_multipliers(*flow, point, period_multiple_);
+    return plm::multipliers(monodromy(*flow, contact_intervals(*reduced_, point, period_multiple_)));
 }
 
 std::vector<ContactInterval> contact_intervals(const ReducedModel &m, const BranchPoint &point,

@@ -19,7 +19,7 @@ class Stability {
   private:
     std::shared_ptr<const ReducedModel> reduced_;
     std::int64_t period_multiple_;
-    bool wanted_;
+    bool wanted_, hill_;
     std::shared_ptr<const FlowModel> flow_; // null when it depends on the frequency
 };
 

@@ -312,6 +312,25 @@ void neimark_sacker_points_agree_with_the_exact_flow(void **) {
     assert_true(below(t.error, 1e-3)); // hits at a stiff stop converge slowly in H; the flow is exact for their instants
 }
 
+// Hill's method against the exact flow, for the multipliers that matter (the largest).
+double hill_error(int harmonics) {
+    const Model m = test::reduce_exactly(test::chain(3, 0.02, 5, 0.1, 0.3, 0.2, {0, 2}));
+    HbmOptions o;
+    o.n_harmonics = harmonics;
+    std::complex<double> largest[2];
+    for (int k = 0; k < 2; ++k) {
+        o.stability = k == 0 ? plm::StabilityKind::floquet : plm::StabilityKind::hill;
+        largest[k] = solver(m, o, 0.2, 1.5).solve(0.7 / (2 * M_PI), nullptr, 0)->points()[0].multipliers[0];
+    }
+    return std::abs(std::abs(largest[0]) / std::abs(largest[1]) - 1);
+}
+void hills_method_converges_to_the_multipliers_of_the_flow(void **) {
+    const double few = hill_error(5), many = hill_error(30);
+    std::printf("    largest multiplier, Hill against flow: H 5 %.1e, H 30 %.1e\n", few, many);
+    assert_true(below(many, 1e-3)); // the stiffness jumps in time: its Fourier series converges slowly
+    assert_true(many < few);
+}
+
 } // namespace
 
 int main() {
@@ -321,6 +340,7 @@ int main() {
         cmocka_unit_test(symmetry_breaking_is_exact_and_both_sides_are_found),
         cmocka_unit_test(the_doubled_response_repeats_after_two_periods),
         cmocka_unit_test(neimark_sacker_points_agree_with_the_exact_flow),
+        cmocka_unit_test(hills_method_converges_to_the_multipliers_of_the_flow),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
