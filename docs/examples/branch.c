@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { H = 5, N_DOF = 2, N_PAIRS = 1, TIMES = 8 };
+enum { H = 5, N_DOF = 2, N_PAIRS = 1, TIMES = 8, MULTIPLIERS = 8 };
 
 static int whole_curve(plm_branch *curve) {
     /* [plm_branch_get_int] [plm_branch_get_double] [plm_branch_get_string] */
@@ -57,12 +57,37 @@ static int one_point(plm_branch *peak) {
     printf("closed for %.1f %% of the period\n", 100 * share[0]);
     /* [plm_branch_get_closed_share] */
 
+    /* [plm_branch_get_energy] */
+    double energy, area;
+    TRY(plm_branch_get_energy(peak, 0, &energy, &area));
+    printf("energy %.3g J, %.1f %% of the pairs closed in the mean\n", energy, 100 * area);
+    /* [plm_branch_get_energy] */
+
     /* [plm_branch_get_full_residual] */
     double residual;
     TRY(plm_branch_get_full_residual(peak, 0, &residual));
     printf("relative residual of the unreduced equations: %.2g\n", residual);
     /* [plm_branch_get_full_residual] */
     EXPECT(share[0] > 0 && share[0] < 1 && residual < 1e-6 && q[1] != 0);
+    EXPECT(energy > 0 && area > 0 && area < 1);
+    return 0;
+}
+
+static int in_time(plm_branch *curve, int64_t point) {
+    /* [plm_branch_get_multipliers] */
+    double real[MULTIPLIERS], imag[MULTIPLIERS]; /* two for each column of the basis */
+    int64_t count;                               /* 0 where "stability" is "off" */
+    TRY(plm_branch_get_multipliers(curve, point, MULTIPLIERS, real, imag, &count));
+    for (int64_t i = 0; i < count; i++) printf("multiplier %.3f %+.3f i\n", real[i], imag[i]);
+    /* [plm_branch_get_multipliers] */
+    EXPECT(count > 0 && real[0] * real[0] + imag[0] * imag[0] < 1);
+
+    /* [plm_branch_get_periodicity_defect] */
+    double defect;
+    TRY(plm_branch_get_periodicity_defect(curve, point, &defect));
+    printf("marched from here, the motion repeats after a period to %.2g\n", defect);
+    /* [plm_branch_get_periodicity_defect] */
+    EXPECT(defect < 0.01);
     return 0;
 }
 
@@ -74,6 +99,7 @@ static int show(plm_hbm *hbm) {
     TRY(plm_hbm_find_peak(hbm, curve, 1, PLM_HALF_PEAK_TO_PEAK, 0, &hz, &amplitude, &peak));
     line = whole_curve(curve);
     if (!line) line = one_point(peak);
+    if (!line) line = in_time(curve, 5);
     if (line) return line;
     /* [plm_branch_destroy] */
     TRY(plm_branch_destroy(&curve)); /* its points are gone, the peak is a branch of its own */

@@ -18,16 +18,20 @@ plm_status start_model(plm_context *ctx, plm_model **model) {
     return s;
 }
 
-plm_status start_basis(plm_context *ctx, plm_basis **basis) {
-    plm_model *model = NULL;
+plm_status basis_of(plm_model *model, plm_basis **basis) {
     plm_sampler *sampler = NULL;
-    plm_status s = start_model(ctx, &model);
-    if (!s) s = plm_model_build(model);
-    if (!s) s = plm_sampler_create(model, &sampler);
+    plm_status s = plm_sampler_create(model, &sampler);
     if (!s) s = plm_sampler_run(sampler);
     if (!s) s = plm_basis_create(model, basis);
     if (!s) s = plm_basis_set_sampler(*basis, sampler);
     return s ? s : plm_basis_build(*basis);
+}
+
+plm_status start_basis(plm_context *ctx, plm_basis **basis) {
+    plm_model *model = NULL;
+    plm_status s = start_model(ctx, &model);
+    if (!s) s = plm_model_build(model);
+    return s ? s : basis_of(model, basis);
 }
 
 int main(void) {

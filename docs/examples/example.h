@@ -25,5 +25,7 @@ int example(plm_context *ctx);
 plm_status start_model(plm_context *ctx, plm_model **model);
 /* The same, built, and on to piecewise-linear modes. */
 plm_status start_basis(plm_context *ctx, plm_basis **basis);
+/* From a built model to piecewise-linear modes. */
+plm_status basis_of(plm_model *model, plm_basis **basis);
 
 #endif

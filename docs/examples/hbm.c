@@ -1,4 +1,4 @@
-/* hbm.c: the periodic response: a curve, its peak, one frequency. */
+/* hbm.c: the periodic response: a curve, its peak, one frequency, and what there is beside the curve. */
 #include "example.h"
 #include <stdio.h>
 
@@ -51,8 +51,148 @@ static int sweep(plm_basis *basis) {
     return 0;
 }
 
+/* Oscillator of 1 kg and 1 N/m between two stops at 0.2 m, from the model to a solver of the unreduced
+ * structure. */
+static int between_stops(plm_context *ctx, plm_hbm **hbm) {
+    const int32_t zero[] = {0}, row_ptr[] = {0, 1, 2}, dof[] = {0, 0};
+    const double one[] = {1}, damping[] = {0.1}, coefficient[] = {1, -1}, stop[] = {10, 10},
+                 gap[] = {0.2, 0.2};
+    plm_model *model = NULL;
+    plm_basis *basis = NULL;
+    TRY(plm_model_create(ctx, 1, &model));
+    TRY(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 1, zero, zero, one));
+    TRY(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 1, zero, zero,
+                                 one));
+    TRY(plm_model_set_matrix_i32(model, PLM_DAMPING, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 1, zero, zero,
+                                 damping));
+    TRY(plm_model_add_gap_rows_i32(model, 0, 2, row_ptr, dof, coefficient, stop, gap));
+    TRY(plm_model_set_excitation(model, 1, 1, one, NULL));
+    TRY(plm_model_build(model));
+    TRY(plm_basis_create(model, &basis));
+    TRY(plm_basis_set_string(basis, "kind", "full"));
+    TRY(plm_basis_set_double(basis, "frequency_min_hz", 0.19));
+    TRY(plm_basis_set_double(basis, "frequency_max_hz", 0.32));
+    TRY(plm_basis_build(basis));
+    TRY(plm_hbm_create(basis, hbm));
+    return 0;
+}
+
+/* A pre-loaded oscillator that opens at large amplitude and carries a light second one, about three times as
+ * fast. */
+static int carrier(plm_context *ctx, plm_hbm **hbm) {
+    const int32_t row[] = {0, 1, 1}, column[] = {0, 0, 1}, row_ptr[] = {0, 1}, dof[] = {0};
+    const double mass[] = {1, 0, 0.2}, stiffness[] = {3.048, -2.048, 2.048}, one[] = {1}, force[] = {1, 0},
+                 preload[] = {0.5, 0};
+    plm_model *model = NULL;
+    plm_basis *basis = NULL;
+    TRY(plm_model_create(ctx, 2, &model));
+    TRY(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 3, row, column,
+                                 mass));
+    TRY(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 3, row, column,
+                                 stiffness));
+    TRY(plm_model_set_rayleigh_damping(model, 0, 0.004));
+    TRY(plm_model_add_gap_rows_i32(model, 0, 1, row_ptr, dof, one, one, NULL));
+    TRY(plm_model_set_preload(model, 2, preload));
+    TRY(plm_model_set_excitation(model, 1, 2, force, NULL));
+    TRY(plm_model_build(model));
+    TRY(plm_basis_create(model, &basis));
+    TRY(plm_basis_set_string(basis, "kind", "full"));
+    TRY(plm_basis_set_double(basis, "frequency_min_hz", 0.14));
+    TRY(plm_basis_set_double(basis, "frequency_max_hz", 0.26));
+    TRY(plm_basis_build(basis));
+    TRY(plm_hbm_create(basis, hbm));
+    TRY(plm_hbm_set_double(*hbm, "force_scale", 0.006));
+    return 0;
+}
+
+enum { MAX_POINTS = 2000 };
+
+/* The first point of a branch that is a PLM_BIFURCATION_..., or -1. */
+static int64_t first_of(plm_branch *branch, int32_t kind) {
+    static int64_t bifurcation[MAX_POINTS];
+    int64_t n = 0;
+    if (plm_branch_get_int_array(branch, "bifurcation", MAX_POINTS, bifurcation, &n)) return -1;
+    for (int64_t i = 0; i < n; i++)
+        if (bifurcation[i] == kind) return i;
+    return -1;
+}
+
+/* Mean displacement of DOF 0 at the second point. */
+static double mean_of(plm_branch *branch) {
+    static double mean[MAX_POINTS];
+    int64_t n = 0;
+    return plm_branch_get_amplitude(branch, 0, PLM_HARMONIC, 0, MAX_POINTS, mean, &n) || n < 2 ? 0 : mean[1];
+}
+
+static int switch_branch(plm_hbm *hbm) {
+    plm_branch *curve = NULL;
+    TRY(plm_hbm_sweep(hbm, &curve));
+    /* [plm_hbm_switch_branch] */
+    const int64_t crossing = first_of(curve, PLM_BIFURCATION_BRANCH_POINT); /* in the array "bifurcation" */
+    plm_branch *left = NULL, *right = NULL; /* here the motion leans to one stop, or to the other */
+    TRY(plm_hbm_switch_branch(hbm, curve, crossing, 0, &left));
+    TRY(plm_hbm_switch_branch(hbm, curve, crossing, 1, &right));
+    /* [plm_hbm_switch_branch] */
+    EXPECT(mean_of(left) * mean_of(right) < 0);
+    return 0;
+}
+
+static int beside_the_curve(plm_hbm *hbm, plm_branch *curve, plm_branch **isolated) {
+    /* [plm_hbm_find_isolated] [plm_hbm_get_found] */
+    int64_t count;
+    TRY(plm_hbm_find_isolated(hbm, curve, 0, &count)); /* 0: forces up to eight times "force_scale" */
+    for (int64_t i = 0; i < count; i++) {
+        double force[2];
+        TRY(plm_hbm_get_found(hbm, i, force, isolated));
+        printf("an isolated branch, it exists for force scales from %.4g to %.4g\n", force[0], force[1]);
+    }
+    /* [plm_hbm_find_isolated] [plm_hbm_get_found] */
+    EXPECT(count == 1);
+
+    /* [plm_hbm_find_backbones] */
+    plm_branch *backbone = NULL; /* of each point: "frequency_hz", "point_force_scale", its amplitude */
+    TRY(plm_hbm_find_backbones(hbm, 0, &count));
+    for (int64_t i = 0; i < count; i++) TRY(plm_hbm_get_found(hbm, i, NULL, &backbone));
+    /* [plm_hbm_find_backbones] */
+    EXPECT(count == 1 && backbone);
+
+    /* [plm_hbm_track_fold] */
+    plm_branch *folds = NULL; /* frequency and force of the fold; its own folds: births and mergers */
+    TRY(plm_hbm_track_fold(hbm, *isolated, first_of(*isolated, PLM_BIFURCATION_FOLD), 0.003, 0.01, &folds));
+    /* [plm_hbm_track_fold] */
+    EXPECT(first_of(folds, PLM_BIFURCATION_FOLD) >= 0);
+    return 0;
+}
+
+static int other_searches(plm_hbm *hbm, plm_branch *curve) {
+    /* [plm_hbm_find_by_marching] */
+    int64_t count; /* motions from 3 states at each of 12 frequencies; those that are on no known curve are
+                      traced */
+    TRY(plm_hbm_find_by_marching(hbm, 1, &curve, 12, 3, &count));
+    printf("%d branches found by marching\n", (int)count); /* read by plm_hbm_get_found */
+    /* [plm_hbm_find_by_marching] */
+    EXPECT(count >= 1);
+
+    /* [plm_hbm_find_nonlinear_mode] */
+    plm_branch *mode = NULL; /* the free motion: frequency against amplitude, without force and damping */
+    TRY(plm_hbm_find_nonlinear_mode(hbm, 1, 0, 1.5, &mode));
+    /* [plm_hbm_find_nonlinear_mode] */
+    EXPECT(mode);
+    return 0;
+}
+
 int example(plm_context *ctx) {
     plm_basis *basis = NULL;
+    plm_hbm *hbm = NULL;
+    plm_branch *curve = NULL, *isolated = NULL;
+    int line;
     TRY(start_basis(ctx, &basis));
-    return sweep(basis);
+    line = sweep(basis);
+    if (!line) line = between_stops(ctx, &hbm);
+    if (!line) line = switch_branch(hbm);
+    if (!line) line = carrier(ctx, &hbm);
+    if (line) return line;
+    TRY(plm_hbm_sweep(hbm, &curve));
+    line = beside_the_curve(hbm, curve, &isolated);
+    return line ? line : other_searches(hbm, curve);
 }

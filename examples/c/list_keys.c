@@ -74,5 +74,6 @@ int main(void) {
     print_kind(PLM_KIND_BASIS, "plm_basis");
     print_kind(PLM_KIND_HBM, "plm_hbm");
     print_kind(PLM_KIND_BRANCH, "plm_branch");
+    print_kind(PLM_KIND_TRANSIENT, "plm_transient");
     return 0;
 }

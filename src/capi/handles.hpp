@@ -8,6 +8,8 @@
 #include "model/rest.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/sampler.hpp"
+#include "transient/transient.hpp"
+#include <optional>
 
 namespace plm::capi {
 
@@ -79,6 +81,20 @@ struct BranchHandle final : HandleOf<plm_branch, Kind::branch> {
         : HandleOf(std::move(c)), core(std::move(b)) {}
 
     std::shared_ptr<const Branch> core;
+};
+
+struct TransientHandle final : HandleOf<plm_transient, Kind::transient> {
+    TransientHandle(std::shared_ptr<Context> c, std::shared_ptr<ModelHandle> m, std::shared_ptr<BasisHandle> b)
+        : HandleOf(std::move(c)), model(std::move(m)), basis(std::move(b)) {}
+    void *options() override { return &transient_options; }
+
+    std::shared_ptr<ModelHandle> model;
+    std::shared_ptr<BasisHandle> basis; // null: the full model
+    TransientOptions transient_options;
+    vector<std::int64_t> observed; // DOFs, base 0
+    std::unique_ptr<Transient> core; // made when first needed, of the basis as it is then
+    std::optional<TransientRun> last_run;
+    std::optional<PeriodicMotion> periodic; // of the last search from the present start
 };
 
 /// The built core of a handle; PLM_ERR_STATE with what to call when it does not exist yet.

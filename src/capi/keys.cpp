@@ -7,7 +7,8 @@ namespace plm::capi {
 namespace {
 
 const char *kind_name(Kind kind) {
-    static const char *const names[] = {"context", "model", "sampler", "basis", "hbm", "branch"};
+    static const char *const names[] = {"context", "model", "sampler", "basis", "hbm", "branch",
+                                        "transient"};
     return names[static_cast<int>(kind)];
 }
 
@@ -21,6 +22,7 @@ const void *default_options(Kind kind) {
     static const SamplerOptions sampler;
     static const BasisOptions basis;
     static const HbmOptions hbm;
+    static const TransientOptions transient;
     switch (kind) {
     case Kind::model:
         return &model;
@@ -30,6 +32,8 @@ const void *default_options(Kind kind) {
         return &basis;
     case Kind::hbm:
         return &hbm;
+    case Kind::transient:
+        return &transient;
     default:
         return nullptr;
     }
@@ -113,6 +117,8 @@ const std::vector<Key> &keys_of(Kind kind) {
         return hbm_keys();
     case Kind::branch:
         return branch_keys();
+    case Kind::transient:
+        return transient_keys();
     default:
         throw Error(PLM_ERR_INTERNAL, "this kind of handle has no keys");
     }

@@ -39,6 +39,7 @@ const std::vector<Key> &sampler_keys();
 const std::vector<Key> &basis_keys();
 const std::vector<Key> &hbm_keys();
 const std::vector<Key> &branch_keys();
+const std::vector<Key> &transient_keys();
 
 const std::vector<Key> &keys_of(Kind kind);
 /// PLM_ERR_KEY with the nearest name when there is none.

@@ -14,7 +14,8 @@ enum class Kind {
     sampler = PLM_KIND_SAMPLER,
     basis = PLM_KIND_BASIS,
     hbm = PLM_KIND_HBM,
-    branch = PLM_KIND_BRANCH
+    branch = PLM_KIND_BRANCH,
+    transient = PLM_KIND_TRANSIENT
 };
 
 struct Context;

@@ -1,7 +1,7 @@
 // Event-exact AFT. A coarse grid brackets the zeros of each pair's penetration; cells in which the curve
 // turns towards zero and back are searched for a pair of zeros (grazing: without it the force would jump when
-// a pair opens and closes inside one cell). Between the zeros the indicator is 0 or 1 and its averages are
-// integrals of cosines and sines.
+// a pair opens and closes inside one cell), and cells that may hold more are halved. Between the zeros the
+// indicator is 0 or 1 and its averages are integrals of cosines and sines.
 #include "hbm/contact_force.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include <algorithm>
@@ -38,7 +38,7 @@ class EventForce final : public ContactForce {
         gemm('N', 'T', 1.0, grid_, u, 0.0, values_);
         for (std::int64_t i = 0; i < u.rows(); ++i) {
             for (std::int64_t c = 0; c < u.cols(); ++c) x_[c] = u(i, c);
-            search(values_.col(i));
+            find_roots(values_.col(i));
             all.closed_first.push_back(ContactLaw::closed(values_(0, i)));
             all.instants.push_back(roots_);
         }
@@ -48,7 +48,7 @@ class EventForce final : public ContactForce {
   private:
     PairState pair(const double *value, double *average) {
         const bool closed_first = ContactLaw::closed(value[0]);
-        search(value);
+        find_roots(value);
         if (roots_.empty()) {
             average[0] = closed_first ? 1 : 0;
             return closed_first ? PairState::closed : PairState::open;
@@ -57,32 +57,53 @@ class EventForce final : public ContactForce {
         return PairState::switching;
     }
 
-    void search(const double *value) {
-        double wave = 0, bend = 0; // bounds of |u - a0| and |u''|
+    void find_roots(const double *value) {
+        double wave = 0; // bound of |u - a0|
+        bend_ = twist_ = 0;
         for (std::int64_t h = 1; h <= h_; ++h) {
             const double r = std::abs(x_[2 * h - 1]) + std::abs(x_[2 * h]);
             wave += r;
-            bend += static_cast<double>(h * h) * r;
+            bend_ += static_cast<double>(h * h) * r;
+            twist_ += static_cast<double>(h * h * h) * r;
         }
         roots_.clear();
-        if (std::abs(x_[0]) <= wave) find_roots(value, 0.125 * width_ * width_ * bend);
-    }
-
-    // A chord over a cell is nowhere further from u than `sagitta`: cells whose ends clear it hold no zero.
-    void find_roots(const double *value, double sagitta) {
+        if (std::abs(x_[0]) > wave) return;
         const double *slope = value + n_grid_;
         for (std::int64_t i = 0; i < n_grid_; ++i) {
             const std::int64_t j = i + 1 < n_grid_ ? i + 1 : 0;
             const TrigEnd left{width_ * static_cast<double>(i), value[i], slope[i]};
-            const TrigEnd right{left.t + width_, value[j], slope[j]};
-            if (ContactLaw::closed(left.value) != ContactLaw::closed(right.value)) {
-                roots_.push_back(trig_root(x_.data(), h_, left, right));
-                continue;
-            }
-            if (std::min(std::abs(left.value), std::abs(right.value)) > sagitta) continue;
-            const double towards = ContactLaw::closed(left.value) ? -1.0 : 1.0;
-            if (left.slope * towards > 0 && right.slope * towards < 0) grazing_roots(left, right);
+            search(left, {left.t + width_, value[j], slope[j]}, 12);
         }
+    }
+
+    // A chord over a cell is nowhere further from u than its sagitta: cells whose ends clear it hold no zero.
+    void search(const TrigEnd &left, const TrigEnd &right, int halvings) {
+        const bool crosses = ContactLaw::closed(left.value) != ContactLaw::closed(right.value);
+        const double width = right.t - left.t, sagitta = 0.125 * width * width * bend_;
+        if (!crosses && std::min(std::abs(left.value), std::abs(right.value)) > sagitta) return;
+        if (halvings > 0 && !simple(left, right)) {
+            const double t = 0.5 * (left.t + right.t);
+            const TrigValue v = evaluate_trig(x_.data(), h_, t);
+            const TrigEnd middle{t, v.value, v.slope};
+            search(left, middle, halvings - 1);
+            search(middle, right, halvings - 1);
+            return;
+        }
+        if (crosses) {
+            roots_.push_back(trig_root(x_.data(), h_, left, right));
+            return;
+        }
+        const double towards = ContactLaw::closed(left.value) ? -1.0 : 1.0;
+        if (left.slope * towards > 0 && right.slope * towards < 0) grazing_roots(left, right);
+    }
+
+    // Is the second derivative certain to keep its sign in the cell, or the first? Then u has no more than two zeros,
+    // or one. The slopes at the ends give the mean second derivative, from which it differs by half of the bound of the
+    // third times the width at most.
+    bool simple(const TrigEnd &left, const TrigEnd &right) const {
+        const double width = right.t - left.t, change = 0.5 * width * width * twist_;
+        if (std::abs(right.slope - left.slope) > change) return true;
+        return left.slope * right.slope > 0 && std::min(std::abs(left.slope), std::abs(right.slope)) > 0.25 * change;
     }
 
     // The curve turns inside the cell: two zeros if it gets across.
@@ -116,7 +137,7 @@ class EventForce final : public ContactForce {
     }
 
     std::int64_t h_, n_grid_;
-    double width_;
+    double width_, bend_ = 0, twist_ = 0; // of a grid cell; bounds of the second and third derivative of u
     Matrix grid_, values_;
     vector<double> x_, roots_;
 };

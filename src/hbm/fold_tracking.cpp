@@ -5,8 +5,8 @@
 
 namespace plm {
 
-FoldSystem::FoldSystem(HbmSystem &inner, std::shared_ptr<const ReducedModel> reduced, const BranchPoint &about,
-                       double unit)
+FoldSystem::FoldSystem(HbmSystem &inner, std::shared_ptr<const ReducedModel> reduced,
+                       const BranchPoint &about, double unit)
     : WrappedSystem(inner), reduced_(std::move(reduced)), omega_reference_(about.omega), unit_(unit),
       y_(inner.size() + 1), scratch_(inner.size()) {
     choose_borders(about);
@@ -95,7 +95,9 @@ void FoldSystem::solve(double *b, std::int64_t columns) {
     }
 }
 
-int FoldSystem::determinant_sign() const { return determinant_ < 0 ? -linear_.determinant_sign() : linear_.determinant_sign(); }
+int FoldSystem::determinant_sign() const {
+    return determinant_ < 0 ? -linear_.determinant_sign() : linear_.determinant_sign();
+}
 
 // (dJ/domega) v: dR/domega is linear in x and the same matrix.
 vector<double> FoldSystem::frequency_derivative(const vector<double> &v) {
@@ -106,7 +108,8 @@ vector<double> FoldSystem::frequency_derivative(const vector<double> &v) {
     return change;
 }
 
-// Z x (2H + 1) coefficients of the gaps for unknowns x, without the initial gap; the harmonics times `factor`.
+// Z x (2H + 1) coefficients of the gaps for unknowns x, without the initial gap; the harmonics times
+// `factor`.
 Matrix FoldSystem::gap_motion(const vector<double> &x, double factor) const {
     const ReducedModel &m = *reduced_;
     const std::int64_t z = m.n_pairs(), r = m.size(), columns = (inner_.size() - m.static_size()) / r;
@@ -174,8 +177,8 @@ namespace {
 
 class FoldPath final : public PathOwner {
   public:
-    FoldPath(std::shared_ptr<const ReducedModel> reduced, const FoldOptions &options, const BranchPoint &about,
-             Watch watch)
+    FoldPath(std::shared_ptr<const ReducedModel> reduced, const FoldOptions &options,
+             const BranchPoint &about, Watch watch)
         : options_(options), watch_(watch) {
         HbmOptions &o = options_.hbm;
         o.unknowns = UnknownSpace::modal;

@@ -7,15 +7,16 @@
 
 namespace plm {
 
-/// y = (x, (omega - omega_reference) unit), parameter: the force scale. Equations R = 0 and g = 0, with g from
-/// the bordered system M [v; g] = [0; 1], M = [J b; c^T 0], which is regular at a fold (Griewank and Reddien
-/// 1984; minimally augmented). Its derivative is -w^T (dJ) v: of the contact only the switching instants
-/// contribute. One factorization, of M, serves g, its derivative and Newton's corrections.
-/// `inner` has modal unknowns and the event-exact force.
+/// y = (x, (omega - omega_reference) unit), parameter: the force scale. Equations R = 0 and g = 0, with g
+/// from the bordered system M [v; g] = [0; 1], M = [J b; c^T 0], which is regular at a fold (Griewank and
+/// Reddien 1984; minimally augmented). Its derivative is -w^T (dJ) v: of the contact only the switching
+/// instants contribute. One factorization, of M, serves g, its derivative and Newton's corrections. `inner`
+/// has modal unknowns and the event-exact force.
 class FoldSystem final : public WrappedSystem {
   public:
     /// `about`: near a fold; b and c are taken from the null vectors there.
-    FoldSystem(HbmSystem &inner, std::shared_ptr<const ReducedModel> reduced, const BranchPoint &about, double unit);
+    FoldSystem(HbmSystem &inner, std::shared_ptr<const ReducedModel> reduced, const BranchPoint &about,
+               double unit);
     std::int64_t size() const override { return inner_.size() + 1; }
     void residual(const double *y, double force, double *r) override;
     void linearize() override;

@@ -7,7 +7,8 @@ namespace {
 constexpr double stiff = 3e3;     // k_n over the local stiffness: beyond, few harmonics follow their own ripples
 constexpr double moderate = 100; // e over the local stiffness: softer converges more slowly in H, stiffer takes more steps
 
-// 1 / median static flexibility of the pairs in the open structure; 0 when rigid-body modes leave it without one.
+} // namespace
+
 double local_stiffness(const ReducedModel &m) {
     vector<double> flexibility(m.n_pairs(), 0.0);
     for (std::int64_t j = 0; j < m.static_size(); ++j) {
@@ -19,8 +20,6 @@ double local_stiffness(const ReducedModel &m) {
     std::nth_element(flexibility.begin(), middle, flexibility.end());
     return *middle > 0 ? 1 / *middle : 0;
 }
-
-} // namespace
 
 Formulation make_formulation(const ReducedModel &m, const HbmOptions &options) {
     Formulation f;

@@ -13,6 +13,9 @@ struct Formulation {
     bool compliant = false;   // some slack is not zero
 };
 
+/// 1 / median static flexibility of the pairs in the open structure; 0 when rigid-body modes leave it without one.
+double local_stiffness(const ReducedModel &reduced);
+
 Formulation make_formulation(const ReducedModel &reduced, const HbmOptions &options);
 
 /// The polynomials (Z x (2H + 1)) whose positive part times a stiffness is the contact force of a point: its

@@ -74,6 +74,21 @@ class GapSystem final : public HbmSystem {
         }
     }
 
+    void set_stiffness_factor(double factor) override { stiffness_factor_ = factor; }
+
+    void stiffness_derivative(double *r) override { // B D B' N - slack N
+        std::fill(r, r + size(), 0.0);
+        vector<double> c(z_), q(z_, 0.0);
+        for (std::int64_t h = 0; h <= h_; ++h) {
+            for (std::int64_t i = 0; i < z_; ++i) {
+                c[i] = contact_(i, h == 0 ? 0 : 2 * h - 1);
+                if (h > 0) q[i] = contact_(i, 2 * h);
+            }
+            subtract_response(h, c, q, r);
+        }
+        for (std::int64_t k = 0; k < size(); ++k) r[k] = -r[k];
+    }
+
     void set_extra_gap(double extra) override {
         for (std::int64_t i = 0; i < z_; ++i) gap_[i] = m_->initial_gap[i] + extra;
     }
@@ -94,6 +109,7 @@ class GapSystem final : public HbmSystem {
         set_frequency(omega);
         force_->indicator(u_, indicator_);
         apply_indicator(indicator_, form_.stiffness, u_, contact_);
+        for (std::int64_t k = 0; k < size(); ++k) contact_.data()[k] *= stiffness_factor_;
         respond();
         gaps_of_response(r);
         for (std::int64_t k = 0; k < size(); ++k) r[k] = u_.data()[k] - r[k];
@@ -111,7 +127,7 @@ class GapSystem final : public HbmSystem {
             const double *average = indicator_.averages.col(moving_[p]);
             for (std::int64_t c = 0; c < n_; ++c)
                 for (std::int64_t row = 0; row < n_; ++row)
-                    tangent_(row + c * n_, p) = form_.stiffness[moving_[p]] * indicator_entry(average, row, c);
+                    tangent_(row + c * n_, p) = stiffness_factor_ * form_.stiffness[moving_[p]] * indicator_entry(average, row, c);
             tangent_(0, p) -= reference_[moving_[p]];
         }
         assemble();
@@ -275,7 +291,7 @@ class GapSystem final : public HbmSystem {
 
     // Tangent of a pair that does not switch, in harmonic h, less the part in the reference system.
     double constant_tangent(std::int64_t i, std::int64_t h) const {
-        const double k = indicator_.state[i] == PairState::closed ? form_.stiffness[i] : 0.0;
+        const double k = indicator_.state[i] == PairState::closed ? stiffness_factor_ * form_.stiffness[i] : 0.0;
         return h == 0 ? k - reference_[i] : k;
     }
 
@@ -422,7 +438,7 @@ class GapSystem final : public HbmSystem {
     vector<double> eta_0_, reference_, real_, imag_;
     DenseCholesky static_cholesky_;
     bool static_is_dense_ = false;
-    double force_scale_, omega_ = -1;
+    double force_scale_, stiffness_factor_ = 1, omega_ = -1;
     vector<std::int64_t> moving_;
     Matrix tangent_, jacobian_;
     RealLu lu_;

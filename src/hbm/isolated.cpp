@@ -8,9 +8,9 @@
 namespace plm {
 namespace {
 
-constexpr double same_solution = 1e-5;        // relative distance of phase-resonant points
-constexpr std::int64_t largest_system = 400;  // unknowns of the backbone when harmonics are chosen by point
-constexpr double weakest_resonance = 0.05;    // of the main branch, against its largest response
+constexpr double same_solution = 1e-5;       // relative distance of phase-resonant points
+constexpr std::int64_t largest_system = 400; // unknowns of the backbone when harmonics are chosen by point
+constexpr double weakest_resonance = 0.05;   // of the main branch, against its largest response
 
 // A crossing of the backbone with the force, and the extrema of the force on either side of it.
 // A crossing of the backbone with the force, and the extrema of the force (points of the backbone) between it
@@ -32,6 +32,7 @@ class Search {
 
     IsolatedSearch run() {
         const auto begin = std::chrono::steady_clock::now();
+        if (!(options_.force_scale > 0)) return std::move(out_); // nothing moves
         known_ = resonance_.on_curve(main_);
         out_.backbones = resonance_.backbones();
         add_backbones_of_main();
@@ -55,7 +56,8 @@ class Search {
         const std::int64_t first = with_first_harmonics(*reduced_, options_).n_harmonics;
         const std::int64_t room = largest_system / (2 * std::max<std::int64_t>(1, reduced_->size()));
         std::int64_t most = 0;
-        for (const BranchPoint &p : main_.points()) most = std::max(most, p.n_harmonics / options_.period_multiple);
+        for (const BranchPoint &p : main_.points())
+            most = std::max(most, p.n_harmonics / options_.period_multiple);
         o.hbm.n_harmonics = std::max(first, std::min(room, most));
         return o;
     }
@@ -63,9 +65,8 @@ class Search {
     double size_of(const BranchPoint &p) const { return norm2(p.eta.rows() * p.eta.cols(), p.eta.data()); }
 
     bool is_known(const BranchPoint &p) const {
-        return std::any_of(known_.begin(), known_.end(), [&](const BranchPoint &k) {
-            return resonance_.distance(k, p) < same_solution;
-        });
+        return std::any_of(known_.begin(), known_.end(),
+                           [&](const BranchPoint &k) { return solution_distance(k, p) < same_solution; });
     }
 
     // Resonances of the main branch that no backbone from rest has met.
@@ -81,7 +82,7 @@ class Search {
     bool met(const BranchPoint &p) const {
         for (const Backbone &b : out_.backbones)
             for (std::size_t i : b.crossings)
-                if (resonance_.distance(b.branch->points()[i], p) < 1e-3) return true;
+                if (solution_distance(b.branch->points()[i], p) < 1e-3) return true;
         return false;
     }
 
@@ -99,11 +100,11 @@ class Search {
             Seed seed{points[at[k]], backbone.branch, minimum, maximum};
             if (!resonance_.correct(options_.force_scale, seed.point)) continue;
             if (std::any_of(seeds.begin(), seeds.end(), [&](const Seed &s) {
-                    return resonance_.distance(s.point, seed.point) < same_solution;
+                    return solution_distance(s.point, seed.point) < same_solution;
                 }))
                 continue;
             for (std::size_t other : at) {
-                const double d = resonance_.distance(points[other], points[at[k]]);
+                const double d = solution_distance(points[other], points[at[k]]);
                 if (other != at[k] && (seed.reach == 0 || d < seed.reach)) seed.reach = d;
             }
             seeds.push_back(std::move(seed));
@@ -123,16 +124,14 @@ class Search {
 
     void trace(const Seed &seed) {
         HbmOptions options = options_;
-        options.upward = true;
-        if (seed.reach > 0) options.max_step = std::max(10 * options.min_step, std::min(options.max_step, 0.3 * seed.reach));
+        if (seed.reach > 0)
+            options.max_step = std::max(10 * options.min_step, std::min(options.max_step, 0.3 * seed.reach));
         options.initial_step = 0.1 * options.max_step;
         BranchPoint start = seed.point;
         settle_harmonics(reduced_, options, start);
         IsolatedBranch found;
-        found.branch = std::make_shared<Branch>(reduced_, options.force_scale, options.period_multiple);
-        trace_curve(options, {start, {}}, watch_, *found.branch);
+        found.branch = trace_through(reduced_, options, start, watch_);
         found.closed = found.branch->end_reason == PLM_REASON_LOOP_CLOSED;
-        if (!found.closed) add_other_side(options, start, found);
         const std::vector<BranchPoint> met = resonance_.on_curve(*found.branch);
         for (const BranchPoint &p : met)
             if (p.omega != seed.point.omega && is_known(p)) return; // the main branch, or one found already
@@ -140,31 +139,6 @@ class Search {
         known_.insert(known_.end(), met.begin(), met.end());
         find_range(seed, found);
         out_.branches.push_back(std::move(found));
-    }
-
-    // Leaves the frequency range: the way to the other side in front of it.
-    void add_other_side(HbmOptions options, const BranchPoint &start, IsolatedBranch &found) {
-        options.upward = false;
-        Branch other(reduced_, options.force_scale, options.period_multiple);
-        trace_curve(options, {start, {}}, watch_, other);
-        auto whole = std::make_shared<Branch>(reduced_, options.force_scale, options.period_multiple);
-        const auto &before = other.points(), &after = found.branch->points();
-        const double length = before.back().arclength;
-        for (std::size_t i = before.size(); i-- > 1;) {
-            BranchPoint p = before[i];
-            p.arclength = length - p.arclength;
-            whole->append(std::move(p));
-        }
-        for (BranchPoint p : after) {
-            p.arclength += length;
-            whole->append(std::move(p));
-        }
-        whole->end_reason = found.branch->end_reason;
-        whole->newton_iterations = found.branch->newton_iterations + other.newton_iterations;
-        whole->factorizations = found.branch->factorizations + other.factorizations;
-        whole->failed_steps = found.branch->failed_steps + other.failed_steps;
-        whole->space_used = found.branch->space_used;
-        found.branch = whole;
     }
 
     // Births and mergers are extrema of the force along the curve of folds, next to those of the backbone.
@@ -175,7 +149,8 @@ class Search {
     }
 
     // From the fold nearest to the backbone's extremum; the others when that leads elsewhere.
-    bool find_end(const Seed &seed, std::ptrdiff_t at, bool upward, const IsolatedBranch &found, double &force) const {
+    bool find_end(const Seed &seed, std::ptrdiff_t at, bool upward, const IsolatedBranch &found,
+                  double &force) const {
         force = NAN;
         if (at < 0) return false;
         const BranchPoint &extremum = seed.backbone->points()[at];
@@ -220,6 +195,35 @@ class Search {
 };
 
 } // namespace
+
+std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                                      const BranchPoint &start, Watch watch) {
+    HbmOptions o = options;
+    o.upward = true;
+    const auto after = std::make_shared<Branch>(reduced, o.force_scale, o.period_multiple);
+    trace_curve(o, {start, {}}, watch, *after);
+    if (after->end_reason == PLM_REASON_LOOP_CLOSED) return after;
+    o.upward = false;
+    Branch before(reduced, o.force_scale, o.period_multiple);
+    trace_curve(o, {start, {}}, watch, before);
+    const auto whole = std::make_shared<Branch>(reduced, o.force_scale, o.period_multiple);
+    const double length = before.points().back().arclength;
+    for (std::size_t i = before.points().size(); i-- > 1;) {
+        BranchPoint p = before.points()[i];
+        p.arclength = length - p.arclength;
+        whole->append(std::move(p));
+    }
+    for (BranchPoint p : after->points()) {
+        p.arclength += length;
+        whole->append(std::move(p));
+    }
+    whole->end_reason = after->end_reason;
+    whole->newton_iterations = after->newton_iterations + before.newton_iterations;
+    whole->factorizations = after->factorizations + before.factorizations;
+    whole->failed_steps = after->failed_steps + before.failed_steps;
+    whole->space_used = after->space_used;
+    return whole;
+}
 
 IsolatedSearch find_isolated(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                              const Branch &main, double force_max, Watch watch) {

@@ -1,6 +1,6 @@
-// Isolated response branches: found without a hint where the phase-resonant backbone needs a force that is not
-// monotonic in amplitude, entered there and traced as closed curves; the range of forces in which each exists
-// from the folds tracked over the force.
+// Isolated response branches: found without a hint where the phase-resonant backbone needs a force that is
+// not monotonic in amplitude, entered there and traced as closed curves; the range of forces in which each
+// exists from the folds tracked over the force.
 #pragma once
 #include "hbm/phase_resonance.hpp"
 
@@ -22,9 +22,14 @@ struct IsolatedSearch {
 };
 
 /// Searches at options.force_scale, beside `main` (a sweep with the same options over the whole frequency
-/// range). force_max: the largest force scale of the backbones, 0: 8 force_scale; a branch that merges above it
-/// is missed.
+/// range). force_max: the largest force scale of the backbones, 0: 8 force_scale; a branch that merges above
+/// it is missed.
 IsolatedSearch find_isolated(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                              const Branch &main, double force_max, Watch watch);
+
+/// The curve through a solution at options.force_scale: a loop, or both ways to the ends of the frequency
+/// range.
+std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                                      const BranchPoint &start, Watch watch);
 
 } // namespace plm

@@ -50,6 +50,15 @@ class ModalSystem final : public HbmSystem {
         for (std::int64_t j = 0; j < size(); ++j) r[j] = -excitation_[j];
     }
 
+    void set_stiffness_factor(double factor) override {
+        for (std::int64_t i = 0; i < z_; ++i) stiffness_[i] = factor * m_->contact_stiffness[i];
+    }
+
+    void stiffness_derivative(double *r) override { // B' N
+        std::fill(r, r + size(), 0.0);
+        if (z_ > 0) add_contact_force(r);
+    }
+
     void set_extra_gap(double extra) override {
         for (std::int64_t i = 0; i < z_; ++i) gap_[i] = m_->initial_gap[i] + extra;
     }
@@ -75,10 +84,7 @@ class ModalSystem final : public HbmSystem {
         apply_indicator(indicator_, stiffness_, u_, contact_);
         for (std::int64_t j = 0; j < size(); ++j) r[j] = -load_[j];
         linear_part(r);
-        if (z_ == 0) return;
-        gemv('T', 1.0, m_->gap_0, contact_.col(0), 1.0, r);
-        gemm('T', 'N', 1.0, m_->gap, dynamic_columns(contact_), 0.0, eta_);
-        for (std::int64_t k = 0; k < 2 * h_ * r_; ++k) r[r0_ + k] += eta_.data()[k];
+        if (z_ > 0) add_contact_force(r);
     }
 
     void linearize() override {
@@ -144,6 +150,12 @@ class ModalSystem final : public HbmSystem {
         jacobian_.reset(size(), size());
         if (z_ > 0) add_contact();
         add_linear();
+    }
+
+    void add_contact_force(double *r) {
+        gemv('T', 1.0, m_->gap_0, contact_.col(0), 1.0, r);
+        gemm('T', 'N', 1.0, m_->gap, dynamic_columns(contact_), 0.0, eta_);
+        for (std::int64_t k = 0; k < 2 * h_ * r_; ++k) r[r0_ + k] += eta_.data()[k];
     }
 
     void fill_excitation() {
@@ -303,8 +315,7 @@ class ModalSystem final : public HbmSystem {
     std::shared_ptr<const ReducedModel> m_;
     std::int64_t h_, r_, r0_, z_;
     std::unique_ptr<ContactForce> force_;
-    const vector<double> &stiffness_;
-    vector<double> gap_, excitation_, load_;
+    vector<double> stiffness_, gap_, excitation_, load_;
     Matrix u_, contact_, eta_, dynamic_;
     vector<double> x_;
     double omega_ = 0;

@@ -9,8 +9,9 @@ namespace plm {
 
 NonlinearModeSystem::NonlinearModeSystem(HbmSystem &inner, std::int64_t n_coordinates, vector<double> shape,
                                          double omega_reference, double largest_amplitude)
-    : AugmentedSystem(inner, 2), r_(n_coordinates), shape_(std::move(shape)), omega_reference_(omega_reference),
-      largest_(largest_amplitude), y_(inner.size() + 2), x_(inner.size()) {}
+    : AugmentedSystem(inner, 2), r_(n_coordinates), shape_(std::move(shape)),
+      omega_reference_(omega_reference), largest_(largest_amplitude), y_(inner.size() + 2), x_(inner.size()) {
+}
 
 void NonlinearModeSystem::unscale(const double *y, double amplitude, double *x) const {
     for (std::int64_t i = 0; i < inner_.size(); ++i) x[i] = (i < static_size() ? largest_ : amplitude) * y[i];
@@ -42,7 +43,9 @@ void NonlinearModeSystem::residual(const double *y, double log_amplitude, double
     r[n + 1] = scale * (dot(r_, shape_.data(), y + s) - 1);
 }
 
-double NonlinearModeSystem::residual_scale() const { return omega_reference_ * omega_reference_; }
+double NonlinearModeSystem::residual_scale() const {
+    return omega_reference_ * omega_reference_;
+}
 
 void NonlinearModeSystem::assemble(Matrix &jacobian) {
     const std::int64_t n = inner_.size(), s = static_size();
@@ -109,7 +112,8 @@ double rest_energy(const ReducedModel &m) {
     for (double f : m.preload_0) loaded = loaded || f != 0;
     for (double g : m.initial_gap) loaded = loaded || g < 0;
     if (!loaded) return 0;
-    const StaticState rest = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap});
+    const StaticState rest =
+        solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap});
     double energy = -dot(m.static_size(), m.preload_0.data(), rest.coordinates.data());
     for (std::int64_t j = 0; j < m.static_size(); ++j)
         energy += 0.5 * m.lambda_0[j] * rest.coordinates[j] * rest.coordinates[j];
@@ -183,7 +187,8 @@ class ModePath final : public PathOwner {
     NonlinearMode run() {
         find_mode();
         find_amplitudes();
-        system_ = std::make_unique<NonlinearModeSystem>(*inner_, m_->size(), shape_, omega_, options_.amplitude_max);
+        system_ = std::make_unique<NonlinearModeSystem>(*inner_, m_->size(), shape_, omega_,
+                                                        options_.amplitude_max);
         PathStart from = start();
         result_.branch = std::make_shared<Branch>(m_, 0.0);
         PathOptions range;
@@ -238,9 +243,12 @@ class ModePath final : public PathOwner {
         std::int64_t best = -1;
         for (std::int64_t j = 0; j < r; ++j) {
             const double omega = std::sqrt(std::max(0.0, modes.values[j]));
-            if (omega > 0 && (best < 0 || std::abs(omega - wanted) < std::abs(omega_ - wanted))) best = j, omega_ = omega;
+            if (omega > 0 && (best < 0 || std::abs(omega - wanted) < std::abs(omega_ - wanted)))
+                best = j, omega_ = omega;
         }
-        if (best < 0) throw Error(PLM_ERR_ARGUMENT, "the structure at rest has no elastic mode").argument("frequency_hz");
+        if (best < 0)
+            throw Error(PLM_ERR_ARGUMENT, "the structure at rest has no elastic mode")
+                .argument("frequency_hz");
         shape_.assign(modes.vectors.col(best), modes.vectors.col(best) + r);
     }
 
@@ -255,10 +263,12 @@ class ModePath final : public PathOwner {
             double rest = -m.initial_gap[i], swing = 0;
             for (std::int64_t j = 0; j < m.static_size(); ++j) rest += m.gap_0(i, j) * x[j];
             for (std::int64_t j = 0; j < m.size(); ++j) swing += m.gap(i, j) * shape_[j];
-            if (swing != 0 && share_[i] != 0.5 && (first == 0 || std::abs(rest / swing) < first)) first = std::abs(rest / swing);
+            if (swing != 0 && share_[i] != 0.5 && (first == 0 || std::abs(rest / swing) < first))
+                first = std::abs(rest / swing);
         }
         if (first == 0)
-            throw Error(PLM_ERR_ARGUMENT, "no pair changes its state at a certain amplitude: give the range of amplitudes")
+            throw Error(PLM_ERR_ARGUMENT,
+                        "no pair changes its state at a certain amplitude: give the range of amplitudes")
                 .argument("amplitude_min");
         if (options_.amplitude_min <= 0) options_.amplitude_min = 0.5 * first;
         if (options_.amplitude_max <= options_.amplitude_min) options_.amplitude_max = 100 * first;
@@ -268,7 +278,8 @@ class ModePath final : public PathOwner {
         vector<double> x(inner_->size());
         inner_->linear_response(share_, omega_, x.data());
         std::fill(x.begin() + m_->static_size(), x.end(), 0.0);
-        for (std::int64_t j = 0; j < m_->size(); ++j) x[m_->static_size() + j] = options_.amplitude_min * shape_[j];
+        for (std::int64_t j = 0; j < m_->size(); ++j)
+            x[m_->static_size() + j] = options_.amplitude_min * shape_[j];
         BranchPoint guess;
         inner_->to_point(x.data(), omega_, guess);
         PathStart from;
@@ -280,8 +291,9 @@ class ModePath final : public PathOwner {
         limits.max_iterations = std::max<std::int64_t>(100, options_.hbm.max_iterations);
         const NewtonOutcome out = newton(*system_, SideCondition(), limits, from.x, from.parameter);
         if (!out.converged)
-            throw Error(PLM_ERR_CONVERGENCE,
-                        format("no periodic motion was found at the smallest amplitude, %g", options_.amplitude_min))
+            throw Error(
+                PLM_ERR_CONVERGENCE,
+                format("no periodic motion was found at the smallest amplitude, %g", options_.amplitude_min))
                 .reason(PLM_REASON_START_FAILED);
         from.residual = out.residual;
         return from;
@@ -299,8 +311,8 @@ class ModePath final : public PathOwner {
 
 } // namespace
 
-NonlinearMode follow_nonlinear_mode(std::shared_ptr<const ReducedModel> reduced, const NonlinearModeOptions &options,
-                                    Watch watch) {
+NonlinearMode follow_nonlinear_mode(std::shared_ptr<const ReducedModel> reduced,
+                                    const NonlinearModeOptions &options, Watch watch) {
     return ModePath(std::move(reduced), options, watch).run();
 }
 

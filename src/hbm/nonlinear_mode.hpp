@@ -1,18 +1,18 @@
 // Nonlinear modes by the extended periodic motion concept (Krack 2015): periodic motions without excitation,
-// M q'' + C q' + K q + B^T N = P + 2 xi omega M q', where the negative damping makes up for what C dissipates.
-// Frequency and damping ratio over the amplitude; the pre-load stays.
+// M q'' + C q' + K q + B^T N = P + 2 xi omega M q', where the negative damping makes up for what C
+// dissipates. Frequency and damping ratio over the amplitude; the pre-load stays.
 #pragma once
 #include "hbm/augmented_system.hpp"
 #include "linalg/monitor.hpp"
 
 namespace plm {
 
-/// y = (static part / largest amplitude, dynamic part / amplitude, omega / omega_reference - 1, xi), parameter:
-/// the logarithm of the amplitude. The shape psi normalises: psi . a_1 = amplitude, psi . b_1 = 0.
+/// y = (static part / largest amplitude, dynamic part / amplitude, omega / omega_reference - 1, xi),
+/// parameter: the logarithm of the amplitude. The shape psi normalises: psi . a_1 = amplitude, psi . b_1 = 0.
 class NonlinearModeSystem final : public AugmentedSystem {
   public:
-    NonlinearModeSystem(HbmSystem &inner, std::int64_t n_coordinates, vector<double> shape, double omega_reference,
-                        double largest_amplitude);
+    NonlinearModeSystem(HbmSystem &inner, std::int64_t n_coordinates, vector<double> shape,
+                        double omega_reference, double largest_amplitude);
     void residual(const double *y, double log_amplitude, double *r) override;
     void omega_derivative(double *r) override;
     double residual_scale() const override;
@@ -41,13 +41,14 @@ struct MotionMeasures {
     double total = 0;        // the sum, less that of the structure at rest under the pre-load
     double closed_share = 0; // mean over the period and the pairs, 0 to 1; 0 without pairs
 };
-MotionMeasures measure_motion(const ReducedModel &reduced, const BranchPoint &point, std::int64_t period_multiple = 1);
+MotionMeasures measure_motion(const ReducedModel &reduced, const BranchPoint &point,
+                              std::int64_t period_multiple = 1);
 
 struct NonlinearModeOptions {
     HbmOptions hbm;          // harmonics, tolerance, steps; its frequency range and force scale are not used
     double frequency_hz = 0; // the mode nearest to it about rest is followed
-    // psi . a_1 with psi of unit modal mass (sqrt(mass) x length). 0: from half the amplitude at which the first
-    // pair changes its state to a hundred times as much; needs pre-load or gap
+    // psi . a_1 with psi of unit modal mass (sqrt(mass) x length). 0: from half the amplitude at which the
+    // first pair changes its state to a hundred times as much; needs pre-load or gap
     double amplitude_min = 0, amplitude_max = 0;
 };
 
@@ -59,7 +60,7 @@ struct NonlinearMode {
 };
 
 /// Throws PLM_ERR_CONVERGENCE when no motion is found at the smallest amplitude.
-NonlinearMode follow_nonlinear_mode(std::shared_ptr<const ReducedModel> reduced, const NonlinearModeOptions &options,
-                                    Watch watch);
+NonlinearMode follow_nonlinear_mode(std::shared_ptr<const ReducedModel> reduced,
+                                    const NonlinearModeOptions &options, Watch watch);
 
 } // namespace plm

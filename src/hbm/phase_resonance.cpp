@@ -9,9 +9,13 @@ namespace {
 
 constexpr std::int32_t crossing = -1; // kind of the test function force - force_scale
 
+// The lowest dynamic harmonic with a load; null: nothing is driven.
 const std::pair<const int, HarmonicLoad> *driven_harmonic(const ReducedModel &m) {
+    const auto loaded = [](const vector<double> &f) {
+        return std::any_of(f.begin(), f.end(), [](double v) { return v != 0; });
+    };
     for (const auto &entry : m.excitation)
-        if (entry.first > 0) return &entry;
+        if (entry.first > 0 && (loaded(entry.second.real) || loaded(entry.second.imag))) return &entry;
     return nullptr;
 }
 
@@ -27,16 +31,29 @@ double phase_of(const ReducedModel &m, const BranchPoint &point, std::int64_t pe
            dot(m.size(), driven->second.imag.data(), point.eta.col(2 * h - 1));
 }
 
+double solution_distance(const BranchPoint &a, const BranchPoint &b) {
+    Matrix x = a.eta, y = b.eta;
+    const std::int64_t n = std::max(x.cols(), y.cols()) / 2, size = x.rows() * 2 * n;
+    set_harmonics(x, n);
+    set_harmonics(y, n);
+    const double scale = std::max(norm2(size, x.data()), norm2(size, y.data()));
+    double change = 0;
+    for (std::int64_t i = 0; i < size; ++i) change = std::hypot(change, x.data()[i] - y.data()[i]);
+    return std::hypot(scale > 0 ? change / scale : 0.0, a.omega / b.omega - 1);
+}
+
 // --- the system
 
-PhaseResonantSystem::PhaseResonantSystem(HbmSystem &inner, const ReducedModel &m, std::int64_t period_multiple,
-                                         double omega_reference, double unit)
+PhaseResonantSystem::PhaseResonantSystem(HbmSystem &inner, const ReducedModel &m,
+                                         std::int64_t period_multiple, double omega_reference, double unit)
     : AugmentedSystem(inner, 1), omega_reference_(omega_reference), unit_(unit), phase_(inner.size(), 0.0) {
     const auto *driven = driven_harmonic(m);
     if (!driven) return;
     const std::int64_t r = m.size(), at = m.static_size() + 2 * (driven->first * period_multiple - 1) * r;
-    const double force = std::hypot(norm2(r, driven->second.real.data()), norm2(r, driven->second.imag.data()));
-    const double scale = omega_reference * omega_reference / (force > 0 ? force : 1); // like the other equations
+    const double force =
+        std::hypot(norm2(r, driven->second.real.data()), norm2(r, driven->second.imag.data()));
+    const double scale =
+        omega_reference * omega_reference / (force > 0 ? force : 1); // like the other equations
     for (std::int64_t j = 0; j < r; ++j) {
         phase_[at + j] = scale * driven->second.real[j];
         phase_[at + r + j] = -scale * driven->second.imag[j];
@@ -132,19 +149,9 @@ struct PhaseResonance::Followed final : public PathOwner {
 PhaseResonance::PhaseResonance(std::shared_ptr<const ReducedModel> reduced, const BackboneOptions &options,
                                Watch watch)
     : reduced_(std::move(reduced)), options_(options), watch_(watch) {
-    options_.hbm.unknowns = UnknownSpace::modal; // the phase is a function of all coordinates, not of the gaps
+    options_.hbm.unknowns =
+        UnknownSpace::modal; // the phase is a function of all coordinates, not of the gaps
     if (options_.force_max <= 0) options_.force_max = 8 * options_.hbm.force_scale;
-}
-
-double PhaseResonance::distance(const BranchPoint &a, const BranchPoint &b) const {
-    Matrix x = a.eta, y = b.eta;
-    const std::int64_t n = std::max(x.cols(), y.cols()) / 2, size = reduced_->size() * 2 * n;
-    set_harmonics(x, n);
-    set_harmonics(y, n);
-    const double scale = std::max(norm2(size, x.data()), norm2(size, y.data()));
-    double change = 0;
-    for (std::int64_t i = 0; i < size; ++i) change = std::hypot(change, x.data()[i] - y.data()[i]);
-    return std::hypot(scale > 0 ? change / scale : 0.0, a.omega / b.omega - 1);
 }
 
 bool PhaseResonance::correct(double force, BranchPoint &point) const {
@@ -169,9 +176,11 @@ bool PhaseResonance::correct(double force, BranchPoint &point) const {
 
 Backbone PhaseResonance::follow(const BranchPoint &start, bool upward) const {
     Followed path(*this, start);
-    path.result.branch = std::make_shared<Branch>(reduced_, options_.hbm.force_scale, options_.hbm.period_multiple);
+    path.result.branch =
+        std::make_shared<Branch>(reduced_, options_.hbm.force_scale, options_.hbm.period_multiple);
     PathOptions range;
-    range.low = upward ? 0.5 * std::min(start.force_scale, options_.hbm.force_scale) : 1e-3 * start.force_scale;
+    range.low =
+        upward ? 0.5 * std::min(start.force_scale, options_.hbm.force_scale) : 1e-3 * start.force_scale;
     range.high = options_.force_max;
     range.upward = upward;
     range.tolerance = options_.hbm.tolerance;
@@ -231,7 +240,7 @@ std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
     const ReducedModel &m = *reduced_;
     const vector<double> share = share_at_rest(m);
     const auto *driven = driven_harmonic(m);
-    if (!driven) return {};
+    if (!driven || driven->first > options_.hbm.n_harmonics) return {};
     const std::int64_t r = m.size();
     Matrix k(r, r), coupled = m.gap;
     for (std::int64_t i = 0; i < m.n_pairs(); ++i)
@@ -245,7 +254,8 @@ std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
     vector<double> x(system->size());
     for (double l : lambda) {
         const double omega = std::sqrt(std::max(0.0, l)) / driven->first;
-        if (omega < 2 * M_PI * options_.hbm.frequency_min_hz || omega > 2 * M_PI * options_.hbm.frequency_max_hz)
+        if (omega < 2 * M_PI * options_.hbm.frequency_min_hz ||
+            omega > 2 * M_PI * options_.hbm.frequency_max_hz)
             continue;
         system->linear_response(share, omega, x.data());
         BranchPoint point;
@@ -253,7 +263,8 @@ std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
         system->to_point(x.data(), omega, point);
         double force = 0;
         if (!linear_range(share, point, force)) continue;
-        for (std::int64_t i = 0; i < point.eta.cols() * r; ++i) point.eta.data()[i] *= force / point.force_scale;
+        for (std::int64_t i = 0; i < point.eta.cols() * r; ++i)
+            point.eta.data()[i] *= force / point.force_scale;
         point.force_scale = force;
         points.push_back(std::move(point));
     }
@@ -262,7 +273,8 @@ std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
 
 // A force at which no pair changes its state yet. False when there is none: pairs that touch without
 // pressure.
-bool PhaseResonance::linear_range(const vector<double> &share, const BranchPoint &point, double &force) const {
+bool PhaseResonance::linear_range(const vector<double> &share, const BranchPoint &point,
+                                  double &force) const {
     const ReducedModel &m = *reduced_;
     const double asked = options_.hbm.force_scale;
     double largest = 1e300;
@@ -297,7 +309,8 @@ std::vector<BranchPoint> PhaseResonance::on_curve(const Branch &curve) const {
     const auto &points = curve.points();
     const std::int64_t multiple = options_.hbm.period_multiple;
     for (std::size_t i = 1; i < points.size(); ++i) {
-        const double left = phase_of(*reduced_, points[i - 1], multiple), right = phase_of(*reduced_, points[i], multiple);
+        const double left = phase_of(*reduced_, points[i - 1], multiple),
+                     right = phase_of(*reduced_, points[i], multiple);
         if (!(left * right <= 0) || left == right) continue;
         const double t = left / (left - right);
         BranchPoint p = points[i - 1];

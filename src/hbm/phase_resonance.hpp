@@ -1,17 +1,20 @@
 // Phase-resonant response: the periodic solutions whose displacement stands in quadrature to the force,
-// Re(F^H q) = 0 in the lowest harmonic h of the excitation (q: the displacement that does work against it), so
-// that no drive point need be named. Followed over the force they are the backbone of a resonance (Peeters,
-// Kerschen and Golinval 2011); where the force they need is not monotonic in amplitude, an isolated branch
-// exists.
+// Re(F^H q) = 0 in the lowest harmonic h of the excitation (q: the displacement that does work against it),
+// so that no drive point need be named. Followed over the force they are the backbone of a resonance
+// (Peeters, Kerschen and Golinval 2011); where the force they need is not monotonic in amplitude, an isolated
+// branch exists.
 #pragma once
 #include "hbm/augmented_system.hpp"
 #include "linalg/monitor.hpp"
 
 namespace plm {
 
-/// Re(F^H q) in the excitation's lowest dynamic harmonic; zero at phase resonance, positive below and negative
-/// above a resonance. Does not depend on the force scale.
+/// Re(F^H q) in the excitation's lowest dynamic harmonic; zero at phase resonance, positive below and
+/// negative above a resonance. Does not depend on the force scale.
 double phase_of(const ReducedModel &reduced, const BranchPoint &point, std::int64_t period_multiple);
+
+/// |x - x'| over the dynamic part and |omega - omega'|, both relative; small for the same solution.
+double solution_distance(const BranchPoint &a, const BranchPoint &b);
 
 /// y = (x, (omega - omega_reference) unit), parameter: the force scale. `inner` has modal unknowns.
 class PhaseResonantSystem final : public AugmentedSystem {
@@ -39,8 +42,8 @@ struct BackboneOptions {
 };
 
 struct Backbone {
-    std::shared_ptr<Branch> branch; // points by increasing arc length, each with its force scale and omega; folds
-                                    // (PLM_BIFURCATION_FOLD) are the extrema of the force
+    std::shared_ptr<Branch> branch; // points by increasing arc length, each with its force scale and omega;
+                                    // folds (PLM_BIFURCATION_FOLD) are the extrema of the force
     vector<std::size_t> crossings;  // points of `branch` at the force scale asked for
 };
 
@@ -58,8 +61,6 @@ class PhaseResonance {
     Backbone through(const BranchPoint &point) const;
     /// The phase-resonant points of a response curve at its force, in the order of the curve.
     std::vector<BranchPoint> on_curve(const Branch &curve) const;
-    /// |x - x'| over the dynamic part and |omega - omega'|, both relative; small for the same solution.
-    double distance(const BranchPoint &a, const BranchPoint &b) const;
 
   private:
     struct Followed;

@@ -26,7 +26,10 @@ Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptio
 vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) const {
     const auto flow = flow_ ? flow_ : std::make_shared<FlowModel>(reduced_, point.omega);
     if (hill_) return hill_multipliers(*flow, point, period_multiple_);
-    return plm::multipliers(monodromy(*flow, contact_intervals(*reduced_, point, period_multiple_)));
+    const Matrix transition = monodromy(*flow, contact_intervals(*reduced_, point, period_multiple_));
+    for (std::int64_t k = 0; k < transition.rows() * transition.cols(); ++k)
+        if (!std::isfinite(transition.data()[k])) return {}; // an infinitely fast mode (mass-less DOFs): unknown
+    return plm::multipliers(transition);
 }
 
 std::vector<ContactInterval> contact_intervals(const ReducedModel &m, const BranchPoint &point,

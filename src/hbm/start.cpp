@@ -1,5 +1,6 @@
 #include "hbm/start.hpp"
 #include "hbm/continuation.hpp"
+#include "hbm/formulation.hpp"
 #include "hbm/wrapped_system.hpp"
 #include "model/rest.hpp"
 #include <algorithm>
@@ -8,23 +9,31 @@
 namespace plm {
 namespace {
 
-// Another parameter in the place of the frequency: the force, p = 0 at rest, or the gap, p = 0 with contact
-// out of reach; p = 1 is the problem asked for.
+// Another parameter in the place of the frequency: the force, p = 0 at rest; the gap, p = 0 with contact out of
+// reach; the logarithm of the contact stiffness, p = 0 with soft contact. p = 1 is the problem asked for.
 class StartPath final : public WrappedSystem {
   public:
-    enum class Kind { force, gap };
+    enum class Kind { force, gap, stiffness };
     StartPath(HbmSystem &inner, Kind kind, double omega, double full)
         : WrappedSystem(inner), kind_(kind), omega_(omega), full_(full) {}
     void residual(const double *x, double p, double *r) override {
         if (kind_ == Kind::force) {
             inner_.set_force_scale(p * full_);
-        } else {
+        } else if (kind_ == Kind::gap) {
             inner_.set_extra_gap((1 - p) * full_);
+        } else {
+            inner_.set_stiffness_factor(std::exp((1 - p) * full_));
         }
         inner_.residual(x, omega_, r);
     }
     void omega_derivative(double *r) override {
-        kind_ == Kind::force ? inner_.force_derivative(r) : inner_.gap_derivative(r);
+        if (kind_ == Kind::force) {
+            inner_.force_derivative(r);
+        } else if (kind_ == Kind::gap) {
+            inner_.gap_derivative(r);
+        } else {
+            inner_.stiffness_derivative(r);
+        }
         const double factor = kind_ == Kind::force ? full_ : -full_;
         for (std::int64_t i = 0; i < size(); ++i) r[i] *= factor;
     }
@@ -54,6 +63,7 @@ class Starter {
              {share_, vector<double>(share_.size(), 0.0), vector<double>(share_.size(), 1.0)})
             if (from_linear(share)) return out_;
         if (loaded_ ? force_path() : gap_path()) return out_;
+        if (stiffness_path()) return out_;
         frequency_path();
         return out_;
     }
@@ -129,6 +139,28 @@ class Starter {
         const bool found = follow(path);
         system_.set_extra_gap(0);
         return found && attempt();
+    }
+
+    // Soft contact has a solution near the linear ones; it is stiffened from there, through folds.
+    bool stiffness_path() {
+        const double local = local_stiffness(reduced_);
+        double stiffest = 0;
+        for (double k : reduced_.contact_stiffness) stiffest = std::max(stiffest, k);
+        for (double soft : {1.0, 0.1}) {
+            const double factor = soft * local / stiffest;
+            if (!(factor > 0 && factor < 0.5)) continue;
+            system_.set_stiffness_factor(factor);
+            bool found = false;
+            for (const vector<double> &share :
+                 {share_, vector<double>(share_.size(), 0.0), vector<double>(share_.size(), 1.0)})
+                found = found || from_linear(share);
+            out_.converged = false;
+            StartPath path(system_, StartPath::Kind::stiffness, omega_, std::log(factor));
+            found = found && follow(path);
+            system_.set_stiffness_factor(1);
+            if (found && attempt()) return true;
+        }
+        return false;
     }
 
     bool follow(StartPath &path) {

@@ -42,6 +42,10 @@ class HbmSystem {
     virtual void set_force_scale(double scale) = 0;
     /// dR/d(force scale) at the omega of the last residual().
     virtual void force_derivative(double *r) = 0;
+    /// Factor on the stiffness of every contact: 1 in the problem asked for, smaller on the path from soft contact.
+    virtual void set_stiffness_factor(double factor) = 0;
+    /// dR/d log(factor) at the last residual().
+    virtual void stiffness_derivative(double *r) = 0;
     /// Gap added to every pair: 0 in the problem asked for, others on the path from open contact.
     virtual void set_extra_gap(double gap) = 0;
     /// dR/d(extra gap) at the last residual().

@@ -24,6 +24,8 @@ class WrappedSystem : public HbmSystem {
     void from_point(const BranchPoint &point, double *x) override { inner_.from_point(point, x); }
     void set_force_scale(double scale) override { inner_.set_force_scale(scale); }
     void force_derivative(double *r) override { inner_.force_derivative(r); }
+    void set_stiffness_factor(double factor) override { inner_.set_stiffness_factor(factor); }
+    void stiffness_derivative(double *r) override { inner_.stiffness_derivative(r); }
     void set_extra_gap(double gap) override { inner_.set_extra_gap(gap); }
     void gap_derivative(double *r) override { inner_.gap_derivative(r); }
     const ContactIndicator &indicator() const override { return inner_.indicator(); }

@@ -1,5 +1,6 @@
 #include "transient/newmark.hpp"
 #include "model/rest.hpp"
+#include "transient/settling.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +20,7 @@ void check(const Model &model, double omega, const NewmarkOptions &o) {
     if (o.steps_per_period < 4) refuse("steps_per_period", "a period needs at least 4 steps");
     if (o.max_periods < 1) refuse("max_periods", "max_periods must be at least 1");
     if (!(o.settled >= 0)) refuse("settled", "the tolerance must not be negative");
+    if (o.period_multiple < 1) refuse("period_multiple", "period_multiple must be at least 1");
     for (double ratio : model.damping().modal_ratio)
         if (ratio != 0)
             refuse("modal_ratio",
@@ -92,13 +94,13 @@ void Newmark::factor_step() {
     contact_ = std::make_unique<ContactStep>(std::move(flexibility), model_->contact_stiffness());
 }
 
-FullState Newmark::rest() const {
-    const std::int64_t n = model_->n_free();
+FullState rest_state(const std::shared_ptr<const Model> &model, Watch watch) {
+    const std::int64_t n = model->n_free();
     FullState state{vector<double>(n, 0.0), vector<double>(n, 0.0), 0};
-    const bool interference = std::any_of(model_->initial_gap().begin(), model_->initial_gap().end(),
+    const bool interference = std::any_of(model->initial_gap().begin(), model->initial_gap().end(),
                                           [](double g) { return g < 0; });
-    if (model_->has_preload() || interference)
-        state.q = solve_rest(*make_contact_space(model_, 0.0, 1, watch_)).displacement;
+    if (model->has_preload() || interference)
+        state.q = solve_rest(*make_contact_space(model, 0.0, 1, watch)).displacement;
     return state;
 }
 
@@ -192,27 +194,26 @@ NewmarkResult Newmark::run(const FullState &first, NewmarkObserver *observer) {
     start(first);
     const std::int64_t iterations = contact_->iterations(), factorizations = contact_->factorizations();
     const std::int64_t steps = options_.steps_per_period;
-    const double all = static_cast<double>(steps * options_.max_periods);
+    const std::int64_t all = steps * options_.max_periods;
     NewmarkResult result;
+    Settling settling(options_.settled, options_.period_multiple);
     FullState before = state_;
-    while (result.periods < options_.max_periods && !result.settled) {
-        double size = 0;
-        for (std::int64_t k = 1; k <= steps; ++k) {
-            const std::int64_t done = result.periods * steps + k;
-            watch_.step("time integration", static_cast<double>(done) / all);
-            step(first.time + static_cast<double>(done) * dt_);
-            if (observer)
-                observer->step(
-                    {state_.time, state_.q, state_.v, a_, contact_force_, contact_->penetration()});
-            if (k == steps / 4 || k == steps / 2 || k == steps / 4 * 3)
-                size = std::max(size, 0.5 * distance(state_, before));
+    for (std::int64_t done = 1; done <= all && !settling.settled(); ++done) {
+        const double share = static_cast<double>(done) / static_cast<double>(all);
+        if (watch_.cancelled("time integration", share)) {
+            result.cancelled = true;
+            break;
         }
-        const double change = distance(state_, before);
-        result.change = size > 0 ? change / size : change;
-        result.settled = result.change < options_.settled;
-        before = state_;
-        ++result.periods;
+        step(first.time + static_cast<double>(done) * dt_);
+        if (observer)
+            observer->step({state_.time, state_.q, state_.v, a_, contact_force_, contact_->penetration()});
+        const std::int64_t k = done - result.periods * steps;
+        const bool quarter = k == steps / 4 || k == steps / 2 || k == steps / 4 * 3 || k == steps;
+        if (quarter && settling.quarter(distance(state_, before))) before = state_;
+        if (k == steps) ++result.periods;
     }
+    result.change = settling.change();
+    result.settled = settling.settled();
     result.state = state_;
     result.contact_iterations = contact_->iterations() - iterations;
     result.contact_factorizations = contact_->factorizations() - factorizations;

@@ -14,9 +14,8 @@ struct NewmarkOptions {
     double alpha = 0;                    // 0 .. 1/3: numerical damping; 0 is the trapezoidal rule
     std::int64_t steps_per_period = 200; // >= 4
     std::int64_t max_periods = 100;
-    double settled =
-        0; // stop when the state changes less than this over a period, relative to the size of the
-           // motion (half of its distance from itself within the period, mass norm); 0: never
+    double settled = 0; // stop when Settling::change() is below, states compared in the norm of M; 0: never
+    std::int64_t period_multiple = 1; // periods of the excitation over which it is compared
 };
 
 /// State over the free DOFs of the model, and time (s).
@@ -42,9 +41,13 @@ struct NewmarkResult {
     FullState state;
     std::int64_t periods = 0;
     bool settled = false;
-    double change = 0; // over the last period, relative as above
+    bool cancelled = false; // the state is then that of the last step done
+    double change = -1;     // Settling::change()
     std::int64_t contact_iterations = 0, contact_factorizations = 0;
 };
+
+/// At rest under the pre-load.
+FullState rest_state(const std::shared_ptr<const Model> &model, Watch watch = Watch());
 
 class Newmark {
   public:
@@ -54,9 +57,8 @@ class Newmark {
     Newmark(std::shared_ptr<const Model> model, double omega, const NewmarkOptions &options,
             Watch watch = Watch());
 
-    /// At rest under the pre-load.
-    FullState rest() const;
-    /// From a state (rest() by default) over whole periods of the excitation. PLM_CANCELLED when stopped.
+    FullState rest() const { return rest_state(model_, watch_); }
+    /// From a state (rest() by default) over whole periods of the excitation.
     NewmarkResult run(const FullState &start, NewmarkObserver *observer = nullptr);
     NewmarkResult run(NewmarkObserver *observer = nullptr) { return run(rest(), observer); }
 

@@ -101,8 +101,21 @@ CASE(branch, plm_branch_get_field, 0, 0, 3, numbers)
 CASE(branch, plm_branch_get_contact, 0, 1, numbers, NULL, NULL)
 CASE(branch, plm_branch_get_closed_share, 0, 1, numbers)
 CASE(branch, plm_branch_get_full_residual, 0, &out[0].d)
+CASE(model, plm_transient_create, NULL, (plm_transient **)&out[0].p)
+KEYED(transient)
+READ(transient)
+READ_ARRAYS(transient)
+CASE(transient, plm_transient_observe_i32, 0, 1, i32)
+CASE(transient, plm_transient_observe_i64, 0, 1, i64)
+CASE(transient, plm_transient_set_state, 3, one, one)
+CASE(transient, plm_transient_start_at, NULL, 0)
+CASE0(transient, plm_transient_run)
+CASE0(transient, plm_transient_find_periodic)
+CASE(transient, plm_transient_get_state, 3, numbers, numbers)
+CASE(transient, plm_transient_get_history, 0, 1, &out[0].d, &out[1].l)
+CASE(transient, plm_transient_get_multipliers, 1, &out[0].d, &out[1].d, &out[2].l)
 
-enum { CONTEXT, MODEL, SAMPLER, BASIS, HBM, BRANCH, KINDS };
+enum { CONTEXT, MODEL, SAMPLER, BASIS, HBM, BRANCH, TRANSIENT, KINDS };
 
 #define KEYED_ENTRIES(KIND, kind)                                                                            \
     {KIND, "plm_" #kind "_set_int", call_plm_##kind##_set_int},                                              \
@@ -184,7 +197,20 @@ static const struct {
                  ENTRY(BRANCH, plm_branch_get_field),
                  ENTRY(BRANCH, plm_branch_get_contact),
                  ENTRY(BRANCH, plm_branch_get_closed_share),
-                 ENTRY(BRANCH, plm_branch_get_full_residual)};
+                 ENTRY(BRANCH, plm_branch_get_full_residual),
+                 ENTRY(MODEL, plm_transient_create),
+                 KEYED_ENTRIES(TRANSIENT, transient),
+                 READ_ENTRIES(TRANSIENT, transient),
+                 ARRAY_ENTRIES(TRANSIENT, transient),
+                 ENTRY(TRANSIENT, plm_transient_observe_i32),
+                 ENTRY(TRANSIENT, plm_transient_observe_i64),
+                 ENTRY(TRANSIENT, plm_transient_set_state),
+                 ENTRY(TRANSIENT, plm_transient_start_at),
+                 ENTRY(TRANSIENT, plm_transient_run),
+                 ENTRY(TRANSIENT, plm_transient_find_periodic),
+                 ENTRY(TRANSIENT, plm_transient_get_state),
+                 ENTRY(TRANSIENT, plm_transient_get_history),
+                 ENTRY(TRANSIENT, plm_transient_get_multipliers)};
 enum { N_FUNCTIONS = sizeof functions / sizeof functions[0] };
 
 typedef struct {

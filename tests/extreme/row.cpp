@@ -38,6 +38,7 @@ double orbit_error(const exact::Structure &s, const Curve &curve, int dof, int n
         if (std::getenv("EXTREME_DETAIL"))
             std::fprintf(stderr, "    omega %.6f amplitude %.9g exact %.9g %s\n", curve.omega[i], amplitude[i],
                          orbit.peak(dof), orbit.converged ? "" : "NO ORBIT");
+        if (!orbit.converged) return error;
         worst = std::max(worst, error);
     }
     return worst;

@@ -127,18 +127,70 @@ static void print_point(plm_branch *branch, int64_t point) {
     reals("full_residual", 1, x);
 }
 
-static void print_response(plm_basis *basis) {
+static void wholes(const char *name, int64_t n, const int64_t *x) {
+    heading(name);
+    for (int64_t i = 0; i < n; i++) whole(x[i]);
+}
+
+static void print_stability(plm_branch *branch, int64_t n_points, int64_t point) {
+    double real[64], imag[64], x[2];
+    int64_t n = 0, *flags = malloc((size_t)n_points * sizeof *flags);
+    if (!flags) exit(1);
+    must(plm_branch_get_int_array(branch, "bifurcation", n_points, flags, &n));
+    wholes("bifurcation", n, flags);
+    must(plm_branch_get_int_array(branch, "stable", n_points, flags, &n));
+    wholes("stable", n, flags);
+    free(flags);
+    must(plm_branch_get_multipliers(branch, point, 64, real, imag, &n));
+    reals("multipliers_real", n, real);
+    reals("multipliers_imag", n, imag);
+    must(plm_branch_get_periodicity_defect(branch, point, x));
+    reals("periodicity_defect", 1, x);
+    must(plm_branch_get_energy(branch, point, &x[0], &x[1]));
+    reals("energy", 2, x);
+}
+
+static void print_motion(plm_model *model, plm_basis *basis, plm_branch *branch, int64_t point) {
+    const int32_t observed[] = {2, WATCHED};
+    double x[64], v[64];
+    int64_t n = 0;
+    plm_transient *motion = NULL;
+    must(plm_transient_create(model, basis, &motion));
+    must(plm_transient_set_int(motion, "periods", 2));
+    must(plm_transient_set_int(motion, "steps_per_period", 16));
+    must(plm_transient_observe_i32(motion, 0, 2, observed));
+    must(plm_transient_start_at(motion, branch, point));
+    must(plm_transient_run(motion));
+    must(plm_transient_get_array(motion, "time", 64, x, &n));
+    reals("time", n, x);
+    must(plm_transient_get_history(motion, 1, 64, x, &n));
+    reals("history", n, x);
+    must(plm_transient_get_state(motion, N, x, v));
+    reals("state_q", N, x);
+    reals("state_v", N, v);
+    must(plm_transient_set_state(motion, N, x, NULL)); /* let go */
+    must(plm_transient_run(motion));
+    must(plm_transient_get_history(motion, 0, 64, x, &n));
+    reals("let_go", n, x);
+    must(plm_transient_start_at(motion, branch, point));
+    must(plm_transient_find_periodic(motion));
+    must(plm_transient_get_multipliers(motion, 64, x, v, &n));
+    reals("periodic_multipliers_real", n, x);
+    reals("periodic_multipliers_imag", n, v);
+}
+
+static void print_response(plm_model *model, plm_basis *basis) {
     plm_hbm *hbm = NULL;
     plm_branch *curve = NULL, *top = NULL;
     double *x, peak[2];
-    int64_t n = 0;
+    int64_t n = 0, n_points = 0;
     must(plm_hbm_create(basis, &hbm));
     must(plm_hbm_set_int(hbm, "n_harmonics", H));
     must(plm_hbm_set_string(hbm, "unknowns", "modal"));
     must(plm_hbm_set_double(hbm, "max_step", 0.05));
     must(plm_hbm_sweep(hbm, &curve));
     must(plm_branch_get_int(curve, "n_points", &n));
-    heading("n_points"), whole(n);
+    heading("n_points"), whole(n), n_points = n;
     x = malloc((size_t)n * sizeof *x);
     if (!x) exit(1);
     must(plm_branch_get_array(curve, "frequency_hz", n, x, &n));
@@ -149,12 +201,14 @@ static void print_response(plm_basis *basis) {
     must(plm_hbm_find_peak(hbm, curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, &peak[0], &peak[1], &top));
     reals("peak", 2, peak);
     print_point(top, 0);
+    print_stability(curve, n_points, 5);
+    print_motion(model, basis, curve, 5);
 }
 
 int main(void) {
     if (plm_context_create(PLM_API_VERSION, &ctx)) return 1;
     plm_model *model = make_model();
     print_model(model);
-    print_response(make_basis(model));
+    print_response(model, make_basis(model));
     return plm_context_destroy(&ctx);
 }

@@ -75,7 +75,43 @@ void print_point(const plm::Branch &branch, std::int64_t point) {
     print("full_residual", std::vector{branch.full_residual(point)});
 }
 
-void print_response(const plm::Basis &basis) {
+void print(const char *real, const char *imag, const std::vector<std::complex<double>> &values) {
+    std::puts(real);
+    for (const auto &z : values) print(z.real());
+    std::puts(imag);
+    for (const auto &z : values) print(z.imag());
+}
+
+void print_stability(const plm::Branch &branch, std::int64_t point) {
+    print("bifurcation", branch.bifurcation());
+    print("stable", branch.stable());
+    print("multipliers_real", "multipliers_imag", branch.multipliers(point));
+    print("periodicity_defect", std::vector{branch.periodicity_defect(point)});
+    const plm::Energy e = branch.energy(point);
+    print("energy", std::vector{e.energy, e.contact_area});
+}
+
+void print_motion(const plm::Model &model, const plm::Basis &basis, const plm::Branch &branch,
+                  std::int64_t point) {
+    plm::Transient motion(model, basis);
+    motion.set("periods", 2).set("steps_per_period", 16);
+    motion.observe({2, watched});
+    motion.start_at(branch, point);
+    motion.run();
+    print("time", motion.get_array("time"));
+    print("history", motion.history(1));
+    const plm::MotionState now = motion.state();
+    print("state_q", now.q);
+    print("state_v", now.v);
+    motion.set_state(now.q);
+    motion.run();
+    print("let_go", motion.history(0));
+    motion.start_at(branch, point);
+    motion.find_periodic();
+    print("periodic_multipliers_real", "periodic_multipliers_imag", motion.multipliers());
+}
+
+void print_response(const plm::Model &model, const plm::Basis &basis) {
     plm::Hbm hbm(basis);
     hbm.set("n_harmonics", n_harmonics).set("unknowns", "modal").set("max_step", 0.05);
     const plm::Branch curve = hbm.sweep();
@@ -85,6 +121,8 @@ void print_response(const plm::Basis &basis) {
     const plm::Peak peak = hbm.find_peak(curve, watched);
     print("peak", std::vector{peak.frequency_hz, peak.amplitude});
     print_point(peak.branch, 0);
+    print_stability(curve, 5);
+    print_motion(model, basis, curve, 5);
 }
 
 } // namespace
@@ -93,7 +131,7 @@ int main() {
     try {
         plm::Model model = make_model(plm::Context());
         print_model(model);
-        print_response(make_basis(model));
+        print_response(model, make_basis(model));
     } catch (const plm::Error &e) {
         std::fprintf(stderr, "%s\n", e.what());
         return 1;

@@ -12,7 +12,7 @@ program scenario
     call make_model(context, model)
     call show_model(model)
     call make_basis(model, basis)
-    call show_response(basis)
+    call show_response(model, basis)
     call context%destroy()
 
 contains
@@ -99,7 +99,8 @@ contains
         call sampler%destroy()
     end subroutine make_basis
 
-    subroutine show_response(basis)
+    subroutine show_response(model, basis)
+        type(plm_model), intent(in) :: model
         type(plm_basis), intent(in) :: basis
         type(plm_hbm) :: hbm
         type(plm_branch) :: curve, peak
@@ -120,7 +121,60 @@ contains
         call hbm%find_peak(curve, watched, hz, amplitude, PLM_HALF_PEAK_TO_PEAK, peak=peak)
         call show('peak', [hz, amplitude])
         call show_point(peak, 1)
+        call show_stability(curve, 6)
+        call show_motion(model, basis, curve, 6)
     end subroutine show_response
+
+    subroutine show_stability(branch, point)
+        type(plm_branch), intent(in) :: branch
+        integer, intent(in) :: point
+        integer, allocatable :: flags(:)
+        complex(real64), allocatable :: multipliers(:)
+        real(real64) :: x(2)
+        call branch%get('bifurcation', flags)
+        call show_integers('bifurcation', flags)
+        call branch%get('stable', flags)
+        call show_integers('stable', flags)
+        call branch%multipliers(point, multipliers)
+        call show('multipliers_real', real(multipliers))
+        call show('multipliers_imag', aimag(multipliers))
+        call branch%periodicity_defect(point, x(1))
+        call show('periodicity_defect', x(1:1))
+        call branch%energy(point, x(1), x(2))
+        call show('energy', x)
+    end subroutine show_stability
+
+    subroutine show_motion(model, basis, branch, point)
+        type(plm_model), intent(in) :: model
+        type(plm_basis), intent(in) :: basis
+        type(plm_branch), intent(in) :: branch
+        integer, intent(in) :: point
+        type(plm_transient) :: motion
+        real(real64), allocatable :: values(:), q(:), v(:)
+        complex(real64), allocatable :: multipliers(:)
+        call motion%create(model, basis)
+        call motion%set('periods', 2)
+        call motion%set('steps_per_period', 16)
+        call motion%observe([3, watched])
+        call motion%start_at(branch, point)
+        call motion%run()
+        call motion%get('time', values)
+        call show('time', values)
+        call motion%history(2, values)
+        call show('history', values)
+        call motion%state(q, v)
+        call show('state_q', q)
+        call show('state_v', v)
+        call motion%set_state(q)
+        call motion%run()
+        call motion%history(1, values)
+        call show('let_go', values)
+        call motion%start_at(branch, point)
+        call motion%find_periodic()
+        call motion%multipliers(multipliers)
+        call show('periodic_multipliers_real', real(multipliers))
+        call show('periodic_multipliers_imag', aimag(multipliers))
+    end subroutine show_motion
 
     subroutine show_point(branch, point)
         type(plm_branch), intent(in) :: branch

@@ -58,6 +58,34 @@ def show_point(branch, point):
     show("full_residual", branch.full_residual(point))
 
 
+def show_stability(branch, point):
+    show("bifurcation", branch.bifurcation)
+    show("stable", branch.stable)
+    multipliers = branch.multipliers(point)
+    show("multipliers_real", multipliers.real)
+    show("multipliers_imag", multipliers.imag)
+    show("periodicity_defect", branch.periodicity_defect(point))
+    show("energy", branch.energy(point))
+
+
+def show_motion(basis, branch, point):
+    motion = plm.Transient(basis, periods=2, steps_per_period=16)
+    motion.observe([2, WATCHED])
+    motion.start_at(branch, point)
+    show("time", motion.run().time)
+    show("history", motion.history(WATCHED))
+    q, v = motion.state()
+    show("state_q", q)
+    show("state_v", v)
+    motion.set_state(q)
+    show("let_go", motion.run().history(2))
+    motion.start_at(branch, point)
+    motion.find_periodic()
+    multipliers = motion.multipliers()
+    show("periodic_multipliers_real", multipliers.real)
+    show("periodic_multipliers_imag", multipliers.imag)
+
+
 def show_response(basis):
     hbm = plm.Hbm(basis, n_harmonics=H, unknowns="modal", max_step=0.05)
     curve = hbm.sweep()
@@ -67,6 +95,8 @@ def show_response(basis):
     peak = hbm.find_peak(curve, WATCHED)
     show("peak", [peak.frequency_hz, peak.amplitude])
     show_point(peak.branch, 0)
+    show_stability(curve, 5)
+    show_motion(basis, curve, 5)
 
 
 def main():

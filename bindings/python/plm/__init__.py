@@ -11,6 +11,7 @@
     curve = hbm.sweep(progress=True)
     peak = hbm.find_peak(curve, dof=12)
     plm.plot.response(curve, dof=12)
+    motion = plm.Transient(basis, frequency_hz=peak.frequency_hz, periods=200).run()
 
 Options and results are attributes; help(plm.Sampler) lists those of a sampler. What a function computes is said in plm.h.
 """
@@ -21,12 +22,14 @@ from ._context import Context, build_info, default_context, status_text, version
 from ._errors import PlmCancelled, PlmError, PlmKeyError
 from ._handle import Key, keys
 from ._model import Finding, Model
+from ._motion import MotionState, Transient
 from ._reduction import Basis, Sampler
-from ._response import Branch, Contact, Hbm, Peak
+from ._response import Bifurcation, Branch, Contact, Energy, Hbm, Isolated, Peak
 
 __version__ = "0.1.0"
-__all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Peak", "Contact", "Finding", "Key", "PlmError",
-           "PlmKeyError", "PlmCancelled", "build_info", "default_context", "keys", "plot", "status_text", "version"]
+__all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Transient", "Peak", "Isolated", "Bifurcation", "Energy",
+           "Contact", "MotionState", "Finding", "Key", "PlmError", "PlmKeyError", "PlmCancelled", "build_info",
+           "default_context", "keys", "plot", "status_text", "version"]
 
 _constants = [name for name in vars(_c) if name.isupper() and isinstance(getattr(_c, name), (int, float))]
 globals().update({name: getattr(_c, name) for name in _constants})  # plm.ERR_KEY, plm.REASON_SINGULAR, ...

@@ -91,6 +91,13 @@ plm_hbm_get_string psqpp
 plm_hbm_sweep pp
 plm_hbm_solve pdpqp
 plm_hbm_find_peak ppqiippp
+plm_hbm_switch_branch ppqip
+plm_hbm_find_isolated ppdp
+plm_hbm_find_backbones pdp
+plm_hbm_get_found pqpp
+plm_hbm_track_fold ppqddp
+plm_hbm_find_by_marching pqpqqp
+plm_hbm_find_nonlinear_mode pqqdp
 plm_branch_destroy p
 plm_branch_get_int psp
 plm_branch_get_double psp
@@ -102,7 +109,29 @@ plm_branch_get_coefficients pqqqp
 plm_branch_get_field pqdqp
 plm_branch_get_contact pqqppp
 plm_branch_get_closed_share pqqp
+plm_branch_get_energy pqpp
+plm_branch_get_multipliers pqqppp
+plm_branch_get_periodicity_defect pqp
 plm_branch_get_full_residual pqp
+plm_transient_create ppp
+plm_transient_destroy p
+plm_transient_set_int psq
+plm_transient_set_double psd
+plm_transient_set_string pss
+plm_transient_get_int psp
+plm_transient_get_double psp
+plm_transient_get_string psqpp
+plm_transient_get_array psqpp
+plm_transient_get_int_array psqpp
+plm_transient_observe_i32 piqp
+plm_transient_observe_i64 piqp
+plm_transient_set_state pqpp
+plm_transient_start_at ppq
+plm_transient_run p
+plm_transient_find_periodic p
+plm_transient_get_state pqpp
+plm_transient_get_history pqqpp
+plm_transient_get_multipliers pqppp
 """
 
 API_VERSION = 1
@@ -111,7 +140,7 @@ ERR_HANDLE, ERR_ARGUMENT, ERR_KEY, ERR_STATE, ERR_MEMORY, ERR_NOT_BUILT = range(
 ERR_MATRIX, ERR_NOT_POSITIVE_DEFINITE, ERR_SINGULAR, ERR_EIGENSOLVER = range(-7, -11, -1)
 ERR_CONVERGENCE, ERR_CALLBACK, ERR_INTERNAL = range(-11, -14, -1)
 
-KIND_MODEL, KIND_SAMPLER, KIND_BASIS, KIND_HBM, KIND_BRANCH = range(1, 6)
+KIND_MODEL, KIND_SAMPLER, KIND_BASIS, KIND_HBM, KIND_BRANCH, KIND_TRANSIENT = range(1, 7)
 TYPE_INT, TYPE_DOUBLE, TYPE_STRING, TYPE_ARRAY, TYPE_INT_ARRAY = range(1, 6)
 KEY_NAME, KEY_DESCRIPTION, KEY_DEFAULT, KEY_CHOICES = range(1, 5)
 
@@ -122,6 +151,8 @@ COPY, BORROW = 1, 2
 AUTO_STIFFNESS = -1.0
 SYSTEM_OPEN, SYSTEM_SLIDING, SYSTEM_REST, SYSTEM_GIVEN = range(4)
 PEAK, HALF_PEAK_TO_PEAK, RMS, HARMONIC = range(1, 5)
+BIFURCATION_NONE, BIFURCATION_FOLD, BIFURCATION_BRANCH_POINT = range(3)
+BIFURCATION_PERIOD_DOUBLING, BIFURCATION_NEIMARK_SACKER = 3, 4
 
 REASON_NONE, REASON_NOT_POSITIVE_DEFINITE, REASON_SINGULAR, REASON_RANGE_END, REASON_POINT_LIMIT = range(5)
 REASON_CANCELLED, REASON_STEP_MINIMUM, REASON_CONTACT_CHATTER, REASON_SINGULAR_TANGENT = range(5, 9)

@@ -61,7 +61,7 @@ def _make_property(key):
 
 
 class Handle:
-    """Base of Model, Sampler, Basis, Hbm and Branch.
+    """Base of Model, Sampler, Basis, Hbm, Branch and Transient.
 
     Options and results are attributes (tab completion and help() show them all), and items: sampler["n_samples"].
     """
@@ -155,6 +155,15 @@ class Handle:
         if count.value:
             self._call(verb, name, values.size, address(values), ctypes.byref(count))
         return values
+
+    def _get_complex(self, verb, *arguments):
+        """Numbers the library copies out as verb(*arguments, capacity, real, imaginary, count)."""
+        count = ctypes.c_int64(0)
+        self._call(verb, *arguments, 0, None, None, ctypes.byref(count))
+        real, imaginary = numpy.empty(count.value), numpy.empty(count.value)
+        if count.value:
+            self._call(verb, *arguments, real.size, address(real), address(imaginary), ctypes.byref(count))
+        return real + 1j * imaginary
 
     def _shaped(self, key, values):
         if re.search(r"\bn_pairs x\b", key.description) and self._n_pairs():

@@ -11,12 +11,34 @@ from ._model import choice
 
 MEASURES = {"peak": _c.PEAK, "half_peak_to_peak": _c.HALF_PEAK_TO_PEAK, "rms": _c.RMS, "harmonic": _c.HARMONIC}
 
+BIFURCATIONS = {_c.BIFURCATION_FOLD: "fold", _c.BIFURCATION_BRANCH_POINT: "branch point",
+                _c.BIFURCATION_PERIOD_DOUBLING: "period doubling", _c.BIFURCATION_NEIMARK_SACKER: "Neimark-Sacker"}
+
 
 class Peak(NamedTuple):
     """The highest point of a curve; branch: that point."""
     frequency_hz: float
     amplitude: float
     branch: "Branch"
+
+
+class Isolated(NamedTuple):
+    """A closed branch beside the main one; force_range: the force scales between which it exists, NaN where unknown."""
+    branch: "Branch"
+    force_range: tuple
+
+
+class Bifurcation(NamedTuple):
+    """A located point of a branch. kind: "fold", "branch point", "period doubling" or "Neimark-Sacker"."""
+    point: int
+    kind: str
+    frequency_hz: float
+
+
+class Energy(NamedTuple):
+    """Means over the period: mechanical energy, and the closed share of the pairs."""
+    energy: float
+    contact_area: float
 
 
 class Contact(NamedTuple):
@@ -57,6 +79,54 @@ class Hbm(Handle, noun="hbm", kind=_c.KIND_HBM):
         self._deliver("find_peak", top, branch._h, dof, choice(measure, MEASURES, "measure"), harmonic,
                       ctypes.byref(hz), ctypes.byref(amplitude), ctypes.byref(top._h), progress=progress)
         return Peak(hz.value, amplitude.value, top)
+
+    def switch_branch(self, branch, point, mirrored=False, progress=None):
+        """The curve that crosses `branch` at a located branch point, or leaves it at a period doubling (with twice the
+        period); see Branch.bifurcations. mirrored: on the other side."""
+        other = Branch(self)
+        return self._deliver("switch_branch", other, branch._h, branch._from_end(point), int(mirrored),
+                             ctypes.byref(other._h), progress=progress)
+
+    def find_isolated(self, main_branch, force_max=0.0, progress=None):
+        """A list of Isolated(branch, force_range): closed branches beside the whole main curve. force_max: the largest force
+        scale looked at, 0: eight times force_scale."""
+        return self._found("find_isolated", main_branch._h, force_max, progress=progress)
+
+    def find_backbones(self, force_max=0.0, progress=None):
+        """A list of branches: frequency and amplitude of the resonance against the force, see point_force_scale."""
+        return [found.branch for found in self._found("find_backbones", force_max, progress=progress)]
+
+    def find_by_marching(self, known=(), n_frequencies=20, n_states=5, progress=None):
+        """A list of branches that are none of the `known` ones, found by marching in time from n_states states at
+        n_frequencies frequencies of the range."""
+        known = [known] if isinstance(known, Branch) else list(known)
+        curves = (ctypes.c_void_p * len(known))(*(branch._h.value for branch in known))
+        found = self._found("find_by_marching", len(known), curves, n_frequencies, n_states, progress=progress)
+        return [one.branch for one in found]
+
+    def nonlinear_mode(self, mode, dof, amplitude_max, progress=None):
+        """Backbone without force and damping from a mode (1, 2, ...) about the contact at rest, up to an amplitude of the
+        first harmonic of a DOF; see Branch.energy."""
+        branch = Branch(self)
+        return self._deliver("find_nonlinear_mode", branch, mode, dof, amplitude_max, ctypes.byref(branch._h),
+                             progress=progress)
+
+    def track_fold(self, branch, point, force_min, force_max, progress=None):
+        """The curve of folds over frequency and force (point_force_scale) from a located fold of `branch`."""
+        folds = Branch(self)
+        return self._deliver("track_fold", folds, branch._h, branch._from_end(point), force_min, force_max,
+                             ctypes.byref(folds._h), progress=progress)
+
+    def _found(self, verb, *arguments, progress):
+        """What a plm_hbm_find_... that counts has found."""
+        count = ctypes.c_int64(0)
+        self._work(verb, *arguments, ctypes.byref(count), progress=progress)
+        found = []
+        for i in range(count.value):
+            branch, force_range = Branch(self), numpy.empty(2)
+            self._call("get_found", i, address(force_range), ctypes.byref(branch._h))
+            found.append(Isolated(branch, tuple(force_range.tolist())))
+        return found
 
     def _deliver(self, verb, branch, *arguments, progress):
         name = f"plm_hbm_{verb}"
@@ -130,6 +200,30 @@ class Branch(Handle, noun="branch", kind=_c.KIND_BRANCH):
         share = numpy.empty(self.n_pairs)
         self._call("get_closed_share", self._from_end(point), share.size, address(share))
         return share
+
+    @property
+    def bifurcations(self):
+        """The located points: a list of Bifurcation(point, kind, frequency_hz)."""
+        frequency = self.frequency_hz
+        return [Bifurcation(int(i), BIFURCATIONS[int(kind)], float(frequency[i]))
+                for i, kind in enumerate(self.bifurcation) if int(kind) in BIFURCATIONS]
+
+    def energy(self, point):
+        """Energy(energy, contact_area): mean mechanical energy and mean closed share of the pairs over the period."""
+        energy, area = ctypes.c_double(), ctypes.c_double()
+        self._work("get_energy", self._from_end(point), ctypes.byref(energy), ctypes.byref(area))
+        return Energy(energy.value, area.value)
+
+    def multipliers(self, point):
+        """Floquet multipliers over one period, complex, largest modulus first; empty where they were not computed (option
+        stability)."""
+        return self._get_complex("get_multipliers", self._from_end(point))
+
+    def periodicity_defect(self, point):
+        """How nearly the point is a periodic motion of the reduced model: |state after a period - state|, relative."""
+        value = ctypes.c_double()
+        self._work("get_periodicity_defect", self._from_end(point), ctypes.byref(value))
+        return value.value
 
     def full_residual(self, point):
         """How well the recovered field satisfies the unreduced equations: relative residual."""

@@ -33,21 +33,53 @@ def _curve(ax, x, y, stable, label):
         colour, label = line.get_color(), None  # one entry of the legend
 
 
-def response(branches, dof, measure="half_peak_to_peak", harmonic=0, labels=None, peaks=(), stable=None, ax=None):
+_MARKERS = {"fold": "s", "branch point": "D", "period doubling": "^", "Neimark-Sacker": "o"}
+
+
+def _stability_of(branch):
+    """Flags of every point, None where the branch has no stability. A point without it takes that of the one before."""
+    flags = branch.stable.copy()
+    known = numpy.flatnonzero(flags >= 0)
+    if not known.size:
+        return None
+    last = numpy.searchsorted(known, numpy.arange(len(flags)), side="right") - 1
+    return flags[known[last.clip(0)]] == 1
+
+
+def _mark_bifurcations(ax, branch, amplitude, drawn):
+    """One marker for each kind, one entry of the legend for each kind in the axes."""
+    for kind, marker in _MARKERS.items():
+        points = [b.point for b in branch.bifurcations if b.kind == kind]
+        if not points:
+            continue
+        ax.plot(branch.frequency_hz[points], amplitude[points], ls="", marker=marker, mfc="white", mec="k", markersize=6,
+                zorder=3, label=None if kind in drawn else kind)
+        drawn.add(kind)
+
+
+def response(branches, dof, measure="half_peak_to_peak", harmonic=0, labels=None, peaks=(), stable=None, bifurcations=True,
+             ax=None):
     """Amplitude of a DOF over frequency: one branch or several, with their folds; peaks: results of Hbm.find_peak.
-    stable: for every point of the branch whether its motion is stable (of several branches a list, with None where it is
-    not known); unstable parts are dashed."""
+
+    Unstable parts are dashed where the branch has stability (option stability of Hbm). stable: flags of every point instead
+    of those (of several branches a list, with None for the branch's own); False: all lines solid. bifurcations: mark the
+    folds, branch points, period doublings and Neimark-Sacker points that were located."""
     if not isinstance(branches, (list, tuple)):
-        branches, stable = [branches], [stable]
-    stable = stable or [None] * len(branches)
+        branches, stable = [branches], stable if stable is False else [stable]
+    stable = [False] * len(branches) if stable is False else stable or [None] * len(branches)
     ax = _axes(ax, "frequency (Hz)", f"amplitude of DOF {dof} ({measure.replace('_', ' ')})")
+    drawn = {line.get_label() for line in ax.lines}  # of an earlier call
     for i, branch in enumerate(branches):
-        _curve(ax, branch.frequency_hz, branch.amplitude(dof, measure, harmonic), stable[i], labels[i] if labels else None)
+        amplitude = branch.amplitude(dof, measure, harmonic)
+        flags = _stability_of(branch) if stable[i] is None else None if stable[i] is False else stable[i]
+        _curve(ax, branch.frequency_hz, amplitude, flags, labels[i] if labels else None)
+        if bifurcations:
+            _mark_bifurcations(ax, branch, amplitude, drawn)
     for peak in peaks:
         ax.plot(peak.frequency_hz, peak.amplitude, "k+", markersize=9)
         ax.annotate(f"{peak.amplitude:.4g} at {peak.frequency_hz:.4g} Hz", (peak.frequency_hz, peak.amplitude),
                     textcoords="offset points", xytext=(6, 4))
-    if labels:
+    if labels or drawn & _MARKERS.keys():
         ax.legend()
     return ax
 

@@ -1,0 +1,130 @@
+// Nonlinear modes against closed forms of the bilinear oscillator: frequency, energy, contact time, damping.
+#include "hbm/nonlinear_mode.hpp"
+#include "hbm/trig_polynomial.hpp"
+#include "support/small_reduced.hpp"
+#include "support/test.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+plm::NonlinearMode mode_of(const exact::Structure &s, double omega, double low, double high, int harmonics) {
+    plm::NonlinearModeOptions o;
+    o.hbm.n_harmonics = harmonics;
+    o.hbm.tolerance = 1e-11;
+    o.frequency_hz = omega / (2 * M_PI);
+    o.amplitude_min = low;
+    o.amplitude_max = high;
+    return plm::follow_nonlinear_mode(test::reduce_exactly(s), o, plm::Watch());
+}
+
+// q'' + q + 3 max(q - g, 0) = 0 with energy E: free on one side, w = 2 about 3 g / 4 on the other.
+struct Exact {
+    double omega, closed;
+};
+Exact piecewise(double gap, double energy) {
+    const double a = std::sqrt(2 * energy);
+    if (a <= gap) return {1, 0};
+    const double speed = std::sqrt(a * a - gap * gap), b = std::hypot(gap / 4, speed / 2);
+    const double open = M_PI + 2 * std::asin(gap / a), closed = std::acos(gap / 4 / b);
+    return {2 * M_PI / (open + closed), closed / (open + closed)};
+}
+
+struct Errors {
+    std::size_t points = 0;
+    std::int32_t reason = 0;
+    double frequency = 0, closed = 0, energy = 0, damping = 0, low = 1e300, high = 0;
+};
+Errors against_closed_form(const plm::NonlinearMode &mode, double gap) {
+    Errors e;
+    const auto &points = mode.branch->points();
+    e.points = points.size();
+    e.reason = mode.branch->end_reason;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const plm::BranchPoint &p = points[i];
+        const auto q = test::displacement(mode.branch->reduced(), p.eta_0, p.eta, 0);
+        const double open_side = -plm::trig_range(q.data(), p.eta.cols() / 2).minimum;
+        const Exact x = piecewise(gap, 0.5 * open_side * open_side);
+        e.frequency = std::max(e.frequency, std::abs(p.omega / x.omega - 1));
+        e.closed = std::max(e.closed, std::abs(mode.measures[i].closed_share - x.closed));
+        e.energy = std::max(e.energy, std::abs(mode.measures[i].total / (0.5 * open_side * open_side) - 1));
+        e.damping = std::max(e.damping, std::abs(mode.damping_ratio[i]));
+        e.low = std::min(e.low, p.omega);
+        e.high = std::max(e.high, p.omega);
+    }
+    return e;
+}
+void print(const char *what, const Errors &e) {
+    std::printf("    %s: %zu points, w %.6f to %.6f; errors: frequency %.1e, contact time %.1e, energy %.1e, "
+                "xi %.1e\n",
+                what, e.points, e.low, e.high, e.frequency, e.closed, e.energy, e.damping);
+}
+
+Errors homogeneous() {
+    return against_closed_form(mode_of(test::bilinear_oscillator(0, 3, 0, 0, 0), 4.0 / 3, 0.01, 100, 40), 0);
+}
+void bilinear_frequency_at_every_amplitude(void **) {
+    const Errors e = homogeneous();
+    print("no gap", e);
+    assert_int_equal(e.reason, PLM_REASON_RANGE_END);
+    assert_true(below(std::abs(e.low / (4.0 / 3) - 1), 1e-6));
+    assert_true(below(std::abs(e.high / (4.0 / 3) - 1), 1e-6));
+    assert_true(below(e.damping, 1e-10));
+}
+
+Errors with_gap() {
+    return against_closed_form(mode_of(test::bilinear_oscillator(0, 3, 1, 0, 0), 1, 0.5, 20, 20), 1);
+}
+void gap_stiffens_as_the_exact_motion_does(void **) {
+    const Errors e = with_gap();
+    print("gap", e);
+    assert_int_equal(e.reason, PLM_REASON_RANGE_END);
+    assert_true(e.low > 0.999999 && e.high > 1.3);
+    assert_true(below(e.frequency, 1e-4));
+    assert_true(below(e.closed, 1e-3));
+    assert_true(below(e.energy, 1e-3));
+    assert_true(below(e.damping, 1e-10));
+}
+
+struct Damped {
+    double first_frequency = 0, first_damping = 0, last_frequency = 0, first_energy = 0, first_amplitude = 0;
+    double first_share = 0, last_share = 0, least_damping = 1;
+};
+Damped preloaded() {
+    const auto mode =
+        mode_of(test::bilinear_oscillator(0.01, 3, 0, 0, 0.5), 2, 0, 0, 12); // range found by itself
+    Damped d;
+    d.first_frequency = mode.branch->points().front().omega;
+    d.last_frequency = mode.branch->points().back().omega;
+    d.first_damping = mode.damping_ratio.front();
+    d.first_energy = mode.measures.front().total;
+    d.first_amplitude = mode.amplitude.front();
+    d.first_share = mode.measures.front().closed_share;
+    d.last_share = mode.measures.back().closed_share;
+    for (double x : mode.damping_ratio) d.least_damping = std::min(d.least_damping, x);
+    return d;
+}
+void preload_keeps_contact_until_it_opens(void **) {
+    const Damped d = preloaded();
+    std::printf("    w %.6f to %.6f, xi %.6f, closed %.3f to %.3f\n", d.first_frequency, d.last_frequency,
+                d.first_damping, d.first_share, d.last_share);
+    assert_true(close_to(d.first_frequency, 2, 1e-9)); // closed: 1 + 3; EPMC leaves the undamped frequency
+    assert_true(close_to(d.first_damping, 0.02 / (2 * 2), 1e-9));
+    assert_true(close_to(d.first_amplitude, 0.0625, 1e-9)); // half of 0.5 / 4
+    assert_true(close_to(d.first_energy, 0.5 * 4 * d.first_amplitude * d.first_amplitude, 1e-9));
+    assert_true(close_to(d.first_share, 1, 1e-12));
+    assert_true(d.last_frequency > 4.0 / 3 &&
+                d.last_frequency < 1.01 * 4 / 3); // towards the bilinear frequency
+    assert_true(d.least_damping > 0);
+}
+
+} // namespace
+
+int main() {
+    const CMUnitTest tests[] = {
+        cmocka_unit_test(bilinear_frequency_at_every_amplitude),
+        cmocka_unit_test(gap_stiffens_as_the_exact_motion_does),
+        cmocka_unit_test(preload_keeps_contact_until_it_opens),
+    };
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
