@@ -84,14 +84,15 @@ struct BranchHandle final : HandleOf<plm_branch, Kind::branch> {
 };
 
 struct TransientHandle final : HandleOf<plm_transient, Kind::transient> {
-    TransientHandle(std::shared_ptr<Context> c, std::shared_ptr<ModelHandle> m, std::shared_ptr<BasisHandle> b)
+    TransientHandle(std::shared_ptr<Context> c, std::shared_ptr<ModelHandle> m,
+                    std::shared_ptr<BasisHandle> b)
         : HandleOf(std::move(c)), model(std::move(m)), basis(std::move(b)) {}
     void *options() override { return &transient_options; }
 
     std::shared_ptr<ModelHandle> model;
     std::shared_ptr<BasisHandle> basis; // null: the full model
     TransientOptions transient_options;
-    vector<std::int64_t> observed; // DOFs, base 0
+    vector<std::int64_t> observed;   // DOFs, base 0
     std::unique_ptr<Transient> core; // made when first needed, of the basis as it is then
     std::optional<TransientRun> last_run;
     std::optional<PeriodicMotion> periodic; // of the last search from the present start

@@ -7,8 +7,7 @@ namespace plm::capi {
 namespace {
 
 const char *kind_name(Kind kind) {
-    static const char *const names[] = {"context", "model", "sampler", "basis", "hbm", "branch",
-                                        "transient"};
+    static const char *const names[] = {"context", "model", "sampler", "basis", "hbm", "branch", "transient"};
     return names[static_cast<int>(kind)];
 }
 

@@ -35,9 +35,9 @@ void add_options(std::vector<Key> &keys) {
             real_option<&O::tolerance>("tolerance", 1e-15, 1e-2,
                                        "find_periodic: \"periodicity_defect\" to be reached"),
             int_option<&O::max_iterations>("max_iterations", 0, 10000, "find_periodic: Newton iterations"),
-            choice_option<&O::march_when_stuck>(
-                "march_when_stuck", "off,on",
-                "find_periodic: march some periods, towards a stable motion, where Newton's method gets stuck"),
+            choice_option<&O::march_when_stuck>("march_when_stuck", "off,on",
+                                                "find_periodic: march some periods, towards a stable motion, "
+                                                "where Newton's method gets stuck"),
         });
 }
 
@@ -50,15 +50,17 @@ void add_run_results(std::vector<Key> &keys) {
             result<H>("present_time", "time of the present state since it was set (s)",
                       [](const H &h) { return h.core ? h.core->time() : 0.0; }),
             result<H>("n_observed", "DOFs recorded by the last run",
-                      [](const H &h) { return last_run(h).n_observed; }),
+                      [](const H &h) { return static_cast<std::int64_t>(last_run(h).observed.size()); }),
+            result<H>("observed", "their numbers, from 0", [](const H &h) { return last_run(h).observed; }),
             result<H>("time", "instants of the histories of the last run (s)",
                       [](const H &h) { return last_run(h).time; }),
             result<H>("periods_done", "whole periods of the excitation marched by the last run",
                       [](const H &h) { return last_run(h).periods; }),
-            result<H>("change",
-                      "change of the state over the last \"period_multiple\" periods, relative to the size of "
-                      "the motion; -1: not known",
-                      [](const H &h) { return last_run(h).change; }),
+            result<H>(
+                "change",
+                "change of the state over the last \"period_multiple\" periods, relative to the size of "
+                "the motion; -1: not known",
+                [](const H &h) { return last_run(h).change; }),
             result<H>("is_settled", "1 when \"settled\" ended the last run",
                       [](const H &h) { return std::int64_t(last_run(h).settled); }),
             result<H>("n_events", "pairs that opened or closed in the last run, all together",
@@ -78,9 +80,10 @@ void add_periodic_results(std::vector<Key> &keys) {
                       [](const H &h) { return periodic_motion(h).iterations; }),
             result<H>("is_periodic", "1 when the last find_periodic converged",
                       [](const H &h) { return std::int64_t(periodic_motion(h).converged); }),
-            result<H>("periodicity_defect",
-                      "|state after a period - state| over the size of the motion, of the state find_periodic left",
-                      [](const H &h) { return periodic_motion(h).defect; }),
+            result<H>(
+                "periodicity_defect",
+                "|state after a period - state| over the size of the motion, of the state find_periodic left",
+                [](const H &h) { return periodic_motion(h).defect; }),
             result<H>("stable", "1 stable, 0 unstable, of the motion find_periodic found; -1: nothing moves",
                       stability),
             result<H>("periodic_seconds", "time of computation of the last find_periodic (s)",

@@ -139,15 +139,15 @@ plm_status plm_transient_get_history(plm_transient *transient, std::int64_t obse
                                      double *values, std::int64_t *count) {
     return call<TransientHandle>("plm_transient_get_history", transient, [&](TransientHandle &t) {
         const plm::TransientRun &run = last_run(t);
-        if (run.n_observed == 0)
+        const std::size_t n_observed = run.observed.size();
+        if (n_observed == 0)
             throw plm::Error(PLM_ERR_STATE, "the last run recorded no DOF; call plm_transient_observe_i32 or "
                                             "_i64 before the run")
                 .argument("observed");
-        require_range(observed, 0, run.n_observed - 1, "observed");
+        require_range(observed, 0, static_cast<std::int64_t>(n_observed) - 1, "observed");
         plm::vector<double> history(run.time.size());
         for (std::size_t k = 0; k < history.size(); ++k)
-            history[k] = run.values[k * static_cast<std::size_t>(run.n_observed) +
-                                    static_cast<std::size_t>(observed)];
+            history[k] = run.values[k * n_observed + static_cast<std::size_t>(observed)];
         return put_array(history, capacity, values, count);
     });
 }

@@ -34,8 +34,9 @@ std::int64_t highest_excitation(const ReducedModel &m) {
 // The number of harmonics a point asks for, from what it has.
 std::int64_t next_harmonics(const HbmOptions &limits, std::int64_t fewest, std::int64_t now,
                             const HarmonicContent &content) {
-    if (content.tail > limits.harmonic_tolerance)
-        return std::min(std::max(limits.max_harmonics, now), std::max(now + 2, (7 * now + 4) / 5));
+    const std::int64_t most = std::max(limits.max_harmonics, now);
+    if (content.tail > 30 * limits.harmonic_tolerance) return std::min(most, 2 * now);
+    if (content.tail > limits.harmonic_tolerance) return std::min(most, std::max(now + 2, (7 * now + 4) / 5));
     if (content.tail + content.top < 0.02 * limits.harmonic_tolerance) return std::max(fewest, now - (2 * now) / 5);
     return now;
 }
@@ -286,7 +287,8 @@ HbmOptions with_first_harmonics(const ReducedModel &reduced, const HbmOptions &o
     return first;
 }
 
-void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, BranchPoint &point) {
+void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, BranchPoint &point,
+                      Watch watch) {
     const std::int64_t multiple = options.period_multiple;
     for (;;) {
         const HarmonicContent content = harmonic_content(*reduced, point, multiple);
@@ -302,16 +304,11 @@ void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOpti
         const auto system = make_system(reduced, finer);
         vector<double> x(system->size());
         system->from_point(point, x.data());
-        NewtonLimits limits;
-        limits.tolerance = options.tolerance;
-        limits.max_iterations = options.max_iterations;
-        double omega = point.omega;
-        limits.omega_scale = omega;
-        const NewtonOutcome out = newton(*system, SideCondition(), limits, x, omega);
+        const StartOutcome out = find_start(*system, *reduced, finer, point.omega, true, watch, x);
         if (!out.converged) return;
         point.iterations += out.iterations;
         point.residual = out.residual;
-        system->to_point(x.data(), omega, point);
+        system->to_point(x.data(), point.omega, point);
         point.n_switching = system->indicator().n_switching;
     }
 }

@@ -17,9 +17,10 @@ struct CurveStart {
 /// number to begin with when they are chosen by point (options.n_harmonics = 0: the start's).
 void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch);
 
-/// Corrects `point` at its frequency with more harmonics until the next ones are negligible (or the allowed
-/// number is reached): what one point needs. `point` is unchanged where a correction fails.
-void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, BranchPoint &point);
+/// Solves at the frequency of `point` with more harmonics until the next ones are negligible (or the allowed
+/// number is reached): what one point needs. `point` stays where no solution with more is found.
+void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, BranchPoint &point,
+                      Watch watch = Watch());
 
 /// Options with the number of harmonics to begin with in place of 0.
 HbmOptions with_first_harmonics(const ReducedModel &reduced, const HbmOptions &options);

@@ -67,7 +67,7 @@ bool Hbm::solve_at(double omega, const BranchPoint *guess, Branch &branch, Branc
     point.force_scale = options_.force_scale;
     system->to_point(x.data(), omega, point);
     point.n_switching = system->indicator().n_switching;
-    settle_harmonics(reduced_, options_, point);
+    settle_harmonics(reduced_, options_, point, watch_);
     return true;
 }
 

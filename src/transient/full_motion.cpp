@@ -105,7 +105,7 @@ TransientRun FullMotion::run(const TransientOptions &options, const vector<std::
     run.cancelled = found.cancelled, run.settled = found.settled;
     run.periods = found.periods, run.change = found.change;
     run.n_events = observer.n_events(), run.contact_iterations = found.contact_iterations;
-    run.n_observed = static_cast<std::int64_t>(observed.size());
+    run.observed = observed;
     run.values = std::move(observer.values());
     const double interval = period / static_cast<double>(options.steps_per_period);
     for (std::int64_t k = 1; k <= observer.n_steps() && !observed.empty(); ++k)
@@ -118,8 +118,9 @@ TransientRun FullMotion::run(const TransientOptions &options, const vector<std::
 }
 
 PeriodicMotion FullMotion::find_periodic(const TransientOptions &, Watch) {
-    throw Error(PLM_ERR_ARGUMENT, "the periodic motion is found for reduced models only; create the transient "
-                                  "with a basis, of kind full for the unreduced structure")
+    throw Error(PLM_ERR_ARGUMENT,
+                "the periodic motion is found for reduced models only; create the transient "
+                "with a basis, of kind full for the unreduced structure")
         .argument("transient");
 }
 

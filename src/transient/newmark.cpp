@@ -97,8 +97,8 @@ void Newmark::factor_step() {
 FullState rest_state(const std::shared_ptr<const Model> &model, Watch watch) {
     const std::int64_t n = model->n_free();
     FullState state{vector<double>(n, 0.0), vector<double>(n, 0.0), 0};
-    const bool interference = std::any_of(model->initial_gap().begin(), model->initial_gap().end(),
-                                          [](double g) { return g < 0; });
+    const bool interference =
+        std::any_of(model->initial_gap().begin(), model->initial_gap().end(), [](double g) { return g < 0; });
     if (model->has_preload() || interference)
         state.q = solve_rest(*make_contact_space(model, 0.0, 1, watch)).displacement;
     return state;

@@ -144,8 +144,9 @@ void ReducedMotion::set_state(const double *q, const double *v) {
 
 void ReducedMotion::start_at(const HarmonicMotion &m) {
     if (m.reduced != reduced_)
-        throw Error(PLM_ERR_ARGUMENT, "the branch was computed on another basis, or before the basis was built "
-                                      "anew; take one of this basis, or make a transient without a basis")
+        throw Error(PLM_ERR_ARGUMENT,
+                    "the branch was computed on another basis, or before the basis was built "
+                    "anew; take one of this basis, or make a transient without a basis")
             .argument("branch");
     state_ = flow_model_->state(m.eta_0, m.eta, m.omega / static_cast<double>(m.period_multiple), 0.0);
     restart_clock();
@@ -177,7 +178,7 @@ TransientRun ReducedMotion::run(const TransientOptions &options, const vector<st
     March march(flow_model_, options, std::move(start), dof_rows(observed), watch);
     march.run();
     TransientRun run = march.result(time());
-    run.n_observed = static_cast<std::int64_t>(observed.size());
+    run.observed = observed;
     run.seconds = seconds_since(begin);
     advance_clock(march.periods(), march.part(), march.period_length());
     state_ = std::move(march.state());
@@ -191,9 +192,9 @@ PeriodicMotion ReducedMotion::find_periodic(const TransientOptions &options, Wat
     ExactFlow flow(flow_model_, omega, options.force_scale, watch);
     FlowState start = present();
     start.time = phase() * flow.period();
-    PeriodicOrbit orbit = periodic_orbit(flow, start,
-                                         {options.period_multiple, 0, options.tolerance,
-                                          options.max_iterations, options.march_when_stuck});
+    PeriodicOrbit orbit = periodic_orbit(
+        flow, start,
+        {options.period_multiple, 0, options.tolerance, options.max_iterations, options.march_when_stuck});
     state_ = std::move(orbit.state);
     return {orbit.converged, orbit.iterations, orbit.defect, std::move(orbit.multipliers),
             seconds_since(begin)};

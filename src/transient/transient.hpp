@@ -1,6 +1,7 @@
 // Motion in time as a host asks for it: a state, runs of whole periods of the excitation with some DOFs
 // observed, and the periodic motion nearby. Two engines: the exact flow of a reduced model and Newmark's
-// method for the full one. This header needs neither, so that a build may leave both out (PLM_WITH_TRANSIENT).
+// method for the full one. This header needs neither, so that a build may leave both out
+// (PLM_WITH_TRANSIENT).
 #pragma once
 #include "linalg/monitor.hpp"
 #include "reduction/reduced_model.hpp"
@@ -30,8 +31,8 @@ struct TransientRun {
     std::int64_t periods = 0; // whole ones
     double change = -1;       // Settling::change()
     std::int64_t n_events = 0, contact_iterations = 0;
-    std::int64_t n_observed = 0;
-    vector<double> time, values; // instants (s); per instant one displacement for each observed DOF
+    vector<std::int64_t> observed; // DOFs, base 0
+    vector<double> time, values;   // instants (s); per instant one displacement for each observed DOF
     double seconds = 0;
 };
 

@@ -8,7 +8,9 @@ plm_status oscillator_built(plm_context *ctx, const oscillator *o, double highes
     static const double one[] = {1};
     plm_status s = plm_model_create(ctx, 1, model);
     if (!s) s = plm_model_set_matrix_i64(*model, PLM_MASS, PLM_CSC, PLM_FULL, 0, PLM_COPY, 1, ptr, row, one);
-    if (!s) s = plm_model_set_matrix_i64(*model, PLM_STIFFNESS, PLM_CSC, PLM_FULL, 0, PLM_COPY, 1, ptr, row, &o->k);
+    if (!s)
+        s = plm_model_set_matrix_i64(*model, PLM_STIFFNESS, PLM_CSC, PLM_FULL, 0, PLM_COPY, 1, ptr, row,
+                                     &o->k);
     if (!s) s = plm_model_set_rayleigh_damping(*model, o->c, 0);
     if (!s && o->k_n > 0) s = plm_model_add_gap_rows_i64(*model, 0, 1, ptr, dof, one, &o->k_n, &o->gap);
     if (!s) s = plm_model_set_excitation(*model, 1, 1, &o->force, NULL);
@@ -22,7 +24,8 @@ plm_status oscillator_built(plm_context *ctx, const oscillator *o, double highes
     return s;
 }
 
-void oscillator_motion(const oscillator *o, double omega, double q_0, double v_0, double t, double *q, double *v) {
+void oscillator_motion(const oscillator *o, double omega, double q_0, double v_0, double t, double *q,
+                       double *v) {
     const double a = o->k - omega * omega, b = o->c * omega, size = a * a + b * b;
     const double c = o->force * a / size, s = o->force * b / size; /* the periodic part c cos + s sin */
     const double decay = 0.5 * o->c, free = sqrt(o->k - decay * decay), e = exp(-decay * t);

@@ -9,10 +9,13 @@ static plm_hbm *hbm;
 static plm_transient *motion; /* NULL when left out of the build */
 
 static int set_up(void **state) {
+    plm_status s;
     (void)state;
-    return plm_context_create(PLM_API_VERSION, &ctx) || plm_model_create(ctx, 3, &model) ||
-           plm_sampler_create(model, &sampler) || plm_basis_create(model, &basis) ||
-           plm_hbm_create(basis, &hbm) || plm_transient_create(model, basis, &motion) % PLM_ERR_NOT_BUILT;
+    s = plm_context_create(PLM_API_VERSION, &ctx) || plm_model_create(ctx, 3, &model) ||
+        plm_sampler_create(model, &sampler) || plm_basis_create(model, &basis) || plm_hbm_create(basis, &hbm);
+    if (s) return s;
+    s = plm_transient_create(model, basis, &motion);
+    return s && s != PLM_ERR_NOT_BUILT;
 }
 static int tear_down(void **state) {
     (void)state;
@@ -20,46 +23,46 @@ static int tear_down(void **state) {
 }
 
 static plm_status set_int(int32_t kind, const char *key, int64_t v) {
-    return kind == PLM_KIND_MODEL     ? plm_model_set_int(model, key, v)
-           : kind == PLM_KIND_SAMPLER ? plm_sampler_set_int(sampler, key, v)
-           : kind == PLM_KIND_BASIS   ? plm_basis_set_int(basis, key, v)
+    return kind == PLM_KIND_MODEL       ? plm_model_set_int(model, key, v)
+           : kind == PLM_KIND_SAMPLER   ? plm_sampler_set_int(sampler, key, v)
+           : kind == PLM_KIND_BASIS     ? plm_basis_set_int(basis, key, v)
            : kind == PLM_KIND_TRANSIENT ? plm_transient_set_int(motion, key, v)
-                                      : plm_hbm_set_int(hbm, key, v);
+                                        : plm_hbm_set_int(hbm, key, v);
 }
 static plm_status set_double(int32_t kind, const char *key, double v) {
-    return kind == PLM_KIND_MODEL     ? plm_model_set_double(model, key, v)
-           : kind == PLM_KIND_SAMPLER ? plm_sampler_set_double(sampler, key, v)
-           : kind == PLM_KIND_BASIS   ? plm_basis_set_double(basis, key, v)
+    return kind == PLM_KIND_MODEL       ? plm_model_set_double(model, key, v)
+           : kind == PLM_KIND_SAMPLER   ? plm_sampler_set_double(sampler, key, v)
+           : kind == PLM_KIND_BASIS     ? plm_basis_set_double(basis, key, v)
            : kind == PLM_KIND_TRANSIENT ? plm_transient_set_double(motion, key, v)
-                                      : plm_hbm_set_double(hbm, key, v);
+                                        : plm_hbm_set_double(hbm, key, v);
 }
 static plm_status set_string(int32_t kind, const char *key, const char *v) {
-    return kind == PLM_KIND_MODEL     ? plm_model_set_string(model, key, v)
-           : kind == PLM_KIND_SAMPLER ? plm_sampler_set_string(sampler, key, v)
-           : kind == PLM_KIND_BASIS   ? plm_basis_set_string(basis, key, v)
+    return kind == PLM_KIND_MODEL       ? plm_model_set_string(model, key, v)
+           : kind == PLM_KIND_SAMPLER   ? plm_sampler_set_string(sampler, key, v)
+           : kind == PLM_KIND_BASIS     ? plm_basis_set_string(basis, key, v)
            : kind == PLM_KIND_TRANSIENT ? plm_transient_set_string(motion, key, v)
-                                      : plm_hbm_set_string(hbm, key, v);
+                                        : plm_hbm_set_string(hbm, key, v);
 }
 static plm_status get_int(int32_t kind, const char *key, int64_t *v) {
-    return kind == PLM_KIND_MODEL     ? plm_model_get_int(model, key, v)
-           : kind == PLM_KIND_SAMPLER ? plm_sampler_get_int(sampler, key, v)
-           : kind == PLM_KIND_BASIS   ? plm_basis_get_int(basis, key, v)
+    return kind == PLM_KIND_MODEL       ? plm_model_get_int(model, key, v)
+           : kind == PLM_KIND_SAMPLER   ? plm_sampler_get_int(sampler, key, v)
+           : kind == PLM_KIND_BASIS     ? plm_basis_get_int(basis, key, v)
            : kind == PLM_KIND_TRANSIENT ? plm_transient_get_int(motion, key, v)
-                                      : plm_hbm_get_int(hbm, key, v);
+                                        : plm_hbm_get_int(hbm, key, v);
 }
 static plm_status get_double(int32_t kind, const char *key, double *v) {
-    return kind == PLM_KIND_MODEL     ? plm_model_get_double(model, key, v)
-           : kind == PLM_KIND_SAMPLER ? plm_sampler_get_double(sampler, key, v)
-           : kind == PLM_KIND_BASIS   ? plm_basis_get_double(basis, key, v)
+    return kind == PLM_KIND_MODEL       ? plm_model_get_double(model, key, v)
+           : kind == PLM_KIND_SAMPLER   ? plm_sampler_get_double(sampler, key, v)
+           : kind == PLM_KIND_BASIS     ? plm_basis_get_double(basis, key, v)
            : kind == PLM_KIND_TRANSIENT ? plm_transient_get_double(motion, key, v)
-                                      : plm_hbm_get_double(hbm, key, v);
+                                        : plm_hbm_get_double(hbm, key, v);
 }
 static plm_status get_string(int32_t kind, const char *key, int64_t n, char *v) {
-    return kind == PLM_KIND_MODEL     ? plm_model_get_string(model, key, n, v, NULL)
-           : kind == PLM_KIND_SAMPLER ? plm_sampler_get_string(sampler, key, n, v, NULL)
-           : kind == PLM_KIND_BASIS   ? plm_basis_get_string(basis, key, n, v, NULL)
+    return kind == PLM_KIND_MODEL       ? plm_model_get_string(model, key, n, v, NULL)
+           : kind == PLM_KIND_SAMPLER   ? plm_sampler_get_string(sampler, key, n, v, NULL)
+           : kind == PLM_KIND_BASIS     ? plm_basis_get_string(basis, key, n, v, NULL)
            : kind == PLM_KIND_TRANSIENT ? plm_transient_get_string(motion, key, n, v, NULL)
-                                      : plm_hbm_get_string(hbm, key, n, v, NULL);
+                                        : plm_hbm_get_string(hbm, key, n, v, NULL);
 }
 
 /* default readable, both bounds settable and read back, beyond them refused */

@@ -1,4 +1,5 @@
-/* Motion in time: against closed forms, against harmonic balance, and the full model against its reduced one. */
+/* Motion in time: against closed forms, against harmonic balance, and the full model against its reduced one.
+ */
 #include "chain.h"
 #include "check.h"
 #include "oscillator.h"
@@ -26,7 +27,8 @@ static int make(const oscillator *o, double highest_hz) {
 }
 
 /* a transient that records one DOF; of_basis NULL: the full model */
-static plm_transient *new_motion(plm_basis *of_basis, double hz, int64_t periods, int64_t steps, int32_t dof) {
+static plm_transient *new_motion(plm_basis *of_basis, double hz, int64_t periods, int64_t steps,
+                                 int32_t dof) {
     plm_transient *t = NULL;
     const int ok = done(ctx, plm_transient_create(model, of_basis, &t)) &&
                    done(ctx, plm_transient_set_double(t, "frequency_hz", hz)) &&
@@ -92,7 +94,8 @@ static void a_linear_oscillator_in_closed_form(void **state) {
     assert_true(coarse < 1e-3 && fine < 1.1e-2 * coarse);
 }
 
-/* free motion between a spring on one side and two on the other: two half sines, period pi / omega_1 + pi / omega_2 */
+/* free motion between a spring on one side and two on the other: two half sines, period pi / omega_1 + pi /
+ * omega_2 */
 static void a_bilinear_oscillator_in_closed_form(void **state) {
     const oscillator o = {9, 0, 16, 0, 1};
     const double above = 5, below = 3, first = PI / above, period = first + PI / below, v_0 = 2, zero = 0;
@@ -110,7 +113,8 @@ static void a_bilinear_oscillator_in_closed_form(void **state) {
         plm_transient_get_array(motion, "time", MANY, times, &n);
         for (k = 0, worst = 0; k < n; ++k) {
             const double t = fmod(times[k], period);
-            const double want = t < first ? v_0 / above * sin(above * t) : -v_0 / below * sin(below * (t - first));
+            const double want =
+                t < first ? v_0 / above * sin(above * t) : -v_0 / below * sin(below * (t - first));
             worst = fmax(worst, fabs(history[k] - want));
         }
         assert_int_equal(plm_transient_get_int(motion, "n_events", &events), PLM_OK);
@@ -166,8 +170,8 @@ static double multiplier_error(plm_branch *curve, int64_t point, double *first) 
 static void a_point_of_harmonic_balance_is_periodic(void **state) {
     plm_hbm *hbm = NULL;
     plm_branch *point = NULL;
-    double hz = 0, defect = 1, before = 1, peak = 0, first = 2, error;
-    int64_t n = 0, stable = -1, settled = 0;
+    double hz = 0, defect = 1, before = 1, peak = 0, first = 2, error[2] = {1, 1};
+    int64_t n = 0, stable = -1, settled = 0, k;
     (void)state;
     assert_true(done(ctx, chain_built(ctx, 1, &model)));
     assert_true(done(ctx, plm_basis_create(model, &basis)));
@@ -176,26 +180,29 @@ static void a_point_of_harmonic_balance_is_periodic(void **state) {
     assert_true(done(ctx, plm_basis_set_double(basis, "frequency_max_hz", 4)));
     assert_true(done(ctx, plm_basis_build(basis)));
     assert_true(done(ctx, plm_hbm_create(basis, &hbm)));
-    assert_true(done(ctx, plm_hbm_set_int(hbm, "n_harmonics", 20)));
     assert_true(done(ctx, plm_hbm_set_string(hbm, "stability", "floquet")));
-    assert_true(done(ctx, plm_hbm_solve(hbm, 3.1, NULL, 0, &point)));
+    motion = new_motion(basis, 1, 1, 5000, WATCHED);
+    for (k = 1; k >= 0; --k) { /* the multipliers hang on the instants of contact: they need more harmonics */
+        assert_true(done(ctx, plm_hbm_set_int(hbm, "n_harmonics", k ? 80 : 20)));
+        assert_true(done(ctx, plm_hbm_solve(hbm, 3.1, NULL, 0, &point)));
+        assert_true(done(ctx, plm_transient_start_at(motion, point, 0)));
+        assert_true(done(ctx, plm_transient_find_periodic(motion)));
+        error[k] = multiplier_error(point, 0, &first);
+    }
     assert_true(done(ctx, plm_branch_get_amplitude(point, WATCHED, PLM_PEAK, 0, 1, &peak, &n)));
     assert_true(done(ctx, plm_branch_get_periodicity_defect(point, 0, &before)));
-    motion = new_motion(basis, 1, 1, 5000, WATCHED);
-    assert_true(done(ctx, plm_transient_start_at(motion, point, 0)));
     plm_transient_get_double(motion, "frequency_hz", &hz);
     assert_true(close_to(hz, 3.1, 1e-14));
-    assert_true(done(ctx, plm_transient_find_periodic(motion)));
     plm_transient_get_double(motion, "periodicity_defect", &defect);
     plm_transient_get_int(motion, "stable", &stable);
-    error = multiplier_error(point, 0, &first);
     assert_true(done(ctx, plm_transient_run(motion)));
     n = recorded(motion, history);
-    printf("    periodicity defect %.1e, then %.1e; peak off by %.1e, multipliers by %.1e\n", before, defect,
-           largest(history, n) / peak - 1, error);
+    printf("    periodicity defect %.1e, then %.1e; peak off by %.1e; multipliers by %.1e, of 80 harmonics "
+           "%.1e\n",
+           before, defect, largest(history, n) / peak - 1, error[0], error[1]);
     assert_true(before > defect && before < 1e-2 && defect < 1e-11);
     assert_true(close_to(largest(history, n), peak, 1e-4));
-    assert_true(stable == 1 && first < 1 && error < 1e-3);
+    assert_true(stable == 1 && first < 1 && error[0] < 0.1 && error[1] < 1e-3);
     assert_true(done(ctx, plm_transient_set_double(motion, "settled", 1e-6)));
     assert_true(done(ctx, plm_transient_run(motion)));
     assert_int_equal(plm_transient_get_int(motion, "is_settled", &settled), PLM_OK);
@@ -208,7 +215,8 @@ static void a_point_of_harmonic_balance_is_periodic(void **state) {
     assert_true(close_to(largest(history, n), peak, 1e-3));
 }
 
-/* hardening by a stop: of three motions the middle one is unstable; disturbed, it leaves for one of the others */
+/* hardening by a stop: of three motions the middle one is unstable; disturbed, it leaves for one of the
+ * others */
 static void an_unstable_motion_is_found_and_left(void **state) {
     const oscillator o = {1, 0.03, 3, 1, 0.2};
     plm_hbm *hbm = NULL;
@@ -260,10 +268,8 @@ static void an_unstable_motion_is_found_and_left(void **state) {
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(a_linear_oscillator_in_closed_form),
-        TEST(a_bilinear_oscillator_in_closed_form),
-        TEST(the_full_model_agrees_with_its_reduced_one),
-        TEST(a_point_of_harmonic_balance_is_periodic),
+        TEST(a_linear_oscillator_in_closed_form),         TEST(a_bilinear_oscillator_in_closed_form),
+        TEST(the_full_model_agrees_with_its_reduced_one), TEST(a_point_of_harmonic_balance_is_periodic),
         TEST(an_unstable_motion_is_found_and_left),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

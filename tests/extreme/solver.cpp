@@ -163,6 +163,7 @@ void Solver::build(const exact::Structure &s, const std::vector<double> &mass, c
 }
 
 void Solver::finish(const Setup &setup) {
+    low_ = setup.low, high_ = setup.high;
     if (setup.kind == "plm" || setup.low == 0) {
         check(plm_sampler_create(model_, &sampler_));
         for (const auto &[key, value] : setup.sampler) {
@@ -198,6 +199,11 @@ std::unique_ptr<Curve> Solver::sweep() {
     check(status);
     auto curve = std::make_unique<Curve>(ctx_, branch, status);
     curve->work.seconds = seconds;
+    const double first = curve->omega.front(), last = curve->omega.back();
+    if (curve->end_reason == PLM_REASON_RANGE_END && std::abs(last - first) < 0.5 * (high_ - low_)) {
+        curve->end_reason = PLM_REASON_NONE; // through a fold and out where it came in
+        curve->end_text = "left the range where it had come in";
+    }
     return curve;
 }
 

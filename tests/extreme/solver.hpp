@@ -87,6 +87,7 @@ class Solver {
     void finish(const Setup &setup);
     void check(plm_status status) const;
 
+    double low_ = 0, high_ = 0;
     plm_context *ctx_ = nullptr;
     plm_model *model_ = nullptr;
     plm_sampler *sampler_ = nullptr;

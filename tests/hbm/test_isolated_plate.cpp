@@ -42,6 +42,7 @@ bool build(Plate &plate) {
     plm_context *c = plate.context;
     must(c, scene_to_model(c, plate.host, &model), "model");
     must(c, plm_sampler_create(model, &sampler), "sampler");
+    must(c, plm_sampler_set_string(sampler, "system", "open"), "system");
     must(c, plm_sampler_set_int(sampler, "mode", 3), "mode");
     must(c, plm_sampler_set_int(sampler, "n_samples", 6), "n_samples");
     must(c, plm_sampler_run(sampler), "sampler run");
@@ -102,7 +103,8 @@ void the_plates_isola_is_found(void **) {
     assert_int_equal(f.count, 1);
     assert_true(f.closed && f.tracked);
     assert_true(f.top > 3 * f.main && f.top_hz < 0.95 * f.main_hz);
-    assert_true(f.birth < 0.5 && 0.5 < f.merge);
+    assert_true(close_to(f.birth, 0.1598, 0.02)); // of the Craig-Bampton model of the scene, H = 5
+    assert_true(close_to(f.merge, 0.844, 0.02));
     assert_true(f.above > 3 * f.main); // the main branch has swallowed it
 }
 

@@ -14,7 +14,8 @@ else()
         set(build ${CMAKE_CURRENT_BINARY_DIR}/fuzz_library)
         set(fuzzed ${build}/src/libplm.so)
         add_host_test(fuzz_library sh ${here}/fuzz_library.sh ${CMAKE_COMMAND} ${CMAKE_GENERATOR} ${PLM_CLANG} ${PLM_CLANGXX}
-                      ${PROJECT_SOURCE_DIR} ${build} -DPLM_WITH_CHOLMOD=${PLM_WITH_CHOLMOD} -DPLM_WITH_FFTW=${PLM_WITH_FFTW})
+                      ${PROJECT_SOURCE_DIR} ${build} -DPLM_WITH_CHOLMOD=${PLM_WITH_CHOLMOD} -DPLM_WITH_FFTW=${PLM_WITH_FFTW}
+                      -DPLM_WITH_TRANSIENT=${PLM_WITH_TRANSIENT})
         set_tests_properties(host.fuzz_library PROPERTIES FIXTURES_SETUP plm_fuzz_library PROCESSORS 2 TIMEOUT 900)
     endif()
     add_host_test(fuzz sh ${here}/fuzz.sh ${PLM_CLANG} ${PROJECT_SOURCE_DIR}/include ${fuzzed}

@@ -29,7 +29,7 @@ class Plot(unittest.TestCase):
 
     def test_response(self):
         peak = self.hbm.find_peak(self.curve, models.WATCHED)
-        ax = plm.plot.response([self.curve, peak.branch], models.WATCHED, labels=["curve", "peak"], peaks=[peak])
+        ax = plm.plot.response([self.curve, peak.branch], models.WATCHED, labels=["curve", "peak"], peaks=[peak], stable=False)
         numpy.testing.assert_array_equal(ax.lines[0].get_ydata(), self.curve.amplitude(models.WATCHED))
         self.assertIs(plm.plot.response(self.curve, models.WATCHED, "rms", ax=ax), ax)
 
@@ -37,17 +37,34 @@ class Plot(unittest.TestCase):
         n = len(self.curve)
         stable = numpy.ones(n, dtype=bool)
         stable[n // 3:n // 2] = False
-        ax = plm.plot.response(self.curve, models.WATCHED, stable=stable, labels=["curve"])
+        ax = plm.plot.response(self.curve, models.WATCHED, stable=stable, labels=["curve"], bifurcations=False)
         self.assertEqual([line.get_linestyle() for line in ax.lines], ["-", "--", "-"])
         self.assertEqual(len({line.get_color() for line in ax.lines}), 1)
         drawn = numpy.concatenate([line.get_xdata()[:-1] for line in ax.lines[:-1]] + [ax.lines[-1].get_xdata()])
         numpy.testing.assert_array_equal(drawn, self.curve.frequency_hz)  # no gap and no point twice
         self.assertEqual(ax.lines[1].get_xdata()[0], self.curve.frequency_hz[n // 3])
         self.assertEqual(len(ax.get_legend().get_texts()), 1)
-        both = plm.plot.response([self.curve, self.curve], models.WATCHED, stable=[None, ~stable])
+        both = plm.plot.response([self.curve, self.curve], models.WATCHED, stable=[False, ~stable], bifurcations=False)
         self.assertEqual([line.get_linestyle() for line in both.lines], ["-", "--", "-", "--"])
         with self.assertRaisesRegex(ValueError, "points"):
             plm.plot.response(self.curve, models.WATCHED, stable=stable[1:])
+
+    def test_stability_and_bifurcations_by_default(self):
+        hbm = plm.Hbm(models.between_stops())
+        curve = hbm.sweep()
+        crossing = curve.bifurcations[0].point
+        ax = plm.plot.response([curve, hbm.switch_branch(curve, crossing)], 0, labels=["symmetric", "leaning"])
+        self.assertEqual({line.get_linestyle() for line in ax.lines}, {"-", "--", "None"})
+        dashed = numpy.concatenate([line.get_xdata() for line in ax.lines if line.get_linestyle() == "--"])
+        self.assertTrue(set(curve.frequency_hz[curve.stable == 0]) <= set(dashed))
+        (marks,) = [line for line in ax.lines if line.get_label() == "branch point"]
+        self.assertIn(curve.frequency_hz[crossing], marks.get_xdata())
+        self.assertEqual([text.get_text() for text in ax.get_legend().get_texts()].count("branch point"), 1)
+        again = plm.plot.response(curve, 0, ax=ax)  # into the same axes: no second entry
+        self.assertEqual([text.get_text() for text in again.get_legend().get_texts()].count("branch point"), 1)
+        plain = plm.plot.response(curve, 0, stable=False, bifurcations=False)
+        self.assertEqual([line.get_linestyle() for line in plain.lines], ["-"])
+        self.assertIsNone(plain.get_legend())
 
     def test_contact_area(self):
         point = int(numpy.argmax(self.curve.amplitude(models.WATCHED)))

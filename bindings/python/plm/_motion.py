@@ -26,7 +26,7 @@ class Transient(Handle, noun="transient", kind=_c.KIND_TRANSIENT):
         super().__init__(basis_or_model.context)
         self._model = getattr(basis_or_model, "model", basis_or_model)
         basis = None if self._model is basis_or_model else basis_or_model._h
-        self._observed = []
+        self._observed = self._recorded = []  # DOFs of the next runs, of the last one
         self.context.call("plm_transient_create", self._model._h, basis, ctypes.byref(self._h))
         self.set_options(options)
 
@@ -72,11 +72,11 @@ class Transient(Handle, noun="transient", kind=_c.KIND_TRANSIENT):
     def history(self, dof=None):
         """Displacement of an observed DOF, or n_times x n of all of them, at the instants `time` of the last run."""
         if dof is None:
-            columns = [self._history(i) for i in range(len(self._observed))]
+            columns = [self._history(i) for i in range(len(self._recorded))]
             return numpy.stack(columns, axis=1) if columns else numpy.empty((0, 0))
-        if dof not in self._observed:
-            raise ValueError(f"DOF {dof} is not observed; observed are {self._observed}")
-        return self._history(self._observed.index(dof))
+        if dof not in self._recorded:
+            raise ValueError(f"the last run did not record DOF {dof}; it recorded {self._recorded}")
+        return self._history(self._recorded.index(dof))
 
     def multipliers(self):
         """Floquet multipliers of the motion find_periodic found, complex, largest modulus first."""
@@ -92,7 +92,10 @@ class Transient(Handle, noun="transient", kind=_c.KIND_TRANSIENT):
 
     def _march(self, verb, progress):
         name = f"plm_transient_{verb}"
-        return self.context.finish(name, self.context.run(name, self._h, progress=progress), has_result=True)
+        status = self.context.run(name, self._h, progress=progress)
+        if verb == "run" and status >= 0:
+            self._recorded = self._observed
+        return self.context.finish(name, status, has_result=True)
 
     def _n_pairs(self):
         return self._model.n_pairs

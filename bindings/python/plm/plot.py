@@ -27,10 +27,11 @@ def _curve(ax, x, y, stable, label):
     flags = numpy.asarray(stable, dtype=bool)
     if flags.shape != numpy.shape(x):
         raise ValueError(f"stable has the shape {flags.shape}, the branch has {len(x)} points")
-    colour = None
+    colour, named = None, False
     for first, last, flag in _runs(flags):
-        line, = ax.plot(x[first:last + 1], y[first:last + 1], ls="-" if flag else "--", color=colour, label=label, **marker)
-        colour, label = line.get_color(), None  # one entry of the legend
+        name = label if not named and (flag or not flags.any()) else None  # one entry of the legend, solid if there is one
+        line, = ax.plot(x[first:last + 1], y[first:last + 1], ls="-" if flag else "--", color=colour, label=name, **marker)
+        colour, named = line.get_color(), named or name is not None
 
 
 _MARKERS = {"fold": "s", "branch point": "D", "period doubling": "^", "Neimark-Sacker": "o"}
@@ -52,7 +53,7 @@ def _mark_bifurcations(ax, branch, amplitude, drawn):
         points = [b.point for b in branch.bifurcations if b.kind == kind]
         if not points:
             continue
-        ax.plot(branch.frequency_hz[points], amplitude[points], ls="", marker=marker, mfc="white", mec="k", markersize=6,
+        ax.plot(branch.frequency_hz[points], amplitude[points], ls="", marker=marker, color="k", mfc="white", markersize=6,
                 zorder=3, label=None if kind in drawn else kind)
         drawn.add(kind)
 

@@ -1,0 +1,89 @@
+"""Stability, bifurcations, and the curves beside a response curve."""
+import math
+import unittest
+
+import numpy
+import plm
+
+import models
+
+
+class Stops(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.hbm = plm.Hbm(models.between_stops())
+        cls.curve = cls.hbm.sweep()
+
+    def test_bifurcations(self):
+        kinds = {b.kind for b in self.curve.bifurcations}
+        self.assertEqual(kinds, {"branch point"})
+        for b in self.curve.bifurcations:
+            self.assertEqual(self.curve.bifurcation[b.point], plm.BIFURCATION_BRANCH_POINT)
+            self.assertEqual(self.curve.frequency_hz[b.point], b.frequency_hz)
+        self.assertEqual(len(self.curve.bifurcations), numpy.count_nonzero(self.curve.bifurcation))
+
+    def test_stability(self):
+        self.assertEqual(set(self.curve.stable), {0, 1})
+        for i, stable in enumerate(self.curve.stable):
+            multipliers = self.curve.multipliers(i)
+            self.assertTrue((numpy.diff(abs(multipliers)) <= 1e-12).all())
+            if not self.curve.bifurcation[i]:  # at a bifurcation one of them is at the border
+                self.assertEqual(abs(multipliers[0]) < 1, bool(stable))
+        numpy.testing.assert_array_equal(self.curve.multipliers(-1), self.curve.multipliers(len(self.curve) - 1))
+        self.assertEqual(self.hbm.solve(0.25).multipliers(0).size, 2)
+        off = plm.Hbm(models.between_stops(), stability="off").sweep()
+        self.assertEqual(off.multipliers(0).size, 0)
+        self.assertEqual(set(off.stable), {-1})
+
+    def test_switch_branch(self):
+        point = self.curve.bifurcations[0].point
+        left, right = (self.hbm.switch_branch(self.curve, point, mirrored) for mirrored in (False, True))
+        means = [branch.amplitude(0, "harmonic", 0)[1] for branch in (left, right)]
+        self.assertLess(means[0] * means[1], 0)
+        with self.assertRaises(plm.PlmError):
+            self.hbm.switch_branch(self.curve, 0)
+
+    def test_periodicity_defect(self):
+        self.assertLess(self.curve.periodicity_defect(0), 1e-2)
+
+    def test_energy(self):
+        energy = self.curve.energy(0)
+        self.assertGreater(energy.energy, 0)
+        self.assertAlmostEqual(energy.contact_area, self.curve.closed_share(0).mean(), places=9)
+
+
+class Carrier(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.hbm = plm.Hbm(models.carrier(), force_scale=0.006)
+        cls.curve = cls.hbm.sweep()
+
+    def test_isolated(self):
+        (isolated,) = self.hbm.find_isolated(self.curve)
+        low, high = isolated.force_range
+        self.assertTrue(low < 0.006 < high)
+        self.assertEqual(isolated.branch.end_reason, plm.REASON_LOOP_CLOSED)
+        folds = [b.point for b in isolated.branch.bifurcations if b.kind == "fold"]
+        tracked = self.hbm.track_fold(isolated.branch, folds[0], 0.003, 0.01)
+        extrema = [tracked.point_force_scale[b.point] for b in tracked.bifurcations]
+        self.assertLess(min(abs(force / high - 1) for force in extrema), 1e-6)
+
+    def test_backbones(self):
+        (backbone,) = self.hbm.find_backbones(0.02)
+        self.assertLessEqual(backbone.point_force_scale.max(), 0.02 * (1 + 1e-9))
+        self.assertEqual(len(backbone.point_force_scale), len(backbone))
+
+    def test_marching(self):
+        found = self.hbm.find_by_marching(self.curve, 12, 3)
+        self.assertGreaterEqual(len(found), 1)
+        self.assertEqual(len(self.hbm.find_by_marching([self.curve, *found], 12, 3)), 0)
+
+    def test_nonlinear_mode(self):
+        mode = self.hbm.nonlinear_mode(1, 0, 1.5)
+        self.assertGreater(len(mode), 3)
+        energy = [mode.energy(i).energy for i in range(len(mode))]
+        self.assertTrue(all(math.isfinite(e) for e in energy) and energy[-1] > energy[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
