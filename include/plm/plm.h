@@ -407,14 +407,14 @@ PLM_API plm_status plm_hbm_get_found(plm_hbm *hbm, int64_t index, double *force_
 PLM_API plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, int64_t point, double force_min,
                                       double force_max, plm_branch **folds);
 
-/* Independent of any continuation: motions are marched from rest and from n_states scaled states at n_frequencies
- * frequencies of the range until they are periodic; those that lie on none of the n_known curves are traced. count:
- * branches found, read by plm_hbm_get_found. */
+/* Independent of any continuation: motions are marched from rest and from n_states states (1, 2, 4, ... times the
+ * largest response on the n_known curves) at n_frequencies frequencies of the range until they are periodic; those that
+ * lie on none of the known curves are traced. count: branches found, read by plm_hbm_get_found. */
 PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_branch *const *known,
                                             int64_t n_frequencies, int64_t n_states, int64_t *count);
-/* Nonlinear normal mode (backbone without force and damping, extended periodic motion): from mode `mode` (1, 2, ...) of
- * the structure about its contact at rest up to `amplitude_max` of the first harmonic of `dof`. The points have no
- * excitation; their energy and contact area are read by plm_branch_get_energy. */
+/* Nonlinear mode (motion without excitation, extended periodic motion concept): from elastic mode `mode` (1, 2, ...) of
+ * the structure about its contact at rest until the first harmonic of `dof` reaches `amplitude_max`; 0: to a hundred
+ * times the amplitude at which a pair first opens or closes. Energy and contact area: plm_branch_get_energy. */
 PLM_API plm_status plm_hbm_find_nonlinear_mode(plm_hbm *hbm, int64_t mode, int64_t dof, double amplitude_max,
                                                plm_branch **branch);
 
@@ -451,8 +451,8 @@ PLM_API plm_status plm_branch_get_contact(plm_branch *branch, int64_t point, int
                                           double *force, int32_t *closed);
 /* Share of the period during which each pair is closed, from its exact switching instants: share[n_pairs]. */
 PLM_API plm_status plm_branch_get_closed_share(plm_branch *branch, int64_t point, int64_t n, double *share);
-/* Mean mechanical energy over the period (kinetic, elastic, contact; relative to the undeformed structure) and the mean
- * closed share of the pairs in [0, 1]. Each output may be NULL. */
+/* Mean mechanical energy over the period (kinetic, elastic, contact, potential of the pre-load), less that of the
+ * structure at rest, and the mean closed share of the pairs in [0, 1]. Each output may be NULL. */
 PLM_API plm_status plm_branch_get_energy(plm_branch *branch, int64_t point, double *energy, double *contact_area);
 /* Floquet multipliers of a point over one period of the response, largest modulus first; count 0 where they were not
  * computed (option "stability"). real, imag: each `capacity` values, or NULL with capacity 0. */

@@ -3,6 +3,7 @@
 #include "capi/branch_end.hpp"
 #include "capi/branch_input.hpp"
 #include "hbm/formulation.hpp"
+#include "hbm/motion_measures.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include <algorithm>
 
@@ -153,6 +154,18 @@ plm_status plm_branch_get_closed_share(plm_branch *branch, std::int64_t point, s
         require_range(n, z, z, "n");
         if (n > 0) require_pointer(share, "share");
         copy_out(b.core->closed_share(point), share);
+        return PLM_OK;
+    });
+}
+
+plm_status plm_branch_get_energy(plm_branch *branch, std::int64_t point, double *energy, double *contact_area) {
+    return call<BranchHandle>("plm_branch_get_energy", branch, [&](BranchHandle &b) {
+        require_point(*b.core, point);
+        const plm::MotionMeasures m =
+            plm::measure_motion(b.core->reduced(), b.core->points()[static_cast<std::size_t>(point)],
+                                b.core->period_multiple());
+        if (energy) *energy = m.total;
+        if (contact_area) *contact_area = m.closed_share;
         return PLM_OK;
     });
 }

@@ -89,3 +89,40 @@ plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, std::int64_t poi
         return status;
     });
 }
+
+plm_status plm_hbm_find_by_marching(plm_hbm *hbm, std::int64_t n_known, plm_branch *const *known,
+                                    std::int64_t n_frequencies, std::int64_t n_states, std::int64_t *count) {
+    return call<HbmHandle>("plm_hbm_find_by_marching", hbm, [&](HbmHandle &h) {
+        require_range(n_known, 0, 1 << 20, "n_known");
+        if (n_known > 0) require_pointer(known, "known");
+        require_range(n_frequencies, 1, 1 << 20, "n_frequencies");
+        require_range(n_states, 0, 30, "n_states");
+        require_pointer(count, "count");
+        std::vector<BranchPtr> curves;
+        for (std::int64_t i = 0; i < n_known; ++i)
+            curves.push_back(own_branch(h, known[i], plm::format("known[%lld]", static_cast<long long>(i)).c_str())->core);
+        const auto branches = solver(h).find_by_marching(curves, n_frequencies, n_states);
+        h.found.clear();
+        for (const auto &b : branches) h.found.push_back({b, unknown, unknown});
+        *count = static_cast<std::int64_t>(h.found.size());
+        return PLM_OK;
+    });
+}
+
+plm_status plm_hbm_find_nonlinear_mode(plm_hbm *hbm, std::int64_t mode, std::int64_t dof, double amplitude_max,
+                                       plm_branch **branch) {
+    return call<HbmHandle>("plm_hbm_find_nonlinear_mode", hbm, [&](HbmHandle &h) {
+        const plm::ReducedModel &reduced = *built(*h.basis)->reduced();
+        require_range(mode, 1, reduced.size(), "mode");
+        require_range(dof, 0, reduced.model->n_dof() - 1, "dof");
+        require_finite(amplitude_max, "amplitude_max");
+        if (amplitude_max < 0)
+            bad_argument("amplitude_max", -1,
+                         plm::format("amplitude_max is %g; it must be positive, or 0 for automatic", amplitude_max));
+        require_pointer(branch, "branch");
+        BranchPtr found = solver(h).find_nonlinear_mode(mode, dof, amplitude_max);
+        const plm_status status = end_status(found->end_reason);
+        *branch = publish_branch(h, std::move(found));
+        return status;
+    });
+}

@@ -88,19 +88,7 @@ vector<double> Branch::field(std::int64_t point, double fraction) const {
 }
 
 Matrix Branch::penetration_coefficients(std::int64_t point) const {
-    const BranchPoint &p = points_[point];
-    const std::int64_t z = reduced_->n_pairs();
-    Matrix u(2 * n_harmonics_ + 1, z);
-    if (z == 0) return u;
-    vector<double> mean(z);
-    for (std::int64_t i = 0; i < z; ++i) mean[i] = -reduced_->initial_gap[i];
-    gemv('N', 1.0, reduced_->gap_0, p.eta_0.data(), 1.0, mean.data());
-    const Matrix dynamic = product('N', 'N', reduced_->gap, p.eta);
-    for (std::int64_t i = 0; i < z; ++i) {
-        u(0, i) = mean[i];
-        for (std::int64_t k = 0; k < 2 * n_harmonics_; ++k) u(k + 1, i) = dynamic(i, k);
-    }
-    return u;
+    return penetration_of(*reduced_, points_[point], n_harmonics_).transposed();
 }
 
 double Branch::periodicity_defect(std::int64_t point) const {

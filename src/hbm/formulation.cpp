@@ -39,18 +39,21 @@ Formulation make_formulation(const ReducedModel &m, const HbmOptions &options) {
     return f;
 }
 
+Matrix penetration_of(const ReducedModel &m, const BranchPoint &point, std::int64_t n_harmonics) {
+    const std::int64_t z = m.n_pairs(), columns = 2 * n_harmonics;
+    Matrix u(z, columns + 1), eta = point.eta;
+    if (z == 0) return u;
+    set_harmonics(eta, n_harmonics);
+    for (std::int64_t i = 0; i < z; ++i) u(i, 0) = -m.initial_gap[i];
+    gemv('N', 1.0, m.gap_0, point.eta_0.data(), 1.0, u.col(0));
+    const Matrix dynamic = product('N', 'N', m.gap, eta);
+    std::copy(dynamic.data(), dynamic.data() + z * columns, u.col(1));
+    return u;
+}
+
 ContactMotion contact_motion(const ReducedModel &m, const BranchPoint &point) {
     if (point.contact_stiffness) return {point.contact_motion, point.contact_stiffness.get()};
-    const std::int64_t z = m.n_pairs(), h = point.n_harmonics;
-    Matrix u(z, 2 * h + 1), eta = point.eta;
-    if (z > 0) {
-        set_harmonics(eta, h);
-        for (std::int64_t i = 0; i < z; ++i) u(i, 0) = -m.initial_gap[i];
-        gemv('N', 1.0, m.gap_0, point.eta_0.data(), 1.0, u.col(0));
-        const Matrix dynamic = product('N', 'N', m.gap, eta);
-        std::copy(dynamic.data(), dynamic.data() + z * 2 * h, u.col(1));
-    }
-    return {std::move(u), &m.contact_stiffness};
+    return {penetration_of(m, point, point.n_harmonics), &m.contact_stiffness};
 }
 
 } // namespace plm

@@ -24,6 +24,8 @@ struct ContactMotion {
     Matrix u;
     const vector<double> *stiffness;
 };
+/// Z x (2H + 1) coefficients of the penetration, the gap included in the first column.
+Matrix penetration_of(const ReducedModel &reduced, const BranchPoint &point, std::int64_t n_harmonics);
 ContactMotion contact_motion(const ReducedModel &reduced, const BranchPoint &point);
 
 } // namespace plm

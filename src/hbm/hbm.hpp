@@ -64,6 +64,11 @@ class Hbm {
     std::vector<Backbone> find_backbones(double force_max) const;
     std::shared_ptr<const Branch> track_fold(const Branch &branch, std::int64_t point, double force_min,
                                              double force_max) const;
+    /// Motions marched from rest and from `n_states` multiples of the known curves' largest response.
+    std::vector<std::shared_ptr<Branch>> find_by_marching(const std::vector<std::shared_ptr<const Branch>> &known,
+                                                          std::int64_t n_frequencies, std::int64_t n_states) const;
+    /// mode: 1, 2, ... about rest; amplitude_max 0: a hundred times the amplitude at which contact first changes.
+    std::shared_ptr<const Branch> find_nonlinear_mode(std::int64_t mode, std::int64_t dof, double amplitude_max) const;
 
   private:
     using Clock = std::chrono::steady_clock;

@@ -2,6 +2,9 @@
 #include "hbm/curve.hpp"
 #include "hbm/fold_tracking.hpp"
 #include "hbm/isolated.hpp"
+#include "hbm/marching_search.hpp"
+#include "hbm/nonlinear_mode.hpp"
+#include <cmath>
 
 namespace plm {
 
@@ -43,6 +46,27 @@ std::shared_ptr<const Branch> Hbm::track_fold(const Branch &branch, std::int64_t
             .argument("point")
             .reason(PLM_REASON_START_FAILED);
     return folds;
+}
+
+std::vector<std::shared_ptr<Branch>>
+Hbm::find_by_marching(const std::vector<std::shared_ptr<const Branch>> &known, std::int64_t n_frequencies,
+                      std::int64_t n_states) const {
+    MarchingOptions options;
+    options.hbm = options_;
+    options.n_frequencies = n_frequencies;
+    options.scales = {0};
+    for (std::int64_t i = 0; i < n_states; ++i) options.scales.push_back(std::exp2(static_cast<double>(i)));
+    return search_by_marching(reduced_, options, known, watch_).branches;
+}
+
+std::shared_ptr<const Branch> Hbm::find_nonlinear_mode(std::int64_t mode, std::int64_t dof,
+                                                       double amplitude_max) const {
+    NonlinearModeOptions options;
+    options.hbm = options_;
+    options.mode = mode;
+    options.dof = dof;
+    options.dof_amplitude_max = amplitude_max;
+    return follow_nonlinear_mode(reduced_, options, watch_).branch;
 }
 
 } // namespace plm

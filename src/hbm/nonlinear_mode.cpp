@@ -1,5 +1,6 @@
 #include "hbm/nonlinear_mode.hpp"
 #include "hbm/continuation.hpp"
+#include "hbm/harmonic_tail.hpp"
 #include "hbm/start.hpp"
 #include "model/rest.hpp"
 #include <algorithm>
@@ -101,73 +102,6 @@ void NonlinearModeSystem::from_point(const BranchPoint &point, double *y) {
     y[n + 1] = 0;
 }
 
-// --- energies
-
-namespace {
-
-// Static part: strain, contact and load of (eta, u) at rest.
-double rest_energy(const ReducedModel &m) {
-    vector<double> u(m.n_pairs());
-    bool loaded = false;
-    for (double f : m.preload_0) loaded = loaded || f != 0;
-    for (double g : m.initial_gap) loaded = loaded || g < 0;
-    if (!loaded) return 0;
-    const StaticState rest =
-        solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap});
-    double energy = -dot(m.static_size(), m.preload_0.data(), rest.coordinates.data());
-    for (std::int64_t j = 0; j < m.static_size(); ++j)
-        energy += 0.5 * m.lambda_0[j] * rest.coordinates[j] * rest.coordinates[j];
-    for (std::int64_t i = 0; i < m.n_pairs(); ++i)
-        energy += ContactLaw::energy(m.contact_stiffness[i], rest.penetration[i]);
-    return energy;
-}
-
-Matrix penetration_of(const ReducedModel &m, const BranchPoint &point) {
-    const std::int64_t z = m.n_pairs();
-    Matrix u(z, point.eta.cols() + 1);
-    for (std::int64_t i = 0; i < z; ++i) u(i, 0) = -m.initial_gap[i];
-    gemv('N', 1.0, m.gap_0, point.eta_0.data(), 1.0, u.col(0));
-    const Matrix dynamic = product('N', 'N', m.gap, point.eta);
-    std::copy(dynamic.data(), dynamic.data() + z * dynamic.cols(), u.col(1));
-    return u;
-}
-
-// <N u> / 2 with N in the harmonics of u: exact, since the others are orthogonal to u.
-void measure_contact(const ReducedModel &m, const BranchPoint &point, MotionMeasures &out) {
-    const std::int64_t z = m.n_pairs();
-    if (z == 0) return;
-    const Matrix u = penetration_of(m, point);
-    ContactIndicator s;
-    make_event_force(u.cols() / 2, z)->indicator(u, s);
-    Matrix force;
-    apply_indicator(s, m.contact_stiffness, u, force);
-    for (std::int64_t c = 0; c < u.cols(); ++c)
-        out.contact += (c == 0 ? 0.5 : 0.25) * dot(z, force.col(c), u.col(c));
-    for (std::int64_t i = 0; i < z; ++i) out.closed_share += s.averages(0, i) / static_cast<double>(z);
-}
-
-} // namespace
-
-MotionMeasures measure_motion(const ReducedModel &m, const BranchPoint &point, std::int64_t period_multiple) {
-    MotionMeasures out;
-    for (std::int64_t j = 0; j < m.static_size(); ++j) {
-        out.strain += 0.5 * m.lambda_0[j] * point.eta_0[j] * point.eta_0[j];
-        out.load -= m.preload_0[j] * point.eta_0[j];
-    }
-    for (std::int64_t c = 0; c < point.eta.cols(); ++c) {
-        const double h = static_cast<double>(c / 2 + 1),
-                     w = h * point.omega / static_cast<double>(period_multiple);
-        for (std::int64_t j = 0; j < m.size(); ++j) {
-            const double square = point.eta(j, c) * point.eta(j, c);
-            out.kinetic += 0.25 * w * w * square;
-            out.strain += 0.25 * m.lambda[j] * square;
-        }
-    }
-    measure_contact(m, point, out);
-    out.total = out.kinetic + out.strain + out.contact + out.load - rest_energy(m);
-    return out;
-}
-
 // --- the path over the amplitude
 
 namespace {
@@ -179,17 +113,53 @@ class ModePath final : public PathOwner {
         HbmOptions &o = options_.hbm;
         o.unknowns = UnknownSpace::modal;
         o.period_multiple = 1;
-        if (o.n_harmonics <= 0) o.n_harmonics = 7;
         o.force_scale = 0;
-        inner_ = make_system(m_, o);
     }
 
     NonlinearMode run() {
         find_mode();
+        const std::int64_t asked = options_.hbm.n_harmonics;
+        if (asked > 0) return follow(asked);
+        for (std::int64_t h = std::min<std::int64_t>(7, options_.hbm.max_harmonics);;
+             h = std::min(2 * h, options_.hbm.max_harmonics)) {
+            NonlinearMode found = follow(h);
+            if (largest_tail_ <= options_.hbm.harmonic_tolerance || h >= options_.hbm.max_harmonics) return found;
+        }
+    }
+
+    void record(const PathPoint &p) override {
+        BranchPoint point;
+        point.arclength = p.arclength;
+        point.residual = p.residual;
+        point.iterations = p.iterations;
+        system_->to_point(p.x.data(), p.parameter, point);
+        point.n_switching = system_->indicator().n_switching;
+        point.harmonic_tail = harmonic_content(*m_, point, 1).tail;
+        largest_tail_ = std::max(largest_tail_, point.harmonic_tail);
+        result_.amplitude.push_back(std::exp(p.parameter));
+        result_.damping_ratio.push_back(system_->damping_ratio(p.x.data()));
+        result_.measures.push_back(measure_motion(*m_, point));
+        result_.branch->append(std::move(point));
+    }
+    bool cancelled(double fraction) override { return watch_.cancelled("nonlinear mode", fraction); }
+    bool rescue(double, vector<double> &) override { return false; }
+    bool interrupt() override {
+        const Branch &b = *result_.branch;
+        return options_.dof >= 0 && options_.dof_amplitude_max > 0 && b.n_harmonics() > 0 &&
+               b.amplitude(static_cast<std::int64_t>(b.points().size()) - 1, options_.dof, Measure::harmonic, 1) >=
+                   options_.dof_amplitude_max;
+    }
+
+  private:
+    NonlinearMode follow(std::int64_t n_harmonics) {
+        options_.hbm.n_harmonics = n_harmonics;
+        inner_ = make_system(m_, options_.hbm);
+        result_ = NonlinearMode();
+        largest_tail_ = 0;
         find_amplitudes();
         system_ = std::make_unique<NonlinearModeSystem>(*inner_, m_->size(), shape_, omega_,
                                                         options_.amplitude_max);
-        PathStart from = start();
+        const PathStart from = start();
         result_.branch = std::make_shared<Branch>(m_, 0.0);
         PathOptions range;
         range.low = std::log(options_.amplitude_min);
@@ -202,7 +172,7 @@ class ModePath final : public PathOwner {
         range.max_step = std::min(0.05, options_.hbm.max_step);
         const PathOutcome out = follow_path(*system_, range, from, *this);
         Branch &branch = *result_.branch;
-        branch.end_reason = out.end_reason;
+        branch.end_reason = out.end_reason == PLM_REASON_NONE ? PLM_REASON_RANGE_END : out.end_reason;
         branch.newton_iterations = out.newton_iterations;
         branch.factorizations = out.factorizations;
         branch.failed_steps = out.failed_steps;
@@ -210,26 +180,7 @@ class ModePath final : public PathOwner {
         return std::move(result_);
     }
 
-    void record(const PathPoint &p) override {
-        BranchPoint point;
-        point.arclength = p.arclength;
-        point.residual = p.residual;
-        point.iterations = p.iterations;
-        system_->to_point(p.x.data(), p.parameter, point);
-        point.n_switching = system_->indicator().n_switching;
-        result_.amplitude.push_back(std::exp(p.parameter));
-        result_.damping_ratio.push_back(system_->damping_ratio(p.x.data()));
-        result_.measures.push_back(measure_motion(*m_, point));
-        result_.branch->append(std::move(point));
-    }
-    bool cancelled(double fraction) override {
-        watch_.step("nonlinear mode", fraction);
-        return false;
-    }
-    bool rescue(double, vector<double> &) override { return false; }
-
-  private:
-    // The mode about rest nearest to the frequency asked for.
+    // The mode about rest with the number asked for, or the nearest to the frequency asked for.
     void find_mode() {
         const ReducedModel &m = *m_;
         const std::int64_t r = m.size();
@@ -239,22 +190,32 @@ class ModePath final : public PathOwner {
         if (m.n_pairs() > 0) gemm('T', 'N', 1.0, m.gap, coupled, 0.0, k);
         for (std::int64_t j = 0; j < r; ++j) k(j, j) += m.lambda[j];
         const SymmetricEigen modes = symmetric_eigen(k);
-        const double wanted = 2 * M_PI * options_.frequency_hz;
-        std::int64_t best = -1;
-        for (std::int64_t j = 0; j < r; ++j) {
-            const double omega = std::sqrt(std::max(0.0, modes.values[j]));
-            if (omega > 0 && (best < 0 || std::abs(omega - wanted) < std::abs(omega_ - wanted)))
-                best = j, omega_ = omega;
-        }
-        if (best < 0)
-            throw Error(PLM_ERR_ARGUMENT, "the structure at rest has no elastic mode")
-                .argument("frequency_hz");
+        const std::int64_t best = choose_mode(modes.values);
+        omega_ = std::sqrt(modes.values[best]);
         shape_.assign(modes.vectors.col(best), modes.vectors.col(best) + r);
     }
 
-    // Amplitude at which the first pair changes its state.
-    void find_amplitudes() {
-        if (options_.amplitude_min > 0 && options_.amplitude_max > options_.amplitude_min) return;
+    std::int64_t choose_mode(const vector<double> &squares) const {
+        const double rigid = 1e-10 * squares.back();
+        std::int64_t elastic = 0, best = -1;
+        for (std::size_t j = 0; j < squares.size(); ++j) {
+            if (!(squares[j] > rigid)) continue;
+            const std::int64_t column = static_cast<std::int64_t>(j);
+            if (++elastic == options_.mode) return column;
+            const auto away = [&](std::int64_t i) {
+                return std::abs(std::sqrt(squares[i]) - 2 * M_PI * options_.frequency_hz);
+            };
+            if (options_.mode == 0 && (best < 0 || away(column) < away(best))) best = column;
+        }
+        if (best < 0)
+            throw Error(PLM_ERR_ARGUMENT, format("the basis has %lld elastic modes about the structure at rest",
+                                                 static_cast<long long>(elastic)))
+                .argument("mode");
+        return best;
+    }
+
+    // Amplitude of the mode at which the first pair changes its state; 0: none does, or at any amplitude.
+    double first_change() const {
         vector<double> x(inner_->size());
         inner_->linear_response(share_, omega_, x.data());
         const ReducedModel &m = *m_;
@@ -266,12 +227,38 @@ class ModePath final : public PathOwner {
             if (swing != 0 && share_[i] != 0.5 && (first == 0 || std::abs(rest / swing) < first))
                 first = std::abs(rest / swing);
         }
-        if (first == 0)
+        return first;
+    }
+
+    void find_amplitudes() {
+        if (options_.amplitude_min > 0 && options_.amplitude_max > options_.amplitude_min) return;
+        const double first = first_change(), asked = asked_amplitude();
+        if (first == 0 && asked == 0)
             throw Error(PLM_ERR_ARGUMENT,
-                        "no pair changes its state at a certain amplitude: give the range of amplitudes")
-                .argument("amplitude_min");
-        if (options_.amplitude_min <= 0) options_.amplitude_min = 0.5 * first;
-        if (options_.amplitude_max <= options_.amplitude_min) options_.amplitude_max = 100 * first;
+                        "no pair changes its state at a certain amplitude (neither pre-load nor gap): say up to "
+                        "which amplitude to go")
+                .argument("amplitude_max");
+        double low = first > 0 ? 0.5 * first : 0.01 * asked;
+        if (asked > 0) low = std::min(low, 0.1 * asked);
+        options_.amplitude_min = low;
+        options_.amplitude_max = asked > 0 ? 1000 * std::max(asked, first) : 100 * first; // interrupt() ends it
+    }
+
+    // The amplitude of the mode that moves the DOF as asked; 0: not asked.
+    double asked_amplitude() const {
+        if (options_.dof < 0 || !(options_.dof_amplitude_max > 0)) return 0;
+        const std::int64_t row = m_->model->free_index(options_.dof);
+        double swing = 0;
+        for (std::int64_t j = 0; j < m_->size() && row >= 0; ++j) swing += m_->vectors(row, j) * shape_[j];
+        double most = 0;
+        for (std::int64_t i = 0; i < m_->vectors.rows(); ++i) {
+            double v = 0;
+            for (std::int64_t j = 0; j < m_->size(); ++j) v += m_->vectors(i, j) * shape_[j];
+            most = std::max(most, std::abs(v));
+        }
+        if (!(std::abs(swing) > 1e-6 * most))
+            throw Error(PLM_ERR_ARGUMENT, "this mode does not move the DOF; name one that it moves").argument("dof");
+        return options_.dof_amplitude_max / std::abs(swing);
     }
 
     PathStart start() {
@@ -307,6 +294,7 @@ class ModePath final : public PathOwner {
     std::unique_ptr<HbmSystem> inner_;
     std::unique_ptr<NonlinearModeSystem> system_;
     NonlinearMode result_;
+    double largest_tail_ = 0;
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 // dissipates. Frequency and damping ratio over the amplitude; the pre-load stays.
 #pragma once
 #include "hbm/augmented_system.hpp"
+#include "hbm/motion_measures.hpp"
 #include "linalg/monitor.hpp"
 
 namespace plm {
@@ -35,18 +36,12 @@ class NonlinearModeSystem final : public AugmentedSystem {
     double amplitude_ = 1;
 };
 
-/// Mean energies over a period of a motion, and how much of the contact is closed.
-struct MotionMeasures {
-    double kinetic = 0, strain = 0, contact = 0, load = 0; // load: potential of the pre-load, -P . q
-    double total = 0;        // the sum, less that of the structure at rest under the pre-load
-    double closed_share = 0; // mean over the period and the pairs, 0 to 1; 0 without pairs
-};
-MotionMeasures measure_motion(const ReducedModel &reduced, const BranchPoint &point,
-                              std::int64_t period_multiple = 1);
-
 struct NonlinearModeOptions {
-    HbmOptions hbm;          // harmonics, tolerance, steps; its frequency range and force scale are not used
-    double frequency_hz = 0; // the mode nearest to it about rest is followed
+    HbmOptions hbm; // harmonics (0: as many as the largest motion needs), tolerance, steps; its frequency range and force scale are not used
+    std::int64_t mode = 0;   // 1, 2, ...: elastic modes about rest; 0: the nearest to frequency_hz
+    double frequency_hz = 0;
+    std::int64_t dof = -1; // the path ends where its first harmonic reaches dof_amplitude_max; -1: see below
+    double dof_amplitude_max = 0;
     // psi . a_1 with psi of unit modal mass (sqrt(mass) x length). 0: from half the amplitude at which the
     // first pair changes its state to a hundred times as much; needs pre-load or gap
     double amplitude_min = 0, amplitude_max = 0;

@@ -1,0 +1,66 @@
+#include "hbm/motion_measures.hpp"
+#include "hbm/contact_force.hpp"
+#include "hbm/formulation.hpp"
+#include "model/rest.hpp"
+#include <algorithm>
+
+namespace plm {
+namespace {
+
+// Static part: strain, contact and load of (eta, u) at rest.
+double rest_energy(const ReducedModel &m) {
+    vector<double> u(m.n_pairs());
+    bool loaded = false;
+    for (double f : m.preload_0) loaded = loaded || f != 0;
+    for (double g : m.initial_gap) loaded = loaded || g < 0;
+    if (!loaded) return 0;
+    const StaticState rest =
+        solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap});
+    double energy = -dot(m.static_size(), m.preload_0.data(), rest.coordinates.data());
+    for (std::int64_t j = 0; j < m.static_size(); ++j)
+        energy += 0.5 * m.lambda_0[j] * rest.coordinates[j] * rest.coordinates[j];
+    for (std::int64_t i = 0; i < m.n_pairs(); ++i)
+        energy += ContactLaw::energy(m.contact_stiffness[i], rest.penetration[i]);
+    return energy;
+}
+
+// <N u> / 2 with N in the harmonics of u: exact, since the others are orthogonal to u.
+void measure_contact(const ReducedModel &m, const BranchPoint &point, MotionMeasures &out) {
+    const std::int64_t z = m.n_pairs();
+    if (z == 0) return;
+    const Matrix u = penetration_of(m, point, point.eta.cols() / 2);
+    const ContactMotion law = contact_motion(m, point);
+    Matrix v(z, u.cols());
+    std::copy(law.u.data(), law.u.data() + z * std::min(u.cols(), law.u.cols()), v.data());
+    ContactIndicator s;
+    make_event_force(v.cols() / 2, z)->indicator(v, s);
+    Matrix force;
+    apply_indicator(s, *law.stiffness, v, force);
+    for (std::int64_t c = 0; c < u.cols(); ++c)
+        out.contact += (c == 0 ? 0.5 : 0.25) * dot(z, force.col(c), u.col(c));
+    for (std::int64_t i = 0; i < z; ++i) out.closed_share += s.averages(0, i) / static_cast<double>(z);
+}
+
+} // namespace
+
+MotionMeasures measure_motion(const ReducedModel &m, const BranchPoint &point, std::int64_t period_multiple) {
+    MotionMeasures out;
+    for (std::int64_t j = 0; j < m.static_size(); ++j) {
+        out.strain += 0.5 * m.lambda_0[j] * point.eta_0[j] * point.eta_0[j];
+        out.load -= m.preload_0[j] * point.eta_0[j];
+    }
+    for (std::int64_t c = 0; c < point.eta.cols(); ++c) {
+        const double h = static_cast<double>(c / 2 + 1),
+                     w = h * point.omega / static_cast<double>(period_multiple);
+        for (std::int64_t j = 0; j < m.size(); ++j) {
+            const double square = point.eta(j, c) * point.eta(j, c);
+            out.kinetic += 0.25 * w * w * square;
+            out.strain += 0.25 * m.lambda[j] * square;
+        }
+    }
+    measure_contact(m, point, out);
+    out.total = out.kinetic + out.strain + out.contact + out.load - rest_energy(m);
+    return out;
+}
+
+} // namespace plm
