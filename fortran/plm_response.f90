@@ -165,8 +165,8 @@ contains
         call finish(self%context, status, stat, errmsg)
     end subroutine find_backbones
 
-    ! Branches on none of the `known` curves, by marching in time from n_states states at n_frequencies frequencies;
-    ! read by found.
+    ! Branches on none of the `known` curves, by marching in time at n_frequencies frequencies from rest and from
+    ! n_states states (1, 2, 4, ... times the largest response on the known ones); read by found.
     subroutine find_by_marching(self, n_frequencies, n_states, count, known, stat, errmsg)
         class(plm_hbm), intent(inout) :: self
         integer, intent(in) :: n_frequencies, n_states
@@ -219,7 +219,8 @@ contains
             force_max, folds%handle), stat, errmsg)
     end subroutine track_fold
 
-    ! From mode `mode` (1, 2, ...) about the contact at rest up to amplitude_max of the first harmonic of a DOF.
+    ! Motion without excitation, from mode `mode` (1, 2, ...) about the contact at rest until the first harmonic of the
+    ! DOF reaches amplitude_max; 0: to a hundred times the amplitude at which a pair first opens or closes.
     subroutine find_nonlinear_mode(self, mode, dof, amplitude_max, branch, stat, errmsg)
         class(plm_hbm), intent(inout) :: self
         integer, intent(in) :: mode, dof
@@ -361,7 +362,7 @@ contains
         call finish(self%context, status, stat, errmsg)
     end subroutine closed_share
 
-    ! mean mechanical energy over the period, and mean closed share of the pairs
+    ! mean mechanical energy over the period, less that of the structure at rest, and mean closed share of the pairs
     subroutine energy(self, point, mean_energy, contact_area, stat, errmsg)
         class(plm_branch), intent(in) :: self
         integer, intent(in) :: point

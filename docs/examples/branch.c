@@ -58,7 +58,7 @@ static int one_point(plm_branch *peak) {
     /* [plm_branch_get_closed_share] */
 
     /* [plm_branch_get_energy] */
-    double energy, area;
+    double energy, area; /* means over the period; the energy is that above the structure at rest */
     TRY(plm_branch_get_energy(peak, 0, &energy, &area));
     printf("energy %.3g J, %.1f %% of the pairs closed in the mean\n", energy, 100 * area);
     /* [plm_branch_get_energy] */

@@ -93,12 +93,14 @@ static int periodic(plm_model *model, plm_basis *basis, plm_branch *point) {
     /* [plm_transient_get_state] */
     EXPECT(found == PLM_OK && defect < 1e-9 && n > 0 && q[1] != 0 && v[1] != 0);
 
+    const int32_t all[] = {1, 0};
+    TRY(plm_transient_observe_i32(motion, 0, N_DOF, all));
     TRY(plm_transient_run(motion));
     /* [plm_transient_get_int_array] */
-    int64_t count; /* no result of a transient is an array of integers yet */
-    const plm_status none = plm_transient_get_int_array(motion, "time", 0, NULL, &count);
-    EXPECT(none == PLM_ERR_KEY || none == PLM_ERR_ARGUMENT);
+    int64_t observed[N_DOF], count; /* DOFs whose histories the last run left, from 0 */
+    TRY(plm_transient_get_int_array(motion, "observed", N_DOF, observed, &count));
     /* [plm_transient_get_int_array] */
+    EXPECT(count == N_DOF && observed[0] == 1 && observed[1] == 0);
     return 0;
 }
 

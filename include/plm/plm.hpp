@@ -786,9 +786,9 @@ class Basis : public detail::WithOptions<Basis, plm_basis> {
 // ---- Response
 // -------------------------------------------------------------------------------------------------
 
-struct Energy {          // over the period
-    double energy;       // mean kinetic, elastic and contact energy
-    double contact_area; // mean closed share of the pairs
+struct Energy {          // means over the period
+    double energy;       // mechanical, with the potential of the pre-load; less that of the structure at rest
+    double contact_area; // closed share of the pairs
 };
 struct Contact { // over the cycle, each n_pairs x n_times
     Dense<double> penetration, force;
@@ -929,7 +929,8 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
         finished(plm_hbm_find_backbones(handle_, force_max, &n), "find_backbones");
         return found(n);
     }
-    /// Branches on none of the known ones, by marching in time. known: a range of Branch or of
+    /// Branches on none of the known ones, by marching in time from rest and from n_states states: 1, 2, 4,
+    /// ... times the largest response on the known ones. known: a range of Branch or of
     /// std::reference_wrapper<const Branch>, or {curve, other}.
     template <class Curves = std::initializer_list<std::reference_wrapper<const Branch>>>
     std::vector<Branch> find_by_marching(const Curves &known, std::int64_t n_frequencies,
@@ -948,8 +949,10 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
         const plm_status s = plm_hbm_track_fold(handle_, branch.handle_, point, force_min, force_max, &b);
         return deliver(s, b, "track_fold");
     }
-    /// From mode 1, 2, ... about the contact at rest up to an amplitude of the DOF's first harmonic.
-    Branch find_nonlinear_mode(std::int64_t mode, std::int64_t dof, double amplitude_max) {
+    /// Motion without excitation, from mode 1, 2, ... about the contact at rest until the DOF's first
+    /// harmonic reaches amplitude_max; 0: to a hundred times the amplitude at which a pair first opens or
+    /// closes.
+    Branch find_nonlinear_mode(std::int64_t mode, std::int64_t dof, double amplitude_max = 0) {
         plm_branch *b = nullptr;
         const plm_status s = plm_hbm_find_nonlinear_mode(handle_, mode, dof, amplitude_max, &b);
         return deliver(s, b, "find_nonlinear_mode");

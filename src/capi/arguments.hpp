@@ -39,4 +39,21 @@ plm_status put_array(const vector<T> &from, std::int64_t capacity, T *values, st
     return PLM_OK;
 }
 
+/// Output of a complex array in two parts, by the same rules: both or neither.
+template <class Complex>
+plm_status put_complex_array(const vector<Complex> &from, std::int64_t capacity, double *real, double *imag,
+                             std::int64_t *count) {
+    if (capacity > 0 || real || imag) {
+        require_pointer(real, "real");
+        require_pointer(imag, "imag");
+    }
+    vector<double> parts[2];
+    for (const Complex &c : from) {
+        parts[0].push_back(c.real());
+        parts[1].push_back(c.imag());
+    }
+    put_array(parts[0], capacity, real, count);
+    return put_array(parts[1], capacity, imag, count);
+}
+
 } // namespace plm::capi

@@ -128,8 +128,8 @@ plm_status plm_branch_get_contact(plm_branch *branch, std::int64_t point, std::i
         require_point(*b.core, point);
         require_range(n_times, 1, 1 << 24, "n_times");
         const plm::Matrix u = b.core->penetration_coefficients(point);
-        const plm::ContactMotion law = plm::contact_motion(
-            b.core->reduced(), b.core->points()[static_cast<std::size_t>(point)]);
+        const plm::ContactMotion law =
+            plm::contact_motion(b.core->reduced(), b.core->points()[static_cast<std::size_t>(point)]);
         const plm::Matrix motion = law.u.transposed();
         const std::int64_t z = u.cols();
         for (std::int64_t k = 0; k < n_times; ++k)
@@ -139,7 +139,8 @@ plm_status plm_branch_get_contact(plm_branch *branch, std::int64_t point, std::i
                 if (penetration)
                     penetration[i + k * z] = plm::evaluate_trig(u.col(i), b.core->n_harmonics(), t).value;
                 if (force)
-                    force[i + k * z] = plm::ContactLaw::force((*law.stiffness)[static_cast<std::size_t>(i)], v);
+                    force[i + k * z] =
+                        plm::ContactLaw::force((*law.stiffness)[static_cast<std::size_t>(i)], v);
                 if (closed) closed[i + k * z] = plm::ContactLaw::closed(v);
             }
         return PLM_OK;
@@ -158,33 +159,24 @@ plm_status plm_branch_get_closed_share(plm_branch *branch, std::int64_t point, s
     });
 }
 
-plm_status plm_branch_get_energy(plm_branch *branch, std::int64_t point, double *energy, double *contact_area) {
+plm_status plm_branch_get_energy(plm_branch *branch, std::int64_t point, double *energy,
+                                 double *contact_area) {
     return call<BranchHandle>("plm_branch_get_energy", branch, [&](BranchHandle &b) {
         require_point(*b.core, point);
-        const plm::MotionMeasures m =
-            plm::measure_motion(b.core->reduced(), b.core->points()[static_cast<std::size_t>(point)],
-                                b.core->period_multiple());
+        const plm::MotionMeasures m = plm::measure_motion(
+            b.core->reduced(), b.core->points()[static_cast<std::size_t>(point)], b.core->period_multiple());
         if (energy) *energy = m.total;
         if (contact_area) *contact_area = m.closed_share;
         return PLM_OK;
     });
 }
 
-plm_status plm_branch_get_multipliers(plm_branch *branch, std::int64_t point, std::int64_t capacity, double *real,
-                                      double *imag, std::int64_t *count) {
+plm_status plm_branch_get_multipliers(plm_branch *branch, std::int64_t point, std::int64_t capacity,
+                                      double *real, double *imag, std::int64_t *count) {
     return call<BranchHandle>("plm_branch_get_multipliers", branch, [&](BranchHandle &b) {
         require_point(*b.core, point);
-        if (capacity > 0) {
-            require_pointer(real, "real");
-            require_pointer(imag, "imag");
-        }
-        plm::vector<double> parts[2];
-        for (const std::complex<double> &m : b.core->points()[static_cast<std::size_t>(point)].multipliers) {
-            parts[0].push_back(m.real());
-            parts[1].push_back(m.imag());
-        }
-        put_array(parts[0], capacity, real, count);
-        return put_array(parts[1], capacity, imag, count);
+        return put_complex_array(b.core->points()[static_cast<std::size_t>(point)].multipliers, capacity,
+                                 real, imag, count);
     });
 }
 

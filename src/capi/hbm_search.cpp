@@ -13,7 +13,18 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 void require_force(double force, const char *name) {
     require_finite(force, name);
-    if (force < 0) bad_argument(name, -1, plm::format("%s is %g; a force scale cannot be negative here", name, force));
+    if (force < 0)
+        bad_argument(name, -1, plm::format("%s is %g; a force scale cannot be negative here", name, force));
+}
+
+/// own_branch() of an array's element: the argument's index says which.
+BranchPtr own_curve(const HbmHandle &h, const plm_branch *branch, const char *name, std::int64_t index) {
+    try {
+        return own_branch(h, branch, name)->core;
+    } catch (plm::Error &e) {
+        e.index(index);
+        throw;
+    }
 }
 
 } // namespace
@@ -32,7 +43,8 @@ plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, std::int64_t 
     });
 }
 
-plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double force_max, std::int64_t *count) {
+plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double force_max,
+                                 std::int64_t *count) {
     return call<HbmHandle>("plm_hbm_find_isolated", hbm, [&](HbmHandle &h) {
         const std::shared_ptr<BranchHandle> curve = own_branch(h, main_branch, "main_branch");
         require_force(force_max, "force_max");
@@ -62,7 +74,8 @@ plm_status plm_hbm_get_found(plm_hbm *hbm, std::int64_t index, double *force_ran
     return call<HbmHandle>("plm_hbm_get_found", hbm, [&](HbmHandle &h) {
         const std::int64_t n = static_cast<std::int64_t>(h.found.size());
         if (n == 0)
-            throw plm::Error(PLM_ERR_STATE, "this hbm has found no branch; call a plm_hbm_find_... function first")
+            throw plm::Error(PLM_ERR_STATE,
+                             "this hbm has found no branch; call a plm_hbm_find_... function first")
                 .argument("index");
         require_range(index, 0, n - 1, "index");
         require_pointer(branch, "branch");
@@ -81,7 +94,8 @@ plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, std::int64_t poi
         require_force(force_min, "force_min");
         require_force(force_max, "force_max");
         if (!(force_max > force_min))
-            bad_argument("force_max", -1, plm::format("the range of forces [%g, %g] is empty", force_min, force_max));
+            bad_argument("force_max", -1,
+                         plm::format("the range of forces [%g, %g] is empty", force_min, force_max));
         require_pointer(folds, "folds");
         BranchPtr found = solver(h).track_fold(*curve->core, point, force_min, force_max);
         const plm_status status = end_status(found->end_reason);
@@ -99,8 +113,7 @@ plm_status plm_hbm_find_by_marching(plm_hbm *hbm, std::int64_t n_known, plm_bran
         require_range(n_states, 0, 30, "n_states");
         require_pointer(count, "count");
         std::vector<BranchPtr> curves;
-        for (std::int64_t i = 0; i < n_known; ++i)
-            curves.push_back(own_branch(h, known[i], plm::format("known[%lld]", static_cast<long long>(i)).c_str())->core);
+        for (std::int64_t i = 0; i < n_known; ++i) curves.push_back(own_curve(h, known[i], "known", i));
         const auto branches = solver(h).find_by_marching(curves, n_frequencies, n_states);
         h.found.clear();
         for (const auto &b : branches) h.found.push_back({b, unknown, unknown});
@@ -109,16 +122,17 @@ plm_status plm_hbm_find_by_marching(plm_hbm *hbm, std::int64_t n_known, plm_bran
     });
 }
 
-plm_status plm_hbm_find_nonlinear_mode(plm_hbm *hbm, std::int64_t mode, std::int64_t dof, double amplitude_max,
-                                       plm_branch **branch) {
+plm_status plm_hbm_find_nonlinear_mode(plm_hbm *hbm, std::int64_t mode, std::int64_t dof,
+                                       double amplitude_max, plm_branch **branch) {
     return call<HbmHandle>("plm_hbm_find_nonlinear_mode", hbm, [&](HbmHandle &h) {
         const plm::ReducedModel &reduced = *built(*h.basis)->reduced();
         require_range(mode, 1, reduced.size(), "mode");
         require_range(dof, 0, reduced.model->n_dof() - 1, "dof");
         require_finite(amplitude_max, "amplitude_max");
         if (amplitude_max < 0)
-            bad_argument("amplitude_max", -1,
-                         plm::format("amplitude_max is %g; it must be positive, or 0 for automatic", amplitude_max));
+            bad_argument(
+                "amplitude_max", -1,
+                plm::format("amplitude_max is %g; it must be positive, or 0 for automatic", amplitude_max));
         require_pointer(branch, "branch");
         BranchPtr found = solver(h).find_nonlinear_mode(mode, dof, amplitude_max);
         const plm_status status = end_status(found->end_reason);

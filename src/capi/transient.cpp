@@ -155,17 +155,6 @@ plm_status plm_transient_get_history(plm_transient *transient, std::int64_t obse
 plm_status plm_transient_get_multipliers(plm_transient *transient, std::int64_t capacity, double *real,
                                          double *imag, std::int64_t *count) {
     return call<TransientHandle>("plm_transient_get_multipliers", transient, [&](TransientHandle &t) {
-        const plm::PeriodicMotion &motion = periodic_motion(t);
-        if (capacity > 0) {
-            require_pointer(real, "real");
-            require_pointer(imag, "imag");
-        }
-        plm::vector<double> parts[2];
-        for (const std::complex<double> &m : motion.multipliers) {
-            parts[0].push_back(m.real());
-            parts[1].push_back(m.imag());
-        }
-        put_array(parts[0], capacity, real, count);
-        return put_array(parts[1], capacity, imag, count);
+        return put_complex_array(periodic_motion(t).multipliers, capacity, real, imag, count);
     });
 }

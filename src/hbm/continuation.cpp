@@ -162,7 +162,7 @@ class Continuation {
             factored_ = false;
             return retry(step, PLM_REASON_STEP_MINIMUM);
         }
-        accept(out, moved, old_tangent, before);
+        if (!accept(out, moved, old_tangent, before)) return retry(step, PLM_REASON_STEP_MINIMUM);
         double factor = std::min(1.6, std::max(0.35, target_angle / std::max(angle, 1e-6)));
         if (out.iterations > 6) factor = std::min(factor, 0.6);
         step = std::min(options_.max_step, std::max(options_.min_step, step * factor));
@@ -185,22 +185,37 @@ class Continuation {
         return std::sqrt(product(d.x, d.omega, d.x, d.omega));
     }
 
-    void accept(const NewtonOutcome &out, double moved, const State &old_tangent, const State &before) {
+    // False: the step crossed to another curve, see find_zero; the path is back before it.
+    bool accept(const NewtonOutcome &out, double moved, const State &old_tangent, const State &before) {
         last_step_ = moved;
         last_tangent_ = old_tangent;
         plain_predictor_ = false;
         rescued_ = false;
-        if (now_.omega < low_ || now_.omega > high_) return leave_range(before, old_tangent);
+        if (now_.omega < low_ || now_.omega > high_) {
+            leave_range(before, old_tangent);
+            return true;
+        }
         const vector<double> old_tests = tests_;
         evaluate(tests_);
+        jumped_ = false;
         locate(before, old_tangent, moved, old_tests);
+        if (jumped_ && moved > 20 * options_.min_step) {
+            tests_ = old_tests;
+            last_step_ = 0;
+            restore(before, old_tangent);
+            return false;
+        }
         arclength_ += moved;
-        if (closes(before, moved)) return close_loop();
+        if (closes(before, moved)) {
+            close_loop();
+            return true;
+        }
         record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
         const double old_scale = scale_;
         grow_scale();
         if (scale_ != old_scale) last_step_ = 0; // the metric changed: one plain predictor
         interrupted_ = owner_.interrupt();
+        return true;
     }
 
     // The step from `before` passed the point where the loop began, in the direction it was left.
@@ -316,12 +331,14 @@ class Continuation {
         return true;
     }
 
-    // Regula falsi (Illinois) with bisection on the chord. False when the function jumps instead of vanishing.
+    // Regula falsi (Illinois) with bisection on the chord. False when the function jumps instead of vanishing; the
+    // step then may have crossed to another curve.
     bool find_zero(const Step &s, std::size_t k, double left, double right, Crossing &c) {
         const State chord = difference(s.after, s.before);
         const double size = std::min(std::abs(left), std::abs(right));
         double a = 0, b = 1, best = 1e300;
         int last_side = 0;
+        State below = s.before, above = s.after;
         for (int i = 0; i < 60 && b - a > 1e-10; ++i) {
             double t = i % 4 == 3 ? 0.5 * (a + b) : (a * right - b * left) / (right - left);
             t = std::min(b - 1e-3 * (b - a), std::max(a + 1e-3 * (b - a), t));
@@ -337,13 +354,16 @@ class Continuation {
             const bool keeps_left = value * left > 0;
             if (keeps_left) {
                 if (last_side == 1) right *= 0.5;
-                a = t, left = value, last_side = 1;
+                a = t, left = value, last_side = 1, below = now_;
             } else {
                 if (last_side == -1) left *= 0.5;
-                b = t, right = value, last_side = -1;
+                b = t, right = value, last_side = -1, above = now_;
             }
+            if (distance(below, above) > 20 * (b - a) * s.length) break;
         }
-        return best <= 1e-3 * size;
+        if (best <= 1e-3 * size) return true;
+        jumped_ = jumped_ || kinds_[k] == PLM_BIFURCATION_BRANCH_POINT;
+        return false;
     }
 
     // The last point lies on the boundary of the range.
@@ -423,6 +443,7 @@ class Continuation {
     bool factored_ = false, plain_predictor_ = false, rescued_ = false, interrupted_ = false,
          from_start_ = true;
     std::vector<std::int32_t> kinds_; // of the test functions
+    bool jumped_ = false;             // the last step seems to have crossed to another curve
     vector<double> tests_;            // at the present point
     std::int64_t n_recorded_ = 0;
     vector<double> scratch_;

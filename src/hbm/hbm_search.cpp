@@ -34,7 +34,7 @@ std::shared_ptr<const Branch> Hbm::track_fold(const Branch &branch, std::int64_t
     if (!(fold.force_scale >= force_min && fold.force_scale <= force_max))
         throw Error(PLM_ERR_ARGUMENT, format("the fold's force scale %g is outside the range [%g, %g]",
                                              fold.force_scale, force_min, force_max))
-            .argument("force_min");
+            .argument(fold.force_scale < force_min ? "force_min" : "force_max");
     FoldOptions options;
     options.hbm = options_;
     options.hbm.period_multiple = branch.period_multiple();

@@ -170,6 +170,8 @@ class Search {
         return false;
     }
 
+    // Where the folds turn back in the force for good. Near grazing contact the curve of folds has a small
+    // swallowtail, or a corner that no step passes; beyond it the folds go on.
     double first_turn(const BranchPoint &fold, bool upward, double estimate) const {
         FoldOptions o;
         o.hbm = options_;
@@ -177,11 +179,41 @@ class Search {
         o.force_max = upward ? 2 * estimate : 2 * options_.force_scale;
         o.upward = upward;
         o.stop_at_turn = true;
-        const auto folds = follow_folds(reduced_, o, fold, watch_);
-        if (folds)
-            for (const BranchPoint &p : folds->points())
-                if (p.bifurcation == PLM_BIFURCATION_FOLD) return p.force_scale;
-        return NAN;
+        double turn = NAN;
+        BranchPoint from = fold;
+        for (int leaps = 0; leaps < 8; ++leaps) {
+            const auto folds = follow_folds(reduced_, o, from, watch_);
+            if (!folds || folds->end_reason == PLM_REASON_RANGE_END) break;
+            const auto &points = folds->points();
+            std::size_t last = 0;
+            while (last + 1 < points.size() && points[last].bifurcation != PLM_BIFURCATION_FOLD) ++last;
+            if (points[last].bifurcation == PLM_BIFURCATION_FOLD) turn = points[last].force_scale;
+            if (!leap(points, last, upward, from)) break;
+        }
+        return turn;
+    }
+
+    // A fold a little beyond points[last], on the line through two points before it.
+    bool leap(const std::vector<BranchPoint> &points, std::size_t last, bool upward, BranchPoint &beyond) const {
+        if (last < 2) return false;
+        const BranchPoint &near = points[last - 1], &far = points[last - 2];
+        const double run = near.force_scale - far.force_scale, apart = solution_distance(near, far);
+        if (run == 0) return false;
+        for (double share : {2e-3, 5e-3, 1e-2}) {
+            const double force = points[last].force_scale * (upward ? 1 + share : 1 - share),
+                         t = (force - near.force_scale) / run;
+            BranchPoint guess = near;
+            for (std::size_t j = 0; j < guess.eta_0.size(); ++j) guess.eta_0[j] += t * (near.eta_0[j] - far.eta_0[j]);
+            for (std::int64_t j = 0; j < guess.eta.rows() * guess.eta.cols(); ++j)
+                guess.eta.data()[j] += t * (near.eta.data()[j] - far.eta.data()[j]);
+            guess.omega += t * (near.omega - far.omega);
+            if (!correct_fold(reduced_, options_, force, guess)) continue;
+            if (solution_distance(guess, near) > 5 * std::abs(t) * apart) continue;
+            guess.force_scale = force;
+            beyond = guess;
+            return true;
+        }
+        return false;
     }
 
     std::shared_ptr<const ReducedModel> reduced_;

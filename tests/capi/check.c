@@ -25,6 +25,10 @@ int close_to(double got, double want, double relative) {
     return ok;
 }
 
+double larger(double a, double b) {
+    return isnan(a) || a > b ? a : b;
+}
+
 int done(plm_context *ctx, plm_status got) {
     char text[2000] = "";
     if (got == PLM_OK) return 1;

@@ -21,6 +21,9 @@ int refused(plm_context *ctx, plm_status got, plm_status want, const char *funct
 /* |got - want| <= relative |want|, printed when not */
 int close_to(double got, double want, double relative);
 
+/* the larger one; NaN when one of them is, which fmax() would lose */
+double larger(double a, double b);
+
 /* PLM_OK, or the error text printed */
 int done(plm_context *ctx, plm_status got);
 

@@ -334,14 +334,47 @@ static void single_solutions_lie_on_the_curve(void **state) {
     BAD(plm_hbm_find_peak(hbm, curve, CHAIN_DOFS, PLM_PEAK, 0, &hz, &hz, NULL), "plm_hbm_find_peak", "dof",
         "0..23");
     BAD(plm_hbm_solve(hbm, hz, curve, 100000, &warm), "plm_hbm_solve", "point", "point is 100000");
-    assert_int_equal(plm_hbm_set_int(hbm, "n_harmonics", 3), PLM_OK);
-    BAD(plm_hbm_solve(hbm, hz, curve, 0, &warm), "plm_hbm_solve", "start", "5 harmonics");
-    assert_int_equal(plm_hbm_set_int(hbm, "n_harmonics", H), PLM_OK);
+    BAD(plm_hbm_solve(hbm, hz, curve, -1, &warm), "plm_hbm_solve", "point", "point is -1");
     assert_true(done(ctx, plm_basis_build(basis))); /* a new basis: the old branch speaks another language */
     BAD(plm_hbm_find_peak(hbm, curve, 0, PLM_PEAK, 0, &hz, &hz, NULL), "plm_hbm_find_peak", "branch",
         "another basis");
     assert_int_equal(plm_branch_destroy(&cold), PLM_OK);
     assert_null(cold);
+}
+
+/* a start may have any number of harmonics: it is padded with zeros, or cut */
+static void starts_with_other_harmonics_lead_to_the_same_solution(void **state) {
+    static const int64_t harmonics[] = {3, H, 9};
+    plm_branch *cold[3] = {NULL, NULL, NULL}, *warm = NULL;
+    double hz = 0.5 * (low_hz + high_hz), want[19], got[19], least = 1e300;
+    int64_t n = 0;
+    int i, j, k;
+    (void)state;
+    for (i = 0; i < 3; ++i) {
+        assert_int_equal(plm_hbm_set_int(hbm, "n_harmonics", harmonics[i]), PLM_OK);
+        assert_true(done(ctx, plm_hbm_solve(hbm, hz, NULL, 0, &cold[i])));
+    }
+    for (i = 0; i < 3; ++i) {
+        assert_int_equal(plm_hbm_set_int(hbm, "n_harmonics", harmonics[i]), PLM_OK);
+        assert_int_equal(plm_branch_get_coefficients(cold[i], 0, WATCHED, 1, want), PLM_OK);
+        for (j = 0; j < 3; ++j) {
+            assert_true(done(ctx, plm_hbm_solve(hbm, hz, cold[j], 0, &warm)));
+            assert_int_equal(plm_branch_get_int(warm, "n_harmonics", &n), PLM_OK);
+            assert_int_equal(n, harmonics[i]);
+            assert_int_equal(plm_branch_get_coefficients(warm, 0, WATCHED, 1, got), PLM_OK);
+            for (k = 0; k < 2 * harmonics[i] + 1; ++k)
+                assert_true(fabs(got[k] - want[k]) <= 1e-6 * hypot(want[1], want[2]));
+            BAD(plm_hbm_solve(hbm, hz, cold[j], 1, &warm), "plm_hbm_solve", "point", "point is 1");
+        }
+        if (i > 0) { /* the solutions of 3, 5 and 9 harmonics differ: the last start did not just stay */
+            double apart = 0;
+            assert_int_equal(plm_branch_get_coefficients(cold[i - 1], 0, WATCHED, 1, got), PLM_OK);
+            for (k = 0; k < 7; ++k) apart = larger(apart, fabs(got[k] - want[k]));
+            least = fmin(least, apart / hypot(want[1], want[2]));
+        }
+    }
+    printf("    solutions of 3, 5 and 9 harmonics are at least %.1e apart\n", least);
+    assert_true(least > 1e-5);
 }
 
 static void few_points_truncate(void **state) {
@@ -383,6 +416,7 @@ int main(void) {
         TEST(branch_results_agree),
         TEST(branch_arguments_are_checked),
         TEST(single_solutions_lie_on_the_curve),
+        TEST(starts_with_other_harmonics_lead_to_the_same_solution),
         TEST(few_points_truncate),
         TEST(children_outlive_their_parents),
     };

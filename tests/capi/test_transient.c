@@ -47,13 +47,13 @@ static int64_t recorded(plm_transient *t, double *values) {
 static double largest(const double *x, int64_t n) {
     double m = 0;
     int64_t k;
-    for (k = 0; k < n; ++k) m = fabs(x[k]) > m ? fabs(x[k]) : m;
+    for (k = 0; k < n; ++k) m = larger(m, fabs(x[k]));
     return m;
 }
 static double difference(const double *x, const double *y, int64_t n) {
     double m = 0;
     int64_t k;
-    for (k = 0; k < n; ++k) m = fabs(x[k] - y[k]) > m ? fabs(x[k] - y[k]) : m;
+    for (k = 0; k < n; ++k) m = larger(m, fabs(x[k] - y[k]));
     return m;
 }
 
@@ -71,12 +71,12 @@ static double linear_error(const oscillator *o, plm_basis *of_basis, int64_t ste
         assert_int_equal(n, 3 * steps);
         for (k = 0; k < n; ++k) {
             oscillator_motion(o, omega, q_0, v_0, times[k], &q, &v);
-            worst = fmax(worst, fabs(history[k] - q));
+            worst = larger(worst, fabs(history[k] - q));
         }
         assert_true(close_to(times[n - 1], (double)(run + 1) * 3 / hz, 1e-12));
     }
     assert_int_equal(plm_transient_get_state(motion, 1, &got_q, &got_v), PLM_OK);
-    worst = fmax(worst, fmax(fabs(got_q - q), fabs(got_v - v)));
+    worst = larger(worst, larger(fabs(got_q - q), fabs(got_v - v)));
     plm_transient_destroy(&motion);
     return worst;
 }
@@ -115,7 +115,7 @@ static void a_bilinear_oscillator_in_closed_form(void **state) {
             const double t = fmod(times[k], period);
             const double want =
                 t < first ? v_0 / above * sin(above * t) : -v_0 / below * sin(below * (t - first));
-            worst = fmax(worst, fabs(history[k] - want));
+            worst = larger(worst, fabs(history[k] - want));
         }
         assert_int_equal(plm_transient_get_int(motion, "n_events", &events), PLM_OK);
         assert_int_equal(plm_transient_get_state(motion, 1, &q, &v), PLM_OK);
@@ -161,7 +161,7 @@ static double multiplier_error(plm_branch *curve, int64_t point, double *first) 
     for (j = 0; j < n; ++j) { /* of nearly equal moduli the order is not certain */
         double nearest = 1e300;
         for (k = 0; k < n; ++k) nearest = fmin(nearest, hypot(re[j] - a[k], im[j] - b[k]));
-        worst = fmax(worst, nearest);
+        worst = larger(worst, nearest);
     }
     *first = hypot(a[0], b[0]);
     return worst;

@@ -121,6 +121,10 @@ static void the_search_ends_where_it_is_told_to(void **state) {
         "NULL");
     BAD(plm_transient_get_multipliers(reduced, 1, re, im, &n), "plm_transient_get_multipliers", "capacity",
         -1, "2 values");
+    n = 7;
+    BAD(plm_transient_get_multipliers(reduced, 0, NULL, im, &n), "plm_transient_get_multipliers", "real", -1,
+        "NULL");
+    assert_int_equal(n, 7);
     assert_true(done(ctx, plm_transient_set_state(reduced, 1, NULL, NULL)));
     EARLY(plm_transient_get_multipliers(reduced, 0, NULL, NULL, &n), "plm_transient_get_multipliers",
           "transient", "since the start was set");

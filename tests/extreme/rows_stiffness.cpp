@@ -3,6 +3,7 @@
 #include "structures.hpp"
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 namespace extreme {
 namespace {
@@ -11,7 +12,7 @@ enum class Rest { zero_gap, gap, preload };
 
 // Four masses, a pair inside the chain and one against the ground. Linear resonance amplitude of the end: about 21.
 exact::Structure scene_of(Rest rest, double ratio) {
-    exact::Structure s = chain(4, 0.02, {1, 3});
+    exact::Structure s = chain(4, std::getenv("Z") ? std::atof(std::getenv("Z")) : 0.02, {1, 3});
     const double k = ratio * local_stiffness(s);
     set_contact(s, k, rest == Rest::gap ? 2.0 : 0.0);
     if (rest == Rest::preload) s.preload[3] = 2.0; // lifts off around the resonance
@@ -40,7 +41,7 @@ std::vector<Row> stiffness_rows() {
     for (const auto &[rest, word] : cases)
         for (int power = -3; power <= 9; power += 2) {
             char name[64], parameters[128];
-            const int harmonics = 20;
+            const int harmonics = std::getenv("HH") ? std::atoi(std::getenv("HH")) : 0;
             std::snprintf(name, sizeof name, "stiffness-%s-1e%d", word, power);
             std::snprintf(parameters, sizeof parameters, "4 masses, 2 pairs, %s, k_n = 1e%d k_loc, H = %d", word,
                           power, harmonics);

@@ -178,14 +178,13 @@ void Solver::finish(const Setup &setup) {
     check(plm_basis_create(model_, &basis_));
     if (sampler_) check(plm_basis_set_sampler(basis_, sampler_));
     check(plm_basis_set_string(basis_, "kind", setup.kind.c_str()));
-    check(plm_basis_set_int(basis_, "n_harmonics", setup.harmonics));
     if (setup.low > 0) {
         check(plm_basis_set_double(basis_, "frequency_min_hz", setup.low / (2 * M_PI)));
         check(plm_basis_set_double(basis_, "frequency_max_hz", setup.high / (2 * M_PI)));
     }
     check(plm_basis_build(basis_));
     check(plm_hbm_create(basis_, &hbm_));
-    check(plm_hbm_set_int(hbm_, "n_harmonics", setup.harmonics));
+    if (setup.harmonics > 0) check(plm_hbm_set_int(hbm_, "n_harmonics", setup.harmonics));
     if (setup.sampled) check(plm_hbm_set_string(hbm_, "aft", "sampled"));
     if (setup.upward) check(plm_hbm_set_string(hbm_, "direction", "up"));
     if (setup.force_scale != 1) check(plm_hbm_set_double(hbm_, "force_scale", setup.force_scale));

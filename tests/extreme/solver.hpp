@@ -22,7 +22,7 @@ struct Failure : std::runtime_error {
 
 struct Setup {
     double low = 0, high = 0; // frequency range in rad per time unit; 0, 0: the sampler's window
-    int harmonics = 5;
+    int harmonics = 0; // 0: the default, as many as each point needs
     bool sampled = false; // aft = sampled with 256 samples instead of the default
     bool upward = false;
     double force_scale = 1;

@@ -55,7 +55,8 @@ class Stops(unittest.TestCase):
 class Carrier(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.hbm = plm.Hbm(models.carrier(), force_scale=0.006)
+        cls.basis = models.carrier()
+        cls.hbm = plm.Hbm(cls.basis, force_scale=0.006)
         cls.curve = cls.hbm.sweep()
 
     def test_isolated(self):
@@ -80,9 +81,24 @@ class Carrier(unittest.TestCase):
 
     def test_nonlinear_mode(self):
         mode = self.hbm.nonlinear_mode(1, 0, 1.5)
-        self.assertGreater(len(mode), 3)
-        energy = [mode.energy(i).energy for i in range(len(mode))]
-        self.assertTrue(all(math.isfinite(e) for e in energy) and energy[-1] > energy[0])
+        first = mode.amplitude(0, "harmonic", 1)
+        self.assertTrue(first[-2] < 1.5 <= first[-1])
+        self.assertFalse(mode.point_force_scale.any())
+        # as long as it is closed: the linear mode about rest, and its energy
+        rest_hz = self.basis.model.modes(2, "rest")
+        self.assertLess(abs(mode.frequency_hz[0] / rest_hz[0] - 1), 1e-6)
+        x = mode.coefficients(0)[1]
+        energy = [mode.energy(i) for i in range(len(mode))]
+        kinetic = 0.5 * (2 * math.pi * rest_hz[0]) ** 2 * (x[0] ** 2 + 0.2 * x[1] ** 2)
+        self.assertLess(abs(energy[0].energy / kinetic - 1), 1e-4)
+        self.assertAlmostEqual(energy[0].contact_area, 1, places=12)
+        self.assertTrue(0 < energy[-1].contact_area < 1)
+        self.assertTrue(all(math.isfinite(e.energy) for e in energy))
+        self.assertGreater(energy[-1].energy, 10 * energy[0].energy)
+        # by itself: from half of the amplitude at which it opens, to a hundred times
+        automatic = self.hbm.nonlinear_mode(1, 0).amplitude(0, "harmonic", 1)
+        self.assertAlmostEqual(automatic[0], 0.125, places=4)
+        self.assertGreater(automatic[-1], 10)
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ class Bifurcation(NamedTuple):
 
 
 class Energy(NamedTuple):
-    """Means over the period: mechanical energy, and the closed share of the pairs."""
+    """Means over the period: mechanical energy less that of the structure at rest, and the closed share of the pairs."""
     energy: float
     contact_area: float
 
@@ -97,16 +97,18 @@ class Hbm(Handle, noun="hbm", kind=_c.KIND_HBM):
         return [found.branch for found in self._found("find_backbones", force_max, progress=progress)]
 
     def find_by_marching(self, known=(), n_frequencies=20, n_states=5, progress=None):
-        """A list of branches that are none of the `known` ones, found by marching in time from n_states states at
-        n_frequencies frequencies of the range."""
+        """A list of branches that are none of the `known` ones. Motions are marched in time until they are periodic, at
+        n_frequencies frequencies of the range, from rest and from n_states states: 1, 2, 4, ... times the largest response
+        on the known branches (without any: from rest only)."""
         known = [known] if isinstance(known, Branch) else list(known)
         curves = (ctypes.c_void_p * len(known))(*(branch._h.value for branch in known))
         found = self._found("find_by_marching", len(known), curves, n_frequencies, n_states, progress=progress)
         return [one.branch for one in found]
 
-    def nonlinear_mode(self, mode, dof, amplitude_max, progress=None):
-        """Backbone without force and damping from a mode (1, 2, ...) about the contact at rest, up to an amplitude of the
-        first harmonic of a DOF; see Branch.energy."""
+    def nonlinear_mode(self, mode, dof, amplitude_max=0.0, progress=None):
+        """Motion without excitation from an elastic mode (1, 2, ...) of the structure about its contact at rest, until the
+        first harmonic of the DOF reaches amplitude_max; 0: to a hundred times the amplitude at which a pair first opens or
+        closes. See Branch.energy."""
         branch = Branch(self)
         return self._deliver("find_nonlinear_mode", branch, mode, dof, amplitude_max, ctypes.byref(branch._h),
                              progress=progress)
@@ -209,7 +211,8 @@ class Branch(Handle, noun="branch", kind=_c.KIND_BRANCH):
                 for i, kind in enumerate(self.bifurcation) if int(kind) in BIFURCATIONS]
 
     def energy(self, point):
-        """Energy(energy, contact_area): mean mechanical energy and mean closed share of the pairs over the period."""
+        """Energy(energy, contact_area): mean mechanical energy over the period (kinetic, elastic, contact, potential of the
+        pre-load), less that of the structure at rest, and mean closed share of the pairs."""
         energy, area = ctypes.c_double(), ctypes.c_double()
         self._work("get_energy", self._from_end(point), ctypes.byref(energy), ctypes.byref(area))
         return Energy(energy.value, area.value)

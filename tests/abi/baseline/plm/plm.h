@@ -1,3 +1,4 @@
+/* clang-format off */
 /* plm.h - libplm: piecewise-linear modes and harmonic balance for structures with intermittent contact.
  *
  * The whole C API. A typical host goes from top to bottom of this file:
@@ -51,6 +52,7 @@ typedef struct plm_sampler plm_sampler;
 typedef struct plm_basis plm_basis;
 typedef struct plm_hbm plm_hbm;
 typedef struct plm_branch plm_branch;
+typedef struct plm_transient plm_transient;
 
 /* ---- Status ------------------------------------------------------------------------------------------------ */
 
@@ -92,6 +94,13 @@ typedef int32_t plm_status;
 #define PLM_REASON_LOOP_CLOSED 11    /* branch: came back to its first point */
 #define PLM_REASON_BASIS_TOO_SMALL 12
 
+/* What a point of a branch is ("bifurcation" of a branch). */
+#define PLM_BIFURCATION_NONE 0
+#define PLM_BIFURCATION_FOLD 1
+#define PLM_BIFURCATION_BRANCH_POINT 2
+#define PLM_BIFURCATION_PERIOD_DOUBLING 3
+#define PLM_BIFURCATION_NEIMARK_SACKER 4
+
 /* Text that explains a status. Never fails on an unknown status: it says so. */
 PLM_API plm_status plm_status_text(plm_status status, int64_t capacity, char *buffer, int64_t *needed);
 
@@ -103,8 +112,8 @@ PLM_API plm_status plm_build_info(int64_t capacity, char *buffer, int64_t *neede
 /* ---- Options and results by key ------------------------------------------------------------------------------
  * Every handle below has options (set before its build/run/sweep) and results (read after it), both named by string
  * keys listed in one table, which these functions expose and from which the reference (docs/keys.md) is made.
- * plm_X_set_int / _set_double / _set_string set an option (an int is taken for a double; an option set after the
- * handle was built takes effect at the next build/run/sweep). plm_X_get_int / _get_double / _get_string read an option
+ * plm_X_set_int / _set_double / _set_string set an option (an int is taken for a double). An option set after a
+ * build/run/sweep takes effect at the next one; a model is built once, so its options come before. plm_X_get_int / _get_double / _get_string read an option
  * or a scalar result. plm_X_get_array / _get_int_array copy an array result: `count` receives its length; with
  * values = NULL (capacity 0) only the length is asked; a capacity too small is PLM_ERR_ARGUMENT.
  * An unknown key is PLM_ERR_KEY, a result asked for too early PLM_ERR_STATE. */
@@ -115,6 +124,7 @@ PLM_API plm_status plm_build_info(int64_t capacity, char *buffer, int64_t *neede
 #define PLM_KIND_BASIS 3
 #define PLM_KIND_HBM 4
 #define PLM_KIND_BRANCH 5
+#define PLM_KIND_TRANSIENT 6
 /* types of key */
 #define PLM_TYPE_INT 1
 #define PLM_TYPE_DOUBLE 2
@@ -367,14 +377,46 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
 /* Follows the response curve over [frequency_min_hz, frequency_max_hz] through its folds. PLM_NOT_CONVERGED,
  * PLM_TRUNCATED or PLM_CANCELLED still deliver the branch found so far, if it has a point. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
-/* Response at one frequency. start: branch whose point `point` is the first guess (same basis and harmonics), or NULL
- * for a cold start. PLM_ERR_CONVERGENCE when no strategy converges. */
+/* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
+ * start. PLM_ERR_CONVERGENCE when no strategy converges. */
 PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, int64_t point,
                                  plm_branch **branch);
 /* The curve's highest amplitude of a DOF (see plm_branch_get_amplitude), located on the exact curve by corrected steps
  * around the highest point of `branch` (which this hbm's basis computed). peak: that point as a branch, or NULL. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
+
+/* The curve that crosses `branch` at a located branch point, or leaves it at a period doubling (with twice the period:
+ * "period_multiple" of *other). point: its position on the branch, see "bifurcation". mirrored: 0 or 1, the side on
+ * which it is left. PLM_ERR_CONVERGENCE when no other curve is found there. */
+PLM_API plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, int64_t point, int32_t mirrored,
+                                         plm_branch **other);
+/* Isolated branches at "force_scale" beside the curve `main_branch` (of plm_hbm_sweep with the same options over the
+ * whole range), without a hint: where the phase-resonant backbone (displacement in quadrature to the force) needs a
+ * force that falls with growing amplitude, a closed branch exists; it is entered there and traced. force_max: largest
+ * force scale looked at, 0: eight times "force_scale". count: branches found, read by plm_hbm_get_found. */
+PLM_API plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double force_max, int64_t *count);
+/* The phase-resonant backbones in the frequency range: frequency and amplitude of the resonance against the force. The
+ * points of each carry their own "point_force_scale". None without pre-load and gap (the force changes nothing then). */
+PLM_API plm_status plm_hbm_find_backbones(plm_hbm *hbm, double force_max, int64_t *count);
+/* What the last plm_hbm_find_... of this hbm found. force_range[2] or NULL: force scales between which an isolated
+ * branch exists, NaN where unknown or meaningless. */
+PLM_API plm_status plm_hbm_get_found(plm_hbm *hbm, int64_t index, double *force_range, plm_branch **branch);
+/* The curve of folds over (frequency, force) from a located fold of `branch`, in the range of force scales given. Its
+ * points of "bifurcation" PLM_BIFURCATION_FOLD are extrema of the force: an isolated branch is born or merges there. */
+PLM_API plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, int64_t point, double force_min,
+                                      double force_max, plm_branch **folds);
+
+/* Independent of any continuation: motions are marched from rest and from n_states states (1, 2, 4, ... times the
+ * largest response on the n_known curves) at n_frequencies frequencies of the range until they are periodic; those that
+ * lie on none of the known curves are traced. count: branches found, read by plm_hbm_get_found. */
+PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_branch *const *known,
+                                            int64_t n_frequencies, int64_t n_states, int64_t *count);
+/* Nonlinear mode (motion without excitation, extended periodic motion concept): from elastic mode `mode` (1, 2, ...) of
+ * the structure about its contact at rest until the first harmonic of `dof` reaches `amplitude_max`; 0: to a hundred
+ * times the amplitude at which a pair first opens or closes. Energy and contact area: plm_branch_get_energy. */
+PLM_API plm_status plm_hbm_find_nonlinear_mode(plm_hbm *hbm, int64_t mode, int64_t dof, double amplitude_max,
+                                               plm_branch **branch);
 
 /* ---- Branch: points of a response curve, read-only ------------------------------------------------------------- */
 
@@ -409,9 +451,65 @@ PLM_API plm_status plm_branch_get_contact(plm_branch *branch, int64_t point, int
                                           double *force, int32_t *closed);
 /* Share of the period during which each pair is closed, from its exact switching instants: share[n_pairs]. */
 PLM_API plm_status plm_branch_get_closed_share(plm_branch *branch, int64_t point, int64_t n, double *share);
+/* Mean mechanical energy over the period (kinetic, elastic, contact, potential of the pre-load), less that of the
+ * structure at rest, and the mean closed share of the pairs in [0, 1]. Each output may be NULL. */
+PLM_API plm_status plm_branch_get_energy(plm_branch *branch, int64_t point, double *energy, double *contact_area);
+/* Floquet multipliers of a point over one period of the response, largest modulus first; count 0 where they were not
+ * computed (option "stability"). real, imag: each `capacity` values, or NULL with capacity 0. */
+PLM_API plm_status plm_branch_get_multipliers(plm_branch *branch, int64_t point, int64_t capacity, double *real,
+                                              double *imag, int64_t *count);
+/* |state after a period - state| over the size of the motion, by the exact flow of the reduced model from the point's
+ * own state: how nearly the point is a periodic motion in time. */
+PLM_API plm_status plm_branch_get_periodicity_defect(plm_branch *branch, int64_t point, double *defect);
 /* How well the recovered field satisfies the full (unreduced) harmonic-balance equations: the residual in the norm of
  * the inverse stiffness over the energy norm of the field. One solve per harmonic with the full matrices. */
 PLM_API plm_status plm_branch_get_full_residual(plm_branch *branch, int64_t point, double *relative_residual);
+
+/* ---- Transient: motion in time ----------------------------------------------------------------------------------
+ * Of a reduced model by its exact piecewise-linear flow (nothing is discretised), or of the full model by Newmark's
+ * method with the numerical damping of Hilber, Hughes and Taylor ("hht_alpha"), contact included. Options:
+ * "frequency_hz" and "force_scale" of the excitation, "periods" of a run, ... */
+
+/* basis: the reduced model, or NULL for the full one. The first state is at rest under the pre-load. */
+PLM_API plm_status plm_transient_create(plm_model *model, plm_basis *basis, plm_transient **transient);
+PLM_API plm_status plm_transient_destroy(plm_transient **transient);
+PLM_API plm_status plm_transient_set_int(plm_transient *transient, const char *key, int64_t value);
+PLM_API plm_status plm_transient_set_double(plm_transient *transient, const char *key, double value);
+PLM_API plm_status plm_transient_set_string(plm_transient *transient, const char *key, const char *value);
+PLM_API plm_status plm_transient_get_int(plm_transient *transient, const char *key, int64_t *value);
+PLM_API plm_status plm_transient_get_double(plm_transient *transient, const char *key, double *value);
+PLM_API plm_status plm_transient_get_string(plm_transient *transient, const char *key, int64_t capacity, char *buffer,
+                                            int64_t *needed);
+PLM_API plm_status plm_transient_get_array(plm_transient *transient, const char *key, int64_t capacity, double *values,
+                                           int64_t *count);
+PLM_API plm_status plm_transient_get_int_array(plm_transient *transient, const char *key, int64_t capacity,
+                                               int64_t *values, int64_t *count);
+/* DOFs whose motion the next runs record; replaces an earlier list, n = 0 records none. */
+PLM_API plm_status plm_transient_observe_i32(plm_transient *transient, int32_t index_base, int64_t n,
+                                             const int32_t *dof);
+PLM_API plm_status plm_transient_observe_i64(plm_transient *transient, int32_t index_base, int64_t n,
+                                             const int64_t *dof);
+/* Displacement and velocity of all DOFs, q[n_dof] and v[n_dof] or NULL (zero), at the beginning of a period. A reduced
+ * model takes their projection in the norm of M. */
+PLM_API plm_status plm_transient_set_state(plm_transient *transient, int64_t n, const double *q, const double *v);
+/* State, "frequency_hz" and "force_scale" of a point of a response curve (of any basis of the same model for a full
+ * model, of this basis for a reduced one). */
+PLM_API plm_status plm_transient_start_at(plm_transient *transient, plm_branch *branch, int64_t point);
+/* Marches "periods" periods of the excitation from the present state, less when "settled" stops it earlier; a next run
+ * goes on where this one ended. PLM_CANCELLED keeps what was marched. */
+PLM_API plm_status plm_transient_run(plm_transient *transient);
+/* The periodic motion nearest the present state, by Newton's method on the exact flow over "period_multiple" periods
+ * (reduced models only). PLM_NOT_CONVERGED: the state is the best one found, see "periodicity_defect". */
+PLM_API plm_status plm_transient_find_periodic(plm_transient *transient);
+/* The present state: q and v are n = n_dof long, each may be NULL. */
+PLM_API plm_status plm_transient_get_state(plm_transient *transient, int64_t n, double *q, double *v);
+/* Displacement of the observed DOF number `observed` (from 0, in the order of plm_transient_observe) at the instants
+ * "time" of the last run. */
+PLM_API plm_status plm_transient_get_history(plm_transient *transient, int64_t observed, int64_t capacity,
+                                             double *values, int64_t *count);
+/* Floquet multipliers of the motion plm_transient_find_periodic found, as plm_branch_get_multipliers. */
+PLM_API plm_status plm_transient_get_multipliers(plm_transient *transient, int64_t capacity, double *real, double *imag,
+                                                 int64_t *count);
 
 #ifdef __cplusplus
 }
