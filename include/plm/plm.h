@@ -83,7 +83,7 @@ typedef int32_t plm_status;
 #define PLM_REASON_NONE 0
 #define PLM_REASON_NOT_POSITIVE_DEFINITE 1
 #define PLM_REASON_SINGULAR 2
-#define PLM_REASON_RANGE_END 3       /* branch: left the frequency range (the normal end) */
+#define PLM_REASON_RANGE_END 3       /* branch: reached the end of its range (the normal end) */
 #define PLM_REASON_POINT_LIMIT 4     /* branch: "max_points" reached */
 #define PLM_REASON_CANCELLED 5
 #define PLM_REASON_STEP_MINIMUM 6    /* branch: step below its minimum */

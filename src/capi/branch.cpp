@@ -33,7 +33,7 @@ std::string end_text(std::int32_t reason) {
     case PLM_REASON_NONE:
         return "complete";
     case PLM_REASON_RANGE_END:
-        return "left the frequency range";
+        return "reached the end of its range";
     case PLM_REASON_LOOP_CLOSED:
         return "came back to its first point";
     case PLM_REASON_POINT_LIMIT:

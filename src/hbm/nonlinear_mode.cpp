@@ -128,6 +128,8 @@ class ModePath final : public PathOwner {
     }
 
     void record(const PathPoint &p) override {
+        if (reached_) return; // the step that passed the end
+        reached_ = p.bifurcation == reached;
         BranchPoint point;
         point.arclength = p.arclength;
         point.residual = p.residual;
@@ -143,19 +145,31 @@ class ModePath final : public PathOwner {
     }
     bool cancelled(double fraction) override { return watch_.cancelled("nonlinear mode", fraction); }
     bool rescue(double, vector<double> &) override { return false; }
-    bool interrupt() override {
-        const Branch &b = *result_.branch;
-        return options_.dof >= 0 && options_.dof_amplitude_max > 0 && b.n_harmonics() > 0 &&
-               b.amplitude(static_cast<std::int64_t>(b.points().size()) - 1, options_.dof, Measure::harmonic, 1) >=
-                   options_.dof_amplitude_max;
+    // The path ends at the located point at which the DOF moves as asked.
+    vector<std::int32_t> test_kinds() const override {
+        return ends_by_dof() ? vector<std::int32_t>{reached} : vector<std::int32_t>();
     }
+    void test(const vector<double> &y, double log_amplitude, vector<double> &values) override {
+        if (!ends_by_dof()) return;
+        BranchPoint point;
+        system_->to_point(y.data(), log_amplitude, point);
+        Branch alone(m_, 0.0);
+        alone.append(std::move(point));
+        values = {alone.amplitude(0, options_.dof, Measure::harmonic, 1) / options_.dof_amplitude_max - 1};
+    }
+    bool interrupt() override { return reached_; }
 
   private:
+    static constexpr std::int32_t reached = -1; // kind of the test function, as bifurcations have theirs
+
+    bool ends_by_dof() const { return options_.dof >= 0 && options_.dof_amplitude_max > 0; }
+
     NonlinearMode follow(std::int64_t n_harmonics) {
         options_.hbm.n_harmonics = n_harmonics;
         inner_ = make_system(m_, options_.hbm);
         result_ = NonlinearMode();
         largest_tail_ = 0;
+        reached_ = false;
         find_amplitudes();
         system_ = std::make_unique<NonlinearModeSystem>(*inner_, m_->size(), shape_, omega_,
                                                         options_.amplitude_max);
@@ -170,6 +184,7 @@ class ModePath final : public PathOwner {
         range.max_points = options_.hbm.max_points;
         range.min_step = options_.hbm.min_step;
         range.max_step = std::min(0.05, options_.hbm.max_step);
+        range.locate = true;
         const PathOutcome out = follow_path(*system_, range, from, *this);
         Branch &branch = *result_.branch;
         branch.end_reason = out.end_reason == PLM_REASON_NONE ? PLM_REASON_RANGE_END : out.end_reason;
@@ -295,6 +310,7 @@ class ModePath final : public PathOwner {
     std::unique_ptr<NonlinearModeSystem> system_;
     NonlinearMode result_;
     double largest_tail_ = 0;
+    bool reached_ = false;
 };
 
 } // namespace

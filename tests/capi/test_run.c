@@ -258,7 +258,7 @@ static void branch_results_agree(void **state) {
     assert_int_equal(plm_branch_get_int(curve, "end_reason", &reason), PLM_OK);
     assert_int_equal(reason, PLM_REASON_RANGE_END);
     assert_int_equal(plm_branch_get_string(curve, "end_text", 100, why, NULL), PLM_OK);
-    assert_string_equal(why, "left the frequency range");
+    assert_string_equal(why, "reached the end of its range");
     assert_int_equal(plm_branch_get_amplitude(curve, WATCHED, PLM_PEAK, 0, 2000, peak, &count), PLM_OK);
     assert_int_equal(count, n);
     assert_int_equal(plm_branch_get_amplitude(curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, 2000, half, &count),

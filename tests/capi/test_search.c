@@ -326,7 +326,7 @@ static mode_errors errors_of(plm_branch *mode, double gap) {
 static int reaches(plm_branch *mode, double amplitude) {
     const int64_t n = points_of(mode);
     return integer(mode, "end_reason") == PLM_REASON_RANGE_END && n > 3 &&
-           measured(mode, PLM_HARMONIC, n - 1) >= amplitude &&
+           close_to(measured(mode, PLM_HARMONIC, n - 1), amplitude, 1e-6) &&
            measured(mode, PLM_HARMONIC, n - 2) < amplitude;
 }
 

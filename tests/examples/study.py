@@ -46,7 +46,7 @@ def check_table(folder, name):
     table = {row["method"]: row for row in rows_of(folder / "table.csv")}
     require(list(table) == METHODS, f"{name}: one row per method, in order: {list(table)}")
     for method, row in table.items():
-        require(row["error"] == "" and row["end"] == "left the frequency range",
+        require(row["error"] == "" and row["end"] == "reached the end of its range",
                 f"{name}: {method} runs through: {row['error']} {row['end']}")
         require(float(row["setup_seconds"]) >= 0 and float(row["curve_seconds"]) > 0, f"{name}: {method} has times")
     reference, reduced = table["full_order"], table["plm_4"]

@@ -31,9 +31,10 @@ std::vector<Row> standard_rows();  // the literature's oscillator; cold starts o
 
 /// A sweep's end in words.
 Measured outcome_of(const Curve &curve);
-/// Error of the peak amplitude of `dof` against exact periodic orbits started from the curve's own state: the
-/// largest over n_points spread over the curve, the highest one among them.
-double orbit_error(const exact::Structure &s, const Curve &curve, int dof, int n_points, int samples);
+/// Error of the peak amplitudes against exact periodic orbits started from the curve's own state: the largest over
+/// the first s.n DOFs, as a share of the largest amplitude among them, and over n_points spread over the curve, the
+/// highest one among them. 1e300 where no orbit is found.
+double orbit_error(const exact::Structure &s, const Curve &curve, int n_points, int samples);
 /// Largest relative error of the peak amplitude against the linear answer over all points.
 double linear_error(const exact::Structure &s, const std::vector<bool> &closed, const Curve &curve, int dof,
                     const std::vector<double> *full_mass = nullptr);

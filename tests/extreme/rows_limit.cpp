@@ -31,7 +31,7 @@ Measured against_orbits(const exact::Structure &s, const Sweep &w, bool sampled,
     Measured m = outcome_of(*curve);
     exact::Structure truth = s;
     for (double &f : truth.force) f *= force;
-    m.error = orbit_error(truth, *curve, w.dof, 6, w.samples);
+    m.error = orbit_error(truth, *curve, 6, w.samples);
     return m;
 }
 

@@ -12,7 +12,7 @@ namespace {
 Measured sweep_against(const exact::Structure &truth, Solver &solver, int dof, int samples) {
     const auto curve = solver.sweep();
     Measured m = outcome_of(*curve);
-    m.error = orbit_error(truth, *curve, dof, 6, samples);
+    m.error = orbit_error(truth, *curve, 6, samples);
     return m;
 }
 
@@ -42,7 +42,7 @@ Measured block_on_a_thousand_springs(bool sampled) {
     Solver solver(s, range(0.8, 3, 10, sampled));
     const auto curve = solver.sweep();
     Measured m = outcome_of(*curve);
-    m.error = orbit_error(s, *curve, 0, 3, 250);
+    m.error = orbit_error(s, *curve, 3, 250);
     return m;
 }
 
@@ -64,7 +64,7 @@ Measured thousand_oscillators(bool sampled) {
     const auto curve = solver.sweep();
     Measured m = outcome_of(*curve);
     const exact::Structure one = oscillator(0.02, 3, 0, 1, 0.5);
-    m.error = orbit_error(one, *curve, 0, 5, 1000);
+    m.error = orbit_error(one, *curve, 5, 1000);
     return m;
 }
 
