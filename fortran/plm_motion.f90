@@ -92,7 +92,16 @@ contains
                 return
             end if
         end if
-        call finish(self%context, plm_transient_set_state(self%handle, n, q, v), stat, errmsg)
+        ! an absent array is left out of the call: gfortran reads its address when it is handed on
+        if (present(q) .and. present(v)) then
+            call finish(self%context, plm_transient_set_state(self%handle, n, q, v), stat, errmsg)
+        else if (present(q)) then
+            call finish(self%context, plm_transient_set_state(self%handle, n, q), stat, errmsg)
+        else if (present(v)) then
+            call finish(self%context, plm_transient_set_state(self%handle, n, v=v), stat, errmsg)
+        else
+            call finish(self%context, plm_transient_set_state(self%handle, n), stat, errmsg)
+        end if
     end subroutine set_state
 
     ! The state, 'frequency_hz' and 'force_scale' of a point of a response curve.

@@ -333,7 +333,8 @@ PLM_API plm_status plm_sampler_run(plm_sampler *sampler);
 
 /* ---- Basis: reduction matrices (paper, 2.3.3 and 2.3.4) ----------------------------------------------------------
  * Option "kind": "plm" (needs a sampler), "craig_bampton" (contact DOFs retained), "full" (the unreduced structure,
- * represented to "space_tolerance" of the model by exact modes and contact attachment vectors). */
+ * represented to "space_tolerance" of the model by exact modes and contact attachment vectors), "pod" (the parent's
+ * coordinates compressed to what its responses need: dense curves and sweeps of parameters then cost a fraction). */
 
 PLM_API plm_status plm_basis_create(plm_model *model, plm_basis **basis);
 PLM_API plm_status plm_basis_destroy(plm_basis **basis);
@@ -350,8 +351,13 @@ PLM_API plm_status plm_basis_get_int_array(plm_basis *basis, const char *key, in
                                            int64_t *count);
 /* The samples (and the window) the piecewise-linear modes are made from; it must have run before the build. */
 PLM_API plm_status plm_basis_set_sampler(plm_basis *basis, plm_sampler *sampler);
-/* First reduction under the PLM, as in the paper: a built basis of kind "craig_bampton" or "full"; NULL for none. */
+/* First reduction under the PLM, as in the paper: a built basis of kind "craig_bampton" or "full"; NULL for none. For
+ * kind "pod" the basis, of any kind, the responses were computed on. */
 PLM_API plm_status plm_basis_set_parent(plm_basis *basis, plm_basis *parent);
+/* For kind "pod": the points of n curves, all computed on the parent, whose motions span the basis (proper orthogonal
+ * decomposition in the energy norm, each curve scaled by its largest response). The curves are read here and may be
+ * destroyed afterwards; n = 0 forgets them. */
+PLM_API plm_status plm_basis_set_responses(plm_basis *basis, int64_t n, plm_branch *const *branch);
 /* PLM_WARNING when a sample does not keep the mode that matches the dominant one (the selection by bands can lose the
  * resonance): see "warning". */
 PLM_API plm_status plm_basis_build(plm_basis *basis);
@@ -412,6 +418,13 @@ PLM_API plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, int64_t 
  * lie on none of the known curves are traced. count: branches found, read by plm_hbm_get_found. */
 PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_branch *const *known,
                                             int64_t n_frequencies, int64_t n_states, int64_t *count);
+/* How wrong a point of `branch` is, without the unreduced solution: its contact forces are applied to the unreduced
+ * structure, and one step with the tangent of the latter, across the curve, tells what the defect does. amplitude[3] (of a
+ * DOF, as in plm_branch_get_amplitude) and frequency_hz[3] (shift of the curve), corrected less computed, by cause: basis,
+ * contact sets, harmonics beyond those solved for; the sum is the estimate. Each output may be NULL. PLM_ERR_STATE when
+ * the contacts do not hold all rigid-body modes. The first call of an hbm prepares the unreduced structure. */
+PLM_API plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, int64_t point, int64_t dof, int32_t measure,
+                                          int32_t harmonic, double *amplitude, double *frequency_hz);
 /* Nonlinear mode (motion without excitation, extended periodic motion concept): from elastic mode `mode` (1, 2, ...) of
  * the structure about its contact at rest until the first harmonic of `dof` reaches `amplitude_max`; 0: to a hundred
  * times the amplitude at which a pair first opens or closes. Energy and contact area: plm_branch_get_energy. */

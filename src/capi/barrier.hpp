@@ -96,17 +96,20 @@ template <class H> plm_status destroy(typename H::Opaque **handle) noexcept {
     }
 }
 
-/// A second handle among the arguments; it must belong to the same context.
+/// A second handle among the arguments; it must belong to the same context. index: of an array's element.
 template <class H>
-std::shared_ptr<H> same_context(const Object &one, const typename H::Opaque *handle, const char *name) {
+std::shared_ptr<H> same_context(const Object &one, const typename H::Opaque *handle, const char *name,
+                                std::int64_t index = -1) {
     std::shared_ptr<H> other = find<H>(handle);
     if (!other)
         throw Error(PLM_ERR_HANDLE,
                     std::string(name) + " is no live handle; was it destroyed, or never made?")
-            .argument(name);
+            .argument(name)
+            .index(index);
     if (other->owner != one.owner)
         throw Error(PLM_ERR_HANDLE, std::string(name) + " belongs to another context; make both in one")
-            .argument(name);
+            .argument(name)
+            .index(index);
     return other;
 }
 

@@ -1,6 +1,7 @@
 #include "capi/arguments.hpp"
 #include "capi/barrier.hpp"
 #include "capi/handles.hpp"
+#include "hbm/responses.hpp"
 
 namespace plm::capi {
 
@@ -64,9 +65,24 @@ plm_status plm_basis_set_parent(plm_basis *basis, plm_basis *parent) {
         const std::shared_ptr<BasisHandle> p = same_context<BasisHandle>(b, parent, "parent");
         require_same_model(b.model.get(), p->model.get(), "parent");
         const std::shared_ptr<const plm::Basis> &core = built(*p);
-        if (core->options().kind == plm::BasisKind::plm)
-            bad_argument("parent", -1, "the parent must be a basis of kind craig_bampton or full, not plm");
         b.parent = core;
+        return PLM_OK;
+    });
+}
+
+plm_status plm_basis_set_responses(plm_basis *basis, std::int64_t n, plm_branch *const *branch) {
+    return call<BasisHandle>("plm_basis_set_responses", basis, [&](BasisHandle &b) {
+        require_range(n, 0, 1 << 20, "n");
+        if (n > 0) require_pointer(branch, "branch");
+        std::vector<std::shared_ptr<const plm::Branch>> curves;
+        for (std::int64_t i = 0; i < n; ++i) {
+            const std::shared_ptr<BranchHandle> curve = same_context<BranchHandle>(b, branch[i], "branch", i);
+            if (i > 0 && curve->core->reduced_model() != curves[0]->reduced_model())
+                bad_argument("branch", i,
+                             "all branches must have been computed on one basis, this one was on another");
+            curves.push_back(curve->core);
+        }
+        b.responses = n > 0 ? std::make_shared<const plm::Responses>(plm::responses_of(curves)) : nullptr;
         return PLM_OK;
     });
 }
@@ -75,7 +91,7 @@ plm_status plm_basis_build(plm_basis *basis) {
     return call<BasisHandle>("plm_basis_build", basis, [&](BasisHandle &b) {
         const std::shared_ptr<const plm::Model> &model = built(*b.model);
         b.core = std::make_shared<const plm::Basis>(model, run_sampler(b), b.parent, b.basis_options,
-                                                    b.owner->watch());
+                                                    b.owner->watch(), b.responses.get());
         return b.core->report().warning.empty() ? PLM_OK : PLM_WARNING;
     });
 }

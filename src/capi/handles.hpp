@@ -55,7 +55,8 @@ struct BasisHandle final : HandleOf<plm_basis, Kind::basis> {
 
     std::shared_ptr<ModelHandle> model;
     std::shared_ptr<SamplerHandle> sampler;
-    std::shared_ptr<const Basis> parent; // as it was when it was set
+    std::shared_ptr<const Basis> parent;        // as it was when it was set
+    std::shared_ptr<const Responses> responses; // for kind pod
     BasisOptions basis_options;
     std::shared_ptr<const Basis> core;
 };
@@ -74,6 +75,9 @@ struct HbmHandle final : HandleOf<plm_hbm, Kind::hbm> {
     std::shared_ptr<BasisHandle> basis;
     HbmOptions hbm_options;
     std::vector<FoundBranch> found; // by the last plm_hbm_find_...
+    // the unreduced structure in the contact space of `unreduced_of`, for error estimates
+    std::shared_ptr<const ReducedModel> unreduced;
+    std::shared_ptr<const Basis> unreduced_of;
 };
 
 struct BranchHandle final : HandleOf<plm_branch, Kind::branch> {

@@ -3,6 +3,7 @@
 #include "capi/branch_end.hpp"
 #include "capi/branch_input.hpp"
 #include "capi/hbm_input.hpp"
+#include "hbm/error_estimate.hpp"
 
 namespace plm::capi {
 
@@ -84,6 +85,39 @@ plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, std::int64_t dof,
             solver(h).find_peak(*curve->core, dof, static_cast<plm::Measure>(measure), harmonic);
         if (peak) *peak = publish_branch(h, std::move(found.branch));
         *frequency_hz = found.frequency_hz, *amplitude = found.amplitude;
+        return PLM_OK;
+    });
+}
+
+namespace {
+
+// The unreduced structure, as accurate as the modes the basis was made from; kept until the basis is built
+// anew.
+std::shared_ptr<const plm::ReducedModel> unreduced(HbmHandle &h) {
+    const std::shared_ptr<const plm::Basis> &basis = built(*h.basis);
+    if (h.unreduced_of == basis) return h.unreduced;
+    h.unreduced = plm::unreduced_basis(basis, h.owner->watch())->reduced();
+    h.unreduced_of = basis;
+    return h.unreduced;
+}
+
+} // namespace
+
+plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, std::int64_t point, std::int64_t dof,
+                                  std::int32_t measure, std::int32_t harmonic, double *amplitude,
+                                  double *frequency_hz) {
+    return call<HbmHandle>("plm_hbm_estimate_error", hbm, [&](HbmHandle &h) {
+        const std::shared_ptr<BranchHandle> curve = own_branch(h, branch, "branch");
+        require_point(*curve->core, point);
+        require_measure(*curve->core, dof, measure, harmonic);
+        const plm::ErrorEstimator estimator(unreduced(h), *curve->core, h.hbm_options);
+        const plm::ErrorEstimate e =
+            estimator.estimate(point, dof, static_cast<plm::Measure>(measure), harmonic);
+        const auto put = [](const plm::ErrorParts &parts, double *out) {
+            if (out) out[0] = parts.basis, out[1] = parts.contact, out[2] = parts.harmonics;
+        };
+        put(e.amplitude, amplitude);
+        put(e.frequency_hz, frequency_hz);
         return PLM_OK;
     });
 }

@@ -60,7 +60,8 @@ class Continuation {
             const State direction{start.direction_x, start.direction_parameter};
             make_tangent(&direction);
         }
-        target_tangent_ = start.end_x.empty() ? tangent_ : State{start.end_direction_x, start.end_direction_parameter};
+        target_tangent_ =
+            start.end_x.empty() ? tangent_ : State{start.end_direction_x, start.end_direction_parameter};
         evaluate(tests_);
         if (start.record) record(start.residual, 0, PLM_BIFURCATION_NONE);
     }
@@ -236,8 +237,8 @@ class Continuation {
         end(PLM_REASON_LOOP_CLOSED);
     }
 
-    // --- test functions: the tangent's share of p (fold), the smallest stretch of the bordered tangent (branch
-    // point), the owner's
+    // --- test functions: the tangent's share of p (fold), the smallest stretch of the bordered tangent
+    // (branch point), the owner's
     void evaluate(vector<double> &tests) {
         if (!options_.locate) return;
         vector<double> mine;
@@ -250,7 +251,8 @@ class Continuation {
     // right-hand side: passes through zero like the smallest singular value.
     double branch_test() {
         vector<double> a(n_), border(n_);
-        for (std::int64_t i = 0; i < n_; ++i) a[i] = 0.5 + std::fmod(0.754877666 * static_cast<double>(i + 1), 1.0);
+        for (std::int64_t i = 0; i < n_; ++i)
+            a[i] = 0.5 + std::fmod(0.754877666 * static_cast<double>(i + 1), 1.0);
         system_.solve(a.data(), 1);
         system_.omega_derivative(border.data());
         system_.solve(border.data(), 1);
@@ -269,7 +271,8 @@ class Continuation {
     };
 
     // Records what lies between `before` and the present point, in order, and comes back to the latter.
-    void locate(const State &before, const State &old_tangent, double moved, const vector<double> &old_tests) {
+    void locate(const State &before, const State &old_tangent, double moved,
+                const vector<double> &old_tests) {
         if (!options_.locate) return;
         const State after = now_, new_tangent = tangent_;
         std::vector<Crossing> found;
@@ -313,8 +316,10 @@ class Continuation {
                      db = s.length * t * t * (t - 1);
         State p = s.before;
         for (std::int64_t i = 0; i < n_; ++i)
-            p.x[i] = a * s.before.x[i] + b * s.after.x[i] + da * s.tangent_before.x[i] + db * s.tangent_after.x[i];
-        p.omega = a * s.before.omega + b * s.after.omega + da * s.tangent_before.omega + db * s.tangent_after.omega;
+            p.x[i] =
+                a * s.before.x[i] + b * s.after.x[i] + da * s.tangent_before.x[i] + db * s.tangent_after.x[i];
+        p.omega =
+            a * s.before.omega + b * s.after.omega + da * s.tangent_before.omega + db * s.tangent_after.omega;
         return p;
     }
 
@@ -331,8 +336,8 @@ class Continuation {
         return true;
     }
 
-    // Regula falsi (Illinois) with bisection on the chord. False when the function jumps instead of vanishing; the
-    // step then may have crossed to another curve.
+    // Regula falsi (Illinois) with bisection on the chord. False when the function jumps instead of
+    // vanishing; the step then may have crossed to another curve.
     bool find_zero(const Step &s, std::size_t k, double left, double right, Crossing &c) {
         const State chord = difference(s.after, s.before);
         const double size = std::min(std::abs(left), std::abs(right));

@@ -1,6 +1,7 @@
 #include "hbm/fold_tracking.hpp"
 #include "hbm/continuation.hpp"
 #include "hbm/trig_polynomial.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace plm {
@@ -18,30 +19,22 @@ void FoldSystem::choose_borders(const BranchPoint &about) {
     inner_.set_force_scale(about.force_scale);
     inner_.from_point(about, y_.data());
     inner_.residual(y_.data(), about.omega, scratch_.data());
-    inner_.jacobian(matrix_);
-    linear_.factor(matrix_);
-    b_.assign(n, 1.0);
-    c_.assign(n, 1.0);
+    inner_.factor_bordered(Border(), linear_);
+    border_.reset(n, 1);
+    double *b = border_.columns.data(), *c = border_.rows.data();
+    std::fill(b, b + n, 1.0);
+    std::fill(c, c + n, 1.0);
     for (int k = 0; k < 4; ++k) {
-        linear_.solve_transposed(b_.data(), 1, n);
-        linear_.solve(c_.data(), 1, n);
-        const double left = norm2(n, b_.data()), right = norm2(n, c_.data());
-        for (std::int64_t i = 0; i < n; ++i) b_[i] /= left, c_[i] /= right;
+        linear_.solve_transposed(b, 1);
+        linear_.solve(c, 1);
+        const double left = norm2(n, b), right = norm2(n, c);
+        for (std::int64_t i = 0; i < n; ++i) b[i] /= left, c[i] /= right;
     }
-    for (double &e : b_) e *= about.omega * about.omega; // like the other equations
+    for (std::int64_t i = 0; i < n; ++i) b[i] *= about.omega * about.omega; // like the other equations
 }
 
-void FoldSystem::factor_bordered() {
-    const std::int64_t n = inner_.size();
-    Matrix inner;
-    inner_.jacobian(inner);
-    matrix_.reset(n + 1, n + 1);
-    for (std::int64_t j = 0; j < n; ++j) {
-        std::copy(inner.col(j), inner.col(j) + n, matrix_.col(j));
-        matrix_(n, j) = c_[j];
-        matrix_(j, n) = b_[j];
-    }
-    bordered_.factor(matrix_);
+void FoldSystem::factor_matrix() {
+    inner_.factor_bordered(border_, bordered_);
     fresh_ = true;
 }
 
@@ -50,28 +43,28 @@ void FoldSystem::residual(const double *y, double force, double *r) {
     y_.assign(y, y + n + 1);
     inner_.set_force_scale(force);
     inner_.residual(y, omega_of(y), r);
-    factor_bordered();
+    factor_matrix();
     v_.assign(n + 1, 0.0);
     v_[n] = 1;
-    bordered_.solve(v_.data(), 1, n + 1);
+    bordered_.solve(v_.data(), 1);
     r[n] = v_[n];
 }
 
 void FoldSystem::linearize() {
     const std::int64_t n = inner_.size();
-    if (!fresh_) factor_bordered();
+    if (!fresh_) factor_matrix();
     std::swap(linear_, bordered_);
     fresh_ = false;
     null_ = v_;
     vector<double> w(n + 1, 0.0);
     w[n] = 1;
-    linear_.solve_transposed(w.data(), 1, n + 1);
+    linear_.solve_transposed(w.data(), 1);
     gradient_ = contact_gradient(w, v_);
     gradient_.push_back(-dot(n, w.data(), frequency_derivative(v_).data()) / unit_);
     frequency_.assign(n + 1, 0.0);
     inner_.omega_derivative(frequency_.data());
     for (std::int64_t i = 0; i < n; ++i) frequency_[i] /= -unit_;
-    linear_.solve(frequency_.data(), 1, n + 1);
+    linear_.solve(frequency_.data(), 1);
     determinant_ = null_[n] * (dot(n, gradient_.data(), frequency_.data()) + gradient_[n]) -
                    frequency_[n] * dot(n, gradient_.data(), null_.data());
 }
@@ -86,7 +79,7 @@ void FoldSystem::solve(double *b, std::int64_t columns) {
         double *x = b + k * (n + 1);
         const double last = x[n];
         x[n] = 0;
-        linear_.solve(x, 1, n + 1);
+        linear_.solve(x, 1);
         const double first = -x[n], second = last - dot(n, gradient_.data(), x);
         const double beta = (first * gz - frequency_[n] * second) / determinant_,
                      s = (null_[n] * second - gv * first) / determinant_;

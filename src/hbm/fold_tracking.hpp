@@ -1,8 +1,8 @@
 // The curve of folds of a response over (frequency, force). Where it turns back in the force, an isolated
 // branch is born or joins another one: these are the ends of the range of forces in which the branch exists.
 #pragma once
+#include "hbm/modal_factor.hpp"
 #include "hbm/wrapped_system.hpp"
-#include "linalg/lapack.hpp"
 #include "linalg/monitor.hpp"
 
 namespace plm {
@@ -29,7 +29,7 @@ class FoldSystem final : public WrappedSystem {
 
   private:
     double omega_of(const double *y) const { return omega_reference_ + y[inner_.size()] / unit_; }
-    void factor_bordered();
+    void factor_matrix();
     void choose_borders(const BranchPoint &about);
     vector<double> frequency_derivative(const vector<double> &v);
     vector<double> contact_gradient(const vector<double> &w, const vector<double> &v) const;
@@ -37,16 +37,15 @@ class FoldSystem final : public WrappedSystem {
 
     std::shared_ptr<const ReducedModel> reduced_;
     double omega_reference_, unit_;
-    vector<double> b_, c_; // borders
+    Border border_; // b and c
     // at the last residual()
     vector<double> y_, v_; // v_: (v, g)
-    RealLu bordered_;
+    ModalFactor bordered_;
     bool fresh_ = false; // bordered_ has not moved to linear_ yet
     // at the last linearize()
-    RealLu linear_;
+    ModalFactor linear_;
     vector<double> null_, frequency_, gradient_; // (v, g); (z, zeta) = -M^-1 (dR/dy_omega, 0); dg/dy
     double determinant_ = 1;                     // of the two scalar equations left
-    Matrix matrix_;
     vector<double> scratch_;
 };
 

@@ -194,7 +194,8 @@ class Search {
     }
 
     // A fold a little beyond points[last], on the line through two points before it.
-    bool leap(const std::vector<BranchPoint> &points, std::size_t last, bool upward, BranchPoint &beyond) const {
+    bool leap(const std::vector<BranchPoint> &points, std::size_t last, bool upward,
+              BranchPoint &beyond) const {
         if (last < 2) return false;
         const BranchPoint &near = points[last - 1], &far = points[last - 2];
         const double run = near.force_scale - far.force_scale, apart = solution_distance(near, far);
@@ -203,7 +204,8 @@ class Search {
             const double force = points[last].force_scale * (upward ? 1 + share : 1 - share),
                          t = (force - near.force_scale) / run;
             BranchPoint guess = near;
-            for (std::size_t j = 0; j < guess.eta_0.size(); ++j) guess.eta_0[j] += t * (near.eta_0[j] - far.eta_0[j]);
+            for (std::size_t j = 0; j < guess.eta_0.size(); ++j)
+                guess.eta_0[j] += t * (near.eta_0[j] - far.eta_0[j]);
             for (std::int64_t j = 0; j < guess.eta.rows() * guess.eta.cols(); ++j)
                 guess.eta.data()[j] += t * (near.eta.data()[j] - far.eta.data()[j]);
             guess.omega += t * (near.omega - far.omega);

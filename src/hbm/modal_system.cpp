@@ -1,38 +1,20 @@
 // Harmonic balance in reduced coordinates (paper, eq. (10)): x = [eta_0 (r_0); a_1; b_1; ...; a_H; b_H (r
-// each)]. Cost of one linearisation: (4H + 1) Z r^2 flops for the contact matrices (one product with the
-// precomputed products of gap rows) and 2/3 (r (2H + 1))^3 for the factorization.
+// each)].
+#include "hbm/modal_factor.hpp"
 #include "hbm/system.hpp"
-#include "linalg/lapack.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace plm {
 namespace {
 
-// Rows: all products g_i g_j (i <= j when symmetric) of two sets of gap columns, one column per pair.
-Matrix row_products(const Matrix &left, const Matrix &right, bool symmetric) {
-    const std::int64_t n = left.cols(), m = right.cols(), z = left.rows();
-    Matrix products(symmetric ? n * (n + 1) / 2 : n * m, z);
-    for (std::int64_t p = 0; p < z; ++p) {
-        double *out = products.col(p);
-        for (std::int64_t j = 0; j < m; ++j)
-            for (std::int64_t i = 0; i < (symmetric ? j + 1 : n); ++i) *out++ = left(p, i) * right(p, j);
-    }
-    return products;
-}
-
 class ModalSystem final : public HbmSystem {
   public:
     ModalSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
         : m_(std::move(reduced)), h_(options.n_harmonics), r_(m_->size()), r0_(m_->static_size()),
           z_(m_->n_pairs()), force_(make_contact_force(options, z_)), stiffness_(m_->contact_stiffness),
-          gap_(m_->initial_gap), u_(z_, 2 * h_ + 1), contact_(z_, 2 * h_ + 1), eta_(r_, 2 * h_),
-          dynamic_(z_, 2 * h_), x_(size(), 0.0) {
-        dynamic_products_ = row_products(m_->gap, m_->gap, true);
-        if (!m_->same_static) {
-            static_products_ = row_products(m_->gap_0, m_->gap_0, true);
-            mixed_products_ = row_products(m_->gap_0, m_->gap, false);
-        }
+          gap_(m_->initial_gap), u_(z_, 2 * h_ + 1), contact_(z_, 2 * h_ + 1), x_(size(), 0.0),
+          jacobian_(m_, h_) {
         load_.assign(size(), 0.0);
         fill_excitation();
         ModalSystem::set_force_scale(options.force_scale);
@@ -56,7 +38,7 @@ class ModalSystem final : public HbmSystem {
 
     void stiffness_derivative(double *r) override { // B' N
         std::fill(r, r + size(), 0.0);
-        if (z_ > 0) add_contact_force(r);
+        add_coordinates_of_gaps(m_->gap_0, m_->gap, 1.0, contact_, r);
     }
 
     void set_extra_gap(double extra) override {
@@ -69,47 +51,52 @@ class ModalSystem final : public HbmSystem {
         for (std::int64_t i = 0; i < z_; ++i)
             for (std::int64_t c = 0; c < n; ++c)
                 change(i, c) = -stiffness_[i] * indicator_entry(indicator_.averages.col(i), c, 0);
-        gemv('T', 1.0, m_->gap_0, change.col(0), 0.0, r);
-        gemm('T', 'N', 1.0, m_->gap, dynamic_columns(change), 0.0, eta_);
-        std::copy(eta_.data(), eta_.data() + 2 * h_ * r_, r + r0_);
+        std::fill(r, r + size(), 0.0);
+        add_coordinates_of_gaps(m_->gap_0, m_->gap, 1.0, change, r);
     }
 
     double residual_scale() const override { return norm2(size(), load_.data()); }
 
     void residual(const double *x, double omega, double *r) override {
         x_.assign(x, x + size());
-        omega_ = omega;
+        set_omega(omega);
         penetration();
         force_->indicator(u_, indicator_);
         apply_indicator(indicator_, stiffness_, u_, contact_);
         for (std::int64_t j = 0; j < size(); ++j) r[j] = -load_[j];
-        linear_part(r);
-        if (z_ > 0) add_contact_force(r);
+        jacobian_.add_linear_product(x, r);
+        add_coordinates_of_gaps(m_->gap_0, m_->gap, 1.0, contact_, r);
     }
 
-    void linearize() override {
-        assemble();
-        lu_.factor(jacobian_);
+    void linearize() override { factor_bordered(no_border_, factor_); }
+
+    void solve(double *b, std::int64_t n) override { factor_.solve(b, n); }
+
+    int determinant_sign() const override { return factor_.determinant_sign(); }
+
+    void factor_bordered(const Border &border, ModalFactor &out) override {
+        jacobian_.set_tangent(indicator_, stiffness_);
+        out.factor(jacobian_, border);
     }
 
-    void jacobian(Matrix &out) override {
-        assemble();
-        out = jacobian_;
+    void jacobian_product(const double *v, double *r) override {
+        jacobian_.set_tangent(indicator_, stiffness_);
+        jacobian_.expand_tangent();
+        jacobian_.product(false, v, r);
     }
 
-    void solve(double *b, std::int64_t n) override { lu_.solve(b, n, size()); }
-
-    int determinant_sign() const override { return lu_.determinant_sign(); }
+    void set_self_excitation(double xi) override { jacobian_.set_self_excitation(xi); }
 
     void omega_derivative(double *r) override {
         std::fill(r, r + size(), 0.0);
         for (std::int64_t h = 1; h <= h_; ++h) {
             const double *a = x_.data() + cosine_at(h), *b = a + r_;
             double *rc = r + cosine_at(h), *rs = rc + r_;
-            const double k = static_cast<double>(h), mass = -2 * k * k * omega_;
+            const double k = static_cast<double>(h), mass = -2 * k * k * omega_,
+                         excitation = -4 * k * jacobian_.self_excitation() * omega_;
             for (std::int64_t j = 0; j < r_; ++j) {
-                rc[j] = mass * a[j];
-                rs[j] = mass * b[j];
+                rc[j] = mass * a[j] + excitation * b[j];
+                rs[j] = mass * b[j] - excitation * a[j];
             }
             add_damping_product(k, b, rc);
             add_damping_product(-k, a, rs);
@@ -117,7 +104,7 @@ class ModalSystem final : public HbmSystem {
     }
 
     void linear_response(const vector<double> &share, double omega, double *x) override {
-        omega_ = omega;
+        set_omega(omega);
         x_.assign(size(), 0.0);
         constant_indicator(share, h_, indicator_);
         linearize();
@@ -144,19 +131,11 @@ class ModalSystem final : public HbmSystem {
     }
 
   private:
-    std::int64_t cosine_at(std::int64_t h) const { return r0_ + 2 * (h - 1) * r_; }
-
-    void assemble() {
-        jacobian_.reset(size(), size());
-        if (z_ > 0) add_contact();
-        add_linear();
+    void set_omega(double omega) {
+        omega_ = omega;
+        jacobian_.set_omega(omega);
     }
-
-    void add_contact_force(double *r) {
-        gemv('T', 1.0, m_->gap_0, contact_.col(0), 1.0, r);
-        gemm('T', 'N', 1.0, m_->gap, dynamic_columns(contact_), 0.0, eta_);
-        for (std::int64_t k = 0; k < 2 * h_ * r_; ++k) r[r0_ + k] += eta_.data()[k];
-    }
+    std::int64_t cosine_at(std::int64_t h) const { return jacobian_.cosine_at(h); }
 
     void fill_excitation() {
         excitation_.assign(size(), 0.0);
@@ -175,21 +154,8 @@ class ModalSystem final : public HbmSystem {
     }
 
     void penetration() {
-        if (z_ == 0) return;
-        double *mean = u_.col(0);
-        for (std::int64_t i = 0; i < z_; ++i) mean[i] = -gap_[i];
-        gemv('N', 1.0, m_->gap_0, x_.data(), 1.0, mean);
-        if (h_ == 0) return;
-        std::copy(x_.begin() + r0_, x_.end(), eta_.data());
-        dynamic_.reset(z_, 2 * h_);
-        gemm('N', 'N', 1.0, m_->gap, eta_, 0.0, dynamic_);
-        std::copy(dynamic_.data(), dynamic_.data() + z_ * 2 * h_, u_.col(1));
-    }
-
-    const Matrix &dynamic_columns(const Matrix &all) {
-        dynamic_.reset(z_, 2 * h_);
-        std::copy(all.data() + z_, all.data() + z_ * (2 * h_ + 1), dynamic_.data());
-        return dynamic_;
+        gaps_of_coordinates(m_->gap_0, m_->gap, x_.data(), u_);
+        for (std::int64_t i = 0; i < z_; ++i) u_(i, 0) -= gap_[i];
     }
 
     // y += factor * C v
@@ -201,127 +167,16 @@ class ModalSystem final : public HbmSystem {
         }
     }
 
-    void linear_part(double *r) const {
-        for (std::int64_t j = 0; j < r0_; ++j) r[j] += m_->lambda_0[j] * x_[j];
-        for (std::int64_t h = 1; h <= h_; ++h) {
-            const double *a = x_.data() + cosine_at(h), *b = a + r_;
-            double *rc = r + cosine_at(h), *rs = rc + r_;
-            const double w = static_cast<double>(h) * omega_;
-            for (std::int64_t j = 0; j < r_; ++j) {
-                const double l = m_->lambda[j], loss = m_->structural * l;
-                rc[j] += (l - w * w) * a[j] + loss * b[j];
-                rs[j] += (l - w * w) * b[j] - loss * a[j];
-            }
-            add_damping_product(w, b, rc);
-            add_damping_product(-w, a, rs);
-        }
-    }
-
-    void add_linear() {
-        for (std::int64_t j = 0; j < r0_; ++j) jacobian_(j, j) += m_->lambda_0[j];
-        for (std::int64_t h = 1; h <= h_; ++h) {
-            const std::int64_t c = cosine_at(h), s = c + r_;
-            const double w = static_cast<double>(h) * omega_;
-            for (std::int64_t j = 0; j < r_; ++j) {
-                const double l = m_->lambda[j], dynamic = l - w * w;
-                double loss = m_->structural * l;
-                if (m_->damping.empty()) loss += w * m_->damping_diagonal[j];
-                jacobian_(c + j, c + j) += dynamic;
-                jacobian_(s + j, s + j) += dynamic;
-                jacobian_(c + j, s + j) += loss;
-                jacobian_(s + j, c + j) -= loss;
-            }
-            if (m_->damping.empty()) continue;
-            for (std::int64_t j = 0; j < r_; ++j)
-                for (std::int64_t i = 0; i < r_; ++i) {
-                    jacobian_(c + i, s + j) += w * m_->damping(i, j);
-                    jacobian_(s + i, c + j) -= w * m_->damping(i, j);
-                }
-        }
-    }
-
-    // weights: Z x (4H + 1) = k_n times the averages; then contact matrices A_k = G' diag(weights_k) G.
-    void add_contact() {
-        weights_.reset(z_, 4 * h_ + 1);
-        for (std::int64_t i = 0; i < z_; ++i) {
-            const double *average = indicator_.averages.col(i);
-            for (std::int64_t k = 0; k <= 4 * h_; ++k) weights_(i, k) = stiffness_[i] * average[k];
-        }
-        expand_symmetric(dynamic_products_, r_, dynamic_blocks_);
-        if (m_->same_static) {
-            for (std::int64_t j = 0; j < r0_; ++j)
-                for (std::int64_t i = 0; i < r0_; ++i) jacobian_(i, j) += dynamic_blocks_(i + j * r_, 0);
-            add_mixed(dynamic_blocks_, r_);
-        } else {
-            expand_symmetric(static_products_, r0_, static_blocks_);
-            for (std::int64_t j = 0; j < r0_; ++j)
-                for (std::int64_t i = 0; i < r0_; ++i) jacobian_(i, j) += static_blocks_(i + j * r0_, 0);
-            mixed_blocks_.reset(r0_ * r_, weights_.cols());
-            gemm('N', 'N', 1.0, mixed_products_, weights_, 0.0, mixed_blocks_);
-            add_mixed(mixed_blocks_, r0_);
-        }
-        for (std::int64_t n = 1; n <= h_; ++n)
-            for (std::int64_t m = 1; m <= h_; ++m) add_dynamic(m, n);
-    }
-
-    // One column per average: the packed upper triangles, unpacked to full r x r blocks.
-    void expand_symmetric(const Matrix &products, std::int64_t n, Matrix &blocks) {
-        packed_.reset(products.rows(), weights_.cols());
-        gemm('N', 'N', 1.0, products, weights_, 0.0, packed_);
-        blocks.reset(n * n, weights_.cols());
-        for (std::int64_t k = 0; k < weights_.cols(); ++k) {
-            const double *in = packed_.col(k);
-            double *out = blocks.col(k);
-            for (std::int64_t j = 0; j < n; ++j)
-                for (std::int64_t i = 0; i <= j; ++i) out[i + j * n] = out[j + i * n] = *in++;
-        }
-    }
-
-    // Blocks between h = 0 (rows, leading dimension ld of each block) and h = n, and their transposes
-    // doubled.
-    void add_mixed(const Matrix &blocks, std::int64_t ld) {
-        for (std::int64_t c = 1; c <= 2 * h_; ++c) {
-            const double *block = blocks.col(c);
-            const std::int64_t at = r0_ + (c - 1) * r_;
-            for (std::int64_t j = 0; j < r_; ++j)
-                for (std::int64_t i = 0; i < r0_; ++i) {
-                    jacobian_(i, at + j) += block[i + j * ld];
-                    jacobian_(at + j, i) += 2 * block[i + j * ld];
-                }
-        }
-    }
-
-    // The four blocks between harmonics m (rows) and n (columns); see indicator_entry.
-    void add_dynamic(std::int64_t m, std::int64_t n) {
-        const std::int64_t difference = std::abs(m - n), sum = m + n;
-        const double *cos_difference = dynamic_blocks_.col(difference == 0 ? 0 : 2 * difference - 1);
-        const double *cos_sum = dynamic_blocks_.col(2 * sum - 1), *sin_sum = dynamic_blocks_.col(2 * sum);
-        const double *sin_difference = difference == 0 ? nullptr : dynamic_blocks_.col(2 * difference);
-        const double sign = m > n ? 1.0 : -1.0; // sin (m - n) from sin |m - n|
-        const std::int64_t row = cosine_at(m), column = cosine_at(n);
-        for (std::int64_t j = 0; j < r_; ++j) {
-            double *left = jacobian_.col(column + j) + row, *right = jacobian_.col(column + r_ + j) + row;
-            const std::int64_t at = j * r_;
-            for (std::int64_t i = 0; i < r_; ++i) {
-                const double d = sin_difference ? sign * sin_difference[at + i] : 0.0;
-                left[i] += cos_difference[at + i] + cos_sum[at + i];
-                left[r_ + i] += sin_sum[at + i] + d;
-                right[i] += sin_sum[at + i] - d;
-                right[r_ + i] += cos_difference[at + i] - cos_sum[at + i];
-            }
-        }
-    }
-
     std::shared_ptr<const ReducedModel> m_;
     std::int64_t h_, r_, r0_, z_;
     std::unique_ptr<ContactForce> force_;
     vector<double> stiffness_, gap_, excitation_, load_;
-    Matrix u_, contact_, eta_, dynamic_;
+    Matrix u_, contact_;
     vector<double> x_;
     double omega_ = 0;
-    Matrix dynamic_products_, static_products_, mixed_products_;
-    Matrix weights_, packed_, dynamic_blocks_, static_blocks_, mixed_blocks_, jacobian_;
-    RealLu lu_;
+    ModalJacobian jacobian_;
+    Border no_border_;
+    ModalFactor factor_;
 };
 
 } // namespace

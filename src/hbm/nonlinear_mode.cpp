@@ -36,8 +36,8 @@ void NonlinearModeSystem::residual(const double *y, double log_amplitude, double
     amplitude_ = std::exp(log_amplitude);
     unscale(y, amplitude_, x_.data());
     inner_.set_force_scale(0);
+    inner_.set_self_excitation(y[n + 1]);
     inner_.residual(x_.data(), omega(), r);
-    add_self_excitation(x_.data(), 2 * y[n + 1] * omega() * omega(), r);
     for (std::int64_t i = 0; i < n; ++i) r[i] /= i < s ? largest_ : amplitude_;
     const double scale = omega_reference_ * omega_reference_; // like the other equations
     r[n] = scale * dot(r_, shape_.data(), y + s + r_);
@@ -48,41 +48,37 @@ double NonlinearModeSystem::residual_scale() const {
     return omega_reference_ * omega_reference_;
 }
 
-void NonlinearModeSystem::assemble(Matrix &jacobian) {
+// The equations of the unknowns not scaled; solve() scales.
+void NonlinearModeSystem::fill(Border &border) {
     const std::int64_t n = inner_.size(), s = static_size();
-    assemble_inner(jacobian);
-    const double w = omega(), xi = y_[n + 1];
-    for (std::int64_t j = s; j < n; ++j) { // self-excitation couples cosine and sine of one coordinate
-        const std::int64_t k = (j - s) / r_, h = k / 2 + 1;
-        const double c = 2 * xi * w * w * static_cast<double>(h);
-        k % 2 == 0 ? jacobian(j + r_, j) += c : jacobian(j - r_, j) -= c;
-    }
-    double *by_omega = jacobian.col(n), *by_xi = jacobian.col(n + 1);
+    double *by_omega = border.columns.col(0);
     inner_.omega_derivative(by_omega);
-    add_self_excitation(x_.data(), 4 * xi * w, by_omega);
-    add_self_excitation(x_.data(), 2 * w * w, by_xi);
     for (std::int64_t i = 0; i < n; ++i) by_omega[i] *= omega_reference_;
-    for (std::int64_t j = 0; j < n + 2; ++j)
-        for (std::int64_t i = 0; i < n; ++i) {
-            const double column = j >= n ? 1 : j < s ? largest_ : amplitude_;
-            jacobian(i, j) *= column / (i < s ? largest_ : amplitude_);
-        }
-    const double scale = omega_reference_ * omega_reference_;
+    add_self_excitation(x_.data(), 2 * omega() * omega(), border.columns.col(1));
+    const double scale = omega_reference_ * omega_reference_ / amplitude_;
     for (std::int64_t j = 0; j < r_; ++j) {
-        jacobian(n, s + r_ + j) = scale * shape_[j];
-        jacobian(n + 1, s + j) = scale * shape_[j];
+        border.rows(s + r_ + j, 0) = scale * shape_[j];
+        border.rows(s + j, 1) = scale * shape_[j];
     }
+    factored_amplitude_ = amplitude_;
+}
+
+void NonlinearModeSystem::solve(double *b, std::int64_t columns) {
+    const std::int64_t n = inner_.size(), s = static_size();
+    for (std::int64_t k = 0; k < columns; ++k)
+        for (std::int64_t i = 0; i < n; ++i) b[i + k * size()] *= i < s ? largest_ : factored_amplitude_;
+    AugmentedSystem::solve(b, columns);
+    for (std::int64_t k = 0; k < columns; ++k)
+        for (std::int64_t i = 0; i < n; ++i) b[i + k * size()] /= i < s ? largest_ : factored_amplitude_;
 }
 
 // At a solution: the unknowns scaled by the amplitude change with it, x' = x_dynamic.
 void NonlinearModeSystem::omega_derivative(double *r) {
     const std::int64_t n = inner_.size(), s = static_size();
-    Matrix jacobian;
-    assemble(jacobian);
-    vector<double> y(y_);
-    std::fill(y.begin(), y.begin() + s, 0.0);
-    y[n] = y[n + 1] = 0;
-    gemv('N', 1.0, jacobian, y.data(), 0.0, r);
+    vector<double> x(x_);
+    std::fill(x.begin(), x.begin() + s, 0.0);
+    inner_.jacobian_product(x.data(), r);
+    for (std::int64_t i = 0; i < n; ++i) r[i] /= i < s ? largest_ : amplitude_;
     r[n] = r[n + 1] = 0; // the normalisation is that of the scaled unknowns
 }
 
@@ -123,7 +119,8 @@ class ModePath final : public PathOwner {
         for (std::int64_t h = std::min<std::int64_t>(7, options_.hbm.max_harmonics);;
              h = std::min(2 * h, options_.hbm.max_harmonics)) {
             NonlinearMode found = follow(h);
-            if (largest_tail_ <= options_.hbm.harmonic_tolerance || h >= options_.hbm.max_harmonics) return found;
+            if (largest_tail_ <= options_.hbm.harmonic_tolerance || h >= options_.hbm.max_harmonics)
+                return found;
         }
     }
 
@@ -223,8 +220,9 @@ class ModePath final : public PathOwner {
             if (options_.mode == 0 && (best < 0 || away(column) < away(best))) best = column;
         }
         if (best < 0)
-            throw Error(PLM_ERR_ARGUMENT, format("the basis has %lld elastic modes about the structure at rest",
-                                                 static_cast<long long>(elastic)))
+            throw Error(PLM_ERR_ARGUMENT,
+                        format("the basis has %lld elastic modes about the structure at rest",
+                               static_cast<long long>(elastic)))
                 .argument("mode");
         return best;
     }
@@ -249,14 +247,16 @@ class ModePath final : public PathOwner {
         if (options_.amplitude_min > 0 && options_.amplitude_max > options_.amplitude_min) return;
         const double first = first_change(), asked = asked_amplitude();
         if (first == 0 && asked == 0)
-            throw Error(PLM_ERR_ARGUMENT,
-                        "no pair changes its state at a certain amplitude (neither pre-load nor gap): say up to "
-                        "which amplitude to go")
+            throw Error(
+                PLM_ERR_ARGUMENT,
+                "no pair changes its state at a certain amplitude (neither pre-load nor gap): say up to "
+                "which amplitude to go")
                 .argument("amplitude_max");
         double low = first > 0 ? 0.5 * first : 0.01 * asked;
         if (asked > 0) low = std::min(low, 0.1 * asked);
         options_.amplitude_min = low;
-        options_.amplitude_max = asked > 0 ? 1000 * std::max(asked, first) : 100 * first; // interrupt() ends it
+        options_.amplitude_max =
+            asked > 0 ? 1000 * std::max(asked, first) : 100 * first; // interrupt() ends it
     }
 
     // The amplitude of the mode that moves the DOF as asked; 0: not asked.
@@ -272,7 +272,8 @@ class ModePath final : public PathOwner {
             most = std::max(most, std::abs(v));
         }
         if (!(std::abs(swing) > 1e-6 * most))
-            throw Error(PLM_ERR_ARGUMENT, "this mode does not move the DOF; name one that it moves").argument("dof");
+            throw Error(PLM_ERR_ARGUMENT, "this mode does not move the DOF; name one that it moves")
+                .argument("dof");
         return options_.dof_amplitude_max / std::abs(swing);
     }
 

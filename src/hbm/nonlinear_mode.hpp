@@ -17,12 +17,13 @@ class NonlinearModeSystem final : public AugmentedSystem {
     void residual(const double *y, double log_amplitude, double *r) override;
     void omega_derivative(double *r) override;
     double residual_scale() const override;
+    void solve(double *b, std::int64_t n) override;
     void to_point(const double *y, double log_amplitude, BranchPoint &point) override;
     void from_point(const BranchPoint &point, double *y) override; // xi: 0
     double damping_ratio(const double *y) const { return y[inner_.size() + 1]; }
 
   protected:
-    void assemble(Matrix &jacobian) override;
+    void fill(Border &border) override;
 
   private:
     double omega() const { return omega_reference_ * (1 + y_[inner_.size()]); }
@@ -33,7 +34,7 @@ class NonlinearModeSystem final : public AugmentedSystem {
     vector<double> shape_;
     double omega_reference_, largest_;
     vector<double> y_, x_; // at the last residual()
-    double amplitude_ = 1;
+    double amplitude_ = 1, factored_amplitude_ = 1;
 };
 
 struct NonlinearModeOptions {

@@ -87,14 +87,10 @@ void PhaseResonantSystem::from_point(const BranchPoint &point, double *y) {
     y[inner_.size()] = (point.omega - omega_reference_) * unit_;
 }
 
-void PhaseResonantSystem::assemble(Matrix &jacobian) {
-    assemble_inner(jacobian);
-    const std::int64_t n = inner_.size();
-    inner_.omega_derivative(jacobian.col(n));
-    for (std::int64_t i = 0; i < n; ++i) {
-        jacobian(i, n) /= unit_;
-        jacobian(n, i) = phase_[i];
-    }
+void PhaseResonantSystem::fill(Border &border) {
+    inner_.omega_derivative(border.columns.data());
+    for (std::int64_t i = 0; i < inner_.size(); ++i) border.columns(i, 0) /= unit_;
+    std::copy(phase_.begin(), phase_.end(), border.rows.data());
 }
 
 // --- a path of phase-resonant points

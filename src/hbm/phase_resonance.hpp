@@ -28,7 +28,7 @@ class PhaseResonantSystem final : public AugmentedSystem {
     void from_point(const BranchPoint &point, double *y) override;
 
   protected:
-    void assemble(Matrix &jacobian) override;
+    void fill(Border &border) override;
 
   private:
     double omega_of(const double *y) const { return omega_reference_ + y[inner_.size()] / unit_; }

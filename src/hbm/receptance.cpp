@@ -4,7 +4,7 @@ namespace plm {
 
 using Complex = std::complex<double>;
 
-void Receptance::update(const ReducedModel &m, std::int64_t h, double omega) {
+void Receptance::update(const ReducedModel &m, std::int64_t h, double omega, double self_excitation) {
     model_ = &m;
     const double w = static_cast<double>(h) * omega;
     const std::int64_t r = m.size();
@@ -12,7 +12,8 @@ void Receptance::update(const ReducedModel &m, std::int64_t h, double omega) {
     diagonal_.resize(r);
     for (std::int64_t j = 0; j < r; ++j) {
         const double c = m.damping.empty() ? m.damping_diagonal[j] : 0.0;
-        diagonal_[j] = Complex(m.lambda[j] - w * w, w * c + m.structural * m.lambda[j]);
+        diagonal_[j] =
+            Complex(m.lambda[j] - w * w, w * (c - 2 * self_excitation * omega) + m.structural * m.lambda[j]);
         derivative_[j] = static_cast<double>(h) * Complex(-2 * w, c); // d(1/D)/d omega
     }
     harmonic_ = static_cast<double>(h);

@@ -8,7 +8,8 @@ namespace plm {
 /// Diagonal in the reduced coordinates, or a dense factorization when the damping is not diagonal.
 class Receptance {
   public:
-    void update(const ReducedModel &m, std::int64_t h, double omega); // h >= 1
+    /// h >= 1; self_excitation xi: with the damping -2 xi omega M added (not in derivative()).
+    void update(const ReducedModel &m, std::int64_t h, double omega, double self_excitation = 0);
     /// v = D v
     void apply(std::complex<double> *v) const;
     /// out = d(D^-1)/d omega v

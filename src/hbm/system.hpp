@@ -9,6 +9,9 @@
 
 namespace plm {
 
+struct Border; // modal_factor.hpp
+class ModalFactor;
+
 class HbmSystem {
   public:
     virtual ~HbmSystem() = default;
@@ -21,11 +24,13 @@ class HbmSystem {
     virtual void linearize() = 0;
     /// Overwrites n right-hand sides (leading dimension size()) by (dR/dx)^-1 b.
     virtual void solve(double *b, std::int64_t n) = 0;
-    /// dR/dx itself at the last residual(), size() x size(): what systems with more equations are built from.
-    /// Reduced coordinates only.
-    virtual void jacobian(Matrix &) {
-        throw Error(PLM_ERR_INTERNAL, "these unknowns have no assembled Jacobian; use reduced coordinates");
-    }
+    /// Factors dR/dx at the last residual() with rows and columns beside it: what systems with more equations
+    /// are built from. This and the next two: reduced coordinates only.
+    virtual void factor_bordered(const Border &, ModalFactor &) { throw_not_modal(); }
+    /// r = dR/dx v at the last residual()
+    virtual void jacobian_product(const double * /*v*/, double * /*r*/) { throw_not_modal(); }
+    /// Adds the force 2 xi omega M q' from the next residual() on (nonlinear modes).
+    virtual void set_self_excitation(double /*xi*/) { throw_not_modal(); }
     /// Sign of det(dR/dx) at the last linearize(), up to a factor constant along a path.
     virtual int determinant_sign() const = 0;
     /// dR/domega at the x and omega of the last residual().
@@ -54,6 +59,9 @@ class HbmSystem {
     virtual const ContactIndicator &indicator() const { return indicator_; }
 
   protected:
+    [[noreturn]] static void throw_not_modal() {
+        throw Error(PLM_ERR_INTERNAL, "only equations in reduced coordinates can do this");
+    }
     ContactIndicator indicator_;
 };
 

@@ -13,7 +13,11 @@ class WrappedSystem : public HbmSystem {
     void residual(const double *x, double p, double *r) override { inner_.residual(x, p, r); }
     void linearize() override { inner_.linearize(); }
     void solve(double *b, std::int64_t n) override { inner_.solve(b, n); }
-    void jacobian(Matrix &out) override { inner_.jacobian(out); }
+    void factor_bordered(const Border &border, ModalFactor &out) override {
+        inner_.factor_bordered(border, out);
+    }
+    void jacobian_product(const double *v, double *r) override { inner_.jacobian_product(v, r); }
+    void set_self_excitation(double xi) override { inner_.set_self_excitation(xi); }
     void omega_derivative(double *r) override { inner_.omega_derivative(r); }
     int determinant_sign() const override { return inner_.determinant_sign(); }
     void linear_response(const vector<double> &share, double p, double *x) override {

@@ -45,6 +45,7 @@ class ContactSpaceBuilder {
           shifted_(sigma_ > 0 ? add(1.0, model_->stiffness(), sigma_, model_->mass()) : SparseMatrix()) {
         space_->model = model_;
         space_->highest_frequency = highest;
+        space_->is_contact_space = true;
     }
 
     std::shared_ptr<const Space> build() {

@@ -27,7 +27,8 @@ void check_parents(const Model &model, const Sampler *sampler, const Basis *pare
     if (!parent) return;
     if (parent->model().get() != &model)
         throw Error(PLM_ERR_ARGUMENT, "the parent basis belongs to another model").argument("parent");
-    if (parent->options().kind == BasisKind::plm)
+    if (kind == BasisKind::pod || kind == BasisKind::full) return; // any will do
+    if (parent->options().kind == BasisKind::plm || parent->options().kind == BasisKind::pod)
         throw Error(PLM_ERR_ARGUMENT, "the parent must be of kind \"craig_bampton\" or \"full\"")
             .argument("parent");
 }
@@ -66,6 +67,8 @@ std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &mo
                     parent->space()->highest_frequency / (2 * M_PI), highest_hz));
         return parent->space();
     }
+    if (parent && parent->space()->is_contact_space && parent->space()->highest_frequency >= highest * (1 - 1e-9))
+        return parent->space();
     if (sampler && sampler->space()->highest_frequency >= highest * (1 - 1e-9)) return sampler->space();
     return make_contact_space(model, highest, least_open_modes, watch, sampler ? sampler->space() : nullptr);
 }
@@ -158,11 +161,18 @@ Reduction reduce_to_plm(const Space &space, const Sampler &sampler, const Select
 } // namespace
 
 Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> sampler,
-             std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch)
+             std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch,
+             const Responses *responses)
     : model_(std::move(model)), sampler_(std::move(sampler)), options_(options) {
     const auto start = std::chrono::steady_clock::now();
     check_options(options_);
     check_parents(*model_, sampler_.get(), parent.get(), options_.kind);
+    if (options_.kind == BasisKind::pod) {
+        compress_parent(parent.get(), responses);
+        report_.setup_seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        return;
+    }
     const SelectionRule rule = make_rule(options_, sampler_.get());
     window_min_hz_ = rule.min_hz;
     window_max_hz_ = rule.max_hz;
@@ -179,6 +189,42 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     report_.highest_frequency_hz = rule.highest_hz();
     if (!report_.warning.empty()) watch.log(2, report_.warning);
     report_.setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Basis::compress_parent(const Basis *parent, const Responses *responses) {
+    if (!parent)
+        throw Error(PLM_ERR_STATE, "a basis of kind pod needs the basis its responses were computed on as "
+                                   "parent; call plm_basis_set_parent first")
+            .argument("parent");
+    if (!responses)
+        throw Error(PLM_ERR_STATE, "a basis of kind pod needs responses; call plm_basis_set_responses first")
+            .argument("responses");
+    if (responses->of != parent->reduced())
+        throw Error(PLM_ERR_ARGUMENT, "the responses were computed on another basis than the parent, or it was "
+                                      "built anew in between; set both from one build")
+            .argument("responses");
+    sampler_ = parent->sampler();
+    space_ = parent->space();
+    window_min_hz_ = options_.frequency_min_hz > 0 ? options_.frequency_min_hz : parent->window_min_hz();
+    window_max_hz_ = options_.frequency_max_hz > 0 ? options_.frequency_max_hz : parent->window_max_hz();
+    if (!(window_min_hz_ < window_max_hz_))
+        throw Error(PLM_ERR_ARGUMENT, format("frequency_min_hz (%g) must be below frequency_max_hz (%g)",
+                                             window_min_hz_, window_max_hz_))
+            .argument("frequency_min_hz");
+    Compressed c = compress(*responses, options_.pod_tolerance, options_.pod_size);
+    reduced_ = std::move(c.reduced);
+    report_.singular_values = std::move(c.singular_values);
+    report_.n_collected = parent->reduced()->size();
+    report_.highest_frequency_hz = parent->report().highest_frequency_hz;
+}
+
+std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch) {
+    if (basis->options().kind == BasisKind::full) return basis;
+    BasisOptions o = basis->options();
+    o.kind = BasisKind::full;
+    o.frequency_min_hz = basis->window_min_hz();
+    o.frequency_max_hz = basis->window_max_hz();
+    return std::make_shared<const Basis>(basis->model(), basis->sampler(), basis, o, watch);
 }
 
 double projection_residual(const Basis &basis, bool is_static, bool use_mass, const double *q_free) {

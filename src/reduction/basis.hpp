@@ -1,12 +1,12 @@
 // Reduction bases: piecewise-linear modes, Craig-Bampton and the unreduced reference, each giving a
 // ReducedModel.
 #pragma once
-#include "reduction/reduced_model.hpp"
+#include "reduction/compression.hpp"
 #include "sampling/sampler.hpp"
 
 namespace plm {
 
-enum class BasisKind { plm, craig_bampton, full };
+enum class BasisKind { plm, craig_bampton, full, pod };
 enum class ModeSelection {
     bands,
     below
@@ -21,6 +21,8 @@ struct BasisOptions {
     double svd_tolerance = 1e-6;     // singular values relative to the largest (paper, 2.3.3)
     bool static_augmentation = true; // P_0 = [P q_PS] (paper, eq. (9)); not used without pre-load
     bool load_vectors = true;        // P also holds the static responses to the loads
+    double pod_tolerance = 1e-5;     // pod: share of the responses left out, energy norm
+    std::int64_t pod_size = 0;       // pod: columns; 0: by pod_tolerance
     std::int64_t n_fixed_modes = 0; // Craig-Bampton: fixed-interface modes; 0: all below 4 below_factor H f_f
 };
 
@@ -47,10 +49,12 @@ struct BasisReport {
 
 class Basis {
   public:
-    /// sampler: needed for kind plm. parent: first reduction under PLM or null. window_hz are taken from
-    /// options or sampler; kinds craig_bampton and full need options.frequency_max_hz or a sampler.
+    /// sampler: needed for kind plm. parent: first reduction under PLM or null; for kind pod the basis the responses
+    /// were computed on. window_hz are taken from options, sampler or (pod) parent; kinds craig_bampton and full need
+    /// options.frequency_max_hz or a sampler.
     Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> sampler,
-          std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch);
+          std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch,
+          const Responses *responses = nullptr);
 
     const BasisOptions &options() const { return options_; }
     const BasisReport &report() const { return report_; }
@@ -62,6 +66,8 @@ class Basis {
     double window_max_hz() const { return window_max_hz_; }
 
   private:
+    void compress_parent(const Basis *parent, const Responses *responses);
+
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const Sampler> sampler_;
     BasisOptions options_;
@@ -70,6 +76,9 @@ class Basis {
     std::shared_ptr<const ReducedModel> reduced_;
     double window_min_hz_ = 0, window_max_hz_ = 0;
 };
+
+/// The basis of kind full for the same frequencies, in the contact space of `basis` where that is one.
+std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch);
 
 /// r of paper eq. (12) for any vector over the free DOFs, against P (or P_0).
 double projection_residual(const Basis &basis, bool is_static, bool use_mass, const double *q_free);

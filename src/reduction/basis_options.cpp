@@ -24,6 +24,10 @@ void check_options(const BasisOptions &o) {
     demand(o.svd_tolerance >= 0 && o.svd_tolerance < 1, "svd_tolerance",
            format("svd_tolerance is %g; a share of the largest singular value in [0, 1) is wanted",
                   o.svd_tolerance));
+    demand(o.pod_tolerance >= 0 && o.pod_tolerance < 1, "pod_tolerance",
+           format("pod_tolerance is %g; a share of the responses in [0, 1) is wanted", o.pod_tolerance));
+    demand(o.pod_size >= 0, "pod_size",
+           format("pod_size is %lld; it must not be negative", static_cast<long long>(o.pod_size)));
     demand(o.n_fixed_modes >= 0, "n_fixed_modes",
            format("n_fixed_modes is %lld; it must not be negative", static_cast<long long>(o.n_fixed_modes)));
 }

@@ -26,6 +26,25 @@ std::vector<Complex> solve_dense(std::vector<Complex> a, std::vector<Complex> b)
     return b;
 }
 
+double determinant(std::vector<double> a, int n) {
+    double d = 1;
+    for (int k = 0; k < n; ++k) {
+        int p = k;
+        for (int i = k + 1; i < n; ++i)
+            if (std::abs(a[i * n + k]) > std::abs(a[p * n + k])) p = i;
+        if (p != k) {
+            for (int j = 0; j < n; ++j) std::swap(a[k * n + j], a[p * n + j]);
+            d = -d;
+        }
+        d *= a[k * n + k];
+        for (int i = k + 1; i < n && a[k * n + k] != 0; ++i) {
+            const double f = a[i * n + k] / a[k * n + k];
+            for (int j = k; j < n; ++j) a[i * n + j] -= f * a[k * n + j];
+        }
+    }
+    return d;
+}
+
 double linear_peak(const exact::Structure &s, const std::vector<bool> &closed, double omega, int dof,
                    const std::vector<double> *full_mass) {
     const int n = s.n;

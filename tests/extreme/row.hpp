@@ -20,14 +20,16 @@ struct Row {
     double tolerance = 0; // why this one stands beside the row's definition
     bool quick = true;    // among the rows ctest runs
     std::function<Measured(bool sampled)> measure;
-    bool has_sampled = true; // the sampled contact forces can do this case at all
+    bool has_sampled = true; // false: the contact forces play no part, or the case ends before them
+    std::int32_t end = PLM_REASON_RANGE_END; // how it has to end; another one: no answer exists, and the error is 0
 };
 
 std::vector<Row> stiffness_rows(); // contact stiffness from soft to rigid
 std::vector<Row> limit_rows();     // grazing, forces, damping, harmonics, always open or closed
 std::vector<Row> structure_rows(); // many pairs, rigid-body modes, mass-less DOFs, units, close resonances
 std::vector<Row> basis_rows();     // samples that nearly coincide
-std::vector<Row> standard_rows();  // the literature's oscillator; cold starts on the plate
+std::vector<Row> standard_rows();  // the literature's oscillator
+std::vector<Row> no_answer_rows(); // the reason has to be right
 
 /// A sweep's end in words.
 Measured outcome_of(const Curve &curve);

@@ -1,10 +1,11 @@
-// The literature's two-mass oscillator with a stop, and cold starts on the cracked plate.
+// The literature's two-mass oscillator with a stop: peak, time, and its bifurcations against the exact flow.
+#include "dense.hpp"
 #include "row.hpp"
 #include "structures.hpp"
-#include "scene.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 
 namespace extreme {
@@ -38,17 +39,94 @@ double first_harmonic(const exact::Orbit &orbit, int dof) {
 double exact_maximum(const exact::Structure &s, double omega, std::vector<double> state, int dof) {
     double best = 0, at = omega;
     const auto higher = [&](double w) {
-        const exact::Orbit orbit = exact::periodic_orbit(s, w, state, 0, 4000);
+        const exact::Orbit orbit = exact::periodic_orbit(s, w, state, 0, 1000);
         const double h = orbit.converged ? first_harmonic(orbit, dof) : 0;
         if (!(h > best && (best == 0 || h < 1.1 * best))) return false;
         best = h, at = w, state = orbit.start;
         return true;
     };
     higher(omega);
-    for (double step = 1e-3 * omega; step > 1e-7 * omega; step *= 0.5)
+    for (double step = 1e-3 * omega; step > 3e-6 * omega; step *= 0.5)
         while (higher(at + step) || higher(at - step)) {
         }
     return best;
+}
+
+// Signs of det(M - 1) and det(M + 1) of the monodromy matrix M of the exact orbit at a point; 0, 0 without one. The
+// first changes at folds and branch points, the second at period doublings.
+std::pair<int, int> signs(const exact::Structure &s, const Curve &curve, std::size_t point, double amplitude) {
+    const exact::Orbit orbit = exact::periodic_orbit(s, curve.omega[point], curve.state(point, s.n), 0, 200);
+    if (!orbit.converged || std::abs(orbit.peak(1) / amplitude - 1) > 1e-2) return {0, 0};
+    std::vector<double> monodromy;
+    exact::period_map(s, curve.omega[point], orbit.start, &monodromy);
+    const auto sign = [&](double shift) {
+        std::vector<double> a = monodromy;
+        for (int i = 0; i < 2 * s.n; ++i) a[i * (2 * s.n + 1)] += shift;
+        return determinant(a, 2 * s.n) > 0 ? 1 : -1;
+    };
+    return {sign(-1), sign(1)};
+}
+
+// Frequencies at which the sign changes from point to point.
+std::vector<double> changes(const Curve &curve, const std::vector<int> &sign) {
+    std::vector<double> at;
+    std::size_t last = curve.size(); // the last point with a sign
+    for (std::size_t i = 0; i < sign.size(); ++i) {
+        if (sign[i] == 0) continue;
+        if (last < curve.size() && sign[i] != sign[last]) at.push_back(0.5 * (curve.omega[i] + curve.omega[last]));
+        last = i;
+    }
+    return at;
+}
+
+std::vector<double> located(const Curve &curve, std::initializer_list<std::int32_t> kinds) {
+    const std::vector<std::int32_t> kind = curve.bifurcations();
+    std::vector<double> at;
+    for (std::size_t i = 0; i < kind.size(); ++i)
+        if (std::find(kinds.begin(), kinds.end(), kind[i]) != kinds.end()) at.push_back(curve.omega[i]);
+    return at;
+}
+
+bool agree(const std::vector<double> &a, const std::vector<double> &b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](double x, double y) { return std::abs(x / y - 1) < 1e-3; });
+}
+
+// The located bifurcations are those of the exact flow, in order, to 1e-3 in frequency.
+bool check_bifurcations(const exact::Structure &s, const Curve &curve, Measured &m) {
+    std::vector<int> one, minus_one;
+    const std::vector<double> amplitude = curve.amplitude(1);
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+        const auto [a, b] = signs(s, curve, i, amplitude[i]);
+        one.push_back(a), minus_one.push_back(b);
+    }
+    const auto folds = located(curve, {PLM_BIFURCATION_FOLD, PLM_BIFURCATION_BRANCH_POINT}),
+               doublings = located(curve, {PLM_BIFURCATION_PERIOD_DOUBLING}), exact_folds = changes(curve, one),
+               exact_doublings = changes(curve, minus_one);
+    m.outcome += ", " + std::to_string(folds.size()) + " folds and " + std::to_string(doublings.size()) +
+                 " period doublings located, " + std::to_string(exact_folds.size()) + " and " +
+                 std::to_string(exact_doublings.size()) + " in the exact flow";
+    if (std::getenv("EXTREME_DETAIL")) {
+        for (double w : folds) std::fprintf(stderr, "    fold %.6f\n", w);
+        for (double w : exact_folds) std::fprintf(stderr, "    exact fold %.6f\n", w);
+        for (double w : doublings) std::fprintf(stderr, "    doubling %.6f\n", w);
+        for (double w : exact_doublings) std::fprintf(stderr, "    exact doubling %.6f\n", w);
+    }
+    return agree(folds, exact_folds) && agree(doublings, exact_doublings);
+}
+
+// Median processor time of five sweeps.
+std::unique_ptr<Curve> timed_sweep(Solver &solver) {
+    std::unique_ptr<Curve> curve;
+    std::vector<double> seconds;
+    for (int i = 0; i < 5; ++i) {
+        const std::clock_t begin = std::clock();
+        curve = solver.sweep();
+        seconds.push_back(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
+    }
+    std::sort(seconds.begin(), seconds.end());
+    curve->work.seconds = seconds[2];
+    return curve;
 }
 
 Measured standard(int harmonics, bool upward, bool sampled) {
@@ -59,11 +137,10 @@ Measured standard(int harmonics, bool upward, bool sampled) {
     setup.upward = upward;
     setup.sampled = sampled;
     Solver solver(s, setup);
-    const std::clock_t begin = std::clock();
-    const auto curve = solver.sweep();
+    const auto curve = timed_sweep(solver);
     Measured m = outcome_of(*curve);
-    m.work.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC; // of the processor
     m.time_limit = 0.3;
+    if (!sampled && harmonics == 0 && !check_bifurcations(s, *curve, m)) return m;
     const auto peak = solver.peak(*curve, 1, PLM_HARMONIC, 1);
     const std::vector<double> a = curve->amplitude(1, PLM_HARMONIC, 1);
     const std::size_t top = std::max_element(a.begin(), a.end()) - a.begin();
@@ -72,56 +149,19 @@ Measured standard(int harmonics, bool upward, bool sampled) {
     return m;
 }
 
-// Starts without a guess at 25 frequencies over the window; the error is how many fail.
-Measured cold_starts(double ratio, bool sampled) {
-    scene *plate = nullptr;
-    if (scene_create("cracked_plate", "quick", 1, &plate)) return Measured();
-    const std::unique_ptr<scene, void (*)(scene *)> owner(plate, [](scene *s) { scene_destroy(&s); });
-    Setup setup;
-    setup.kind = "plm";
-    setup.sampler = {{"system", plate->dominant_system}, {"mode", plate->dominant_mode}};
-    setup.sampled = sampled;
-    const double local = Solver(*plate, setup).model_stiffness();
-    for (std::int64_t i = 0; i < plate->n_pairs; ++i) plate->contact_stiffness[i] = ratio * local;
-    Solver solver(*plate, setup);
-    Measured m;
-    m.error = 0;
-    m.reason = PLM_REASON_RANGE_END;
-    std::string failing;
-    for (int i = 0; i < 25; ++i) {
-        const double omega =
-            solver.window_low() + (solver.window_high() - solver.window_low()) * i / 24;
-        try {
-            m.work.add(solver.solve(omega)->work);
-        } catch (const Failure &) {
-            char text[32];
-            std::snprintf(text, sizeof text, " %.6f Hz", omega / (2 * M_PI));
-            failing += text;
-            m.error += 1;
-        }
-    }
-    m.outcome = std::to_string(25 - static_cast<int>(m.error)) + " of 25 converged";
-    if (!failing.empty()) m.outcome += ", not:" + failing;
-    return m;
-}
-
 } // namespace
 
 std::vector<Row> standard_rows() {
     std::vector<Row> rows;
-    // H = 21, the literature's, leaves 3e-3 at the peak whoever solves it (H = 30: 3e-4, 42: 2e-5, 63: 3e-6).
-    for (int h : {21, 42})
-        for (bool upward : {false, true}) {
-            const std::string end = (upward ? "up-" : "down-") + std::to_string(h);
-            rows.push_back({"two-masses-" + end,
-                            "two-mass oscillator of the literature, H = " + std::to_string(h) + ", below 0.3 s",
-                            "highest exact orbit", h == 21 ? 5e-3 : 1e-4, true,
-                            [=](bool sampled) { return standard(h, upward, sampled); }});
-        }
-    for (int ratio : {1, 10, 100, 1000}) {
-        const std::string k = std::to_string(ratio);
-        rows.push_back({"cold-" + k, "cracked plate, pre-load, 25 frequencies without a guess, k_n = " + k + " k_loc",
-                        "failing starts", 0, true, [=](bool sampled) { return cold_starts(ratio, sampled); }});
+    const char *text = "two-mass oscillator of the literature, ";
+    for (bool upward : {false, true}) {
+        const std::string direction = upward ? "up" : "down";
+        rows.push_back({"two-masses-" + direction, text + direction + ", defaults, below 0.3 s", "highest exact orbit",
+                        1e-4, true, [=](bool sampled) { return standard(0, upward, sampled); }});
+        // The literature's H leaves 3e-3 at the peak whoever solves it (H = 30: 3e-4, 42: 2e-5).
+        rows.push_back({"two-masses-" + direction + "-21", text + direction + ", H = 21, below 0.3 s",
+                        "highest exact orbit", 5e-3, true,
+                        [=](bool sampled) { return standard(21, upward, sampled); }});
     }
     return rows;
 }

@@ -78,6 +78,13 @@ std::vector<double> Curve::amplitude(std::int64_t dof, std::int32_t measure, int
     return a;
 }
 
+std::vector<std::int32_t> Curve::bifurcations() const {
+    std::int64_t count = 0;
+    std::vector<std::int64_t> kind(size());
+    check_call(ctx_, plm_branch_get_int_array(branch_, "bifurcation", work.points, kind.data(), &count));
+    return {kind.begin(), kind.end()};
+}
+
 std::vector<double> Curve::coefficients(std::size_t point, std::int64_t dof) const {
     std::int64_t h = 0;
     check_call(ctx_, plm_branch_get_int(branch_, "n_harmonics", &h));
@@ -185,7 +192,10 @@ void Solver::finish(const Setup &setup) {
     check(plm_basis_build(basis_));
     check(plm_hbm_create(basis_, &hbm_));
     if (setup.harmonics > 0) check(plm_hbm_set_int(hbm_, "n_harmonics", setup.harmonics));
-    if (setup.sampled) check(plm_hbm_set_string(hbm_, "aft", "sampled"));
+    if (setup.sampled) {
+        check(plm_hbm_set_string(hbm_, "aft", "sampled"));
+        check(plm_hbm_set_int(hbm_, "max_points", 1000)); // it creeps where it fails
+    }
     if (setup.upward) check(plm_hbm_set_string(hbm_, "direction", "up"));
     if (setup.force_scale != 1) check(plm_hbm_set_double(hbm_, "force_scale", setup.force_scale));
 }

@@ -54,6 +54,7 @@ class Curve {
     std::vector<double> amplitude(std::int64_t dof, std::int32_t measure = PLM_PEAK, int harmonic = 0) const;
     /// q(0), q'(0) of the first n DOFs.
     std::vector<double> state(std::size_t point, std::int64_t n) const;
+    std::vector<std::int32_t> bifurcations() const; // PLM_BIFURCATION_... of every point
     std::vector<double> coefficients(std::size_t point, std::int64_t dof) const;
     plm_branch *handle() const { return branch_; }
 

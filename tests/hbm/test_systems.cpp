@@ -1,4 +1,7 @@
 // The two forms of the harmonic-balance equations: derivatives, agreement with each other, linear limits.
+#include "hbm/modal_factor.hpp"
+#include "hbm/nonlinear_mode.hpp"
+#include "hbm/phase_resonance.hpp"
 #include "hbm/start.hpp"
 #include "hbm/system.hpp"
 #include "support/small_reduced.hpp"
@@ -47,39 +50,49 @@ struct DerivativeErrors {
     double x = 0, omega = 0;
 };
 
-// J^-1 (R(x + e d) - R(x - e d)) / 2e = d, and the same for omega by differences of R.
-DerivativeErrors derivative_errors(std::shared_ptr<ReducedModel> m, UnknownSpace unknowns) {
-    const auto system = system_of(m, 4, unknowns);
-    const double omega = 0.7;
-    const std::int64_t n = system->size();
-    const plm::vector<double> x = random_point(*system, *m, omega);
+// J^-1 (R(x + e d) - R(x - e d)) / 2e = d
+double solution_error(HbmSystem &system, const plm::vector<double> &x, double omega, double step = 1e-6) {
+    const std::int64_t n = system.size();
     plm::vector<double> up(n), down(n), r(n), d(n);
     std::mt19937 random(2);
     std::normal_distribution<double> normal;
     for (double &v : d) v = normal(random);
-    const double step = 1e-6;
     plm::vector<double> shifted(x);
     for (std::int64_t i = 0; i < n; ++i) shifted[i] = x[i] + step * d[i];
-    system->residual(shifted.data(), omega, up.data());
+    system.residual(shifted.data(), omega, up.data());
     for (std::int64_t i = 0; i < n; ++i) shifted[i] = x[i] - step * d[i];
-    system->residual(shifted.data(), omega, down.data());
-    system->residual(x.data(), omega, r.data());
-    system->linearize();
+    system.residual(shifted.data(), omega, down.data());
+    system.residual(x.data(), omega, r.data());
+    system.linearize();
     for (std::int64_t i = 0; i < n; ++i) r[i] = (up[i] - down[i]) / (2 * step);
-    system->solve(r.data(), 1);
-    DerivativeErrors errors;
-    for (std::int64_t i = 0; i < n; ++i) errors.x = std::max(errors.x, std::abs(r[i] - d[i]));
-    system->residual(x.data(), omega + step, up.data());
-    system->residual(x.data(), omega - step, down.data());
-    system->residual(x.data(), omega, r.data());
-    plm::vector<double> derivative(n);
-    system->omega_derivative(derivative.data());
-    double size = 0;
+    system.solve(r.data(), 1);
+    double worst = 0;
+    for (std::int64_t i = 0; i < n; ++i) worst = std::max(worst, std::abs(r[i] - d[i]));
+    return worst;
+}
+
+double omega_derivative_error(HbmSystem &system, const plm::vector<double> &x, double omega) {
+    const std::int64_t n = system.size();
+    plm::vector<double> up(n), down(n), r(n), derivative(n);
+    const double step = 1e-6;
+    system.residual(x.data(), omega + step, up.data());
+    system.residual(x.data(), omega - step, down.data());
+    system.residual(x.data(), omega, r.data());
+    system.omega_derivative(derivative.data());
+    double size = 0, worst = 0;
     for (std::int64_t i = 0; i < n; ++i) size = std::max(size, std::abs(derivative[i]));
     for (std::int64_t i = 0; i < n; ++i)
-        errors.omega =
-            std::max(errors.omega, std::abs((up[i] - down[i]) / (2 * step) - derivative[i]) / size);
-    return errors;
+        worst = std::max(worst, std::abs((up[i] - down[i]) / (2 * step) - derivative[i]) / size);
+    return worst;
+}
+
+DerivativeErrors derivative_errors(std::shared_ptr<ReducedModel> m, UnknownSpace unknowns,
+                                   double self_excitation = 0) {
+    const auto system = system_of(m, 4, unknowns);
+    if (self_excitation != 0) system->set_self_excitation(self_excitation);
+    const double omega = 0.7;
+    const plm::vector<double> x = random_point(*system, *m, omega);
+    return {solution_error(*system, x, omega), omega_derivative_error(*system, x, omega)};
 }
 
 std::shared_ptr<ReducedModel> with_full_damping() {
@@ -139,6 +152,226 @@ std::shared_ptr<ReducedModel> rigid_when_open() {
 }
 void jacobians_match_with_rigid_body_modes(void **) {
     check_derivatives(rigid_when_open());
+}
+
+void jacobians_match_with_self_excitation(void **) {
+    for (const auto &m : {chain_model(), with_full_damping(), with_structural_damping()}) {
+        const DerivativeErrors e = derivative_errors(m, UnknownSpace::modal, 0.07);
+        assert_true(below(e.x, 1e-6));
+        assert_true(below(e.omega, 1e-7));
+    }
+}
+
+// With more equations: phase resonance (parameter: the force), nonlinear modes (parameter: log amplitude).
+void jacobians_with_more_equations_match_differences(void **) {
+    for (const auto &m : {chain_model(), with_full_damping(), with_static_basis()}) {
+        const auto inner = system_of(m, 4, UnknownSpace::modal);
+        plm::vector<double> x = random_point(*inner, *m, 0.7);
+        x.push_back(0.1);
+        plm::PhaseResonantSystem resonance(*inner, *m, 1, 0.65, 1.7);
+        // a pair nearly grazes here: the difference quotient needs a small step
+        assert_true(below(solution_error(resonance, x, 0.9, 1e-7), 1e-5));
+        assert_true(below(omega_derivative_error(resonance, x, 0.9), 1e-7));
+        x.push_back(0.03);
+        plm::vector<double> shape(m->size(), 0.3);
+        plm::NonlinearModeSystem mode(*inner, m->size(), shape, 0.65, 2.5);
+        assert_true(below(solution_error(mode, x, 0.2, 1e-7), 1e-5));
+    }
+}
+
+// --- factorizations through the contact forces (ModalFactor) against those of the whole matrix
+
+enum class Damping { none, diagonal, full, structural };
+
+plm::Matrix random_matrix(std::int64_t rows, std::int64_t cols, std::mt19937 &random) {
+    std::normal_distribution<double> normal;
+    plm::Matrix a(rows, cols);
+    for (std::int64_t k = 0; k < rows * cols; ++k) a.data()[k] = normal(random);
+    return a;
+}
+
+// 3 pairs on 8 coordinates; 10 others for the mean when `separate`, of which one may be unstable.
+std::shared_ptr<ReducedModel> random_model(Damping damping, bool separate, std::mt19937 &random) {
+    const std::int64_t r = 8, z = 3, r0 = separate ? 10 : r;
+    auto m = std::make_shared<ReducedModel>();
+    std::uniform_real_distribution<double> between(0.5, 1.5);
+    for (std::int64_t j = 0; j < r; ++j) m->lambda.push_back(std::pow(j + between(random), 2));
+    m->gap = random_matrix(z, r, random);
+    m->damping_diagonal.assign(r, damping == Damping::diagonal ? 0.1 : 0.0);
+    if (damping == Damping::structural) m->structural = 0.05;
+    if (damping == Damping::full) {
+        const plm::Matrix a = random_matrix(r, r, random);
+        m->damping = plm::product('T', 'N', a, a);
+        for (std::int64_t k = 0; k < r * r; ++k) m->damping.data()[k] *= 0.05;
+        m->damping_diagonal.clear();
+    }
+    m->same_static = !separate;
+    m->lambda_0 = m->lambda;
+    m->gap_0 = m->gap;
+    if (separate) {
+        m->lambda_0.assign(r0, 2.0);
+        m->lambda_0[4] = -1;
+        m->gap_0 = random_matrix(z, r0, random);
+    }
+    return m;
+}
+
+// One pair that moves, one that stays closed, one that stays open.
+plm::ModalJacobian random_jacobian(std::shared_ptr<ReducedModel> m, double omega, std::mt19937 &random) {
+    const std::int64_t h = 3;
+    plm::ContactIndicator s;
+    s.averages = random_matrix(4 * h + 1, 3, random);
+    for (std::int64_t k = 0; k <= 4 * h; ++k) {
+        s.averages(k, 1) = k == 0;
+        s.averages(k, 2) = 0;
+    }
+    s.state = {plm::PairState::switching, plm::PairState::closed, plm::PairState::open};
+    plm::ModalJacobian jacobian(m, h);
+    jacobian.set_omega(omega);
+    jacobian.set_self_excitation(0.01);
+    jacobian.set_tangent(s, {20.0, 30.0, 40.0});
+    jacobian.expand_tangent();
+    return jacobian;
+}
+
+plm::Border random_border(std::int64_t n, std::int64_t k, std::mt19937 &random) {
+    plm::Border border;
+    border.columns = random_matrix(n, k, random);
+    border.rows = random_matrix(n, k, random);
+    border.corner = random_matrix(k, k, random);
+    return border;
+}
+
+double relative_difference(const plm::Matrix &a, const plm::Matrix &b) {
+    double off = 0, size = 0;
+    for (std::int64_t k = 0; k < a.rows() * a.cols(); ++k) {
+        off = std::max(off, std::abs(a.data()[k] - b.data()[k]));
+        size = std::max(size, std::abs(b.data()[k]));
+    }
+    return off / size;
+}
+
+struct Comparison {
+    bool condensed = true, same_signs = true;
+    int n_negative = 0, n = 0;
+    double worst = 0; // of the solutions
+};
+
+void compare(const plm::ModalJacobian &jacobian, const plm::Border &border, std::mt19937 &random,
+             Comparison &all) {
+    plm::ModalFactor condensed, dense;
+    condensed.factor(jacobian, border);
+    dense.factor(jacobian, border, false);
+    all.condensed = all.condensed && condensed.condensed() && !dense.condensed();
+    all.same_signs = all.same_signs && condensed.determinant_sign() == dense.determinant_sign();
+    all.n_negative += dense.determinant_sign() < 0;
+    ++all.n;
+    const plm::Matrix b = random_matrix(dense.size(), 2, random);
+    plm::Matrix x = b, y = b;
+    condensed.solve(x.data(), 2);
+    dense.solve(y.data(), 2);
+    all.worst = std::max(all.worst, relative_difference(x, y));
+    x = y = b;
+    condensed.solve_transposed(x.data(), 2);
+    dense.solve_transposed(y.data(), 2);
+    all.worst = std::max(all.worst, relative_difference(x, y));
+    all.condensed = all.condensed && condensed.condensed(); // no solution was given up
+}
+
+Comparison compare_random(Damping damping, bool separate, std::int64_t n_borders) {
+    std::mt19937 random(7);
+    Comparison all;
+    for (int k = 0; k < 20; ++k) {
+        const plm::ModalJacobian jacobian =
+            random_jacobian(random_model(damping, separate, random), 0.83, random);
+        compare(jacobian, random_border(jacobian.size(), n_borders, random), random, all);
+    }
+    return all;
+}
+
+void condensed_factors_solve_like_dense_ones(void **) {
+    for (Damping damping : {Damping::none, Damping::diagonal, Damping::full, Damping::structural})
+        for (bool separate : {false, true})
+            for (std::int64_t n_borders : {0, 1, 2}) {
+                const Comparison all = compare_random(damping, separate, n_borders);
+                assert_true(all.condensed);
+                assert_true(all.same_signs);
+                assert_true(all.n_negative > 0 && all.n_negative < all.n);
+                assert_true(below(all.worst, 1e-10));
+            }
+}
+
+// The matrix itself, column by column, from the products the solutions are refined with.
+double product_error(Damping damping, bool separate, bool transposed) {
+    std::mt19937 random(9);
+    const plm::ModalJacobian jacobian =
+        random_jacobian(random_model(damping, separate, random), 0.83, random);
+    const std::int64_t n = jacobian.size();
+    plm::Matrix dense(n, n), columns(n, n);
+    jacobian.add_to(dense);
+    for (std::int64_t j = 0; j < n; ++j) {
+        plm::vector<double> e(n, 0.0);
+        e[j] = 1;
+        jacobian.product(transposed, e.data(), columns.col(j));
+    }
+    return relative_difference(columns, transposed ? dense.transposed() : dense);
+}
+void products_agree_with_the_dense_matrix(void **) {
+    for (Damping damping : {Damping::diagonal, Damping::full, Damping::structural})
+        for (bool separate : {false, true})
+            for (bool transposed : {false, true})
+                assert_true(below(product_error(damping, separate, transposed), 1e-14));
+}
+
+// Closer and closer to a resonance of the undamped open structure, where D is singular but J is not.
+void condensed_factors_serve_near_open_resonances(void **) {
+    std::mt19937 random(3);
+    const auto m = random_model(Damping::none, false, random);
+    for (double distance : {1e-3, 1e-6, 1e-8, 1e-9, 1e-12, 0.0}) {
+        plm::ModalJacobian jacobian =
+            random_jacobian(m, std::sqrt(m->lambda[2]) / 2 * (1 + distance), random);
+        jacobian.set_self_excitation(0);
+        for (std::int64_t n_borders : {0, 1}) {
+            Comparison all;
+            compare(jacobian, random_border(jacobian.size(), n_borders, random), random, all);
+            assert_true(all.same_signs);
+            assert_true(below(all.worst, 1e-10));
+        }
+    }
+}
+
+// Stiff contact on a structure that is nearly singular without it: the condensed solution is given up.
+void hopeless_condensed_solutions_are_repeated_with_the_whole_matrix(void **) {
+    std::mt19937 random(3);
+    const auto m = random_model(Damping::diagonal, false, random);
+    m->lambda_0[0] = 1e-8;
+    m->gap_0(0, 0) = 3e6;
+    const plm::ModalJacobian jacobian = random_jacobian(m, 0.83, random);
+    const plm::Border border = random_border(jacobian.size(), 1, random);
+    plm::ModalFactor condensed, dense;
+    condensed.factor(jacobian, border);
+    dense.factor(jacobian, border, false);
+    assert_true(condensed.condensed());
+    const plm::Matrix b = random_matrix(dense.size(), 3, random);
+    plm::Matrix x = b, y = b;
+    condensed.solve(x.data(), 3);
+    dense.solve(y.data(), 3);
+    assert_false(condensed.condensed());
+    assert_true(below(relative_difference(x, y), 1e-15));
+}
+
+void singular_or_large_condensations_are_not_used(void **) {
+    std::mt19937 random(5);
+    const auto rigid = random_model(Damping::diagonal, false, random);
+    rigid->lambda_0[0] = 0;
+    plm::ModalFactor factor;
+    factor.factor(random_jacobian(rigid, 0.83, random), plm::Border());
+    assert_false(factor.condensed());
+    const auto small = random_model(Damping::diagonal, false, random);
+    small->lambda.resize(2), small->lambda_0.resize(2), small->damping_diagonal.resize(2);
+    small->gap = small->gap_0 = small->gap.columns(0, 2);
+    factor.factor(random_jacobian(small, 0.83, random), plm::Border());
+    assert_false(factor.condensed());
 }
 
 struct Solved {
@@ -227,6 +460,13 @@ int main() {
         cmocka_unit_test(jacobians_match_with_structural_damping),
         cmocka_unit_test(jacobians_match_with_a_static_basis),
         cmocka_unit_test(jacobians_match_with_rigid_body_modes),
+        cmocka_unit_test(jacobians_match_with_self_excitation),
+        cmocka_unit_test(jacobians_with_more_equations_match_differences),
+        cmocka_unit_test(condensed_factors_solve_like_dense_ones),
+        cmocka_unit_test(products_agree_with_the_dense_matrix),
+        cmocka_unit_test(condensed_factors_serve_near_open_resonances),
+        cmocka_unit_test(hopeless_condensed_solutions_are_repeated_with_the_whole_matrix),
+        cmocka_unit_test(singular_or_large_condensations_are_not_used),
         cmocka_unit_test(both_forms_have_the_same_solution),
         cmocka_unit_test(open_and_closed_contact_are_linear),
     };

@@ -1,0 +1,121 @@
+#include "hbm/error_estimate.hpp"
+#include <cmath>
+
+namespace plm {
+namespace {
+
+// One point in the gaps of the unreduced structure, corrected step by step across the curve.
+class Correction {
+  public:
+    /// start: any coordinates whose gaps `from` has.
+    Correction(std::shared_ptr<const ReducedModel> full, const HbmOptions &options, const BranchPoint &start,
+               const std::shared_ptr<const ReducedModel> &from)
+        : full_(std::move(full)), system_(make_system(full_, options)), x_(system_->size()),
+          omega_(start.omega), period_multiple_(options.period_multiple) {
+        make_system(from, options)->from_point(start, x_.data());
+    }
+
+    // Newton's step from here; the tangent of the first one is kept.
+    void step(bool with_new_tangent) {
+        const std::int64_t n = system_->size();
+        vector<double> change(n);
+        system_->residual(x_.data(), omega_, change.data());
+        if (with_new_tangent) {
+            along_.resize(n);
+            system_->omega_derivative(along_.data());
+            system_->linearize();
+            system_->solve(along_.data(), 1);
+            for (double &v : along_) v = -v;
+        }
+        system_->solve(change.data(), 1);
+        const double scale = norm2(n, x_.data()), per_length = scale > 0 ? 1 / (scale * scale) : 1;
+        // across the tangent (along, 1), lengths measured by the solution and the frequency themselves
+        const double shift = per_length * dot(n, along_.data(), change.data()) /
+                             (per_length * dot(n, along_.data(), along_.data()) + 1 / (omega_ * omega_));
+        for (std::int64_t i = 0; i < n; ++i) x_[i] += shift * along_[i] - change[i];
+        omega_ += shift;
+        if (!std::isfinite(omega_) || !std::isfinite(norm2(n, x_.data())))
+            throw Error(PLM_ERR_CONVERGENCE,
+                        "the tangent of the unreduced structure is singular at this point")
+                .argument("point")
+                .reason(PLM_REASON_SINGULAR_TANGENT);
+    }
+
+    double amplitude(std::int64_t dof, Measure measure, std::int64_t harmonic) {
+        Branch alone(full_, 0.0, period_multiple_);
+        alone.append(point());
+        return alone.amplitude(0, dof, measure, harmonic);
+    }
+    BranchPoint point() {
+        BranchPoint p;
+        system_->to_point(x_.data(), omega_, p);
+        return p;
+    }
+    double frequency_hz() const { return omega_ / (2 * M_PI); }
+
+  private:
+    std::shared_ptr<const ReducedModel> full_;
+    std::unique_ptr<HbmSystem> system_;
+    vector<double> x_, along_;
+    double omega_;
+    std::int64_t period_multiple_;
+};
+
+std::int64_t finer(std::int64_t harmonics) {
+    return 2 * harmonics + 2;
+}
+
+} // namespace
+
+ErrorEstimator::ErrorEstimator(std::shared_ptr<const ReducedModel> full, const Branch &branch,
+                               const HbmOptions &options)
+    : branch_(branch), full_(std::move(full)), options_(options) {
+    options_.unknowns = UnknownSpace::gaps;
+    options_.period_multiple = branch.period_multiple();
+    if (!can_condense(*full_))
+        throw Error(PLM_ERR_STATE,
+                    "errors are estimated in the contact gaps: the model needs contact pairs that hold "
+                    "all its rigid-body modes when closed");
+}
+
+HbmOptions ErrorEstimator::options_at(const BranchPoint &p) const {
+    HbmOptions o = options_;
+    o.n_harmonics = p.n_harmonics / options_.period_multiple;
+    o.force_scale = p.force_scale;
+    return o;
+}
+
+ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Measure measure,
+                                       std::int64_t harmonic, bool with_harmonics) const {
+    const BranchPoint &p = branch_.points().at(static_cast<std::size_t>(point));
+    HbmOptions o = options_at(p);
+    ErrorEstimate e;
+    double amplitude = branch_.amplitude(point, dof, measure, harmonic), hz = p.omega / (2 * M_PI);
+    const auto settle = [&](Correction &c, double ErrorParts::*part) {
+        const double a = c.amplitude(dof, measure, harmonic), f = c.frequency_hz();
+        e.amplitude.*part = a - amplitude;
+        e.frequency_hz.*part = f - hz;
+        amplitude = a, hz = f;
+    };
+    Correction c(full_, o, p, branch_.reduced_model());
+    c.step(true);
+    settle(c, &ErrorParts::basis);
+    c.step(false);
+    settle(c, &ErrorParts::contact);
+    if (!with_harmonics) return e;
+    o.n_harmonics = finer(o.n_harmonics);
+    Correction more(full_, o, c.point(), full_);
+    more.step(true);
+    settle(more, &ErrorParts::harmonics);
+    return e;
+}
+
+BranchPoint ErrorEstimator::corrected(std::int64_t point) const {
+    const BranchPoint &p = branch_.points().at(static_cast<std::size_t>(point));
+    Correction c(full_, options_at(p), p, branch_.reduced_model());
+    c.step(true);
+    c.step(false);
+    return c.point();
+}
+
+} // namespace plm

@@ -1,0 +1,41 @@
+// How wrong a point of a response curve is, without the unreduced solution: its contact forces are applied to
+// the unreduced structure, and the gaps that answer differ from those of the reduced one. What this defect
+// does to the solution follows from one step of Newton's method with the tangent of the unreduced structure,
+// across the curve.
+#pragma once
+#include "hbm/system.hpp"
+
+namespace plm {
+
+/// Corrected less computed, by cause. Their sum is the estimate.
+struct ErrorParts {
+    double basis = 0;     // the reduced coordinates
+    double contact = 0;   // contact sets that are others in the unreduced structure (second step)
+    double harmonics = 0; // those beyond the ones solved for
+    double sum() const { return basis + contact + harmonics; }
+};
+struct ErrorEstimate {
+    ErrorParts amplitude;    // of the DOF asked for
+    ErrorParts frequency_hz; // shift of the curve along the frequency
+};
+
+class ErrorEstimator {
+  public:
+    /// full: the unreduced structure (project_whole of its contact space). The options are those of the
+    /// curve.
+    ErrorEstimator(std::shared_ptr<const ReducedModel> full, const Branch &branch, const HbmOptions &options);
+    /// PLM_ERR_CONVERGENCE when the tangent is singular.
+    ErrorEstimate estimate(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic,
+                           bool with_harmonics = true) const;
+    /// The point in the coordinates of `full`, after both steps of the correction.
+    BranchPoint corrected(std::int64_t point) const;
+
+  private:
+    HbmOptions options_at(const BranchPoint &p) const;
+
+    const Branch &branch_;
+    std::shared_ptr<const ReducedModel> full_;
+    HbmOptions options_;
+};
+
+} // namespace plm

@@ -1,0 +1,67 @@
+// Solves with the Jacobian of the harmonic balance in reduced coordinates, which may have rows and columns
+// beside it: J itself is singular at a fold and nearly so at a resonance.
+#pragma once
+#include "hbm/modal_jacobian.hpp"
+#include "hbm/receptance.hpp"
+
+namespace plm {
+
+/// [J columns; rows' corner] with k >= 0 columns, rows (as columns of `rows`) and k x k corner.
+struct Border {
+    /// Zeros beside n equations.
+    void reset(std::int64_t n, std::int64_t k) {
+        columns.reset(n, k);
+        rows.reset(n, k);
+        corner.reset(k, k);
+    }
+    Matrix columns, rows, corner;
+};
+
+/// With few pairs the contact forces y = T G x are the unknowns (Woodbury): of order n_closing (2H + 1) + k
+/// instead of r (2H + 1) + k,
+///     [I + T R, T G D^-1 B; -C D^-1 G', E - C D^-1 B] [y; s],    R = G D^-1 G',
+/// and each solution is refined by its residual. Otherwise, and where D is singular, J is factored itself.
+class ModalFactor {
+  public:
+    void factor(const ModalJacobian &jacobian, const Border &border, bool may_condense = true);
+    /// Overwrites n right-hand sides (leading dimension size()).
+    void solve(double *b, std::int64_t n) { solve(false, b, n); }
+    void solve_transposed(double *b, std::int64_t n) { solve(true, b, n); }
+    std::int64_t size() const { return inner_size() + n_borders(); }
+    /// The true sign, whichever way the matrix was factored.
+    int determinant_sign() const {
+        return condensed_ ? sign_ * lu_.determinant_sign() : lu_.determinant_sign();
+    }
+    bool condensed() const { return condensed_; }
+
+  private:
+    std::int64_t inner_size() const { return jacobian_.size(); }
+    std::int64_t n_borders() const { return border_.corner.rows(); }
+    std::int64_t n_forces() const { return jacobian_.n_closing() * jacobian_.n_coefficients(); }
+
+    bool pays() const;
+    bool invert_linear_part();
+    bool condense();
+    void add_contact_columns(std::int64_t h);
+    void add_borders();
+    void scale_borders();
+    void factor_dense();
+
+    void apply_inverse(bool transposed, double *v) const; // D^-1 or D^-T
+    void product(bool transposed, const double *x, double *y) const;
+    void solve(bool transposed, double *b, std::int64_t n);
+    bool solve_refined(bool transposed, double *b) const;
+    void solve_once(double *b) const;
+    void solve_once_transposed(double *b) const;
+
+    ModalJacobian jacobian_;
+    Border border_;
+    bool condensed_ = false;
+    int sign_ = 1; // of det D
+    std::vector<Receptance> receptance_;
+    vector<double> scale_; // of the last k condensed equations
+    Matrix matrix_;
+    RealLu lu_;
+};
+
+} // namespace plm

@@ -1,0 +1,256 @@
+// The dense form costs (4H + 1) Z r^2 flops: one product with the precomputed products of gap rows.
+#include "hbm/modal_jacobian.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+// Rows: all products g_i g_j (i <= j when symmetric) of two sets of gap columns, one column per pair.
+Matrix row_products(const Matrix &left, const Matrix &right, bool symmetric) {
+    const std::int64_t n = left.cols(), m = right.cols(), z = left.rows();
+    Matrix products(symmetric ? n * (n + 1) / 2 : n * m, z);
+    for (std::int64_t p = 0; p < z; ++p) {
+        double *out = products.col(p);
+        for (std::int64_t j = 0; j < m; ++j)
+            for (std::int64_t i = 0; i < (symmetric ? j + 1 : n); ++i) *out++ = left(p, i) * right(p, j);
+    }
+    return products;
+}
+
+Matrix select_rows(const Matrix &a, const vector<std::int64_t> &rows) {
+    Matrix s(static_cast<std::int64_t>(rows.size()), a.cols());
+    for (std::int64_t j = 0; j < a.cols(); ++j)
+        for (std::int64_t i = 0; i < s.rows(); ++i) s(i, j) = a(rows[i], j);
+    return s;
+}
+
+} // namespace
+
+void gaps_of_coordinates(const Matrix &gap_0, const Matrix &gap, const double *x, Matrix &u) {
+    const std::int64_t z = gap.rows(), r = gap.cols(), n = u.cols() - 1;
+    if (z == 0) return;
+    gemv('N', 1.0, gap_0, x, 0.0, u.col(0));
+    if (n == 0) return;
+    Matrix eta(r, n), dynamic(z, n);
+    std::copy(x + gap_0.cols(), x + gap_0.cols() + n * r, eta.data());
+    gemm('N', 'N', 1.0, gap, eta, 0.0, dynamic);
+    std::copy(dynamic.data(), dynamic.data() + z * n, u.col(1));
+}
+
+void add_coordinates_of_gaps(const Matrix &gap_0, const Matrix &gap, double factor, const Matrix &f,
+                             double *y) {
+    const std::int64_t z = gap.rows(), r = gap.cols(), n = f.cols() - 1;
+    if (z == 0) return;
+    gemv('T', factor, gap_0, f.col(0), 1.0, y);
+    if (n == 0) return;
+    Matrix eta(r, n);
+    gemm('T', 'N', factor, gap, f.columns(1, n), 0.0, eta);
+    y += gap_0.cols();
+    for (std::int64_t k = 0; k < n * r; ++k) y[k] += eta.data()[k];
+}
+
+// Made when the dense form is first asked for.
+struct ModalJacobian::Products {
+    void make(const ReducedModel &m) {
+        if (!dynamic.empty()) return;
+        dynamic = row_products(m.gap, m.gap, true);
+        if (m.same_static) return;
+        constant = row_products(m.gap_0, m.gap_0, true);
+        mixed = row_products(m.gap_0, m.gap, false);
+    }
+    Matrix dynamic, constant, mixed;
+};
+
+ModalJacobian::ModalJacobian(std::shared_ptr<const ReducedModel> reduced, std::int64_t n_harmonics)
+    : m_(std::move(reduced)), products_(std::make_shared<Products>()), h_(n_harmonics), r_(m_->size()),
+      r0_(m_->static_size()), weights_(m_->n_pairs(), 4 * h_ + 1) {}
+
+void ModalJacobian::set_tangent(const ContactIndicator &indicator, const vector<double> &stiffness) {
+    closing_.clear();
+    for (std::int64_t i = 0; i < m_->n_pairs(); ++i) {
+        const double *average = indicator.averages.col(i);
+        for (std::int64_t k = 0; k <= 4 * h_; ++k) weights_(i, k) = stiffness[i] * average[k];
+        if (indicator.state[i] != PairState::open) closing_.push_back(i);
+    }
+}
+
+void ModalJacobian::expand_tangent() {
+    const std::int64_t n = n_coefficients();
+    gap_ = select_rows(m_->gap, closing_);
+    gap_0_ = select_rows(m_->gap_0, closing_);
+    tangent_.reset(n_closing(), n * n);
+    vector<double> weights(4 * h_ + 1);
+    for (std::int64_t p = 0; p < n_closing(); ++p) {
+        for (std::int64_t k = 0; k <= 4 * h_; ++k) weights[k] = weights_(closing_[p], k);
+        for (std::int64_t d = 0; d < n; ++d)
+            for (std::int64_t c = 0; c < n; ++c)
+                tangent_(p, c + d * n) = indicator_entry(weights.data(), c, d);
+    }
+}
+
+// --- products
+
+std::complex<double> ModalJacobian::dynamic_stiffness(std::int64_t h, std::int64_t j) const {
+    const double w = static_cast<double>(h) * omega_, l = m_->lambda[j];
+    const double damping = m_->damping.empty() ? m_->damping_diagonal[j] : 0.0;
+    return {l - w * w, m_->structural * l + w * (damping - 2 * self_excitation_ * omega_)};
+}
+
+void ModalJacobian::add_linear_product(const double *x, double *y) const {
+    for (std::int64_t j = 0; j < r0_; ++j) y[j] += m_->lambda_0[j] * x[j];
+    for (std::int64_t h = 1; h <= h_; ++h) {
+        const double *a = x + cosine_at(h), *b = a + r_;
+        double *c = y + cosine_at(h), *s = c + r_;
+        for (std::int64_t j = 0; j < r_; ++j) {
+            const std::complex<double> d = dynamic_stiffness(h, j);
+            c[j] += d.real() * a[j] + d.imag() * b[j];
+            s[j] += d.real() * b[j] - d.imag() * a[j];
+        }
+        if (m_->damping.empty()) continue;
+        gemv('N', static_cast<double>(h) * omega_, m_->damping, b, 1.0, c);
+        gemv('N', -static_cast<double>(h) * omega_, m_->damping, a, 1.0, s);
+    }
+}
+
+void ModalJacobian::product(bool transposed, const double *x, double *y) const {
+    std::fill(y, y + size(), 0.0);
+    if (transposed) { // D' = S D S with S = diag(1, -1) on (cosine, sine): its blocks are complex symmetric
+        vector<double> mirrored(x, x + size());
+        const auto mirror = [this](double *v) {
+            for (std::int64_t h = 1; h <= h_; ++h)
+                for (std::int64_t j = 0; j < r_; ++j) v[cosine_at(h) + r_ + j] *= -1;
+        };
+        mirror(mirrored.data());
+        add_linear_product(mirrored.data(), y);
+        mirror(y);
+    } else {
+        add_linear_product(x, y);
+    }
+    Matrix u, f;
+    to_gaps(x, u);
+    apply_tangent(transposed, u, f);
+    add_from_gaps(1.0, f, y);
+}
+
+void ModalJacobian::to_gaps(const double *x, Matrix &u) const {
+    u.reset(n_closing(), n_coefficients());
+    gaps_of_coordinates(gap_0_, gap_, x, u);
+}
+
+void ModalJacobian::add_from_gaps(double factor, const Matrix &f, double *y) const {
+    add_coordinates_of_gaps(gap_0_, gap_, factor, f, y);
+}
+
+void ModalJacobian::apply_tangent(bool transposed, const Matrix &u, Matrix &f) const {
+    const std::int64_t n = n_coefficients();
+    f.reset(n_closing(), n);
+    for (std::int64_t d = 0; d < n; ++d)
+        for (std::int64_t c = 0; c < n; ++c) {
+            const double *t = tangent_.col(transposed ? d + c * n : c + d * n), *in = u.col(d);
+            double *out = f.col(c);
+            for (std::int64_t p = 0; p < n_closing(); ++p) out[p] += t[p] * in[p];
+        }
+}
+
+// --- the dense form
+
+void ModalJacobian::add_to(Matrix &out) const {
+    if (n_closing() > 0) add_contact(out);
+    add_linear(out);
+}
+
+void ModalJacobian::add_linear(Matrix &out) const {
+    for (std::int64_t j = 0; j < r0_; ++j) out(j, j) += m_->lambda_0[j];
+    for (std::int64_t h = 1; h <= h_; ++h) {
+        const std::int64_t c = cosine_at(h), s = c + r_;
+        for (std::int64_t j = 0; j < r_; ++j) {
+            const std::complex<double> d = dynamic_stiffness(h, j);
+            out(c + j, c + j) += d.real();
+            out(s + j, s + j) += d.real();
+            out(c + j, s + j) += d.imag();
+            out(s + j, c + j) -= d.imag();
+        }
+        if (m_->damping.empty()) continue;
+        const double w = static_cast<double>(h) * omega_;
+        for (std::int64_t j = 0; j < r_; ++j)
+            for (std::int64_t i = 0; i < r_; ++i) {
+                out(c + i, s + j) += w * m_->damping(i, j);
+                out(s + i, c + j) -= w * m_->damping(i, j);
+            }
+    }
+}
+
+// Contact matrices A_k = G' diag(weights_k) G, one per average of the indicator.
+void ModalJacobian::add_contact(Matrix &out) const {
+    products_->make(*m_);
+    Matrix dynamic, constant;
+    expand_symmetric(products_->dynamic, r_, dynamic);
+    if (m_->same_static) {
+        add_static(dynamic, r_, out);
+        add_mixed(dynamic, r_, out);
+    } else {
+        expand_symmetric(products_->constant, r0_, constant);
+        add_static(constant, r0_, out);
+        Matrix mixed(r0_ * r_, weights_.cols());
+        gemm('N', 'N', 1.0, products_->mixed, weights_, 0.0, mixed);
+        add_mixed(mixed, r0_, out);
+    }
+    for (std::int64_t n = 1; n <= h_; ++n)
+        for (std::int64_t m = 1; m <= h_; ++m) add_dynamic(dynamic, m, n, out);
+}
+
+// One column per average: the packed upper triangles, unpacked to full n x n blocks.
+void ModalJacobian::expand_symmetric(const Matrix &products, std::int64_t n, Matrix &blocks) const {
+    Matrix packed(products.rows(), weights_.cols());
+    gemm('N', 'N', 1.0, products, weights_, 0.0, packed);
+    blocks.reset(n * n, weights_.cols());
+    for (std::int64_t k = 0; k < weights_.cols(); ++k) {
+        const double *in = packed.col(k);
+        double *out = blocks.col(k);
+        for (std::int64_t j = 0; j < n; ++j)
+            for (std::int64_t i = 0; i <= j; ++i) out[i + j * n] = out[j + i * n] = *in++;
+    }
+}
+
+void ModalJacobian::add_static(const Matrix &blocks, std::int64_t ld, Matrix &out) const {
+    for (std::int64_t j = 0; j < r0_; ++j)
+        for (std::int64_t i = 0; i < r0_; ++i) out(i, j) += blocks(i + j * ld, 0);
+}
+
+// Blocks between h = 0 (rows, leading dimension ld of each block) and h = n, and their transposes
+// doubled.
+void ModalJacobian::add_mixed(const Matrix &blocks, std::int64_t ld, Matrix &out) const {
+    for (std::int64_t c = 1; c <= 2 * h_; ++c) {
+        const double *block = blocks.col(c);
+        const std::int64_t at = r0_ + (c - 1) * r_;
+        for (std::int64_t j = 0; j < r_; ++j)
+            for (std::int64_t i = 0; i < r0_; ++i) {
+                out(i, at + j) += block[i + j * ld];
+                out(at + j, i) += 2 * block[i + j * ld];
+            }
+    }
+}
+
+// The four blocks between harmonics m (rows) and n (columns); see indicator_entry.
+void ModalJacobian::add_dynamic(const Matrix &blocks, std::int64_t m, std::int64_t n, Matrix &out) const {
+    const std::int64_t difference = std::abs(m - n), sum = m + n;
+    const double *cos_difference = blocks.col(difference == 0 ? 0 : 2 * difference - 1);
+    const double *cos_sum = blocks.col(2 * sum - 1), *sin_sum = blocks.col(2 * sum);
+    const double *sin_difference = difference == 0 ? nullptr : blocks.col(2 * difference);
+    const double sign = m > n ? 1.0 : -1.0; // sin (m - n) from sin |m - n|
+    const std::int64_t row = cosine_at(m), column = cosine_at(n);
+    for (std::int64_t j = 0; j < r_; ++j) {
+        double *left = out.col(column + j) + row, *right = out.col(column + r_ + j) + row;
+        const std::int64_t at = j * r_;
+        for (std::int64_t i = 0; i < r_; ++i) {
+            const double d = sin_difference ? sign * sin_difference[at + i] : 0.0;
+            left[i] += cos_difference[at + i] + cos_sum[at + i];
+            left[r_ + i] += sin_sum[at + i] + d;
+            right[i] += sin_sum[at + i] - d;
+            right[r_ + i] += cos_difference[at + i] - cos_sum[at + i];
+        }
+    }
+}
+
+} // namespace plm

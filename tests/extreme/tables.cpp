@@ -1,0 +1,151 @@
+#include "tables.hpp"
+#include "cold_starts.hpp"
+#include <cstdio>
+
+namespace extreme {
+namespace {
+
+// Times are promised of optimised builds without instruments.
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+constexpr bool times_count = true;
+#else
+constexpr bool times_count = false;
+#endif
+
+void print_error(double e) {
+    if (e >= 1e299) {
+        std::printf(" none |");
+    } else {
+        std::printf(" %.1e |", e);
+    }
+}
+
+double per_point(const Work &w) {
+    return w.points ? static_cast<double>(w.iterations) / static_cast<double>(w.points) : 0.0;
+}
+
+void print_work_cells(const Work &w) {
+    std::printf(" %lld | %.1f | %lld | %.3f |", static_cast<long long>(w.points), per_point(w),
+                static_cast<long long>(w.failed_steps), w.seconds);
+}
+
+} // namespace
+
+Measured run(const Row &row, bool sampled) {
+    try {
+        return row.measure(sampled);
+    } catch (const Failure &f) {
+        Measured m;
+        m.reason = f.reason;
+        m.outcome = f.what();
+        return m;
+    }
+}
+
+bool holds(const Row &row, const Measured &m) {
+    if (m.reason != row.end) return false;
+    if (row.end != PLM_REASON_RANGE_END) return true;
+    const bool in_time = !times_count || m.time_limit == 0 || m.work.seconds <= m.time_limit;
+    return m.error <= row.tolerance && in_time;
+}
+
+void print_introduction() {
+    std::printf(
+        "# Extreme cases\n\n"
+        "One row per case that a harmonic-balance solver with contact may stumble over. Every option has its default,\n"
+        "the number of harmonics included (as many as each point needs, `harmonic_tolerance` 5e-4), unless the row is\n"
+        "about that option. Structures of a few masses are solved unreduced (`kind` = `full`) so that the error is the\n"
+        "solver's; rows that name a basis, the starts and the scenes have piecewise-linear modes. ctest runs\n"
+        "`extreme --quick` (label `extreme`) and fails when a row misses its bound. To renew this page:\n\n"
+        "    OPENBLAS_NUM_THREADS=1 build/dev/tests/extreme/extreme > docs/extreme.md\n\n"
+        "*Error against*: exact orbits are periodic orbits of the piecewise-linear flow by matrix exponentials and\n"
+        "shooting (`tests/support/exact_flow.cpp`, shares no code with the library), at points spread over the curve and\n"
+        "at its top: largest difference of the peak displacements over the DOFs, as a share of the largest of them.\n"
+        "Linear answers are dense complex solves at every point of the curve. Why a bound stands where it stands is said\n"
+        "at the row in `tests/extreme/`. *Sampled*: the same case with `aft` = `sampled`, 256 samples; `stopped`: it did\n"
+        "not reach the end of the range. Times are in seconds on 2 cores (Debian 12, gcc 12, -O2), indicative only.\n\n");
+}
+
+void print_row_head() {
+    std::printf("| case | parameters | outcome | error | against | bound | points | iterations a point | failed steps "
+                "| time (s) | error, sampled | |\n");
+    std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|\n");
+}
+
+void print_row(const Row &row, const Measured &m, const Measured &sampled) {
+    std::printf("| %s | %s | %s |", row.name.c_str(), row.parameters.c_str(), m.outcome.c_str());
+    if (row.end == PLM_REASON_RANGE_END) {
+        print_error(m.error);
+        std::printf(" %s | %.0e |", row.truth.c_str(), row.tolerance);
+    } else {
+        std::printf(" - | %s | - |", row.truth.c_str());
+    }
+    print_work_cells(m.work);
+    if (!row.has_sampled || sampled.reason == PLM_REASON_NONE) {
+        std::printf(" - |");
+    } else if (sampled.reason != PLM_REASON_RANGE_END) {
+        std::printf(" stopped |");
+    } else {
+        print_error(sampled.error);
+    }
+    std::printf(" %s |\n", holds(row, m) ? "" : "MISSED");
+    std::fflush(stdout);
+}
+
+int print_cold_starts(std::vector<GroupWork> &works) {
+    std::printf("\n## Starts without a guess\n\n25 frequencies over the window of the cracked plate (`quick` size, "
+                "pre-load, piecewise-linear modes), each from nothing.\n\n"
+                "| k_n / k_loc | converged | not at (Hz) | iterations a start | time (s) | converged, sampled |\n"
+                "|---|---|---|---|---|---|\n");
+    GroupWork group{"Starts without a guess", 0, {}};
+    int missed = 0;
+    for (double ratio : {1, 10, 100, 1000}) {
+        const ColdStarts c = cold_starts(ratio, false), sampled = cold_starts(ratio, true);
+        std::printf("| %g | %d of 25 |%s | %.1f | %.3f | %d of 25 |\n", ratio, c.converged, c.failing.c_str(),
+                    per_point(c.work), c.work.seconds, sampled.converged);
+        group.work.add(c.work);
+        ++group.n_rows;
+        missed += c.converged < 25;
+    }
+    works.push_back(group);
+    return missed;
+}
+
+int print_scenes(std::vector<GroupWork> &works) {
+    std::printf("\n## The scenes of examples/scenes\n\nDefault sweeps over the sampler's window, `quick` size; their "
+                "accuracy is in the test `accuracy`.\n\n"
+                "| scene | DOFs | pairs | outcome | points | iterations a point | failed steps | time (s) | |\n"
+                "|---|---|---|---|---|---|---|---|---|\n");
+    GroupWork group{"Scenes", 0, {}};
+    int missed = 0;
+    for (const SceneSweep &s : scene_sweeps()) {
+        const bool good = s.reason == PLM_REASON_RANGE_END;
+        std::printf("| %s | %lld | %lld | %s |", s.name.c_str(), static_cast<long long>(s.n_dof),
+                    static_cast<long long>(s.n_pairs), s.outcome.c_str());
+        print_work_cells(s.work);
+        std::printf(" %s |\n", good ? "" : "MISSED");
+        group.work.add(s.work);
+        ++group.n_rows;
+        missed += !good;
+    }
+    works.push_back(group);
+    return missed;
+}
+
+void print_work(const std::vector<GroupWork> &works) {
+    std::printf("\n## Work\n\nNewton iterations and repeated continuation steps of all of the above, defaults on.\n\n"
+                "| cases | rows | points | iterations a point | failed steps | time (s) |\n|---|---|---|---|---|---|\n");
+    GroupWork all{"all", 0, {}};
+    for (const GroupWork &w : works) {
+        std::printf("| %s | %d |", w.title.c_str(), w.n_rows);
+        print_work_cells(w.work);
+        std::printf("\n");
+        all.n_rows += w.n_rows;
+        all.work.add(w.work);
+    }
+    std::printf("| all | %d |", all.n_rows);
+    print_work_cells(all.work);
+    std::printf("\n");
+}
+
+} // namespace extreme
