@@ -18,6 +18,7 @@ HEADER = HERE.parent / "include" / "plm" / "plm.h"
 OUTPUT_ARRAYS = {"values", "shape", "vector", "coefficient", "q", "v", "penetration", "force", "closed", "share",
                  "force_range", "real", "imag",
                  ("plm_model_get_modes", "frequency_hz"), ("plm_branch_get_amplitude", "amplitude"),
+                 ("plm_hbm_estimate_error", "amplitude"), ("plm_hbm_estimate_error", "frequency_hz"),
                  ("plm_solve_fn", "x")}
 OUTPUT_SCALARS = {"needed", "major", "minor", "patch", "count", "type", "is_option", "minimum", "maximum", "status",
                   "reason", "index", "library_code", "value", "severity", "r", "relative_residual", "frequency_hz",
@@ -28,6 +29,8 @@ OPTIONAL = {"needed", "gap", "buffer", "values", "force_range", "known",
             ("plm_model_set_modal_damping", "ratio"), ("plm_model_set_preload", "force"),
             ("plm_model_set_excitation", "real"), ("plm_model_set_excitation", "imag"),
             ("plm_model_get_modes", "closed"), ("plm_model_get_modes", "shape"), ("plm_hbm_find_peak", "peak"),
+            ("plm_basis_set_responses", "branch"), ("plm_hbm_estimate_error", "amplitude"),
+            ("plm_hbm_estimate_error", "frequency_hz"),
             *(("plm_branch_get_contact", name) for name in ("penetration", "force", "closed")),
             *(("plm_branch_get_energy", name) for name in ("energy", "contact_area")),
             *((function, name) for function in ("plm_branch_get_multipliers", "plm_transient_get_multipliers")

@@ -17,7 +17,8 @@ module plm
     use plm_contexts, only: plm_context, plm_logger, plm_watcher
     use plm_models, only: plm_model
     use plm_reductions, only: plm_sampler, plm_basis
-    use plm_responses, only: plm_hbm, plm_branch
+    use plm_branches, only: plm_branch
+    use plm_responses, only: plm_hbm
     use plm_motions, only: plm_transient
     use plm_library_facts, only: plm_version_numbers, plm_build_line, plm_describe_keys
     implicit none

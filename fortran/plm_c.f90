@@ -785,6 +785,14 @@ module plm_c
             type(c_ptr), value :: parent
             integer(plm_status) :: code
         end function plm_basis_set_parent
+        function plm_basis_set_responses(basis, n, branch) bind(c) result(code)
+            import :: c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: basis
+            integer(c_int64_t), value :: n
+            type(c_ptr), intent(in), optional :: branch(*)
+            integer(plm_status) :: code
+        end function plm_basis_set_responses
         function plm_basis_build(basis) bind(c) result(code)
             import :: c_ptr, plm_status
             implicit none
@@ -965,6 +973,20 @@ module plm_c
             integer(c_int64_t), intent(inout) :: count
             integer(plm_status) :: code
         end function plm_hbm_find_by_marching
+        function plm_hbm_estimate_error(hbm, branch, point, dof, measure, harmonic, amplitude, &
+            frequency_hz) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: hbm
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: point
+            integer(c_int64_t), value :: dof
+            integer(c_int32_t), value :: measure
+            integer(c_int32_t), value :: harmonic
+            real(c_double), intent(inout), optional :: amplitude(*)
+            real(c_double), intent(inout), optional :: frequency_hz(*)
+            integer(plm_status) :: code
+        end function plm_hbm_estimate_error
         function plm_hbm_find_nonlinear_mode(hbm, mode, dof, amplitude_max, branch) bind(c) result(code)
             import :: c_double, c_int64_t, c_ptr, plm_status
             implicit none

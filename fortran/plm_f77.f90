@@ -744,6 +744,25 @@ subroutine plmbsp(handle, ifirst, ierr)
     ierr = int(plm_basis_set_parent(as_pointer(handle), as_pointer(ifirst)))
 end subroutine plmbsp
 
+subroutine plmbsr(handle, n, curves, ierr)
+    use, intrinsic :: iso_c_binding, only: c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_basis_set_responses
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    integer(int64), intent(in) :: curves(*)
+    integer, intent(out) :: ierr
+    type(c_ptr), allocatable :: branches(:)
+    integer :: i
+    allocate(branches(max(n, 0)))
+    do i = 1, n
+        branches(i) = as_pointer(curves(i))
+    end do
+    ierr = int(plm_basis_set_responses(as_pointer(handle), int(n, int64), branches))
+end subroutine plmbsr
+
 subroutine plmbbu(handle, ierr)
     use, intrinsic :: iso_fortran_env, only: int64
     use plm_c, only: plm_basis_build
@@ -872,6 +891,25 @@ subroutine plmhpk(handle, branch, idof, imeas, iharm, freq, ampl, peak, ierr)
         int(iharm, c_int32_t), freq, ampl, made))
     if (as_handle(made) /= 0) peak = as_handle(made)
 end subroutine plmhpk
+
+subroutine plmhee(handle, branch, ipoint, idof, imeas, iharm, ampl, freq, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_hbm_estimate_error
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer(int64), intent(in) :: branch
+    integer, intent(in) :: ipoint
+    integer, intent(in) :: idof
+    integer, intent(in) :: imeas
+    integer, intent(in) :: iharm
+    real(real64), intent(inout) :: ampl(*)
+    real(real64), intent(inout) :: freq(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_hbm_estimate_error(as_pointer(handle), as_pointer(branch), int(ipoint, int64) - 1, &
+        int(idof, int64) - 1, int(imeas, c_int32_t), int(iharm, c_int32_t), ampl, freq))
+end subroutine plmhee
 
 subroutine plmhsb(handle, branch, ipoint, mirror, other, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t, c_null_ptr, c_ptr

@@ -8,7 +8,7 @@ module plm_motions
     use plm_keyed_handles, only: plm_settable
     use plm_models, only: plm_model
     use plm_reductions, only: plm_basis
-    use plm_responses, only: plm_branch
+    use plm_branches, only: plm_branch
     implicit none
     private
     public :: plm_transient

@@ -7,6 +7,7 @@ module plm_reductions
     use plm_errors, only: finish, refuse
     use plm_keyed_handles, only: plm_settable
     use plm_models, only: plm_model
+    use plm_branches, only: plm_branch, get_handles
     implicit none
     private
     public :: plm_sampler, plm_basis
@@ -25,6 +26,7 @@ module plm_reductions
         procedure :: destroy => basis_destroy
         procedure :: set_sampler
         procedure :: set_parent
+        procedure :: set_responses
         procedure :: build
         procedure :: vectors
         procedure :: residual
@@ -91,7 +93,8 @@ contains
         call finish(self%context, plm_basis_set_sampler(self%handle, sampler%handle), stat, errmsg)
     end subroutine set_sampler
 
-    ! parent: a built basis of kind craig_bampton or full; absent: none
+    ! parent: a built basis of kind craig_bampton or full, for kind pod the one (of any kind) that the responses were
+    ! computed on; absent: none
     subroutine set_parent(self, parent, stat, errmsg)
         class(plm_basis), intent(inout) :: self
         type(plm_basis), intent(in), optional :: parent
@@ -102,6 +105,18 @@ contains
         if (present(parent)) handle = parent%handle
         call finish(self%context, plm_basis_set_parent(self%handle, handle), stat, errmsg)
     end subroutine set_parent
+
+    ! For kind pod: curves computed on the parent, whose motions span the basis; absent: none. They are read here and may
+    ! be destroyed afterwards.
+    subroutine set_responses(self, branches, stat, errmsg)
+        class(plm_basis), intent(inout) :: self
+        type(plm_branch), intent(in), optional :: branches(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        type(c_ptr), allocatable :: curves(:)
+        call get_handles(curves, branches)
+        call finish(self%context, plm_basis_set_responses(self%handle, size(curves, kind=int64), curves), stat, errmsg)
+    end subroutine set_responses
 
     subroutine build(self, stat, errmsg)
         class(plm_basis), intent(inout) :: self

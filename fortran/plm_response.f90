@@ -1,29 +1,16 @@
-! plm_response.f90: harmonic balance and the response curves it follows. DOFs, points and pairs count from 1.
+! plm_response.f90: harmonic balance, which follows response curves. DOFs and points count from 1.
 module plm_responses
     use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_int32_t
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_constants
     use plm_c
-    use plm_errors, only: finish, refuse
-    use plm_keyed_handles, only: plm_readable, plm_settable
+    use plm_errors, only: finish
+    use plm_keyed_handles, only: plm_settable
+    use plm_branches, only: plm_branch, measure_of, harmonic_of, get_handles
     use plm_reductions, only: plm_basis
     implicit none
     private
-    public :: plm_hbm, plm_branch
-
-    type, extends(plm_readable) :: plm_branch
-    contains
-        procedure :: destroy => branch_destroy
-        procedure :: amplitude
-        procedure :: coefficients
-        procedure :: field
-        procedure :: contact
-        procedure :: closed_share
-        procedure :: energy
-        procedure :: multipliers
-        procedure :: periodicity_defect
-        procedure :: full_residual
-    end type plm_branch
+    public :: plm_hbm
 
     type, extends(plm_settable) :: plm_hbm
     contains
@@ -32,6 +19,7 @@ module plm_responses
         procedure :: sweep
         procedure :: solve
         procedure :: find_peak
+        procedure :: estimate_error
         procedure :: switch_branch
         procedure :: find_isolated
         procedure :: find_backbones
@@ -115,6 +103,21 @@ contains
         call finish(self%context, status, stat, errmsg)
     end subroutine find_peak
 
+    ! How wrong a point of `branch` is, without the unreduced solution: corrected less computed amplitude of the DOF and
+    ! frequency, by cause: basis, contact sets, harmonics; their sum is the estimate. measure and harmonic as in find_peak.
+    subroutine estimate_error(self, branch, point, dof, amplitude, frequency_hz, measure, harmonic, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        type(plm_branch), intent(in) :: branch
+        integer, intent(in) :: point, dof
+        real(real64), intent(inout), optional :: amplitude(3), frequency_hz(3)
+        integer(plm_status), intent(in), optional :: measure
+        integer, intent(in), optional :: harmonic
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_hbm_estimate_error(self%handle, branch%handle, int(point, int64) - 1, &
+            int(dof, int64) - 1, measure_of(measure), harmonic_of(harmonic), amplitude, frequency_hz), stat, errmsg)
+    end subroutine estimate_error
+
     ! The curve that crosses `branch` at its located branch point `point`, or leaves it at a period doubling; mirrored: on
     ! the other side. The points located are those where the result 'bifurcation' is not 0.
     subroutine switch_branch(self, branch, point, other, mirrored, stat, errmsg)
@@ -176,16 +179,10 @@ contains
         character(len=*), intent(inout), optional :: errmsg
         type(c_ptr), allocatable :: curves(:)
         integer(int64) :: n
-        integer :: i, n_known
         integer(plm_status) :: status
-        n_known = 0
-        if (present(known)) n_known = size(known)
-        allocate (curves(n_known))
-        do i = 1, n_known
-            curves(i) = known(i)%handle
-        end do
+        call get_handles(curves, known)
         n = 0
-        status = plm_hbm_find_by_marching(self%handle, int(n_known, int64), curves, int(n_frequencies, int64), &
+        status = plm_hbm_find_by_marching(self%handle, size(curves, kind=int64), curves, int(n_frequencies, int64), &
             int(n_states, int64), n)
         if (status >= 0) count = int(n)
         call finish(self%context, status, stat, errmsg)
@@ -246,181 +243,5 @@ contains
         branch%context = self%context
         branch%kind = PLM_KIND_BRANCH
     end subroutine prepare
-
-    pure integer(c_int32_t) function measure_of(measure)
-        integer(plm_status), intent(in), optional :: measure
-        measure_of = PLM_PEAK
-        if (present(measure)) measure_of = measure
-    end function measure_of
-
-    pure integer(c_int32_t) function harmonic_of(harmonic)
-        integer, intent(in), optional :: harmonic
-        harmonic_of = 1
-        if (present(harmonic)) harmonic_of = int(harmonic, c_int32_t)
-    end function harmonic_of
-
-    subroutine branch_destroy(self, stat, errmsg)
-        class(plm_branch), intent(inout) :: self
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_branch_destroy(self%handle), stat, errmsg)
-    end subroutine branch_destroy
-
-    ! value(n_points); measure and harmonic as in find_peak
-    subroutine amplitude(self, dof, value, measure, harmonic, stat, errmsg)
-        class(plm_branch), intent(in) :: self
-        integer, intent(in) :: dof
-        real(real64), allocatable, intent(inout) :: value(:)
-        integer(plm_status), intent(in), optional :: measure
-        integer, intent(in), optional :: harmonic
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        real(real64), allocatable :: found(:)
-        integer(plm_status) :: status
-        integer(int64) :: n
-        status = size_by_key(self, 'n_points', n)
-        allocate (found(n))
-        if (status >= 0) status = plm_branch_get_amplitude(self%handle, int(dof, int64) - 1, measure_of(measure), &
-            harmonic_of(harmonic), n, found, n)
-        if (status >= 0) call move_alloc(found, value)
-        call finish(self%context, status, stat, errmsg)
-    end subroutine amplitude
-
-    ! value(2 H + 1, n): a0, a1, b1, ..., aH, bH of the DOFs first_dof, ..., first_dof + n - 1 (n is 1 if absent)
-    subroutine coefficients(self, point, first_dof, value, n, stat, errmsg)
-        class(plm_branch), intent(in) :: self
-        integer, intent(in) :: point, first_dof
-        real(real64), allocatable, intent(inout) :: value(:, :)
-        integer, intent(in), optional :: n
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        real(real64), allocatable :: found(:, :)
-        integer(plm_status) :: status
-        integer(int64) :: h, count
-        count = 1
-        if (present(n)) count = n
-        status = size_by_key(self, 'n_harmonics', h)
-        allocate (found(2*h + 1, max(count, 0_int64)))
-        if (status >= 0) status = plm_branch_get_coefficients(self%handle, int(point, int64) - 1, &
-            int(first_dof, int64) - 1, count, found)
-        if (status >= 0) call move_alloc(found, value)
-        call finish(self%context, status, stat, errmsg)
-    end subroutine coefficients
-
-    ! q(n_dof) at the time time_fraction x period
-    subroutine field(self, point, time_fraction, q, stat, errmsg)
-        class(plm_branch), intent(in) :: self
-        integer, intent(in) :: point
-        real(real64), intent(in) :: time_fraction
-        real(real64), intent(inout), contiguous :: q(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_branch_get_field(self%handle, int(point, int64) - 1, time_fraction, &
-            size(q, kind=int64), q), stat, errmsg)
-    end subroutine field
-
-    ! At n_times equidistant times from 0, each n_pairs x n_times.
-    subroutine contact(self, point, n_times, penetration, force, closed, stat, errmsg)
-        class(plm_branch), intent(in) :: self
-        integer, intent(in) :: point, n_times
-        real(real64), allocatable, intent(inout), optional :: penetration(:, :), force(:, :)
-        logical, allocatable, intent(inout), optional :: closed(:, :)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        real(real64), allocatable :: u(:, :), f(:, :)
-        integer(c_int32_t), allocatable :: flags(:, :)
-        integer(plm_status) :: status
-        integer(int64) :: pairs
-        integer :: times
-        status = size_by_key(self, 'n_pairs', pairs)
-        times = max(n_times, 0)
-        allocate (u(pairs, times), f(pairs, times), flags(pairs, times))
-        if (status >= 0) status = plm_branch_get_contact(self%handle, int(point, int64) - 1, int(n_times, int64), &
-            u, f, flags)
-        if (status >= 0) then
-            if (present(penetration)) call move_alloc(u, penetration)
-            if (present(force)) call move_alloc(f, force)
-            if (present(closed)) closed = flags /= 0
-        end if
-        call finish(self%context, status, stat, errmsg)
-    end subroutine contact
-
-    ! share(n_pairs): the part of the period during which each pair is closed
-    subroutine closed_share(self, point, share, stat, errmsg)
-        class(plm_branch), intent(in) :: self
-        integer, intent(in) :: point
-        real(real64), allocatable, intent(inout) :: share(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        real(real64), allocatable :: found(:)
-        integer(plm_status) :: status
-        integer(int64) :: pairs
-        status = size_by_key(self, 'n_pairs', pairs)
-        allocate (found(pairs))
-        if (status >= 0) status = plm_branch_get_closed_share(self%handle, int(point, int64) - 1, pairs, found)
-        if (status >= 0) call move_alloc(found, share)
-        call finish(self%context, status, stat, errmsg)
-    end subroutine closed_share
-
-    ! mean mechanical energy over the period, less that of the structure at rest, and mean closed share of the pairs
-    subroutine energy(self, point, mean_energy, contact_area, stat, errmsg)
-        class(plm_branch), intent(in) :: self
-        integer, intent(in) :: point
-        real(real64), intent(inout), optional :: mean_energy, contact_area
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_branch_get_energy(self%handle, int(point, int64) - 1, mean_energy, contact_area), &
-            stat, errmsg)
-    end subroutine energy
-
-    ! Floquet multipliers, largest modulus first; none where they were not computed (option 'stability')
-    subroutine multipliers(self, point, value, stat, errmsg)
-        class(plm_branch), intent(in) :: self
-        integer, intent(in) :: point
-        complex(real64), allocatable, intent(inout) :: value(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        real(real64), allocatable :: re(:), im(:)
-        integer(plm_status) :: status
-        integer(int64) :: n
-        n = 0
-        status = plm_branch_get_multipliers(self%handle, int(point, int64) - 1, 0_int64, count=n)
-        allocate (re(n), im(n))
-        if (status >= 0) status = plm_branch_get_multipliers(self%handle, int(point, int64) - 1, n, re, im, n)
-        if (status >= 0) value = cmplx(re, im, real64)
-        call finish(self%context, status, stat, errmsg)
-    end subroutine multipliers
-
-    ! how nearly the point is a periodic motion of the reduced model in time
-    subroutine periodicity_defect(self, point, defect, stat, errmsg)
-        class(plm_branch), intent(in) :: self
-        integer, intent(in) :: point
-        real(real64), intent(inout) :: defect
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_branch_get_periodicity_defect(self%handle, int(point, int64) - 1, defect), stat, &
-            errmsg)
-    end subroutine periodicity_defect
-
-    subroutine full_residual(self, point, relative_residual, stat, errmsg)
-        class(plm_branch), intent(in) :: self
-        integer, intent(in) :: point
-        real(real64), intent(inout) :: relative_residual
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_branch_get_full_residual(self%handle, int(point, int64) - 1, relative_residual), &
-            stat, errmsg)
-    end subroutine full_residual
-
-    ! n is 0 on failure
-    function size_by_key(self, key, n) result(status)
-        class(plm_branch), intent(in) :: self
-        character(len=*), intent(in) :: key
-        integer(int64), intent(out) :: n
-        integer(plm_status) :: status
-        n = 0
-        status = plm_branch_get_int(self%handle, key//char(0), n)
-        if (status < 0) n = 0
-    end function size_by_key
 
 end module plm_responses

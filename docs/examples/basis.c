@@ -70,12 +70,39 @@ static int build(plm_model *model, plm_sampler *sampler) {
     return 0;
 }
 
+/* Of a basis and a curve on it a smaller one with nearly the same curve. */
+static int compress(plm_context *ctx) {
+    plm_basis *basis = NULL, *small = NULL;
+    plm_hbm *hbm = NULL;
+    plm_branch *curve = NULL;
+    plm_model *model = NULL;
+    int64_t size;
+    TRY(start_model(ctx, &model));
+    TRY(plm_model_build(model));
+    TRY(basis_of(model, &basis));
+    TRY(plm_hbm_create(basis, &hbm));
+    TRY(plm_hbm_sweep(hbm, &curve));
+    /* [plm_basis_set_responses] */
+    TRY(plm_basis_create(model, &small));
+    TRY(plm_basis_set_string(small, "kind", "pod"));
+    TRY(plm_basis_set_parent(small, basis)); /* the curve was computed on it */
+    TRY(plm_basis_set_responses(small, 1, &curve));
+    TRY(plm_basis_set_double(small, "pod_tolerance", 1e-4)); /* or "pod_size" */
+    TRY(plm_basis_build(small));
+    /* [plm_basis_set_responses] */
+    TRY(plm_basis_get_int(small, "size", &size));
+    EXPECT(size >= 1 && size <= 2);
+    return 0;
+}
+
 int example(plm_context *ctx) {
+    int line;
     plm_model *model = NULL;
     plm_sampler *sampler = NULL;
     TRY(start_model(ctx, &model));
     TRY(plm_model_build(model));
     TRY(plm_sampler_create(model, &sampler));
     TRY(plm_sampler_run(sampler));
-    return build(model, sampler);
+    line = build(model, sampler);
+    return line ? line : compress(ctx);
 }

@@ -1,6 +1,6 @@
 /* hbm.c: the periodic response: a curve, its peak, one frequency, and what there is beside the curve. */
-#include <math.h>
 #include "example.h"
+#include <math.h>
 #include <stdio.h>
 
 static int sweep(plm_basis *basis) {
@@ -42,6 +42,14 @@ static int sweep(plm_basis *basis) {
     TRY(plm_hbm_find_peak(hbm, curve, 1, PLM_HALF_PEAK_TO_PEAK, 0, &hz, &amplitude, &peak));
     printf("peak: %.4g mm at %.4f Hz\n", 1e3 * amplitude, hz);
     /* [plm_hbm_find_peak] */
+
+    /* [plm_hbm_estimate_error] */
+    double error[3], shift[3]; /* by basis, contact sets, harmonics: corrected less computed */
+    TRY(plm_hbm_estimate_error(hbm, peak, 0, 1, PLM_HALF_PEAK_TO_PEAK, 0, error, shift));
+    printf("the peak is about %.2g mm and %.2g Hz too low\n", 1e3 * (error[0] + error[1] + error[2]),
+           shift[0] + shift[1] + shift[2]);
+    /* [plm_hbm_estimate_error] */
+    EXPECT(fabs(error[0]) < 1e-3 * amplitude && fabs(error[2]) < 0.1 * amplitude);
 
     /* [plm_hbm_solve] */
     plm_branch *cold = NULL, *warm = NULL;

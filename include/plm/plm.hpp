@@ -753,6 +753,12 @@ class Sampler : public detail::WithOptions<Sampler, plm_sampler> {
     plm_status run() { return finished(plm_sampler_run(handle_), "run"); }
 };
 
+class Branch;
+namespace detail {
+/// Of a range of Branch or of std::reference_wrapper<const Branch>.
+template <class Curves> std::vector<plm_branch *> handles_of(const Curves &curves);
+} // namespace detail
+
 class Basis : public detail::WithOptions<Basis, plm_basis> {
   public:
     explicit Basis(const Model &model);
@@ -763,6 +769,14 @@ class Basis : public detail::WithOptions<Basis, plm_basis> {
         check(plm_basis_set_parent(handle_, parent.handle_), "set_parent");
     }
     void clear_parent() { check(plm_basis_set_parent(handle_, nullptr), "set_parent"); }
+    /// For kind "pod": curves computed on the parent, read here; {} forgets them. A range of Branch or of
+    /// std::reference_wrapper<const Branch>, or {curve, other}.
+    template <class Curves = std::initializer_list<std::reference_wrapper<const Branch>>>
+    void set_responses(const Curves &curves) {
+        const std::vector<plm_branch *> handles = detail::handles_of(curves);
+        check(plm_basis_set_responses(handle_, static_cast<std::int64_t>(handles.size()), handles.data()),
+              "set_responses");
+    }
     /// PLM_OK, or PLM_WARNING: see get_string("warning").
     plm_status build() { return finished(plm_basis_build(handle_), "build"); }
     /// P, or P_0 if is_static.
@@ -869,11 +883,27 @@ class Branch : public detail::Handle<plm_branch> {
 
   private:
     friend class Hbm;
+    template <class Curves> friend std::vector<plm_branch *> detail::handles_of(const Curves &);
     Branch(detail::StatePtr state, plm_branch *handle, plm_status status)
         : Handle(std::move(state), handle), status_(status) {}
     plm_status status_;
 };
 
+namespace detail {
+template <class Curves> std::vector<plm_branch *> handles_of(const Curves &curves) {
+    std::vector<plm_branch *> handles;
+    for (const Branch &b : curves) handles.push_back(b.handle_);
+    return handles;
+}
+} // namespace detail
+
+struct ErrorParts { // corrected less computed
+    double basis, contact, harmonics;
+    double sum() const { return basis + contact + harmonics; }
+};
+struct ErrorEstimate {
+    ErrorParts amplitude, frequency_hz;
+};
 struct Peak {
     double frequency_hz, amplitude;
     Branch branch; // of one point
@@ -903,6 +933,14 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
         const plm_status s =
             plm_hbm_find_peak(handle_, branch.handle_, dof, measure, harmonic, &hz, &amplitude, &b);
         return {hz, amplitude, deliver(s, b, "find_peak")};
+    }
+    /// How wrong a point of `branch` is, without the unreduced solution.
+    ErrorEstimate estimate_error(const Branch &branch, std::int64_t point, std::int64_t dof,
+                                 std::int32_t measure = PLM_HALF_PEAK_TO_PEAK, std::int32_t harmonic = 0) {
+        double a[3] = {}, f[3] = {};
+        finished(plm_hbm_estimate_error(handle_, branch.handle_, point, dof, measure, harmonic, a, f),
+                 "estimate_error");
+        return {{a[0], a[1], a[2]}, {f[0], f[1], f[2]}};
     }
 
     /// The curve that leaves `branch` at a located branch point or period doubling, see Branch::bifurcation.
@@ -935,8 +973,7 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
     template <class Curves = std::initializer_list<std::reference_wrapper<const Branch>>>
     std::vector<Branch> find_by_marching(const Curves &known, std::int64_t n_frequencies,
                                          std::int64_t n_states) {
-        std::vector<plm_branch *> curves;
-        for (const Branch &b : known) curves.push_back(b.handle_);
+        const std::vector<plm_branch *> curves = detail::handles_of(known);
         std::int64_t n = 0;
         finished(plm_hbm_find_by_marching(handle_, static_cast<std::int64_t>(curves.size()), curves.data(),
                                           n_frequencies, n_states, &n),

@@ -50,6 +50,8 @@ class Branch {
 
     /// Points may differ in their number of harmonics; all are padded with zeros to the largest.
     void append(BranchPoint point);
+    /// Takes back the points from `count` on.
+    void truncate(std::int64_t count) { points_.resize(static_cast<std::size_t>(count)); }
     const std::vector<BranchPoint> &points() const { return points_; }
     const ReducedModel &reduced() const { return *reduced_; }
     const std::shared_ptr<const ReducedModel> &reduced_model() const { return reduced_; }

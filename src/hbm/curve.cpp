@@ -108,12 +108,22 @@ class CurveTracer final : public PathOwner {
     bool interrupt() override {
         ++since_change_;
         const bool grow = wanted_harmonics_ > options_.n_harmonics && since_change_ > blocked_;
+        rejects_ = grow && n_kept_ > 1 && misleading();
+        if (!rejects_) n_kept_ = n_points();
         if (since_change_ < patience) return grow;
         choose_space();
         return grow || wanted_harmonics_ < options_.n_harmonics || wants_modal_ != modal_;
     }
 
   private:
+    // The last step led to where its harmonics are far too few (contact has just begun to open): its points may not
+    // even be near the curve.
+    bool misleading() const {
+        const double now = branch_.points().back().harmonic_tail,
+                     before = branch_.points()[static_cast<std::size_t>(n_kept_ - 1)].harmonic_tail;
+        return now > 20 * asked_.harmonic_tolerance && before < 0.3 * now;
+    }
+
     std::int64_t n_points() const { return static_cast<std::int64_t>(branch_.points().size()); }
 
     void count(const PathOutcome &out) {
@@ -174,30 +184,34 @@ class CurveTracer final : public PathOwner {
         moved_most_ = 0;
     }
 
-    // The last point in the new system, corrected across the direction travelled; the old system goes on when
+    // The last point kept in the new system, corrected across the direction travelled; the old system goes on when
     // that fails.
     PathStart change_system(const PathOutcome &out) {
         since_change_ = 0;
-        const BranchPoint &last = branch_.points().back();
+        const std::int64_t n = rejects_ ? n_kept_ : n_points();
+        const BranchPoint &last = branch_.points()[static_cast<std::size_t>(n - 1)];
         PathStart path = resume(out);
         HbmOptions changed = options_;
         changed.n_harmonics = wanted_harmonics_;
         changed.unknowns = wants_modal_ ? UnknownSpace::modal : UnknownSpace::gaps;
         auto next = make_system(reduced_, changed);
         next.swap(system_);
-        PathStart other = leaving(last, n_points() > 1 ? branch_.points()[n_points() - 2] : last);
+        PathStart other = leaving(last, n > 1 ? branch_.points()[static_cast<std::size_t>(n - 2)] : last);
         other.record = false;
         for (double &d : other.direction_x) d = -d; // on, not back
         other.direction_parameter *= -1;
-        if (n_points() == 1) other.direction_parameter = options_.upward ? 1 : -1;
+        if (n == 1) other.direction_parameter = options_.upward ? 1 : -1;
         if (!correct(other)) {
             next.swap(system_);
             blocked_ = 4 * patience;
             wanted_harmonics_ = options_.n_harmonics;
             wants_modal_ = modal_;
+            n_kept_ = n_points();
             return path;
         }
         blocked_ = 0;
+        base_arclength_ = last.arclength;
+        if (rejects_) branch_.truncate(n_kept_);
         if (wants_modal_ != modal_) branch_.space_used = "both";
         options_ = changed;
         modal_ = wants_modal_;
@@ -267,6 +281,8 @@ class CurveTracer final : public PathOwner {
     Stability stability_;
     std::unique_ptr<HbmSystem> system_;
     bool compliant_ = false, modal_ = true, wants_modal_ = true, cancelled_ = false;
+    bool rejects_ = false;    // the last step, see misleading()
+    std::int64_t n_kept_ = 0; // points up to the last step that was kept
     std::int64_t fewest_, wanted_harmonics_ = 0, since_change_ = 0, blocked_ = 0, moved_most_ = 0;
     double base_arclength_ = 0;
     vector<double> known_x_;

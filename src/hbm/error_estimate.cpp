@@ -1,18 +1,39 @@
 #include "hbm/error_estimate.hpp"
+#include "hbm/formulation.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace plm {
 namespace {
 
+// The unknowns of `to` for a point of `from`: in compliance form they depend on the structure's own stiffness, not
+// on the penetration alone, so both that and the contact forces are carried over.
+Matrix gaps_of(const BranchPoint &p, const ReducedModel &from, const ReducedModel &to, HbmOptions o) {
+    const ContactMotion motion = contact_motion(from, p);
+    const Formulation law = make_formulation(to, o);
+    o.n_harmonics = motion.u.cols() / 2;
+    Matrix x = penetration_of(from, p, o.n_harmonics);
+    if (!law.compliant) return x;
+    ContactIndicator closed;
+    Matrix force(x.rows(), x.cols());
+    make_contact_force(o, x.rows())->indicator(motion.u, closed);
+    apply_indicator(closed, *motion.stiffness, motion.u, force);
+    for (std::int64_t k = 0; k < x.cols(); ++k)
+        for (std::int64_t i = 0; i < x.rows(); ++i) x(i, k) += law.slack[i] * force(i, k);
+    return x;
+}
+
 // One point in the gaps of the unreduced structure, corrected step by step across the curve.
 class Correction {
   public:
-    /// start: any coordinates whose gaps `from` has.
+    /// start: in the coordinates of `from`.
     Correction(std::shared_ptr<const ReducedModel> full, const HbmOptions &options, const BranchPoint &start,
-               const std::shared_ptr<const ReducedModel> &from)
+               const ReducedModel &from)
         : full_(std::move(full)), system_(make_system(full_, options)), x_(system_->size()),
           omega_(start.omega), period_multiple_(options.period_multiple) {
-        make_system(from, options)->from_point(start, x_.data());
+        const Matrix gaps = gaps_of(start, from, *full_, options);
+        const std::int64_t known = std::min(gaps.rows() * gaps.cols(), system_->size());
+        std::copy(gaps.data(), gaps.data() + known, x_.begin());
     }
 
     // Newton's step from here; the tangent of the first one is kept.
@@ -82,12 +103,17 @@ HbmOptions ErrorEstimator::options_at(const BranchPoint &p) const {
     HbmOptions o = options_;
     o.n_harmonics = p.n_harmonics / options_.period_multiple;
     o.force_scale = p.force_scale;
+    if (!p.contact_stiffness) o.formulation = FormulationKind::penalty; // as it was solved
     return o;
 }
 
 ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Measure measure,
                                        std::int64_t harmonic, bool with_harmonics) const {
     const BranchPoint &p = branch_.points().at(static_cast<std::size_t>(point));
+    if (p.force_scale == 0 && norm2(p.eta.rows() * p.eta.cols(), p.eta.data()) > 0)
+        throw Error(PLM_ERR_ARGUMENT, "the point is a motion without excitation, whose error is not estimated")
+            .argument("point")
+            .index(point);
     HbmOptions o = options_at(p);
     ErrorEstimate e;
     double amplitude = branch_.amplitude(point, dof, measure, harmonic), hz = p.omega / (2 * M_PI);
@@ -97,14 +123,14 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
         e.frequency_hz.*part = f - hz;
         amplitude = a, hz = f;
     };
-    Correction c(full_, o, p, branch_.reduced_model());
+    Correction c(full_, o, p, *branch_.reduced_model());
     c.step(true);
     settle(c, &ErrorParts::basis);
     c.step(false);
     settle(c, &ErrorParts::contact);
     if (!with_harmonics) return e;
     o.n_harmonics = finer(o.n_harmonics);
-    Correction more(full_, o, c.point(), full_);
+    Correction more(full_, o, c.point(), *full_);
     more.step(true);
     settle(more, &ErrorParts::harmonics);
     return e;
@@ -112,7 +138,7 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
 
 BranchPoint ErrorEstimator::corrected(std::int64_t point) const {
     const BranchPoint &p = branch_.points().at(static_cast<std::size_t>(point));
-    Correction c(full_, options_at(p), p, branch_.reduced_model());
+    Correction c(full_, options_at(p), p, *branch_.reduced_model());
     c.step(true);
     c.step(false);
     return c.point();

@@ -38,8 +38,9 @@ class NonlinearModeSystem final : public AugmentedSystem {
 };
 
 struct NonlinearModeOptions {
-    HbmOptions hbm; // harmonics (0: as many as the largest motion needs), tolerance, steps; its frequency range and force scale are not used
-    std::int64_t mode = 0;   // 1, 2, ...: elastic modes about rest; 0: the nearest to frequency_hz
+    HbmOptions hbm; // harmonics (0: as many as the largest motion needs), tolerance, steps; its frequency
+                    // range and force scale are not used
+    std::int64_t mode = 0; // 1, 2, ...: elastic modes about rest; 0: the nearest to frequency_hz
     double frequency_hz = 0;
     std::int64_t dof = -1; // the path ends where its first harmonic reaches dof_amplitude_max; -1: see below
     double dof_amplitude_max = 0;

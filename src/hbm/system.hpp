@@ -47,7 +47,8 @@ class HbmSystem {
     virtual void set_force_scale(double scale) = 0;
     /// dR/d(force scale) at the omega of the last residual().
     virtual void force_derivative(double *r) = 0;
-    /// Factor on the stiffness of every contact: 1 in the problem asked for, smaller on the path from soft contact.
+    /// Factor on the stiffness of every contact: 1 in the problem asked for, smaller on the path from soft
+    /// contact.
     virtual void set_stiffness_factor(double factor) = 0;
     /// dR/d log(factor) at the last residual().
     virtual void stiffness_derivative(double *r) = 0;
@@ -65,10 +66,11 @@ class HbmSystem {
     ContactIndicator indicator_;
 };
 
-/// The form options.unknowns asks for, automatic: the smaller one when all pairs move. options.n_harmonics > 0
-/// counts per period of the excitation; with options.period_multiple the system repeats after that many
+/// The form options.unknowns asks for, automatic: the smaller one when all pairs move. options.n_harmonics >
+/// 0 counts per period of the excitation; with options.period_multiple the system repeats after that many
 /// periods.
-std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
+std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduced,
+                                       const HbmOptions &options);
 /// Reduced coordinates (true) or contact gaps when all pairs move.
 bool prefers_modal(const ReducedModel &reduced, const HbmOptions &options);
 /// Whether the contact gaps can be the unknowns at all.

@@ -84,6 +84,7 @@ READ(basis)
 READ_ARRAYS(basis)
 CASE(basis, plm_basis_set_sampler, NULL)
 CASE(basis, plm_basis_set_parent, NULL)
+CASE(basis, plm_basis_set_responses, 0, NULL)
 CASE0(basis, plm_basis_build)
 CASE(basis, plm_basis_get_vectors, 0, 0, 1, numbers, 3)
 CASE(basis, plm_basis_get_residual, 0, 0, 3, one, &out[0].d)
@@ -93,6 +94,7 @@ READ(hbm)
 CASE(hbm, plm_hbm_sweep, (plm_branch **)&out[0].p)
 CASE(hbm, plm_hbm_solve, 1, NULL, 0, (plm_branch **)&out[0].p)
 CASE(hbm, plm_hbm_find_peak, NULL, 0, PLM_PEAK, 0, &out[0].d, &out[1].d, NULL)
+CASE(hbm, plm_hbm_estimate_error, NULL, 0, 0, PLM_PEAK, 0, &out[0].d, &out[1].d)
 READ(branch)
 READ_ARRAYS(branch)
 CASE(branch, plm_branch_get_amplitude, 0, PLM_PEAK, 0, 1, &out[0].d, &out[1].l)
@@ -181,6 +183,7 @@ static const struct {
                  ARRAY_ENTRIES(BASIS, basis),
                  ENTRY(BASIS, plm_basis_set_sampler),
                  ENTRY(BASIS, plm_basis_set_parent),
+                 ENTRY(BASIS, plm_basis_set_responses),
                  ENTRY(BASIS, plm_basis_build),
                  ENTRY(BASIS, plm_basis_get_vectors),
                  ENTRY(BASIS, plm_basis_get_residual),
@@ -190,6 +193,7 @@ static const struct {
                  ENTRY(HBM, plm_hbm_sweep),
                  ENTRY(HBM, plm_hbm_solve),
                  ENTRY(HBM, plm_hbm_find_peak),
+                 ENTRY(HBM, plm_hbm_estimate_error),
                  READ_ENTRIES(BRANCH, branch),
                  ARRAY_ENTRIES(BRANCH, branch),
                  ENTRY(BRANCH, plm_branch_get_amplitude),

@@ -64,6 +64,9 @@ void the_run() {
     const plm::Peak peak = hbm.find_peak(curve, 2);
     const plm::Branch again = hbm.solve(peak.frequency_hz, curve, curve.size() / 2);
     CHECK(std::abs(again.amplitude(2)[0] / peak.amplitude - 1) < 1e-3);
+    const plm::ErrorEstimate error = hbm.estimate_error(peak.branch, 0, 2);
+    CHECK(error.amplitude.sum() == error.amplitude.basis + error.amplitude.contact + error.amplitude.harmonics);
+    CHECK(error.amplitude.harmonics != 0 && std::abs(error.amplitude.basis) < 0.01 * peak.amplitude);
     CHECK(peak.branch.contact(0, 16).force.values.size() == 16);
     CHECK(curve.get<std::vector<double>>("frequency_hz") == curve.frequency_hz());
     CHECK(curve.get<std::string>("end_text").size() > 3 && curve.get<int>("n_harmonics") == 3);
@@ -87,6 +90,14 @@ void bases() {
     CHECK(p.rows == n && p.cols == basis.get_int("size"));
     CHECK(basis.residual(std::vector<double>(p.column(0), p.column(0) + n)) < 1e-10);
     basis.clear_parent();
+    plm::Basis small(model);
+    small.set("kind", "pod").set("pod_size", 1).set_parent(basis);
+    plm::Hbm hbm(basis);
+    const std::vector<plm::Branch> curves{hbm.set("n_harmonics", 3).sweep()};
+    small.set_responses(curves);
+    small.set_responses({curves[0], curves[0]});
+    small.build();
+    CHECK(small.get_int("size") == 1);
     CHECK(model.audit().size() > 3 && !model.audit()[0].text.empty());
     const plm::Modes given = model.modes(PLM_SYSTEM_GIVEN, 2, {1}),
                      sliding = model.modes(PLM_SYSTEM_SLIDING, 2);

@@ -24,18 +24,16 @@ Setup setup_of(const scene &s) {
 
 } // namespace
 
-ColdStarts cold_starts(double ratio, bool sampled) {
+ColdStarts cold_starts(double ratio) {
     const SceneOwner plate = make_scene("cracked_plate", true);
-    Setup setup = setup_of(*plate);
-    setup.sampled = sampled;
+    const Setup setup = setup_of(*plate);
     const double local = Solver(*plate, setup).model_stiffness();
     for (std::int64_t i = 0; i < plate->n_pairs; ++i) plate->contact_stiffness[i] = ratio * local;
     Solver solver(*plate, setup);
     ColdStarts result;
     result.ratio = ratio;
     for (int i = 0; i < 25; ++i) {
-        const double omega =
-            solver.window_low() + (solver.window_high() - solver.window_low()) * i / 24;
+        const double omega = solver.window_low() + (solver.window_high() - solver.window_low()) * i / 24;
         try {
             result.work.add(solver.solve(omega)->work);
             ++result.converged;

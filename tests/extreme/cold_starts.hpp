@@ -12,7 +12,7 @@ struct ColdStarts {
     Work work;
 };
 
-ColdStarts cold_starts(double ratio, bool sampled);
+ColdStarts cold_starts(double ratio);
 
 /// A default sweep of a scene over the sampler's window.
 struct SceneSweep {

@@ -1,7 +1,8 @@
-// extreme [--quick] [--row NAME] [--list]: the page docs/extreme.md, the extreme cases in Markdown: one row per case
-// with its outcome, error against an independent truth, and work, with the error of the sampled contact forces
-// beside it; starts without a guess; Newton's work. Ends with 1 when anything misses its bound or ends otherwise
-// than it has to. --quick: the rows of a minute without the sampled forces, which the sanitizers run, too.
+// extreme [--quick] [--row NAME] [--list]: the page docs/extreme.md, the extreme cases in Markdown: one row
+// per case with its outcome, error against an independent truth, and work, with the error of the sampled
+// contact forces beside it; starts without a guess; Newton's work. Ends with 1 when anything misses its bound
+// or ends otherwise than it has to. --quick: the rows of a minute without the sampled forces, which the
+// sanitizers run, too.
 #include "row.hpp"
 #include "tables.hpp"
 #include <cstdio>
@@ -80,7 +81,7 @@ int main(int argc, char **argv) {
         if (work.n_rows > 0) works.push_back(work);
         done += work.n_rows;
     }
-    if (!a.row) missed += print_cold_starts(works);
+    if (!a.row) missed += print_cold_starts(a.quick, works);
     if (!a.row && !a.quick) missed += print_scenes(works);
     print_work(works);
     std::printf("\n%d rows; %d missed\n", done, missed);

@@ -12,8 +12,7 @@ namespace {
 std::vector<std::size_t> spread(const std::vector<double> &amplitude, int n) {
     std::vector<std::size_t> chosen;
     const std::size_t size = amplitude.size();
-    for (int k = 0; k < n - 1; ++k)
-        chosen.push_back(std::min(size - 1, (2 * k + 1) * size / (2 * (n - 1))));
+    for (int k = 0; k < n - 1; ++k) chosen.push_back(std::min(size - 1, (2 * k + 1) * size / (2 * (n - 1))));
     chosen.push_back(std::max_element(amplitude.begin(), amplitude.end()) - amplitude.begin());
     return chosen;
 }
@@ -23,7 +22,8 @@ double error_at_point(const exact::Structure &s, const Curve &curve,
                       const std::vector<std::vector<double>> &amplitude, std::size_t i, int samples) {
     double best = 1e300;
     for (int periods : {0, 60}) {
-        const exact::Orbit orbit = exact::periodic_orbit(s, curve.omega[i], curve.state(i, s.n), periods, samples);
+        const exact::Orbit orbit =
+            exact::periodic_orbit(s, curve.omega[i], curve.state(i, s.n), periods, samples);
         if (!orbit.converged) continue;
         double error = 0, size = 0;
         for (int dof = 0; dof < s.n; ++dof) {
@@ -65,8 +65,8 @@ double linear_error(const exact::Structure &s, const std::vector<bool> &closed, 
     const std::vector<double> amplitude = curve.amplitude(dof);
     double worst = 0;
     for (std::size_t i = 0; i < amplitude.size(); ++i)
-        worst = std::max(
-            worst, std::abs(amplitude[i] / linear_peak(s, closed, curve.omega[i], dof, full_mass) - 1));
+        worst = std::max(worst,
+                         std::abs(amplitude[i] / linear_peak(s, closed, curve.omega[i], dof, full_mass) - 1));
     return worst;
 }
 

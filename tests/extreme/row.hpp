@@ -21,7 +21,8 @@ struct Row {
     bool quick = true;    // among the rows ctest runs
     std::function<Measured(bool sampled)> measure;
     bool has_sampled = true; // false: the contact forces play no part, or the case ends before them
-    std::int32_t end = PLM_REASON_RANGE_END; // how it has to end; another one: no answer exists, and the error is 0
+    std::int32_t end =
+        PLM_REASON_RANGE_END; // how it has to end; another one: no answer exists, and the error is 0
 };
 
 std::vector<Row> stiffness_rows(); // contact stiffness from soft to rigid
@@ -33,9 +34,9 @@ std::vector<Row> no_answer_rows(); // the reason has to be right
 
 /// A sweep's end in words.
 Measured outcome_of(const Curve &curve);
-/// Error of the peak amplitudes against exact periodic orbits started from the curve's own state: the largest over
-/// the first s.n DOFs, as a share of the largest amplitude among them, and over n_points spread over the curve, the
-/// highest one among them. 1e300 where no orbit is found.
+/// Error of the peak amplitudes against exact periodic orbits started from the curve's own state: the largest
+/// over the first s.n DOFs, as a share of the largest amplitude among them, and over n_points spread over the
+/// curve, the highest one among them. 1e300 where no orbit is found.
 double orbit_error(const exact::Structure &s, const Curve &curve, int n_points, int samples);
 /// Largest relative error of the peak amplitude against the linear answer over all points.
 double linear_error(const exact::Structure &s, const std::vector<bool> &closed, const Curve &curve, int dof,

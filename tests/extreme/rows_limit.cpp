@@ -35,8 +35,8 @@ Measured against_orbits(const exact::Structure &s, const Sweep &w, bool sampled,
     return m;
 }
 
-Measured against_linear(const exact::Structure &s, const std::vector<bool> &closed, const Sweep &w, bool sampled,
-                        double force = 1) {
+Measured against_linear(const exact::Structure &s, const std::vector<bool> &closed, const Sweep &w,
+                        bool sampled, double force = 1) {
     Solver solver(s, setup_of(w, sampled, force));
     const auto curve = solver.sweep();
     Measured m = outcome_of(*curve);
@@ -78,9 +78,9 @@ Row grazing(const char *name, double share) {
                 const auto curve = solver.sweep(), top = solver.solve(omega);
                 Measured m = outcome_of(*curve);
                 m.work.add(top->work);
-                m.error = std::max({linear_error(s, {false}, *curve, 3),
-                                    std::abs(top->amplitude(3)[0] / peak - 1),
-                                    std::abs(solver.peak(*curve, 3).second / peak - 1)});
+                m.error =
+                    std::max({linear_error(s, {false}, *curve, 3), std::abs(top->amplitude(3)[0] / peak - 1),
+                              std::abs(solver.peak(*curve, 3).second / peak - 1)});
                 return m;
             }};
 }
@@ -112,7 +112,8 @@ Measured homogeneous(double force, bool sampled) {
     const std::vector<double> want = a->amplitude(3), got = b->amplitude(3);
     m.error = a->size() == b->size() ? 0 : 1;
     for (std::size_t i = 0; i < std::min(want.size(), got.size()); ++i)
-        m.error = std::max({m.error, std::abs(got[i] / force / want[i] - 1), std::abs(b->omega[i] / a->omega[i] - 1)});
+        m.error = std::max(
+            {m.error, std::abs(got[i] / force / want[i] - 1), std::abs(b->omega[i] / a->omega[i] - 1)});
     return m;
 }
 
@@ -175,13 +176,14 @@ std::vector<Row> limit_rows() {
     for (double force : {1e-6, 1e3})
         rows.push_back({force < 1 ? "force-1e-6-homogeneous" : "force-1e3-homogeneous",
                         "no pre-load, no gap: all points against those at force 1, k_n = 10 k_loc",
-                        "proportionality", 1e-10, true, [=](bool sampled) { return homogeneous(force, sampled); }});
+                        "proportionality", 1e-10, true,
+                        [=](bool sampled) { return homogeneous(force, sampled); }});
 
-    rows.push_back({"damping-none", "no damping, above all resonances", "exact orbits", 1e-3, true,
-                    [](bool sampled) {
-                        exact::Structure s = oscillator(0, 3, 0.05, 1, 0);
-                        return against_orbits(s, {2.6, 4.5, 0}, sampled);
-                    }});
+    rows.push_back(
+        {"damping-none", "no damping, above all resonances", "exact orbits", 1e-3, true, [](bool sampled) {
+             exact::Structure s = oscillator(0, 3, 0.05, 1, 0);
+             return against_orbits(s, {2.6, 4.5, 0}, sampled);
+         }});
     rows.push_back({"damping-50", "50 % damping", "exact orbits", 1e-3, true, [](bool sampled) {
                         return against_orbits(damped(0.5), {0.1, 2, 3}, sampled);
                     }});
@@ -196,19 +198,20 @@ std::vector<Row> limit_rows() {
                             return m;
                         }});
     }
-    rows.push_back({"harmonics-monotone", "H = 1, 2, 3, 5, 8, 13, 21, 34, 50: largest ratio of successive errors",
-                    "below 1", 1, true, monotone});
+    rows.push_back({"harmonics-monotone",
+                    "H = 1, 2, 3, 5, 8, 13, 21, 34, 50: largest ratio of successive errors", "below 1", 1,
+                    true, monotone});
     rows.push_back({"always-open", "gaps out of reach", "linear answer", 1e-12, true, [](bool sampled) {
                         exact::Structure s = chain(5, 0.02, {1, 2, 4});
                         set_contact(s, 10 * local_stiffness(s), 1e3);
                         return against_linear(s, {false, false, false}, {0.2, 1.2, 4}, sampled);
                     }});
-    rows.push_back({"always-closed", "interference beyond the motion", "linear answer", 1e-12, true,
-                    [](bool sampled) {
-                        exact::Structure s = chain(5, 0.02, {1, 2, 4});
-                        set_contact(s, 10 * local_stiffness(s), -1e3);
-                        return against_linear(s, {true, true, true}, {0.2, 1.2, 4}, sampled);
-                    }});
+    rows.push_back(
+        {"always-closed", "interference beyond the motion", "linear answer", 1e-12, true, [](bool sampled) {
+             exact::Structure s = chain(5, 0.02, {1, 2, 4});
+             set_contact(s, 10 * local_stiffness(s), -1e3);
+             return against_linear(s, {true, true, true}, {0.2, 1.2, 4}, sampled);
+         }});
     return rows;
 }
 

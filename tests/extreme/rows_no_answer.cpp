@@ -1,6 +1,8 @@
 // Cases without an answer: the library has to say why.
 #include "row.hpp"
 #include "structures.hpp"
+#include <algorithm>
+#include <cstdio>
 
 namespace extreme {
 namespace {
@@ -47,16 +49,34 @@ Measured undamped_resonance(bool) {
     return outcome_of(*solver.solve(1.0));
 }
 
+// An undamped oscillator with a stop at its rest position, swept down through 2 w1 w2 / (w1 + w2): the
+// amplitude grows without bound, and the curve never leaves the range.
+Measured unbounded(bool sampled) {
+    Setup setup;
+    setup.low = 0.5, setup.high = 3;
+    setup.sampled = sampled;
+    Solver solver(oscillator(0, 3, 0, 1, 0), setup);
+    const auto curve = solver.sweep();
+    Measured m = outcome_of(*curve);
+    const std::vector<double> a = curve->amplitude(0);
+    char text[64];
+    std::snprintf(text, sizeof text, ", at amplitude %.0e", *std::max_element(a.begin(), a.end()));
+    m.outcome += text;
+    return m;
+}
+
 } // namespace
 
 std::vector<Row> no_answer_rows() {
     std::vector<Row> rows;
-    rows.push_back({"no-answer-pulled-away", "a mass on nothing but a stop, pulled away from it", "reason",
-                    0, true, pulled_away, false, PLM_REASON_NO_EQUILIBRIUM});
-    rows.push_back({"no-answer-pushed", "a mass held by nothing, pushed", "reason", 0, true, pushed_sideways, false,
-                    PLM_REASON_NO_EQUILIBRIUM});
-    rows.push_back({"no-answer-resonance", "no damping, driven at a resonance that no stop limits", "reason", 0, true,
-                    undamped_resonance, false, PLM_REASON_SINGULAR});
+    rows.push_back({"no-answer-pulled-away", "a mass on nothing but a stop, pulled away from it", "reason", 0,
+                    true, pulled_away, false, PLM_REASON_NO_EQUILIBRIUM});
+    rows.push_back({"no-answer-pushed", "a mass held by nothing, pushed", "reason", 0, true, pushed_sideways,
+                    false, PLM_REASON_NO_EQUILIBRIUM});
+    rows.push_back({"no-answer-resonance", "no damping, driven at a resonance that no stop limits", "reason",
+                    0, true, undamped_resonance, false, PLM_REASON_SINGULAR});
+    rows.push_back({"no-answer-unbounded", "no damping, through the resonance with a stop without gap",
+                    "reason", 0, true, unbounded, false, PLM_REASON_STEP_MINIMUM});
     return rows;
 }
 

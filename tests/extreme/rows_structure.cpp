@@ -158,8 +158,9 @@ exact::Structure in_units(double mass, double length, double time) {
     return s;
 }
 
-// Units of mass, length and time: how many of them one kg, m and s are. Compared at the same frequencies, each
-// from the nearest point of the own sweep (the points of two sweeps differ by rounding), and at the peak.
+// Units of mass, length and time: how many of them one kg, m and s are. Compared at the same frequencies,
+// each from the nearest point of the own sweep (the points of two sweeps differ by rounding), and at the
+// peak.
 Measured units(double mass, double length, double time, bool sampled) {
     const double w = std::sqrt(3e6 / 0.7);
     Solver a(in_units(1, 1, 1), range(0.3 * w, 0.9 * w, sampled)),
@@ -202,25 +203,25 @@ Measured close_resonances(bool sampled) {
 std::vector<Row> structure_rows() {
     std::vector<Row> rows;
     rows.push_back({"pairs-1", "one mass, one pair, gap and pre-load", "exact orbits", 1e-3, true, one_pair});
-    rows.push_back({"pairs-1000-block", "rigid block on 1,000 unilateral springs, pre-load",
-                    "exact orbits", 1e-3, false, block_on_a_thousand_springs});
+    rows.push_back({"pairs-1000-block", "rigid block on 1,000 unilateral springs, pre-load", "exact orbits",
+                    1e-3, false, block_on_a_thousand_springs});
     rows.push_back({"pairs-1000-oscillators", "1,000 equal oscillators moving as one, pre-load, PLM basis",
                     "exact orbits of one", 1e-3, false, thousand_oscillators});
     rows.push_back({"rigid-body-resting", "free chain on one contact, pressed, never lifting",
                     "linear answer", 1e-11, true, rigid_gentle});
-    rows.push_back({"rigid-body-lifting", "free chain on one contact, pressed, lifting off",
-                    "exact orbits", 1e-3, true, rigid_lifting});
+    rows.push_back({"rigid-body-lifting", "free chain on one contact, pressed, lifting off", "exact orbits",
+                    1e-3, true, rigid_lifting});
     rows.push_back({"mass-less-inside", "a DOF without mass between springs", "exact orbits", 1e-3, true,
                     massless_inside});
     // Its displacement has kinks itself: errors fall as H^-2.
     rows.push_back({"mass-less-contact", "contact on a DOF without mass", "exact orbits", 1e-3, true,
                     massless_in_contact});
-    rows.push_back({"units-mm-t-s", "peak and every fifth point in mm-t-s against m-kg-s", "m-kg-s", 1e-9, true,
-                    [](bool sampled) { return units(1e-3, 1e3, 1, sampled); }});
-    rows.push_back({"units-silly", "3.7e11 to the kg, 2.9e-7 to the m, 4.1e5 to the s", "m-kg-s", 1e-9,
-                    true, [](bool sampled) { return units(3.7e11, 2.9e-7, 4.1e5, sampled); }});
-    rows.push_back({"no-resonance", "window above every resonance", "exact orbits", 1e-3, true,
-                    no_resonance});
+    rows.push_back({"units-mm-t-s", "peak and every fifth point in mm-t-s against m-kg-s", "m-kg-s", 1e-9,
+                    true, [](bool sampled) { return units(1e-3, 1e3, 1, sampled); }});
+    rows.push_back({"units-silly", "3.7e11 to the kg, 2.9e-7 to the m, 4.1e5 to the s", "m-kg-s", 1e-9, true,
+                    [](bool sampled) { return units(3.7e11, 2.9e-7, 4.1e5, sampled); }});
+    rows.push_back(
+        {"no-resonance", "window above every resonance", "exact orbits", 1e-3, true, no_resonance});
     rows.push_back({"close-resonances", "two resonances 1e-4 apart, damping 2e-5, stop on one",
                     "exact orbits", 1e-3, true, close_resonances});
     return rows;

@@ -2,8 +2,8 @@
 #include "dense.hpp"
 #include "scene.h"
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 
 namespace extreme {
 namespace {
@@ -17,8 +17,9 @@ void check_call(plm_context *ctx, plm_status status) {
     throw Failure(status, reason, text);
 }
 
+// Of the processor, in seconds: what else the machine does does not count.
 double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 struct Triplets {
@@ -74,7 +75,8 @@ Curve::~Curve() {
 std::vector<double> Curve::amplitude(std::int64_t dof, std::int32_t measure, int harmonic) const {
     std::vector<double> a(size());
     std::int64_t count = 0;
-    check_call(ctx_, plm_branch_get_amplitude(branch_, dof, measure, harmonic, work.points, a.data(), &count));
+    check_call(ctx_,
+               plm_branch_get_amplitude(branch_, dof, measure, harmonic, work.points, a.data(), &count));
     return a;
 }
 
@@ -89,7 +91,8 @@ std::vector<double> Curve::coefficients(std::size_t point, std::int64_t dof) con
     std::int64_t h = 0;
     check_call(ctx_, plm_branch_get_int(branch_, "n_harmonics", &h));
     std::vector<double> c(2 * h + 1);
-    check_call(ctx_, plm_branch_get_coefficients(branch_, static_cast<std::int64_t>(point), dof, 1, c.data()));
+    check_call(ctx_,
+               plm_branch_get_coefficients(branch_, static_cast<std::int64_t>(point), dof, 1, c.data()));
     return c;
 }
 
@@ -219,9 +222,8 @@ std::unique_ptr<Curve> Solver::sweep() {
 std::unique_ptr<Curve> Solver::solve(double omega, const Curve *start, std::size_t point) {
     plm_branch *branch = nullptr;
     const double begin = now();
-    const plm_status status =
-        plm_hbm_solve(hbm_, omega / (2 * M_PI), start ? start->handle() : nullptr,
-                      start ? static_cast<std::int64_t>(point) : 0, &branch);
+    const plm_status status = plm_hbm_solve(hbm_, omega / (2 * M_PI), start ? start->handle() : nullptr,
+                                            start ? static_cast<std::int64_t>(point) : 0, &branch);
     const double seconds = now() - begin;
     check(status);
     auto curve = std::make_unique<Curve>(ctx_, branch, status);

@@ -22,8 +22,8 @@ struct Failure : std::runtime_error {
 
 struct Setup {
     double low = 0, high = 0; // frequency range in rad per time unit; 0, 0: the sampler's window
-    int harmonics = 0; // 0: the default, as many as each point needs
-    bool sampled = false; // aft = sampled with 256 samples instead of the default
+    int harmonics = 0;        // 0: the default, as many as each point needs
+    bool sampled = false;     // aft = sampled with 256 samples instead of the default
     bool upward = false;
     double force_scale = 1;
     std::string kind = "full"; // of the basis: without reduction error unless a row is about the reduction
@@ -33,7 +33,7 @@ struct Setup {
 /// What Newton and the continuation did.
 struct Work {
     std::int64_t points = 0, iterations = 0, failed_steps = 0;
-    double seconds = 0;
+    double seconds = 0; // of the processor
     void add(const Work &w);
 };
 
@@ -79,7 +79,7 @@ class Solver {
     std::pair<double, double> peak(const Curve &curve, std::int64_t dof, std::int32_t measure = PLM_PEAK,
                                    int harmonic = 0);
     std::int64_t basis_size() const;
-    double model_stiffness() const; // the library's local stiffness
+    double model_stiffness() const;                 // the library's local stiffness
     double window_low() const, window_high() const; // rad per time unit; kind plm only
     plm_context *context() const { return ctx_; }
 

@@ -18,8 +18,8 @@ bool holds(const Row &row, const Measured &m);
 void print_introduction();
 void print_row_head();
 void print_row(const Row &row, const Measured &m, const Measured &sampled);
-/// These two add their work, and return how many lines missed.
-int print_cold_starts(std::vector<GroupWork> &works);
+/// These two add their work, and return how many lines missed. quick: the two softer contacts.
+int print_cold_starts(bool quick, std::vector<GroupWork> &works);
 int print_scenes(std::vector<GroupWork> &works);
 void print_work(const std::vector<GroupWork> &works);
 

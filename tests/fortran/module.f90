@@ -131,6 +131,8 @@ contains
         type(plm_sampler) :: sampler
         type(plm_basis) :: basis
         type(plm_hbm) :: hbm
+        type(plm_basis) :: small
+        real(real64) :: error(3), shift(3)
         type(plm_branch) :: curve, peak, one
         type(counting_logger), target :: logger
         real(real64) :: hz(2), shapes(n_dof, 2), r, peak_hz, peak_m, q(n_dof), max_step
@@ -201,6 +203,21 @@ contains
         call check(abs(value(1)/peak_m - 1) < 1e-6, 'solve at the peak finds the peak')
         call one%full_residual(1, r)
         call check(r < 1, 'the full residual is a number')
+        call hbm%estimate_error(peak, 1, n_dof, error, measure=PLM_HARMONIC)
+        call check(abs(error(1)) < 0.01*peak_m .and. abs(error(3)) > 0, 'the error of the peak, without the frequency')
+        call hbm%estimate_error(peak, 1, n_dof, frequency_hz=shift)
+        call check(maxval(abs(shift)) < 0.1*peak_hz, 'the error of the peak, without the amplitude')
+        call small%create(model)
+        call small%set('kind', 'pod')
+        call small%set_parent(basis)
+        call small%set_responses([curve, peak])
+        call small%set('pod_size', 1)
+        call small%build()
+        call small%get('size', h)
+        call check(h == 1, 'a basis of responses')
+        call small%set_responses()
+        call small%build(stat)
+        call check(stat == PLM_ERR_STATE, 'responses are forgotten')
         call check(logger%lines > 0, 'the logger was called')
         call context%destroy()
     end subroutine whole_run

@@ -15,7 +15,7 @@ extern "C" {
 
 namespace {
 
-constexpr double lowest_hz = 1250, highest_hz = 2100, force = 0.5;
+constexpr double lowest_hz = 1250, highest_hz = 2100, force = 0.3;
 
 struct Plate {
     plm_context *context = nullptr;
@@ -75,7 +75,7 @@ double highest(const plm::Branch &b, std::int64_t dof, double &at) {
 
 plm::HbmOptions options() {
     plm::HbmOptions o;
-    o.n_harmonics = 5;
+    o.n_harmonics = 9;
     o.frequency_min_hz = lowest_hz;
     o.frequency_max_hz = highest_hz;
     o.force_scale = force;
@@ -239,9 +239,29 @@ void its_loop_is_that_of_the_full_order(void **) {
 // --- against time marching
 
 struct Marched {
-    int stable = 0, checked = 0;
+    int checked = 0, moving = 0;
     double worst = 0;
 };
+// Amplitude of the last period after 300 marched ones; an unstable or false motion would have been left by
+// then.
+double marched_peak(const Plate &plate, const plm::BranchPoint &p, std::int64_t dof) {
+    const auto model = std::make_shared<const plm::FlowModel>(plate.reduced, p.omega);
+    plm::ExactFlow flow(model, p.omega, force);
+    plm::PeriodicOrbit orbit;
+    orbit.state = model->state(p.eta_0, p.eta, p.omega, 0.0);
+    flow.advance(orbit.state, 300 * flow.period());
+    const auto row = model->dof_row(dof);
+    plm::Matrix rows(1, model->size());
+    for (std::int64_t j = 0; j < model->size(); ++j) rows(0, j) = row[j];
+    return plm::orbit_peaks(flow, orbit, rows)[0];
+}
+// Nowhere else does the loop reach higher at the frequency of point i.
+bool on_upper_flank(const Curve &c, std::size_t i) {
+    for (std::size_t k = 1; k < c.hz.size(); ++k)
+        if ((c.hz[k] - c.hz[i]) * (c.hz[k - 1] - c.hz[i]) <= 0 && c.amplitude[k] > 1.02 * c.amplitude[i])
+            return false;
+    return true;
+}
 Marched march() {
     Marched out;
     const Isola &all = isola();
@@ -249,36 +269,26 @@ Marched march() {
     const std::int64_t dof = all.plate.host->output_dof;
     const plm::Branch &loop = *all.search.branches[0].branch;
     plm::HbmOptions o = options();
-    o.n_harmonics = 15; // the truncation error of the points themselves stays below the bound
     o.stability = plm::StabilityKind::floquet;
     const plm::Hbm hbm(all.plate.reduced, 0, 0, o, plm::Watch());
-    for (std::size_t i = 0; i < loop.points().size() && out.checked < 4; i += 6) {
-        const auto fine = hbm.solve(loop.points()[i].omega / (2 * M_PI), &loop, static_cast<std::int64_t>(i));
-        const plm::BranchPoint &p = fine->points()[0];
-        if (plm::stability_of(p) != 1) continue;
-        ++out.stable;
-        const auto model = std::make_shared<const plm::FlowModel>(all.plate.reduced, p.omega);
-        plm::ExactFlow flow(model, p.omega, force);
-        plm::FlowState state = model->state(p.eta_0, p.eta, p.omega, 0.0);
-        flow.advance(state, 300 * flow.period()); // an unstable or false motion would be left
-        plm::PeriodicOrbit orbit;
-        orbit.state = state;
-        const auto row = model->dof_row(dof);
-        plm::Matrix rows(1, model->size());
-        for (std::int64_t j = 0; j < model->size(); ++j) rows(0, j) = row[j];
-        const double marched = plm::orbit_peaks(flow, orbit, rows)[0],
-                     point = fine->amplitude(0, dof, plm::Measure::peak, 0);
-        out.worst = std::max(out.worst, std::abs(marched / point - 1));
-        std::printf("i %d %.2f Hz moving %d tail %.1e peak %.3e marched %.3e mult %.4f\n",(int)i,p.omega/2/M_PI,(int)p.n_switching,p.harmonic_tail,point,marched,std::abs(p.multipliers[0]));
+    for (std::size_t i = 0; i < loop.points().size() && out.checked < 4; i += 3) {
+        if (loop.points()[i].bifurcation != PLM_BIFURCATION_NONE) continue; // no unique solution to come back to
+        const auto one = hbm.solve(loop.points()[i].omega / (2 * M_PI), &loop, static_cast<std::int64_t>(i));
+        const plm::BranchPoint &p = one->points()[0];
+        if (plm::stability_of(p) != 1 || !on_upper_flank(curve_of(loop, dof), i)) continue;
         ++out.checked;
+        out.moving += p.n_switching > 0;
+        const double marched = marched_peak(all.plate, p, dof),
+                     point = one->amplitude(0, dof, plm::Measure::peak, 0);
+        out.worst = std::max(out.worst, std::abs(marched / point - 1));
     }
     return out;
 }
 void stable_points_persist_in_time(void **) {
     const Marched m = march();
     std::printf("    %d stable points marched 300 periods: amplitude within %.1e\n", m.checked, m.worst);
-    assert_true(m.checked >= 3);
-    assert_true(below(m.worst, 1e-3)); // truncation at 15 harmonics
+    assert_true(m.checked >= 3 && m.moving == m.checked);
+    assert_true(below(m.worst, 2e-2)); // truncation at 9 harmonics
 }
 
 } // namespace

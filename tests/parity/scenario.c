@@ -179,6 +179,23 @@ static void print_motion(plm_model *model, plm_basis *basis, plm_branch *branch,
     reals("periodic_multipliers_imag", n, v);
 }
 
+/* the error of the peak, and the basis that the curve leaves of the parent */
+static void print_estimate(plm_model *model, plm_basis *basis, plm_hbm *hbm, plm_branch *curve, plm_branch *top) {
+    double x[64];
+    int64_t n = 0;
+    plm_basis *small = NULL;
+    must(plm_hbm_estimate_error(hbm, top, 0, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, x, x + 3));
+    reals("error", 6, x);
+    must(plm_basis_create(model, &small));
+    must(plm_basis_set_string(small, "kind", "pod"));
+    must(plm_basis_set_double(small, "pod_tolerance", 1e-3));
+    must(plm_basis_set_parent(small, basis));
+    must(plm_basis_set_responses(small, 1, &curve));
+    must(plm_basis_build(small));
+    must(plm_basis_get_array(small, "lambda", 64, x, &n));
+    reals("pod_lambda", n, x);
+}
+
 static void print_response(plm_model *model, plm_basis *basis) {
     plm_hbm *hbm = NULL;
     plm_branch *curve = NULL, *top = NULL;
@@ -200,6 +217,7 @@ static void print_response(plm_model *model, plm_basis *basis) {
     free(x);
     must(plm_hbm_find_peak(hbm, curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, &peak[0], &peak[1], &top));
     reals("peak", 2, peak);
+    print_estimate(model, basis, hbm, curve, top);
     print_point(top, 0);
     print_stability(curve, n_points, 5);
     print_motion(model, basis, curve, 5);

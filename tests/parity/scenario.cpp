@@ -111,6 +111,19 @@ void print_motion(const plm::Model &model, const plm::Basis &basis, const plm::B
     print("periodic_multipliers_real", "periodic_multipliers_imag", motion.multipliers());
 }
 
+void print_estimate(const plm::Model &model, const plm::Basis &basis, plm::Hbm &hbm, const plm::Branch &curve,
+                    const plm::Branch &top) {
+    const plm::ErrorEstimate e = hbm.estimate_error(top, 0, watched);
+    print("error", std::vector{e.amplitude.basis, e.amplitude.contact, e.amplitude.harmonics, e.frequency_hz.basis,
+                               e.frequency_hz.contact, e.frequency_hz.harmonics});
+    plm::Basis small(model);
+    small.set("kind", "pod").set("pod_tolerance", 1e-3);
+    small.set_parent(basis);
+    small.set_responses({curve});
+    small.build();
+    print("pod_lambda", small.get_array("lambda"));
+}
+
 void print_response(const plm::Model &model, const plm::Basis &basis) {
     plm::Hbm hbm(basis);
     hbm.set("n_harmonics", n_harmonics).set("unknowns", "modal").set("max_step", 0.05);
@@ -120,6 +133,7 @@ void print_response(const plm::Model &model, const plm::Basis &basis) {
     print("amplitude", curve.amplitude(watched));
     const plm::Peak peak = hbm.find_peak(curve, watched);
     print("peak", std::vector{peak.frequency_hz, peak.amplitude});
+    print_estimate(model, basis, hbm, curve, peak.branch);
     print_point(peak.branch, 0);
     print_stability(curve, 5);
     print_motion(model, basis, curve, 5);

@@ -120,10 +120,31 @@ contains
         call show('amplitude', values)
         call hbm%find_peak(curve, watched, hz, amplitude, PLM_HALF_PEAK_TO_PEAK, peak=peak)
         call show('peak', [hz, amplitude])
+        call show_estimate(model, basis, hbm, curve, peak)
         call show_point(peak, 1)
         call show_stability(curve, 6)
         call show_motion(model, basis, curve, 6)
     end subroutine show_response
+
+    subroutine show_estimate(model, basis, hbm, curve, peak)
+        type(plm_model), intent(in) :: model
+        type(plm_basis), intent(in) :: basis
+        type(plm_hbm), intent(inout) :: hbm
+        type(plm_branch), intent(in) :: curve, peak
+        type(plm_basis) :: small
+        real(real64), allocatable :: values(:)
+        real(real64) :: amplitude(3), hz(3)
+        call hbm%estimate_error(peak, 1, watched, amplitude, hz, PLM_HALF_PEAK_TO_PEAK)
+        call show('error', [amplitude, hz])
+        call small%create(model)
+        call small%set('kind', 'pod')
+        call small%set('pod_tolerance', 1e-3_real64)
+        call small%set_parent(basis)
+        call small%set_responses([curve])
+        call small%build()
+        call small%get('lambda', values)
+        call show('pod_lambda', values)
+    end subroutine show_estimate
 
     subroutine show_stability(branch, point)
         type(plm_branch), intent(in) :: branch

@@ -74,6 +74,11 @@ class Run(unittest.TestCase):
         numpy.testing.assert_allclose(contact.force, k * contact.penetration.clip(0), atol=1e-12 * abs(contact.force).max())
         self.assertEqual(peak.branch.harmonics(0, models.WATCHED)[0], c[0, models.WATCHED])
         self.assertGreater(peak.branch.full_residual(0), 0)
+        error = self.hbm.estimate_error(peak.branch, -1, models.WATCHED)
+        self.assertEqual(error.amplitude.total, error.amplitude.basis + error.amplitude.contact + error.amplitude.harmonics)
+        self.assertLess(abs(error.amplitude.basis + error.amplitude.contact), 0.01 * peak.amplitude)
+        self.assertLess(abs(error.frequency_hz.total), 0.01 * peak.frequency_hz)
+        self.assertNotEqual(error, self.hbm.estimate_error(peak.branch, 0, models.WATCHED, measure="rms"))
         for measure in ("peak", "rms", "harmonic"):
             self.assertEqual(len(self.curve.amplitude(models.WATCHED, measure, 1)), len(self.curve))
 
@@ -86,6 +91,15 @@ class Run(unittest.TestCase):
         child = plm.Basis(self.model, self.sampler, parent=full).build()
         self.assertIs(child.model, self.model)
         child.set_parent(None)
+        pod = plm.Basis(self.model, parent=self.basis, responses=self.curve, kind="pod", pod_size=2).build()
+        self.assertEqual(pod.size, 2)
+        pod.set_responses([self.curve, self.curve])
+        pod.pod_size = 0
+        self.assertTrue(2 < pod.build().size <= self.basis.size)
+        pod.set_responses(())
+        with self.assertRaises(plm.PlmError) as refusal:
+            pod.build()
+        self.assertEqual(refusal.exception.argument, "responses")
         sampler = plm.Sampler(self.model, mode=1)
         sampler.add_dominant_mode("sliding", 1)
         self.assertEqual(sampler.run().n_dominant, 2)

@@ -24,12 +24,12 @@ from ._handle import Key, keys
 from ._model import Finding, Model
 from ._motion import MotionState, Transient
 from ._reduction import Basis, Sampler
-from ._response import Bifurcation, Branch, Contact, Energy, Hbm, Isolated, Peak
+from ._response import Bifurcation, Branch, Contact, Energy, ErrorEstimate, ErrorParts, Hbm, Isolated, Peak
 
 __version__ = "0.1.0"
 __all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Transient", "Peak", "Isolated", "Bifurcation", "Energy",
-           "Contact", "MotionState", "Finding", "Key", "PlmError", "PlmKeyError", "PlmCancelled", "build_info",
-           "default_context", "keys", "plot", "status_text", "version"]
+           "ErrorEstimate", "ErrorParts", "Contact", "MotionState", "Finding", "Key", "PlmError", "PlmKeyError",
+           "PlmCancelled", "build_info", "default_context", "keys", "plot", "status_text", "version"]
 
 _constants = [name for name in vars(_c) if name.isupper() and isinstance(getattr(_c, name), (int, float))]
 globals().update({name: getattr(_c, name) for name in _constants})  # plm.ERR_KEY, plm.REASON_SINGULAR, ...

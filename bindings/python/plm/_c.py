@@ -77,6 +77,7 @@ plm_basis_get_array psqpp
 plm_basis_get_int_array psqpp
 plm_basis_set_sampler pp
 plm_basis_set_parent pp
+plm_basis_set_responses pqp
 plm_basis_build p
 plm_basis_get_vectors piqqpq
 plm_basis_get_residual piiqpp
@@ -91,6 +92,7 @@ plm_hbm_get_string psqpp
 plm_hbm_sweep pp
 plm_hbm_solve pdpqp
 plm_hbm_find_peak ppqiippp
+plm_hbm_estimate_error ppqqiipp
 plm_hbm_switch_branch ppqip
 plm_hbm_find_isolated ppdp
 plm_hbm_find_backbones pdp

@@ -60,6 +60,12 @@ def _make_property(key):
     return property(read, write if key.is_option else None, doc=key.doc())
 
 
+def branch_array(branches):
+    """(array of handles, its length) of one branch or several."""
+    branches = [branches] if isinstance(branches, Handle) else list(branches)
+    return (ctypes.c_void_p * len(branches))(*(branch._h.value for branch in branches)), len(branches)
+
+
 class Handle:
     """Base of Model, Sampler, Basis, Hbm, Branch and Transient.
 

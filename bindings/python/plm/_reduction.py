@@ -4,7 +4,7 @@ import ctypes
 import numpy
 
 from . import _c
-from ._handle import Handle, address, reals
+from ._handle import Handle, address, branch_array, reals
 from ._model import SYSTEMS, choice
 
 
@@ -41,10 +41,11 @@ class Sampler(Handle, noun="sampler", kind=_c.KIND_SAMPLER):
 class Basis(Handle, noun="basis", kind=_c.KIND_BASIS):
     """Reduction matrices P (h >= 1) and P_0 (h = 0).
 
-    Basis(model, sampler=None, parent=None, **options), e.g. Basis(model, sampler).build()
+    Basis(model, sampler=None, parent=None, responses=None, **options), e.g. Basis(model, sampler).build(), and of curves
+    computed on it Basis(model, parent=basis, responses=curves, kind="pod").build()
     """
 
-    def __init__(self, model, sampler=None, parent=None, **options):
+    def __init__(self, model, sampler=None, parent=None, responses=None, **options):
         super().__init__(model.context)
         self._model = model
         self.context.call("plm_basis_create", model._h, ctypes.byref(self._h))
@@ -52,6 +53,8 @@ class Basis(Handle, noun="basis", kind=_c.KIND_BASIS):
             self.set_sampler(sampler)
         if parent is not None:
             self.set_parent(parent)
+        if responses is not None:
+            self.set_responses(responses)
         self.set_options(options)
 
     @property
@@ -64,8 +67,15 @@ class Basis(Handle, noun="basis", kind=_c.KIND_BASIS):
         self._call("set_sampler", sampler._h)
 
     def set_parent(self, parent):
-        """A first reduction under this one: a built basis of kind "craig_bampton" or "full"; None for none."""
+        """A first reduction under this one: a built basis of kind "craig_bampton" or "full", for kind "pod" the one (of any
+        kind) that the responses were computed on; None for none."""
         self._call("set_parent", parent._h if parent is not None else None)
+
+    def set_responses(self, branches):
+        """For kind "pod": the curves, computed on the parent, whose motions span the basis; () forgets them. They are read
+        here."""
+        curves, n = branch_array(branches)
+        self._call("set_responses", n, curves)
 
     def build(self, progress=None):
         """Makes the basis; look at .warning afterwards. Returns the basis."""

@@ -6,7 +6,7 @@ import numpy
 
 from . import _c
 from ._context import status_text
-from ._handle import Handle, address
+from ._handle import Handle, address, branch_array
 from ._model import choice
 
 MEASURES = {"peak": _c.PEAK, "half_peak_to_peak": _c.HALF_PEAK_TO_PEAK, "rms": _c.RMS, "harmonic": _c.HARMONIC}
@@ -20,6 +20,23 @@ class Peak(NamedTuple):
     frequency_hz: float
     amplitude: float
     branch: "Branch"
+
+
+class ErrorParts(NamedTuple):
+    """Corrected less computed, by cause; total: their sum."""
+    basis: float
+    contact: float
+    harmonics: float
+
+    @property
+    def total(self):
+        return self.basis + self.contact + self.harmonics
+
+
+class ErrorEstimate(NamedTuple):
+    """How wrong a point is: ErrorParts of the amplitude of a DOF and of the frequency."""
+    amplitude: ErrorParts
+    frequency_hz: ErrorParts
 
 
 class Isolated(NamedTuple):
@@ -80,6 +97,14 @@ class Hbm(Handle, noun="hbm", kind=_c.KIND_HBM):
                       ctypes.byref(hz), ctypes.byref(amplitude), ctypes.byref(top._h), progress=progress)
         return Peak(hz.value, amplitude.value, top)
 
+    def estimate_error(self, branch, point, dof, measure="half_peak_to_peak", harmonic=0, progress=None):
+        """ErrorEstimate(amplitude, frequency_hz) of a point without the unreduced solution: corrected less computed, by
+        cause: .basis, .contact (contact sets), .harmonics, and .total."""
+        amplitude, hz = numpy.empty(3), numpy.empty(3)
+        self._work("estimate_error", branch._h, branch._from_end(point), dof, choice(measure, MEASURES, "measure"), harmonic,
+                   address(amplitude), address(hz), progress=progress)
+        return ErrorEstimate(ErrorParts(*amplitude.tolist()), ErrorParts(*hz.tolist()))
+
     def switch_branch(self, branch, point, mirrored=False, progress=None):
         """The curve that crosses `branch` at a located branch point, or leaves it at a period doubling (with twice the
         period); see Branch.bifurcations. mirrored: on the other side."""
@@ -100,9 +125,8 @@ class Hbm(Handle, noun="hbm", kind=_c.KIND_HBM):
         """A list of branches that are none of the `known` ones. Motions are marched in time until they are periodic, at
         n_frequencies frequencies of the range, from rest and from n_states states: 1, 2, 4, ... times the largest response
         on the known branches (without any: from rest only)."""
-        known = [known] if isinstance(known, Branch) else list(known)
-        curves = (ctypes.c_void_p * len(known))(*(branch._h.value for branch in known))
-        found = self._found("find_by_marching", len(known), curves, n_frequencies, n_states, progress=progress)
+        curves, n_known = branch_array(known)
+        found = self._found("find_by_marching", n_known, curves, n_frequencies, n_states, progress=progress)
         return [one.branch for one in found]
 
     def nonlinear_mode(self, mode, dof, amplitude_max=0.0, progress=None):
