@@ -22,13 +22,13 @@ OUTPUT_ARRAYS = {"values", "shape", "vector", "coefficient", "q", "v", "penetrat
                  ("plm_solve_fn", "x")}
 OUTPUT_SCALARS = {"needed", "major", "minor", "patch", "count", "type", "is_option", "minimum", "maximum", "status",
                   "reason", "index", "library_code", "value", "severity", "r", "relative_residual", "frequency_hz",
-                  "amplitude", "energy", "contact_area", "defect"}
+                  "amplitude", "energy", "contact_area", "defect", "error"}
 # "or NULL" in the header: optional in Fortran, absent is NULL
 OPTIONAL = {"needed", "gap", "buffer", "values", "force_range", "known",
             *(("plm_context_get_error_info", name) for name in ("status", "reason", "index", "library_code")),
             ("plm_model_set_modal_damping", "ratio"), ("plm_model_set_preload", "force"),
             ("plm_model_set_excitation", "real"), ("plm_model_set_excitation", "imag"),
-            ("plm_model_get_modes", "closed"), ("plm_model_get_modes", "shape"), ("plm_hbm_find_peak", "peak"),
+            ("plm_model_get_modes", "closed"), ("plm_model_get_modes", "shape"), ("plm_hbm_find_peak", "peak"), ("plm_hbm_refine_basis", "error"),
             ("plm_basis_set_responses", "branch"), ("plm_hbm_estimate_error", "amplitude"),
             ("plm_hbm_estimate_error", "frequency_hz"),
             *(("plm_branch_get_contact", name) for name in ("penetration", "force", "closed")),

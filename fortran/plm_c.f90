@@ -987,6 +987,18 @@ module plm_c
             real(c_double), intent(inout), optional :: frequency_hz(*)
             integer(plm_status) :: code
         end function plm_hbm_estimate_error
+        function plm_hbm_refine_basis(hbm, dof, measure, harmonic, tolerance, refined, error) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: hbm
+            integer(c_int64_t), value :: dof
+            integer(c_int32_t), value :: measure
+            integer(c_int32_t), value :: harmonic
+            real(c_double), value :: tolerance
+            type(c_ptr), intent(inout) :: refined
+            real(c_double), intent(inout), optional :: error
+            integer(plm_status) :: code
+        end function plm_hbm_refine_basis
         function plm_hbm_find_nonlinear_mode(hbm, mode, dof, amplitude_max, branch) bind(c) result(code)
             import :: c_double, c_int64_t, c_ptr, plm_status
             implicit none

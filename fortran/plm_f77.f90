@@ -911,6 +911,27 @@ subroutine plmhee(handle, branch, ipoint, idof, imeas, iharm, ampl, freq, ierr)
         int(idof, int64) - 1, int(imeas, c_int32_t), int(iharm, c_int32_t), ampl, freq))
 end subroutine plmhee
 
+subroutine plmhrb(handle, idof, imeas, iharm, tol, refined, err, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t, c_null_ptr, c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_hbm_refine_basis
+    use plm_f77_support, only: as_pointer, as_handle
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: idof
+    integer, intent(in) :: imeas
+    integer, intent(in) :: iharm
+    real(real64), intent(in) :: tol
+    integer(int64), intent(inout) :: refined
+    real(real64), intent(inout) :: err
+    integer, intent(out) :: ierr
+    type(c_ptr) :: made
+    made = c_null_ptr
+    ierr = int(plm_hbm_refine_basis(as_pointer(handle), int(idof, int64) - 1, int(imeas, c_int32_t), &
+        int(iharm, c_int32_t), tol, made, err))
+    if (as_handle(made) /= 0) refined = as_handle(made)
+end subroutine plmhrb
+
 subroutine plmhsb(handle, branch, ipoint, mirror, other, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t, c_null_ptr, c_ptr
     use, intrinsic :: iso_fortran_env, only: int64

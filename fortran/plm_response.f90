@@ -20,6 +20,7 @@ module plm_responses
         procedure :: solve
         procedure :: find_peak
         procedure :: estimate_error
+        procedure :: refine_basis
         procedure :: switch_branch
         procedure :: find_isolated
         procedure :: find_backbones
@@ -117,6 +118,30 @@ contains
         call finish(self%context, plm_hbm_estimate_error(self%handle, branch%handle, int(point, int64) - 1, &
             int(dof, int64) - 1, measure_of(measure), harmonic_of(harmonic), amplitude, frequency_hz), stat, errmsg)
     end subroutine estimate_error
+
+    ! A small basis, of kind 'pod', on which the curve's error of reduction is estimated to be below `tolerance`, whatever
+    ! the basis of this hbm. measure and harmonic as in find_peak; error: what is left. The status PLM_NOT_CONVERGED
+    ! delivers the best basis found.
+    subroutine refine_basis(self, dof, tolerance, refined, error, measure, harmonic, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        integer, intent(in) :: dof
+        real(real64), intent(in) :: tolerance
+        type(plm_basis), intent(inout) :: refined
+        real(real64), intent(inout), optional :: error
+        integer(plm_status), intent(in), optional :: measure
+        integer, intent(in), optional :: harmonic
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        real(real64) :: left
+        integer(plm_status) :: status
+        refined%context = self%context
+        refined%kind = PLM_KIND_BASIS
+        left = 0
+        status = plm_hbm_refine_basis(self%handle, int(dof, int64) - 1, measure_of(measure), harmonic_of(harmonic), &
+            tolerance, refined%handle, left)
+        if (present(error) .and. status >= 0) error = left
+        call finish(self%context, status, stat, errmsg)
+    end subroutine refine_basis
 
     ! The curve that crosses `branch` at its located branch point `point`, or leaves it at a period doubling; mirrored: on
     ! the other side. The points located are those where the result 'bifurcation' is not 0.

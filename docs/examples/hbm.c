@@ -51,6 +51,14 @@ static int sweep(plm_basis *basis) {
     /* [plm_hbm_estimate_error] */
     EXPECT(fabs(error[0]) < 1e-3 * amplitude && fabs(error[2]) < 0.1 * amplitude);
 
+    /* [plm_hbm_refine_basis] */
+    double left;
+    plm_basis *refined = NULL; /* small, and good for 1e-4 of the peak; 1: the DOF looked at */
+    TRY(plm_hbm_refine_basis(hbm, 1, PLM_HALF_PEAK_TO_PEAK, 0, 1e-4, &refined, &left));
+    plm_basis_destroy(&refined); /* after the curves on it: plm_hbm_create(refined, ...) */
+    /* [plm_hbm_refine_basis] */
+    EXPECT(left < 1e-4);
+
     /* [plm_hbm_solve] */
     plm_branch *cold = NULL, *warm = NULL;
     TRY(plm_hbm_solve(hbm, 11, NULL, 0, &cold));        /* from nothing */

@@ -425,6 +425,13 @@ PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_b
  * the contacts do not hold all rigid-body modes. The first call of an hbm prepares the unreduced structure. */
 PLM_API plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, int64_t point, int64_t dof, int32_t measure,
                                           int32_t harmonic, double *amplitude, double *frequency_hz);
+/* A basis for one number, the tolerance. From the basis of this hbm, however poor, and its curve: the motions, corrected
+ * as by plm_hbm_estimate_error, are compressed (kind "pod") to the basis of the next curve, until the estimated error of
+ * the reduction on it (of the DOF's amplitude over the curve's highest, of the frequency over itself) is below tolerance.
+ * refined: that basis, built, to be used with a new hbm and destroyed by the caller; error or NULL: what is left.
+ * PLM_NOT_CONVERGED: not met in eight curves; refined is the best one. */
+PLM_API plm_status plm_hbm_refine_basis(plm_hbm *hbm, int64_t dof, int32_t measure, int32_t harmonic, double tolerance,
+                                        plm_basis **refined, double *error);
 /* Nonlinear mode (motion without excitation, extended periodic motion concept): from elastic mode `mode` (1, 2, ...) of
  * the structure about its contact at rest until the first harmonic of `dof` reaches `amplitude_max`; 0: to a hundred
  * times the amplitude at which a pair first opens or closes. Energy and contact area: plm_branch_get_energy. */

@@ -794,6 +794,9 @@ class Basis : public detail::WithOptions<Basis, plm_basis> {
     }
 
   private:
+    friend class Hbm;
+    Basis(detail::StatePtr state, plm_basis *handle, std::int64_t n_dof)
+        : WithOptions(std::move(state), handle), n_dof_(n_dof) {}
     std::int64_t n_dof_;
 };
 
@@ -913,6 +916,11 @@ struct Isolated {
     std::array<double, 2> force_range; // force scales between which it exists, NaN where unknown
 };
 
+struct Refined {
+    Basis basis;
+    double error; // of the reduction, estimated
+};
+
 class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
   public:
     explicit Hbm(const Basis &basis);
@@ -941,6 +949,17 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
         finished(plm_hbm_estimate_error(handle_, branch.handle_, point, dof, measure, harmonic, a, f),
                  "estimate_error");
         return {{a[0], a[1], a[2]}, {f[0], f[1], f[2]}};
+    }
+    /// A small basis on which the curve's error of reduction is estimated to be below `tolerance`, whatever
+    /// the basis of this hbm; where it cannot be reached, `error` says what is left.
+    Refined refine_basis(std::int64_t dof, double tolerance, std::int32_t measure = PLM_HALF_PEAK_TO_PEAK,
+                         std::int32_t harmonic = 0) {
+        double error = 0;
+        plm_basis *b = nullptr;
+        const plm_status s = plm_hbm_refine_basis(handle_, dof, measure, harmonic, tolerance, &b, &error);
+        Basis basis(state_, b, n_dof_); // first of all: check may throw
+        finished(s, "refine_basis");
+        return {std::move(basis), error};
     }
 
     /// The curve that leaves `branch` at a located branch point or period doubling, see Branch::bifurcation.
@@ -1017,6 +1036,7 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
         if (!b) living().fail(status, full_name(verb).c_str()); // stopped before the first point
         return branch;
     }
+    std::int64_t n_dof_;
 };
 
 // ---- Transient
@@ -1103,7 +1123,8 @@ inline Basis::Basis(const Model &model)
     : WithOptions(detail::Access<plm_model>::state(model), nullptr), n_dof_(model.n_dof()) {
     check(plm_basis_create(model.c_handle(), &handle_), "create");
 }
-inline Hbm::Hbm(const Basis &basis) : WithOptions(detail::Access<plm_basis>::state(basis), nullptr) {
+inline Hbm::Hbm(const Basis &basis)
+    : WithOptions(detail::Access<plm_basis>::state(basis), nullptr), n_dof_(basis.n_dof_) {
     check(plm_hbm_create(basis.c_handle(), &handle_), "create");
 }
 inline Transient::Transient(const Model &model, plm_basis *basis)

@@ -4,6 +4,7 @@
 #include "capi/branch_input.hpp"
 #include "capi/hbm_input.hpp"
 #include "hbm/error_estimate.hpp"
+#include "hbm/refinement.hpp"
 
 namespace plm::capi {
 
@@ -119,5 +120,38 @@ plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, std::int64_t
         put(e.amplitude, amplitude);
         put(e.frequency_hz, frequency_hz);
         return PLM_OK;
+    });
+}
+
+plm_status plm_hbm_refine_basis(plm_hbm *hbm, std::int64_t dof, std::int32_t measure, std::int32_t harmonic,
+                                double tolerance, plm_basis **refined, double *error) {
+    return call<HbmHandle>("plm_hbm_refine_basis", hbm, [&](HbmHandle &h) {
+        const std::shared_ptr<const plm::Basis> &basis = built(*h.basis);
+        require_range(dof, 0, basis->model()->n_dof() - 1, "dof");
+        require_range(measure, PLM_PEAK, PLM_HARMONIC, "measure");
+        const std::int64_t most =
+            h.hbm_options.n_harmonics > 0 ? h.hbm_options.n_harmonics : h.hbm_options.max_harmonics;
+        if (measure == PLM_HARMONIC) require_range(harmonic, 0, most, "harmonic");
+        require_finite(tolerance, "tolerance");
+        if (!(tolerance > 0 && tolerance < 1))
+            bad_argument("tolerance", -1,
+                         plm::format("tolerance is %g; a relative error in (0, 1) is wanted", tolerance));
+        require_pointer(refined, "refined");
+        plm::RefinementOptions o;
+        o.hbm = h.hbm_options;
+        o.dof = dof;
+        o.measure = static_cast<plm::Measure>(measure);
+        o.harmonic = harmonic;
+        o.tolerance = tolerance;
+        const plm::Refinement found = plm::refine(basis, o, h.owner->watch());
+        if (!found.basis)
+            throw plm::Error(PLM_ERR_CONVERGENCE, "no curve could be computed on a compressed basis")
+                .argument("tolerance");
+        const auto made = std::make_shared<BasisHandle>(h.owner, h.basis->model);
+        made->basis_options = found.basis->options();
+        made->core = found.basis;
+        *refined = publish(made);
+        if (error) *error = found.error;
+        return found.met ? PLM_OK : PLM_NOT_CONVERGED;
     });
 }

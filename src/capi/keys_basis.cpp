@@ -62,8 +62,9 @@ void add_options(std::vector<Key> &keys) {
             int_option<&O::static_augmentation>(
                 "static_augmentation", 0, 1,
                 "1: the static response to the pre-load joins the basis of h = 0"),
-            real_option<&O::pod_tolerance>("pod_tolerance", 0, 0.5,
-                                           "pod: share of the responses that may be left out, in the energy norm"),
+            real_option<&O::pod_tolerance>(
+                "pod_tolerance", 0, 0.5,
+                "pod: share of the responses that may be left out, in the energy norm"),
             int_option<&O::pod_size>("pod_size", 0, 1e9, "pod: columns of P; 0: by pod_tolerance"),
             int_option<&O::n_fixed_modes>("n_fixed_modes", 0, 1e9,
                                           "Craig-Bampton: fixed-interface modes; 0: by frequency"),

@@ -6,8 +6,8 @@
 namespace plm {
 namespace {
 
-// The unknowns of `to` for a point of `from`: in compliance form they depend on the structure's own stiffness, not
-// on the penetration alone, so both that and the contact forces are carried over.
+// The unknowns of `to` for a point of `from`: in compliance form they depend on the structure's own
+// stiffness, not on the penetration alone, so both that and the contact forces are carried over.
 Matrix gaps_of(const BranchPoint &p, const ReducedModel &from, const ReducedModel &to, HbmOptions o) {
     const ContactMotion motion = contact_motion(from, p);
     const Formulation law = make_formulation(to, o);
@@ -111,7 +111,8 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
                                        std::int64_t harmonic, bool with_harmonics) const {
     const BranchPoint &p = branch_.points().at(static_cast<std::size_t>(point));
     if (p.force_scale == 0 && norm2(p.eta.rows() * p.eta.cols(), p.eta.data()) > 0)
-        throw Error(PLM_ERR_ARGUMENT, "the point is a motion without excitation, whose error is not estimated")
+        throw Error(PLM_ERR_ARGUMENT,
+                    "the point is a motion without excitation, whose error is not estimated")
             .argument("point")
             .index(point);
     HbmOptions o = options_at(p);

@@ -7,9 +7,9 @@
 namespace plm {
 namespace {
 
-constexpr std::int64_t looked_at = 16;  // points of a curve whose error is estimated, besides its highest
-constexpr std::int64_t corrected = 60;  // points whose corrected motions make the next basis
-constexpr double compression = 0.2;     // of the tolerance, at first
+constexpr std::int64_t looked_at = 16; // points of a curve whose error is estimated, besides its highest
+constexpr std::int64_t corrected = 60; // points whose corrected motions make the next basis
+constexpr double compression = 0.2;    // of the tolerance, at first
 
 class Refiner {
   public:
@@ -23,11 +23,13 @@ class Refiner {
         for (std::int64_t round = 1;; ++round) {
             const auto branch = sweep(*basis);
             const double error = largest_error(*branch);
-            watch_.log(1, format("refinement %lld: %lld columns, estimated error %.2e", static_cast<long long>(round),
+            watch_.log(1, format("refinement %lld: %lld columns, estimated error %.2e",
+                                 static_cast<long long>(round),
                                  static_cast<long long>(basis->reduced()->size()), error));
             const bool compressed = basis->options().kind == BasisKind::pod;
             // the first basis is never the answer: the point is to have a small one
-            if (compressed && (!best.basis || error < best.error)) best = {basis, branch, error, round, false};
+            if (compressed && (!best.basis || error < best.error))
+                best = {basis, branch, error, round, false};
             if (compressed && error <= options_.tolerance) {
                 best.met = true;
                 return best;
@@ -41,7 +43,8 @@ class Refiner {
 
   private:
     std::shared_ptr<const Branch> sweep(const Basis &basis) const {
-        return Hbm(basis.reduced(), start_->window_min_hz(), start_->window_max_hz(), options_.hbm, watch_).sweep();
+        return Hbm(basis.reduced(), start_->window_min_hz(), start_->window_max_hz(), options_.hbm, watch_)
+            .sweep();
     }
 
     // Points spread over the curve by their number, which its curvature sets.
@@ -61,14 +64,16 @@ class Refiner {
             if (a > peak) peak = a, highest = i;
         }
         if (!(peak > 0))
-            throw Error(PLM_ERR_ARGUMENT, "the DOF does not move on the curve; name one that does").argument("dof");
+            throw Error(PLM_ERR_ARGUMENT, "the DOF does not move on the curve; name one that does")
+                .argument("dof");
         vector<std::int64_t> at = spread(n, looked_at);
         at.push_back(highest);
         const ErrorEstimator estimator(full_->reduced(), branch, options_.hbm);
         double worst = 0;
         for (std::int64_t i : at) {
             watch_.step("refinement", 0.5);
-            const ErrorEstimate e = estimator.estimate(i, options_.dof, options_.measure, options_.harmonic, false);
+            const ErrorEstimate e =
+                estimator.estimate(i, options_.dof, options_.measure, options_.harmonic, false);
             const double hz = branch.points()[i].omega / (2 * M_PI);
             worst = std::max({worst, std::abs(e.amplitude.basis + e.amplitude.contact) / peak,
                               std::abs(e.frequency_hz.basis + e.frequency_hz.contact) / hz});
@@ -78,8 +83,8 @@ class Refiner {
 
     std::shared_ptr<const Basis> compress(const Branch &branch) const {
         const ErrorEstimator estimator(full_->reduced(), branch, options_.hbm);
-        const auto motions = std::make_shared<Branch>(full_->reduced(), options_.hbm.force_scale,
-                                                      branch.period_multiple());
+        const auto motions =
+            std::make_shared<Branch>(full_->reduced(), options_.hbm.force_scale, branch.period_multiple());
         for (std::int64_t i : spread(static_cast<std::int64_t>(branch.points().size()), corrected)) {
             watch_.step("refinement", 0.7);
             motions->append(estimator.corrected(i));
@@ -89,7 +94,8 @@ class Refiner {
         o.kind = BasisKind::pod;
         o.pod_size = 0;
         o.pod_tolerance = pod_tolerance_;
-        return std::make_shared<const Basis>(start_->model(), start_->sampler(), full_, o, watch_, &responses);
+        return std::make_shared<const Basis>(start_->model(), start_->sampler(), full_, o, watch_,
+                                             &responses);
     }
 
     std::shared_ptr<const Basis> start_;

@@ -1,7 +1,7 @@
-// A basis for one number, the tolerance: the motions of a curve, corrected by what the unreduced structure answers to
-// their contact forces, are compressed to the basis of the next curve, until the error estimated on it is small enough.
-// The corrections bring in whatever the first basis lacks: contact sets met on the curve, other modes, attachment
-// and static vectors. No unreduced curve is computed.
+// A basis for one number, the tolerance: the motions of a curve, corrected by what the unreduced structure
+// answers to their contact forces, are compressed to the basis of the next curve, until the error estimated
+// on it is small enough. The corrections bring in whatever the first basis lacks: contact sets met on the
+// curve, other modes, attachment and static vectors. No unreduced curve is computed.
 #pragma once
 #include "hbm/hbm.hpp"
 #include "reduction/basis.hpp"
@@ -13,7 +13,8 @@ struct RefinementOptions {
     std::int64_t dof = 0; // whose amplitude counts
     Measure measure = Measure::half_peak_to_peak;
     std::int64_t harmonic = 0;
-    double tolerance = 1e-3; // on the curve: |error of amplitude| over the peak, |error of frequency| over frequency
+    double tolerance =
+        1e-3; // on the curve: |error of amplitude| over the peak, |error of frequency| over frequency
     std::int64_t max_rounds = 8;
 };
 

@@ -67,7 +67,8 @@ std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &mo
                     parent->space()->highest_frequency / (2 * M_PI), highest_hz));
         return parent->space();
     }
-    if (parent && parent->space()->is_contact_space && parent->space()->highest_frequency >= highest * (1 - 1e-9))
+    if (parent && parent->space()->is_contact_space &&
+        parent->space()->highest_frequency >= highest * (1 - 1e-9))
         return parent->space();
     if (sampler && sampler->space()->highest_frequency >= highest * (1 - 1e-9)) return sampler->space();
     return make_contact_space(model, highest, least_open_modes, watch, sampler ? sampler->space() : nullptr);
@@ -200,8 +201,9 @@ void Basis::compress_parent(const Basis *parent, const Responses *responses) {
         throw Error(PLM_ERR_STATE, "a basis of kind pod needs responses; call plm_basis_set_responses first")
             .argument("responses");
     if (responses->of != parent->reduced())
-        throw Error(PLM_ERR_ARGUMENT, "the responses were computed on another basis than the parent, or it was "
-                                      "built anew in between; set both from one build")
+        throw Error(PLM_ERR_ARGUMENT,
+                    "the responses were computed on another basis than the parent, or it was "
+                    "built anew in between; set both from one build")
             .argument("responses");
     sampler_ = parent->sampler();
     space_ = parent->space();

@@ -25,52 +25,80 @@ Space as_space(const ReducedModel &m) {
     return s;
 }
 
-struct Directions {
-    Matrix y; // orthonormal
-    vector<double> singular_values;
-};
+constexpr double rounding = 1e-14;
 
-Directions dominant_directions(const Matrix &snapshots, const vector<double> &lambda, double omega,
-                               double tolerance, std::int64_t size) {
-    const std::int64_t r = snapshots.rows();
-    vector<double> weight(r);
-    for (std::int64_t j = 0; j < r; ++j) weight[j] = std::sqrt(lambda[j] + omega * omega);
-    Matrix weighted = snapshots;
-    for (std::int64_t k = 0; k < weighted.cols(); ++k)
-        for (std::int64_t j = 0; j < r; ++j) weighted(j, k) *= weight[j];
-    const Svd svd = thin_svd(weighted);
-    Directions d;
-    double all = 0, rest = 0;
-    for (double s : svd.values) all += s * s;
-    const std::int64_t most = static_cast<std::int64_t>(svd.values.size());
-    std::int64_t kept = most;
-    while (kept > 0 && svd.values[kept - 1] <= 1e-14 * svd.values[0]) --kept; // rounding errors
-    if (size > 0) {
-        kept = std::min(kept, size);
-    } else {
-        while (kept > 1 && rest + svd.values[kept - 1] * svd.values[kept - 1] <= tolerance * tolerance * all)
-            rest += svd.values[kept - 1] * svd.values[kept - 1], --kept;
-    }
-    for (double s : svd.values) d.singular_values.push_back(svd.values[0] > 0 ? s / svd.values[0] : 0);
-    Matrix y(r, kept);
-    for (std::int64_t k = 0; k < kept; ++k)
-        for (std::int64_t j = 0; j < r; ++j) y(j, k) = svd.u(j, k) / weight[j];
-    d.y = thin_svd(y).u;
-    return d;
+// Energy norm: elastic and kinetic at a typical frequency.
+vector<double> energy_weights(const vector<double> &lambda, double omega) {
+    vector<double> weight;
+    for (double l : lambda) weight.push_back(std::sqrt(l + omega * omega));
+    return weight;
 }
 
-// h = 0: the rest under pre-load and the mean parts of the motions.
-void reduce_statics(const ReducedModel &from, const Matrix &y, ReducedModel &to) {
-    Space statics;
-    statics.lambda = from.lambda_0;
-    const Coordinates c = diagonalise_stiffness(statics, y);
-    to.same_static = false;
-    to.lambda_0 = c.lambda;
-    to.gap_0 = product('N', 'N', from.gap_0, c.y);
-    to.vectors_0 = product('N', 'N', from.static_vectors(), c.y);
+// Left singular vectors and singular values of motions in the energy norm.
+struct Decomposition {
+    Decomposition(const Matrix &motions, vector<double> weights) : weight(std::move(weights)) {
+        Matrix weighted = motions;
+        for (std::int64_t k = 0; k < weighted.cols(); ++k)
+            for (std::int64_t j = 0; j < weighted.rows(); ++j) weighted(j, k) *= weight[j];
+        svd = thin_svd(weighted);
+        for (double s : svd.values) energy += s * s;
+    }
+    /// How many leave out at most `left_out` of the energy, none of them below `smallest`.
+    std::int64_t needed(double left_out, double smallest) const {
+        std::int64_t kept = static_cast<std::int64_t>(svd.values.size());
+        for (double rest = 0; kept > 0; --kept) {
+            const double s = svd.values[kept - 1];
+            rest += s * s;
+            if (rest > left_out && s > smallest) break;
+        }
+        return kept;
+    }
+    /// The first n as an orthonormal basis.
+    Matrix directions(std::int64_t n) const {
+        Matrix y(svd.u.rows(), n);
+        for (std::int64_t k = 0; k < n; ++k)
+            for (std::int64_t j = 0; j < y.rows(); ++j) y(j, k) = svd.u(j, k) / weight[j];
+        return thin_svd(y).u;
+    }
+
+    vector<double> weight;
+    Svd svd;
+    double energy = 0;
+};
+
+// The dynamic coordinates y among the static ones, whose basis P_0 holds P.
+Matrix among_statics(const ReducedModel &m, const Matrix &y) {
+    if (m.same_static) return y;
+    Matrix momentum(m.vectors.rows(), m.vectors.cols());
+    for (std::int64_t j = 0; j < momentum.cols(); ++j)
+        multiply(m.model->mass(), m.vectors.col(j), momentum.col(j));
+    return product('N', 'N', product('T', 'N', m.vectors_0, momentum), y);
+}
+
+// What is left of motions outside the orthonormal y.
+Matrix remainder(const Matrix &motions, const Matrix &y) {
+    Matrix rest = motions;
+    for (int pass = 0; pass < 2; ++pass) gemm('N', 'N', -1.0, y, product('T', 'N', y, rest), 1.0, rest);
+    return rest;
+}
+
+// h = 0: P_0' holds P', as motions in time need it, and what the rest under pre-load and the mean parts of
+// the motions have beside it.
+void reduce_statics(const ReducedModel &from, Matrix y, const Matrix &beside, ReducedModel &to) {
+    to.same_static = beside.cols() == 0;
+    if (!to.same_static) {
+        Space statics;
+        statics.lambda = from.lambda_0;
+        y.append(beside);
+        const Coordinates c = diagonalise_stiffness(statics, thin_svd(y).u);
+        to.lambda_0 = c.lambda;
+        to.gap_0 = product('N', 'N', from.gap_0, c.y);
+        to.vectors_0 = product('N', 'N', from.static_vectors(), c.y);
+        y = c.y;
+    }
     const auto projected = [&](const vector<double> &f) {
-        vector<double> g(c.y.cols(), 0.0);
-        if (!f.empty()) gemv('T', 1.0, c.y, f.data(), 0.0, g.data());
+        vector<double> g(y.cols(), 0.0);
+        if (!f.empty()) gemv('T', 1.0, y, f.data(), 0.0, g.data());
         return g;
     };
     to.preload_0 = projected(from.preload_0);
@@ -83,17 +111,29 @@ void reduce_statics(const ReducedModel &from, const Matrix &y, ReducedModel &to)
 Compressed compress(const Responses &responses, double tolerance, std::int64_t size) {
     const ReducedModel &from = *responses.of;
     const Space space = as_space(from);
-    const Directions dynamic =
-        dominant_directions(responses.dynamic, from.lambda, responses.omega, tolerance, size);
-    if (dynamic.y.cols() == 0)
+    const Decomposition dynamic(responses.dynamic, energy_weights(from.lambda, responses.omega));
+    if (!(dynamic.energy > 0))
         throw Error(PLM_ERR_STATE, "nothing moves in the responses; they give no basis")
             .argument("responses");
-    const auto reduced = std::make_shared<ReducedModel>(
-        *project(space, diagonalise_stiffness(space, dynamic.y), StaticBasis()));
-    // mean parts are few; they are kept to the same tolerance
-    const Directions mean = dominant_directions(responses.mean, from.lambda_0, responses.omega, tolerance, 0);
-    reduce_statics(from, mean.y, *reduced);
-    return {reduced, dynamic.singular_values};
+    const double largest = dynamic.svd.values[0], share = tolerance * tolerance;
+    const std::int64_t kept = size > 0 ? std::min(size, dynamic.needed(0, rounding * largest))
+                                       : dynamic.needed(share * dynamic.energy, rounding * largest);
+    const Coordinates coordinates =
+        diagonalise_stiffness(space, dynamic.directions(std::max<std::int64_t>(kept, 1)));
+    const auto reduced = std::make_shared<ReducedModel>(*project(space, coordinates, StaticBasis()));
+
+    // mean parts: to the same tolerance, of themselves and of the motions about them
+    const vector<double> weights = energy_weights(from.lambda_0, responses.omega);
+    const Matrix y_0 = among_statics(from, coordinates.y);
+    const Decomposition mean(responses.mean, weights), beside(remainder(responses.mean, y_0), weights);
+    const std::int64_t n = beside.needed(share * std::min(mean.energy, dynamic.energy),
+                                         rounding * std::sqrt(std::max(mean.energy, dynamic.energy)));
+    reduce_statics(from, y_0, beside.directions(n), *reduced);
+
+    Compressed c;
+    c.reduced = reduced;
+    for (double s : dynamic.svd.values) c.singular_values.push_back(s / largest);
+    return c;
 }
 
 } // namespace plm

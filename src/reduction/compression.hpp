@@ -20,7 +20,7 @@ struct Compressed {
 };
 
 /// Keeps as many directions as leave out less than `tolerance` of the responses in the energy norm, or `size`
-/// of them when size > 0. P' = P Y, P_0' = P_0 Y_0, each diagonalised.
+/// of them when size > 0. P' = P Y, P_0' = P_0 Y_0 with P' in its span, each diagonalised.
 Compressed compress(const Responses &responses, double tolerance, std::int64_t size);
 
 } // namespace plm

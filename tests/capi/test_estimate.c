@@ -1,5 +1,5 @@
-/* plm_hbm_estimate_error against the differences it estimates, plm_basis_set_responses and bases of kind "pod"; what
- * both refuse, argument by argument, and that nothing has changed then. */
+/* plm_hbm_estimate_error against the differences it estimates, plm_basis_set_responses and bases of kind
+ * "pod"; what both refuse, argument by argument, and that nothing has changed then. */
 #include "carrier.h"
 #include "check.h"
 #include "cracked_plate.h"
@@ -23,7 +23,7 @@ static int close_context(void **state) {
     return plm_context_destroy(&ctx);
 }
 
-/* ---- the cracked plate ---------------------------------------------------------------------------------------- */
+/* ---- the cracked plate ---- */
 
 typedef struct plate {
     scene *host;
@@ -84,8 +84,8 @@ static peak_of find_peak(const plate *p, plm_basis *basis, int64_t n_harmonics) 
 }
 
 static void estimate(const plate *p, const peak_of *top, double *amplitude, double *hz) {
-    DONE(plm_hbm_estimate_error(top->hbm, top->point, 0, p->host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, amplitude,
-                                hz));
+    DONE(plm_hbm_estimate_error(top->hbm, top->point, 0, p->host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0,
+                                amplitude, hz));
 }
 
 /* a[0] + a[1] against the true difference of the peaks */
@@ -96,7 +96,8 @@ static void basis_errors_are_right(const plate *p) {
     for (i = 0; i < 2; ++i)
         for (n = 1; n <= 4; n *= 2) {
             const peak_of top = find_peak(p, basis_of(p, "plm", selections[i], n), 5);
-            const double missing = truth.amplitude - top.amplitude, relative = fabs(missing) / truth.amplitude;
+            const double missing = truth.amplitude - top.amplitude,
+                         relative = fabs(missing) / truth.amplitude;
             double a[3], f[3], estimated;
             estimate(p, &top, a, f);
             estimated = a[0] + a[1];
@@ -137,18 +138,19 @@ static void the_error_of_the_harmonics(void **state) {
         coarse = find_peak(&p, p.full, n);
         estimate(&p, &coarse, a, f);
         missing = fine.amplitude - coarse.amplitude, shift = fine.hz - coarse.hz;
-        print_message("%d harmonics: amplitude %.3e, estimated %.3e; frequency %.3e, estimated %.3e\n", (int)n,
-                      missing / fine.amplitude, a[2] / fine.amplitude, shift / fine.hz, f[2] / fine.hz);
+        print_message("%d harmonics: amplitude %.3e, estimated %.3e; frequency %.3e, estimated %.3e\n",
+                      (int)n, missing / fine.amplitude, a[2] / fine.amplitude, shift / fine.hz,
+                      f[2] / fine.hz);
         assert_true(fabs(a[0]) < 1e-7 * fine.amplitude && fabs(a[1]) < 1e-7 * fine.amplitude);
         assert_true(fabs(f[0]) < 1e-8 * fine.hz && fabs(f[1]) < 1e-8 * fine.hz);
         assert_true(a[2] / missing > 0.25 && a[2] / missing < 4);
     }
     /* each output alone, and none */
-    DONE(plm_hbm_estimate_error(coarse.hbm, coarse.point, 0, p.host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, alone,
-                                NULL));
+    DONE(plm_hbm_estimate_error(coarse.hbm, coarse.point, 0, p.host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0,
+                                alone, NULL));
     assert_memory_equal(alone, a, sizeof a);
-    DONE(plm_hbm_estimate_error(coarse.hbm, coarse.point, 0, p.host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, NULL,
-                                alone));
+    DONE(plm_hbm_estimate_error(coarse.hbm, coarse.point, 0, p.host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0,
+                                NULL, alone));
     assert_memory_equal(alone, f, sizeof f);
     DONE(plm_hbm_estimate_error(coarse.hbm, coarse.point, 0, p.host->output_dof, PLM_RMS, 0, NULL, NULL));
     scene_destroy(&p.host);
@@ -187,7 +189,8 @@ static void a_basis_of_responses(void **state) {
     DONE(plm_basis_get_int(pod, "n_collected", &count));
     assert_true(r == 8 && r_0 >= 1 && count == parent_size);
     DONE(plm_basis_get_array(pod, "singular_values", 500, values, &count));
-    assert_true(count >= 8 && values[0] == 1 && values[7] < 1 && values[7] > 0 && values[count - 1] <= values[7]);
+    assert_true(count >= 8 && values[0] == 1 && values[7] < 1 && values[7] > 0 &&
+                values[count - 1] <= values[7]);
     DONE(plm_basis_get_array(pod, "lambda", 500, values, &count));
     assert_true(count == 8 && values[0] > 0);
     DONE(plm_basis_get_double(pod, "window_low_hz", &value));
@@ -216,7 +219,48 @@ static void a_basis_of_responses(void **state) {
     scene_destroy(&p.host);
 }
 
-/* ---- refusals ------------------------------------------------------------------------------------------------- */
+static void a_basis_for_a_tolerance(void **state) {
+    plate p;
+    plm_basis *refined = NULL;
+    plm_hbm *hbm = NULL;
+    peak_of truth, poor, good;
+    double error = 1;
+    char kind[16];
+    (void)state;
+    make_plate(&p, 1);
+    truth = find_peak(&p, basis_of(&p, "full", "below", 2), 5);
+    poor = find_peak(&p, basis_of(&p, "plm", "bands", 1), 5);
+    DONE(
+        plm_hbm_refine_basis(poor.hbm, p.host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, 1e-3, &refined, &error));
+    good = find_peak(&p, refined, 5);
+    print_message("error of the peak %.1e before, %.1e after, %.1e estimated\n",
+                  fabs(poor.amplitude / truth.amplitude - 1), fabs(good.amplitude / truth.amplitude - 1),
+                  error);
+    assert_true(!close_to(poor.amplitude, truth.amplitude, 0.05));
+    assert_true(close_to(good.amplitude, truth.amplitude, 1e-3) && close_to(good.hz, truth.hz, 1e-3));
+    assert_true(error >= 0 && error < 1e-3);
+    DONE(plm_basis_get_string(refined, "kind", sizeof kind, kind, NULL));
+    assert_string_equal(kind, "pod");
+
+    refined = (plm_basis *)(void *)&p;
+    error = 7;
+    hbm = poor.hbm;
+#define REFINE(dof, measure, harmonic, tolerance)                                                            \
+    plm_hbm_refine_basis(hbm, dof, measure, harmonic, tolerance, &refined, &error)
+    assert_int_equal(plm_hbm_refine_basis(NULL, 0, PLM_PEAK, 0, 1e-3, &refined, &error), PLM_ERR_HANDLE);
+    BAD(REFINE(-1, PLM_PEAK, 0, 1e-3), "plm_hbm_refine_basis", "dof", "dof is -1");
+    BAD(REFINE(0, 77, 0, 1e-3), "plm_hbm_refine_basis", "measure", "77");
+    BAD(REFINE(0, PLM_HARMONIC, 6, 1e-3), "plm_hbm_refine_basis", "harmonic", "6");
+    BAD(REFINE(0, PLM_PEAK, 0, 0), "plm_hbm_refine_basis", "tolerance", "tolerance is 0");
+    BAD(REFINE(0, PLM_PEAK, 0, 2), "plm_hbm_refine_basis", "tolerance", "tolerance is 2");
+    BAD(REFINE(0, PLM_PEAK, 0, NAN), "plm_hbm_refine_basis", "tolerance", "NaN or infinite");
+    BAD(plm_hbm_refine_basis(hbm, 0, PLM_PEAK, 0, 1e-3, NULL, &error), "plm_hbm_refine_basis", "refined",
+        "NULL");
+    assert_true(refined == (plm_basis *)(void *)&p && error == 7);
+    scene_destroy(&p.host);
+}
+
+/* ---- refusals ---- */
 
 static void what_estimate_error_refuses(void **state) {
     const char *f = "plm_hbm_estimate_error";
@@ -271,7 +315,8 @@ static void a_structure_that_its_contacts_do_not_hold(void **state) {
     (void)state;
     DONE(plm_model_create(ctx, 2, &model));
     DONE(plm_model_set_matrix_i64(model, PLM_MASS, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 2, dof, dof, mass));
-    DONE(plm_model_set_matrix_i64(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 1, zero, zero, one));
+    DONE(plm_model_set_matrix_i64(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 1, zero, zero,
+                                  one));
     DONE(plm_model_set_rayleigh_damping(model, 0.02, 0));
     DONE(plm_model_add_gap_rows_i64(model, 0, 1, ptr, zero, one, one, NULL));
     DONE(plm_model_set_excitation(model, 1, 2, force, NULL));
@@ -284,8 +329,8 @@ static void a_structure_that_its_contacts_do_not_hold(void **state) {
     DONE(plm_hbm_create(basis, &hbm));
     DONE(plm_hbm_set_string(hbm, "unknowns", "modal"));
     DONE(plm_hbm_solve(hbm, 0.1, NULL, 0, &point));
-    REFUSED(plm_hbm_estimate_error(hbm, point, 0, 0, PLM_PEAK, 0, a, hz), PLM_ERR_STATE, "plm_hbm_estimate_error",
-            "", -1, "rigid-body modes");
+    REFUSED(plm_hbm_estimate_error(hbm, point, 0, 0, PLM_PEAK, 0, a, hz), PLM_ERR_STATE,
+            "plm_hbm_estimate_error", "", -1, "rigid-body modes");
     assert_true(a[0] == 7 && hz[2] == 7);
 }
 
@@ -396,11 +441,9 @@ static void what_set_responses_refuses(void **state) {
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, open_context, close_context)
     const struct CMUnitTest tests[] = {
-        TEST(the_error_of_the_basis),
-        TEST(the_error_of_the_harmonics),
-        TEST(a_basis_of_responses),
-        TEST(what_estimate_error_refuses),
-        TEST(a_structure_that_its_contacts_do_not_hold),
+        TEST(the_error_of_the_basis),      TEST(the_error_of_the_harmonics),
+        TEST(a_basis_of_responses),        TEST(a_basis_for_a_tolerance),
+        TEST(what_estimate_error_refuses), TEST(a_structure_that_its_contacts_do_not_hold),
         TEST(what_set_responses_refuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

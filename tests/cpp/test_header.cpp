@@ -65,7 +65,8 @@ void the_run() {
     const plm::Branch again = hbm.solve(peak.frequency_hz, curve, curve.size() / 2);
     CHECK(std::abs(again.amplitude(2)[0] / peak.amplitude - 1) < 1e-3);
     const plm::ErrorEstimate error = hbm.estimate_error(peak.branch, 0, 2);
-    CHECK(error.amplitude.sum() == error.amplitude.basis + error.amplitude.contact + error.amplitude.harmonics);
+    CHECK(error.amplitude.sum() ==
+          error.amplitude.basis + error.amplitude.contact + error.amplitude.harmonics);
     CHECK(error.amplitude.harmonics != 0 && std::abs(error.amplitude.basis) < 0.01 * peak.amplitude);
     CHECK(peak.branch.contact(0, 16).force.values.size() == 16);
     CHECK(curve.get<std::vector<double>>("frequency_hz") == curve.frequency_hz());
@@ -93,7 +94,8 @@ void bases() {
     plm::Basis small(model);
     small.set("kind", "pod").set("pod_size", 1).set_parent(basis);
     plm::Hbm hbm(basis);
-    const std::vector<plm::Branch> curves{hbm.set("n_harmonics", 3).sweep()};
+    std::vector<plm::Branch> curves;
+    curves.push_back(hbm.set("n_harmonics", 3).sweep());
     small.set_responses(curves);
     small.set_responses({curves[0], curves[0]});
     small.build();

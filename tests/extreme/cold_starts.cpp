@@ -46,25 +46,28 @@ ColdStarts cold_starts(double ratio) {
     return result;
 }
 
-std::vector<SceneSweep> scene_sweeps() {
-    std::vector<SceneSweep> sweeps;
-    for (int i = 0; i < scene_count(); ++i)
-        for (bool preload : {false, true}) {
-            const SceneOwner s = make_scene(scene_name(i), preload);
-            if (preload && !s->preload) continue;
-            SceneSweep sweep;
-            sweep.name = std::string(scene_name(i)) + (preload ? ", pre-load" : "");
-            sweep.n_dof = s->n_dof, sweep.n_pairs = s->n_pairs;
-            try {
-                Solver solver(*s, setup_of(*s));
-                const auto curve = solver.sweep();
-                sweep.outcome = curve->end_text, sweep.reason = curve->end_reason, sweep.work = curve->work;
-            } catch (const Failure &f) {
-                sweep.outcome = f.what(), sweep.reason = f.reason;
-            }
-            sweeps.push_back(sweep);
-        }
-    return sweeps;
+std::vector<std::pair<std::string, bool>> scene_cases() {
+    std::vector<std::pair<std::string, bool>> cases;
+    for (int i = 0; i < scene_count(); ++i) {
+        cases.push_back({scene_name(i), false});
+        if (make_scene(scene_name(i), true)->preload) cases.push_back({scene_name(i), true});
+    }
+    return cases;
+}
+
+SceneSweep sweep_scene(const std::string &name, bool preload) {
+    const SceneOwner s = make_scene(name.c_str(), preload);
+    SceneSweep sweep;
+    sweep.name = name + (preload ? ", pre-load" : "");
+    sweep.n_dof = s->n_dof, sweep.n_pairs = s->n_pairs;
+    try {
+        Solver solver(*s, setup_of(*s));
+        const auto curve = solver.sweep();
+        sweep.outcome = curve->end_text, sweep.reason = curve->end_reason, sweep.work = curve->work;
+    } catch (const Failure &f) {
+        sweep.outcome = f.what(), sweep.reason = f.reason;
+    }
+    return sweep;
 }
 
 } // namespace extreme

@@ -23,6 +23,7 @@ struct SceneSweep {
     Work work;
 };
 
-std::vector<SceneSweep> scene_sweeps();
+std::vector<std::pair<std::string, bool>> scene_cases(); // name, with pre-load
+SceneSweep sweep_scene(const std::string &name, bool preload);
 
 } // namespace extreme

@@ -1,6 +1,6 @@
 #include "solver.hpp"
 #include "dense.hpp"
-#include "scene.h"
+#include "scene_model.h"
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -119,18 +119,7 @@ Solver::Solver(const exact::Structure &s, const std::vector<double> &mass, const
 
 Solver::Solver(const scene &s, const Setup &setup) {
     check(plm_context_create(PLM_API_VERSION, &ctx_));
-    check(plm_model_create(ctx_, s.n_dof, &model_));
-    check(plm_model_set_matrix_i64(model_, PLM_MASS, PLM_CSC, PLM_FULL, 0, PLM_COPY, s.nnz, s.col_ptr, s.row,
-                                   s.m));
-    check(plm_model_set_matrix_i64(model_, PLM_STIFFNESS, PLM_CSC, PLM_FULL, 0, PLM_COPY, s.nnz, s.col_ptr,
-                                   s.row, s.k));
-    check(plm_model_fix_dofs_i64(model_, 0, s.n_fixed, s.fixed));
-    check(plm_model_add_node_pairs_i64(model_, 0, s.n_pairs, s.dof_a, s.dof_b, s.normal, s.contact_stiffness,
-                                       s.gap));
-    check(plm_model_set_rayleigh_damping(model_, s.mass_damping, s.stiffness_damping));
-    if (s.preload) check(plm_model_set_preload(model_, s.n_dof, s.preload));
-    check(plm_model_set_excitation(model_, 1, s.n_dof, s.force, nullptr));
-    check(plm_model_build(model_));
+    check(scene_to_model(ctx_, &s, &model_));
     finish(setup);
 }
 

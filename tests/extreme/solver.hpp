@@ -68,7 +68,7 @@ class Solver {
     Solver(const exact::Structure &structure, const Setup &setup);
     /// Mass matrix given in full (n x n), for structures whose masses the exact flow cannot hold.
     Solver(const exact::Structure &structure, const std::vector<double> &mass, const Setup &setup);
-    Solver(const scene &s, const Setup &setup);
+    Solver(const scene &s, const Setup &setup); // borrows its matrices
     ~Solver();
     Solver(const Solver &) = delete;
     Solver &operator=(const Solver &) = delete;

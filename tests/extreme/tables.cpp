@@ -118,6 +118,7 @@ int print_cold_starts(bool quick, std::vector<GroupWork> &works) {
                     per_point(c.work), c.work.seconds);
         group.work.add(c.work);
         ++group.n_rows;
+        std::fflush(stdout);
         missed += c.converged < 25;
     }
     works.push_back(group);
@@ -132,7 +133,8 @@ int print_scenes(std::vector<GroupWork> &works) {
         "|---|---|---|---|---|---|---|---|---|\n");
     GroupWork group{"Scenes", 0, {}};
     int missed = 0;
-    for (const SceneSweep &s : scene_sweeps()) {
+    for (const auto &[name, preload] : scene_cases()) {
+        const SceneSweep s = sweep_scene(name, preload);
         const bool good = s.reason == PLM_REASON_RANGE_END;
         std::printf("| %s | %lld | %lld | %s |", s.name.c_str(), static_cast<long long>(s.n_dof),
                     static_cast<long long>(s.n_pairs), s.outcome.c_str());
@@ -140,6 +142,7 @@ int print_scenes(std::vector<GroupWork> &works) {
         std::printf(" %s |\n", good ? "" : "MISSED");
         group.work.add(s.work);
         ++group.n_rows;
+        std::fflush(stdout);
         missed += !good;
     }
     works.push_back(group);

@@ -207,6 +207,8 @@ contains
         call check(abs(error(1)) < 0.01*peak_m .and. abs(error(3)) > 0, 'the error of the peak, without the frequency')
         call hbm%estimate_error(peak, 1, n_dof, frequency_hz=shift)
         call check(maxval(abs(shift)) < 0.1*peak_hz, 'the error of the peak, without the amplitude')
+        call hbm%refine_basis(n_dof, 1e-3_real64, small, error(1))
+        call check(error(1) < 1e-3, 'a basis for a tolerance')
         call small%create(model)
         call small%set('kind', 'pod')
         call small%set_parent(basis)

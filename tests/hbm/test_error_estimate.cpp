@@ -1,5 +1,5 @@
-// The error of a point without the unreduced solution: the corrected point lies on the unreduced curve, which is solved
-// here to see. Penalty and compliance form, sub-harmonic branches, single solutions.
+// The error of a point without the unreduced solution: the corrected point lies on the unreduced curve, which
+// is solved here to see. Penalty and compliance form, sub-harmonic branches, single solutions.
 #include "hbm/error_estimate.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/hbm.hpp"
@@ -24,7 +24,8 @@ using BranchPtr = std::shared_ptr<const plm::Branch>;
 constexpr int n_chain = 12, watched = n_chain - 1;
 constexpr Measure measure = Measure::half_peak_to_peak;
 
-plm::Hbm solver(std::shared_ptr<const plm::ReducedModel> m, const HbmOptions &o, double low_hz, double high_hz) {
+plm::Hbm solver(std::shared_ptr<const plm::ReducedModel> m, const HbmOptions &o, double low_hz,
+                double high_hz) {
     return plm::Hbm(std::move(m), low_hz, high_hz, o, plm::Watch());
 }
 double amplitude(const plm::Branch &b, std::int64_t dof = watched) {
@@ -67,8 +68,8 @@ HbmOptions nine_harmonics() {
     return o;
 }
 
-// Single solutions at five frequencies: how far the corrected point is from the unreduced curve at its frequency,
-// against how far it was moved.
+// Single solutions at five frequencies: how far the corrected point is from the unreduced curve at its
+// frequency, against how far it was moved.
 struct Corrected {
     double moved = 0, left = 0, largest_true = 0; // of the amplitude
     bool compliant = false, same_law = true;
@@ -85,8 +86,7 @@ Corrected corrected_points(const Chains &c) {
     for (int k = 1; k < 6; ++k) {
         const double hz = c.low_hz + (c.high_hz - c.low_hz) * k / 6;
         const BranchPtr point = reduced.solve(hz, nullptr, 0);
-        const ErrorEstimate e =
-            ErrorEstimator(c.full->reduced(), *point, o).estimate(0, watched, measure, 0);
+        const ErrorEstimate e = ErrorEstimator(c.full->reduced(), *point, o).estimate(0, watched, measure, 0);
         const double a = amplitude(*point), by = e.amplitude.basis + e.amplitude.contact,
                      shift = e.frequency_hz.basis + e.frequency_hz.contact,
                      there = amplitude(*full.solve(hz + shift, nullptr, 0)),
@@ -95,8 +95,8 @@ Corrected corrected_points(const Chains &c) {
         r.left = std::max(r.left, std::abs(there - a - by) / a);
         r.largest_true = std::max(r.largest_true, std::abs(same_hz / a - 1));
     }
-    std::printf("    true %.1e, moved by %.1e, then off the curve by %.1e%s\n", r.largest_true, r.moved, r.left,
-                r.compliant ? " (compliance)" : "");
+    std::printf("    true %.1e, moved by %.1e, then off the curve by %.1e%s\n", r.largest_true, r.moved,
+                r.left, r.compliant ? " (compliance)" : "");
     return r;
 }
 
@@ -117,7 +117,8 @@ void in_compliance_form_up_to_the_rigid_limit(void **) {
             const Corrected c = corrected_points(chains(contact_stiffness, with_preload, 8));
             assert_true(c.compliant && c.largest_true > 1e-8);
             assert_true(below(c.left, 1e-2 * c.largest_true));
-            laws_differ = laws_differ || !c.same_law; // the unknowns of the two structures mean different things
+            laws_differ =
+                laws_differ || !c.same_law; // the unknowns of the two structures mean different things
         }
     assert_true(laws_differ);
 }
@@ -159,8 +160,8 @@ std::shared_ptr<const plm::ReducedModel> whole(const exact::Structure &s, double
     return plm::Basis(test::make_model(s, {{}, 0, 0, true}), nullptr, nullptr, o, plm::Watch()).reduced();
 }
 
-// A doubled response of an oscillator that touches: the period counts twice, and harmonics are those of half the
-// frequency.
+// A doubled response of an oscillator that touches: the period counts twice, and harmonics are those of half
+// the frequency.
 struct Doubled {
     std::int64_t multiple = 0;
     double basis = 1, estimated = 0, missing = 0;
@@ -175,21 +176,22 @@ Doubled doubled_response() {
     Doubled d;
     std::int64_t at = -1;
     for (std::size_t i = 0; i < branch->points().size(); ++i)
-        if (branch->points()[i].bifurcation == PLM_BIFURCATION_PERIOD_DOUBLING) at = static_cast<std::int64_t>(i);
+        if (branch->points()[i].bifurcation == PLM_BIFURCATION_PERIOD_DOUBLING)
+            at = static_cast<std::int64_t>(i);
     if (at < 0) return d;
     const BranchPtr doubled = hbm.switch_branch(*branch, at, false);
     d.multiple = doubled->period_multiple();
     const std::int64_t point = static_cast<std::int64_t>(doubled->points().size()) / 4;
     const ErrorEstimate e = ErrorEstimator(m, *doubled, o).estimate(point, 0, measure, 0);
-    const double a = doubled->amplitude(point, 0, measure, 0), hz = doubled->points()[point].omega / (2 * M_PI);
+    const double a = doubled->amplitude(point, 0, measure, 0),
+                 hz = doubled->points()[point].omega / (2 * M_PI);
     d.basis = std::max({std::abs(e.amplitude.basis), std::abs(e.amplitude.contact),
                         std::abs(e.frequency_hz.basis), std::abs(e.frequency_hz.contact)}) /
               a;
     HbmOptions many = o;
     many.n_harmonics = 40;
     many.period_multiple = 2;
-    const BranchPtr there =
-        solver(m, many, low, high).solve(hz + e.frequency_hz.sum(), doubled.get(), point);
+    const BranchPtr there = solver(m, many, low, high).solve(hz + e.frequency_hz.sum(), doubled.get(), point);
     d.estimated = e.amplitude.harmonics / a;
     d.missing = there->amplitude(0, 0, measure, 0) / a - 1;
     return d;

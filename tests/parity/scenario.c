@@ -180,7 +180,8 @@ static void print_motion(plm_model *model, plm_basis *basis, plm_branch *branch,
 }
 
 /* the error of the peak, and the basis that the curve leaves of the parent */
-static void print_estimate(plm_model *model, plm_basis *basis, plm_hbm *hbm, plm_branch *curve, plm_branch *top) {
+static void print_estimate(plm_model *model, plm_basis *basis, plm_hbm *hbm, plm_branch *curve,
+                           plm_branch *top) {
     double x[64];
     int64_t n = 0;
     plm_basis *small = NULL;
@@ -194,6 +195,10 @@ static void print_estimate(plm_model *model, plm_basis *basis, plm_hbm *hbm, plm
     must(plm_basis_build(small));
     must(plm_basis_get_array(small, "lambda", 64, x, &n));
     reals("pod_lambda", n, x);
+    must(plm_hbm_refine_basis(hbm, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, 1e-2, &small, x));
+    reals("refined_error", 1, x);
+    must(plm_basis_get_array(small, "lambda", 64, x, &n));
+    reals("refined_lambda", n, x);
 }
 
 static void print_response(plm_model *model, plm_basis *basis) {

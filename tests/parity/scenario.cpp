@@ -114,14 +114,17 @@ void print_motion(const plm::Model &model, const plm::Basis &basis, const plm::B
 void print_estimate(const plm::Model &model, const plm::Basis &basis, plm::Hbm &hbm, const plm::Branch &curve,
                     const plm::Branch &top) {
     const plm::ErrorEstimate e = hbm.estimate_error(top, 0, watched);
-    print("error", std::vector{e.amplitude.basis, e.amplitude.contact, e.amplitude.harmonics, e.frequency_hz.basis,
-                               e.frequency_hz.contact, e.frequency_hz.harmonics});
+    print("error", std::vector{e.amplitude.basis, e.amplitude.contact, e.amplitude.harmonics,
+                               e.frequency_hz.basis, e.frequency_hz.contact, e.frequency_hz.harmonics});
     plm::Basis small(model);
     small.set("kind", "pod").set("pod_tolerance", 1e-3);
     small.set_parent(basis);
     small.set_responses({curve});
     small.build();
     print("pod_lambda", small.get_array("lambda"));
+    const plm::Refined refined = hbm.refine_basis(watched, 1e-2);
+    print("refined_error", std::vector{refined.error});
+    print("refined_lambda", refined.basis.get_array("lambda"));
 }
 
 void print_response(const plm::Model &model, const plm::Basis &basis) {

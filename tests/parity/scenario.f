@@ -236,6 +236,12 @@ C     points count from 1 here.
       CALL PLMBGA(ISMALL, 'lambda', 64, X, NUMBER, IERR)
       CALL MUST(IERR)
       CALL SHOW('pod_lambda', NUMBER, X)
+      CALL PLMHRB(LHBM, 8, PLMPPM, 0, 1D-2, ISMALL, X, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('refined_error', 1, X)
+      CALL PLMBGA(ISMALL, 'lambda', 64, X, NUMBER, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('refined_lambda', NUMBER, X)
       END
 
       SUBROUTINE SHOSTA(CURVE, IPOINT)

@@ -144,6 +144,10 @@ contains
         call small%build()
         call small%get('lambda', values)
         call show('pod_lambda', values)
+        call hbm%refine_basis(watched, 1e-2_real64, small, amplitude(1), PLM_HALF_PEAK_TO_PEAK)
+        call show('refined_error', amplitude(:1))
+        call small%get('lambda', values)
+        call show('refined_lambda', values)
     end subroutine show_estimate
 
     subroutine show_stability(branch, point)

@@ -79,6 +79,10 @@ class Run(unittest.TestCase):
         self.assertLess(abs(error.amplitude.basis + error.amplitude.contact), 0.01 * peak.amplitude)
         self.assertLess(abs(error.frequency_hz.total), 0.01 * peak.frequency_hz)
         self.assertNotEqual(error, self.hbm.estimate_error(peak.branch, 0, models.WATCHED, measure="rms"))
+        refined = self.hbm.refine_basis(models.WATCHED, 1e-3)
+        self.assertLess(refined.error, 1e-3)
+        small = plm.Hbm(refined.basis, n_harmonics=5).sweep()
+        self.assertAlmostEqual(small.amplitude(models.WATCHED).max() / self.curve.amplitude(models.WATCHED).max(), 1, places=1)
         for measure in ("peak", "rms", "harmonic"):
             self.assertEqual(len(self.curve.amplitude(models.WATCHED, measure, 1)), len(self.curve))
 

@@ -1,5 +1,5 @@
-// Bases of kind "pod": what they keep of the parent (curve, orthonormality, damping, rest under pre-load), their size,
-// and how good eight columns are for the cracked plate.
+// Bases of kind "pod": what they keep of the parent (curve, orthonormality, damping, rest under pre-load),
+// their size, and how good eight columns are for the cracked plate.
 #include "capi/handles.hpp"
 #include "hbm/error_estimate.hpp"
 #include "hbm/responses.hpp"
@@ -77,7 +77,8 @@ Curve parent_curve(std::shared_ptr<const plm::Model> model) {
     so.mode = 2;
     so.n_samples = 2;
     const auto sampler = std::make_shared<const plm::Sampler>(model, so, plm::Watch());
-    return curve_on(std::make_shared<const Basis>(std::move(model), sampler, nullptr, BasisOptions(), plm::Watch()));
+    return curve_on(
+        std::make_shared<const Basis>(std::move(model), sampler, nullptr, BasisOptions(), plm::Watch()));
 }
 BasisPtr compressed(const Curve &parent, double tolerance, std::int64_t size = 0) {
     BasisOptions o;
@@ -85,17 +86,18 @@ BasisPtr compressed(const Curve &parent, double tolerance, std::int64_t size = 0
     o.pod_tolerance = tolerance;
     o.pod_size = size;
     const plm::Responses responses = plm::responses_of({parent.branch});
-    return std::make_shared<const Basis>(parent.basis->model(), nullptr, parent.basis, o, plm::Watch(), &responses);
+    return std::make_shared<const Basis>(parent.basis->model(), nullptr, parent.basis, o, plm::Watch(),
+                                         &responses);
 }
 
 // Largest difference of the amplitude at the parent's frequencies, over the peak.
 double difference(const Curve &parent, const Basis &pod) {
-    const plm::Hbm hbm(pod.reduced(), pod.window_min_hz(), pod.window_max_hz(), five_harmonics(), plm::Watch());
+    const plm::Hbm hbm(pod.reduced(), pod.window_min_hz(), pod.window_max_hz(), five_harmonics(),
+                       plm::Watch());
     double worst = 0, peak = 0;
     const std::int64_t n = static_cast<std::int64_t>(parent.branch->points().size());
     for (std::int64_t i = 0; i < n; i += 1 + n / 12) {
-        const BranchPtr point =
-            hbm.solve(parent.branch->points()[i].omega / (2 * M_PI), nullptr, 0);
+        const BranchPtr point = hbm.solve(parent.branch->points()[i].omega / (2 * M_PI), nullptr, 0);
         for (int dof : {watched, 0, n_chain}) {
             const double a = parent.branch->amplitude(i, dof, measure, 0);
             worst = std::max(worst, std::abs(point->amplitude(0, dof, measure, 0) - a));
@@ -113,8 +115,8 @@ void without_tolerance_the_curve_is_the_parents(void **) {
         }
 }
 
-// A C that is diagonal in the parent's coordinates, but is no Rayleigh damping, stays what it is: with one mass there is
-// nothing off the diagonal, with C = 0.07 K nothing either.
+// A C that is diagonal in the parent's coordinates, but is no Rayleigh damping, stays what it is: with one
+// mass there is nothing off the diagonal, with C = 0.07 K nothing either.
 double difference_with_diagonal_matrix() {
     exact::Structure s = structure(false);
     for (int i = 0; i < s.n * s.n; ++i) s.damping[i] = 0.07 * s.stiffness[i];
@@ -143,7 +145,9 @@ double difference_of_one_mass() {
     for (const plm::BranchPoint &p : parent.branch->points()) {
         const std::int64_t i = &p - parent.branch->points().data();
         const double a = parent.branch->amplitude(i, 0, measure, 0);
-        worst = std::max(worst, std::abs(hbm.solve(p.omega / (2 * M_PI), nullptr, 0)->amplitude(0, 0, measure, 0) / a - 1));
+        worst = std::max(
+            worst,
+            std::abs(hbm.solve(p.omega / (2 * M_PI), nullptr, 0)->amplitude(0, 0, measure, 0) / a - 1));
     }
     return worst;
 }
@@ -152,7 +156,8 @@ void a_matrix_of_damping_that_happens_to_be_diagonal(void **) {
     assert_true(below(difference_of_one_mass(), 1e-7));
 }
 
-// The size asked for, never more than there is; the smaller the tolerance, the more columns and the smaller the error.
+// The size asked for, never more than there is; the smaller the tolerance, the more columns and the smaller
+// the error.
 struct Sizes {
     std::vector<std::int64_t> by_size;
     std::vector<double> by_tolerance, errors;
@@ -170,7 +175,8 @@ Sizes sizes() {
         s.by_tolerance.push_back(static_cast<double>(pod->reduced()->size()));
         s.errors.push_back(difference(parent, *pod));
         const auto &values = pod->report().singular_values;
-        s.singular_values = s.singular_values && values.front() == 1 && std::is_sorted(values.rbegin(), values.rend());
+        s.singular_values =
+            s.singular_values && values.front() == 1 && std::is_sorted(values.rbegin(), values.rend());
     }
     return s;
 }
@@ -219,7 +225,8 @@ Projections projections(DampingKind damping, std::int64_t size) {
     p.mass_0 = worst_of(projected(model->mass(), m->static_vectors()), diagonal(ones_0));
     p.stiffness_0 = worst_of(projected(model->stiffness(), m->static_vectors()), diagonal(m->lambda_0));
     const Matrix c = m->damping.empty() ? diagonal(m->damping_diagonal) : m->damping;
-    if (damping == DampingKind::matrix) p.damping = worst_of(projected(model->damping_matrix(), m->vectors), c);
+    if (damping == DampingKind::matrix)
+        p.damping = worst_of(projected(model->damping_matrix(), m->vectors), c);
     if (damping == DampingKind::rayleigh) {
         Matrix wanted = diagonal(m->lambda);
         for (std::int64_t j = 0; j < m->size(); ++j) wanted(j, j) *= 0.3;
@@ -234,6 +241,50 @@ void the_columns_are_mass_normalised(void **) {
             assert_true(below(p.mass, 1e-10) && below(p.mass_0, 1e-10));
             assert_true(below(p.stiffness, 1e-9) && below(p.stiffness_0, 1e-9));
             assert_true(below(p.damping, 1e-9));
+        }
+}
+
+// Motions in time live in the coordinates of P_0, which must hold P: multipliers and the exact flow of the
+// same point on both bases.
+struct InTime {
+    double span = 1, multipliers = 1, defect = 1;
+};
+InTime in_time(bool with_preload, DampingKind damping, double tolerance) {
+    const Curve parent = parent_curve(model_of(with_preload, damping));
+    const BasisPtr pod = compressed(parent, tolerance);
+    InTime t;
+    t.span = 0;
+    const plm::ReducedModel &m = *pod->reduced();
+    Matrix momentum(m.vectors.rows(), m.vectors.cols());
+    for (std::int64_t j = 0; j < m.size(); ++j)
+        plm::multiply(m.model->mass(), m.vectors.col(j), momentum.col(j));
+    const Matrix inside = plm::product('T', 'N', m.static_vectors(), momentum);
+    for (std::int64_t j = 0; j < m.size(); ++j)
+        t.span = std::max(t.span, std::abs(plm::norm2(inside.rows(), inside.col(j)) - 1));
+    HbmOptions o = five_harmonics();
+    o.n_harmonics = 20;
+    o.stability = plm::StabilityKind::floquet;
+    const double hz = 0.5 * (pod->window_min_hz() + pod->window_max_hz());
+    double largest[2] = {0, 0}, defect[2] = {0, 0};
+    for (int k = 0; k < 2; ++k) {
+        const Basis &b = k ? *pod : *parent.basis;
+        const BranchPtr point = plm::Hbm(b.reduced(), b.window_min_hz(), b.window_max_hz(), o, plm::Watch())
+                                    .solve(hz, nullptr, 0);
+        for (const auto &mu : point->points()[0].multipliers) largest[k] = std::max(largest[k], std::abs(mu));
+        defect[k] = point->periodicity_defect(0);
+    }
+    t.multipliers = largest[0] > 0 ? std::abs(largest[1] / largest[0] - 1) : 1;
+    t.defect = std::abs(defect[1] - defect[0]);
+    std::printf("    largest multiplier %.6f and %.6f, defect %.1e and %.1e\n", largest[0], largest[1],
+                defect[0], defect[1]);
+    return t;
+}
+void motions_in_time_are_the_parents(void **) {
+    for (const bool with_preload : {false, true})
+        for (const DampingKind damping : {DampingKind::rayleigh, DampingKind::matrix}) {
+            const InTime t = in_time(with_preload, damping, 1e-7);
+            assert_true(below(t.span, 1e-9));
+            assert_true(below(t.multipliers, 1e-4) && below(t.defect, 1e-5));
         }
 }
 
@@ -261,7 +312,7 @@ void the_rest_under_preload_is_kept(void **) {
     assert_true(below(difference_at_rest(), 1e-3));
 }
 
-// Symmetric motion between two stops has no mean part: P_0 may be empty.
+// Symmetric motion between two stops has no mean part, but P_0 holds P.
 struct WithoutMean {
     std::int64_t r_0 = -1;
     double error = 1;
@@ -273,9 +324,17 @@ WithoutMean without_mean() {
     const double one[] = {1}, damping[] = {0.2}, coefficient[] = {1, -1}, stop[] = {3, 3}, gap[] = {0.4, 0.4};
     plm_context_create(PLM_API_VERSION, &c);
     must(c, plm_model_create(c, 1, &model), "create");
-    must(c, plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 1, zero, zero, one), "M");
-    must(c, plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 1, zero, zero, one), "K");
-    must(c, plm_model_set_matrix_i32(model, PLM_DAMPING, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 1, zero, zero, damping), "C");
+    must(c,
+         plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 1, zero, zero, one),
+         "M");
+    must(c,
+         plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 1, zero, zero,
+                                  one),
+         "K");
+    must(c,
+         plm_model_set_matrix_i32(model, PLM_DAMPING, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 1, zero, zero,
+                                  damping),
+         "C");
     must(c, plm_model_add_gap_rows_i32(model, 0, 2, row_ptr, dof, coefficient, stop, gap), "stops");
     must(c, plm_model_set_excitation(model, 1, 1, one, nullptr), "force");
     must(c, plm_model_build(model), "build");
@@ -306,6 +365,7 @@ WithoutMean without_mean() {
 void motions_without_a_mean_part(void **) {
     const WithoutMean w = without_mean();
     std::printf("    %d columns for the mean, peak off by %.1e\n", static_cast<int>(w.r_0), w.error);
+    assert_int_equal(w.r_0, 1);
     assert_true(below(w.error, 1e-7));
 }
 
@@ -331,8 +391,8 @@ Plate plate_with_eight_columns() {
         so.mode = host->dominant_mode;
         so.n_samples = 4;
         const auto sampler = std::make_shared<const plm::Sampler>(core, so, plm::Watch());
-        const Curve parent = curve_on(
-            std::make_shared<const Basis>(core, sampler, nullptr, BasisOptions(), plm::Watch()));
+        const Curve parent =
+            curve_on(std::make_shared<const Basis>(core, sampler, nullptr, BasisOptions(), plm::Watch()));
         const Curve truth = curve_on(plm::unreduced_basis(parent.basis, plm::Watch()));
         const Curve pod = curve_on(compressed(parent, 1e-5, 8));
         const auto peak = [&](const Curve &of) {
@@ -341,8 +401,9 @@ Plate plate_with_eight_columns() {
                 .find_peak(*of.branch, host->output_dof, measure, 0);
         };
         const plm::Peak right = peak(truth), got = peak(pod);
-        const plm::ErrorEstimate e = plm::ErrorEstimator(truth.basis->reduced(), *got.branch, five_harmonics())
-                                         .estimate(0, host->output_dof, measure, 0);
+        const plm::ErrorEstimate e =
+            plm::ErrorEstimator(truth.basis->reduced(), *got.branch, five_harmonics())
+                .estimate(0, host->output_dof, measure, 0);
         out.size = pod.basis->reduced()->size();
         out.amplitude = right.amplitude / got.amplitude - 1;
         out.frequency = right.frequency_hz / got.frequency_hz - 1;
@@ -371,6 +432,7 @@ int main() {
         cmocka_unit_test(a_matrix_of_damping_that_happens_to_be_diagonal),
         cmocka_unit_test(the_size_is_what_was_asked_for),
         cmocka_unit_test(the_columns_are_mass_normalised),
+        cmocka_unit_test(motions_in_time_are_the_parents),
         cmocka_unit_test(the_rest_under_preload_is_kept),
         cmocka_unit_test(motions_without_a_mean_part),
         cmocka_unit_test(eight_columns_for_the_cracked_plate),

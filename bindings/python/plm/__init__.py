@@ -24,11 +24,11 @@ from ._handle import Key, keys
 from ._model import Finding, Model
 from ._motion import MotionState, Transient
 from ._reduction import Basis, Sampler
-from ._response import Bifurcation, Branch, Contact, Energy, ErrorEstimate, ErrorParts, Hbm, Isolated, Peak
+from ._response import Bifurcation, Branch, Contact, Energy, ErrorEstimate, ErrorParts, Hbm, Isolated, Peak, Refined
 
 __version__ = "0.1.0"
 __all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Transient", "Peak", "Isolated", "Bifurcation", "Energy",
-           "ErrorEstimate", "ErrorParts", "Contact", "MotionState", "Finding", "Key", "PlmError", "PlmKeyError",
+           "ErrorEstimate", "ErrorParts", "Refined", "Contact", "MotionState", "Finding", "Key", "PlmError", "PlmKeyError",
            "PlmCancelled", "build_info", "default_context", "keys", "plot", "status_text", "version"]
 
 _constants = [name for name in vars(_c) if name.isupper() and isinstance(getattr(_c, name), (int, float))]

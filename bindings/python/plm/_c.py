@@ -92,6 +92,7 @@ plm_hbm_get_string psqpp
 plm_hbm_sweep pp
 plm_hbm_solve pdpqp
 plm_hbm_find_peak ppqiippp
+plm_hbm_refine_basis pqiidpp
 plm_hbm_estimate_error ppqqiipp
 plm_hbm_switch_branch ppqip
 plm_hbm_find_isolated ppdp

@@ -57,6 +57,14 @@ class Basis(Handle, noun="basis", kind=_c.KIND_BASIS):
             self.set_responses(responses)
         self.set_options(options)
 
+    @classmethod
+    def _made_by(cls, other):
+        """One of the same model whose handle the library is about to fill."""
+        basis = cls.__new__(cls)
+        Handle.__init__(basis, other.context)
+        basis._model = other._model
+        return basis
+
     @property
     def model(self):
         """The model it was made of."""

@@ -8,6 +8,7 @@ from . import _c
 from ._context import status_text
 from ._handle import Handle, address, branch_array
 from ._model import choice
+from ._reduction import Basis
 
 MEASURES = {"peak": _c.PEAK, "half_peak_to_peak": _c.HALF_PEAK_TO_PEAK, "rms": _c.RMS, "harmonic": _c.HARMONIC}
 
@@ -58,6 +59,12 @@ class Energy(NamedTuple):
     contact_area: float
 
 
+class Refined(NamedTuple):
+    """A basis made for a tolerance, and the error of reduction estimated on it."""
+    basis: Basis
+    error: float
+
+
 class Contact(NamedTuple):
     """Contact over the cycle, each n_pairs x n_times; time: fraction of the period."""
     time: numpy.ndarray
@@ -104,6 +111,14 @@ class Hbm(Handle, noun="hbm", kind=_c.KIND_HBM):
         self._work("estimate_error", branch._h, branch._from_end(point), dof, choice(measure, MEASURES, "measure"), harmonic,
                    address(amplitude), address(hz), progress=progress)
         return ErrorEstimate(ErrorParts(*amplitude.tolist()), ErrorParts(*hz.tolist()))
+
+    def refine_basis(self, dof, tolerance, measure="half_peak_to_peak", harmonic=0, progress=None):
+        """Refined(basis, error): a small basis, of kind "pod", on which the curve's error of reduction is estimated to be
+        below `tolerance`, whatever the basis of this hbm. Where it cannot be reached, error says what is left."""
+        refined, error = Basis._made_by(self._basis), ctypes.c_double()
+        self._work("refine_basis", dof, choice(measure, MEASURES, "measure"), harmonic, tolerance, ctypes.byref(refined._h),
+                   ctypes.byref(error), progress=progress)
+        return Refined(refined, error.value)
 
     def switch_branch(self, branch, point, mirrored=False, progress=None):
         """The curve that crosses `branch` at a located branch point, or leaves it at a period doubling (with twice the
