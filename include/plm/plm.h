@@ -421,8 +421,10 @@ PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_b
 /* How wrong a point of `branch` is, without the unreduced solution: its contact forces are applied to the unreduced
  * structure, and one step with the tangent of the latter, across the curve, tells what the defect does. amplitude[3] (of a
  * DOF, as in plm_branch_get_amplitude) and frequency_hz[3] (shift of the curve), corrected less computed, by cause: basis,
- * contact sets, harmonics beyond those solved for; the sum is the estimate. Each output may be NULL. PLM_ERR_STATE when
- * the contacts do not hold all rigid-body modes. The first call of an hbm prepares the unreduced structure. */
+ * contact sets, harmonics beyond those solved for; the sum is the estimate. It measures errors that are small against the
+ * width of the resonance and says of larger ones that they are large. Away from a peak, amplitude and frequency belong
+ * together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the contacts do not hold all
+ * rigid-body modes. The first call of an hbm prepares the unreduced structure. */
 PLM_API plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, int64_t point, int64_t dof, int32_t measure,
                                           int32_t harmonic, double *amplitude, double *frequency_hz);
 /* A basis for one number, the tolerance. From the basis of this hbm, however poor, and its curve: the motions, corrected

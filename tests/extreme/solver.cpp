@@ -1,9 +1,12 @@
 #include "solver.hpp"
 #include "dense.hpp"
-#include "scene_model.h"
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+
+extern "C" {
+#include "scene_model.h"
+}
 
 namespace extreme {
 namespace {
