@@ -17,8 +17,8 @@ struct BranchPoint {
     double force_scale = 1;       // factor on the excitation
     std::int32_t bifurcation = PLM_BIFURCATION_NONE;
     vector<std::complex<double>> multipliers; // Floquet multipliers; empty: not computed
-    // Compliance formulation only (formulation.hpp): Z x (2H + 1) polynomials and their stiffness, whose positive
-    // part gives the contact force; null: the penetration and k_n
+    // Compliance formulation only (formulation.hpp): Z x (2H + 1) polynomials and their stiffness, whose
+    // positive part gives the contact force; null: the penetration and k_n
     Matrix contact_motion;
     std::shared_ptr<const vector<double>> contact_stiffness;
     double arclength = 0;         // scaled, from the branch's first point

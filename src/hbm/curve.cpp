@@ -37,15 +37,17 @@ std::int64_t next_harmonics(const HbmOptions &limits, std::int64_t fewest, std::
     const std::int64_t most = std::max(limits.max_harmonics, now);
     if (content.tail > 30 * limits.harmonic_tolerance) return std::min(most, 2 * now);
     if (content.tail > limits.harmonic_tolerance) return std::min(most, std::max(now + 2, (7 * now + 4) / 5));
-    if (content.tail + content.top < 0.02 * limits.harmonic_tolerance) return std::max(fewest, now - (2 * now) / 5);
+    if (content.tail + content.top < 0.02 * limits.harmonic_tolerance)
+        return std::max(fewest, now - (2 * now) / 5);
     return now;
 }
 
 class CurveTracer final : public PathOwner {
   public:
     CurveTracer(const HbmOptions &options, Watch watch, Branch &branch)
-        : asked_(options), options_(options), watch_(watch), branch_(branch), reduced_(branch.reduced_model()),
-          stability_(reduced_, options), fewest_(std::max<std::int64_t>(3, highest_excitation(*reduced_))) {}
+        : asked_(options), options_(options), watch_(watch), branch_(branch),
+          reduced_(branch.reduced_model()), stability_(reduced_, options),
+          fewest_(std::max<std::int64_t>(3, highest_excitation(*reduced_))) {}
 
     void run(const CurveStart &start) {
         options_.n_harmonics = start.point.n_harmonics / options_.period_multiple;
@@ -116,8 +118,8 @@ class CurveTracer final : public PathOwner {
     }
 
   private:
-    // The last step led to where its harmonics are far too few (contact has just begun to open): its points may not
-    // even be near the curve.
+    // The last step led to where its harmonics are far too few (contact has just begun to open): its points
+    // may not even be near the curve.
     bool misleading() const {
         const double now = branch_.points().back().harmonic_tail,
                      before = branch_.points()[static_cast<std::size_t>(n_kept_ - 1)].harmonic_tail;
@@ -184,8 +186,8 @@ class CurveTracer final : public PathOwner {
         moved_most_ = 0;
     }
 
-    // The last point kept in the new system, corrected across the direction travelled; the old system goes on when
-    // that fails.
+    // The last point kept in the new system, corrected across the direction travelled; the old system goes on
+    // when that fails.
     PathStart change_system(const PathOutcome &out) {
         since_change_ = 0;
         const std::int64_t n = rejects_ ? n_kept_ : n_points();
@@ -299,12 +301,13 @@ void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch
 HbmOptions with_first_harmonics(const ReducedModel &reduced, const HbmOptions &options) {
     HbmOptions first = options;
     if (first.n_harmonics == 0)
-        first.n_harmonics = std::min(options.max_harmonics, std::max(first_harmonics, highest_excitation(reduced)));
+        first.n_harmonics =
+            std::min(options.max_harmonics, std::max(first_harmonics, highest_excitation(reduced)));
     return first;
 }
 
-void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, BranchPoint &point,
-                      Watch watch) {
+void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                      BranchPoint &point, Watch watch) {
     const std::int64_t multiple = options.period_multiple;
     for (;;) {
         const HarmonicContent content = harmonic_content(*reduced, point, multiple);

@@ -17,10 +17,10 @@ struct Space {
     std::map<int, HarmonicLoad> excitation; // V^T F_h
     std::int64_t n_exact_modes = 0;         // the first ones are exact modes of the open system
     double highest_frequency = 0;           // the space is accurate up to here (rad/s)
-    double error_estimate = 0;    // relative error of the contact receptances there; 0 when not estimated
+    double error_estimate = 0;     // relative error of the contact receptances there; 0 when not estimated
     bool is_contact_space = false; // the unreduced structure to the model's tolerance (make_contact_space)
-    bool counts_verified = false; // Sturm count agreed
-    std::string description;      // "78 open modes below 20.1 kHz + 2 x 92 attachment vectors, error 3e-8"
+    bool counts_verified = false;  // Sturm count agreed
+    std::string description;       // "78 open modes below 20.1 kHz + 2 x 92 attachment vectors, error 3e-8"
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }
     std::int64_t n_pairs() const { return gap.rows(); }

@@ -49,9 +49,9 @@ struct BasisReport {
 
 class Basis {
   public:
-    /// sampler: needed for kind plm. parent: first reduction under PLM or null; for kind pod the basis the responses
-    /// were computed on. window_hz are taken from options, sampler or (pod) parent; kinds craig_bampton and full need
-    /// options.frequency_max_hz or a sampler.
+    /// sampler: needed for kind plm. parent: first reduction under PLM or null; for kind pod the basis the
+    /// responses were computed on. window_hz are taken from options, sampler or (pod) parent; kinds
+    /// craig_bampton and full need options.frequency_max_hz or a sampler.
     Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> sampler,
           std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch,
           const Responses *responses = nullptr);

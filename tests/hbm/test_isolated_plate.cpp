@@ -272,7 +272,8 @@ Marched march() {
     o.stability = plm::StabilityKind::floquet;
     const plm::Hbm hbm(all.plate.reduced, 0, 0, o, plm::Watch());
     for (std::size_t i = 0; i < loop.points().size() && out.checked < 4; i += 3) {
-        if (loop.points()[i].bifurcation != PLM_BIFURCATION_NONE) continue; // no unique solution to come back to
+        if (loop.points()[i].bifurcation != PLM_BIFURCATION_NONE)
+            continue; // no unique solution to come back to
         const auto one = hbm.solve(loop.points()[i].omega / (2 * M_PI), &loop, static_cast<std::int64_t>(i));
         const plm::BranchPoint &p = one->points()[0];
         if (plm::stability_of(p) != 1 || !on_upper_flank(curve_of(loop, dof), i)) continue;
