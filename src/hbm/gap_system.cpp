@@ -223,8 +223,9 @@ class GapSystem final : public HbmSystem {
 
     void set_frequency(double omega) {
         if (omega == omega_) return;
-        omega_ = omega;
+        omega_ = -1; // an update may throw, and not all of them would be of one frequency
         for (std::int64_t h = 1; h <= h_; ++h) receptance_[h].update(*m_, h, omega);
+        omega_ = omega;
     }
 
     const HarmonicLoad *excitation(std::int64_t h) const {

@@ -2,6 +2,7 @@
 // three highest ones, by successive parabolic interpolation.
 #include "hbm/hbm.hpp"
 #include "hbm/newton.hpp"
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -147,6 +148,10 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         options.force_scale = point.force_scale;
         options.period_multiple = branch.period_multiple();
         options.n_harmonics = point.n_harmonics / options.period_multiple;
+        // one point is cheap, and its amplitude is what people quote: an order better than the curve
+        if (options_.n_harmonics == 0 && point.harmonic_tail > 0.1 * options_.harmonic_tolerance)
+            options.n_harmonics =
+                std::max(options.n_harmonics, std::min(options_.max_harmonics, 2 * options.n_harmonics));
         const auto system = make_system(reduced_, options);
         point = PeakSearch(*system, options, reduced_, dof, measure, harmonic).run(branch, top).point;
     }

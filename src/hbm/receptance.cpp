@@ -1,4 +1,5 @@
 #include "hbm/receptance.hpp"
+#include <cmath>
 
 namespace plm {
 
@@ -18,7 +19,17 @@ void Receptance::update(const ReducedModel &m, std::int64_t h, double omega, dou
     }
     harmonic_ = static_cast<double>(h);
     if (m.damping.empty()) {
-        for (Complex &d : diagonal_) d = 1.0 / d;
+        for (Complex &d : diagonal_) {
+            if (d == 0.0)
+                throw Error(
+                    PLM_ERR_SINGULAR,
+                    format(
+                        "an undamped mode of the open structure is driven exactly at its frequency, %.9g Hz "
+                        "(harmonic %lld); give it damping or another frequency",
+                        w / (2 * M_PI), static_cast<long long>(h)))
+                    .reason(PLM_REASON_SINGULAR);
+            d = 1.0 / d;
+        }
         return;
     }
     vector<Complex> full(r * r);

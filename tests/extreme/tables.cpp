@@ -73,7 +73,15 @@ void print_introduction() {
         "at the row in `tests/extreme/`. *Sampled*: the same case with `aft` = `sampled`, 256 samples; "
         "`stopped`: it did\n"
         "not reach the end of the range. Times are seconds of the\n"
-        "processor, one thread (a machine of 2 cores, Debian 12, gcc 12, -O2), indicative only.\n\n");
+        "processor, one thread (a machine of 2 cores, Debian 12, gcc 12, -O2), indicative only.\n\n"
+        "Impacts of stiff contact (rows `impact`, k_n from 1e5 k_loc) last less than 60 harmonics, the most "
+        "allowed by\n"
+        "default, resolve: the error falls as 1 / H (at 1e5, 0.55 rad/s, with a gap: 3.5e-2 with the 40 "
+        "harmonics chosen,\n"
+        "2.5e-2 with 60, 1.2e-2 with 120, 2e-3 with 480), while the harmonic tail of the 40 is 3e-4: it does "
+        "not show this\n"
+        "error. Where the stop stands on a DOF without mass (rows `bed`) there are no impacts, and none of "
+        "this.\n\n");
 }
 
 void print_row_head() {
