@@ -388,7 +388,8 @@ PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
 PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, int64_t point,
                                  plm_branch **branch);
 /* The curve's highest amplitude of a DOF (see plm_branch_get_amplitude), located on the exact curve by corrected steps
- * around the highest point of `branch` (which this hbm's basis computed). peak: that point as a branch, or NULL. */
+ * around the highest point of `branch` (which this hbm's basis computed), with twice its harmonics where they are chosen
+ * automatically and the next ones would show. peak: that point as a branch, or NULL. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
 

@@ -55,6 +55,7 @@ static int run(plm_context *ctx, const scene *s) {
     TRY(plm_basis_set_sampler(basis, sampler));
     TRY(plm_basis_build(basis));
     TRY(plm_hbm_create(basis, &hbm));
+    TRY(plm_hbm_set_int(hbm, "n_harmonics", 7));
     TRY(plm_hbm_sweep(hbm, &curve));
     TRY(plm_hbm_find_peak(hbm, curve, s->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, &hz, &mm, &peak));
     printf("open_hz %.9f %.9f %.9f\n", open[0], open[1], open[2]);
