@@ -69,6 +69,7 @@ static answer peak(const study *t, plm_basis *b, double force_scale) {
     plm_hbm *h = NULL;
     plm_branch *curve = NULL, *top = NULL;
     must(t->ctx, plm_hbm_create(b, &h), "hbm");
+    must(t->ctx, plm_hbm_set_int(h, "n_harmonics", 5), "n_harmonics"); /* the paper's */
     must(t->ctx, plm_hbm_set_double(h, "force_scale", force_scale), "force_scale");
     must(t->ctx, plm_hbm_sweep(h, &curve), "sweep");
     must(t->ctx,
