@@ -92,8 +92,9 @@ struct Family {
 };
 
 // Impacts of 2 % (1e3) to 2e-5 (1e9) of the period; velocities jump, and errors fall as 1 / H: 3e-2 with 60
-// harmonics, 1e-2 with 120, 6e-3 with 240 at 1e5. The bed takes the jumps away; at 1e3, still a penalty, what
-// opens for a moment only is beyond 60 harmonics (2e-3), from 1e5 on the compliance form does without it.
+// harmonics, 1e-2 with 120, 6e-3 with 240 at 1e5. The bed takes the jumps away. At 1e3 with a gap, 2.3e-3 are
+// left where the stop is first touched: the points there have 3 to 14 harmonics although their tail is above
+// harmonic_tolerance.
 double bound(const Family &family, int power) {
     if (power <= 1) return 1e-3;
     if (family.name[0] == 'b') return power <= 3 ? 5e-3 : 1e-3;

@@ -186,7 +186,7 @@ contains
         call check(all(wide == iterations), 'integers of both kinds are the same')
         call hbm%find_peak(curve, n_dof, peak_hz, peak_m, PLM_HARMONIC, 1, peak)
         call curve%amplitude(n_dof, value, PLM_HARMONIC, 1)
-        call check(maxval(value) <= peak_m*1.001_real64, 'no point is above the peak, which has more harmonics')
+        call check(maxval(value) <= peak_m*1.01_real64, 'no point is above the peak, which has more harmonics')
         call peak%amplitude(n_dof, harmonic, PLM_HARMONIC, 1)
         call peak%get('n_harmonics', h)
         call peak%coefficients(1, n_dof, c)
@@ -200,7 +200,7 @@ contains
         call peak%get('frequency_hz', frequency)
         call hbm%solve(frequency(1), one, start=peak, point=1)
         call one%amplitude(n_dof, value, PLM_HARMONIC, 1)
-        call check(abs(value(1)/peak_m - 1) < 1e-3, 'solve at the peak finds the peak') ! which has more harmonics
+        call check(abs(value(1)/peak_m - 1) < 1e-2, 'solve at the peak finds the peak') ! which has more harmonics
         call one%full_residual(1, r)
         call check(r < 1, 'the full residual is a number')
         call hbm%estimate_error(peak, 1, n_dof, error, measure=PLM_HARMONIC)
