@@ -25,7 +25,7 @@ const std::vector<Key> &hbm_keys() {
         int_option<&O::max_harmonics>("max_harmonics", 1, 1000, "with n_harmonics = 0: the most allowed"),
         real_option<&O::harmonic_tolerance>(
             "harmonic_tolerance", 1e-12, 1,
-            "with n_harmonics = 0: allowed share of the next harmonics in the motion of the gaps"),
+            "with n_harmonics = 0: allowed \"harmonic_error\" of a point"),
         choice_option<&O::tail_correction>("tail_correction", "off,on",
                                            "add the next harmonics that follow from the exact contact force"),
         int_option<&O::period_multiple>("period_multiple", 1, 64,
@@ -93,6 +93,9 @@ const std::vector<Key> &branch_keys() {
                   [](const B &b) { return per_point<Ints>(b, [](auto &p) { return p.n_harmonics; }); }),
         result<B>("harmonic_tail", "share of the next harmonics in the motion of the gaps, of every point; -1: unknown",
                   [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.harmonic_tail; }); }),
+        result<B>("harmonic_error", "share of the motion that the next harmonics would change, of every point, by one step of "
+                  "Newton's method; -1: unknown",
+                  [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.harmonic_error; }); }),
         result<B>("period_multiple", "excitation periods in a period of the response; harmonics count from the latter",
                   [](const B &b) { return built(b)->period_multiple(); }),
         result<B>("point_force_scale", "factor on the excitation of every point",

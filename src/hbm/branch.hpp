@@ -14,6 +14,7 @@ struct BranchPoint {
     Matrix eta;                   // r x 2H: columns a1, b1, a2, b2, ...
     std::int64_t n_harmonics = 0; // solved for; further columns are zero or the tail that follows from them
     double harmonic_tail = -1;    // share of the gaps' motion in the next harmonics, from the exact force
+    double harmonic_error = -1;   // what they would change, see harmonic_error(); -1: unknown
     double force_scale = 1;       // factor on the excitation
     std::int32_t bifurcation = PLM_BIFURCATION_NONE;
     vector<std::complex<double>> multipliers; // Floquet multipliers; empty: not computed

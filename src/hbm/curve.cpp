@@ -1,6 +1,5 @@
 #include "hbm/curve.hpp"
 #include "hbm/formulation.hpp"
-#include "hbm/harmonic_tail.hpp"
 #include "hbm/stability.hpp"
 #include "hbm/start.hpp"
 #include <algorithm>
@@ -31,13 +30,20 @@ std::int64_t highest_excitation(const ReducedModel &m) {
     return m.excitation.empty() ? 1 : std::max(1, m.excitation.rbegin()->first);
 }
 
-// The number of harmonics a point asks for, from what it has.
+// Allowed share of the next harmonics in the motion of the gaps, as a multiple of harmonic_tolerance: local
+// motions of the surfaces that hardly act back on the structure may be left coarse, but not unresolved.
+constexpr double tail_allowance = 20;
+
+// The number of harmonics a point asks for, from what it has; `error`: harmonic_error().
 std::int64_t next_harmonics(const HbmOptions &limits, std::int64_t fewest, std::int64_t now,
-                            const HarmonicContent &content) {
+                            const HarmonicContent &content, double error) {
     const std::int64_t most = std::max(limits.max_harmonics, now);
-    if (content.tail > 30 * limits.harmonic_tolerance) return std::min(most, 2 * now);
-    if (content.tail > limits.harmonic_tolerance) return std::min(most, std::max(now + 2, (7 * now + 4) / 5));
-    if (content.tail + content.top < 0.02 * limits.harmonic_tolerance)
+    const double over = std::max(error, content.tail / tail_allowance) / limits.harmonic_tolerance;
+    if (over > 30) return std::min(most, 2 * now);
+    if (over > 1) return std::min(most, std::max(now + 2, (7 * now + 4) / 5));
+    // without the upper two fifths the tail would grow from `tail` to `tail + top`, and its effect with it
+    const double grows = content.tail > 0 ? 1 + content.top / content.tail : 1;
+    if (over * grows < 0.3 && content.tail + content.top < 0.3 * tail_allowance * limits.harmonic_tolerance)
         return std::max(fewest, now - (2 * now) / 5);
     return now;
 }
@@ -78,7 +84,7 @@ class CurveTracer final : public PathOwner {
         system_->to_point(p.x.data(), p.parameter, point);
         point.n_switching = system_->indicator().n_switching;
         if (stability_.wanted()) point.multipliers = multipliers(p.x, p.parameter);
-        look_at_harmonics(point);
+        look_at_harmonics(p.x, point);
         moved_most_ = std::max(moved_most_, point.n_switching);
         branch_.append(std::move(point));
     }
@@ -162,15 +168,18 @@ class CurveTracer final : public PathOwner {
         return known_multipliers_;
     }
 
-    void look_at_harmonics(BranchPoint &point) {
+    void look_at_harmonics(const vector<double> &x, BranchPoint &point) {
         wanted_harmonics_ = options_.n_harmonics;
         const bool needed = asked_.n_harmonics == 0 || asked_.tail_correction;
         if (!needed && !reduced_->damping.empty()) return; // a dense factorization for each harmonic
         const HarmonicContent content = harmonic_content(*reduced_, point, options_.period_multiple);
         point.harmonic_tail = content.tail;
-        wanted_harmonics_ = asked_.n_harmonics > 0
-                                ? options_.n_harmonics
-                                : next_harmonics(asked_, fewest_, options_.n_harmonics, content);
+        if (asked_.n_harmonics == 0) {
+            point.harmonic_error =
+                harmonic_error(*reduced_, point, options_.period_multiple, content, *system_, x.data());
+            wanted_harmonics_ =
+                next_harmonics(asked_, fewest_, options_.n_harmonics, content, point.harmonic_error);
+        }
         if (!asked_.tail_correction) return;
         point.eta.append(content.tail_response);
     }
@@ -190,20 +199,15 @@ class CurveTracer final : public PathOwner {
     // when that fails.
     PathStart change_system(const PathOutcome &out) {
         since_change_ = 0;
-        const std::int64_t n = rejects_ ? n_kept_ : n_points();
-        const BranchPoint &last = branch_.points()[static_cast<std::size_t>(n - 1)];
-        PathStart path = resume(out);
+        const PathStart path = resume(out);
         HbmOptions changed = options_;
         changed.n_harmonics = wanted_harmonics_;
         changed.unknowns = wants_modal_ ? UnknownSpace::modal : UnknownSpace::gaps;
         auto next = make_system(reduced_, changed);
         next.swap(system_);
-        PathStart other = leaving(last, n > 1 ? branch_.points()[static_cast<std::size_t>(n - 2)] : last);
-        other.record = false;
-        for (double &d : other.direction_x) d = -d; // on, not back
-        other.direction_parameter *= -1;
-        if (n == 1) other.direction_parameter = options_.upward ? 1 : -1;
-        if (!correct(other)) {
+        std::int64_t n = rejects_ ? n_kept_ : n_points();
+        PathStart other;
+        if (!go_on_from(n, changed.n_harmonics < options_.n_harmonics, other)) {
             next.swap(system_);
             blocked_ = 4 * patience;
             wanted_harmonics_ = options_.n_harmonics;
@@ -212,13 +216,53 @@ class CurveTracer final : public PathOwner {
             return path;
         }
         blocked_ = 0;
-        base_arclength_ = last.arclength;
-        if (rejects_) branch_.truncate(n_kept_);
+        base_arclength_ = branch_.points()[static_cast<std::size_t>(n - 1)].arclength;
+        branch_.truncate(n);
+        n_kept_ = n;
         if (wants_modal_ != modal_) branch_.space_used = "both";
         options_ = changed;
         modal_ = wants_modal_;
         set_end(other);
         return other;
+    }
+
+    // The n-th point in the present system or, when that sees another stability there, one of those before
+    // it: otherwise a bifurcation would be passed twice, or not at all.
+    bool go_on_from(std::int64_t &n, PathStart &path) {
+        const std::int64_t last = n;
+        if (!go_on_from_point(last, path)) return false;
+        PathStart earlier = path;
+        for (; n > 2 && n > last - patience; --n) {
+            if (branch_.points()[static_cast<std::size_t>(n - 1)].bifurcation != PLM_BIFURCATION_NONE)
+                continue;
+            if (n < last && !go_on_from_point(n, earlier)) break;
+            if (!same_stability(n, earlier)) continue;
+            path = earlier;
+            return true;
+        }
+        n = last;
+        return true;
+    }
+
+    bool go_on_from_point(std::int64_t n, PathStart &path) {
+        const BranchPoint &at = branch_.points()[static_cast<std::size_t>(n - 1)];
+        path = leaving(at, n > 1 ? branch_.points()[static_cast<std::size_t>(n - 2)] : at);
+        path.record = false;
+        for (double &d : path.direction_x) d = -d; // on, not back
+        path.direction_parameter *= -1;
+        if (n == 1) path.direction_parameter = options_.upward ? 1 : -1;
+        return correct(path);
+    }
+
+    bool same_stability(std::int64_t n, const PathStart &path) {
+        const vector<std::complex<double>> &before =
+            branch_.points()[static_cast<std::size_t>(n - 1)].multipliers;
+        if (!stability_.wanted() || before.empty()) return true;
+        const vector<double> a = bifurcation_tests(before),
+                             b = bifurcation_tests(multipliers(path.x, path.parameter));
+        for (std::size_t k = 0; k < a.size(); ++k)
+            if (a[k] * b[k] < 0) return false;
+        return true;
     }
 
     // Where the curve began, as the present system sees it: a loop has to meet it.
@@ -306,24 +350,39 @@ HbmOptions with_first_harmonics(const ReducedModel &reduced, const HbmOptions &o
     return first;
 }
 
+HarmonicContent measure_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                                  BranchPoint &point) {
+    const auto system = make_system(reduced, options);
+    vector<double> x(system->size()), residual(system->size());
+    system->from_point(point, x.data());
+    system->residual(x.data(), point.omega, residual.data());
+    system->linearize();
+    HarmonicContent content = harmonic_content(*reduced, point, options.period_multiple);
+    point.harmonic_tail = content.tail;
+    point.harmonic_error =
+        harmonic_error(*reduced, point, options.period_multiple, content, *system, x.data());
+    return content;
+}
+
 void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                       BranchPoint &point, Watch watch) {
     const std::int64_t multiple = options.period_multiple;
+    HbmOptions now = options;
     for (;;) {
-        const HarmonicContent content = harmonic_content(*reduced, point, multiple);
-        point.harmonic_tail = content.tail;
-        const std::int64_t now = point.n_harmonics / multiple;
-        const std::int64_t more = options.n_harmonics > 0 ? now : next_harmonics(options, now, now, content);
-        if (more <= now) {
+        now.n_harmonics = point.n_harmonics / multiple;
+        const HarmonicContent content = measure_harmonics(reduced, now, point);
+        std::int64_t more = now.n_harmonics;
+        if (options.n_harmonics == 0)
+            more = next_harmonics(options, more, more, content, point.harmonic_error);
+        if (more <= now.n_harmonics) {
             if (options.tail_correction) point.eta.append(content.tail_response);
             return;
         }
-        HbmOptions finer = options;
-        finer.n_harmonics = more;
-        const auto system = make_system(reduced, finer);
+        now.n_harmonics = more;
+        const auto system = make_system(reduced, now);
         vector<double> x(system->size());
         system->from_point(point, x.data());
-        const StartOutcome out = find_start(*system, *reduced, finer, point.omega, true, watch, x);
+        const StartOutcome out = find_start(*system, *reduced, now, point.omega, true, watch, x);
         if (!out.converged) return;
         point.iterations += out.iterations;
         point.residual = out.residual;

@@ -2,6 +2,7 @@
 // chosen again wherever the response asks for it, and with the stability of its points.
 #pragma once
 #include "hbm/continuation.hpp"
+#include "hbm/harmonic_tail.hpp"
 #include "linalg/monitor.hpp"
 
 namespace plm {
@@ -21,6 +22,11 @@ void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch
 /// number is reached): what one point needs. `point` stays where no solution with more is found.
 void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, BranchPoint &point,
                       Watch watch = Watch());
+
+/// Sets point.harmonic_tail and harmonic_error of a solution with options.n_harmonics > 0 harmonics; returns what
+/// the next ones are.
+HarmonicContent measure_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                                  BranchPoint &point);
 
 /// Options with the number of harmonics to begin with in place of 0.
 HbmOptions with_first_harmonics(const ReducedModel &reduced, const HbmOptions &options);

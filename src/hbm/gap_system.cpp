@@ -76,17 +76,22 @@ class GapSystem final : public HbmSystem {
 
     void set_stiffness_factor(double factor) override { stiffness_factor_ = factor; }
 
-    void stiffness_derivative(double *r) override { // B D B' N - slack N
+    void contact_force_change(const Matrix &force, double *r) override { // B D B' N - slack N
         std::fill(r, r + size(), 0.0);
         vector<double> c(z_), q(z_, 0.0);
         for (std::int64_t h = 0; h <= h_; ++h) {
             for (std::int64_t i = 0; i < z_; ++i) {
-                c[i] = contact_(i, h == 0 ? 0 : 2 * h - 1);
-                if (h > 0) q[i] = contact_(i, 2 * h);
+                c[i] = force(i, h == 0 ? 0 : 2 * h - 1);
+                if (h > 0) q[i] = force(i, 2 * h);
             }
             subtract_response(h, c, q, r);
         }
         for (std::int64_t k = 0; k < size(); ++k) r[k] = -r[k];
+    }
+    const Matrix &contact_force() const override { return contact_; }
+    void contact_motion_change(const double *x, Matrix &u) override {
+        u.reset(z_, n_);
+        std::copy(x, x + size(), u.data());
     }
 
     void set_extra_gap(double extra) override {

@@ -2,6 +2,7 @@
 #include "hbm/contact_force.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/receptance.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace plm {
@@ -11,9 +12,9 @@ double norm_of_harmonics(const Matrix &u, std::int64_t first, std::int64_t last)
     return first > last ? 0 : norm2(u.rows() * 2 * (last - first + 1), u.col(2 * first - 1));
 }
 
-// Reduced response of one harmonic to its contact force and excitation.
-void respond(const ReducedModel &m, std::int64_t h, const BranchPoint &p, std::int64_t multiple,
-             const Matrix &force, double *cosine, double *sine) {
+// Reduced response of one harmonic to its contact force and `force_scale` times the excitation.
+void respond(const ReducedModel &m, std::int64_t h, double omega, std::int64_t multiple, const Matrix &force,
+             double force_scale, double *cosine, double *sine) {
     const std::int64_t r = m.size();
     vector<double> c(r), s(r);
     gemv('T', -1.0, m.gap, force.col(2 * h - 1), 0.0, c.data());
@@ -23,14 +24,51 @@ void respond(const ReducedModel &m, std::int64_t h, const BranchPoint &p, std::i
     const auto load = m.excitation.find(static_cast<int>(h / multiple));
     if (h % multiple == 0 && load != m.excitation.end())
         for (std::int64_t j = 0; j < r; ++j)
-            v[j] += p.force_scale * std::complex<double>(load->second.real[j], load->second.imag[j]);
+            v[j] += force_scale * std::complex<double>(load->second.real[j], load->second.imag[j]);
     Receptance receptance;
-    receptance.update(m, h, p.omega / static_cast<double>(multiple));
+    receptance.update(m, h, omega / static_cast<double>(multiple));
     receptance.apply(v.data());
     for (std::int64_t j = 0; j < r; ++j) {
         cosine[j] = v[j].real();
         sine[j] = -v[j].imag();
     }
+}
+
+// The contact forces of harmonics 0 ... `solved` with the tail less those without. u and `force`, padded to
+// as many harmonics as the tail has, are overwritten.
+Matrix change_by(const Matrix &tail, const ReducedModel &m, const vector<double> &stiffness,
+                 std::int64_t solved, Matrix &u, Matrix &force) {
+    const std::int64_t z = m.n_pairs(), known = 2 * solved + 1;
+    Matrix change(z, known);
+    for (std::int64_t k = 0; k < change.rows() * known; ++k) change.data()[k] = -force.data()[k];
+    for (std::int64_t k = known; k < u.cols(); ++k)
+        for (std::int64_t i = 0; i < z; ++i) { // in compliance form the unknowns hold the slack, too
+            const double slack = 1 / stiffness[i] - 1 / m.contact_stiffness[i];
+            u(i, k) = tail(i, k - known) + slack * force(i, k);
+        }
+    ContactIndicator indicator;
+    make_event_force(u.cols() / 2, z)->indicator(u, indicator);
+    apply_indicator(indicator, stiffness, u, force);
+    for (std::int64_t k = 0; k < z * known; ++k) change.data()[k] += force.data()[k];
+    return change;
+}
+
+// Newton's step for a change of the contact forces, less what lies along the curve's tangent; its shift of
+// omega.
+vector<double> across_curve(HbmSystem &system, const double *x, double omega, const Matrix &force_change,
+                            double &shift) {
+    const std::int64_t n = system.size();
+    vector<double> change(n), along(n);
+    system.contact_force_change(force_change, change.data());
+    system.omega_derivative(along.data());
+    system.solve(change.data(), 1);
+    system.solve(along.data(), 1);
+    // lengths are measured by the solution and the frequency themselves; the tangent is (-along, 1)
+    const double scale = norm2(n, x), per_length = scale > 0 ? 1 / (scale * scale) : 1;
+    shift = per_length * dot(n, along.data(), change.data()) /
+            (per_length * dot(n, along.data(), along.data()) + 1 / (omega * omega));
+    for (std::int64_t i = 0; i < n; ++i) change[i] = shift * along[i] - change[i];
+    return change;
 }
 
 } // namespace
@@ -49,14 +87,37 @@ HarmonicContent harmonic_content(const ReducedModel &m, const BranchPoint &p, st
     apply_indicator(indicator, *contact.stiffness, u, force);
     for (std::int64_t h = solved + 1; h <= n; ++h) {
         const std::int64_t column = 2 * (h - solved - 1);
-        respond(m, h, p, multiple, force, content.tail_response.col(column), content.tail_response.col(column + 1));
+        respond(m, h, p.omega, multiple, force, p.force_scale, content.tail_response.col(column),
+                content.tail_response.col(column + 1));
     }
     const double motion = norm_of_harmonics(u, 1, solved);
     if (motion == 0) return content;
     const Matrix tail = product('N', 'N', m.gap, content.tail_response);
     content.tail = norm2(tail.rows() * tail.cols(), tail.data()) / motion;
     content.top = norm_of_harmonics(u, solved - (2 * solved) / 5 + 1, solved) / motion;
+    content.force_change = change_by(tail, m, *contact.stiffness, solved, u, force);
     return content;
+}
+
+double harmonic_error(const ReducedModel &m, const BranchPoint &point, std::int64_t multiple,
+                      const HarmonicContent &content, HbmSystem &system, const double *x) {
+    const std::int64_t solved = point.n_harmonics, r = m.size();
+    const double motion = norm2(r * 2 * solved, point.eta.data());
+    if (content.tail == 0 || motion == 0) return 0;
+    double shift = 0;
+    const vector<double> change = across_curve(system, x, point.omega, content.force_change, shift);
+    Matrix u, force;
+    system.contact_motion_change(change.data(), u);
+    const ContactMotion contact = contact_motion(m, point);
+    apply_indicator(system.indicator(), *contact.stiffness, u, force);
+    for (std::int64_t k = 0; k < force.rows() * force.cols(); ++k)
+        force.data()[k] += content.force_change.data()[k];
+    Matrix moved(r, 2 * solved);
+    for (std::int64_t h = 1; h <= solved; ++h)
+        respond(m, h, point.omega, multiple, force, 0.0, moved.col(2 * h - 2), moved.col(2 * h - 1));
+    const double own = norm2(r * content.tail_response.cols(), content.tail_response.data());
+    return std::max(std::hypot(norm2(r * 2 * solved, moved.data()), own) / motion,
+                    std::abs(shift) / point.omega);
 }
 
 } // namespace plm

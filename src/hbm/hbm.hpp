@@ -14,7 +14,7 @@ enum class StabilityKind { off, automatic, floquet, hill };
 struct HbmOptions {
     std::int64_t n_harmonics = 0;                    // 0: as many as each point needs
     std::int64_t max_harmonics = 60;                 // n_harmonics = 0 only
-    double harmonic_tolerance = 5e-4;                // n_harmonics = 0: allowed share of the next harmonics
+    double harmonic_tolerance = 5e-4;                // n_harmonics = 0: allowed harmonic_error of a point
     bool tail_correction = false;                    // adds the next harmonics that follow from the exact force
     std::int64_t period_multiple = 1;                // response period over excitation period
     AftKind aft = AftKind::event;

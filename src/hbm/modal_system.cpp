@@ -36,9 +36,15 @@ class ModalSystem final : public HbmSystem {
         for (std::int64_t i = 0; i < z_; ++i) stiffness_[i] = factor * m_->contact_stiffness[i];
     }
 
-    void stiffness_derivative(double *r) override { // B' N
+    void contact_force_change(const Matrix &force, double *r) override { // B' N
         std::fill(r, r + size(), 0.0);
-        add_coordinates_of_gaps(m_->gap_0, m_->gap, 1.0, contact_, r);
+        add_coordinates_of_gaps(m_->gap_0, m_->gap, 1.0, force, r);
+    }
+    const Matrix &contact_force() const override { return contact_; }
+
+    void contact_motion_change(const double *x, Matrix &u) override {
+        u.reset(z_, 2 * h_ + 1);
+        gaps_of_coordinates(m_->gap_0, m_->gap, x, u);
     }
 
     void set_extra_gap(double extra) override {

@@ -1,5 +1,6 @@
 // The highest point of a curve, found on the curve itself: points on hyperplanes across the chord through the
 // three highest ones, by successive parabolic interpolation.
+#include "hbm/curve.hpp"
 #include "hbm/hbm.hpp"
 #include "hbm/newton.hpp"
 #include <algorithm>
@@ -148,12 +149,23 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         options.force_scale = point.force_scale;
         options.period_multiple = branch.period_multiple();
         options.n_harmonics = point.n_harmonics / options.period_multiple;
-        // one point is cheap, and its amplitude is what people quote: an order better than the curve
-        if (options_.n_harmonics == 0 && point.harmonic_tail > 0.1 * options_.harmonic_tolerance)
-            options.n_harmonics =
-                std::max(options.n_harmonics, std::min(options_.max_harmonics, 2 * options.n_harmonics));
-        const auto system = make_system(reduced_, options);
-        point = PeakSearch(*system, options, reduced_, dof, measure, harmonic).run(branch, top).point;
+        const auto search = [&] {
+            const auto system = make_system(reduced_, options);
+            point = PeakSearch(*system, options, reduced_, dof, measure, harmonic).run(branch, top).point;
+        };
+        if (options_.n_harmonics > 0) {
+            search();
+        } else if (point.harmonic_error <= 0.1 * options_.harmonic_tolerance) {
+            search();
+        } else { // one point is cheap, and its amplitude is what people quote: an order better than the curve
+            do {
+                options.n_harmonics =
+                    std::max(options.n_harmonics, std::min(options_.max_harmonics, 2 * options.n_harmonics));
+                search();
+                measure_harmonics(reduced_, options, point);
+            } while (point.harmonic_error > 0.1 * options_.harmonic_tolerance &&
+                     options.n_harmonics < options_.max_harmonics);
+        }
     }
     one->append(std::move(point));
     one->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";

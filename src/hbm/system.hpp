@@ -50,8 +50,14 @@ class HbmSystem {
     /// Factor on the stiffness of every contact: 1 in the problem asked for, smaller on the path from soft
     /// contact.
     virtual void set_stiffness_factor(double factor) = 0;
+    /// Change of R by a change `force` (Z x (2H + 1)) of the contact forces, at the omega of the last residual().
+    virtual void contact_force_change(const Matrix &force, double *r) = 0;
+    /// The contact forces of the last residual().
+    virtual const Matrix &contact_force() const = 0;
     /// dR/d log(factor) at the last residual().
-    virtual void stiffness_derivative(double *r) = 0;
+    void stiffness_derivative(double *r) { contact_force_change(contact_force(), r); }
+    /// What a change x of the unknowns is in the contact motion (see ContactMotion): Z x (2H + 1).
+    virtual void contact_motion_change(const double *x, Matrix &u) = 0;
     /// Gap added to every pair: 0 in the problem asked for, others on the path from open contact.
     virtual void set_extra_gap(double gap) = 0;
     /// dR/d(extra gap) at the last residual().

@@ -60,13 +60,8 @@ SceneSweep sweep_scene(const std::string &name, bool preload) {
     SceneSweep sweep;
     sweep.name = name + (preload ? ", pre-load" : "");
     sweep.n_dof = s->n_dof, sweep.n_pairs = s->n_pairs;
-    Setup setup = setup_of(*s);
-    if (name == "coaxial_cylinders") { // automatic harmonics on its large surface take minutes
-        setup.harmonics = 5;
-        sweep.name += ", H = 5";
-    }
     try {
-        Solver solver(*s, setup);
+        Solver solver(*s, setup_of(*s));
         const auto curve = solver.sweep();
         sweep.outcome = curve->end_text, sweep.reason = curve->end_reason, sweep.work = curve->work;
     } catch (const Failure &f) {

@@ -54,7 +54,7 @@ void print_introduction() {
         "# Extreme cases\n\n"
         "One row per case that a harmonic-balance solver with contact may stumble over. Every option has its "
         "default,\n"
-        "the number of harmonics included (as many as each point needs, `harmonic_tolerance` 5e-4), unless "
+        "the number of harmonics included (as many as each point needs, `harmonic_tolerance` 1e-3), unless "
         "the row is\n"
         "about that option or says so. Structures of a few masses are solved unreduced (`kind` = `full`) so "
         "that the "

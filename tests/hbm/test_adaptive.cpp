@@ -1,5 +1,5 @@
-// What the solver leaves out by itself: harmonics by point, pairs that do not move (unknowns by cost). Each can be
-// switched off, and the answer then agrees.
+// What the solver leaves out by itself: harmonics by point, pairs that do not move (unknowns by cost). Each
+// can be switched off, and the answer then agrees.
 #include "hbm/hbm.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include "support/small_reduced.hpp"
@@ -46,7 +46,7 @@ Chosen chosen_harmonics() {
     for (const auto &p : a->points()) {
         c.fewest = std::min(c.fewest, p.n_harmonics);
         c.most = std::max(c.most, p.n_harmonics);
-        c.over += p.harmonic_tail > automatic.harmonic_tolerance;
+        c.over += p.harmonic_error > automatic.harmonic_tolerance;
     }
     c.error = std::abs(peak_of(*m, *a, 0) / peak_of(*m, *b, 0) - 1);
     return c;
@@ -61,10 +61,11 @@ void harmonics_follow_the_need_of_each_point(void **) {
     assert_true(c.over <= 12); // only where the number is about to grow
 }
 
-// One solution: grown until the tail is negligible; nearer to the exact orbit than the number it began with.
+// One solution: grown until the next ones change next to nothing; nearer to the exact orbit than the number
+// it began with.
 struct Settled {
     std::int64_t harmonics = 0;
-    double error = 1e300, error_5 = 1e300, tail = 1;
+    double error = 1e300, error_5 = 1e300, left = 1;
 };
 Settled settled_point(bool corrected) {
     const exact::Structure s = test::chain(3, 0.02, 20, 0.1, 0.4, 0.2, {0, 2});
@@ -86,18 +87,19 @@ Settled settled_point(bool corrected) {
         const exact::Orbit orbit = exact::periodic_orbit(s, omega, start, 0, 2000);
         const double error = orbit.converged ? std::abs(peak_at(*m, p, 2) / orbit.peak(2) - 1) : 1e300;
         (k == 0 ? r.error_5 : r.error) = error;
-        if (k == 1) r.harmonics = p.n_harmonics, r.tail = p.harmonic_tail;
+        if (k == 1) r.harmonics = p.n_harmonics, r.left = p.harmonic_error;
     }
     return r;
 }
 void a_single_solution_takes_the_harmonics_it_needs(void **) {
     const Settled plain = settled_point(false), corrected = settled_point(true);
-    std::printf("    H = %d: %.1e, H = 5: %.1e, with tail %.1e\n", static_cast<int>(plain.harmonics), plain.error,
-                plain.error_5, corrected.error_5);
+    std::printf("    H = %d: %.1e, H = 5: %.1e, with tail %.1e\n", static_cast<int>(plain.harmonics),
+                plain.error, plain.error_5, corrected.error_5);
     assert_true(plain.harmonics > 5);
-    assert_true(below(plain.tail, HbmOptions().harmonic_tolerance));
+    assert_true(below(plain.left, HbmOptions().harmonic_tolerance));
     assert_true(below(plain.error, 0.5 * plain.error_5));
-    assert_true(below(corrected.error_5, plain.error_5)); // the exact force knows more than the harmonics kept
+    assert_true(
+        below(corrected.error_5, plain.error_5)); // the exact force knows more than the harmonics kept
 }
 
 // Eight pairs of which few move: unknowns chosen by cost against both fixed choices.
@@ -113,7 +115,9 @@ Spaces spaces() {
         HbmOptions o;
         o.n_harmonics = 7;
         o.max_step = 0.02;
-        o.unknowns = k == 0 ? plm::UnknownSpace::automatic : k == 1 ? plm::UnknownSpace::modal : plm::UnknownSpace::gaps;
+        o.unknowns = k == 0   ? plm::UnknownSpace::automatic
+                     : k == 1 ? plm::UnknownSpace::modal
+                              : plm::UnknownSpace::gaps;
         found[k] = solver(m, o, 0.1, 1.2).sweep();
     }
     Spaces r;
@@ -125,8 +129,8 @@ Spaces spaces() {
 }
 void unknowns_are_chosen_by_the_moving_pairs(void **) {
     const Spaces s = spaces();
-    std::printf("    automatic used %s; peaks differ by %.1e (modal), %.1e (gaps)\n", s.automatic.c_str(), s.modal_error,
-                s.gaps_error);
+    std::printf("    automatic used %s; peaks differ by %.1e (modal), %.1e (gaps)\n", s.automatic.c_str(),
+                s.modal_error, s.gaps_error);
     assert_string_equal(s.automatic.c_str(), "both");
     assert_true(below(s.modal_error, 1e-3) && below(s.gaps_error, 1e-3)); // highest of discrete points
 }
