@@ -227,10 +227,11 @@ class CurveTracer final : public PathOwner {
     }
 
     // The n-th point in the present system or, when that sees another stability there, one of those before
-    // it: otherwise a bifurcation would be passed twice, or not at all.
-    bool go_on_from(std::int64_t &n, PathStart &path) {
+    // it: otherwise a bifurcation would be passed twice, or not at all. Fewer harmonics have to see the same.
+    bool go_on_from(std::int64_t &n, bool fewer, PathStart &path) {
         const std::int64_t last = n;
         if (!go_on_from_point(last, path)) return false;
+        if (fewer) return same_stability(last, path);
         PathStart earlier = path;
         for (; n > 2 && n > last - patience; --n) {
             if (branch_.points()[static_cast<std::size_t>(n - 1)].bifurcation != PLM_BIFURCATION_NONE)

