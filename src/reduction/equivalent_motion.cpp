@@ -90,10 +90,14 @@ class MeanEquilibrium {
 class Resonance {
   public:
     explicit Resonance(const Space &space) : space_(space) {
-        const auto load = space.excitation.upper_bound(0); // first harmonic, or the lowest there is
-        if (load == space.excitation.end()) return;
-        harmonic_ = load->first;
-        load_ = &load->second;
+        const auto moves = [](double f) { return f != 0; };
+        for (auto load = space.excitation.upper_bound(0); load != space.excitation.end() && !load_; ++load) {
+            const vector<double> &re = load->second.real, &im = load->second.imag;
+            if (std::none_of(re.begin(), re.end(), moves) && std::none_of(im.begin(), im.end(), moves))
+                continue;
+            harmonic_ = load->first; // the first harmonic, or the lowest there is
+            load_ = &load->second;
+        }
     }
 
     bool excited() const { return load_ != nullptr; }

@@ -87,9 +87,9 @@ class EquivalentFamily {
     }
 
     static void narrow(const Point &p, std::int64_t i, double target, double &low, double &high) {
-        const bool above = i >= p.size() || p.value[i] >= target;
-        if (above) high = std::min(high, p.share);
-        if (!above || p.value[i] <= target) low = std::max(low, p.share);
+        const double value = i < p.size() ? p.value[i] : std::numeric_limits<double>::infinity();
+        if (value >= target) high = std::min(high, p.share);
+        if (value <= target) low = std::max(low, p.share);
     }
 
     double start(std::int64_t i, double target, double low, double high) const {

@@ -1,5 +1,5 @@
-// What the tests of the rival bases share: small chains with piecewise-linear springs, bases of given columns, and the
-// resonance on them.
+// What the tests of the rival bases share: small chains with piecewise-linear springs, bases of given
+// columns, and the resonance on them.
 #pragma once
 #include "hbm/hbm.hpp"
 #include "reduction/basis.hpp"
@@ -16,8 +16,8 @@ namespace rival {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// A chain of 24 masses, its last one against ground through a piecewise-linear spring of 0.1 (the chain's are 1); the
-/// last one is driven. Without gap its first resonance lies between 0.064 and 0.12 rad/s.
+/// A chain of 24 masses, its last one against ground through a piecewise-linear spring of 0.1 (the chain's
+/// are 1); the last one is driven. Without gap its first resonance lies between 0.064 and 0.12 rad/s.
 inline exact::Structure grounded_chain(double gap, double force) {
     return test::chain(24, 0.02, 0.1, gap, force, 0, {23});
 }
@@ -76,7 +76,8 @@ inline plm::Matrix linear_modes(const plm::Space &space, bool closed, std::int64
     return modes.vectors.columns(0, n);
 }
 
-inline plm::Peak peak_on(const std::shared_ptr<const plm::ReducedModel> &reduced, Window w, std::int64_t dof) {
+inline plm::Peak peak_on(const std::shared_ptr<const plm::ReducedModel> &reduced, Window w,
+                         std::int64_t dof) {
     plm::HbmOptions o;
     o.n_harmonics = 5;
     o.stability = plm::StabilityKind::off;
@@ -90,7 +91,8 @@ struct PeakError {
     double larger() const { return std::max(frequency, amplitude); }
 };
 inline PeakError error_of(const plm::Peak &got, const plm::Peak &truth) {
-    return {std::abs(got.frequency_hz / truth.frequency_hz - 1), std::abs(got.amplitude / truth.amplitude - 1)};
+    return {std::abs(got.frequency_hz / truth.frequency_hz - 1),
+            std::abs(got.amplitude / truth.amplitude - 1)};
 }
 inline PeakError error_on(const Scene &s, const std::shared_ptr<const plm::ReducedModel> &reduced) {
     const std::int64_t dof = s.structure.n - 1;
