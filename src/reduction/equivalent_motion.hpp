@@ -1,6 +1,6 @@
 // The linear system that contact is equivalent to in one resonant motion, and the motion itself: harmonic
 // balance with a mean and one harmonic, on one mode, by fixed-point iteration (as the updated or iterated
-// LELSM modes of AL-Shudeifat, Butcher and Burton 2010).
+// LELSM modes of AL-Shudeifat and Butcher 2010).
 #pragma once
 #include "model/space.hpp"
 

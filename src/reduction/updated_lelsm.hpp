@@ -1,4 +1,4 @@
-// Updated LELSM modes with Ritz vectors (AL-Shudeifat, Butcher and Burton 2010, Nonlinear Dynamics 62,
+// Updated LELSM modes with Ritz vectors (AL-Shudeifat and Butcher 2010, Nonlinear Dynamics 62,
 // 821-840): modes of an equivalent linear system whose stiffnesses belong to the amplitude of the motion, and
 // two kinds of static responses of it: to the excitation, and to the forces of the nonlinear elements.
 //

@@ -1,4 +1,4 @@
-// LELSM (Butcher and Lu 2007) and its updated form with Ritz vectors (AL-Shudeifat, Butcher and Burton 2010):
+// LELSM (Butcher and Lu 2007) and its updated form with Ritz vectors (AL-Shudeifat and Butcher 2010):
 // what the papers state of them, on chains with piecewise-linear springs.
 #include "reduction/lelsm.hpp"
 #include "reduction/updated_lelsm.hpp"
@@ -33,7 +33,8 @@ double dense_frequency(exact::Structure s, double share, std::int64_t mode) {
     return std::sqrt(std::max(0.0, test::dense_modes(s, plm::vector<char>(s.z, 1)).values[mode]));
 }
 
-// "The equivalent stiffness is the one with the bilinear frequency": by dense eigenproblems over all DOFs.
+// Butcher and Lu: the equivalent stiffness is the one with the bilinear frequency. Dense eigenproblems over
+// all DOFs.
 void frequencies_of_the_equivalent_systems_are_the_bilinear_ones(void **) {
     const Scene s = make_scene(test::chain(8, 0.02, 3, 0, 0.01, 0, {1, 5}), 0.17, 0.22);
     const plm::EquivalentModes modes = modes_of(s);
@@ -55,7 +56,8 @@ void a_rigid_body_mode_of_the_open_system_stays_one(void **) {
     for (std::size_t i = 1; i < modes.share.size(); ++i) assert_true(modes.frequency_hz[i] > 0);
 }
 
-// "Represent the full model more accurately than standard linear transformations" of equal size.
+// Butcher and Lu: the reduced models represent the dynamics of the full one more accurately than those of
+// standard linear transformations.
 int n_times_better(const exact::Structure &structure, double omega_min, double omega_max, std::int64_t most) {
     const Scene s = make_scene(structure, omega_min, omega_max);
     const plm::Space &space = *s.full->space();
@@ -142,8 +144,9 @@ GapErrors errors_with_gap(double gap) {
                 e.lelsm.amplitude, e.eight_modes.frequency, e.eight_modes.amplitude);
     return e;
 }
-// "The Ritz vectors reduce the number of modes needed and considerably enhance the accuracy": considerably
-// means here by more than a factor of 10, in frequency and in amplitude; measured are 16 to 1000.
+// AL-Shudeifat and Butcher: Ritz vectors reduce the number of modes needed and considerably raise accuracy.
+// Considerably means here by more than a factor of 10, in frequency and in amplitude; measured are 16 to
+// 1000.
 void updated_modes_with_ritz_vectors_need_fewer_columns(void **) {
     for (double gap : {0.3, 1.0, 3.0}) {
         const GapErrors e = errors_with_gap(gap);
@@ -157,7 +160,7 @@ void updated_modes_with_ritz_vectors_need_fewer_columns(void **) {
 }
 
 // With modes alone, too, the amplitude counts: at a gap that is just reached the spring is hardly there.
-void one_updated_mode_beats_the_one_without_amplitude(void **) {
+void two_updated_modes_beat_those_without_amplitude(void **) {
     const Scene s = make_scene(grounded_chain(3, 0.004), 0.055, 0.08);
     const plm::Space &space = *s.full->space();
     const plm::UpdatedModes updated = plm::updated_lelsm_modes(space, all_modes(s), 0, false, plm::Watch());
@@ -191,7 +194,7 @@ int main() {
         cmocka_unit_test(equivalent_stiffness_depends_on_the_amplitude_with_a_gap_alone),
         cmocka_unit_test(a_given_amplitude_is_the_largest_of_a_pair),
         cmocka_unit_test(updated_modes_with_ritz_vectors_need_fewer_columns),
-        cmocka_unit_test(one_updated_mode_beats_the_one_without_amplitude),
+        cmocka_unit_test(two_updated_modes_beat_those_without_amplitude),
         cmocka_unit_test(nothing_that_sets_an_amplitude_is_refused),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
