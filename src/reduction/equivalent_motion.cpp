@@ -12,7 +12,7 @@ namespace plm {
 namespace {
 
 constexpr std::int64_t most_iterations = 200;
-constexpr double settled_change = 1e-6;
+constexpr double settled_change = 1e-6; // of the largest share, which is tiny where contact is stiff
 
 // Static equilibrium of the mean displacement while every pair oscillates with its amplitude: the minimum of
 // a convex, smooth energy, by Newton's method.
@@ -153,26 +153,41 @@ class Iteration {
     }
 
     EquivalentMotion run(Watch watch) {
-        double relaxation = 1, before = 1;
         for (motion_.iterations = 1; motion_.iterations <= most_iterations; ++motion_.iterations) {
             watch.step("equivalent motion",
                        static_cast<double>(motion_.iterations) / static_cast<double>(most_iterations));
-            const vector<double> wanted = update();
-            double change = 0;
-            for (std::size_t p = 0; p < wanted.size(); ++p)
-                change = std::max(change, std::abs(wanted[p] - motion_.share[p]));
-            if (change > 0.7 * before) relaxation = std::max(0.1, 0.6 * relaxation); // turns back and forth
-            before = change;
-            motion_.settled = change <= settled_change;
-            for (std::size_t p = 0; p < wanted.size(); ++p)
-                motion_.share[p] += (motion_.settled ? 1 : relaxation) * (wanted[p] - motion_.share[p]);
+            vector<double> change = update();
+            double largest = 0, most = 0;
+            for (std::size_t p = 0; p < change.size(); ++p) {
+                largest = std::max({largest, change[p], motion_.share[p]});
+                change[p] -= motion_.share[p];
+                most = std::max(most, std::abs(change[p]));
+            }
+            motion_.settled = most <= settled_change * largest;
+            const double relaxation = motion_.settled ? 1 : relaxation_for(change);
+            for (std::size_t p = 0; p < change.size(); ++p)
+                motion_.share[p] = std::min(1.0, std::max(0.0, motion_.share[p] + relaxation * change[p]));
             set_springs();
             if (motion_.settled) break;
+            before_ = std::move(change);
         }
         return std::move(motion_);
     }
 
   private:
+    // Aitken's: the secant along the last change (Irons and Tuck 1969).
+    double relaxation_for(const vector<double> &change) {
+        if (before_.empty()) return relaxation_;
+        double along = 0, squared = 0;
+        for (std::size_t p = 0; p < change.size(); ++p) {
+            along += before_[p] * (change[p] - before_[p]);
+            squared += (change[p] - before_[p]) * (change[p] - before_[p]);
+        }
+        const double secant = squared > 0 ? -relaxation_ * along / squared : 1;
+        relaxation_ = std::min(1.0, std::max(0.05, secant));
+        return relaxation_;
+    }
+
     void set_springs() {
         motion_.spring = space_.model->contact_stiffness();
         for (std::size_t p = 0; p < motion_.spring.size(); ++p) motion_.spring[p] *= motion_.share[p];
@@ -198,21 +213,27 @@ class Iteration {
 
     SpaceModes lowest_modes() const {
         SpaceModes modes = modes_with_springs(space_, motion_.spring, options_.highest_eigenvalue);
-        if (!modes.values.empty()) return modes;
+        if (!modes.values.empty() && modes.values.back() > 0) return modes;
         return modes_with_springs(space_, motion_.spring, std::numeric_limits<double>::infinity());
     }
 
-    // First by its response, then by its likeness with the last one.
+    // First by its response, then by its likeness with the last one. Rigid-body motion has no resonance.
     std::int64_t leading_mode(const SpaceModes &modes) const {
         const double omega = options_.middle * resonance_.harmonic();
-        std::int64_t best = 0;
+        std::int64_t best = -1;
         double most = -1;
         for (std::int64_t j = 0; j < modes.vectors.cols(); ++j) {
+            if (!(modes.values[j] > 0)) continue;
             const double *mode = modes.vectors.col(j);
             const double value = shape_.empty() ? resonance_.response(mode, modes.values[j], omega)
                                                 : mac(space_.size(), mode, shape_.data());
             if (value > most) most = value, best = j;
         }
+        if (best < 0)
+            throw Error(PLM_ERR_ARGUMENT, "the equivalent system has no resonance below the limit; raise "
+                                          "frequency_max_hz or below_factor")
+                .argument("frequency_max_hz")
+                .reason(PLM_REASON_BASIS_TOO_SMALL);
         return best;
     }
 
@@ -236,7 +257,8 @@ class Iteration {
     Resonance resonance_;
     MeanEquilibrium equilibrium_;
     EquivalentMotion motion_;
-    vector<double> shape_;
+    vector<double> shape_, before_; // last mode, last change of the shares
+    double relaxation_ = 1;
 };
 
 } // namespace

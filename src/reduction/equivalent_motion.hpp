@@ -13,12 +13,11 @@ struct EquivalentMotionOptions {
 };
 
 struct EquivalentMotion {
-    vector<double> spring; // Z: equivalent linear stiffness of every pair
-    vector<double> share;  // Z: the same over k_n, in [0, 1]
-    vector<double> mean;   // Z: mean penetration
-    vector<double>
-        amplitude;        // Z: amplitude of the penetration, signed: the motion is in phase or in antiphase
-    double frequency = 0; // rad/s, of the mode
+    vector<double> spring;    // Z: equivalent linear stiffness of every pair
+    vector<double> share;     // Z: the same over k_n, in [0, 1]
+    vector<double> mean;      // Z: mean penetration
+    vector<double> amplitude; // Z: of the penetration, signed: in phase or in antiphase
+    double frequency = 0;     // rad/s, of the mode
     bool settled = false;
     std::int64_t iterations = 0;
 };
@@ -27,7 +26,8 @@ struct EquivalentMotion {
 /// amplitudes are those of one mode of the system with these springs, at the amplitude asked for or, in
 /// resonance, where the damping holds the excitation. The mean is in static equilibrium with the pre-load,
 /// the constant excitation and the mean contact forces. Iterated with relaxation until no share changes by
-/// more than 1e-6. Throws PLM_ERR_ARGUMENT when nothing sets an amplitude: no excitation, or no damping.
+/// more than 1e-6 of the largest. Throws PLM_ERR_ARGUMENT when nothing sets an amplitude: no excitation, or
+/// no damping.
 EquivalentMotion equivalent_motion(const Space &space, const EquivalentMotionOptions &options, Watch watch);
 
 } // namespace plm

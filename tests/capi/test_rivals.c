@@ -64,7 +64,7 @@ static void every_rival_gives_the_curve(void **state) {
         plm_basis_get_int(basis, "size", &size);
         printf("    %-13s %d columns, %.1e in frequency, %.1e in amplitude\n", rivals[i], (int)size,
                fabs(hz / want_hz - 1), fabs(got / want - 1));
-        assert_true(close_to(hz, want_hz, 0.02) && close_to(got, want, 0.1));
+        assert_true(close_to(hz, want_hz, 1e-8) && close_to(got, want, 1e-8));
     }
 }
 

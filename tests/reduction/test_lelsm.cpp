@@ -116,6 +116,25 @@ void a_given_amplitude_is_the_largest_of_a_pair(void **) {
         close_to(std::max(std::abs(motion.amplitude[0]), std::abs(motion.amplitude[1])), 0.37, 1e-12));
 }
 
+// Iterations from soft to stiff contact, and the limit: k_n no longer matters to the equivalent stiffness.
+struct Settled {
+    std::int64_t iterations = 0;
+    double spring = 0;
+};
+Settled settled_motion(double contact_stiffness) {
+    const Scene s = make_scene(test::two_chains(40, 9, contact_stiffness, true), 0.3, 0.6);
+    const plm::EquivalentMotion motion = motion_of(s);
+    return {motion.settled ? motion.iterations : 1000000,
+            *std::max_element(motion.spring.begin(), motion.spring.end())};
+}
+void the_iteration_settles_up_to_rigid_contact(void **) {
+    for (double k : {1e-3, 1.0, 300.0, 1e5})
+        assert_true(settled_motion(k).iterations <= 30); // measured: 2 to 15
+    const Settled stiff = settled_motion(1e6), rigid = settled_motion(1e9);
+    assert_true(rigid.iterations <= 30);
+    assert_true(close_to(stiff.spring, rigid.spring, 0.02)); // what is left of the gap's own flexibility
+}
+
 struct GapErrors {
     std::int64_t n_modes = 0, size = 0;
     PeakError updated, lelsm,
@@ -193,6 +212,7 @@ int main() {
         cmocka_unit_test(the_equivalent_motion_of_one_mass_is_its_first_harmonic),
         cmocka_unit_test(equivalent_stiffness_depends_on_the_amplitude_with_a_gap_alone),
         cmocka_unit_test(a_given_amplitude_is_the_largest_of_a_pair),
+        cmocka_unit_test(the_iteration_settles_up_to_rigid_contact),
         cmocka_unit_test(updated_modes_with_ritz_vectors_need_fewer_columns),
         cmocka_unit_test(two_updated_modes_beat_those_without_amplitude),
         cmocka_unit_test(nothing_that_sets_an_amplitude_is_refused),
