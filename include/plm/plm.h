@@ -338,10 +338,10 @@ PLM_API plm_status plm_sampler_run(plm_sampler *sampler);
  * Published rivals on the same solver, which need no sampler (it gives them the window) but contact pairs:
  * "bilinear" (modes of the open and of the sliding system; Saito and Epureanu 2011, Zucca and Epureanu 2014),
  * "lelsm" (modes of equivalent linear systems, k_n scaled to the bilinear frequency of each; Butcher and Lu 2007),
- * "lelsm_updated" (modes of the system equivalent to the contact at the amplitude of the resonance, with static responses
- * to the excitation and to the contact forces; AL-Shudeifat and Butcher 2010; "equivalent_amplitude"),
- * "discontinuity" (modes with the contact as at rest, or closed where nothing decides, and a static field with a jump for
- * each pair; Segalman 2007; "n_discontinuities"). */
+ * "lelsm_updated" (modes of the system equivalent to the contact at the amplitude of the resonance, with static
+ * responses to the excitation and to the contact forces; AL-Shudeifat and Butcher 2010; "equivalent_amplitude"),
+ * "discontinuity" (modes with the contact as at rest, or closed where nothing decides, and a static field with a jump
+ * for each pair; Segalman 2007; "n_discontinuities"). */
 
 PLM_API plm_status plm_basis_create(plm_model *model, plm_basis **basis);
 PLM_API plm_status plm_basis_destroy(plm_basis **basis);
