@@ -334,7 +334,14 @@ PLM_API plm_status plm_sampler_run(plm_sampler *sampler);
 /* ---- Basis: reduction matrices (paper, 2.3.3 and 2.3.4) ----------------------------------------------------------
  * Option "kind": "plm" (needs a sampler), "craig_bampton" (contact DOFs retained), "full" (the unreduced structure,
  * represented to "space_tolerance" of the model by exact modes and contact attachment vectors), "pod" (the parent's
- * coordinates compressed to what its responses need: dense curves and sweeps of parameters then cost a fraction). */
+ * coordinates compressed to what its responses need: dense curves and sweeps of parameters then cost a fraction).
+ * Published rivals on the same solver, which need no sampler (it gives them the window) but contact pairs:
+ * "bilinear" (modes of the open and of the sliding system; Saito and Epureanu 2011, Zucca and Epureanu 2014),
+ * "lelsm" (modes of equivalent linear systems, k_n scaled to the bilinear frequency of each; Butcher and Lu 2007),
+ * "lelsm_updated" (modes of the system equivalent to the contact at the amplitude of the resonance, with static
+ * responses to the excitation and to the contact forces; AL-Shudeifat and Butcher 2010; "equivalent_amplitude"),
+ * "discontinuity" (modes with the contact as at rest, or closed where nothing decides, and a static field with a jump
+ * for each pair; Segalman 2007; "n_discontinuities"). */
 
 PLM_API plm_status plm_basis_create(plm_model *model, plm_basis **basis);
 PLM_API plm_status plm_basis_destroy(plm_basis **basis);
@@ -349,9 +356,10 @@ PLM_API plm_status plm_basis_get_array(plm_basis *basis, const char *key, int64_
                                        int64_t *count);
 PLM_API plm_status plm_basis_get_int_array(plm_basis *basis, const char *key, int64_t capacity, int64_t *values,
                                            int64_t *count);
-/* The samples (and the window) the piecewise-linear modes are made from; it must have run before the build. */
+/* The samples (and the window) the piecewise-linear modes are made from; it must have run before the build. Other kinds
+ * but "pod" take the window from it. */
 PLM_API plm_status plm_basis_set_sampler(plm_basis *basis, plm_sampler *sampler);
-/* First reduction under the PLM, as in the paper: a built basis of kind "craig_bampton" or "full"; NULL for none. For
+/* First reduction under the modes, as in the paper: a built basis of kind "craig_bampton" or "full"; NULL for none. For
  * kind "pod" the basis, of any kind, the responses were computed on. */
 PLM_API plm_status plm_basis_set_parent(plm_basis *basis, plm_basis *parent);
 /* For kind "pod": the points of n curves, all computed on the parent, whose motions span the basis (proper orthogonal
@@ -359,7 +367,8 @@ PLM_API plm_status plm_basis_set_parent(plm_basis *basis, plm_basis *parent);
  * destroyed afterwards; n = 0 forgets them. */
 PLM_API plm_status plm_basis_set_responses(plm_basis *basis, int64_t n, plm_branch *const *branch);
 /* PLM_WARNING when a sample does not keep the mode that matches the dominant one (the selection by bands can lose the
- * resonance): see "warning". */
+ * resonance), or the equivalent stiffnesses of "lelsm_updated" did not settle: see "warning". PLM_ERR_ARGUMENT for a
+ * rival kind when the model has no contact pair or fewer than "n_discontinuities", or nothing sets an amplitude. */
 PLM_API plm_status plm_basis_build(plm_basis *basis);
 /* Columns [first, first + n) of P, or of P_0 if is_static: vector is n_dof x n with leading dimension ld >= n_dof. */
 PLM_API plm_status plm_basis_get_vectors(plm_basis *basis, int32_t is_static, int64_t first, int64_t n, double *vector,

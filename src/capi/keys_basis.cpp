@@ -40,12 +40,16 @@ void add_options(std::vector<Key> &keys) {
         keys.end(),
         {
             choice_option<&O::kind>(
-                "kind", "plm,craig_bampton,full,pod",
+                "kind", "plm,craig_bampton,full,pod,bilinear,lelsm,lelsm_updated,discontinuity",
                 "plm: piecewise-linear modes; craig_bampton: contact DOFs retained; full: the "
-                "unreduced structure; pod: the parent compressed to what its responses need"),
+                "unreduced structure; pod: the parent compressed to what its responses need; bilinear: modes "
+                "of "
+                "the open and of the sliding system; lelsm: modes of equivalent linear systems with the "
+                "bilinear frequencies; lelsm_updated: modes and Ritz vectors of the system equivalent at "
+                "the resonance's amplitude; discontinuity: linear modes and a static jump per pair"),
             choice_option<&O::selection>(
                 "selection", "bands,below",
-                "modes kept of each sample: inside the bands [h f_min, h f_max] (paper), or "
+                "modes kept of each sample or linear system: inside the bands [h f_min, h f_max] (paper), or "
                 "all below the highest"),
             int_option<&O::n_harmonics>("n_harmonics", 1, 1000, "harmonics h of the bands"),
             real_option<&O::frequency_min_hz>("frequency_min_hz", 0, huge,
@@ -58,7 +62,7 @@ void add_options(std::vector<Key> &keys) {
                                            "singular values below this share of the largest are dropped"),
             int_option<&O::load_vectors>(
                 "load_vectors", 0, 1,
-                "plm, craig_bampton: 1: the static responses to the loads are in the basis, too"),
+                "all but full and pod: 1: the static responses to the loads are in the basis, too"),
             int_option<&O::static_augmentation>(
                 "static_augmentation", 0, 1,
                 "1: the static response to the pre-load joins the basis of h = 0"),
@@ -66,6 +70,13 @@ void add_options(std::vector<Key> &keys) {
                 "pod_tolerance", 0, 0.5,
                 "pod: share of the responses that may be left out, in the energy norm"),
             int_option<&O::pod_size>("pod_size", 0, 1e9, "pod: columns of P; 0: by pod_tolerance"),
+            real_option<&O::equivalent_amplitude>(
+                "equivalent_amplitude", 0, huge,
+                "lelsm_updated: largest amplitude of a pair's relative motion (length); 0: that of the "
+                "resonance under the excitation"),
+            int_option<&O::n_discontinuities>(
+                "n_discontinuities", 0, 1e9,
+                "discontinuity: the leading jump patterns by flexibility; 0: one vector per pair"),
             int_option<&O::n_fixed_modes>("n_fixed_modes", 0, 1e9,
                                           "Craig-Bampton: fixed-interface modes; 0: by frequency"),
         });
@@ -82,6 +93,10 @@ void add_results(std::vector<Key> &keys) {
                       [](const H &h) { return report(h).n_collected; }),
             result<H>("singular_values", "singular values of the collected modes, the largest is 1",
                       [](const H &h) { return report(h).singular_values; }),
+            result<H>("equivalent_share",
+                      "share of k_n in the equivalent linear system, lelsm: of each mode's; lelsm_updated: "
+                      "of each pair; else empty",
+                      [](const H &h) { return report(h).equivalent_share; }),
             result<H>("lambda", "eigenvalues of the reduced stiffness (rad^2/time^2)",
                       [](const H &h) { return core(h).reduced()->lambda; }),
             result<H>("frequencies_hz", "their frequencies (Hz)", frequencies_hz),

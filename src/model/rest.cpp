@@ -1,5 +1,5 @@
 #include "model/rest.hpp"
-#include "linalg/lapack.hpp"
+#include "model/linear_contact.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -42,36 +42,13 @@ class RestProblem {
         return g;
     }
 
-    // -(D + G_A' k G_A)^-1 g in compliance form, stable for any k.
+    // -(D + G' k G)^-1 g over the closed pairs.
     vector<double> newton_step(const vector<double> &g, const vector<double> &u) const {
-        vector<std::int64_t> active;
+        vector<double> d(g), spring(u.size());
+        for (double &v : d) v = -v;
         for (std::size_t i = 0; i < u.size(); ++i)
-            if (ContactLaw::closed(u[i])) active.push_back(static_cast<std::int64_t>(i));
-        const std::int64_t a = static_cast<std::int64_t>(active.size()), m = p_.gap.cols();
-        vector<double> d(m);
-        for (std::int64_t j = 0; j < m; ++j) d[j] = -g[j] / pivot_[j];
-        if (a == 0) return d;
-        Matrix root(a, m), t(a, a);
-        for (std::int64_t j = 0; j < m; ++j)
-            for (std::int64_t i = 0; i < a; ++i) root(i, j) = p_.gap(active[i], j) / std::sqrt(pivot_[j]);
-        gemm('N', 'T', 1.0, root, root, 0.0, t);
-        for (std::int64_t i = 0; i < a; ++i)
-            t(i, i) += 1 / ContactLaw::tangent(p_.contact_stiffness[active[i]], u[active[i]]);
-        DenseCholesky cholesky;
-        if (!cholesky.factor(t))
-            throw Error(PLM_ERR_SINGULAR,
-                        "the contact flexibility at rest is singular: two closed pairs repeat the "
-                        "same gap row")
-                .reason(PLM_REASON_SINGULAR);
-        vector<double> y(a, 0.0);
-        for (std::int64_t j = 0; j < m; ++j)
-            for (std::int64_t i = 0; i < a; ++i) y[i] += p_.gap(active[i], j) * d[j];
-        cholesky.solve(y.data(), 1, a);
-        for (std::int64_t j = 0; j < m; ++j) {
-            double s = 0;
-            for (std::int64_t i = 0; i < a; ++i) s += p_.gap(active[i], j) * y[i];
-            d[j] -= s / pivot_[j];
-        }
+            spring[i] = ContactLaw::tangent(p_.contact_stiffness[i], u[i]);
+        solve_with_springs(pivot_, p_.gap, spring, d);
         return d;
     }
 

@@ -5,6 +5,7 @@
 #include "reduction/load_vectors.hpp"
 #include "reduction/mode_selection.hpp"
 #include "reduction/projection.hpp"
+#include "reduction/rivals.hpp"
 #include "reduction/static_basis.hpp"
 #include <algorithm>
 #include <chrono>
@@ -28,14 +29,14 @@ void check_parents(const Model &model, const Sampler *sampler, const Basis *pare
     if (parent->model().get() != &model)
         throw Error(PLM_ERR_ARGUMENT, "the parent basis belongs to another model").argument("parent");
     if (kind == BasisKind::pod || kind == BasisKind::full) return; // any will do
-    if (parent->options().kind == BasisKind::plm || parent->options().kind == BasisKind::pod)
+    if (is_made_of_modes(parent->options().kind) || parent->options().kind == BasisKind::pod)
         throw Error(PLM_ERR_ARGUMENT, "the parent must be of kind \"craig_bampton\" or \"full\"")
             .argument("parent");
 }
 
 SelectionRule make_rule(const BasisOptions &o, const Sampler *sampler) {
     SelectionRule rule;
-    rule.selection = o.kind == BasisKind::plm ? o.selection : ModeSelection::below;
+    rule.selection = is_made_of_modes(o.kind) ? o.selection : ModeSelection::below;
     rule.n_harmonics = o.n_harmonics;
     rule.below_factor = o.below_factor;
     rule.min_hz = o.frequency_min_hz > 0 || !sampler ? o.frequency_min_hz : sampler->window().min_hz;
@@ -58,7 +59,7 @@ std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &mo
     if (o.kind == BasisKind::craig_bampton)
         return make_craig_bampton_space(model, {o.n_fixed_modes, fixed_mode_margin * highest, o.load_vectors},
                                         watch);
-    if (o.kind == BasisKind::plm && parent) {
+    if (is_made_of_modes(o.kind) && parent) {
         if (parent->space()->highest_frequency < highest * (1 - 1e-9))
             watch.log(
                 1,
@@ -130,23 +131,26 @@ double mass_residual(const Matrix &p, const SparseMatrix &mass, const vector<dou
     return std::sqrt(std::max(0.0, dot(n, rest.data(), momentum.data())) / size);
 }
 
-Reduction reduce_to_plm(const Space &space, const Sampler &sampler, const SelectionRule &rule,
-                        const BasisOptions &o, Watch watch) {
+Reduction reduce_to_modes(const Space &space, const Sampler *sampler, const SelectionRule &rule,
+                          const BasisOptions &o, Watch watch) {
     CollectedModes collected =
-        collect_modes(space, sampler.samples(), dominant_coordinates(sampler, space), rule, watch);
+        o.kind == BasisKind::plm
+            ? collect_modes(space, sampler->samples(), dominant_coordinates(*sampler, space), rule, watch)
+            : collect_rival_modes(space, rule, o, watch);
     Reduction r;
     r.report.samples = std::move(collected.samples);
     r.report.warning = std::move(collected.warning);
+    r.report.equivalent_share = std::move(collected.equivalent_share);
     r.report.n_collected = collected.columns.cols();
     watch.step("basis", 0.0);
-    if (o.load_vectors) {
+    if (o.load_vectors && o.kind != BasisKind::lelsm_updated) { // which has its own
         const Matrix loads = load_vectors(space);
         if (!loads.empty()) collected.columns.append(loads);
     }
     Conditioned conditioned = condition_columns(space, collected.columns, o.svd_tolerance);
     r.report.singular_values = std::move(conditioned.singular_values);
     watch.step("basis", 0.3);
-    const RestState rest = &space == sampler.space().get() ? sampler.rest() : solve_rest(space);
+    const RestState rest = sampler && &space == sampler->space().get() ? sampler->rest() : solve_rest(space);
     StaticBasis statics;
     if (o.static_augmentation) statics = make_static_basis(space, conditioned.coordinates, rest.coordinates);
     watch.step("basis", 0.5);
@@ -167,6 +171,7 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     : model_(std::move(model)), sampler_(std::move(sampler)), options_(options) {
     const auto start = std::chrono::steady_clock::now();
     check_options(options_);
+    check_pairs(options_, model_->n_pairs());
     check_parents(*model_, sampler_.get(), parent.get(), options_.kind);
     if (options_.kind == BasisKind::pod) {
         compress_parent(parent.get(), responses);
@@ -178,8 +183,8 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     window_min_hz_ = rule.min_hz;
     window_max_hz_ = rule.max_hz;
     space_ = choose_space(model_, sampler_.get(), parent.get(), options_, rule.highest_hz(), watch);
-    if (options_.kind == BasisKind::plm) {
-        Reduction r = reduce_to_plm(*space_, *sampler_, rule, options_, watch);
+    if (is_made_of_modes(options_.kind)) {
+        Reduction r = reduce_to_modes(*space_, sampler_.get(), rule, options_, watch);
         reduced_ = std::move(r.reduced);
         report_ = std::move(r.report);
     } else {

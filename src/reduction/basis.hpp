@@ -6,7 +6,13 @@
 
 namespace plm {
 
-enum class BasisKind { plm, craig_bampton, full, pod };
+enum class BasisKind { plm, craig_bampton, full, pod, bilinear, lelsm, lelsm_updated, discontinuity };
+
+/// Modes of linear systems and vectors beside them, by one selection rule: all kinds but craig_bampton, full
+/// and pod.
+bool is_made_of_modes(BasisKind kind);
+/// The name of a kind as in the options.
+const char *name_of(BasisKind kind);
 enum class ModeSelection {
     bands,
     below
@@ -17,12 +23,14 @@ struct BasisOptions {
     ModeSelection selection = ModeSelection::below;
     std::int64_t n_harmonics = 5;                      // windows h = 1..n_harmonics
     double frequency_min_hz = 0, frequency_max_hz = 0; // f_i, f_f; 0: the sampler's window
-    double below_factor = 1.1;       // rule "below": all modes below below_factor * n_harmonics * f_f
-    double svd_tolerance = 1e-6;     // singular values relative to the largest (paper, 2.3.3)
-    bool static_augmentation = true; // P_0 = [P q_PS] (paper, eq. (9)); not used without pre-load
-    bool load_vectors = true;        // P also holds the static responses to the loads
-    double pod_tolerance = 1e-5;     // pod: share of the responses left out, energy norm
-    std::int64_t pod_size = 0;       // pod: columns; 0: by pod_tolerance
+    double below_factor = 1.1;          // rule "below": all modes below below_factor * n_harmonics * f_f
+    double svd_tolerance = 1e-6;        // singular values relative to the largest (paper, 2.3.3)
+    bool static_augmentation = true;    // P_0 = [P q_PS] (paper, eq. (9)); not used without pre-load
+    bool load_vectors = true;           // P also holds the static responses to the loads
+    double pod_tolerance = 1e-5;        // pod: share of the responses left out, energy norm
+    std::int64_t pod_size = 0;          // pod: columns; 0: by pod_tolerance
+    double equivalent_amplitude = 0;    // lelsm_updated: largest amplitude of a pair; 0: by the excitation
+    std::int64_t n_discontinuities = 0; // discontinuity: leading vectors; 0: one per pair
     std::int64_t n_fixed_modes = 0; // Craig-Bampton: fixed-interface modes; 0: all below 4 below_factor H f_f
 };
 
@@ -37,8 +45,9 @@ struct SampleSelection {
 
 struct BasisReport {
     std::vector<SampleSelection> samples;
-    std::int64_t n_collected = 0;   // columns before conditioning
-    vector<double> singular_values; // scaled by the largest
+    std::int64_t n_collected = 0;    // columns before conditioning
+    vector<double> singular_values;  // scaled by the largest
+    vector<double> equivalent_share; // of k_n, lelsm: in each column's system; lelsm_updated: of each pair
     double preload_residual =
         0; // paper, eq. (12): q_PS against P, L2 norm over the free DOFs; 0 without pre-load
     double preload_residual_mass = 0; // the same in the M-norm
@@ -49,9 +58,10 @@ struct BasisReport {
 
 class Basis {
   public:
-    /// sampler: needed for kind plm. parent: first reduction under PLM or null; for kind pod the basis the
-    /// responses were computed on. window_hz are taken from options, sampler or (pod) parent; kinds
-    /// craig_bampton and full need options.frequency_max_hz or a sampler.
+    /// sampler: needed for kind plm; the other kinds take the window from it. parent: first reduction under
+    /// the modes or null; for kind pod the basis the responses were computed on. window_hz are taken from
+    /// options, sampler or (pod) parent; kinds other than plm and pod need options.frequency_max_hz or a
+    /// sampler, the rivals a contact pair.
     Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> sampler,
           std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch,
           const Responses *responses = nullptr);

@@ -8,7 +8,50 @@ void demand(bool condition, const char *key, const std::string &text) {
     if (!condition) throw Error(PLM_ERR_ARGUMENT, text).argument(key);
 }
 
+bool is_rival(BasisKind kind) {
+    return is_made_of_modes(kind) && kind != BasisKind::plm;
+}
+
 } // namespace
+
+bool is_made_of_modes(BasisKind kind) {
+    return kind != BasisKind::craig_bampton && kind != BasisKind::full && kind != BasisKind::pod;
+}
+
+const char *name_of(BasisKind kind) {
+    switch (kind) {
+    case BasisKind::plm:
+        return "plm";
+    case BasisKind::craig_bampton:
+        return "craig_bampton";
+    case BasisKind::full:
+        return "full";
+    case BasisKind::pod:
+        return "pod";
+    case BasisKind::bilinear:
+        return "bilinear";
+    case BasisKind::lelsm:
+        return "lelsm";
+    case BasisKind::lelsm_updated:
+        return "lelsm_updated";
+    case BasisKind::discontinuity:
+        return "discontinuity";
+    }
+    return "?";
+}
+
+void check_pairs(const BasisOptions &o, std::int64_t n_pairs) {
+    const long long pairs = n_pairs, asked = o.n_discontinuities;
+    demand(
+        n_pairs > 0 || !is_rival(o.kind), "kind",
+        format(
+            "a basis of kind %s is about contact, and the model has no contact pair; \"full\" does without",
+            name_of(o.kind)));
+    demand(
+        o.kind != BasisKind::discontinuity || asked <= pairs, "n_discontinuities",
+        format("n_discontinuities is %lld, but the model has %lld contact pairs; 0 takes one vector per pair",
+               asked, pairs));
+}
 
 void check_options(const BasisOptions &o) {
     demand(o.n_harmonics >= 1, "n_harmonics",
@@ -28,6 +71,13 @@ void check_options(const BasisOptions &o) {
            format("pod_tolerance is %g; a share of the responses in [0, 1) is wanted", o.pod_tolerance));
     demand(o.pod_size >= 0, "pod_size",
            format("pod_size is %lld; it must not be negative", static_cast<long long>(o.pod_size)));
+    demand(
+        std::isfinite(o.equivalent_amplitude) && o.equivalent_amplitude >= 0, "equivalent_amplitude",
+        format("equivalent_amplitude is %g; a length, or 0 for the resonance under the excitation, is wanted",
+               o.equivalent_amplitude));
+    demand(o.n_discontinuities >= 0, "n_discontinuities",
+           format("n_discontinuities is %lld; it must not be negative",
+                  static_cast<long long>(o.n_discontinuities)));
     demand(o.n_fixed_modes >= 0, "n_fixed_modes",
            format("n_fixed_modes is %lld; it must not be negative", static_cast<long long>(o.n_fixed_modes)));
 }

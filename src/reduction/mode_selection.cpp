@@ -19,6 +19,30 @@ bool SelectionRule::keeps(double hz) const {
     return false;
 }
 
+double SelectionRule::highest_eigenvalue() const {
+    const double omega = 2 * M_PI * highest_hz() * (1 + 1e-12);
+    return omega * omega;
+}
+
+Matrix kept_columns(const SpaceModes &modes, const vector<char> &kept) {
+    Matrix columns(modes.vectors.rows(),
+                   std::count_if(kept.begin(), kept.end(), [](char k) { return k != 0; }));
+    std::int64_t next = 0;
+    for (std::size_t j = 0; j < kept.size(); ++j)
+        if (kept[j])
+            std::copy_n(modes.vectors.col(static_cast<std::int64_t>(j)), columns.rows(), columns.col(next++));
+    return columns;
+}
+
+Error no_mode_kept(const SelectionRule &rule, const char *who) {
+    return Error(PLM_ERR_ARGUMENT,
+                 format("%s has a mode in the windows of %lld harmonics of [%.6g, %.6g] Hz; widen the window "
+                        "or choose selection \"below\"",
+                        who, static_cast<long long>(rule.n_harmonics), rule.min_hz, rule.max_hz))
+        .argument("selection")
+        .reason(PLM_REASON_BASIS_TOO_SMALL);
+}
+
 namespace {
 
 SampleSelection select_modes(const MatchedModes &found, const SelectionRule &rule) {
@@ -33,16 +57,6 @@ SampleSelection select_modes(const MatchedModes &found, const SelectionRule &rul
         s.matched_kept = s.kept[s.matched] != 0;
     }
     return s;
-}
-
-Matrix kept_columns(const SpaceModes &modes, const vector<char> &kept) {
-    Matrix columns(modes.vectors.rows(),
-                   std::count_if(kept.begin(), kept.end(), [](char k) { return k != 0; }));
-    std::int64_t next = 0;
-    for (std::size_t j = 0; j < kept.size(); ++j)
-        if (kept[j])
-            std::copy_n(modes.vectors.col(static_cast<std::int64_t>(j)), columns.rows(), columns.col(next++));
-    return columns;
 }
 
 std::string lost_mode_warning(const std::vector<SampleSelection> &samples, const SelectionRule &rule) {
@@ -73,24 +87,14 @@ CollectedModes collect_modes(const Space &space, const std::vector<SelectedSampl
                              const std::vector<vector<double>> &dominant, const SelectionRule &rule,
                              Watch watch) {
     CollectedModes collected;
-    const double omega =
-        2 * M_PI * rule.highest_hz() * (1 + 1e-12); // the upper end itself belongs to the rule
     for (std::size_t i = 0; i < samples.size(); ++i) {
         watch.step("modes", static_cast<double>(i) / static_cast<double>(samples.size()));
         const MatchedModes found =
-            match_modes(space, samples[i].closed, dominant[samples[i].dominant], omega * omega);
+            match_modes(space, samples[i].closed, dominant[samples[i].dominant], rule.highest_eigenvalue());
         collected.samples.push_back(select_modes(found, rule));
         collected.columns.append(kept_columns(found.modes, collected.samples.back().kept));
     }
-    if (collected.columns.cols() == 0)
-        throw Error(
-            PLM_ERR_ARGUMENT,
-            format(
-                "no sample has a mode in the windows of %lld harmonics of [%.6g, %.6g] Hz; widen the window "
-                "or choose selection \"below\"",
-                static_cast<long long>(rule.n_harmonics), rule.min_hz, rule.max_hz))
-            .argument("selection")
-            .reason(PLM_REASON_BASIS_TOO_SMALL);
+    if (collected.columns.cols() == 0) throw no_mode_kept(rule, "no sample");
     collected.warning = lost_mode_warning(collected.samples, rule);
     return collected;
 }

@@ -13,6 +13,8 @@ struct SelectionRule {
 
     /// Upper end: n_harmonics f_f (bands) or below_factor n_harmonics f_f (below).
     double highest_hz() const;
+    /// The same as an eigenvalue (rad^2/s^2), a rounding higher: the upper end itself belongs to the rule.
+    double highest_eigenvalue() const;
     /// In a band [h f_i, h f_f], h = 1..n_harmonics, or not above highest_hz().
     bool keeps(double hz) const;
 };
@@ -20,8 +22,14 @@ struct SelectionRule {
 struct CollectedModes {
     Matrix columns; // kept modes of all samples, space size x n_collected, mass-normalised
     std::vector<SampleSelection> samples;
-    std::string warning; // a sample lost the mode that matches its dominant mode; empty: none did
+    std::string warning;             // a sample lost the mode that matches its dominant mode; empty: none did
+    vector<double> equivalent_share; // lelsm: s_i of each column; lelsm_updated: of each pair; else empty
 };
+
+/// Columns j of the modes with kept[j] != 0.
+Matrix kept_columns(const SpaceModes &modes, const vector<char> &kept);
+/// PLM_ERR_ARGUMENT: "<who> has a mode in the windows ...".
+Error no_mode_kept(const SelectionRule &rule, const char *who);
 
 /// dominant: coordinates of the dominant modes in this space.
 CollectedModes collect_modes(const Space &space, const std::vector<SelectedSample> &samples,

@@ -1,0 +1,58 @@
+#include "reduction/updated_lelsm.hpp"
+#include "model/describing_function.hpp"
+#include "model/linear_contact.hpp"
+#include "reduction/residual_responses.hpp"
+#include "sampling/mode_match.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace plm {
+namespace {
+
+void append_load(const vector<double> &load, Matrix &loads) {
+    if (load.empty()) return;
+    Matrix column(static_cast<std::int64_t>(load.size()), 1);
+    std::copy(load.begin(), load.end(), column.data());
+    loads.append(column);
+}
+
+// G^T N_h: what harmonic h of the contact forces of the motion does to the structure.
+void append_contact_forces(const Space &space, const EquivalentMotion &motion, std::int64_t h,
+                           Matrix &loads) {
+    vector<double> force(space.n_pairs()), load(space.size(), 0.0);
+    for (std::size_t p = 0; p < force.size(); ++p)
+        force[p] =
+            force_coefficient(space.model->contact_stiffness()[p], motion.mean[p], motion.amplitude[p], h);
+    gemv('T', 1.0, space.gap, force.data(), 0.0, load.data());
+    append_load(load, loads);
+}
+
+} // namespace
+
+UpdatedModes updated_lelsm_modes(const Space &space, const SelectionRule &rule, double amplitude,
+                                 bool with_loads, Watch watch) {
+    UpdatedModes result;
+    const double middle = M_PI * (rule.min_hz + rule.max_hz);
+    result.motion = equivalent_motion(space, {middle, rule.highest_eigenvalue(), amplitude}, watch);
+    const SpaceModes all =
+        modes_with_springs(space, result.motion.spring, std::numeric_limits<double>::infinity());
+    vector<char> kept;
+    for (double value : all.values) kept.push_back(rule.keeps(to_hz(value)));
+    result.columns = kept_columns(all, kept);
+    result.n_modes = result.columns.cols();
+    if (result.n_modes == 0) throw no_mode_kept(rule, "no equivalent system");
+    Matrix loads(space.size(), 0);
+    if (with_loads)
+        for (const auto &entry : space.excitation) {
+            append_load(entry.second.real, loads);
+            append_load(entry.second.imag, loads);
+        }
+    for (std::int64_t h = 0; h <= rule.n_harmonics; ++h)
+        append_contact_forces(space, result.motion, h, loads);
+    result.columns.append(residual_responses(all, kept, loads));
+    return result;
+}
+
+} // namespace plm
