@@ -9,7 +9,8 @@ namespace {
 
 constexpr int deepest = 14;               // bisections of a step of the sweep
 constexpr double difference_step = 1e-5;  // of the slope of the amplitude, in arc length
-constexpr double order_gain = 16;         // a cubic piece halved is so much nearer
+// A piece halved is nearer by 16 where the curve is smooth, by 4 where its curvature jumps since a pair begins to move.
+constexpr double least_gain = 4, most_gain = 16;
 
 struct Node {
     CurvePoint point;
@@ -37,7 +38,7 @@ class Step {
     void append_to(PlaneCurve &curve, double tolerance) {
         set_chord(ends_[0], ends_[1]);
         if (!(chord_length_ > 0)) return;
-        halve(node(ends_[0]), node(ends_[1]), deepest, tolerance, curve);
+        halve(node(ends_[0]), node(ends_[1]), deepest, 0, tolerance, curve);
     }
 
   private:
@@ -116,7 +117,8 @@ class Step {
         return correct_across(*system_, metric_, options_, chord_, chord_omega_, m);
     }
 
-    void halve(const Node &a, const Node &b, int depth, double tolerance, PlaneCurve &curve) {
+    // miss_before: of the piece that this one is a half of; 0: of none
+    void halve(const Node &a, const Node &b, int depth, double miss_before, double tolerance, PlaneCurve &curve) {
         const PlanePiece piece{a.at, b.at, a.tangent, b.tangent};
         CurvePoint point;
         if (!middle(a, b, point)) {
@@ -126,14 +128,15 @@ class Step {
         }
         const Node m = node(point);
         const double miss = distance(m.at, {piece});
-        if (miss <= order_gain * tolerance || depth == 0) {
-            curve.resolution = std::max(curve.resolution, miss / order_gain);
+        const double gain = miss > 0 ? std::clamp(miss_before / miss, least_gain, most_gain) : most_gain;
+        if (miss <= gain * tolerance || depth == 0) {
+            curve.resolution = std::max(curve.resolution, miss / gain);
             curve.pieces.push_back({a.at, m.at, a.tangent, m.tangent});
             curve.pieces.push_back({m.at, b.at, m.tangent, b.tangent});
             return;
         }
-        halve(a, m, depth - 1, tolerance, curve);
-        halve(m, b, depth - 1, tolerance, curve);
+        halve(a, m, depth - 1, miss, tolerance, curve);
+        halve(m, b, depth - 1, miss, tolerance, curve);
     }
 
     const Branch &branch_;

@@ -82,6 +82,7 @@ class Study {
         for (const MethodPlan &method : plan_.methods) {
             if (method.kind == MethodKind::marching) continue;
             MethodPlan truth = method;
+            truth.options_text = "the unreduced structure, else as \"" + method.name + "\"";
             truth.kind = MethodKind::response;
             truth.recipe.parent.reset();
             truth.recipe.basis.kind = BasisKind::full;

@@ -11,7 +11,7 @@ namespace plm {
 struct StudyOptions {
     std::int64_t repeats = 3;         // timed runs of each method, besides a first one to warm up
     std::int64_t curve_samples = 1000; // points of the reference, equally spaced in arc length
-    double curve_tolerance = 1e-7;    // distance of a curve from its cubic pieces
+    double curve_tolerance = 5e-7;     // distance of a curve from its cubic pieces
 };
 
 enum class MethodKind { response, compressed, refined, marching };
