@@ -149,7 +149,8 @@ plm_status plm_study_set_reference(plm_study *study, plm_hbm *hbm) {
 
 plm_status plm_study_add_response(plm_study *study, const char *name, plm_hbm *hbm, std::int64_t *index) {
     return call<StudyHandle>("plm_study_add_response", study, [&](StudyHandle &s) {
-        add(s, name_for(s, name), read_hbm(s, hbm, plm::MethodKind::response), index);
+        plm::MethodPlan method = read_hbm(s, hbm, plm::MethodKind::response);
+        add(s, name_for(s, name), std::move(method), index);
         return PLM_OK;
     });
 }
@@ -157,8 +158,8 @@ plm_status plm_study_add_response(plm_study *study, const char *name, plm_hbm *h
 plm_status plm_study_add_compressed(plm_study *study, const char *name, plm_hbm *hbm, std::int64_t size,
                                     std::int64_t *index) {
     return call<StudyHandle>("plm_study_add_compressed", study, [&](StudyHandle &s) {
-        std::string own = name_for(s, name);
         plm::MethodPlan method = read_hbm(s, hbm, plm::MethodKind::compressed);
+        std::string own = name_for(s, name);
         require_range(size, 0, 1000000000, "size");
         method.size = size;
         add_text(method.options_text, "compressed", size > 0 ? std::to_string(size) + " columns" : "by pod_tolerance");
@@ -170,8 +171,8 @@ plm_status plm_study_add_compressed(plm_study *study, const char *name, plm_hbm 
 plm_status plm_study_add_refined(plm_study *study, const char *name, plm_hbm *hbm, double tolerance,
                                  std::int64_t *index) {
     return call<StudyHandle>("plm_study_add_refined", study, [&](StudyHandle &s) {
-        std::string own = name_for(s, name);
         plm::MethodPlan method = read_hbm(s, hbm, plm::MethodKind::refined);
+        std::string own = name_for(s, name);
         require_finite(tolerance, "tolerance");
         if (!(tolerance > 0 && tolerance < 1))
             bad_argument("tolerance", -1,
@@ -187,9 +188,9 @@ plm_status plm_study_add_marching(plm_study *study, const char *name, plm_transi
                                   std::int64_t n_frequencies, std::int64_t *index) {
     return call<StudyHandle>("plm_study_add_marching", study, [&](StudyHandle &s) {
         if (!plm::transient_is_built()) plm::make_transient(nullptr, nullptr); // says which option
-        std::string own = name_for(s, name);
         const std::shared_ptr<TransientHandle> t = same_context<TransientHandle>(s, transient, "transient");
         require_own_model(s, t->model.get(), "transient");
+        std::string own = name_for(s, name);
         require_range(n_frequencies, 1, 1 << 20, "n_frequencies");
         plm::MethodPlan method;
         method.kind = plm::MethodKind::marching;

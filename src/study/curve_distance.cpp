@@ -26,9 +26,11 @@ double length(PlanePoint a) {
 struct Bezier {
     PlanePoint p[4];
     explicit Bezier(const PlanePiece &piece) {
-        const double third = length(piece.to - piece.from) / 3;
-        p[0] = piece.from, p[1] = piece.from + third * piece.from_direction;
-        p[2] = piece.to - third * piece.to_direction, p[3] = piece.to;
+        // a circle's arc that turns by theta asks for chord / (3 cos^2(theta / 4))
+        const double turn = std::clamp(dot(piece.from_direction, piece.to_direction), -1.0, 1.0),
+                     arm = 2.0 / 3 * length(piece.to - piece.from) / (1 + std::sqrt(0.5 + 0.5 * turn));
+        p[0] = piece.from, p[1] = piece.from + arm * piece.from_direction;
+        p[2] = piece.to - arm * piece.to_direction, p[3] = piece.to;
     }
     PlanePoint at(double u) const {
         const double v = 1 - u;
