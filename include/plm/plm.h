@@ -596,7 +596,8 @@ PLM_API plm_status plm_study_get_outcome(plm_study *study, int64_t index, int64_
  * method that failed or that marches in time: that has points only. */
 PLM_API plm_status plm_study_get_curve(plm_study *study, int64_t index, int64_t level, plm_branch **branch);
 /* The same as points of frequency and amplitude of the output: `capacity` values each, or both NULL with capacity 0.
- * They stand so near each other that chords show the curve; those of a marching method are its steady states. */
+ * Those of a curve are so many as "curve_tolerance" asks for (chords between them are good for pictures, about 1e-3);
+ * those of a marching method are its steady states. */
 PLM_API plm_status plm_study_get_points(plm_study *study, int64_t index, int64_t level, int64_t capacity,
                                         double *frequency_hz, double *amplitude, int64_t *count);
 /* Writes the last run to files of the folder, which is made if its parent exists: report.md, table.csv, and for each

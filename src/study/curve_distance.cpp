@@ -64,7 +64,12 @@ struct Bezier {
     }
     // Of a point: the best of nine instants, then Newton's method on the distance as long as it falls.
     double distance(PlanePoint q) const {
-        double best = std::numeric_limits<double>::infinity(), u = 0;
+        double u;
+        return distance(q, u);
+    }
+    double distance(PlanePoint q, double &u) const {
+        double best = std::numeric_limits<double>::infinity();
+        u = 0;
         for (int i = 0; i <= 8; ++i)
             if (const double d = length(at(0.125 * i) - q); d < best) best = d, u = 0.125 * i;
         for (int i = 0; i < 20; ++i) {
@@ -100,6 +105,16 @@ PlanePoint point_on(const PlanePiece &piece, double u) {
 
 double length_of(const PlanePiece &piece) {
     return Bezier(piece).length_to(1);
+}
+
+Nearest nearest_on(const PlanePiece &piece, PlanePoint point) {
+    const Bezier bezier(piece);
+    Nearest out;
+    double u;
+    out.distance = bezier.distance(point, u);
+    const PlanePoint slope = bezier.slope(u);
+    if (const double size = length(slope); size > 0) out.direction = (1 / size) * slope;
+    return out;
 }
 
 double distance(PlanePoint point, const vector<PlanePiece> &curve) {

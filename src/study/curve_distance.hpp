@@ -19,6 +19,13 @@ struct PlanePiece {
 PlanePoint point_on(const PlanePiece &piece, double u);
 double length_of(const PlanePiece &piece);
 
+/// The piece's nearest point: how far it is, and the direction of the piece there (a unit vector).
+struct Nearest {
+    double distance = 0;
+    PlanePoint direction;
+};
+Nearest nearest_on(const PlanePiece &piece, PlanePoint point);
+
 /// Smallest distance of the point from the curve; infinite from an empty one.
 double distance(PlanePoint point, const vector<PlanePiece> &curve);
 

@@ -9,8 +9,9 @@ namespace {
 
 constexpr int deepest = 14;               // bisections of a step of the sweep
 constexpr double difference_step = 1e-5;  // of the slope of the amplitude, in arc length
-// A piece halved is nearer by 16 where the curve is smooth, by 4 where its curvature jumps since a pair begins to move.
-constexpr double least_gain = 4, most_gain = 16;
+// A piece halved is nearer by 16 where the curve is smooth. Where a pair begins to move its curvature is singular: by less
+// than 3, and the middle may lie on the piece although the rest does not.
+constexpr double smooth_gain = 16, first_gain = 4, least_gain = 1.5;
 
 struct Node {
     CurvePoint point;
@@ -117,6 +118,18 @@ class Step {
         return correct_across(*system_, metric_, options_, chord_, chord_omega_, m);
     }
 
+    // By the distance of the curve's middle, and by how its direction differs there.
+    static double miss_of(const PlanePiece &piece, const Node &m) {
+        const Nearest nearest = nearest_on(piece, m.at);
+        const double turn = nearest.direction.x * m.tangent.y - nearest.direction.y * m.tangent.x;
+        return std::max(nearest.distance, 0.25 * length_of(piece) * std::abs(turn));
+    }
+
+    static double gain_of(double miss_before, double miss) {
+        if (miss_before == 0) return first_gain;
+        return 10 * miss < miss_before ? smooth_gain : least_gain;
+    }
+
     // miss_before: of the piece that this one is a half of; 0: of none
     void halve(const Node &a, const Node &b, int depth, double miss_before, double tolerance, PlaneCurve &curve) {
         const PlanePiece piece{a.at, b.at, a.tangent, b.tangent};
@@ -127,8 +140,7 @@ class Step {
             return;
         }
         const Node m = node(point);
-        const double miss = distance(m.at, {piece});
-        const double gain = miss > 0 ? std::clamp(miss_before / miss, least_gain, most_gain) : most_gain;
+        const double miss = miss_of(piece, m), gain = gain_of(miss_before, miss);
         if (miss <= gain * tolerance || depth == 0) {
             curve.resolution = std::max(curve.resolution, miss / gain);
             curve.pieces.push_back({a.at, m.at, a.tangent, m.tangent});
