@@ -33,7 +33,8 @@ static int plan(plm_model *model, plm_basis *basis, plm_hbm *hbm, plm_study **ma
     TRY(plm_basis_set_string(basis, "kind", "plm"));
 
     /* [plm_study_add_compressed] [plm_study_add_refined] */
-    TRY(plm_study_add_compressed(study, "compressed", hbm, 0, NULL)); /* as many columns as pod_tolerance asks for */
+    TRY(plm_study_add_compressed(study, "compressed", hbm, 0,
+                                 NULL)); /* as many columns as pod_tolerance asks for */
     TRY(plm_study_add_refined(study, "refined", hbm, 1e-3, NULL));
     /* [plm_study_add_compressed] [plm_study_add_refined] */
 

@@ -7,7 +7,8 @@ namespace plm::capi {
 namespace {
 
 const char *kind_name(Kind kind) {
-    static const char *const names[] = {"context", "model", "sampler", "basis", "hbm", "branch", "transient", "study"};
+    static const char *const names[] = {"context", "model",  "sampler",   "basis",
+                                        "hbm",     "branch", "transient", "study"};
     return names[static_cast<int>(kind)];
 }
 
@@ -155,7 +156,8 @@ std::string changed_options(Kind kind, const void *options) {
     for (const Key &key : keys_of(kind)) {
         if (!key.is_option) continue;
         const std::string now = option_text(key, options);
-        if (now != option_text(key, default_options(kind))) text += (text.empty() ? "" : ", ") + (key.name + (" = " + now));
+        if (now != option_text(key, default_options(kind)))
+            text += (text.empty() ? "" : ", ") + (key.name + (" = " + now));
     }
     return text;
 }

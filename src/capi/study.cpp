@@ -24,7 +24,8 @@ std::string name_for(const StudyHandle &s, const char *name) {
     if (!*name) bad_argument("name", -1, "the name is empty; every method needs one of its own");
     bool used = name == std::string(reference_name);
     for (const MethodPlan &m : s.plan.methods) used = used || m.name == name;
-    if (used) bad_argument("name", -1, format("the name \"%.80s\" is taken; give every method its own", name));
+    if (used)
+        bad_argument("name", -1, format("the name \"%.80s\" is taken; give every method its own", name));
     return name;
 }
 
@@ -32,9 +33,10 @@ std::string name_for(const StudyHandle &s, const char *name) {
 void read_basis(const BasisHandle &b, MethodPlan &method) {
     Recipe &recipe = method.recipe;
     if (b.basis_options.kind == BasisKind::pod)
-        bad_argument("hbm", -1,
-                     "its basis is of kind pod, which options alone do not make; add the method it is compressed from "
-                     "with plm_study_add_compressed or plm_study_add_refined");
+        bad_argument(
+            "hbm", -1,
+            "its basis is of kind pod, which options alone do not make; add the method it is compressed from "
+            "with plm_study_add_compressed or plm_study_add_refined");
     recipe.basis = b.basis_options;
     if (b.sampler) {
         recipe.sampler = b.sampler->sampler_options;
@@ -53,7 +55,8 @@ void read_basis(const BasisHandle &b, MethodPlan &method) {
 
 void require_own_model(const StudyHandle &s, const ModelHandle *model, const char *argument) {
     if (model != s.model.get())
-        bad_argument(argument, -1, format("the %s is of another model than the study; make both from one", argument));
+        bad_argument(argument, -1,
+                     format("the %s is of another model than the study; make both from one", argument));
 }
 
 MethodPlan read_hbm(const StudyHandle &s, plm_hbm *hbm, MethodKind kind) {
@@ -84,7 +87,8 @@ const MethodResult &measured(const StudyHandle &s, std::int64_t index, std::int6
     const MethodResult &row = row_of(s, index);
     require_range(level, 0, static_cast<std::int64_t>(last_run(s).levels.size()) - 1, "level");
     if (row.failed)
-        throw Error(PLM_ERR_STATE, format("the method \"%.80s\" has no curve: %s", row.name.c_str(), row.outcome.c_str()))
+        throw Error(PLM_ERR_STATE,
+                    format("the method \"%.80s\" has no curve: %s", row.name.c_str(), row.outcome.c_str()))
             .argument("index");
     return row;
 }
@@ -114,7 +118,8 @@ plm_status plm_study_destroy(plm_study **study) {
     return destroy<StudyHandle>(study);
 }
 
-plm_status plm_study_set_output(plm_study *study, std::int64_t dof, std::int32_t measure, std::int32_t harmonic) {
+plm_status plm_study_set_output(plm_study *study, std::int64_t dof, std::int32_t measure,
+                                std::int32_t harmonic) {
     return call<StudyHandle>("plm_study_set_output", study, [&](StudyHandle &s) {
         require_range(dof, 0, s.model->input.n_dof - 1, "dof");
         require_range(measure, PLM_PEAK, PLM_HARMONIC, "measure");
@@ -130,8 +135,9 @@ plm_status plm_study_set_force_levels(plm_study *study, std::int64_t n, const do
         require_finite_array(scale, n, "scale");
         for (std::int64_t i = 0; i < n; ++i)
             if (!(scale[i] > 0))
-                bad_argument("scale", i,
-                             plm::format("scale[%lld] is %g; it must be > 0", static_cast<long long>(i), scale[i]));
+                bad_argument(
+                    "scale", i,
+                    plm::format("scale[%lld] is %g; it must be > 0", static_cast<long long>(i), scale[i]));
         s.plan.levels.assign(scale, scale + n);
         return PLM_OK;
     });
@@ -162,7 +168,8 @@ plm_status plm_study_add_compressed(plm_study *study, const char *name, plm_hbm 
         std::string own = name_for(s, name);
         require_range(size, 0, 1000000000, "size");
         method.size = size;
-        add_text(method.options_text, "compressed", size > 0 ? std::to_string(size) + " columns" : "by pod_tolerance");
+        add_text(method.options_text, "compressed",
+                 size > 0 ? std::to_string(size) + " columns" : "by pod_tolerance");
         add(s, std::move(own), std::move(method), index);
         return PLM_OK;
     });
@@ -218,8 +225,8 @@ plm_status plm_study_get_name(plm_study *study, std::int64_t index, std::int64_t
                               std::int64_t *needed) {
     return call<StudyHandle>("plm_study_get_name", study, [&](StudyHandle &s) {
         require_range(index, -1, static_cast<std::int64_t>(s.plan.methods.size()) - 1, "index");
-        return put_text(index < 0 ? reference_name : s.plan.methods[static_cast<std::size_t>(index)].name, capacity,
-                        buffer, needed);
+        return put_text(index < 0 ? reference_name : s.plan.methods[static_cast<std::size_t>(index)].name,
+                        capacity, buffer, needed);
     });
 }
 
@@ -230,23 +237,27 @@ plm_status plm_study_get_outcome(plm_study *study, std::int64_t index, std::int6
     });
 }
 
-plm_status plm_study_get_curve(plm_study *study, std::int64_t index, std::int64_t level, plm_branch **branch) {
+plm_status plm_study_get_curve(plm_study *study, std::int64_t index, std::int64_t level,
+                               plm_branch **branch) {
     return call<StudyHandle>("plm_study_get_curve", study, [&](StudyHandle &s) {
         const plm::MethodResult &row = measured(s, index, level);
         require_pointer(branch, "branch");
         if (row.curves.empty())
-            throw plm::Error(PLM_ERR_STATE,
-                             plm::format("the method \"%.80s\" marches in time and has points, no branch; read them by "
-                                         "plm_study_get_points",
-                                         row.name.c_str()))
+            throw plm::Error(
+                PLM_ERR_STATE,
+                plm::format("the method \"%.80s\" marches in time and has points, no branch; read them by "
+                            "plm_study_get_points",
+                            row.name.c_str()))
                 .argument("index");
-        *branch = publish(std::make_shared<BranchHandle>(s.owner, row.curves[static_cast<std::size_t>(level)]));
+        *branch =
+            publish(std::make_shared<BranchHandle>(s.owner, row.curves[static_cast<std::size_t>(level)]));
         return PLM_OK;
     });
 }
 
-plm_status plm_study_get_points(plm_study *study, std::int64_t index, std::int64_t level, std::int64_t capacity,
-                                double *frequency_hz, double *amplitude, std::int64_t *count) {
+plm_status plm_study_get_points(plm_study *study, std::int64_t index, std::int64_t level,
+                                std::int64_t capacity, double *frequency_hz, double *amplitude,
+                                std::int64_t *count) {
     return call<StudyHandle>("plm_study_get_points", study, [&](StudyHandle &s) {
         const plm::PlaneSamples &points = measured(s, index, level).samples[static_cast<std::size_t>(level)];
         if (capacity > 0 || frequency_hz || amplitude) {

@@ -1,5 +1,5 @@
-// How much memory a piece of work holds: the arrays of plm::vector made in a scope, and what libraries underneath
-// allocate by themselves as far as they tell (CHOLMOD does).
+// How much memory a piece of work holds: the arrays of plm::vector made in a scope, and what libraries
+// underneath allocate by themselves as far as they tell (CHOLMOD does).
 #pragma once
 #include "linalg/memory.hpp"
 #include <cstdint>
@@ -8,8 +8,8 @@ namespace plm {
 
 class MemoryCounter; // lives as long as the scope and the last block counted
 
-/// Counts what this thread allocates during its life, and forwards to the allocator that was active before. Blocks may
-/// be released later, on any thread, as with every allocator.
+/// Counts what this thread allocates during its life, and forwards to the allocator that was active before.
+/// Blocks may be released later, on any thread, as with every allocator.
 class CountingScope {
   public:
     CountingScope();

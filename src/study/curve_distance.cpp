@@ -52,7 +52,8 @@ struct Bezier {
             const double centre = (0.25 + 0.5 * half) * end, reach = 0.25 * end;
             sum += reach * weight[0] * length(slope(centre));
             for (int i = 1; i < 3; ++i)
-                sum += reach * weight[i] * (length(slope(centre - reach * node[i])) + length(slope(centre + reach * node[i])));
+                sum += reach * weight[i] *
+                       (length(slope(centre - reach * node[i])) + length(slope(centre + reach * node[i])));
         }
         return sum;
     }

@@ -1,4 +1,5 @@
-// How far one curve in the plane lies from another: over the arc length of the reference, so that folds do not spoil it.
+// How far one curve in the plane lies from another: over the arc length of the reference, so that folds do
+// not spoil it.
 #pragma once
 #include "linalg/memory.hpp"
 #include <cstdint>
@@ -9,8 +10,8 @@ struct PlanePoint {
     double x = 0, y = 0;
 };
 
-/// A cubic between two points with the directions of the tangents there (unit vectors): the curve's shape to the fourth
-/// order of the distance of the points.
+/// A cubic between two points with the directions of the tangents there (unit vectors): the curve's shape to
+/// the fourth order of the distance of the points.
 struct PlanePiece {
     PlanePoint from, to, from_direction, to_direction;
 };

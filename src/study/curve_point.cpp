@@ -17,7 +17,8 @@ CurveMetric::CurveMetric(const CurvePoint &at, const HbmOptions &o)
     per_square_ = size > 0 ? 1 / (size * size) : 1;
 }
 
-double CurveMetric::product(const vector<double> &x, double omega, const vector<double> &y, double other_omega) const {
+double CurveMetric::product(const vector<double> &x, double omega, const vector<double> &y,
+                            double other_omega) const {
     return per_square_ * dot(static_cast<std::int64_t>(x.size()), x.data(), y.data()) +
            omega * other_omega / (width_ * width_);
 }

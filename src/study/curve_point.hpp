@@ -25,8 +25,8 @@ class CurveMetric {
     double per_square_, width_;
 };
 
-/// Moves the point to the curve of `system` within the hyperplane across (direction_x, direction_omega). False: Newton's
-/// method did not converge, or went far; the point is as it was.
+/// Moves the point to the curve of `system` within the hyperplane across (direction_x, direction_omega).
+/// False: Newton's method did not converge, or went far; the point is as it was.
 bool correct_across(HbmSystem &system, const CurveMetric &metric, const HbmOptions &options,
                     const vector<double> &direction_x, double direction_omega, CurvePoint &point);
 

@@ -11,14 +11,16 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string &what, const std::string &why) {
-    throw Error(PLM_ERR_ARGUMENT, what + ": " + why + "; name a folder that can be written to").argument("folder");
+    throw Error(PLM_ERR_ARGUMENT, what + ": " + why + "; name a folder that can be written to")
+        .argument("folder");
 }
 
 void make_folder(const fs::path &folder) {
     std::error_code failure;
     if (fs::is_directory(folder, failure)) return;
     if (!fs::create_directory(folder, failure))
-        refuse("\"" + folder.string() + "\" cannot be made", failure ? failure.message() : "something else has this name");
+        refuse("\"" + folder.string() + "\" cannot be made",
+               failure ? failure.message() : "something else has this name");
 }
 
 void write(const fs::path &path, const std::string &text) {
@@ -26,7 +28,9 @@ void write(const fs::path &path, const std::string &text) {
     std::ofstream file(path, std::ios::binary | std::ios::trunc);
     file << text;
     file.close();
-    if (!file) refuse("\"" + path.string() + "\" cannot be written", errno ? std::strerror(errno) : "the disk refused it");
+    if (!file)
+        refuse("\"" + path.string() + "\" cannot be written",
+               errno ? std::strerror(errno) : "the disk refused it");
 }
 
 // The name of a method as part of a file's: letters and digits in lower case, anything else as one underline.
@@ -43,10 +47,12 @@ std::string plain(const std::string &name) {
     return out.substr(0, 60);
 }
 
-// curve_reference_0.csv, curve_2_craig_bampton_0.csv: number and name of the method, number of the force level.
+// curve_reference_0.csv, curve_2_craig_bampton_0.csv: number and name of the method, number of the force
+// level.
 void write_curves(const fs::path &folder, const std::string &method, const MethodResult &r) {
     for (std::size_t level = 0; level < r.samples.size(); ++level)
-        write(folder / ("curve_" + method + "_" + std::to_string(level) + ".csv"), curve_csv(r.samples[level]));
+        write(folder / ("curve_" + method + "_" + std::to_string(level) + ".csv"),
+              curve_csv(r.samples[level]));
 }
 
 } // namespace

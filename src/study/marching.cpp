@@ -5,7 +5,8 @@
 namespace plm {
 namespace {
 
-constexpr std::int64_t most_harmonics = 50; // of a recorded period; its coefficients fall with the fourth power
+constexpr std::int64_t most_harmonics =
+    50; // of a recorded period; its coefficients fall with the fourth power
 
 // a0, a1, b1, ... of a period sampled at n equidistant instants.
 vector<double> coefficients(const vector<double> &value, std::int64_t multiple) {
@@ -32,7 +33,8 @@ TransientRun uncancelled(TransientRun run) {
 } // namespace
 
 MarchedCurve march_curve(Transient &motion, const TransientOptions &options, const Output &output,
-                         const FrequencyRange &range, std::int64_t n_frequencies, double force_scale, Watch watch) {
+                         const FrequencyRange &range, std::int64_t n_frequencies, double force_scale,
+                         Watch watch) {
     MarchedCurve curve;
     for (std::int64_t k = 0; k < n_frequencies; ++k) {
         const double share =

@@ -19,7 +19,8 @@ class Stopwatch {
 using BranchPtr = std::shared_ptr<const Branch>;
 
 BranchPtr sweep(const Basis &basis, const HbmOptions &options, Watch watch) {
-    BranchPtr branch = Hbm(basis.reduced(), basis.window_min_hz(), basis.window_max_hz(), options, watch).sweep();
+    BranchPtr branch =
+        Hbm(basis.reduced(), basis.window_min_hz(), basis.window_max_hz(), options, watch).sweep();
     if (branch->end_reason == PLM_REASON_CANCELLED)
         throw Error(PLM_CANCELLED, "cancelled by the progress callback").reason(PLM_REASON_CANCELLED);
     return branch;
@@ -60,14 +61,16 @@ class Run {
     }
 
     void compress_basis() {
-        std::vector<BranchPtr> responses{sweep(*out_.basis, options_at_level(method_, where_, lowest_), watch_)};
+        std::vector<BranchPtr> responses{
+            sweep(*out_.basis, options_at_level(method_, where_, lowest_), watch_)};
         if (highest_ > lowest_)
             responses.push_back(sweep(*out_.basis, options_at_level(method_, where_, highest_), watch_));
         const Responses motions = responses_of(responses);
         BasisOptions o = method_.recipe.basis;
         o.kind = BasisKind::pod;
         o.pod_size = method_.size;
-        out_.basis = std::make_shared<const Basis>(where_.model, out_.basis->sampler(), out_.basis, o, watch_, &motions);
+        out_.basis = std::make_shared<const Basis>(where_.model, out_.basis->sampler(), out_.basis, o, watch_,
+                                                   &motions);
     }
 
     void refine_basis() {
@@ -78,7 +81,8 @@ class Run {
         o.harmonic = where_.output.harmonic;
         o.tolerance = method_.tolerance;
         Refinement found = refine(out_.basis, o, watch_);
-        if (!found.basis) throw Error(PLM_ERR_CONVERGENCE, "no curve could be computed on a compressed basis");
+        if (!found.basis)
+            throw Error(PLM_ERR_CONVERGENCE, "no curve could be computed on a compressed basis");
         if (!found.met)
             out_.note = format("the tolerance %g was not met in %lld curves, %.2g is left", method_.tolerance,
                                static_cast<long long>(found.rounds), found.error);
@@ -96,14 +100,16 @@ class Run {
         for (double level : where_.levels) {
             if (!out_.marched.empty()) motion = make_transient(where_.model, reduced); // from rest again
             out_.marched.push_back(march_curve(*motion, method_.transient, where_.output, where_.range,
-                                               method_.n_frequencies, level * method_.transient.force_scale, watch_));
+                                               method_.n_frequencies, level * method_.transient.force_scale,
+                                               watch_));
         }
         out_.curve_seconds = curve.seconds();
         std::int64_t unsettled = 0;
         for (const MarchedCurve &c : out_.marched) unsettled += c.unsettled;
         if (unsettled > 0)
-            out_.note = format("%lld motions had not settled after %lld periods", static_cast<long long>(unsettled),
-                               static_cast<long long>(method_.transient.periods));
+            out_.note =
+                format("%lld motions had not settled after %lld periods", static_cast<long long>(unsettled),
+                       static_cast<long long>(method_.transient.periods));
     }
 
     const MethodPlan &method_;

@@ -5,7 +5,7 @@
 namespace plm {
 
 struct Measurement {
-    std::shared_ptr<const Basis> basis; // null: marching of the full model
+    std::shared_ptr<const Basis> basis;                // null: marching of the full model
     std::vector<std::shared_ptr<const Branch>> curves; // per level, or
     std::vector<MarchedCurve> marched;                 // per level
     std::int64_t size = 0;                             // coordinates

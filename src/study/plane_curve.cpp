@@ -7,10 +7,10 @@
 namespace plm {
 namespace {
 
-constexpr int deepest = 14;               // bisections of a step of the sweep
-constexpr double difference_step = 1e-5;  // of the slope of the amplitude, in arc length
-// A piece halved is nearer by 16 where the curve is smooth. Where a pair begins to move its curvature is singular: by less
-// than 3, and the middle may lie on the piece although the rest does not.
+constexpr int deepest = 14;              // bisections of a step of the sweep
+constexpr double difference_step = 1e-5; // of the slope of the amplitude, in arc length
+// A piece halved is nearer by 16 where the curve is smooth. Where a pair begins to move its curvature is
+// singular: by less than 3, and the middle may lie on the piece although the rest does not.
 constexpr double smooth_gain = 16, first_gain = 4, least_gain = 1.5;
 
 struct Node {
@@ -32,7 +32,8 @@ class Step {
           metric_(ends_[1], options_) {
         if (branch.points()[first].n_harmonics != branch.points()[first + 1].n_harmonics) {
             set_chord(ends_[0], ends_[1]);
-            for (CurvePoint &end : ends_) correct_across(*system_, metric_, options_, chord_, chord_omega_, end);
+            for (CurvePoint &end : ends_)
+                correct_across(*system_, metric_, options_, chord_, chord_omega_, end);
         }
     }
 
@@ -59,7 +60,8 @@ class Step {
         point.force_scale = options_.force_scale;
         system_->to_point(x.data(), omega, point);
         if (options_.tail_correction)
-            point.eta.append(harmonic_content(branch_.reduced(), point, options_.period_multiple).tail_response);
+            point.eta.append(
+                harmonic_content(branch_.reduced(), point, options_.period_multiple).tail_response);
         Branch one(branch_.reduced_model(), options_.force_scale, options_.period_multiple);
         one.append(std::move(point));
         return one.amplitude(0, output_.dof, output_.measure, output_.harmonic);
@@ -112,7 +114,8 @@ class Step {
         if (!(chord_length_ > 1e-13)) return false;
         m = a.point;
         for (std::size_t i = 0; i < m.x.size(); ++i)
-            m.x[i] = 0.5 * (a.point.x[i] + b.point.x[i]) + chord_length_ / 8 * (a.direction[i] - b.direction[i]);
+            m.x[i] =
+                0.5 * (a.point.x[i] + b.point.x[i]) + chord_length_ / 8 * (a.direction[i] - b.direction[i]);
         m.omega = 0.5 * (a.point.omega + b.point.omega) +
                   chord_length_ / 8 * (a.direction_omega - b.direction_omega);
         return correct_across(*system_, metric_, options_, chord_, chord_omega_, m);
@@ -131,7 +134,8 @@ class Step {
     }
 
     // miss_before: of the piece that this one is a half of; 0: of none
-    void halve(const Node &a, const Node &b, int depth, double miss_before, double tolerance, PlaneCurve &curve) {
+    void halve(const Node &a, const Node &b, int depth, double miss_before, double tolerance,
+               PlaneCurve &curve) {
         const PlanePiece piece{a.at, b.at, a.tangent, b.tangent};
         CurvePoint point;
         if (!middle(a, b, point)) {
@@ -164,8 +168,8 @@ class Step {
 
 } // namespace
 
-PlaneCurve plane_curve(const Branch &branch, const HbmOptions &options, const Output &output, const PlaneScale &scale,
-                       double tolerance) {
+PlaneCurve plane_curve(const Branch &branch, const HbmOptions &options, const Output &output,
+                       const PlaneScale &scale, double tolerance) {
     PlaneCurve curve;
     HbmOptions own = options;
     own.period_multiple = branch.period_multiple();

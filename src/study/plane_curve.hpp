@@ -1,6 +1,6 @@
-// A response curve in the plane of frequency and amplitude, as cubic pieces with the exact tangents of its points.
-// Further points are computed on the curve until the pieces follow it to a tolerance, whatever the steps of the sweep
-// were: chords would be 1e-3 off.
+// A response curve in the plane of frequency and amplitude, as cubic pieces with the exact tangents of its
+// points. Further points are computed on the curve until the pieces follow it to a tolerance, whatever the
+// steps of the sweep were: chords would be 1e-3 off.
 #pragma once
 #include "hbm/hbm.hpp"
 #include "study/curve_distance.hpp"
@@ -26,7 +26,7 @@ struct PlaneCurve {
 };
 
 /// options: those the branch was computed with, with its frequency range. tolerance: of `resolution`.
-PlaneCurve plane_curve(const Branch &branch, const HbmOptions &options, const Output &output, const PlaneScale &scale,
-                       double tolerance);
+PlaneCurve plane_curve(const Branch &branch, const HbmOptions &options, const Output &output,
+                       const PlaneScale &scale, double tolerance);
 
 } // namespace plm

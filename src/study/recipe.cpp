@@ -3,11 +3,12 @@
 namespace plm {
 namespace {
 
-std::shared_ptr<const Sampler> run_sampler(const std::shared_ptr<const Model> &model, const SamplerOptions &options,
-                                           Watch watch) {
+std::shared_ptr<const Sampler> run_sampler(const std::shared_ptr<const Model> &model,
+                                           const SamplerOptions &options, Watch watch) {
     if (model->n_pairs() == 0)
-        throw Error(PLM_ERR_STATE, "the model has no contact pair, so there is no contact area to sample; use a basis "
-                                   "of kind full or craig_bampton")
+        throw Error(PLM_ERR_STATE,
+                    "the model has no contact pair, so there is no contact area to sample; use a basis "
+                    "of kind full or craig_bampton")
             .argument("sampler");
     return std::make_shared<const Sampler>(model, options, watch);
 }
@@ -39,15 +40,17 @@ FrequencyRange range_of(const std::shared_ptr<const Model> &model, const Recipe 
     const FrequencyRange range{hbm.frequency_min_hz > 0 ? hbm.frequency_min_hz : basis.frequency_min_hz,
                                hbm.frequency_max_hz > 0 ? hbm.frequency_max_hz : basis.frequency_max_hz};
     if (!(range.low_hz > 0 && range.high_hz > range.low_hz))
-        throw Error(PLM_ERR_STATE, format("the frequency range [%g, %g] Hz of the study is empty or not positive; set "
-                                          "frequency_min_hz and frequency_max_hz of the reference's hbm or basis, or "
-                                          "give its basis a sampler",
-                                          range.low_hz, range.high_hz))
+        throw Error(PLM_ERR_STATE,
+                    format("the frequency range [%g, %g] Hz of the study is empty or not positive; set "
+                           "frequency_min_hz and frequency_max_hz of the reference's hbm or basis, or "
+                           "give its basis a sampler",
+                           range.low_hz, range.high_hz))
             .argument("frequency_min_hz");
     return range;
 }
 
-std::shared_ptr<const Basis> build(const std::shared_ptr<const Model> &model, const Recipe &recipe, Watch watch) {
+std::shared_ptr<const Basis> build(const std::shared_ptr<const Model> &model, const Recipe &recipe,
+                                   Watch watch) {
     if (recipe.basis.kind == BasisKind::plm && !recipe.sampler)
         throw Error(PLM_ERR_STATE, "a basis of kind plm needs a sampler; call plm_basis_set_sampler first")
             .argument("sampler");

@@ -58,17 +58,18 @@ std::string quoted(const std::string &text) {
 
 void add_row(Text &t, const MethodResult &r) {
     const double time = r.setup_seconds + r.curve_seconds;
-    t << "| " << cell(r.name) << " | " << (r.pareto ? "yes" : "") << " | " << dash(count(r.basis_size)) << " | "
-      << dash(number(r.setup_seconds, 3)) << " | " << dash(number(1e3 * r.iteration_seconds, 3)) << " | "
-      << dash(number(r.curve_seconds, 3)) << " | " << dash(number(time, 3)) << " | "
+    t << "| " << cell(r.name) << " | " << (r.pareto ? "yes" : "") << " | " << dash(count(r.basis_size))
+      << " | " << dash(number(r.setup_seconds, 3)) << " | " << dash(number(1e3 * r.iteration_seconds, 3))
+      << " | " << dash(number(r.curve_seconds, 3)) << " | " << dash(number(time, 3)) << " | "
       << dash(number(r.peak_bytes < 0 ? not_known : static_cast<double>(r.peak_bytes) / 1e6, 3)) << " | "
-      << error(r.frequency_error) << " | " << error(r.amplitude_error) << " | " << error(r.curve_error_l2) << " | "
-      << error(r.curve_error_max) << " | " << error(r.estimated_error) << " | " << dash(number(r.effectivity, 2))
-      << " |\n";
+      << error(r.frequency_error) << " | " << error(r.amplitude_error) << " | " << error(r.curve_error_l2)
+      << " | " << error(r.curve_error_max) << " | " << error(r.estimated_error) << " | "
+      << dash(number(r.effectivity, 2)) << " |\n";
 }
 
 void add_table(Text &t, const StudyResult &s) {
-    t << "| method | Pareto | size | set-up (s) | iteration (ms) | curve (s) | both (s) | memory (MB) | frequency | peak | "
+    t << "| method | Pareto | size | set-up (s) | iteration (ms) | curve (s) | both (s) | memory (MB) | "
+         "frequency | peak | "
          "curve, L2 | curve, max | estimated | effectivity |\n"
       << "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n";
     for (const MethodResult &r : s.methods) add_row(t, r);
@@ -83,24 +84,32 @@ void add_reference(Text &t, const StudyResult &s) {
       << "* With twice the harmonics its peak changes by " << error(s.harmonic_error) << " in amplitude and "
       << error(s.harmonic_shift) << " in frequency.\n"
       << "* Its peak leaves a residual of " << error(s.full_residual)
-      << " in the full equations; the contact receptances of its space are right to " << error(s.space_error) << ".\n"
-      << "* All curves are known to " << error(s.curve_resolution) << " (the scale of the errors of curves).\n\n";
+      << " in the full equations; the contact receptances of its space are right to " << error(s.space_error)
+      << ".\n"
+      << "* All curves are known to " << error(s.curve_resolution)
+      << " (the scale of the errors of curves).\n\n";
 }
 
 void add_methods(Text &t, const StudyResult &s) {
     t << "## The methods\n\n| method | options other than the defaults | outcome |\n|---|---|---|\n";
     for (const MethodResult &r : s.methods)
-        t << "| " << cell(r.name) << " | " << dash(cell(r.options_text)) << " | " << cell(r.outcome) << " |\n";
+        t << "| " << cell(r.name) << " | " << dash(cell(r.options_text)) << " | " << cell(r.outcome)
+          << " |\n";
     t << "| " << s.reference.name << " | " << dash(cell(s.reference.options_text)) << " | "
       << cell(s.reference.outcome) << " |\n";
 }
 
 void add_legend(Text &t) {
-    t << "\nErrors are relative to the reference, the worst of all force levels. Those of curves are distances in the plane "
-         "of frequency over the width of the range and amplitude over the reference's peak, at points equally spaced in arc "
-         "length of the reference's curve (for methods that march in time: of their own points). Times are medians and the "
-         "sum over the force levels; set-up is everything before the method's own curve. Memory is the most held at once by "
-         "the library's arrays and by CHOLMOD, the model itself not counted. Pareto: no other method is both faster and "
+    t << "\nErrors are relative to the reference, the worst of all force levels. Those of curves are "
+         "distances in the plane "
+         "of frequency over the width of the range and amplitude over the reference's peak, at points "
+         "equally spaced in arc "
+         "length of the reference's curve (for methods that march in time: of their own points). Times are "
+         "medians and the "
+         "sum over the force levels; set-up is everything before the method's own curve. Memory is the most "
+         "held at once by "
+         "the library's arrays and by CHOLMOD, the model itself not counted. Pareto: no other method is both "
+         "faster and "
          "nearer (curve, L2).\n";
 }
 
@@ -108,8 +117,8 @@ void add_legend(Text &t) {
 
 std::string report_markdown(const StudyResult &s) {
     Text t;
-    t << "# Error against run time\n\nFrom " << number(s.range.low_hz, 8) << " to " << number(s.range.high_hz, 8)
-      << " Hz; force level" << (s.levels.size() == 1 ? " " : "s ");
+    t << "# Error against run time\n\nFrom " << number(s.range.low_hz, 8) << " to "
+      << number(s.range.high_hz, 8) << " Hz; force level" << (s.levels.size() == 1 ? " " : "s ");
     for (std::size_t i = 0; i < s.levels.size(); ++i) t << (i > 0 ? ", " : "") << number(s.levels[i], 6);
     t << "." << (s.cancelled ? " Cancelled before all methods were run." : "") << "\n\n";
     add_table(t, s);
@@ -122,8 +131,10 @@ std::string report_markdown(const StudyResult &s) {
 
 std::string table_csv(const StudyResult &s) {
     Text t;
-    t << "name,pareto,basis_size,setup_seconds,iteration_seconds,curve_seconds,peak_bytes,peak_hz,peak_amplitude,"
-         "frequency_error,amplitude_error,curve_error_l2,curve_error_max,estimated_error,effectivity,n_points,"
+    t << "name,pareto,basis_size,setup_seconds,iteration_seconds,curve_seconds,peak_bytes,peak_hz,peak_"
+         "amplitude,"
+         "frequency_error,amplitude_error,curve_error_l2,curve_error_max,estimated_error,effectivity,n_"
+         "points,"
          "newton_iterations,failed_steps,outcome,options\n";
     const auto line = [&](const MethodResult &r) {
         t << quoted(r.name) << ',' << (r.pareto ? 1 : 0) << ',' << count(r.basis_size);

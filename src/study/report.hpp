@@ -1,5 +1,5 @@
-// A study's result as text: the table for people (Markdown) and for programs (CSV), and the curves. The decimal sign is a
-// point whatever the host's locale is.
+// A study's result as text: the table for people (Markdown) and for programs (CSV), and the curves. The
+// decimal sign is a point whatever the host's locale is.
 #pragma once
 #include "study/study.hpp"
 

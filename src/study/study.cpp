@@ -34,9 +34,8 @@ std::string end_of(const Measurement &m) {
 }
 
 bool reached_the_end(const Measurement &m) {
-    return m.note.empty() && std::all_of(m.curves.begin(), m.curves.end(), [](const auto &b) {
-               return b->end_reason == PLM_REASON_RANGE_END;
-           });
+    return m.note.empty() && std::all_of(m.curves.begin(), m.curves.end(),
+                                         [](const auto &b) { return b->end_reason == PLM_REASON_RANGE_END; });
 }
 
 /// A level of the reference: all methods are compared with it.
@@ -65,10 +64,12 @@ class Study {
   private:
     static Output checked_output(const StudyPlan &plan) {
         if (plan.methods.empty())
-            throw Error(PLM_ERR_STATE, "the study has no method; call plm_study_add_response or another plm_study_add_...")
+            throw Error(PLM_ERR_STATE,
+                        "the study has no method; call plm_study_add_response or another plm_study_add_...")
                 .argument("study");
         if (!plan.output)
-            throw Error(PLM_ERR_STATE, "the study does not know the motion to look at; call plm_study_set_output first")
+            throw Error(PLM_ERR_STATE,
+                        "the study does not know the motion to look at; call plm_study_set_output first")
                 .argument("study");
         return *plan.output;
     }
@@ -88,7 +89,8 @@ class Study {
             truth.recipe.basis.kind = BasisKind::full;
             return truth;
         }
-        throw Error(PLM_ERR_STATE, "methods that march in time give no reference; call plm_study_set_reference")
+        throw Error(PLM_ERR_STATE,
+                    "methods that march in time give no reference; call plm_study_set_reference")
             .argument("reference");
     }
 
@@ -121,7 +123,8 @@ class Study {
         Truth t;
         t.peak = peak_of(m, o, level);
         if (!(std::abs(t.peak.amplitude) > 0))
-            throw Error(PLM_ERR_ARGUMENT, "the DOF of the output does not move on the reference's curve; name one that does")
+            throw Error(PLM_ERR_ARGUMENT,
+                        "the DOF of the output does not move on the reference's curve; name one that does")
                 .argument("dof");
         t.scale = {where_.range.high_hz - where_.range.low_hz, std::abs(t.peak.amplitude)};
         t.curve = plane_curve(branch, o, where_.output, t.scale, plan_.options.curve_tolerance);
@@ -222,9 +225,10 @@ class Study {
         } catch (const std::bad_alloc &) {
             return failed(planned, "out of memory");
         }
-        watch_.log(1, format("study: %s: %lld coordinates, set-up %.3g s, curve %.3g s, error of the curve %.2e",
-                             r.name.c_str(), static_cast<long long>(r.basis_size), r.setup_seconds, r.curve_seconds,
-                             r.curve_error_l2));
+        watch_.log(1,
+                   format("study: %s: %lld coordinates, set-up %.3g s, curve %.3g s, error of the curve %.2e",
+                          r.name.c_str(), static_cast<long long>(r.basis_size), r.setup_seconds,
+                          r.curve_seconds, r.curve_error_l2));
         return r;
     }
 
@@ -271,7 +275,8 @@ class Study {
         estimate(method, m, peaks[worst], worst, r);
     }
 
-    static double compare_peaks(double hz, double amplitude, const Truth &truth, std::size_t level, MethodResult &r) {
+    static double compare_peaks(double hz, double amplitude, const Truth &truth, std::size_t level,
+                                MethodResult &r) {
         if (level == 0) r.peak_hz = hz, r.peak_amplitude = amplitude;
         const double error = std::abs(amplitude / truth.peak.amplitude - 1);
         r.frequency_error = worse(r.frequency_error, std::abs(hz / truth.peak.frequency_hz - 1));
@@ -285,7 +290,8 @@ class Study {
     }
 
     // Points without a curve between them: how far they are from the reference.
-    void compare_marched(const MarchedCurve &marched, const Truth &truth, std::size_t level, MethodResult &r) {
+    void compare_marched(const MarchedCurve &marched, const Truth &truth, std::size_t level,
+                         MethodResult &r) {
         const PlaneSamples &s = marched.samples;
         vector<PlanePoint> points;
         std::size_t top = 0;
@@ -304,17 +310,20 @@ class Study {
         const HbmOptions o = options_at_level(method, where_, plan_.levels[level]);
         try {
             const auto full = unreduced_basis(m.basis, watch_)->reduced();
-            const ErrorParts parts = ErrorEstimator(full, *peak.branch, o)
-                                         .estimate(0, where_.output.dof, where_.output.measure, where_.output.harmonic)
-                                         .amplitude;
+            const ErrorParts parts =
+                ErrorEstimator(full, *peak.branch, o)
+                    .estimate(0, where_.output.dof, where_.output.measure, where_.output.harmonic)
+                    .amplitude;
             const double size = std::abs(peak.amplitude);
             r.estimated_error = std::abs(parts.sum()) / size;
             // harmonics that the reference lacks as well are no part of the difference
-            const bool shared = peak.branch->points()[0].n_harmonics == truth_[level].peak.branch->points()[0].n_harmonics;
+            const bool shared =
+                peak.branch->points()[0].n_harmonics == truth_[level].peak.branch->points()[0].n_harmonics;
             const double difference = std::abs(truth_[level].peak.amplitude - peak.amplitude) / size,
                          expected = std::abs(shared ? parts.basis + parts.contact : parts.sum()) / size;
             if (difference > smallest_error) r.effectivity = expected / difference;
-        } catch (const Error &e) { // not known: contacts that do not hold all rigid-body modes, a singular tangent
+        } catch (
+            const Error &e) { // not known: contacts that do not hold all rigid-body modes, a singular tangent
             if (e.status() == PLM_CANCELLED) throw;
             watch_.log(1, "study: " + method.name + ": no estimate: " + e.what());
         }

@@ -1,4 +1,5 @@
-/* study_case.h: what the tests of plm_study share: an oscillator with a stop, its handles, and readings by key. */
+/* study_case.h: what the tests of plm_study share: an oscillator with a stop, its handles, and readings by
+ * key. */
 #ifndef STUDY_CASE_H
 #define STUDY_CASE_H
 

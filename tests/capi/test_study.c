@@ -1,6 +1,6 @@
-/* A study on scenes where the errors are known: the reference against itself, a basis that is too small, marching in time
- * against harmonic balance, several force levels; what a method keeps of the handles it was added from; methods that fail;
- * memory, cancelling and files. */
+/* A study on scenes where the errors are known: the reference against itself, a basis that is too small,
+ * marching in time against harmonic balance, several force levels; what a method keeps of the handles it was
+ * added from; methods that fail; memory, cancelling and files. */
 #include "cracked_plate.h"
 #include "scene_model.h"
 #include "study_case.h"
@@ -28,21 +28,26 @@ static void the_reference_against_itself_is_exact(void **state) {
     DONE(plm_study_add_response(c.study, "other steps", c.hbm, NULL));
     DONE(plm_study_run(c.study));
     /* Newton's tolerance is 1e-9 */
-    assert_true(study_real(c.study, "frequency_error", 0) < 1e-8 && study_real(c.study, "amplitude_error", 0) < 1e-8);
-    assert_true(study_real(c.study, "curve_error_l2", 0) < 1e-8 && study_real(c.study, "curve_error_max", 0) < 1e-8);
-    /* the same curve by other points: to what the interpolation is good for, an estimate to a factor of two */
+    assert_true(study_real(c.study, "frequency_error", 0) < 1e-8 &&
+                study_real(c.study, "amplitude_error", 0) < 1e-8);
+    assert_true(study_real(c.study, "curve_error_l2", 0) < 1e-8 &&
+                study_real(c.study, "curve_error_max", 0) < 1e-8);
+    /* the same curve by other points: to what the interpolation is good for, an estimate to a factor of two
+     */
     print_message("other steps: %.1e, resolution %.1e\n", study_real(c.study, "curve_error_max", 1),
                   study_scalar(c.study, "curve_resolution_error"));
-    assert_true(study_real(c.study, "frequency_error", 1) < 1e-7 && study_real(c.study, "amplitude_error", 1) < 1e-8);
+    assert_true(study_real(c.study, "frequency_error", 1) < 1e-7 &&
+                study_real(c.study, "amplitude_error", 1) < 1e-8);
     assert_true(study_scalar(c.study, "curve_resolution_error") <= 5e-7);
     assert_true(study_real(c.study, "curve_error_max", 1) < 2 * 2 * 5e-7);
     assert_true(study_int(c.study, "n_points", 1) > study_int(c.study, "n_points", 0));
     assert_true(isnan(study_real(c.study, "effectivity", 0)));
     assert_true(study_scalar(c.study, "reference_size") == 1);
-    assert_true(study_scalar(c.study, "frequency_low_hz") == 0.12 && study_scalar(c.study, "frequency_high_hz") == 0.2);
+    assert_true(study_scalar(c.study, "frequency_low_hz") == 0.12 &&
+                study_scalar(c.study, "frequency_high_hz") == 0.2);
     assert_true(study_real(c.study, "setup_seconds", 0) >= 0 && study_real(c.study, "curve_seconds", 0) > 0 &&
-                study_real(c.study, "iteration_seconds", 0) > 0 && study_int(c.study, "newton_iterations", 0) > 0 &&
-                study_int(c.study, "failed_steps", 0) >= 0);
+                study_real(c.study, "iteration_seconds", 0) > 0 &&
+                study_int(c.study, "newton_iterations", 0) > 0 && study_int(c.study, "failed_steps", 0) >= 0);
 }
 
 /* the reference has seven harmonics; what fourteen would change, by hand */
@@ -61,7 +66,8 @@ static void the_reference_says_how_converged_it_is(void **state) {
     assert_true(close_to(study_scalar(c.study, "reference_peak_hz"), hz[0], 1e-8));
     assert_true(close_to(study_scalar(c.study, "reference_peak_amplitude"), amplitude[0], 1e-9));
     /* peaks are known to 1e-9 */
-    assert_true(fabs(study_scalar(c.study, "reference_harmonic_error") - fabs(amplitude[1] / amplitude[0] - 1)) < 1e-8);
+    assert_true(fabs(study_scalar(c.study, "reference_harmonic_error") -
+                     fabs(amplitude[1] / amplitude[0] - 1)) < 1e-8);
     assert_true(fabs(study_scalar(c.study, "reference_harmonic_shift") - fabs(hz[1] / hz[0] - 1)) < 1e-7);
     assert_true(study_scalar(c.study, "reference_full_residual") < 1e-8);
     assert_true(study_scalar(c.study, "reference_space_error") < 1e-8);
@@ -94,7 +100,8 @@ static void several_levels_give_the_worst_error_and_the_whole_time(void **state)
     assert_true(error[0] != error[1]);
     assert_true(close_to(study_real(c.study, "amplitude_error", 0), larger(error[0], error[1]), 1e-5));
     assert_int_equal(study_int(c.study, "n_points", 0), points);
-    /* an error of a single number is no smaller than the curve's at its peak, and the largest no smaller than the mean */
+    /* an error of a single number is no smaller than the curve's at its peak, and the largest no smaller than
+     * the mean */
     assert_true(study_real(c.study, "curve_error_max", 0) >= study_real(c.study, "curve_error_l2", 0));
     assert_true(study_real(c.study, "curve_error_max", 0) > 0.1 * larger(error[0], error[1]));
     assert_true(study_scalar(c.study, "n_levels") == 2 && study_scalar(c.study, "n_methods") == 1);
@@ -132,8 +139,8 @@ static void a_method_keeps_the_options_it_was_added_with(void **state) {
     }
 }
 
-/* Steady states by marching against 40 harmonics, at the same frequencies: the exact flow of the reduced model to the
- * truncation of the harmonics, Newmark's steps to their own second order. */
+/* Steady states by marching against 40 harmonics, at the same frequencies: the exact flow of the reduced
+ * model to the truncation of the harmonics, Newmark's steps to their own second order. */
 static void marching_finds_what_harmonic_balance_finds(void **state) {
     enum { N = 6, STEPS = 400 };
     plm_transient *exact = NULL, *steps = NULL;
@@ -165,12 +172,15 @@ static void marching_finds_what_harmonic_balance_finds(void **state) {
             worst[k] = larger(worst[k], fabs(amplitude[i] / want - 1));
         }
     }
-    print_message("marching against harmonic balance: %.1e, %.1e; distance from the curve %.1e, %.1e\n", worst[0], worst[1],
-                  study_real(c.study, "curve_error_max", 0), study_real(c.study, "curve_error_max", 1));
+    print_message("marching against harmonic balance: %.1e, %.1e; distance from the curve %.1e, %.1e\n",
+                  worst[0], worst[1], study_real(c.study, "curve_error_max", 0),
+                  study_real(c.study, "curve_error_max", 1));
     assert_true(worst[0] < 2e-7); /* settled to 1e-10 a period, which decays by 12 %; 40 harmonics */
     assert_true(worst[1] < 5e-3); /* (2 pi / 400)^2 / 12 in frequency, at slopes of the resonance */
-    assert_true(study_real(c.study, "curve_error_max", 0) < 1e-6 && study_real(c.study, "curve_error_max", 1) < 5e-3);
-    assert_true(study_int(c.study, "failed_steps", 0) == 0 && isnan(study_real(c.study, "iteration_seconds", 0)));
+    assert_true(study_real(c.study, "curve_error_max", 0) < 1e-6 &&
+                study_real(c.study, "curve_error_max", 1) < 5e-3);
+    assert_true(study_int(c.study, "failed_steps", 0) == 0 &&
+                isnan(study_real(c.study, "iteration_seconds", 0)));
     assert_int_equal(study_int(c.study, "basis_size", 1), 1);
 }
 
@@ -200,12 +210,13 @@ static void a_method_that_fails_is_a_row(void **state) {
     assert_string_equal(name, "short");
     DONE(plm_study_get_name(c.study, -1, sizeof name, name, NULL));
     assert_string_equal(name, "reference");
-    assert_true(isnan(study_real(c.study, "curve_error_l2", 0)) && isnan(study_real(c.study, "setup_seconds", 0)));
+    assert_true(isnan(study_real(c.study, "curve_error_l2", 0)) &&
+                isnan(study_real(c.study, "setup_seconds", 0)));
     assert_true(study_int(c.study, "basis_size", 0) == -1 && study_int(c.study, "pareto", 0) == 0);
     assert_true(study_real(c.study, "curve_error_max", 1) < 1e-8);
     assert_true(study_real(c.study, "curve_error_max", 2) > 0.1); /* most of the curve is missing */
-    assert_true(refused(ctx, plm_study_get_curve(c.study, 0, 0, &curve), PLM_ERR_STATE, "plm_study_get_curve", "index",
-                        -1, "plm_basis_set_sampler"));
+    assert_true(refused(ctx, plm_study_get_curve(c.study, 0, 0, &curve), PLM_ERR_STATE, "plm_study_get_curve",
+                        "index", -1, "plm_basis_set_sampler"));
     DONE(plm_study_get_curve(c.study, -1, 0, &curve));
     DONE(plm_study_destroy(&c.study)); /* the curve stays */
     {
@@ -257,9 +268,11 @@ static void a_small_basis_has_the_error_computed_by_hand(void **state) {
         if (k == 0) DONE(plm_basis_get_double(basis, "window_low_hz", &low));
         if (k == 0) DONE(plm_basis_get_double(basis, "window_high_hz", &high));
         DONE(plm_hbm_sweep(hbm, &curve));
-        DONE(plm_hbm_find_peak(hbm, curve, host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, &hz[k], &amplitude[k], NULL));
+        DONE(plm_hbm_find_peak(hbm, curve, host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, &hz[k], &amplitude[k],
+                               NULL));
     }
-    print_message("one sample: %.2e of the amplitude, %.2e of the frequency, curve %.2e; effectivity %.3f, %.3f, %.3f\n",
+    print_message("one sample: %.2e of the amplitude, %.2e of the frequency, curve %.2e; effectivity %.3f, "
+                  "%.3f, %.3f\n",
                   study_real(study, "amplitude_error", 0), study_real(study, "frequency_error", 0),
                   study_real(study, "curve_error_l2", 0), study_real(study, "effectivity", 0),
                   study_real(study, "effectivity", 1), study_real(study, "effectivity", 2));
@@ -268,8 +281,10 @@ static void a_small_basis_has_the_error_computed_by_hand(void **state) {
     assert_true(fabs(study_real(study, "frequency_error", 0) - fabs(hz[0] / hz[1] - 1)) < 1e-7);
     assert_int_equal(study_int(study, "basis_size", 0), size);
     assert_int_equal(study_int(study, "basis_size", 1), 6);
-    assert_true(study_scalar(study, "frequency_low_hz") == low && study_scalar(study, "frequency_high_hz") == high);
-    /* the shift of the resonance moves flanks that are steep: a part of the curve is off by at least the shift */
+    assert_true(study_scalar(study, "frequency_low_hz") == low &&
+                study_scalar(study, "frequency_high_hz") == high);
+    /* the shift of the resonance moves flanks that are steep: a part of the curve is off by at least the
+     * shift */
     assert_true(study_real(study, "curve_error_max", 0) > 0.5 * fabs(hz[0] - hz[1]) / (high - low));
     /* refinement met its tolerance, of the amplitude over the peak */
     assert_true(study_real(study, "amplitude_error", 2) < 1e-3);
@@ -321,17 +336,17 @@ static void the_report_is_written_and_nothing_else(void **state) {
     snprintf(inside, sizeof inside, "%s/new", folder); /* made when its parent is there */
     DONE(plm_study_write(c.study, inside));
     snprintf(inside, sizeof inside, "%s/none/new", folder);
-    assert_true(refused(ctx, plm_study_write(c.study, inside), PLM_ERR_ARGUMENT, "plm_study_write", "folder", -1,
-                        "cannot be made"));
+    assert_true(refused(ctx, plm_study_write(c.study, inside), PLM_ERR_ARGUMENT, "plm_study_write", "folder",
+                        -1, "cannot be made"));
     snprintf(inside, sizeof inside, "%s/mine.txt", folder); /* a file */
-    assert_true(refused(ctx, plm_study_write(c.study, inside), PLM_ERR_ARGUMENT, "plm_study_write", "folder", -1,
-                        "cannot be made"));
+    assert_true(refused(ctx, plm_study_write(c.study, inside), PLM_ERR_ARGUMENT, "plm_study_write", "folder",
+                        -1, "cannot be made"));
     snprintf(path, sizeof path, "%s/new/report.md", folder);
     assert_int_equal(remove(path), 0);
     assert_int_equal(mkdir(path, 0700), 0); /* in the way, also of root */
     snprintf(inside, sizeof inside, "%s/new", folder);
-    assert_true(refused(ctx, plm_study_write(c.study, inside), PLM_ERR_ARGUMENT, "plm_study_write", "folder", -1,
-                        "cannot be written"));
+    assert_true(refused(ctx, plm_study_write(c.study, inside), PLM_ERR_ARGUMENT, "plm_study_write", "folder",
+                        -1, "cannot be written"));
 }
 
 /* ---- hosts ---- */

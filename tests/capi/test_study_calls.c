@@ -27,19 +27,23 @@ static void options_of_the_study_are_checked(void **state) {
     BAD(plm_study_create(c.model, NULL), "plm_study_create", "study", -1, "NULL");
     BAD(plm_study_set_int(c.study, "repeats", 0), "plm_study_set_int", "value", -1, "repeats");
     BAD(plm_study_set_int(c.study, "curve_samples", 1), "plm_study_set_int", "value", -1, "curve_samples");
-    BAD(plm_study_set_double(c.study, "curve_tolerance", NAN), "plm_study_set_double", "value", -1, "curve_tolerance");
+    BAD(plm_study_set_double(c.study, "curve_tolerance", NAN), "plm_study_set_double", "value", -1,
+        "curve_tolerance");
     BAD(plm_study_set_int(c.study, "n_points", 1), "plm_study_set_int", "key", -1, "is a result");
-    assert_true(refused(ctx, plm_study_set_int(c.study, "repeat", 1), PLM_ERR_KEY, "plm_study_set_int", "key", -1,
-                        "did you mean \"repeats\"?"));
+    assert_true(refused(ctx, plm_study_set_int(c.study, "repeat", 1), PLM_ERR_KEY, "plm_study_set_int", "key",
+                        -1, "did you mean \"repeats\"?"));
     BAD(plm_study_set_output(c.study, 1, PLM_RMS, 0), "plm_study_set_output", "dof", -1, "0..0");
     BAD(plm_study_set_output(c.study, -1, PLM_RMS, 0), "plm_study_set_output", "dof", -1, "0..0");
     BAD(plm_study_set_output(c.study, 0, 5, 0), "plm_study_set_output", "measure", -1, "1..4");
-    BAD(plm_study_set_output(c.study, 0, PLM_HARMONIC, -1), "plm_study_set_output", "harmonic", -1, "harmonic is -1");
+    BAD(plm_study_set_output(c.study, 0, PLM_HARMONIC, -1), "plm_study_set_output", "harmonic", -1,
+        "harmonic is -1");
     BAD(plm_study_set_force_levels(c.study, 0, nan_level), "plm_study_set_force_levels", "n", -1, "n is 0");
     BAD(plm_study_set_force_levels(c.study, 2, NULL), "plm_study_set_force_levels", "scale", -1, "NULL");
     BAD(plm_study_set_force_levels(c.study, 2, nan_level), "plm_study_set_force_levels", "scale", 1, "NaN");
-    BAD(plm_study_set_force_levels(c.study, 3, negative), "plm_study_set_force_levels", "scale", 2, "must be > 0");
-    BAD(plm_study_set_force_levels(c.study, 1, &zero), "plm_study_set_force_levels", "scale", 0, "must be > 0");
+    BAD(plm_study_set_force_levels(c.study, 3, negative), "plm_study_set_force_levels", "scale", 2,
+        "must be > 0");
+    BAD(plm_study_set_force_levels(c.study, 1, &zero), "plm_study_set_force_levels", "scale", 0,
+        "must be > 0");
     assert_true(study_scalar(c.study, "n_levels") == 1); /* nothing has changed */
 }
 
@@ -56,8 +60,10 @@ static void methods_are_checked(void **state) {
     DONE(plm_transient_create(other.model, NULL, &foreign));
     BAD(plm_study_add_response(c.study, NULL, c.hbm, &index), "plm_study_add_response", "name", -1, "NULL");
     BAD(plm_study_add_response(c.study, "", c.hbm, &index), "plm_study_add_response", "name", -1, "empty");
-    BAD(plm_study_add_response(c.study, "reference", c.hbm, &index), "plm_study_add_response", "name", -1, "taken");
-    BAD(plm_study_add_response(c.study, "a", other.hbm, &index), "plm_study_add_response", "hbm", -1, "another model");
+    BAD(plm_study_add_response(c.study, "reference", c.hbm, &index), "plm_study_add_response", "name", -1,
+        "taken");
+    BAD(plm_study_add_response(c.study, "a", other.hbm, &index), "plm_study_add_response", "hbm", -1,
+        "another model");
     BAD(plm_study_set_reference(c.study, other.hbm), "plm_study_set_reference", "hbm", -1, "another model");
     BAD(plm_study_add_marching(c.study, "a", foreign, 3, &index), "plm_study_add_marching", "transient", -1,
         "another model");
@@ -66,17 +72,23 @@ static void methods_are_checked(void **state) {
         plm_hbm *copy = stale;
         DONE(plm_hbm_destroy(&copy));
     }
-    DEAD(plm_study_add_response(c.study, "a", stale, &index), "plm_study_add_response", "hbm", "no live handle");
-    DEAD(plm_study_add_compressed(c.study, "a", NULL, 0, &index), "plm_study_add_compressed", "hbm", "no live handle");
-    DEAD(plm_study_add_refined(c.study, "a", (plm_hbm *)(void *)c.model, 0.1, &index), "plm_study_add_refined", "hbm",
+    DEAD(plm_study_add_response(c.study, "a", stale, &index), "plm_study_add_response", "hbm",
          "no live handle");
+    DEAD(plm_study_add_compressed(c.study, "a", NULL, 0, &index), "plm_study_add_compressed", "hbm",
+         "no live handle");
+    DEAD(plm_study_add_refined(c.study, "a", (plm_hbm *)(void *)c.model, 0.1, &index),
+         "plm_study_add_refined", "hbm", "no live handle");
     DEAD(plm_study_set_reference(c.study, stale), "plm_study_set_reference", "hbm", "no live handle");
-    DEAD(plm_study_add_marching(c.study, "a", NULL, 3, &index), "plm_study_add_marching", "transient", "no live handle");
-    BAD(plm_study_add_compressed(c.study, "a", c.hbm, -1, &index), "plm_study_add_compressed", "size", -1, "size is -1");
-    BAD(plm_study_add_refined(c.study, "a", c.hbm, 0, &index), "plm_study_add_refined", "tolerance", -1, "(0, 1)");
-    BAD(plm_study_add_refined(c.study, "a", c.hbm, NAN, &index), "plm_study_add_refined", "tolerance", -1, "NaN");
-    BAD(plm_study_add_marching(c.study, "a", motion, 0, &index), "plm_study_add_marching", "n_frequencies", -1,
-        "n_frequencies is 0");
+    DEAD(plm_study_add_marching(c.study, "a", NULL, 3, &index), "plm_study_add_marching", "transient",
+         "no live handle");
+    BAD(plm_study_add_compressed(c.study, "a", c.hbm, -1, &index), "plm_study_add_compressed", "size", -1,
+        "size is -1");
+    BAD(plm_study_add_refined(c.study, "a", c.hbm, 0, &index), "plm_study_add_refined", "tolerance", -1,
+        "(0, 1)");
+    BAD(plm_study_add_refined(c.study, "a", c.hbm, NAN, &index), "plm_study_add_refined", "tolerance", -1,
+        "NaN");
+    BAD(plm_study_add_marching(c.study, "a", motion, 0, &index), "plm_study_add_marching", "n_frequencies",
+        -1, "n_frequencies is 0");
     DONE(plm_basis_create(c.model, &pod));
     DONE(plm_basis_set_string(pod, "kind", "pod"));
     DONE(plm_hbm_create(pod, &of_pod));
@@ -85,7 +97,8 @@ static void methods_are_checked(void **state) {
     assert_true(index == 7 && study_scalar(c.study, "n_methods") == 0);
     DONE(plm_study_add_response(c.study, "a", c.hbm, &index));
     assert_int_equal(index, 0);
-    BAD(plm_study_add_compressed(c.study, "a", c.hbm, 0, &index), "plm_study_add_compressed", "name", -1, "taken");
+    BAD(plm_study_add_compressed(c.study, "a", c.hbm, 0, &index), "plm_study_add_compressed", "name", -1,
+        "taken");
     DONE(plm_study_add_refined(c.study, "b", c.hbm, 0.1, &index));
     assert_int_equal(index, 1);
 }
@@ -101,11 +114,15 @@ static void too_early(void **state) {
     char text[40] = "kept";
     (void)state;
     EARLY(plm_study_run(c.study), "plm_study_run", "study", "plm_study_add_response");
-    EARLY(plm_study_get_outcome(c.study, -1, 40, text, NULL), "plm_study_get_outcome", "study", "has not run");
+    EARLY(plm_study_get_outcome(c.study, -1, 40, text, NULL), "plm_study_get_outcome", "study",
+          "has not run");
     EARLY(plm_study_get_curve(c.study, -1, 0, &branch), "plm_study_get_curve", "study", "has not run");
-    EARLY(plm_study_get_points(c.study, -1, 0, 0, NULL, NULL, &n), "plm_study_get_points", "study", "has not run");
-    EARLY(plm_study_get_array(c.study, "peak_hz", 0, NULL, &n), "plm_study_get_array", "study", "has not run");
-    EARLY(plm_study_get_int_array(c.study, "pareto", 0, NULL, &n), "plm_study_get_int_array", "study", "has not run");
+    EARLY(plm_study_get_points(c.study, -1, 0, 0, NULL, NULL, &n), "plm_study_get_points", "study",
+          "has not run");
+    EARLY(plm_study_get_array(c.study, "peak_hz", 0, NULL, &n), "plm_study_get_array", "study",
+          "has not run");
+    EARLY(plm_study_get_int_array(c.study, "pareto", 0, NULL, &n), "plm_study_get_int_array", "study",
+          "has not run");
     EARLY(plm_study_write(c.study, "."), "plm_study_write", "study", "has not run");
     BAD(plm_study_get_name(c.study, 0, 40, text, NULL), "plm_study_get_name", "index", -1, "index is 0");
     DONE(plm_transient_create(c.model, NULL, &motion));
@@ -141,10 +158,14 @@ static void results_are_read_within_their_bounds(void **state) {
     BAD(plm_study_get_curve(c.study, -2, 0, &branch), "plm_study_get_curve", "index", -1, "-1..1");
     BAD(plm_study_get_curve(c.study, 0, 1, &branch), "plm_study_get_curve", "level", -1, "0..0");
     BAD(plm_study_get_curve(c.study, 0, 0, NULL), "plm_study_get_curve", "branch", -1, "NULL");
-    EARLY(plm_study_get_curve(c.study, 1, 0, &branch), "plm_study_get_curve", "index", "plm_study_get_points");
-    BAD(plm_study_get_points(c.study, 0, 0, 1, &x, &y, &n), "plm_study_get_points", "capacity", -1, "capacity is 1");
-    BAD(plm_study_get_points(c.study, 0, 0, 9, &x, NULL, &n), "plm_study_get_points", "amplitude", -1, "NULL");
-    BAD(plm_study_get_points(c.study, 0, 0, 0, NULL, NULL, NULL), "plm_study_get_points", "count", -1, "NULL");
+    EARLY(plm_study_get_curve(c.study, 1, 0, &branch), "plm_study_get_curve", "index",
+          "plm_study_get_points");
+    BAD(plm_study_get_points(c.study, 0, 0, 1, &x, &y, &n), "plm_study_get_points", "capacity", -1,
+        "capacity is 1");
+    BAD(plm_study_get_points(c.study, 0, 0, 9, &x, NULL, &n), "plm_study_get_points", "amplitude", -1,
+        "NULL");
+    BAD(plm_study_get_points(c.study, 0, 0, 0, NULL, NULL, NULL), "plm_study_get_points", "count", -1,
+        "NULL");
     BAD(plm_study_write(c.study, NULL), "plm_study_write", "folder", -1, "NULL");
     assert_true(x == 7 && y == 7 && n == 7 && branch == NULL);
     DONE(plm_study_get_points(c.study, 1, 0, 1, &x, &y, &n));

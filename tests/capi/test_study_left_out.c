@@ -16,7 +16,8 @@ static void it_says_which_option(void **state) {
     assert_null(study);
     assert_int_equal(plm_study_create(NULL, &study), PLM_ERR_HANDLE);
     assert_int_equal(plm_study_run((plm_study *)(void *)model), PLM_ERR_HANDLE);
-    assert_int_equal(plm_key_count(PLM_KIND_STUDY, &n), PLM_OK); /* the table of keys is the same in all builds */
+    assert_int_equal(plm_key_count(PLM_KIND_STUDY, &n),
+                     PLM_OK); /* the table of keys is the same in all builds */
     assert_true(n > 3);
     assert_int_equal(plm_build_info(400, text, NULL), PLM_OK);
     assert_null(strstr(text, "study"));

@@ -1,4 +1,5 @@
-// The count of memory: what is held, the most held at once, who it forwards to, and that it falls back to zero.
+// The count of memory: what is held, the most held at once, who it forwards to, and that it falls back to
+// zero.
 #include "linalg/memory_count.hpp"
 #include "support.hpp"
 #include <thread>

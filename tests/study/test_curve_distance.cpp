@@ -1,5 +1,5 @@
-// Distances of curves against closed forms: circles, a curve with folds and its parallel curve; the Pareto front of points
-// placed by hand.
+// Distances of curves against closed forms: circles, a curve with folds and its parallel curve; the Pareto
+// front of points placed by hand.
 #include "study/curve_distance.hpp"
 #include "study/pareto.hpp"
 #include "support/test.hpp"
@@ -45,7 +45,8 @@ struct Folded {
 };
 
 void concentric_circles_are_the_difference_of_radii_apart(void **) {
-    const auto inner = pieces_of(Circle{1}, 0, 2 * M_PI, 48), outer = pieces_of(Circle{1.1}, 0.3, 0.3 + 2 * M_PI, 40);
+    const auto inner = pieces_of(Circle{1}, 0, 2 * M_PI, 48),
+               outer = pieces_of(Circle{1.1}, 0.3, 0.3 + 2 * M_PI, 40);
     const plm::CurveDistance d = plm::curve_distance(plm::equally_spaced(inner, 500), outer);
     // arcs of a circle are right to the sixth order: 0.16^6 / 1e4
     assert_true(near(d.rms, 0.1, 1e-8) && near(d.max, 0.1, 1e-8));
@@ -90,7 +91,8 @@ void points_are_equally_spaced_and_a_missing_part_counts(void **) {
     double worst = 0;
     for (int i = 0; i <= 100; ++i) {
         const double angle = M_PI * i / 100;
-        worst = std::max(worst, std::hypot(points[i].x - 2 * std::cos(angle), points[i].y - 2 * std::sin(angle)));
+        worst =
+            std::max(worst, std::hypot(points[i].x - 2 * std::cos(angle), points[i].y - 2 * std::sin(angle)));
     }
     assert_true(below(worst, 1e-3)); // 7 cubics over half a circle
     assert_int_equal(points.size(), 101);
@@ -110,7 +112,8 @@ void the_front_is_what_no_other_one_beats(void **) {
     const int want[] = {1, 1, 1, 0, 1, 1, 0, 0};
     for (int i = 0; i < 8; ++i) assert_int_equal(front[i], want[i]);
     assert_true(plm::pareto_front({}, {}).empty());
-    const plm::vector<char> same_time = plm::pareto_front({1, 1}, {2, 3}), same_error = plm::pareto_front({1, 2}, {2, 2});
+    const plm::vector<char> same_time = plm::pareto_front({1, 1}, {2, 3}),
+                            same_error = plm::pareto_front({1, 2}, {2, 2});
     assert_true(same_time[0] && !same_time[1] && same_error[0] && !same_error[1]);
 }
 

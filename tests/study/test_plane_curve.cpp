@@ -57,11 +57,12 @@ void between_coarse_points_a_linear_response_is_the_closed_form(void **) {
         for (const plm::PlanePoint &p : plm::equally_spaced(t.curve.pieces, 2000)) {
             const double per = 2 * M_PI * 0.08, w = per * p.x, step = 1e-6;
             const double slope = per * (linear_amplitude(w + step) - linear_amplitude(w - step)) / (2 * step);
-            worst = std::max(worst, std::abs(p.y - linear_amplitude(w)) / std::hypot(1.0, slope)); // across the curve
+            worst = std::max(worst, std::abs(p.y - linear_amplitude(w)) /
+                                        std::hypot(1.0, slope)); // across the curve
         }
     }
-    print_message("%zu points of the sweep, %zu pieces, resolution %.1e, true %.1e\n", t.points, t.curve.pieces.size(),
-                  t.curve.resolution, worst);
+    print_message("%zu points of the sweep, %zu pieces, resolution %.1e, true %.1e\n", t.points,
+                  t.curve.pieces.size(), t.curve.resolution, worst);
     assert_true(t.curve.unresolved == 0 && t.curve.resolution <= 1e-7);
     assert_true(below(worst, 1.1e-7)); // what the resolution says; chords between these points are 1e-3 off
 }
@@ -75,8 +76,8 @@ void the_steps_of_the_sweep_do_not_matter(void **) {
         a = trace(s, options_for(0.3), 5e-7), b = trace(s, options_for(0.03), 5e-8);
         apart = plm::curve_distance(plm::equally_spaced(a.curve.pieces, 3000), b.curve.pieces).max;
     }
-    print_message("%zu and %zu points; resolution %.1e and %.1e; apart %.1e\n", a.points, b.points, a.curve.resolution,
-                  b.curve.resolution, apart);
+    print_message("%zu and %zu points; resolution %.1e and %.1e; apart %.1e\n", a.points, b.points,
+                  a.curve.resolution, b.curve.resolution, apart);
     assert_true(2 * b.points > 3 * a.points);
     assert_true(below(apart, 2 * 5.5e-7)); // both resolutions; they are estimates
 }
