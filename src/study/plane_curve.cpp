@@ -11,7 +11,7 @@ constexpr int deepest = 14;              // bisections of a step of the sweep
 constexpr double difference_step = 1e-5; // of the slope of the amplitude, in arc length
 // A piece halved is nearer by 16 where the curve is smooth. Where a pair begins to move its curvature is
 // singular: by less than 3, and the middle may lie on the piece although the rest does not.
-constexpr double smooth_gain = 16, first_gain = 4, least_gain = 1.5;
+constexpr double smooth_gain = 16, first_gain = 0.25, least_gain = 1;
 
 struct Node {
     CurvePoint point;
