@@ -311,6 +311,27 @@ static int contains(const char *path, const char *words) {
     return strstr(text, words) != NULL;
 }
 
+/* what the test below has made */
+static void clean_up(const char *folder) {
+    static const char *const names[] = {"new/report.md",
+                                        "new/table.csv",
+                                        "new/curve_0_a_b_c_0.csv",
+                                        "new/curve_reference_0.csv",
+                                        "new",
+                                        "mine.txt",
+                                        "report.md",
+                                        "table.csv",
+                                        "curve_0_a_b_c_0.csv",
+                                        "curve_reference_0.csv"};
+    char path[200];
+    size_t i;
+    for (i = 0; i < sizeof names / sizeof *names; ++i) {
+        snprintf(path, sizeof path, "%s/%s", folder, names[i]);
+        remove(path);
+    }
+    assert_int_equal(remove(folder), 0); /* empty: nothing else was written */
+}
+
 static void the_report_is_written_and_nothing_else(void **state) {
     char folder[] = "plm_study_XXXXXX", path[200], inside[200];
     FILE *f;
