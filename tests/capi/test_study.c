@@ -368,6 +368,7 @@ static void the_report_is_written_and_nothing_else(void **state) {
     snprintf(inside, sizeof inside, "%s/new", folder);
     assert_true(refused(ctx, plm_study_write(c.study, inside), PLM_ERR_ARGUMENT, "plm_study_write", "folder",
                         -1, "cannot be written"));
+    clean_up(folder);
 }
 
 /* ---- hosts ---- */
