@@ -25,7 +25,7 @@ def example(declaration):
     if not name:
         return ""
     noun = name.group(1).split("_")[1]
-    file = noun if noun in ("context", "model", "sampler", "basis", "hbm", "branch", "transient") else "library"
+    file = noun if noun in ("context", "model", "sampler", "basis", "hbm", "branch", "transient", "study") else "library"
     return f"\n * \\par Example\n * \\snippet {file}.c {name.group(1)}\n"
 
 

@@ -49,6 +49,7 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_KIND_HBM = 4_c_int32_t
     integer(c_int32_t), parameter :: PLM_KIND_BRANCH = 5_c_int32_t
     integer(c_int32_t), parameter :: PLM_KIND_TRANSIENT = 6_c_int32_t
+    integer(c_int32_t), parameter :: PLM_KIND_STUDY = 7_c_int32_t
     integer(c_int32_t), parameter :: PLM_TYPE_INT = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_TYPE_DOUBLE = 2_c_int32_t
     integer(c_int32_t), parameter :: PLM_TYPE_STRING = 3_c_int32_t
@@ -1310,6 +1311,207 @@ module plm_c
             integer(c_int64_t), intent(inout) :: count
             integer(plm_status) :: code
         end function plm_transient_get_multipliers
+        function plm_study_create(model, study) bind(c) result(code)
+            import :: c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            type(c_ptr), intent(inout) :: study
+            integer(plm_status) :: code
+        end function plm_study_create
+        function plm_study_destroy(study) bind(c) result(code)
+            import :: c_ptr, plm_status
+            implicit none
+            type(c_ptr), intent(inout) :: study
+            integer(plm_status) :: code
+        end function plm_study_destroy
+        function plm_study_set_int(study, key, value) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: key(*)
+            integer(c_int64_t), value :: value
+            integer(plm_status) :: code
+        end function plm_study_set_int
+        function plm_study_set_double(study, key, value) bind(c) result(code)
+            import :: c_char, c_double, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: key(*)
+            real(c_double), value :: value
+            integer(plm_status) :: code
+        end function plm_study_set_double
+        function plm_study_set_string(study, key, value) bind(c) result(code)
+            import :: c_char, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: key(*)
+            character(kind=c_char), intent(in) :: value(*)
+            integer(plm_status) :: code
+        end function plm_study_set_string
+        function plm_study_get_int(study, key, value) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: key(*)
+            integer(c_int64_t), intent(inout) :: value
+            integer(plm_status) :: code
+        end function plm_study_get_int
+        function plm_study_get_double(study, key, value) bind(c) result(code)
+            import :: c_char, c_double, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: key(*)
+            real(c_double), intent(inout) :: value
+            integer(plm_status) :: code
+        end function plm_study_get_double
+        function plm_study_get_string(study, key, capacity, buffer, needed) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: key(*)
+            integer(c_int64_t), value :: capacity
+            character(kind=c_char), intent(inout), optional :: buffer(*)
+            integer(c_int64_t), intent(inout), optional :: needed
+            integer(plm_status) :: code
+        end function plm_study_get_string
+        function plm_study_get_array(study, key, capacity, values, count) bind(c) result(code)
+            import :: c_char, c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: key(*)
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: values(*)
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_study_get_array
+        function plm_study_get_int_array(study, key, capacity, values, count) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: key(*)
+            integer(c_int64_t), value :: capacity
+            integer(c_int64_t), intent(inout), optional :: values(*)
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_study_get_int_array
+        function plm_study_set_output(study, dof, measure, harmonic) bind(c) result(code)
+            import :: c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            integer(c_int64_t), value :: dof
+            integer(c_int32_t), value :: measure
+            integer(c_int32_t), value :: harmonic
+            integer(plm_status) :: code
+        end function plm_study_set_output
+        function plm_study_set_force_levels(study, n, scale) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            integer(c_int64_t), value :: n
+            real(c_double), intent(in) :: scale(*)
+            integer(plm_status) :: code
+        end function plm_study_set_force_levels
+        function plm_study_set_reference(study, hbm) bind(c) result(code)
+            import :: c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            type(c_ptr), value :: hbm
+            integer(plm_status) :: code
+        end function plm_study_set_reference
+        function plm_study_add_response(study, name, hbm, index) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: name(*)
+            type(c_ptr), value :: hbm
+            integer(c_int64_t), intent(inout) :: index
+            integer(plm_status) :: code
+        end function plm_study_add_response
+        function plm_study_add_compressed(study, name, hbm, size, index) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: name(*)
+            type(c_ptr), value :: hbm
+            integer(c_int64_t), value :: size
+            integer(c_int64_t), intent(inout) :: index
+            integer(plm_status) :: code
+        end function plm_study_add_compressed
+        function plm_study_add_refined(study, name, hbm, tolerance, index) bind(c) result(code)
+            import :: c_char, c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: name(*)
+            type(c_ptr), value :: hbm
+            real(c_double), value :: tolerance
+            integer(c_int64_t), intent(inout) :: index
+            integer(plm_status) :: code
+        end function plm_study_add_refined
+        function plm_study_add_marching(study, name, transient, n_frequencies, index) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: name(*)
+            type(c_ptr), value :: transient
+            integer(c_int64_t), value :: n_frequencies
+            integer(c_int64_t), intent(inout) :: index
+            integer(plm_status) :: code
+        end function plm_study_add_marching
+        function plm_study_run(study) bind(c) result(code)
+            import :: c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            integer(plm_status) :: code
+        end function plm_study_run
+        function plm_study_get_name(study, index, capacity, buffer, needed) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            integer(c_int64_t), value :: index
+            integer(c_int64_t), value :: capacity
+            character(kind=c_char), intent(inout), optional :: buffer(*)
+            integer(c_int64_t), intent(inout), optional :: needed
+            integer(plm_status) :: code
+        end function plm_study_get_name
+        function plm_study_get_outcome(study, index, capacity, buffer, needed) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            integer(c_int64_t), value :: index
+            integer(c_int64_t), value :: capacity
+            character(kind=c_char), intent(inout), optional :: buffer(*)
+            integer(c_int64_t), intent(inout), optional :: needed
+            integer(plm_status) :: code
+        end function plm_study_get_outcome
+        function plm_study_get_curve(study, index, level, branch) bind(c) result(code)
+            import :: c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            integer(c_int64_t), value :: index
+            integer(c_int64_t), value :: level
+            type(c_ptr), intent(inout) :: branch
+            integer(plm_status) :: code
+        end function plm_study_get_curve
+        function plm_study_get_points(study, index, level, capacity, frequency_hz, amplitude, &
+            count) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            integer(c_int64_t), value :: index
+            integer(c_int64_t), value :: level
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout) :: frequency_hz
+            real(c_double), intent(inout) :: amplitude
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_study_get_points
+        function plm_study_write(study, folder) bind(c) result(code)
+            import :: c_char, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in) :: folder(*)
+            integer(plm_status) :: code
+        end function plm_study_write
     end interface
 
     ! by the kind of the integer arrays

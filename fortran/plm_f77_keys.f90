@@ -611,3 +611,117 @@ subroutine plmtgn(handle, key, n, values, count, ierr)
     if (ierr >= 0) call narrow_array(wide(1:min(number, int(n, int64))), values, ierr)
     if (ierr >= 0) call narrow(number, count, ierr)
 end subroutine plmtgn
+
+subroutine plmysi(handle, key, value, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_set_int
+    use plm_f77_support, only: as_pointer, c_text
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: key
+    integer, intent(in) :: value
+    integer, intent(out) :: ierr
+    ierr = int(plm_study_set_int(as_pointer(handle), c_text(key), int(value, int64)))
+end subroutine plmysi
+
+subroutine plmysd(handle, key, value, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_study_set_double
+    use plm_f77_support, only: as_pointer, c_text
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: key
+    real(real64), intent(in) :: value
+    integer, intent(out) :: ierr
+    ierr = int(plm_study_set_double(as_pointer(handle), c_text(key), value))
+end subroutine plmysd
+
+subroutine plmysc(handle, key, value, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_set_string
+    use plm_f77_support, only: as_pointer, c_text
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: key
+    character(len=*), intent(in) :: value
+    integer, intent(out) :: ierr
+    ierr = int(plm_study_set_string(as_pointer(handle), c_text(key), c_text(value)))
+end subroutine plmysc
+
+subroutine plmygi(handle, key, value, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_get_int
+    use plm_f77_support, only: as_pointer, c_text, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: key
+    integer, intent(inout) :: value
+    integer, intent(out) :: ierr
+    integer(int64) :: number
+    number = 0
+    ierr = int(plm_study_get_int(as_pointer(handle), c_text(key), number))
+    if (ierr >= 0) call narrow(number, value, ierr)
+end subroutine plmygi
+
+subroutine plmygd(handle, key, value, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_study_get_double
+    use plm_f77_support, only: as_pointer, c_text
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: key
+    real(real64), intent(inout) :: value
+    integer, intent(out) :: ierr
+    ierr = int(plm_study_get_double(as_pointer(handle), c_text(key), value))
+end subroutine plmygd
+
+subroutine plmygc(handle, key, value, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_get_string
+    use plm_f77_support, only: as_pointer, c_text, to_blanks
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: key
+    character(len=*), intent(inout) :: value
+    integer, intent(out) :: ierr
+    character(len=len(value) + 1) :: buffer
+    ierr = int(plm_study_get_string(as_pointer(handle), c_text(key), len(buffer, int64), buffer))
+    if (ierr >= 0) call to_blanks(buffer, value)
+end subroutine plmygc
+
+subroutine plmyga(handle, key, n, values, count, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_study_get_array
+    use plm_f77_support, only: as_pointer, c_text, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: key
+    integer, intent(in) :: n
+    integer, intent(inout) :: count
+    real(real64), intent(inout) :: values(*)
+    integer, intent(out) :: ierr
+    integer(int64) :: number
+    number = 0
+    ierr = int(plm_study_get_array(as_pointer(handle), c_text(key), int(n, int64), values, number))
+    if (ierr >= 0) call narrow(number, count, ierr)
+end subroutine plmyga
+
+subroutine plmygn(handle, key, n, values, count, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_get_int_array
+    use plm_f77_support, only: as_pointer, c_text, narrow, narrow_array
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: key
+    integer, intent(in) :: n
+    integer, intent(inout) :: count
+    integer, intent(inout) :: values(*)
+    integer, intent(out) :: ierr
+    integer(int64) :: number
+    integer(int64), allocatable :: wide(:)
+    number = 0
+    allocate(wide(max(n, 1)))
+    ierr = int(plm_study_get_int_array(as_pointer(handle), c_text(key), int(n, int64), wide, number))
+    if (ierr >= 0) call narrow_array(wide(1:min(number, int(n, int64))), values, ierr)
+    if (ierr >= 0) call narrow(number, count, ierr)
+end subroutine plmygn

@@ -75,5 +75,6 @@ int main(void) {
     print_kind(PLM_KIND_HBM, "plm_hbm");
     print_kind(PLM_KIND_BRANCH, "plm_branch");
     print_kind(PLM_KIND_TRANSIENT, "plm_transient");
+    print_kind(PLM_KIND_STUDY, "plm_study");
     return 0;
 }

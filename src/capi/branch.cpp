@@ -28,33 +28,6 @@ plm_status end_status(std::int32_t reason) {
     }
 }
 
-std::string end_text(std::int32_t reason) {
-    switch (reason) {
-    case PLM_REASON_NONE:
-        return "complete";
-    case PLM_REASON_RANGE_END:
-        return "reached the end of its range";
-    case PLM_REASON_LOOP_CLOSED:
-        return "came back to its first point";
-    case PLM_REASON_POINT_LIMIT:
-        return "max_points reached; raise it or max_step";
-    case PLM_REASON_CANCELLED:
-        return "cancelled by the progress callback";
-    case PLM_REASON_STEP_MINIMUM:
-        return "the step fell below min_step; try more harmonics or a softer contact";
-    case PLM_REASON_CONTACT_CHATTER:
-        return "Newton cycled between contact sets";
-    case PLM_REASON_SINGULAR_TANGENT:
-        return "the tangent is singular";
-    case PLM_REASON_START_FAILED:
-        return "no solution was found at the first frequency; start elsewhere or with less force";
-    case PLM_REASON_BASIS_TOO_SMALL:
-        return "the basis is too small for this response";
-    default:
-        return format("ended for reason %d", reason);
-    }
-}
-
 void require_point(const Branch &branch, std::int64_t point) {
     require_range(point, 0, static_cast<std::int64_t>(branch.points().size()) - 1, "point");
 }

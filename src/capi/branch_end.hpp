@@ -1,11 +1,10 @@
-// How a branch ended, as a status and in words.
+// How a branch ended, as a status.
 #pragma once
 #include "plm/plm.h"
-#include <string>
+#include <cstdint>
 
 namespace plm::capi {
 
 plm_status end_status(std::int32_t reason);
-std::string end_text(std::int32_t reason);
 
 } // namespace plm::capi

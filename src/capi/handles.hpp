@@ -8,6 +8,7 @@
 #include "model/rest.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/sampler.hpp"
+#include "study/study.hpp"
 #include "transient/transient.hpp"
 #include <optional>
 
@@ -100,6 +101,16 @@ struct TransientHandle final : HandleOf<plm_transient, Kind::transient> {
     std::unique_ptr<Transient> core; // made when first needed, of the basis as it is then
     std::optional<TransientRun> last_run;
     std::optional<PeriodicMotion> periodic; // of the last search from the present start
+};
+
+struct StudyHandle final : HandleOf<plm_study, Kind::study> {
+    StudyHandle(std::shared_ptr<Context> c, std::shared_ptr<ModelHandle> m)
+        : HandleOf(std::move(c)), model(std::move(m)) {}
+    void *options() override { return &plan.options; }
+
+    std::shared_ptr<ModelHandle> model;
+    StudyPlan plan;
+    std::optional<StudyResult> result; // of the last run
 };
 
 /// The built core of a handle; PLM_ERR_STATE with what to call when it does not exist yet.

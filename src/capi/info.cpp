@@ -2,6 +2,7 @@
 #include "capi/barrier.hpp"
 #include "capi/keys.hpp"
 #include "linalg/dft.hpp"
+#include "study/study.hpp"
 #include "transient/transient.hpp"
 
 #ifndef PLM_VERSION_MAJOR // the build system passes the project's version
@@ -60,7 +61,7 @@ const char *status_words(plm_status status) {
 
 // A kind or key index from outside.
 const std::vector<Key> &table(std::int32_t kind) {
-    require_range(kind, PLM_KIND_MODEL, PLM_KIND_TRANSIENT, "kind");
+    require_range(kind, PLM_KIND_MODEL, PLM_KIND_STUDY, "kind");
     return keys_of(static_cast<Kind>(kind));
 }
 const Key &row(std::int32_t kind, std::int32_t index) {
@@ -90,9 +91,9 @@ plm_status plm_build_info(std::int64_t capacity, char *buffer, std::int64_t *nee
     return call_free([&] {
         return put_text(
             format("libplm %d.%d.%d; factorization: %s; eigensolver: ARPACK; Fourier transform: %s; "
-                   "components: model, sampler, basis, hbm%s",
+                   "components: model, sampler, basis, hbm%s%s",
                    PLM_VERSION_MAJOR, PLM_VERSION_MINOR, PLM_VERSION_PATCH, factor_backend().c_str(),
-                   dft_backend().c_str(), transient_is_built() ? ", transient" : ""),
+                   dft_backend().c_str(), transient_is_built() ? ", transient" : "", study_is_built() ? ", study" : ""),
             capacity, buffer, needed);
     });
 }

@@ -7,7 +7,8 @@ namespace plm::capi {
 namespace {
 
 const char *kind_name(Kind kind) {
-    static const char *const names[] = {"context", "model", "sampler", "basis", "hbm", "branch", "transient"};
+    static const char *const names[] = {"context", "model",  "sampler",   "basis",
+                                        "hbm",     "branch", "transient", "study"};
     return names[static_cast<int>(kind)];
 }
 
@@ -22,6 +23,7 @@ const void *default_options(Kind kind) {
     static const BasisOptions basis;
     static const HbmOptions hbm;
     static const TransientOptions transient;
+    static const StudyOptions study;
     switch (kind) {
     case Kind::model:
         return &model;
@@ -33,6 +35,8 @@ const void *default_options(Kind kind) {
         return &hbm;
     case Kind::transient:
         return &transient;
+    case Kind::study:
+        return &study;
     default:
         return nullptr;
     }
@@ -92,6 +96,14 @@ Value read(Object &object, const Key &key) {
     return v;
 }
 
+std::string option_text(const Key &key, const void *options) {
+    Value v;
+    key.read_option(options, v);
+    if (key.type == PLM_TYPE_INT) return std::to_string(v.integer);
+    if (key.type == PLM_TYPE_DOUBLE) return format("%g", v.real);
+    return split_words(key.choices)[static_cast<std::size_t>(v.integer)];
+}
+
 } // namespace
 
 std::vector<std::string> split_words(const char *list) {
@@ -118,6 +130,8 @@ const std::vector<Key> &keys_of(Kind kind) {
         return branch_keys();
     case Kind::transient:
         return transient_keys();
+    case Kind::study:
+        return study_keys();
     default:
         throw Error(PLM_ERR_INTERNAL, "this kind of handle has no keys");
     }
@@ -134,12 +148,18 @@ const Key &find_key(Kind kind, const char *name) {
 }
 
 std::string default_text(Kind kind, const Key &key) {
-    if (!key.is_option) return "";
-    Value v;
-    key.read_option(default_options(kind), v);
-    if (key.type == PLM_TYPE_INT) return std::to_string(v.integer);
-    if (key.type == PLM_TYPE_DOUBLE) return format("%g", v.real);
-    return split_words(key.choices)[static_cast<std::size_t>(v.integer)];
+    return key.is_option ? option_text(key, default_options(kind)) : "";
+}
+
+std::string changed_options(Kind kind, const void *options) {
+    std::string text;
+    for (const Key &key : keys_of(kind)) {
+        if (!key.is_option) continue;
+        const std::string now = option_text(key, options);
+        if (now != option_text(key, default_options(kind)))
+            text += (text.empty() ? "" : ", ") + (key.name + (" = " + now));
+    }
+    return text;
 }
 
 plm_status set_int(Object &object, const char *name, std::int64_t value) {

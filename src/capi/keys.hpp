@@ -40,6 +40,7 @@ const std::vector<Key> &basis_keys();
 const std::vector<Key> &hbm_keys();
 const std::vector<Key> &branch_keys();
 const std::vector<Key> &transient_keys();
+const std::vector<Key> &study_keys();
 
 const std::vector<Key> &keys_of(Kind kind);
 /// PLM_ERR_KEY with the nearest name when there is none.
@@ -48,6 +49,8 @@ const Key &find_key(Kind kind, const char *name);
 std::vector<std::string> split_words(const char *list);
 /// Default of an option as text.
 std::string default_text(Kind kind, const Key &key);
+/// Those of an options struct that are not the defaults: "key = value, key = value".
+std::string changed_options(Kind kind, const void *options);
 
 // The bodies of plm_X_set_* and plm_X_get_*.
 plm_status set_int(Object &object, const char *key, std::int64_t value);

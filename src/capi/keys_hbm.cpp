@@ -1,4 +1,3 @@
-#include "capi/branch_end.hpp"
 #include "capi/handles.hpp"
 #include "capi/keys.hpp"
 #include <cmath>

@@ -15,7 +15,8 @@ enum class Kind {
     basis = PLM_KIND_BASIS,
     hbm = PLM_KIND_HBM,
     branch = PLM_KIND_BRANCH,
-    transient = PLM_KIND_TRANSIENT
+    transient = PLM_KIND_TRANSIENT,
+    study = PLM_KIND_STUDY
 };
 
 struct Context;

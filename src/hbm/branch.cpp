@@ -15,6 +15,33 @@ std::int64_t stability_of(const BranchPoint &point) {
     return 1;
 }
 
+std::string end_text(std::int32_t reason) {
+    switch (reason) {
+    case PLM_REASON_NONE:
+        return "complete";
+    case PLM_REASON_RANGE_END:
+        return "reached the end of its range";
+    case PLM_REASON_LOOP_CLOSED:
+        return "came back to its first point";
+    case PLM_REASON_POINT_LIMIT:
+        return "max_points reached; raise it or max_step";
+    case PLM_REASON_CANCELLED:
+        return "cancelled by the progress callback";
+    case PLM_REASON_STEP_MINIMUM:
+        return "the step fell below min_step; try more harmonics or a softer contact";
+    case PLM_REASON_CONTACT_CHATTER:
+        return "Newton cycled between contact sets";
+    case PLM_REASON_SINGULAR_TANGENT:
+        return "the tangent is singular";
+    case PLM_REASON_START_FAILED:
+        return "no solution was found at the first frequency; start elsewhere or with less force";
+    case PLM_REASON_BASIS_TOO_SMALL:
+        return "the basis is too small for this response";
+    default:
+        return format("ended for reason %d", reason);
+    }
+}
+
 void set_harmonics(Matrix &eta, std::int64_t n) {
     if (eta.cols() == 2 * n) return;
     Matrix changed(eta.rows(), 2 * n);
@@ -58,18 +85,24 @@ vector<double> Branch::coefficients(std::int64_t point, std::int64_t dof) const 
     return c;
 }
 
-double Branch::amplitude(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
-    const vector<double> c = coefficients(point, dof);
-    if (measure == Measure::harmonic)
+double amplitude_of(const vector<double> &c, Measure measure, std::int64_t harmonic) {
+    const std::int64_t n = static_cast<std::int64_t>(c.size()) / 2;
+    if (measure == Measure::harmonic) {
+        if (harmonic > n) return 0;
         return harmonic == 0 ? c[0] : std::hypot(c[2 * harmonic - 1], c[2 * harmonic]);
+    }
     if (measure == Measure::rms) {
         double s = c[0] * c[0];
         for (std::size_t k = 1; k < c.size(); ++k) s += 0.5 * c[k] * c[k];
         return std::sqrt(s);
     }
-    const TrigRange range = trig_range(c.data(), n_harmonics_);
+    const TrigRange range = trig_range(c.data(), n);
     if (measure == Measure::half_peak_to_peak) return 0.5 * (range.maximum - range.minimum);
     return std::max(std::abs(range.maximum), std::abs(range.minimum));
+}
+
+double Branch::amplitude(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
+    return amplitude_of(coefficients(point, dof), measure, harmonic);
 }
 
 vector<double> Branch::field(std::int64_t point, double fraction) const {

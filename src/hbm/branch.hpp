@@ -3,6 +3,7 @@
 #pragma once
 #include "reduction/reduced_model.hpp"
 #include <complex>
+#include <string>
 
 namespace plm {
 
@@ -37,6 +38,12 @@ enum class Measure {
 
 /// +1 stable (all multipliers inside the unit circle), 0 unstable, -1 not computed.
 std::int64_t stability_of(const BranchPoint &point);
+
+/// How a branch ended (PLM_REASON_...), in words.
+std::string end_text(std::int32_t reason);
+
+/// Amplitude of the motion a0, a1, b1, ..., aH, bH; harmonic is used by Measure::harmonic only, those beyond H are zero.
+double amplitude_of(const vector<double> &coefficient, Measure measure, std::int64_t harmonic);
 
 /// The same coefficients with n harmonics: padded with zeros or cut.
 void set_harmonics(Matrix &eta, std::int64_t n);

@@ -1,6 +1,7 @@
 // CHOLMOD with 64-bit indices behind the seam of factor.hpp.
 #include "blas_lapack.hpp"
 #include "factor_builtin.hpp"
+#include "memory_count.hpp"
 #include <algorithm>
 #include <cholmod.h>
 #include <new>
@@ -18,6 +19,7 @@ struct Cholmod {
     cholmod_common common;
     cholmod_factor *factor = nullptr;
     cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr; // kept by cholmod_l_solve2 between calls
+    ForeignMemory memory;
 
     Cholmod() {
         cholmod_l_start(&common);
@@ -33,6 +35,8 @@ struct Cholmod {
     }
     Cholmod(const Cholmod &) = delete;
     Cholmod &operator=(const Cholmod &) = delete;
+
+    void note_memory() { memory.holds(common.memory_inuse, common.memory_usage); }
 
     void check(const char *step) const {
         if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
@@ -88,6 +92,7 @@ class CholmodFactor final : public Factor {
         nonzeros_ = static_cast<std::int64_t>(c.lnz);
         cholmod_l_factorize(&matrix, lib_.factor, &c);
         lib_.check("factorize");
+        lib_.note_memory();
         if (static_cast<std::int64_t>(lib_.factor->minor) < n_) break_down(definite, lib_.factor->minor);
         if (!definite) inspect_diagonal();
         const double rcond = cholmod_l_rcond(lib_.factor, &c);
@@ -140,6 +145,7 @@ class CholmodFactor final : public Factor {
         const int ok = cholmod_l_solve2(CHOLMOD_A, lib_.factor, &rhs, nullptr, &lib_.x, nullptr, &lib_.y,
                                         &lib_.e, &lib_.common);
         lib_.check("solve");
+        lib_.note_memory();
         require(ok && lib_.x, "cholmod_l_solve2 failed");
         const auto *result = static_cast<const double *>(lib_.x->x);
         for (std::int64_t j = 0; j < nrhs; ++j) std::copy_n(result + j * lib_.x->d, n_, x + j * ldx);

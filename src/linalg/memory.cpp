@@ -27,6 +27,10 @@ AllocatorScope::~AllocatorScope() {
     active = previous_;
 }
 
+const Allocator *active_allocator() {
+    return active;
+}
+
 void *allocate_block(std::size_t bytes) {
     constexpr std::size_t overhead = sizeof(Header) + alignment;
     if (bytes > SIZE_MAX - overhead) throw std::bad_alloc();

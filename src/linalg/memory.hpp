@@ -28,6 +28,9 @@ class AllocatorScope {
     const Allocator *previous_;
 };
 
+/// The allocator of this thread now; null: malloc and free.
+const Allocator *active_allocator();
+
 /// 64-byte aligned block from the active allocator; throws std::bad_alloc.
 void *allocate_block(std::size_t bytes);
 void release_block(void *block) noexcept;

@@ -6,7 +6,8 @@ static plm_model *model;
 static plm_sampler *sampler;
 static plm_basis *basis;
 static plm_hbm *hbm;
-static plm_transient *motion; /* NULL when left out of the build */
+static plm_transient *motion; /* these two are NULL when left out of the build */
+static plm_study *study;
 
 static int set_up(void **state) {
     plm_status s;
@@ -15,6 +16,8 @@ static int set_up(void **state) {
         plm_sampler_create(model, &sampler) || plm_basis_create(model, &basis) || plm_hbm_create(basis, &hbm);
     if (s) return s;
     s = plm_transient_create(model, basis, &motion);
+    if (s && s != PLM_ERR_NOT_BUILT) return s;
+    s = plm_study_create(model, &study);
     return s && s != PLM_ERR_NOT_BUILT;
 }
 static int tear_down(void **state) {
@@ -27,6 +30,7 @@ static plm_status set_int(int32_t kind, const char *key, int64_t v) {
            : kind == PLM_KIND_SAMPLER   ? plm_sampler_set_int(sampler, key, v)
            : kind == PLM_KIND_BASIS     ? plm_basis_set_int(basis, key, v)
            : kind == PLM_KIND_TRANSIENT ? plm_transient_set_int(motion, key, v)
+           : kind == PLM_KIND_STUDY     ? plm_study_set_int(study, key, v)
                                         : plm_hbm_set_int(hbm, key, v);
 }
 static plm_status set_double(int32_t kind, const char *key, double v) {
@@ -34,6 +38,7 @@ static plm_status set_double(int32_t kind, const char *key, double v) {
            : kind == PLM_KIND_SAMPLER   ? plm_sampler_set_double(sampler, key, v)
            : kind == PLM_KIND_BASIS     ? plm_basis_set_double(basis, key, v)
            : kind == PLM_KIND_TRANSIENT ? plm_transient_set_double(motion, key, v)
+           : kind == PLM_KIND_STUDY     ? plm_study_set_double(study, key, v)
                                         : plm_hbm_set_double(hbm, key, v);
 }
 static plm_status set_string(int32_t kind, const char *key, const char *v) {
@@ -41,6 +46,7 @@ static plm_status set_string(int32_t kind, const char *key, const char *v) {
            : kind == PLM_KIND_SAMPLER   ? plm_sampler_set_string(sampler, key, v)
            : kind == PLM_KIND_BASIS     ? plm_basis_set_string(basis, key, v)
            : kind == PLM_KIND_TRANSIENT ? plm_transient_set_string(motion, key, v)
+           : kind == PLM_KIND_STUDY     ? plm_study_set_string(study, key, v)
                                         : plm_hbm_set_string(hbm, key, v);
 }
 static plm_status get_int(int32_t kind, const char *key, int64_t *v) {
@@ -48,6 +54,7 @@ static plm_status get_int(int32_t kind, const char *key, int64_t *v) {
            : kind == PLM_KIND_SAMPLER   ? plm_sampler_get_int(sampler, key, v)
            : kind == PLM_KIND_BASIS     ? plm_basis_get_int(basis, key, v)
            : kind == PLM_KIND_TRANSIENT ? plm_transient_get_int(motion, key, v)
+           : kind == PLM_KIND_STUDY     ? plm_study_get_int(study, key, v)
                                         : plm_hbm_get_int(hbm, key, v);
 }
 static plm_status get_double(int32_t kind, const char *key, double *v) {
@@ -55,6 +62,7 @@ static plm_status get_double(int32_t kind, const char *key, double *v) {
            : kind == PLM_KIND_SAMPLER   ? plm_sampler_get_double(sampler, key, v)
            : kind == PLM_KIND_BASIS     ? plm_basis_get_double(basis, key, v)
            : kind == PLM_KIND_TRANSIENT ? plm_transient_get_double(motion, key, v)
+           : kind == PLM_KIND_STUDY     ? plm_study_get_double(study, key, v)
                                         : plm_hbm_get_double(hbm, key, v);
 }
 static plm_status get_string(int32_t kind, const char *key, int64_t n, char *v) {
@@ -62,6 +70,7 @@ static plm_status get_string(int32_t kind, const char *key, int64_t n, char *v) 
            : kind == PLM_KIND_SAMPLER   ? plm_sampler_get_string(sampler, key, n, v, NULL)
            : kind == PLM_KIND_BASIS     ? plm_basis_get_string(basis, key, n, v, NULL)
            : kind == PLM_KIND_TRANSIENT ? plm_transient_get_string(motion, key, n, v, NULL)
+           : kind == PLM_KIND_STUDY     ? plm_study_get_string(study, key, n, v, NULL)
                                         : plm_hbm_get_string(hbm, key, n, v, NULL);
 }
 
@@ -121,10 +130,11 @@ static void every_option_can_be_set_and_read(void **state) {
     int32_t kind, index, n = 0;
     int ok = 1;
     (void)state;
-    for (kind = PLM_KIND_MODEL; kind <= PLM_KIND_TRANSIENT; ++kind) {
+    for (kind = PLM_KIND_MODEL; kind <= PLM_KIND_STUDY; ++kind) {
         assert_int_equal(plm_key_count(kind, &n), PLM_OK);
         assert_true(n > 3);
         if (kind == PLM_KIND_TRANSIENT && !motion) continue;
+        if (kind == PLM_KIND_STUDY && !study) continue;
         for (index = 0; index < n; ++index) ok &= option_works(kind, index);
     }
     assert_true(ok);
@@ -134,7 +144,7 @@ static void keys_are_unique_and_described(void **state) {
     char name[100][64], text[200];
     int32_t kind, i, j, n = 0;
     (void)state;
-    for (kind = PLM_KIND_MODEL; kind <= PLM_KIND_TRANSIENT; ++kind) {
+    for (kind = PLM_KIND_MODEL; kind <= PLM_KIND_STUDY; ++kind) {
         assert_int_equal(plm_key_count(kind, &n), PLM_OK);
         assert_true(n <= 100);
         for (i = 0; i < n; ++i) {
@@ -151,7 +161,7 @@ static void introspection_checks_its_arguments(void **state) {
     double low = 7, high = 7;
     (void)state;
     assert_int_equal(plm_key_count(0, &n), PLM_ERR_ARGUMENT);
-    assert_int_equal(plm_key_count(7, &n), PLM_ERR_ARGUMENT);
+    assert_int_equal(plm_key_count(8, &n), PLM_ERR_ARGUMENT);
     assert_int_equal(plm_key_count(1, NULL), PLM_ERR_ARGUMENT);
     assert_int_equal(plm_key_info(1, -1, &type, &is_option, &low, &high), PLM_ERR_ARGUMENT);
     assert_int_equal(plm_key_info(1, 1000, &type, &is_option, &low, &high), PLM_ERR_ARGUMENT);

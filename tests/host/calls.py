@@ -6,7 +6,7 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "abi"))
 from plm_header import functions  # noqa: E402
 
-KINDS = ["context", "model", "sampler", "basis", "hbm", "branch", "transient"]
+KINDS = ["context", "model", "sampler", "basis", "hbm", "branch", "transient", "study"]
 HANDLES = {f"plm_{kind} *": kind for kind in KINDS}
 
 

@@ -15,7 +15,7 @@ else()
         set(fuzzed ${build}/src/libplm.so)
         add_host_test(fuzz_library sh ${here}/fuzz_library.sh ${CMAKE_COMMAND} ${CMAKE_GENERATOR} ${PLM_CLANG} ${PLM_CLANGXX}
                       ${PROJECT_SOURCE_DIR} ${build} -DPLM_WITH_CHOLMOD=${PLM_WITH_CHOLMOD} -DPLM_WITH_FFTW=${PLM_WITH_FFTW}
-                      -DPLM_WITH_TRANSIENT=${PLM_WITH_TRANSIENT})
+                      -DPLM_WITH_TRANSIENT=${PLM_WITH_TRANSIENT} -DPLM_WITH_STUDY=${PLM_WITH_STUDY})
         set_tests_properties(host.fuzz_library PROPERTIES FIXTURES_SETUP plm_fuzz_library PROCESSORS 2 TIMEOUT 900)
     endif()
     add_host_test(fuzz sh ${here}/fuzz.sh ${PLM_CLANG} ${PROJECT_SOURCE_DIR}/include ${fuzzed}

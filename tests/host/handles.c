@@ -20,6 +20,7 @@ static plm_status make(handles *h, int build) {
     plm_hbm *hbm = NULL;
     plm_branch *branch = NULL;
     plm_transient *transient = NULL;
+    plm_study *study = NULL;
     if (!s) s = build ? chain_built(ctx, 1, &model) : plm_model_create(ctx, 3, &model);
     if (!s) s = plm_sampler_create(model, &sampler);
     if (!s) s = plm_basis_create(model, &basis);
@@ -32,7 +33,8 @@ static plm_status make(handles *h, int build) {
         if (s >= 0) s = plm_hbm_solve(hbm, 1.0, NULL, 0, &branch);
     }
     if (s >= 0 && plm_transient_create(model, basis, &transient) == PLM_ERR_NOT_BUILT) transient = NULL;
-    h->of[KIND_TRANSIENT] = transient;
+    if (s >= 0 && plm_study_create(model, &study) == PLM_ERR_NOT_BUILT) study = NULL;
+    h->of[KIND_TRANSIENT] = transient, h->of[KIND_STUDY] = study;
     h->of[KIND_MODEL] = model, h->of[KIND_SAMPLER] = sampler, h->of[KIND_BASIS] = basis;
     h->of[KIND_HBM] = hbm, h->of[KIND_BRANCH] = branch;
     return s < 0 ? s : PLM_OK;

@@ -24,7 +24,7 @@ static int describe(int32_t kind, int32_t index, char *line) {
 static int each(int (*visit)(const char *line, void *user), void *user) {
     char line[LINE];
     int32_t kind, index, count;
-    for (kind = PLM_KIND_MODEL; kind <= PLM_KIND_TRANSIENT; ++kind) {
+    for (kind = PLM_KIND_MODEL; kind <= PLM_KIND_STUDY; ++kind) {
         if (plm_key_count(kind, &count)) return -1;
         for (index = 0; index < count; ++index) {
             if (describe(kind, index, line)) return -1;

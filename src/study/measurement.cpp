@@ -1,0 +1,136 @@
+#include "study/measurement.hpp"
+#include "hbm/refinement.hpp"
+#include "hbm/responses.hpp"
+#include <algorithm>
+#include <chrono>
+
+namespace plm {
+namespace {
+
+class Stopwatch {
+  public:
+    double seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point begin_ = Clock::now();
+};
+
+using BranchPtr = std::shared_ptr<const Branch>;
+
+BranchPtr sweep(const Basis &basis, const HbmOptions &options, Watch watch) {
+    BranchPtr branch =
+        Hbm(basis.reduced(), basis.window_min_hz(), basis.window_max_hz(), options, watch).sweep();
+    if (branch->end_reason == PLM_REASON_CANCELLED)
+        throw Error(PLM_CANCELLED, "cancelled by the progress callback").reason(PLM_REASON_CANCELLED);
+    return branch;
+}
+
+class Run {
+  public:
+    Run(const MethodPlan &method, const MeasurementCase &where, Watch watch)
+        : method_(method), where_(where), watch_(watch),
+          lowest_(*std::min_element(where.levels.begin(), where.levels.end())),
+          highest_(*std::max_element(where.levels.begin(), where.levels.end())) {}
+
+    Measurement result() {
+        if (method_.kind == MethodKind::marching)
+            march();
+        else
+            follow();
+        return std::move(out_);
+    }
+
+  private:
+    void follow() {
+        const Stopwatch setup;
+        out_.basis = build(where_.model, method_.recipe, watch_);
+        if (method_.kind == MethodKind::compressed) compress_basis();
+        if (method_.kind == MethodKind::refined) refine_basis();
+        out_.setup_seconds = setup.seconds();
+        out_.size = out_.basis->reduced()->size();
+        if (!out_.basis->report().warning.empty()) out_.note = out_.basis->report().warning;
+        const Stopwatch curve;
+        for (double level : where_.levels)
+            out_.curves.push_back(sweep(*out_.basis, options_at_level(method_, where_, level), watch_));
+        out_.curve_seconds = curve.seconds();
+        double seconds = 0;
+        std::int64_t factorizations = 0;
+        for (const BranchPtr &b : out_.curves) seconds += b->seconds, factorizations += b->factorizations;
+        out_.iteration_seconds = seconds / static_cast<double>(std::max<std::int64_t>(1, factorizations));
+    }
+
+    void compress_basis() {
+        std::vector<BranchPtr> responses{
+            sweep(*out_.basis, options_at_level(method_, where_, lowest_), watch_)};
+        if (highest_ > lowest_)
+            responses.push_back(sweep(*out_.basis, options_at_level(method_, where_, highest_), watch_));
+        const Responses motions = responses_of(responses);
+        BasisOptions o = method_.recipe.basis;
+        o.kind = BasisKind::pod;
+        o.pod_size = method_.size;
+        out_.basis = std::make_shared<const Basis>(where_.model, out_.basis->sampler(), out_.basis, o, watch_,
+                                                   &motions);
+    }
+
+    void refine_basis() {
+        RefinementOptions o;
+        o.hbm = options_at_level(method_, where_, highest_);
+        o.dof = where_.output.dof;
+        o.measure = where_.output.measure;
+        o.harmonic = where_.output.harmonic;
+        o.tolerance = method_.tolerance;
+        Refinement found = refine(out_.basis, o, watch_);
+        if (!found.basis)
+            throw Error(PLM_ERR_CONVERGENCE, "no curve could be computed on a compressed basis");
+        if (!found.met)
+            out_.note = format("the tolerance %g was not met in %lld curves, %.2g is left", method_.tolerance,
+                               static_cast<long long>(found.rounds), found.error);
+        out_.basis = std::move(found.basis);
+    }
+
+    void march() {
+        const Stopwatch setup;
+        if (method_.reduced) out_.basis = build(where_.model, method_.recipe, watch_);
+        const auto reduced = out_.basis ? out_.basis->reduced() : nullptr;
+        std::unique_ptr<Transient> motion = make_transient(where_.model, reduced);
+        out_.setup_seconds = setup.seconds();
+        out_.size = motion->size();
+        const Stopwatch curve;
+        for (double level : where_.levels) {
+            if (!out_.marched.empty()) motion = make_transient(where_.model, reduced); // from rest again
+            out_.marched.push_back(march_curve(*motion, method_.transient, where_.output, where_.range,
+                                               method_.n_frequencies, level * method_.transient.force_scale,
+                                               watch_));
+        }
+        out_.curve_seconds = curve.seconds();
+        std::int64_t unsettled = 0;
+        for (const MarchedCurve &c : out_.marched) unsettled += c.unsettled;
+        if (unsettled > 0)
+            out_.note =
+                format("%lld motions had not settled after %lld periods", static_cast<long long>(unsettled),
+                       static_cast<long long>(method_.transient.periods));
+    }
+
+    const MethodPlan &method_;
+    const MeasurementCase &where_;
+    Watch watch_;
+    double lowest_, highest_;
+    Measurement out_;
+};
+
+} // namespace
+
+HbmOptions options_at_level(const MethodPlan &method, const MeasurementCase &where, double level) {
+    HbmOptions o = method.recipe.hbm;
+    o.force_scale *= level;
+    if (!(o.frequency_min_hz > 0)) o.frequency_min_hz = where.range.low_hz;
+    if (!(o.frequency_max_hz > 0)) o.frequency_max_hz = where.range.high_hz;
+    return o;
+}
+
+Measurement measure(const MethodPlan &method, const MeasurementCase &where, Watch watch) {
+    return Run(method, where, watch).result();
+}
+
+} // namespace plm

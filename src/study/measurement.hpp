@@ -1,0 +1,30 @@
+// One run of a method, timed: its basis from the options, and its curve at every force level.
+#pragma once
+#include "study/marching.hpp"
+
+namespace plm {
+
+struct Measurement {
+    std::shared_ptr<const Basis> basis;                // null: marching of the full model
+    std::vector<std::shared_ptr<const Branch>> curves; // per level, or
+    std::vector<MarchedCurve> marched;                 // per level
+    std::int64_t size = 0;                             // coordinates
+    double setup_seconds = 0, curve_seconds = 0, iteration_seconds = not_known;
+    std::string note; // what a reader of the row has to know besides how the curves ended
+};
+
+/// What one run needs besides the method. The recipe has been through with_window().
+struct MeasurementCase {
+    std::shared_ptr<const Model> model;
+    Output output;
+    std::vector<double> levels;
+    FrequencyRange range; // where the method leaves it open
+};
+
+/// The method's solver at a level, with the study's range where it has none of its own.
+HbmOptions options_at_level(const MethodPlan &method, const MeasurementCase &where, double level);
+
+/// Throws what the method throws; PLM_CANCELLED, too.
+Measurement measure(const MethodPlan &method, const MeasurementCase &where, Watch watch);
+
+} // namespace plm

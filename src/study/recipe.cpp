@@ -1,0 +1,66 @@
+#include "study/recipe.hpp"
+
+namespace plm {
+namespace {
+
+std::shared_ptr<const Sampler> run_sampler(const std::shared_ptr<const Model> &model,
+                                           const SamplerOptions &options, Watch watch) {
+    if (model->n_pairs() == 0)
+        throw Error(PLM_ERR_STATE,
+                    "the model has no contact pair, so there is no contact area to sample; use a basis "
+                    "of kind full or craig_bampton")
+            .argument("sampler");
+    return std::make_shared<const Sampler>(model, options, watch);
+}
+
+// A basis that is not of kind plm takes nothing but the window from a sampler.
+BasisOptions with_window(const std::shared_ptr<const Model> &model, BasisOptions basis,
+                         const std::optional<SamplerOptions> &sampler, Watch watch) {
+    if (!sampler || (basis.frequency_min_hz > 0 && basis.frequency_max_hz > 0)) return basis;
+    const FrequencyWindow window = run_sampler(model, *sampler, watch)->window();
+    if (!(basis.frequency_min_hz > 0)) basis.frequency_min_hz = window.min_hz;
+    if (!(basis.frequency_max_hz > 0)) basis.frequency_max_hz = window.max_hz;
+    return basis;
+}
+
+} // namespace
+
+Recipe with_window(const std::shared_ptr<const Model> &model, const Recipe &recipe, Watch watch) {
+    Recipe r = recipe;
+    if (r.basis.kind == BasisKind::plm) return r;
+    r.basis = with_window(model, r.basis, r.sampler, watch);
+    r.sampler.reset();
+    r.parent.reset();
+    return r;
+}
+
+FrequencyRange range_of(const std::shared_ptr<const Model> &model, const Recipe &recipe, Watch watch) {
+    const BasisOptions basis = with_window(model, recipe.basis, recipe.sampler, watch);
+    const HbmOptions &hbm = recipe.hbm;
+    const FrequencyRange range{hbm.frequency_min_hz > 0 ? hbm.frequency_min_hz : basis.frequency_min_hz,
+                               hbm.frequency_max_hz > 0 ? hbm.frequency_max_hz : basis.frequency_max_hz};
+    if (!(range.low_hz > 0 && range.high_hz > range.low_hz))
+        throw Error(PLM_ERR_STATE,
+                    format("the frequency range [%g, %g] Hz of the study is empty or not positive; set "
+                           "frequency_min_hz and frequency_max_hz of the reference's hbm or basis, or "
+                           "give its basis a sampler",
+                           range.low_hz, range.high_hz))
+            .argument("frequency_min_hz");
+    return range;
+}
+
+std::shared_ptr<const Basis> build(const std::shared_ptr<const Model> &model, const Recipe &recipe,
+                                   Watch watch) {
+    if (recipe.basis.kind == BasisKind::plm && !recipe.sampler)
+        throw Error(PLM_ERR_STATE, "a basis of kind plm needs a sampler; call plm_basis_set_sampler first")
+            .argument("sampler");
+    std::shared_ptr<const Basis> parent;
+    if (recipe.parent) {
+        const BasisOptions basis = with_window(model, recipe.parent->basis, recipe.parent->sampler, watch);
+        parent = std::make_shared<const Basis>(model, nullptr, nullptr, basis, watch);
+    }
+    const auto sampler = recipe.sampler ? run_sampler(model, *recipe.sampler, watch) : nullptr;
+    return std::make_shared<const Basis>(model, sampler, parent, recipe.basis, watch);
+}
+
+} // namespace plm

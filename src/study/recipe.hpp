@@ -1,0 +1,38 @@
+// What a method of a study is made from: the options of sampler, basis and solver, copied, so that everything
+// can be made anew and timed.
+#pragma once
+#include "hbm/hbm.hpp"
+#include "reduction/basis.hpp"
+#include <optional>
+
+namespace plm {
+
+/// First reduction under piecewise-linear modes (paper, 2.3.4).
+struct ParentRecipe {
+    BasisOptions basis;
+    std::optional<SamplerOptions> sampler;
+};
+
+struct Recipe {
+    std::optional<SamplerOptions> sampler;
+    std::shared_ptr<const ParentRecipe> parent; // kind plm only, or null
+    BasisOptions basis;
+    HbmOptions hbm;
+};
+
+struct FrequencyRange {
+    double low_hz = 0, high_hz = 0;
+};
+
+/// The recipe without what is no part of the method's own work: a sampler that only gives the window to a
+/// basis of another kind than plm is run here, and its window is written into the basis' options.
+Recipe with_window(const std::shared_ptr<const Model> &model, const Recipe &recipe, Watch watch);
+
+/// Where the curve of a recipe of with_window() is followed: its solver's range, or its basis' window.
+FrequencyRange range_of(const std::shared_ptr<const Model> &model, const Recipe &recipe, Watch watch);
+
+/// Sampler and basis anew, with nothing shared with earlier ones (the model and its factorization excepted).
+std::shared_ptr<const Basis> build(const std::shared_ptr<const Model> &model, const Recipe &recipe,
+                                   Watch watch);
+
+} // namespace plm

@@ -1,0 +1,62 @@
+#include "study/reference_check.hpp"
+#include "study/curve_point.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+constexpr std::int64_t beside = 3; // points on either side of the highest one
+
+std::int64_t highest_point(const Branch &branch, const Output &output) {
+    std::int64_t top = 0;
+    double highest = -1;
+    for (std::size_t i = 0; i < branch.points().size(); ++i) {
+        const std::int64_t k = static_cast<std::int64_t>(i);
+        const double a = std::abs(branch.amplitude(k, output.dof, output.measure, output.harmonic));
+        if (a > highest) highest = a, top = k;
+    }
+    return top;
+}
+
+} // namespace
+
+HarmonicCheck check_harmonics(const Branch &branch, const Peak &peak, const HbmOptions &options,
+                              const Output &output, Watch watch) {
+    HbmOptions own = options;
+    own.period_multiple = branch.period_multiple();
+    const BranchPoint &summit = peak.branch->points()[0];
+    const HbmOptions finer = options_at(summit, own, 2 * summit.n_harmonics / own.period_multiple);
+    const auto system = make_system(branch.reduced_model(), finer);
+    const std::int64_t n = static_cast<std::int64_t>(branch.points().size()),
+                       top = highest_point(branch, output), first = std::max<std::int64_t>(0, top - beside),
+                       last = std::min(n - 1, top + beside);
+    auto around = std::make_shared<Branch>(branch.reduced_model(), finer.force_scale, finer.period_multiple);
+    for (std::int64_t i = first; i <= last; ++i) {
+        watch.step("reference", 0.5);
+        const auto at = [&](std::int64_t k) {
+            return load(*system,
+                        branch.points()[static_cast<std::size_t>(std::clamp<std::int64_t>(k, 0, n - 1))]);
+        };
+        CurvePoint point = at(i);
+        const CurvePoint before = at(i - 1), after = at(i + 1);
+        vector<double> direction(after.x);
+        for (std::size_t k = 0; k < direction.size(); ++k) direction[k] -= before.x[k];
+        if (!correct_across(*system, CurveMetric(point, finer), finer, direction, after.omega - before.omega,
+                            point))
+            continue;
+        BranchPoint corrected;
+        corrected.force_scale = finer.force_scale;
+        system->to_point(point.x.data(), point.omega, corrected);
+        around->append(std::move(corrected));
+    }
+    if (around->points().size() < 3)
+        throw Error(PLM_ERR_CONVERGENCE,
+                    "the peak of the reference could not be solved with twice the harmonics");
+    const Peak better = Hbm(branch.reduced_model(), 0, 0, finer, watch)
+                            .find_peak(*around, output.dof, output.measure, output.harmonic);
+    return {std::abs(better.frequency_hz / peak.frequency_hz - 1),
+            std::abs(better.amplitude / peak.amplitude - 1)};
+}
+
+} // namespace plm

@@ -1,0 +1,360 @@
+#include "study/study.hpp"
+#include "hbm/error_estimate.hpp"
+#include "linalg/memory_count.hpp"
+#include "study/measurement.hpp"
+#include "study/pareto.hpp"
+#include "study/reference_check.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+constexpr double smallest_error = 1e-9; // below it an amplitude's error is the solver's tolerance
+
+double worse(double a, double b) {
+    return std::isnan(a) || b > a ? b : a;
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t n = values.size();
+    return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+}
+
+std::string end_of(const Measurement &m) {
+    std::string text;
+    for (std::size_t level = 0; level < m.curves.size(); ++level) {
+        const std::string end = end_text(m.curves[level]->end_reason);
+        if (m.curves[level]->end_reason == PLM_REASON_RANGE_END) continue;
+        text += (text.empty() ? "" : "; ") + format("level %zu: ", level) + end;
+    }
+    if (!m.note.empty()) text += (text.empty() ? "" : "; ") + m.note;
+    return text.empty() ? end_text(PLM_REASON_RANGE_END) : text;
+}
+
+bool reached_the_end(const Measurement &m) {
+    return m.note.empty() && std::all_of(m.curves.begin(), m.curves.end(),
+                                         [](const auto &b) { return b->end_reason == PLM_REASON_RANGE_END; });
+}
+
+/// A level of the reference: all methods are compared with it.
+struct Truth {
+    Peak peak;
+    PlaneScale scale;
+    PlaneCurve curve;
+    vector<PlanePoint> samples;
+};
+
+class Study {
+  public:
+    Study(std::shared_ptr<const Model> model, const StudyPlan &plan, Watch watch)
+        : plan_(plan), watch_(watch), where_{std::move(model), checked_output(plan), plan.levels, {}} {}
+
+    StudyResult result() {
+        run_reference();
+        for (const MethodPlan &method : plan_.methods) {
+            out_.methods.push_back(out_.cancelled ? not_run(method) : row(method));
+            ++n_done_;
+        }
+        mark_front();
+        return std::move(out_);
+    }
+
+  private:
+    static Output checked_output(const StudyPlan &plan) {
+        if (plan.methods.empty())
+            throw Error(PLM_ERR_STATE,
+                        "the study has no method; call plm_study_add_response or another plm_study_add_...")
+                .argument("study");
+        if (!plan.output)
+            throw Error(PLM_ERR_STATE,
+                        "the study does not know the motion to look at; call plm_study_set_output first")
+                .argument("study");
+        return *plan.output;
+    }
+
+    double share_done() const {
+        return static_cast<double>(n_done_) / static_cast<double>(1 + plan_.methods.size());
+    }
+
+    MethodPlan reference_plan() const {
+        if (plan_.reference) return *plan_.reference;
+        for (const MethodPlan &method : plan_.methods) {
+            if (method.kind == MethodKind::marching) continue;
+            MethodPlan truth = method;
+            truth.options_text = "the unreduced structure, else as \"" + method.name + "\"";
+            truth.kind = MethodKind::response;
+            truth.recipe.parent.reset();
+            truth.recipe.basis.kind = BasisKind::full;
+            return truth;
+        }
+        throw Error(PLM_ERR_STATE,
+                    "methods that march in time give no reference; call plm_study_set_reference")
+            .argument("reference");
+    }
+
+    void run_reference() {
+        watch_.step("study", share_done());
+        MethodPlan plan = reference_plan();
+        plan.name = "reference";
+        plan.recipe = with_window(where_.model, plan.recipe, watch_);
+        where_.range = range_of(where_.model, plan.recipe, watch_);
+        MethodResult &r = out_.reference;
+        r.name = plan.name, r.options_text = plan.options_text;
+        const Measurement m = measured_once(plan, r);
+        r.setup_seconds = m.setup_seconds, r.curve_seconds = m.curve_seconds;
+        r.iteration_seconds = m.iteration_seconds;
+        for (std::size_t level = 0; level < plan_.levels.size(); ++level) add_truth(plan, m, level);
+        describe(m, r);
+        r.peak_hz = truth_[0].peak.frequency_hz, r.peak_amplitude = truth_[0].peak.amplitude;
+        out_.space_error = m.basis->space()->error_estimate;
+        out_.range = where_.range;
+        out_.levels = plan_.levels;
+        r.failed = false;
+        ++n_done_;
+        watch_.log(1, format("study: reference with %lld coordinates, peak %.6g at %.6g Hz",
+                             static_cast<long long>(r.basis_size), r.peak_amplitude, r.peak_hz));
+    }
+
+    void add_truth(const MethodPlan &plan, const Measurement &m, std::size_t level) {
+        const HbmOptions o = options_at_level(plan, where_, plan_.levels[level]);
+        const Branch &branch = *m.curves[level];
+        Truth t;
+        t.peak = peak_of(m, o, level);
+        if (!(std::abs(t.peak.amplitude) > 0))
+            throw Error(PLM_ERR_ARGUMENT,
+                        "the DOF of the output does not move on the reference's curve; name one that does")
+                .argument("dof");
+        t.scale = {where_.range.high_hz - where_.range.low_hz, std::abs(t.peak.amplitude)};
+        t.curve = plane_curve(branch, o, where_.output, t.scale, plan_.options.curve_tolerance);
+        t.samples = equally_spaced(t.curve.pieces, plan_.options.curve_samples);
+        note_resolution(t.curve);
+        out_.reference.samples.push_back(samples_of(t.curve, t.scale));
+        out_.full_residual = worse(out_.full_residual, t.peak.branch->full_residual(0));
+        check_reference(branch, t.peak, o);
+        truth_.push_back(std::move(t));
+    }
+
+    void check_reference(const Branch &branch, const Peak &peak, const HbmOptions &o) {
+        try {
+            const HarmonicCheck check = check_harmonics(branch, peak, o, where_.output, watch_);
+            out_.harmonic_error = worse(out_.harmonic_error, check.amplitude);
+            out_.harmonic_shift = worse(out_.harmonic_shift, check.frequency);
+        } catch (const Error &e) { // stays not known
+            if (e.status() == PLM_CANCELLED) throw;
+            watch_.log(2, e.what());
+        }
+    }
+
+    Peak peak_of(const Measurement &m, const HbmOptions &o, std::size_t level) const {
+        return Hbm(m.basis->reduced(), m.basis->window_min_hz(), m.basis->window_max_hz(), o, watch_)
+            .find_peak(*m.curves[level], where_.output.dof, where_.output.measure, where_.output.harmonic);
+    }
+
+    void note_resolution(const PlaneCurve &curve) {
+        out_.curve_resolution = std::max(out_.curve_resolution, curve.resolution);
+        if (curve.unresolved > 0)
+            watch_.log(1, format("study: on %lld pieces of a curve no further point was found",
+                                 static_cast<long long>(curve.unresolved)));
+    }
+
+    static PlaneSamples samples_of(const PlaneCurve &curve, const PlaneScale &scale) {
+        PlaneSamples s;
+        const auto add = [&](PlanePoint p) {
+            s.hz.push_back(p.x * scale.frequency_hz), s.amplitude.push_back(p.y * scale.amplitude);
+        };
+        for (const PlanePiece &piece : curve.pieces) add(piece.from);
+        if (!curve.pieces.empty()) add(curve.pieces.back().to);
+        return s;
+    }
+
+    // The first run, whose memory is counted.
+    Measurement measured_once(const MethodPlan &method, MethodResult &r) const {
+        const CountingScope scope;
+        Measurement m = measure(method, where_, watch_);
+        r.peak_bytes = scope.peak();
+        return m;
+    }
+
+    static void describe(const Measurement &m, MethodResult &r) {
+        r.basis_size = m.size;
+        r.curves = m.curves;
+        for (const auto &branch : m.curves) {
+            r.n_points += static_cast<std::int64_t>(branch->points().size());
+            r.newton_iterations += branch->newton_iterations;
+            r.failed_steps += branch->failed_steps;
+        }
+        for (const MarchedCurve &curve : m.marched) {
+            r.n_points += static_cast<std::int64_t>(curve.samples.hz.size());
+            r.failed_steps += curve.unsettled;
+        }
+        r.outcome = end_of(m);
+        r.complete = reached_the_end(m);
+    }
+
+    static MethodResult named(const MethodPlan &method) {
+        MethodResult r;
+        r.name = method.name, r.options_text = method.options_text;
+        return r;
+    }
+
+    static MethodResult not_run(const MethodPlan &method) {
+        MethodResult r = named(method);
+        r.outcome = "not run: cancelled by the progress callback";
+        return r;
+    }
+
+    MethodResult row(const MethodPlan &planned) {
+        MethodResult r = named(planned);
+        try {
+            watch_.step("study", share_done());
+            MethodPlan method = planned;
+            method.recipe = with_window(where_.model, method.recipe, watch_);
+            const Measurement first = measured_once(method, r);
+            describe(first, r);
+            repeat(method, r);
+            compare(method, first, r);
+            r.failed = false;
+        } catch (const Error &e) {
+            if (e.status() == PLM_CANCELLED) {
+                out_.cancelled = true;
+                return not_run(planned);
+            }
+            return failed(planned, e.what());
+        } catch (const std::bad_alloc &) {
+            return failed(planned, "out of memory");
+        }
+        watch_.log(1,
+                   format("study: %s: %lld coordinates, set-up %.3g s, curve %.3g s, error of the curve %.2e",
+                          r.name.c_str(), static_cast<long long>(r.basis_size), r.setup_seconds,
+                          r.curve_seconds, r.curve_error_l2));
+        return r;
+    }
+
+    MethodResult failed(const MethodPlan &method, const std::string &why) const {
+        MethodResult r = named(method);
+        r.outcome = why;
+        watch_.log(2, "study: " + r.name + ": " + why);
+        return r;
+    }
+
+    void repeat(const MethodPlan &method, MethodResult &r) const {
+        std::vector<double> setup, curve, iteration;
+        for (std::int64_t k = 0; k < plan_.options.repeats; ++k) {
+            watch_.step("study", share_done());
+            const Measurement m = measure(method, where_, watch_);
+            setup.push_back(m.setup_seconds), curve.push_back(m.curve_seconds);
+            iteration.push_back(m.iteration_seconds);
+        }
+        r.setup_seconds = median(setup), r.curve_seconds = median(curve);
+        if (method.kind != MethodKind::marching) r.iteration_seconds = median(iteration);
+    }
+
+    void compare(const MethodPlan &method, const Measurement &m, MethodResult &r) {
+        if (method.kind == MethodKind::marching) {
+            for (std::size_t level = 0; level < m.marched.size(); ++level)
+                compare_marched(m.marched[level], truth_[level], level, r);
+            return;
+        }
+        std::size_t worst = 0;
+        double worst_amplitude = -1;
+        std::vector<Peak> peaks;
+        for (std::size_t level = 0; level < m.curves.size(); ++level) {
+            const HbmOptions o = options_at_level(method, where_, plan_.levels[level]);
+            const Truth &truth = truth_[level];
+            const Peak &peak = peaks.emplace_back(peak_of(m, o, level));
+            const double amplitude = compare_peaks(peak.frequency_hz, peak.amplitude, truth, level, r);
+            if (amplitude > worst_amplitude) worst_amplitude = amplitude, worst = level;
+            const PlaneCurve curve =
+                plane_curve(*m.curves[level], o, where_.output, truth.scale, plan_.options.curve_tolerance);
+            note_resolution(curve);
+            r.samples.push_back(samples_of(curve, truth.scale));
+            add_distance(curve_distance(truth.samples, curve.pieces), r);
+        }
+        estimate(method, m, peaks[worst], worst, r);
+    }
+
+    static double compare_peaks(double hz, double amplitude, const Truth &truth, std::size_t level,
+                                MethodResult &r) {
+        if (level == 0) r.peak_hz = hz, r.peak_amplitude = amplitude;
+        const double error = std::abs(amplitude / truth.peak.amplitude - 1);
+        r.frequency_error = worse(r.frequency_error, std::abs(hz / truth.peak.frequency_hz - 1));
+        r.amplitude_error = worse(r.amplitude_error, error);
+        return error;
+    }
+
+    static void add_distance(const CurveDistance &d, MethodResult &r) {
+        r.curve_error_l2 = worse(r.curve_error_l2, d.rms);
+        r.curve_error_max = worse(r.curve_error_max, d.max);
+    }
+
+    // Points without a curve between them: how far they are from the reference.
+    void compare_marched(const MarchedCurve &marched, const Truth &truth, std::size_t level,
+                         MethodResult &r) {
+        const PlaneSamples &s = marched.samples;
+        vector<PlanePoint> points;
+        std::size_t top = 0;
+        for (std::size_t k = 0; k < s.hz.size(); ++k) {
+            points.push_back({s.hz[k] / truth.scale.frequency_hz, s.amplitude[k] / truth.scale.amplitude});
+            if (std::abs(s.amplitude[k]) > std::abs(s.amplitude[top])) top = k;
+        }
+        compare_peaks(s.hz[top], s.amplitude[top], truth, level, r);
+        add_distance(curve_distance(points, truth.curve.pieces), r);
+        r.samples.push_back(s);
+    }
+
+    // What the method itself would say about its peak at the level where it is worst.
+    void estimate(const MethodPlan &method, const Measurement &m, const Peak &peak, std::size_t level,
+                  MethodResult &r) const {
+        const HbmOptions o = options_at_level(method, where_, plan_.levels[level]);
+        try {
+            const auto full = unreduced_basis(m.basis, watch_)->reduced();
+            const ErrorParts parts =
+                ErrorEstimator(full, *peak.branch, o)
+                    .estimate(0, where_.output.dof, where_.output.measure, where_.output.harmonic)
+                    .amplitude;
+            const double size = std::abs(peak.amplitude);
+            r.estimated_error = std::abs(parts.sum()) / size;
+            // harmonics that the reference lacks as well are no part of the difference
+            const bool shared =
+                peak.branch->points()[0].n_harmonics == truth_[level].peak.branch->points()[0].n_harmonics;
+            const double difference = std::abs(truth_[level].peak.amplitude - peak.amplitude) / size,
+                         expected = std::abs(shared ? parts.basis + parts.contact : parts.sum()) / size;
+            if (difference > smallest_error) r.effectivity = expected / difference;
+        } catch (
+            const Error &e) { // not known: contacts that do not hold all rigid-body modes, a singular tangent
+            if (e.status() == PLM_CANCELLED) throw;
+            watch_.log(1, "study: " + method.name + ": no estimate: " + e.what());
+        }
+    }
+
+    void mark_front() {
+        vector<double> time, error;
+        for (const MethodResult &r : out_.methods) {
+            time.push_back(r.failed ? not_known : r.setup_seconds + r.curve_seconds);
+            error.push_back(r.curve_error_l2);
+        }
+        const vector<char> front = pareto_front(time, error);
+        for (std::size_t i = 0; i < front.size(); ++i) out_.methods[i].pareto = front[i];
+    }
+
+    const StudyPlan &plan_;
+    Watch watch_;
+    MeasurementCase where_;
+    StudyResult out_;
+    std::vector<Truth> truth_; // per level
+    std::size_t n_done_ = 0;   // methods, the reference counted
+};
+
+} // namespace
+
+StudyResult run_study(const std::shared_ptr<const Model> &model, const StudyPlan &plan, Watch watch) {
+    return Study(model, plan, watch).result();
+}
+
+bool study_is_built() {
+    return true;
+}
+
+} // namespace plm
