@@ -40,9 +40,10 @@ void add_options(std::vector<Key> &keys) {
         keys.end(),
         {
             choice_option<&O::kind>(
-                "kind", "plm,craig_bampton,full,pod",
+                "kind", "plm,craig_bampton,full,pod,snapshots",
                 "plm: piecewise-linear modes; craig_bampton: contact DOFs retained; full: the "
-                "unreduced structure; pod: the parent compressed to what its responses need"),
+                "unreduced structure; pod: the parent compressed to what its responses need; "
+                "snapshots: modes at rest and static contact solutions"),
             choice_option<&O::selection>(
                 "selection", "bands,below",
                 "modes kept of each sample: inside the bands [h f_min, h f_max] (paper), or "
@@ -58,7 +59,7 @@ void add_options(std::vector<Key> &keys) {
                                            "singular values below this share of the largest are dropped"),
             int_option<&O::load_vectors>(
                 "load_vectors", 0, 1,
-                "plm, craig_bampton: 1: the static responses to the loads are in the basis, too"),
+                "plm, craig_bampton, snapshots: 1: the static responses to the loads are in the basis, too"),
             int_option<&O::static_augmentation>(
                 "static_augmentation", 0, 1,
                 "1: the static response to the pre-load joins the basis of h = 0"),
@@ -66,6 +67,13 @@ void add_options(std::vector<Key> &keys) {
                 "pod_tolerance", 0, 0.5,
                 "pod: share of the responses that may be left out, in the energy norm"),
             int_option<&O::pod_size>("pod_size", 0, 1e9, "pod: columns of P; 0: by pod_tolerance"),
+            real_option<&O::rest_factor>("rest_factor", 0.1, 100,
+                                         "snapshots: modes at rest up to this multiple of the window end"),
+            int_option<&O::n_snapshots>("n_snapshots", 2, 10000,
+                                        "snapshots: static contact solutions for each dominant mode"),
+            real_option<&O::snapshot_tolerance>(
+                "snapshot_tolerance", 0, 0.5,
+                "snapshots: left out below this share of the motion, in the energy norm"),
             int_option<&O::n_fixed_modes>("n_fixed_modes", 0, 1e9,
                                           "Craig-Bampton: fixed-interface modes; 0: by frequency"),
         });
@@ -80,6 +88,8 @@ void add_results(std::vector<Key> &keys) {
                       [](const H &h) { return core(h).reduced()->static_size(); }),
             result<H>("n_collected", "columns before conditioning",
                       [](const H &h) { return report(h).n_collected; }),
+            result<H>("n_rest_modes", "snapshots: modes at rest among them",
+                      [](const H &h) { return report(h).n_rest_modes; }),
             result<H>("singular_values", "singular values of the collected modes, the largest is 1",
                       [](const H &h) { return report(h).singular_values; }),
             result<H>("lambda", "eigenvalues of the reduced stiffness (rad^2/time^2)",
@@ -94,7 +104,7 @@ void add_results(std::vector<Key> &keys) {
                       [](const H &h) { return report(h).warning; }),
             result<H>("setup_seconds", "time of the build (s)",
                       [](const H &h) { return report(h).setup_seconds; }),
-            result<H>("highest_frequency_hz", "upper end of the selection rule (Hz)",
+            result<H>("highest_frequency_hz", "modes are taken up to here (Hz)",
                       [](const H &h) { return report(h).highest_frequency_hz; }),
             result<H>("window_low_hz", "lower end of the window used (Hz)",
                       [](const H &h) { return core(h).window_min_hz(); }),

@@ -2,6 +2,7 @@
 #include "linalg/lapack.hpp"
 #include "reduction/basis_options.hpp"
 #include "reduction/conditioning.hpp"
+#include "reduction/contact_snapshots.hpp"
 #include "reduction/load_vectors.hpp"
 #include "reduction/mode_selection.hpp"
 #include "reduction/projection.hpp"
@@ -19,8 +20,8 @@ constexpr double fixed_mode_margin =
 constexpr std::int64_t least_open_modes = 10;
 
 void check_parents(const Model &model, const Sampler *sampler, const Basis *parent, BasisKind kind) {
-    if (kind == BasisKind::plm && !sampler)
-        throw Error(PLM_ERR_STATE, "piecewise-linear modes need the samples of a sampler that has run")
+    if (needs_sampler(kind) && !sampler)
+        throw Error(PLM_ERR_STATE, "this kind of basis needs the samples of a sampler that has run")
             .argument("sampler");
     if (sampler && sampler->space()->model.get() != &model)
         throw Error(PLM_ERR_ARGUMENT, "the sampler belongs to another model").argument("sampler");
@@ -58,7 +59,7 @@ std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &mo
     if (o.kind == BasisKind::craig_bampton)
         return make_craig_bampton_space(model, {o.n_fixed_modes, fixed_mode_margin * highest, o.load_vectors},
                                         watch);
-    if (o.kind == BasisKind::plm && parent) {
+    if (needs_sampler(o.kind) && parent) {
         if (parent->space()->highest_frequency < highest * (1 - 1e-9))
             watch.log(
                 1,
@@ -130,23 +131,36 @@ double mass_residual(const Matrix &p, const SparseMatrix &mass, const vector<dou
     return std::sqrt(std::max(0.0, dot(n, rest.data(), momentum.data())) / size);
 }
 
-Reduction reduce_to_plm(const Space &space, const Sampler &sampler, const SelectionRule &rule,
-                        const BasisOptions &o, Watch watch) {
-    CollectedModes collected =
-        collect_modes(space, sampler.samples(), dominant_coordinates(sampler, space), rule, watch);
+// The columns of the kind before conditioning; the report tells how they came about.
+Matrix collect(const Space &space, const Sampler &sampler, const RestState &rest, const SelectionRule &rule,
+               const BasisOptions &o, BasisReport &report, Watch watch) {
+    const std::vector<vector<double>> dominant = dominant_coordinates(sampler, space);
+    if (o.kind == BasisKind::snapshots) {
+        CollectedSnapshots collected = collect_snapshots(space, sampler, rest, dominant, rule, o, watch);
+        report.warning = std::move(collected.warning);
+        report.n_rest_modes = collected.n_rest_modes;
+        return std::move(collected.columns);
+    }
+    CollectedModes collected = collect_modes(space, sampler.samples(), dominant, rule, watch);
+    report.samples = std::move(collected.samples);
+    report.warning = std::move(collected.warning);
+    return std::move(collected.columns);
+}
+
+Reduction reduce_by_sampler(const Space &space, const Sampler &sampler, const SelectionRule &rule,
+                            const BasisOptions &o, Watch watch) {
+    const RestState rest = &space == sampler.space().get() ? sampler.rest() : solve_rest(space);
     Reduction r;
-    r.report.samples = std::move(collected.samples);
-    r.report.warning = std::move(collected.warning);
-    r.report.n_collected = collected.columns.cols();
+    Matrix columns = collect(space, sampler, rest, rule, o, r.report, watch);
+    r.report.n_collected = columns.cols();
     watch.step("basis", 0.0);
     if (o.load_vectors) {
         const Matrix loads = load_vectors(space);
-        if (!loads.empty()) collected.columns.append(loads);
+        if (!loads.empty()) columns.append(loads);
     }
-    Conditioned conditioned = condition_columns(space, collected.columns, o.svd_tolerance);
+    Conditioned conditioned = condition_columns(space, columns, o.svd_tolerance);
     r.report.singular_values = std::move(conditioned.singular_values);
     watch.step("basis", 0.3);
-    const RestState rest = &space == sampler.space().get() ? sampler.rest() : solve_rest(space);
     StaticBasis statics;
     if (o.static_augmentation) statics = make_static_basis(space, conditioned.coordinates, rest.coordinates);
     watch.step("basis", 0.5);
@@ -177,9 +191,12 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     const SelectionRule rule = make_rule(options_, sampler_.get());
     window_min_hz_ = rule.min_hz;
     window_max_hz_ = rule.max_hz;
-    space_ = choose_space(model_, sampler_.get(), parent.get(), options_, rule.highest_hz(), watch);
-    if (options_.kind == BasisKind::plm) {
-        Reduction r = reduce_to_plm(*space_, *sampler_, rule, options_, watch);
+    const bool statics = options_.kind == BasisKind::snapshots;
+    const double modes_hz = statics ? options_.rest_factor * rule.max_hz : rule.highest_hz();
+    space_ = choose_space(model_, sampler_.get(), parent.get(), options_,
+                          std::max(modes_hz, rule.highest_hz()), watch);
+    if (needs_sampler(options_.kind)) {
+        Reduction r = reduce_by_sampler(*space_, *sampler_, rule, options_, watch);
         reduced_ = std::move(r.reduced);
         report_ = std::move(r.report);
     } else {
@@ -187,7 +204,7 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
         reduced_ = project_whole(*space_);
         report_.n_collected = space_->size();
     }
-    report_.highest_frequency_hz = rule.highest_hz();
+    report_.highest_frequency_hz = modes_hz;
     if (!report_.warning.empty()) watch.log(2, report_.warning);
     report_.setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }

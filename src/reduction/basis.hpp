@@ -6,7 +6,7 @@
 
 namespace plm {
 
-enum class BasisKind { plm, craig_bampton, full, pod };
+enum class BasisKind { plm, craig_bampton, full, pod, snapshots };
 enum class ModeSelection {
     bands,
     below
@@ -17,14 +17,22 @@ struct BasisOptions {
     ModeSelection selection = ModeSelection::below;
     std::int64_t n_harmonics = 5;                      // windows h = 1..n_harmonics
     double frequency_min_hz = 0, frequency_max_hz = 0; // f_i, f_f; 0: the sampler's window
-    double below_factor = 1.1;       // rule "below": all modes below below_factor * n_harmonics * f_f
-    double svd_tolerance = 1e-6;     // singular values relative to the largest (paper, 2.3.3)
-    bool static_augmentation = true; // P_0 = [P q_PS] (paper, eq. (9)); not used without pre-load
-    bool load_vectors = true;        // P also holds the static responses to the loads
-    double pod_tolerance = 1e-5;     // pod: share of the responses left out, energy norm
-    std::int64_t pod_size = 0;       // pod: columns; 0: by pod_tolerance
+    double below_factor = 1.1;        // rule "below": all modes below below_factor * n_harmonics * f_f
+    double svd_tolerance = 1e-6;      // singular values relative to the largest (paper, 2.3.3)
+    bool static_augmentation = true;  // P_0 = [P q_PS] (paper, eq. (9)); not used without pre-load
+    bool load_vectors = true;         // P also holds the static responses to the loads
+    double pod_tolerance = 1e-5;      // pod: share of the responses left out, energy norm
+    std::int64_t pod_size = 0;        // pod: columns; 0: by pod_tolerance
+    double rest_factor = 5.5;         // snapshots: modes at rest up to this multiple of f_f
+    std::int64_t n_snapshots = 12;    // snapshots: static solutions for each dominant mode
+    double snapshot_tolerance = 1e-2; // snapshots: left out below this share of the motion, energy norm
     std::int64_t n_fixed_modes = 0; // Craig-Bampton: fixed-interface modes; 0: all below 4 below_factor H f_f
 };
+
+/// Kinds that are made from the dominant mode and the contact sweep of a sampler.
+constexpr bool needs_sampler(BasisKind kind) {
+    return kind == BasisKind::plm || kind == BasisKind::snapshots;
+}
 
 /// What became of one sample's modes.
 struct SampleSelection {
@@ -38,6 +46,7 @@ struct SampleSelection {
 struct BasisReport {
     std::vector<SampleSelection> samples;
     std::int64_t n_collected = 0;   // columns before conditioning
+    std::int64_t n_rest_modes = 0;  // snapshots: modes at rest among them
     vector<double> singular_values; // scaled by the largest
     double preload_residual =
         0; // paper, eq. (12): q_PS against P, L2 norm over the free DOFs; 0 without pre-load
@@ -49,9 +58,9 @@ struct BasisReport {
 
 class Basis {
   public:
-    /// sampler: needed for kind plm. parent: first reduction under PLM or null; for kind pod the basis the
-    /// responses were computed on. window_hz are taken from options, sampler or (pod) parent; kinds
-    /// craig_bampton and full need options.frequency_max_hz or a sampler.
+    /// sampler: needed for kinds plm and snapshots. parent: first reduction under PLM or null; for kind pod
+    /// the basis the responses were computed on. window_hz are taken from options, sampler or (pod) parent;
+    /// kinds craig_bampton and full need options.frequency_max_hz or a sampler.
     Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> sampler,
           std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch,
           const Responses *responses = nullptr);

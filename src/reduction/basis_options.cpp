@@ -28,6 +28,14 @@ void check_options(const BasisOptions &o) {
            format("pod_tolerance is %g; a share of the responses in [0, 1) is wanted", o.pod_tolerance));
     demand(o.pod_size >= 0, "pod_size",
            format("pod_size is %lld; it must not be negative", static_cast<long long>(o.pod_size)));
+    demand(std::isfinite(o.rest_factor) && o.rest_factor > 0, "rest_factor",
+           format("rest_factor is %g; it must be above 0", o.rest_factor));
+    demand(o.n_snapshots >= 2, "n_snapshots",
+           format("n_snapshots is %lld; at least 2, one of each sign, are needed",
+                  static_cast<long long>(o.n_snapshots)));
+    demand(
+        o.snapshot_tolerance >= 0 && o.snapshot_tolerance < 1, "snapshot_tolerance",
+        format("snapshot_tolerance is %g; a share of the motion in [0, 1) is wanted", o.snapshot_tolerance));
     demand(o.n_fixed_modes >= 0, "n_fixed_modes",
            format("n_fixed_modes is %lld; it must not be negative", static_cast<long long>(o.n_fixed_modes)));
 }
