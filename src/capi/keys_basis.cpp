@@ -22,6 +22,14 @@ Reals frequencies_hz(const H &h) {
     return f;
 }
 
+Ints pairs_carried(const H &h) {
+    const ReducedModel &reduced = *core(h).reduced();
+    if (reduced.all_pairs) return reduced.carried;
+    Ints all;
+    for (std::int64_t i = 0; i < reduced.n_pairs(); ++i) all.push_back(i);
+    return all;
+}
+
 template <class Out, class Get> Out per_sample(const H &h, Get get) {
     Out out;
     for (const SampleSelection &s : report(h).samples) out.push_back(get(s));
@@ -74,6 +82,13 @@ void add_options(std::vector<Key> &keys) {
             real_option<&O::snapshot_tolerance>(
                 "snapshot_tolerance", 0, 0.5,
                 "snapshots: left out below this share of the motion, in the energy norm"),
+            int_option<&O::n_pairs_carried>(
+                "n_pairs_carried", 0, 1e9,
+                "contact pairs in the equations (node sampling), the others lumped to them; 0: all"),
+            choice_option<&O::pair_rule>(
+                "pair_rule", "effective_independence,mdof",
+                "how the pairs carried are chosen: by their share in the rank of the "
+                "motion, or as master degrees of freedom"),
             int_option<&O::n_fixed_modes>("n_fixed_modes", 0, 1e9,
                                           "Craig-Bampton: fixed-interface modes; 0: by frequency"),
         });
@@ -106,6 +121,7 @@ void add_results(std::vector<Key> &keys) {
                       [](const H &h) { return report(h).setup_seconds; }),
             result<H>("highest_frequency_hz", "modes are taken up to here (Hz)",
                       [](const H &h) { return report(h).highest_frequency_hz; }),
+            result<H>("pairs_carried", "contact pairs in the equations, from 0", pairs_carried),
             result<H>("window_low_hz", "lower end of the window used (Hz)",
                       [](const H &h) { return core(h).window_min_hz(); }),
             result<H>("window_high_hz", "upper end of the window used (Hz)",

@@ -5,6 +5,7 @@
 #include "reduction/contact_snapshots.hpp"
 #include "reduction/load_vectors.hpp"
 #include "reduction/mode_selection.hpp"
+#include "reduction/pair_sampling.hpp"
 #include "reduction/projection.hpp"
 #include "reduction/static_basis.hpp"
 #include <algorithm>
@@ -184,6 +185,7 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     check_parents(*model_, sampler_.get(), parent.get(), options_.kind);
     if (options_.kind == BasisKind::pod) {
         compress_parent(parent.get(), responses);
+        choose_pairs();
         report_.setup_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return;
@@ -204,6 +206,7 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
         reduced_ = project_whole(*space_);
         report_.n_collected = space_->size();
     }
+    choose_pairs();
     report_.highest_frequency_hz = modes_hz;
     if (!report_.warning.empty()) watch.log(2, report_.warning);
     report_.setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -237,10 +240,17 @@ void Basis::compress_parent(const Basis *parent, const Responses *responses) {
     report_.highest_frequency_hz = parent->report().highest_frequency_hz;
 }
 
+void Basis::choose_pairs() {
+    if (options_.n_pairs_carried > 0)
+        reduced_ = sample_pairs(reduced_, *space_, options_.pair_rule, options_.n_pairs_carried,
+                                2 * M_PI * window_max_hz_);
+}
+
 std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch) {
-    if (basis->options().kind == BasisKind::full) return basis;
+    if (basis->options().kind == BasisKind::full && !basis->reduced()->all_pairs) return basis;
     BasisOptions o = basis->options();
     o.kind = BasisKind::full;
+    o.n_pairs_carried = 0;
     o.frequency_min_hz = basis->window_min_hz();
     o.frequency_max_hz = basis->window_max_hz();
     return std::make_shared<const Basis>(basis->model(), basis->sampler(), basis, o, watch);

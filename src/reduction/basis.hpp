@@ -12,6 +12,8 @@ enum class ModeSelection {
     below
 }; // paper 2.3.4: windows [h f_i, h f_f]; or all below the highest window
 
+enum class PairRule { effective_independence, mdof }; // pair_sampling.hpp
+
 struct BasisOptions {
     BasisKind kind = BasisKind::plm;
     ModeSelection selection = ModeSelection::below;
@@ -26,6 +28,8 @@ struct BasisOptions {
     double rest_factor = 5.5;         // snapshots: modes at rest up to this multiple of f_f
     std::int64_t n_snapshots = 12;    // snapshots: static solutions for each dominant mode
     double snapshot_tolerance = 1e-2; // snapshots: left out below this share of the motion, energy norm
+    std::int64_t n_pairs_carried = 0; // contact pairs in the equations (node sampling); 0: all
+    PairRule pair_rule = PairRule::effective_independence;
     std::int64_t n_fixed_modes = 0; // Craig-Bampton: fixed-interface modes; 0: all below 4 below_factor H f_f
 };
 
@@ -76,6 +80,7 @@ class Basis {
 
   private:
     void compress_parent(const Basis *parent, const Responses *responses);
+    void choose_pairs();
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const Sampler> sampler_;
@@ -86,7 +91,8 @@ class Basis {
     double window_min_hz_ = 0, window_max_hz_ = 0;
 };
 
-/// The basis of kind full for the same frequencies, in the contact space of `basis` where that is one.
+/// The basis of kind full for the same frequencies with all pairs carried, in the contact space of `basis`
+/// where that is one.
 std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch);
 
 /// r of paper eq. (12) for any vector over the free DOFs, against P (or P_0).

@@ -36,6 +36,9 @@ void check_options(const BasisOptions &o) {
     demand(
         o.snapshot_tolerance >= 0 && o.snapshot_tolerance < 1, "snapshot_tolerance",
         format("snapshot_tolerance is %g; a share of the motion in [0, 1) is wanted", o.snapshot_tolerance));
+    demand(o.n_pairs_carried >= 0, "n_pairs_carried",
+           format("n_pairs_carried is %lld; a number of pairs, or 0 for all of them, is wanted",
+                  static_cast<long long>(o.n_pairs_carried)));
     demand(o.n_fixed_modes >= 0, "n_fixed_modes",
            format("n_fixed_modes is %lld; it must not be negative", static_cast<long long>(o.n_fixed_modes)));
 }
