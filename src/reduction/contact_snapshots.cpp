@@ -25,6 +25,16 @@ void remove_span(const Matrix &orthonormal, Matrix &x) {
         gemm('N', 'N', -1.0, orthonormal, product('T', 'N', orthonormal, x), 1.0, x);
 }
 
+// A basis of the span; modes that contact does not touch are in both systems.
+Matrix orthonormal(const Matrix &columns) {
+    if (columns.cols() == 0) return columns;
+    const Svd svd = thin_svd(columns);
+    std::int64_t rank = 0;
+    for (double s : svd.values)
+        if (s > 1e-8 * svd.values[0]) ++rank;
+    return svd.u.columns(0, rank);
+}
+
 vector<double> snapshot_alphas(const ContactSweep &sweep, bool homogeneous, std::int64_t n) {
     vector<double> alphas, size;
     if (homogeneous) return vector<double>{-1.0, 1.0};
@@ -250,7 +260,7 @@ CollectedSnapshots collect_snapshots(const Space &space, const Sampler &sampler,
     result.n_solutions = snapshots.motions.cols();
     result.warning = missing_warning(snapshots);
     result.columns = modes;
-    if (homogeneous && modes.cols() > 0) modes = thin_svd(modes).u; // those of one system are orthonormal
+    if (homogeneous) modes = orthonormal(modes); // those of one system are already
     if (statics.cols() > 0)
         result.columns.append(main_directions(space, modes, std::move(statics), 2 * M_PI * rule.max_hz,
                                               options.snapshot_tolerance));

@@ -116,6 +116,7 @@ vector<std::int64_t> pairs_by_effective_independence(const Matrix &motions, std:
     vector<double> a(t);
     while (candidates.size() > n) {
         const std::int64_t gone = candidates.remove_least([&](std::int64_t i) { return share[i]; });
+        if (t == 0) continue; // no pair moves
         // Sherman & Morrison: the least share is at most t / (pairs left) < 1
         gemv('N', 1.0, inverse, target.col(gone), 0.0, a.data());
         const double rest = std::max(1 - dot(t, a.data(), target.col(gone)), 1e-14);

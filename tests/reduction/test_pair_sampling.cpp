@@ -77,6 +77,10 @@ void repeated_rows_go_first(void **) {
     assert_true(kept == expected); // the first of equals, never both
 }
 
+void pairs_that_do_not_move_leave_the_first(void **) {
+    assert_true(plm::pairs_by_effective_independence(Matrix(5, 3), 2) == (Pairs{0, 1}));
+}
+
 // Springs from mass to mass and to ground, every mass a "pair".
 struct SpringMass {
     Matrix k, m;
@@ -228,6 +232,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(effective_independence_keeps_the_information),
         cmocka_unit_test(repeated_rows_go_first),
+        cmocka_unit_test(pairs_that_do_not_move_leave_the_first),
         cmocka_unit_test(masters_are_those_of_henshell_and_ong),
         cmocka_unit_test(the_stiffness_left_out_is_carried_by_the_others),
         cmocka_unit_test(all_pairs_carried_is_no_sampling),
