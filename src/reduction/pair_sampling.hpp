@@ -23,9 +23,9 @@ vector<std::int64_t> pairs_by_master_dof(const Matrix &flexibility, const Matrix
 /// omega (rad/s) weighs kinetic against elastic energy. Every pair left out gives its contact stiffness to
 /// the carried pair whose row of motions (B P in coordinates of equal energy) lies nearest to its own, the
 /// first of equals: the sum of k_n is unchanged, and where pairs left out move as the carried one they joined
-/// the contact forces, those under pre-load too, are unchanged. This
-/// lumping is the library's own, and what is chosen is pairs by their relative motion, not nodes. Pairs with
-/// another initial gap than that of their carried pair are taken to have the latter's.
+/// the contact forces, those under pre-load too, are unchanged. This lumping is the library's own, and what
+/// is chosen is pairs by their relative motion, not nodes. Pairs with another initial gap than that of their
+/// carried pair are taken to have the latter's. PLM_ERR_ARGUMENT when n exceeds the number of pairs.
 std::shared_ptr<const ReducedModel> sample_pairs(const std::shared_ptr<const ReducedModel> &reduced,
                                                  const Space &space, PairRule rule, std::int64_t n,
                                                  double omega);
