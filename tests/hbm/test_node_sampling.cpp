@@ -117,7 +117,8 @@ void contact_is_reported_for_every_pair(void **) {
     assert_true(near(measures.closed_share, mean, 1e-12));
 }
 
-// The exact flow in time carries the same pairs: the motion is as nearly periodic in it as that with all pairs is.
+// The exact flow in time carries the same pairs: the motion is as nearly periodic in it as that with all
+// pairs is.
 void motion_in_time_carries_the_same_pairs(void **) {
     const test::Host host("cracked_plate", true, 4);
     const Solved all = solve(host, plm::BasisKind::snapshots, 0, PairRule::mdof),
