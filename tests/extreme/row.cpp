@@ -2,8 +2,6 @@
 #include "dense.hpp"
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace extreme {
 namespace {
@@ -46,18 +44,24 @@ Measured outcome_of(const Curve &curve) {
     return m;
 }
 
-double orbit_error(const exact::Structure &s, const Curve &curve, int n_points, int samples) {
+OrbitErrors orbit_errors(const exact::Structure &s, const Curve &curve, int n_points, int samples) {
     std::vector<std::vector<double>> amplitude;
     for (int dof = 0; dof < s.n; ++dof) amplitude.push_back(curve.amplitude(dof));
-    double worst = 0;
+    OrbitErrors errors;
     for (std::size_t i : spread(amplitude[s.n - 1], n_points)) {
         const double error = error_at_point(s, curve, amplitude, i, samples);
-        if (std::getenv("EXTREME_DETAIL"))
-            std::fprintf(stderr, "    omega %.6f amplitude %.9g error %.2g\n", curve.omega[i],
-                         amplitude[s.n - 1][i], error);
-        worst = std::max(worst, error);
+        if (error < 1e300) {
+            errors.worst = std::max(errors.worst, error);
+        } else {
+            ++errors.missing;
+        }
     }
-    return worst;
+    return errors;
+}
+
+double orbit_error(const exact::Structure &s, const Curve &curve, int n_points, int samples) {
+    const OrbitErrors errors = orbit_errors(s, curve, n_points, samples);
+    return errors.missing > 0 ? 1e300 : errors.worst;
 }
 
 double linear_error(const exact::Structure &s, const std::vector<bool> &closed, const Curve &curve, int dof,

@@ -38,6 +38,11 @@ Measured outcome_of(const Curve &curve);
 /// Error of the peak amplitudes against exact periodic orbits started from the curve's own state: the largest
 /// over the first s.n DOFs, as a share of the largest amplitude among them, and over n_points spread over the
 /// curve, the highest one among them. 1e300 where no orbit is found.
+struct OrbitErrors {
+    double worst = 0; // of the orbits found
+    int missing = 0;  // points from which none was found
+};
+OrbitErrors orbit_errors(const exact::Structure &s, const Curve &curve, int n_points, int samples);
 double orbit_error(const exact::Structure &s, const Curve &curve, int n_points, int samples);
 /// Largest relative error of the peak amplitude against the linear answer over all points.
 double linear_error(const exact::Structure &s, const std::vector<bool> &closed, const Curve &curve, int dof,

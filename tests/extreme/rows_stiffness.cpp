@@ -74,11 +74,20 @@ Setup range(double low, double high, bool sampled) {
 }
 
 // Above 1e7 the exact flow is that of 1e7, an impact of 2e-4 of the period: the difference is far below the
-// bound.
+// bound. From some points of the stiffest contact no exact orbit of the forcing period is found (see
+// one_stop).
 Measured against_impacts(exact::Structure (*build)(Rest, double), Rest rest, double ratio, bool sampled) {
     const double exact_ratio = std::min(ratio, 1e7);
     Solver solver(build(rest, ratio), range(ratio > 100 ? 0.5 : 0.3, 0.9, sampled));
-    return sweep(solver, build(rest, exact_ratio), 6, samples_for(exact_ratio));
+    const auto curve = solver.sweep();
+    Measured m = outcome_of(*curve);
+    const int n = 6;
+    const OrbitErrors errors = orbit_errors(build(rest, exact_ratio), *curve, n, samples_for(exact_ratio));
+    m.error = 2 * errors.missing < n ? errors.worst : 1e300;
+    if (errors.missing > 0)
+        m.outcome += "; exact orbits at " + std::to_string(n - errors.missing) + " of " + std::to_string(n) +
+                     " points";
+    return m;
 }
 
 Measured against_series(Rest rest, double ratio, bool sampled) {

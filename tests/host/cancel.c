@@ -18,7 +18,7 @@ static int32_t on_progress(plm_context *ctx, const char *stage, double fraction,
     return 1;
 }
 
-/* With argument: every STEP-th callback only (for sanitizers). */
+/* With argument: every STEP-th callback only. */
 int main(int argc, char **argv) {
     listener l;
     outcome want, got;

@@ -245,7 +245,7 @@ Orbit periodic_orbit(const Structure &s, double omega, std::vector<double> guess
     if (guess.empty()) guess.assign(d, 0.0);
     for (int k = 0; k < transient_periods; ++k) guess = one_period(flow, guess, steps, nullptr, nullptr);
     Orbit orbit;
-    for (int k = 0; k < 50; ++k) {
+    for (int k = 0; k < 25; ++k) {
         Square tangent = identity(flow.dim());
         const Vec end = one_period(flow, guess, steps, &tangent, nullptr);
         Square a(d);
