@@ -1,5 +1,6 @@
 // What the solver leaves out by itself: harmonics by point, pairs that do not move (unknowns by cost). Each
 // can be switched off, and the answer then agrees.
+#include "hbm/curve.hpp"
 #include "hbm/hbm.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include "support/small_reduced.hpp"
@@ -102,6 +103,43 @@ void a_single_solution_takes_the_harmonics_it_needs(void **) {
         below(corrected.error_5, plain.error_5)); // the exact force knows more than the harmonics kept
 }
 
+// What the next harmonics would change, as estimated, against what 60 harmonics do change in the motion (norm
+// of M), away from the resonance, where both have the same frequency.
+struct Estimates {
+    double least = 1e300, most = 0;
+};
+Estimates estimates() {
+    const exact::Structure s = test::chain(3, 0.02, 20, 0.1, 0.4, 0.2, {0, 2});
+    const Model m = test::reduce_exactly(s);
+    Estimates e;
+    for (const plm::UnknownSpace unknowns : {plm::UnknownSpace::modal, plm::UnknownSpace::gaps})
+        for (const double omega : {0.62, 0.7, 0.85, 1.0})
+            for (const std::int64_t n : {10, 20}) {
+                HbmOptions few, many;
+                few.n_harmonics = n, many.n_harmonics = 60;
+                few.unknowns = many.unknowns = unknowns;
+                const BranchPtr coarse = solver(m, few, 0.3, 1.2).solve(omega / (2 * M_PI), nullptr, 0),
+                                fine = solver(m, many, 0.3, 1.2).solve(omega / (2 * M_PI), coarse.get(), 0);
+                plm::BranchPoint p = coarse->points()[0];
+                plm::measure_harmonics(m, few, p);
+                plm::Matrix eta = p.eta, change = fine->points()[0].eta;
+                const double size = plm::norm2(eta.rows() * eta.cols(), eta.data());
+                plm::set_harmonics(eta, 60);
+                for (std::int64_t k = 0; k < eta.rows() * eta.cols(); ++k) change.data()[k] -= eta.data()[k];
+                const double truth = plm::norm2(change.rows() * change.cols(), change.data()) / size;
+                std::printf("    omega %.2f, H = %d: %.1e, true %.1e\n", omega, static_cast<int>(n),
+                            p.harmonic_error, truth);
+                e.least = std::min(e.least, p.harmonic_error / truth);
+                e.most = std::max(e.most, p.harmonic_error / truth);
+            }
+    return e;
+}
+void missing_harmonics_are_estimated(void **) {
+    const Estimates e = estimates();
+    std::printf("    estimate over truth: %.2f to %.2f\n", e.least, e.most);
+    assert_true(e.least > 0.2 && e.most < 3); // one step, and only the next H + 2 of the missing harmonics
+}
+
 // Eight pairs of which few move: unknowns chosen by cost against both fixed choices.
 struct Spaces {
     std::string automatic;
@@ -141,6 +179,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(harmonics_follow_the_need_of_each_point),
         cmocka_unit_test(a_single_solution_takes_the_harmonics_it_needs),
+        cmocka_unit_test(missing_harmonics_are_estimated),
         cmocka_unit_test(unknowns_are_chosen_by_the_moving_pairs),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
