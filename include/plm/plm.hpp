@@ -1193,9 +1193,9 @@ class Study : public detail::WithOptions<Study, plm_study> {
     void write(const std::string &folder) const { check(plm_study_write(handle_, folder.c_str()), "write"); }
 
   private:
-    template <class Get> std::string text(Get get, std::int64_t index, const char *verb) const {
+    template <class Read> std::string text(Read read, std::int64_t index, const char *verb) const {
         std::string x;
-        check(detail::read_text([&](auto... a) { return get(handle_, index, a...); }, x), verb);
+        check(detail::read_text([&](auto... a) { return read(handle_, index, a...); }, x), verb);
         return x;
     }
 };

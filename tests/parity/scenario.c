@@ -213,13 +213,15 @@ static void print_study(plm_model *model, plm_basis *basis, plm_hbm *hbm) {
     plm_transient *motion = NULL;
     plm_branch *curve = NULL;
     must(plm_transient_create(model, basis, &motion));
-    must(plm_transient_set_double(motion, "settled", 1e-6));
+    must(plm_transient_set_double(motion, "settled", 1e-4));
     must(plm_transient_set_int(motion, "periods", 2000));
     must(plm_study_create(model, &study));
     must(plm_study_set_int(study, "repeats", 1));
     must(plm_study_set_double(study, "curve_tolerance", 1e-4));
     must(plm_study_set_output(study, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0));
     must(plm_study_set_force_levels(study, 2, levels));
+    must(plm_hbm_set_double(hbm, "max_step", 0.25));
+    must(plm_hbm_set_string(hbm, "stability", "off"));
     must(plm_hbm_set_int(hbm, "n_harmonics", 3));
     must(plm_study_add_response(study, "three harmonics", hbm, NULL));
     must(plm_hbm_set_int(hbm, "n_harmonics", H));

@@ -129,12 +129,13 @@ void print_estimate(const plm::Model &model, const plm::Basis &basis, plm::Hbm &
 
 void print_study(const plm::Model &model, const plm::Basis &basis, plm::Hbm &hbm) {
     plm::Transient motion(model, basis);
-    motion.set("settled", 1e-6).set("periods", 2000);
+    motion.set("settled", 1e-4).set("periods", 2000);
     plm::Study study(model);
     study.set("repeats", 1).set("curve_tolerance", 1e-4);
     study.set_output(watched);
     study.set_force_levels({0.5, 1.0});
-    study.add_response("three harmonics", hbm.set("n_harmonics", 3));
+    study.add_response("three harmonics",
+                       hbm.set("max_step", 0.25).set("stability", "off").set("n_harmonics", 3));
     study.add_compressed("compressed", hbm.set("n_harmonics", n_harmonics), 3);
     study.add_refined("refined", hbm, 1e-2);
     const std::int64_t index = study.add_marching("marching", motion, 3);

@@ -339,7 +339,7 @@ C     points count from 1 here.
       CURVE = 0
       CALL PLMTCR(MODEL, IBASIS, MOTION, IERR)
       CALL MUST(IERR)
-      CALL PLMTSD(MOTION, 'settled', 1D-6, IERR)
+      CALL PLMTSD(MOTION, 'settled', 1D-4, IERR)
       CALL MUST(IERR)
       CALL PLMTSI(MOTION, 'periods', 2000, IERR)
       CALL MUST(IERR)
@@ -352,6 +352,10 @@ C     points count from 1 here.
       CALL PLMYSO(ISTUDY, 8, PLMPPM, 0, IERR)
       CALL MUST(IERR)
       CALL PLMYFL(ISTUDY, 2, SCALE, IERR)
+      CALL MUST(IERR)
+      CALL PLMHSD(LHBM, 'max_step', 0.25D0, IERR)
+      CALL MUST(IERR)
+      CALL PLMHSC(LHBM, 'stability', 'off', IERR)
       CALL MUST(IERR)
       CALL PLMHSI(LHBM, 'n_harmonics', 3, IERR)
       CALL MUST(IERR)
@@ -377,8 +381,9 @@ C     points count from 1 here.
       CALL PLMYGN(ISTUDY, 'basis_size', 4, INTS, NUMBER, IERR)
       CALL MUST(IERR)
       CALL SHOWI('basis_size', NUMBER, INTS)
-      CALL PLMYGI(ISTUDY, 'reference_size', INTS, IERR)
+      CALL PLMYGI(ISTUDY, 'reference_size', NUMBER, IERR)
       CALL MUST(IERR)
+      INTS(1) = NUMBER
       CALL SHOWI('reference_size', 1, INTS)
       CALL PLMYNM(ISTUDY, MARCH, TEXT, IERR)
       CALL MUST(IERR)
@@ -388,8 +393,9 @@ C     points count from 1 here.
       WRITE (*, '(A)') TEXT
       CALL PLMYCU(ISTUDY, 2, 2, CURVE, IERR)
       CALL MUST(IERR)
-      CALL PLMRGI(CURVE, 'n_points', INTS, IERR)
+      CALL PLMRGI(CURVE, 'n_points', NUMBER, IERR)
       CALL MUST(IERR)
+      INTS(1) = NUMBER
       CALL SHOWI('study_curve', 1, INTS)
       CALL PLMYPT(ISTUDY, 1, 2, MAXPTS, HZ, AMPL, NUMBER, IERR)
       CALL MUST(IERR)

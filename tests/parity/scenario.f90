@@ -216,13 +216,15 @@ contains
         character(len=:), allocatable :: text
         integer :: i, n
         call motion%create(model, basis)
-        call motion%set('settled', 1e-6_real64)
+        call motion%set('settled', 1e-4_real64)
         call motion%set('periods', 2000)
         call study%create(model)
         call study%set('repeats', 1)
         call study%set('curve_tolerance', 1e-4_real64)
         call study%set_output(watched, PLM_HALF_PEAK_TO_PEAK)
         call study%set_force_levels([0.5_real64, 1.0_real64])
+        call hbm%set('max_step', 0.25_real64)
+        call hbm%set('stability', 'off')
         call hbm%set('n_harmonics', 3)
         call study%add_response('three harmonics', hbm)
         call hbm%set('n_harmonics', n_harmonics)

@@ -90,12 +90,12 @@ def show_study(basis, hbm):
     study = plm.Study(basis.model, repeats=1, curve_tolerance=1e-4)
     study.set_output(WATCHED)
     study.set_force_levels([0.5, 1])
-    hbm.n_harmonics = 3
+    hbm.set_options({"max_step": 0.25, "stability": "off", "n_harmonics": 3})
     study.add_response("three harmonics", hbm)
     hbm.n_harmonics = H
     study.add_compressed("compressed", hbm, 3)
     study.add_refined("refined", hbm, 1e-2)
-    index = study.add_marching("marching", plm.Transient(basis, settled=1e-6, periods=2000), 3)
+    index = study.add_marching("marching", plm.Transient(basis, settled=1e-4, periods=2000), 3)
     study.set_reference(hbm)
     study.run()
     for key in ("frequency_error", "amplitude_error", "curve_error_l2", "curve_error_max", "basis_size"):
