@@ -141,12 +141,69 @@ def contact_area_over_cycle(branch, point, n_times=256, area=None, ax=None):
     return ax
 
 
-def error_over_time(seconds, error, labels=None, ax=None):
-    """Error of several reductions against their run time. An error of 0, as the reference has it, has no place on the axis
-    and is left out."""
+def error_over_time(seconds, error, labels=None, pareto=None, ax=None):
+    """Error of several reductions against their run time; pareto: flags of those that no other one beats in both, which a
+    stepped line then joins. An error of 0, as the reference has it, has no place on the axis and is left out, and so is
+    NaN."""
     ax = _axes(ax, "run time (s)", "relative error")
-    shown = [i for i, e in enumerate(error) if e > 0]
+    shown = [i for i, e in enumerate(error) if e > 0 and seconds[i] > 0]
     ax.loglog([seconds[i] for i in shown], [error[i] for i in shown], "o")
+    front = sorted((i for i in shown if pareto is not None and pareto[i]), key=lambda i: seconds[i])
+    if front:
+        ax.loglog([seconds[i] for i in front], [error[i] for i in front], "o-", color="C3", lw=1, mfc="none", markersize=11,
+                  drawstyle="steps-post", zorder=1, label="Pareto front")
+        ax.legend()
     for i in shown if labels else ():
         ax.annotate(labels[i], (seconds[i], error[i]), textcoords="offset points", xytext=(6, 4))
+    return ax
+
+
+_ERRORS = {"curve_error_l2": "error of the curve, root mean square", "curve_error_max": "error of the curve, largest",
+           "amplitude_error": "relative error of the peak", "frequency_error": "relative error of the peak's frequency"}
+
+
+def _front(seconds, error):
+    """Flags of those that no other one beats in time or error without losing in the other."""
+    return [seconds[i] == seconds[i] and error[i] == error[i] and
+            not any(t <= seconds[i] and e <= error[i] and (t < seconds[i] or e < error[i]) for t, e in zip(seconds, error))
+            for i in range(len(error))]
+
+
+def study_errors(study, error="curve_error_l2", ax=None):
+    """Error of every method of a study over its run time (set-up and curves), named, with the Pareto front. error:
+    "curve_error_l2", "curve_error_max", "amplitude_error" or "frequency_error". Methods that failed are left out."""
+    seconds, values = study.setup_seconds + study.curve_seconds, study[error]
+    ax = error_over_time(seconds, values, study.names, _front(seconds, values), ax)
+    ax.set_xlabel("set-up and curves (s)")
+    ax.set_ylabel(_ERRORS[error])
+    return ax
+
+
+def study_curves(study, level=0, methods=None, ax=None):
+    """The curves of the methods (indices or names; None: all) at a force level, thin, over that of the reference. Steady
+    states of a method that marches in time are dots; methods that failed are left out."""
+    ax = _axes(ax, "frequency (Hz)", "amplitude")
+    ax.plot(*study.points("reference", level), color="0.75", lw=5, label="reference")
+    marches = numpy.isnan(study.iteration_seconds)
+    for i, name in enumerate(study.names):
+        if (methods is None or i in methods or name in methods) and study.basis_size[i] >= 0:
+            ax.plot(*study.points(i, level), "o" if marches[i] else "-", markersize=4, lw=1.2, label=name)
+    ax.legend()
+    return ax
+
+
+def study_convergence(study, parameter, methods=None, errors=("curve_error_l2", "amplitude_error", "frequency_error"),
+                      xlabel="parameter", ax=None):
+    """Errors of the methods (indices or names; None: all) over a parameter of theirs, one number for each: samples,
+    harmonics, columns, a tolerance. An error of 0 has no place on the axis and is left out, and so is NaN."""
+    names = study.names
+    methods = range(len(names)) if methods is None else methods
+    indices = [names.index(m) if isinstance(m, str) else m for m in methods]
+    if len(indices) != len(parameter):
+        raise ValueError(f"parameter has {len(parameter)} numbers for {len(indices)} methods")
+    ax = _axes(ax, xlabel, "error")
+    for error, marker in zip(errors, "os^D"):
+        shown = sorted((x, study[error][i]) for x, i in zip(parameter, indices) if study[error][i] > 0)
+        ax.loglog([x for x, _ in shown], [e for _, e in shown], marker + "-", label=_ERRORS[error])
+    ax.legend()
     return ax
