@@ -107,7 +107,9 @@ class Runs(unittest.TestCase):
         study.add_response("piecewise-linear modes", hbm)
         study.run()
         self.assertEqual([study.outcome(name) for name in study.names], ["reached the end of its range"] * 5)
-        self.assertTrue((study.basis_size > 0).all() and (study.curve_error_l2 < 0.5).all(), study.curve_error_l2)
+        error = dict(zip(study.names, study.curve_error_l2))
+        self.assertTrue(error.pop("lelsm") < 0.2, "one equivalent system for all amplitudes is the coarsest of them")
+        self.assertLess(max(error.values()), 2e-3)  # the others nearly span the chain's motions along x
 
     def test_a_method_that_fails_is_a_row(self):
         study, hbm = prepared()

@@ -153,9 +153,25 @@ def error_over_time(seconds, error, labels=None, pareto=None, ax=None):
         ax.loglog([seconds[i] for i in front], [error[i] for i in front], "o-", color="C3", lw=1, mfc="none", markersize=11,
                   drawstyle="steps-post", zorder=1, label="Pareto front")
         ax.legend()
-    for i in shown if labels else ():
-        ax.annotate(labels[i], (seconds[i], error[i]), textcoords="offset points", xytext=(6, 4))
+    if labels:
+        _name_points(ax, [(seconds[i], error[i], labels[i]) for i in shown])
     return ax
+
+
+def _name_points(ax, points):
+    """(x, y, name): the names beside the points, one above the other where they would overlap."""
+    ax.margins(x=0.25)
+    ax.figure.draw_without_rendering()  # lays the axes out: only then is known where a point lies on the page
+    per_point = ax.figure.dpi / 72
+    taken = []  # x, y in points of the page, and the width of the text
+    for x, y, name in sorted(points):
+        left, low = ax.transData.transform((x, y)) / per_point
+        width, up = 6.0 * len(name), 4.0
+        while any(abs(low + up - y0) < 13 and left < x0 + w0 and x0 < left + width for x0, y0, w0 in taken):
+            up += 4
+        taken.append((left, low + up, width))
+        ax.annotate(name, (x, y), textcoords="offset points", xytext=(6, up),
+                    arrowprops={"arrowstyle": "-", "lw": 0.5, "color": "0.5"} if up > 4 else None)
 
 
 _ERRORS = {"curve_error_l2": "error of the curve, root mean square", "curve_error_max": "error of the curve, largest",
@@ -205,5 +221,8 @@ def study_convergence(study, parameter, methods=None, errors=("curve_error_l2", 
     for error, marker in zip(errors, "os^D"):
         shown = sorted((x, study[error][i]) for x, i in zip(parameter, indices) if study[error][i] > 0)
         ax.loglog([x for x, _ in shown], [e for _, e in shown], marker + "-", label=_ERRORS[error])
+    if len(parameter) <= 12:  # the numbers themselves instead of powers of ten
+        ax.set_xticks(sorted(set(parameter)), [f"{x:g}" for x in sorted(set(parameter))])
+        ax.minorticks_off()
     ax.legend()
     return ax
