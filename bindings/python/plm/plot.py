@@ -171,7 +171,7 @@ def _name_points(ax, points):
             up += 4
         taken.append((left, low + up, width))
         ax.annotate(name, (x, y), textcoords="offset points", xytext=(6, up),
-                    arrowprops={"arrowstyle": "-", "lw": 0.5, "color": "0.5"} if up > 4 else None)
+                    arrowprops={"arrowstyle": "-", "lw": 0.5, "color": "0.5", "relpos": (0, 0)} if up > 4 else None)
 
 
 _ERRORS = {"curve_error_l2": "error of the curve, root mean square", "curve_error_max": "error of the curve, largest",
