@@ -19,6 +19,7 @@ OUTPUT_ARRAYS = {"values", "shape", "vector", "coefficient", "q", "v", "penetrat
                  "force_range", "real", "imag",
                  ("plm_model_get_modes", "frequency_hz"), ("plm_branch_get_amplitude", "amplitude"),
                  ("plm_hbm_estimate_error", "amplitude"), ("plm_hbm_estimate_error", "frequency_hz"),
+                 ("plm_study_get_points", "amplitude"), ("plm_study_get_points", "frequency_hz"),
                  ("plm_solve_fn", "x")}
 OUTPUT_SCALARS = {"needed", "major", "minor", "patch", "count", "type", "is_option", "minimum", "maximum", "status",
                   "reason", "index", "library_code", "value", "severity", "r", "relative_residual", "frequency_hz",
@@ -35,7 +36,9 @@ OPTIONAL = {"needed", "gap", "buffer", "values", "force_range", "known",
             *(("plm_branch_get_energy", name) for name in ("energy", "contact_area")),
             *((function, name) for function in ("plm_branch_get_multipliers", "plm_transient_get_multipliers")
               for name in ("real", "imag")),
-            *((function, name) for function in ("plm_transient_set_state", "plm_transient_get_state") for name in "qv")}
+            *((function, name) for function in ("plm_transient_set_state", "plm_transient_get_state") for name in "qv"),
+            *((f"plm_study_add_{method}", "index") for method in ("response", "compressed", "refined", "marching")),
+            ("plm_study_get_points", "amplitude"), ("plm_study_get_points", "frequency_hz")}
 
 NUMBERS = {"int32_t": "integer(c_int32_t)", "int64_t": "integer(c_int64_t)", "double": "real(c_double)",
            "plm_status": "integer(plm_status)"}

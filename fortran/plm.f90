@@ -7,6 +7,7 @@
 !     type(plm_hbm) :: hbm                call hbm%create(basis), sweep(curve), find_peak(curve, dof, hz, amplitude)
 !     type(plm_branch) :: curve           call curve%amplitude(dof, value), field(point, time, q) ...
 !     type(plm_transient) :: motion       call motion%create(model, basis), start_at(curve, point), run(), state(q, v)
+!     type(plm_study) :: study            call study%create(model), set_output(dof), add_response('name', hbm), run() ...
 !                                         call context%destroy(): and all that was made in it
 !
 ! Every procedure ends with the optional arguments stat (a PLM_... status) and errmsg. Without stat a failure is written
@@ -20,6 +21,7 @@ module plm
     use plm_branches, only: plm_branch
     use plm_responses, only: plm_hbm
     use plm_motions, only: plm_transient
+    use plm_studies, only: plm_study
     use plm_library_facts, only: plm_version_numbers, plm_build_line, plm_describe_keys
     implicit none
 end module plm

@@ -1424,7 +1424,7 @@ module plm_c
             type(c_ptr), value :: study
             character(kind=c_char), intent(in) :: name(*)
             type(c_ptr), value :: hbm
-            integer(c_int64_t), intent(inout) :: index
+            integer(c_int64_t), intent(inout), optional :: index
             integer(plm_status) :: code
         end function plm_study_add_response
         function plm_study_add_compressed(study, name, hbm, size, index) bind(c) result(code)
@@ -1434,7 +1434,7 @@ module plm_c
             character(kind=c_char), intent(in) :: name(*)
             type(c_ptr), value :: hbm
             integer(c_int64_t), value :: size
-            integer(c_int64_t), intent(inout) :: index
+            integer(c_int64_t), intent(inout), optional :: index
             integer(plm_status) :: code
         end function plm_study_add_compressed
         function plm_study_add_refined(study, name, hbm, tolerance, index) bind(c) result(code)
@@ -1444,7 +1444,7 @@ module plm_c
             character(kind=c_char), intent(in) :: name(*)
             type(c_ptr), value :: hbm
             real(c_double), value :: tolerance
-            integer(c_int64_t), intent(inout) :: index
+            integer(c_int64_t), intent(inout), optional :: index
             integer(plm_status) :: code
         end function plm_study_add_refined
         function plm_study_add_marching(study, name, transient, n_frequencies, index) bind(c) result(code)
@@ -1454,7 +1454,7 @@ module plm_c
             character(kind=c_char), intent(in) :: name(*)
             type(c_ptr), value :: transient
             integer(c_int64_t), value :: n_frequencies
-            integer(c_int64_t), intent(inout) :: index
+            integer(c_int64_t), intent(inout), optional :: index
             integer(plm_status) :: code
         end function plm_study_add_marching
         function plm_study_run(study) bind(c) result(code)
@@ -1500,8 +1500,8 @@ module plm_c
             integer(c_int64_t), value :: index
             integer(c_int64_t), value :: level
             integer(c_int64_t), value :: capacity
-            real(c_double), intent(inout) :: frequency_hz
-            real(c_double), intent(inout) :: amplitude
+            real(c_double), intent(inout), optional :: frequency_hz(*)
+            real(c_double), intent(inout), optional :: amplitude(*)
             integer(c_int64_t), intent(inout) :: count
             integer(plm_status) :: code
         end function plm_study_get_points

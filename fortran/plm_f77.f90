@@ -1353,3 +1353,223 @@ subroutine plmtmu(handle, n, dreal, dimag, count, ierr)
     ierr = int(plm_transient_get_multipliers(as_pointer(handle), int(n, int64), dreal, dimag, found))
     if (ierr >= 0) call narrow(found, count, ierr)
 end subroutine plmtmu
+
+subroutine plmycr(parent, handle, ierr)
+    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_create
+    use plm_f77_support, only: as_pointer, as_handle
+    implicit none
+    integer(int64), intent(in) :: parent
+    integer(int64), intent(inout) :: handle
+    integer, intent(out) :: ierr
+    type(c_ptr) :: made
+    made = c_null_ptr
+    ierr = int(plm_study_create(as_pointer(parent), made))
+    if (ierr >= 0) handle = as_handle(made)
+end subroutine plmycr
+
+subroutine plmyde(handle, ierr)
+    use, intrinsic :: iso_c_binding, only: c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_destroy
+    use plm_f77_support, only: as_pointer, as_handle
+    implicit none
+    integer(int64), intent(inout) :: handle
+    integer, intent(out) :: ierr
+    type(c_ptr) :: gone
+    gone = as_pointer(handle)
+    ierr = int(plm_study_destroy(gone))
+    if (ierr >= 0) handle = as_handle(gone)
+end subroutine plmyde
+
+subroutine plmyso(handle, idof, imeas, iharm, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_set_output
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: idof
+    integer, intent(in) :: imeas
+    integer, intent(in) :: iharm
+    integer, intent(out) :: ierr
+    ierr = int(plm_study_set_output(as_pointer(handle), int(idof, int64) - 1, int(imeas, c_int32_t), &
+        int(iharm, c_int32_t)))
+end subroutine plmyso
+
+subroutine plmyfl(handle, n, scale, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_study_set_force_levels
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    real(real64), intent(in) :: scale(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_study_set_force_levels(as_pointer(handle), int(n, int64), scale))
+end subroutine plmyfl
+
+subroutine plmyrf(handle, lhbm, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_set_reference
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer(int64), intent(in) :: lhbm
+    integer, intent(out) :: ierr
+    ierr = int(plm_study_set_reference(as_pointer(handle), as_pointer(lhbm)))
+end subroutine plmyrf
+
+subroutine plmyar(handle, key, lhbm, number, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_add_response
+    use plm_f77_support, only: as_pointer, c_text, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: key
+    integer(int64), intent(in) :: lhbm
+    integer, intent(inout) :: number
+    integer, intent(out) :: ierr
+    integer(int64) :: found
+    found = 0
+    ierr = int(plm_study_add_response(as_pointer(handle), c_text(key), as_pointer(lhbm), found))
+    if (ierr >= 0) call narrow(found + 1, number, ierr)
+end subroutine plmyar
+
+subroutine plmyac(handle, key, lhbm, n, number, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_add_compressed
+    use plm_f77_support, only: as_pointer, c_text, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: key
+    integer(int64), intent(in) :: lhbm
+    integer, intent(in) :: n
+    integer, intent(inout) :: number
+    integer, intent(out) :: ierr
+    integer(int64) :: found
+    found = 0
+    ierr = int(plm_study_add_compressed(as_pointer(handle), c_text(key), as_pointer(lhbm), int(n, int64), found))
+    if (ierr >= 0) call narrow(found + 1, number, ierr)
+end subroutine plmyac
+
+subroutine plmyaf(handle, key, lhbm, tol, number, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_study_add_refined
+    use plm_f77_support, only: as_pointer, c_text, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: key
+    integer(int64), intent(in) :: lhbm
+    real(real64), intent(in) :: tol
+    integer, intent(inout) :: number
+    integer, intent(out) :: ierr
+    integer(int64) :: found
+    found = 0
+    ierr = int(plm_study_add_refined(as_pointer(handle), c_text(key), as_pointer(lhbm), tol, found))
+    if (ierr >= 0) call narrow(found + 1, number, ierr)
+end subroutine plmyaf
+
+subroutine plmyam(handle, key, motion, nfreq, number, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_add_marching
+    use plm_f77_support, only: as_pointer, c_text, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: key
+    integer(int64), intent(in) :: motion
+    integer, intent(in) :: nfreq
+    integer, intent(inout) :: number
+    integer, intent(out) :: ierr
+    integer(int64) :: found
+    found = 0
+    ierr = int(plm_study_add_marching(as_pointer(handle), c_text(key), as_pointer(motion), int(nfreq, int64), found))
+    if (ierr >= 0) call narrow(found + 1, number, ierr)
+end subroutine plmyam
+
+subroutine plmyrn(handle, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_run
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(out) :: ierr
+    ierr = int(plm_study_run(as_pointer(handle)))
+end subroutine plmyrn
+
+subroutine plmynm(handle, number, text, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_get_name
+    use plm_f77_support, only: as_pointer, to_blanks
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: number
+    character(len=*), intent(inout) :: text
+    integer, intent(out) :: ierr
+    character(len=len(text) + 1) :: buffer
+    ierr = int(plm_study_get_name(as_pointer(handle), int(number, int64) - 1, len(buffer, int64), buffer))
+    if (ierr >= 0) call to_blanks(buffer, text)
+end subroutine plmynm
+
+subroutine plmyou(handle, number, text, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_get_outcome
+    use plm_f77_support, only: as_pointer, to_blanks
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: number
+    character(len=*), intent(inout) :: text
+    integer, intent(out) :: ierr
+    character(len=len(text) + 1) :: buffer
+    ierr = int(plm_study_get_outcome(as_pointer(handle), int(number, int64) - 1, len(buffer, int64), buffer))
+    if (ierr >= 0) call to_blanks(buffer, text)
+end subroutine plmyou
+
+subroutine plmycu(handle, number, level, branch, ierr)
+    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_get_curve
+    use plm_f77_support, only: as_pointer, as_handle
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: number
+    integer, intent(in) :: level
+    integer(int64), intent(inout) :: branch
+    integer, intent(out) :: ierr
+    type(c_ptr) :: made
+    made = c_null_ptr
+    ierr = int(plm_study_get_curve(as_pointer(handle), int(number, int64) - 1, int(level, int64) - 1, made))
+    if (as_handle(made) /= 0) branch = as_handle(made)
+end subroutine plmycu
+
+subroutine plmypt(handle, number, level, n, freq, ampl, count, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_study_get_points
+    use plm_f77_support, only: as_pointer, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: number
+    integer, intent(in) :: level
+    integer, intent(in) :: n
+    real(real64), intent(inout) :: freq(*)
+    real(real64), intent(inout) :: ampl(*)
+    integer, intent(inout) :: count
+    integer, intent(out) :: ierr
+    integer(int64) :: found
+    found = 0
+    ierr = int(plm_study_get_points(as_pointer(handle), int(number, int64) - 1, int(level, int64) - 1, int(n, int64), &
+        freq, ampl, found))
+    if (ierr >= 0) call narrow(found, count, ierr)
+end subroutine plmypt
+
+subroutine plmywr(handle, text, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_study_write
+    use plm_f77_support, only: as_pointer, c_text
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(in) :: text
+    integer, intent(out) :: ierr
+    ierr = int(plm_study_write(as_pointer(handle), c_text(text)))
+end subroutine plmywr

@@ -48,6 +48,8 @@ contains
             status = plm_hbm_set_int(self%handle, c_text(key), value)
         case (PLM_KIND_TRANSIENT)
             status = plm_transient_set_int(self%handle, c_text(key), value)
+        case (PLM_KIND_STUDY)
+            status = plm_study_set_int(self%handle, c_text(key), value)
         case default
             status = PLM_ERR_HANDLE
         end select
@@ -90,6 +92,8 @@ contains
             status = plm_hbm_set_double(self%handle, c_text(key), value)
         case (PLM_KIND_TRANSIENT)
             status = plm_transient_set_double(self%handle, c_text(key), value)
+        case (PLM_KIND_STUDY)
+            status = plm_study_set_double(self%handle, c_text(key), value)
         case default
             status = PLM_ERR_HANDLE
         end select
@@ -122,6 +126,8 @@ contains
             status = plm_hbm_set_string(self%handle, c_text(key), c_text(value))
         case (PLM_KIND_TRANSIENT)
             status = plm_transient_set_string(self%handle, c_text(key), c_text(value))
+        case (PLM_KIND_STUDY)
+            status = plm_study_set_string(self%handle, c_text(key), c_text(value))
         case default
             status = PLM_ERR_HANDLE
         end select
@@ -148,6 +154,8 @@ contains
             status = plm_branch_get_int(self%handle, c_text(key), value)
         case (PLM_KIND_TRANSIENT)
             status = plm_transient_get_int(self%handle, c_text(key), value)
+        case (PLM_KIND_STUDY)
+            status = plm_study_get_int(self%handle, c_text(key), value)
         case default
             status = PLM_ERR_HANDLE
         end select
@@ -198,6 +206,8 @@ contains
             status = plm_branch_get_double(self%handle, c_text(key), value)
         case (PLM_KIND_TRANSIENT)
             status = plm_transient_get_double(self%handle, c_text(key), value)
+        case (PLM_KIND_STUDY)
+            status = plm_study_get_double(self%handle, c_text(key), value)
         case default
             status = PLM_ERR_HANDLE
         end select
@@ -224,6 +234,8 @@ contains
             status = plm_branch_get_string(self%handle, c_text(key), capacity, buffer, needed)
         case (PLM_KIND_TRANSIENT)
             status = plm_transient_get_string(self%handle, c_text(key), capacity, buffer, needed)
+        case (PLM_KIND_STUDY)
+            status = plm_study_get_string(self%handle, c_text(key), capacity, buffer, needed)
         case default
             status = PLM_ERR_HANDLE
         end select
@@ -266,6 +278,8 @@ contains
             status = plm_branch_get_array(self%handle, c_text(key), capacity, values, n)
         case (PLM_KIND_TRANSIENT)
             status = plm_transient_get_array(self%handle, c_text(key), capacity, values, n)
+        case (PLM_KIND_STUDY)
+            status = plm_study_get_array(self%handle, c_text(key), capacity, values, n)
         case (PLM_KIND_HBM)
             status = PLM_ERR_KEY ! has no arrays
         case default
@@ -310,6 +324,8 @@ contains
             status = plm_branch_get_int_array(self%handle, c_text(key), capacity, values, n)
         case (PLM_KIND_TRANSIENT)
             status = plm_transient_get_int_array(self%handle, c_text(key), capacity, values, n)
+        case (PLM_KIND_STUDY)
+            status = plm_study_get_int_array(self%handle, c_text(key), capacity, values, n)
         case (PLM_KIND_HBM)
             status = PLM_ERR_KEY
         case default

@@ -4,12 +4,12 @@
 // Header only, over plm.h alone; nothing is exported, any compiler will do. What a function computes is said
 // in plm.h beside the C function of the same name; this page says only what C++ adds:
 //
-//   - Model, Sampler, Basis, Hbm, Branch and Transient are move-only and may outlive one another and the
-//   Context in any order.
+//   - Model, Sampler, Basis, Hbm, Branch, Transient and Study are move-only and may outlive one another and
+//   the Context in any order.
 //   - A failure throws plm::Error with everything the context knows about it. PLM_NOT_CONVERGED,
 //   PLM_TRUNCATED and
-//     PLM_CANCELLED of a sweep do not throw: see Branch::status(), nor do those of Transient::run and
-//     find_periodic, which return them. A cancelled build or sampler throws plm::Cancelled.
+//     PLM_CANCELLED of a sweep do not throw: see Branch::status(), nor do those of Transient::run,
+//     find_periodic and Study::run, which return them. A cancelled build or sampler throws plm::Cancelled.
 //   - Arrays in: any contiguous container (std::vector, std::array, std::span, Eigen vectors, {1, 2, 3}); its
 //   size is
 //     checked. Arrays out: std::vector, matrices by columns.
@@ -329,6 +329,7 @@ template <> struct Api<plm_branch> {
 template <> struct Api<plm_transient> {
     PLM_HPP_SETTERS(transient) PLM_HPP_GETTERS(transient) PLM_HPP_ARRAYS(transient)
 };
+template <> struct Api<plm_study> { PLM_HPP_SETTERS(study) PLM_HPP_GETTERS(study) PLM_HPP_ARRAYS(study) };
 #undef PLM_HPP_SETTERS
 #undef PLM_HPP_GETTERS
 #undef PLM_HPP_ARRAYS
@@ -886,6 +887,7 @@ class Branch : public detail::Handle<plm_branch> {
 
   private:
     friend class Hbm;
+    friend class Study;
     template <class Curves> friend std::vector<plm_branch *> detail::handles_of(const Curves &);
     Branch(detail::StatePtr state, plm_branch *handle, plm_status status)
         : Handle(std::move(state), handle), status_(status) {}
@@ -1106,6 +1108,98 @@ class Transient : public detail::WithOptions<Transient, plm_transient> {
     std::int64_t n_dof_;
 };
 
+// ---- Study
+// ----------------------------------------------------------------------------------------------------
+
+struct StudyPoints { // of a curve, of the amplitude looked at
+    std::vector<double> frequency_hz, amplitude;
+};
+
+/// Results by key have one entry per method: get_array("curve_error_l2"), get_int_array("basis_size"), ...
+class Study : public detail::WithOptions<Study, plm_study> {
+  public:
+    /// In the place of a method's index.
+    static constexpr std::int64_t reference = -1;
+
+    explicit Study(const Model &model);
+    void set_output(std::int64_t dof, std::int32_t measure = PLM_HALF_PEAK_TO_PEAK,
+                    std::int32_t harmonic = 0) {
+        check(plm_study_set_output(handle_, dof, measure, harmonic), "set_output");
+    }
+    void set_force_levels(Reals scale) {
+        check(plm_study_set_force_levels(handle_, scale.size(), scale.data()), "set_force_levels");
+    }
+    void set_reference(const Hbm &hbm) {
+        check(plm_study_set_reference(handle_, hbm.c_handle()), "set_reference");
+    }
+    /// Back to the unreduced structure.
+    void reset_reference() { check(plm_study_set_reference(handle_, nullptr), "set_reference"); }
+
+    // Methods; the result is the method's index, from 0. Options are read here: hbm and motion may change
+    // afterwards.
+    std::int64_t add_response(const std::string &name, const Hbm &hbm) {
+        std::int64_t i = 0;
+        check(plm_study_add_response(handle_, name.c_str(), hbm.c_handle(), &i), "add_response");
+        return i;
+    }
+    /// size 0: as many columns as "pod_tolerance" asks for.
+    std::int64_t add_compressed(const std::string &name, const Hbm &hbm, std::int64_t size = 0) {
+        std::int64_t i = 0;
+        check(plm_study_add_compressed(handle_, name.c_str(), hbm.c_handle(), size, &i), "add_compressed");
+        return i;
+    }
+    std::int64_t add_refined(const std::string &name, const Hbm &hbm, double tolerance) {
+        std::int64_t i = 0;
+        check(plm_study_add_refined(handle_, name.c_str(), hbm.c_handle(), tolerance, &i), "add_refined");
+        return i;
+    }
+    std::int64_t add_marching(const std::string &name, const Transient &motion, std::int64_t n_frequencies) {
+        std::int64_t i = 0;
+        check(plm_study_add_marching(handle_, name.c_str(), motion.c_handle(), n_frequencies, &i),
+              "add_marching");
+        return i;
+    }
+
+    /// PLM_OK; PLM_WARNING: a method failed or ended early, see outcome; PLM_CANCELLED: the methods run until
+    /// then are there.
+    plm_status run() {
+        const plm_status s = plm_study_run(handle_);
+        check(s, "run");
+        return s;
+    }
+    // Of a method, or Study::reference.
+    std::string name(std::int64_t index) const { return text(plm_study_get_name, index, "get_name"); }
+    std::string outcome(std::int64_t index) const {
+        return text(plm_study_get_outcome, index, "get_outcome");
+    }
+    Branch curve(std::int64_t index, std::int64_t level = 0) const {
+        plm_branch *b = nullptr;
+        const plm_status s = plm_study_get_curve(handle_, index, level, &b);
+        Branch branch(state_, b, s); // first of all: check may throw
+        check(s, "get_curve");
+        return branch;
+    }
+    StudyPoints points(std::int64_t index, std::int64_t level = 0) const {
+        std::int64_t n = 0;
+        check(plm_study_get_points(handle_, index, level, 0, nullptr, nullptr, &n), "get_points");
+        StudyPoints p{std::vector<double>(detail::index(n)), std::vector<double>(detail::index(n))};
+        if (n > 0)
+            check(
+                plm_study_get_points(handle_, index, level, n, p.frequency_hz.data(), p.amplitude.data(), &n),
+                "get_points");
+        return p;
+    }
+    /// report.md, table.csv and the curves, into a folder that is made if its parent exists.
+    void write(const std::string &folder) const { check(plm_study_write(handle_, folder.c_str()), "write"); }
+
+  private:
+    template <class Read> std::string text(Read read, std::int64_t index, const char *verb) const {
+        std::string x;
+        check(detail::read_text([&](auto... a) { return read(handle_, index, a...); }, x), verb);
+        return x;
+    }
+};
+
 // The constructors read protected members of another handle only through these two.
 namespace detail {
 template <class C> struct Access : Handle<C> {
@@ -1130,6 +1224,9 @@ inline Hbm::Hbm(const Basis &basis)
 inline Transient::Transient(const Model &model, plm_basis *basis)
     : WithOptions(detail::Access<plm_model>::state(model), nullptr), n_dof_(model.n_dof()) {
     check(plm_transient_create(model.c_handle(), basis, &handle_), "create");
+}
+inline Study::Study(const Model &model) : WithOptions(detail::Access<plm_model>::state(model), nullptr) {
+    check(plm_study_create(model.c_handle(), &handle_), "create");
 }
 
 } // namespace cpp

@@ -106,6 +106,49 @@ void bases() {
     CHECK(std::abs(given.frequency_hz[1] - sliding.frequency_hz[1]) < 1e-9 && given.shape(0, 0) != 0);
 }
 
+void studies() {
+    const plm::Model model = built(plm::Context());
+    plm::Study study(model);
+    {
+        plm::Basis basis = basis_of(model);
+        basis.set("n_harmonics", 3);
+        plm::Hbm hbm(basis);
+        hbm.set("n_harmonics", 3);
+        plm::Transient motion(model, basis);
+        motion.set("settled", 1e-8).set("periods", 2000);
+        study.set("repeats", 1).set("curve_tolerance", 1e-5);
+        study.set_output(2);
+        study.set_force_levels({0.5, 1.0});
+        CHECK(study.add_response("three harmonics", hbm) == 0);
+        CHECK(study.add_compressed("compressed", hbm, 2) == 1);
+        CHECK(study.add_refined("refined", hbm, 1e-2) == 2);
+        CHECK(study.add_marching("marching", motion, 3) == 3);
+        hbm.set("n_harmonics", 9);
+        basis.set("kind", "full");
+        study.set_reference(hbm);
+        hbm.set("n_harmonics", 1);
+        CHECK(caught([&] { study.add_response("refined", hbm); }).argument() == "name");
+    } // options were copied: the handles they came from are gone
+    CHECK(caught([&] { study.outcome(0); }).status() == PLM_ERR_STATE);
+    CHECK(study.run() == PLM_OK);
+    CHECK(study.name(2) == "refined" && study.name(plm::Study::reference) == "reference");
+    CHECK(study.outcome(0) == "reached the end of its range");
+    CHECK(study.curve(0).get_int("n_harmonics") == 3);
+    CHECK(study.curve(plm::Study::reference, 1).get_int("n_harmonics") == 9);
+    // harmonics 4 to 9 are worth something, and all bases hold a chain of three masses well
+    const auto error = study.get<std::vector<double>>("amplitude_error");
+    CHECK(error.size() == 4 && error[0] > 1e-7 && error[0] < 0.05 && error[2] < 0.05);
+    CHECK(study.get_int_array("basis_size")[1] == 2);
+    const plm::StudyPoints low = study.points(0, 0), high = study.points(0, 1), marched = study.points(3);
+    CHECK(low.frequency_hz.size() == low.amplitude.size() && high.amplitude[0] > low.amplitude[0]);
+    CHECK(marched.frequency_hz.size() == 3 && marched.frequency_hz[0] > marched.frequency_hz[2]);
+    CHECK(caught([&] { study.curve(3); }).function() == "plm_study_get_curve");
+    CHECK(caught([&] { study.points(4); }).argument() == "index");
+    CHECK(caught([&] { study.write("no/such/parent"); }).argument() == "folder");
+    study.reset_reference(); // with the three harmonics of the first method
+    CHECK(study.run() == PLM_OK && study.curve(plm::Study::reference).get_int("n_harmonics") == 3);
+}
+
 void containers() {
     const plm::Context context;
     plm::Model model(context, n);
@@ -285,6 +328,7 @@ void memory_of_the_host() {
 int main() {
     the_run();
     bases();
+    studies();
     containers();
     refusals();
     callbacks();

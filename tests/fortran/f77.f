@@ -133,6 +133,7 @@ C     have lambda = 2.0D4
         CALL CHECK((ICLOSD(I) .EQ. 1) .EQV. (PEN(I) .GT. 0.0D0),
      1             'closed where the penetration is positive')
    20 CONTINUE
+      CALL STUDY(MODEL, LHBM)
       NSTOPS = 8
       CALL PLMCSP(LCTX, WATCH, IERR)
       CALL PLMHSW(LHBM, CURVE, IERR)
@@ -140,6 +141,65 @@ C     have lambda = 2.0D4
       CALL CHECK(NLINES .GT. 0, 'remarks')
       CALL PLMCDE(LCTX, IERR)
       CALL CHECK(IERR .EQ. PLMOK .AND. LCTX .EQ. 0, 'destroy')
+      END
+
+C     one harmonic against those the curve chose: a name that is too
+C     long for its place, an array that is too short, method 0, files
+      SUBROUTINE STUDY(MODEL, LHBM)
+      INCLUDE 'plmf.inc'
+      INTEGER*8 MODEL, LHBM, ISTUDY, LNULL, CURVE
+      INTEGER IERR, NUMBER, N, I
+      DOUBLE PRECISION ERR(1), HZ(2000), AMPL(2000), R
+      CHARACTER*4 SHORT
+      CHARACTER*80 TEXT
+      ISTUDY = 0
+      LNULL = 0
+      CURVE = 0
+      CALL PLMYCR(MODEL, ISTUDY, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. ISTUDY .NE. 0, 'study')
+      CALL PLMYSO(ISTUDY, 1, PLMPPM, 0, IERR)
+      CALL PLMYSI(ISTUDY, 'repeats', 1, IERR)
+      CALL PLMYSD(ISTUDY, 'curve_tolerance', 1D-4, IERR)
+      CALL PLMYFL(ISTUDY, 1, 1.0D0, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'force level')
+      CALL PLMYRF(ISTUDY, LHBM, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'reference')
+      CALL PLMHSI(LHBM, 'n_harmonics', 1, IERR)
+      CALL PLMYAR(ISTUDY, 'one harmonic', LHBM, NUMBER, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. NUMBER .EQ. 1, 'first method')
+      CALL PLMHSI(LHBM, 'n_harmonics', 0, IERR)
+      CALL PLMYAR(ISTUDY, 'one harmonic', LHBM, NUMBER, IERR)
+      CALL CHECK(IERR .EQ. PLMEAR .AND. NUMBER .EQ. 1, 'used name')
+      CALL PLMYOU(ISTUDY, 1, TEXT, IERR)
+      CALL CHECK(IERR .EQ. PLMEST, 'outcome before a run')
+      CALL PLMYRN(ISTUDY, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'run')
+      CALL PLMYNM(ISTUDY, 1, SHORT, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. SHORT .EQ. 'one ', 'cut name')
+      CALL PLMYOU(ISTUDY, 0, TEXT, IERR)
+      CALL CHECK(TEXT .EQ. 'reached the end of its range', 'outcome')
+      CALL PLMYGA(ISTUDY, 'amplitude_error', 1, ERR, N, IERR)
+      CALL CHECK(N .EQ. 1 .AND. ERR(1) .GT. 1D-6, 'error')
+      CALL CHECK(ERR(1) .LT. 1D0, 'error below 1')
+      CALL PLMYCU(ISTUDY, 1, 1, CURVE, IERR)
+      CALL PLMRGI(CURVE, 'n_harmonics', N, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. N .EQ. 1, 'curve')
+      CALL PLMYPT(ISTUDY, 1, 1, 1, HZ, AMPL, N, IERR)
+      CALL CHECK(IERR .EQ. PLMEAR, 'points in arrays too short')
+      CALL PLMYPT(ISTUDY, 1, 1, 2000, HZ, AMPL, N, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. N .GT. 5, 'points')
+      R = 0.0D0
+      DO 10 I = 1, N
+        R = MAX(R, AMPL(I))
+   10 CONTINUE
+      CALL PLMYGA(ISTUDY, 'peak_amplitude', 1, ERR, N, IERR)
+      CALL CHECK(ABS(R / ERR(1) - 1.0D0) .LT. 1D-2, 'highest point')
+      CALL PLMYWR(ISTUDY, 'no/such/folder', IERR)
+      CALL CHECK(IERR .EQ. PLMEAR, 'files')
+      CALL PLMYRF(ISTUDY, LNULL, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'no reference')
+      CALL PLMYDE(ISTUDY, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. ISTUDY .EQ. 0, 'study gone')
       END
 
       SUBROUTINE WATCH(STAGE, FRACTN, ICANCL)

@@ -12,6 +12,7 @@ program module_test
     call errors()
     call matrices()
     call whole_run()
+    call study_of_methods()
     call cancelled_run()
     call any_order()
     if (failures > 0) error stop 1
@@ -223,6 +224,82 @@ contains
         call check(logger%lines > 0, 'the logger was called')
         call context%destroy()
     end subroutine whole_run
+
+    subroutine study_of_methods()
+        type(plm_context) :: context
+        type(plm_model) :: model
+        type(plm_sampler) :: sampler
+        type(plm_basis) :: basis
+        type(plm_hbm) :: hbm
+        type(plm_transient) :: motion
+        type(plm_study) :: study
+        type(plm_branch) :: curve
+        real(real64), allocatable :: error(:), hz(:), amplitude(:), low(:)
+        integer, allocatable :: sizes(:)
+        character(len=:), allocatable :: text
+        character(len=200) :: message
+        integer :: i, stat, n
+        call context%create()
+        call make_model(context, model)
+        call model%build()
+        call sampler%create(model)
+        call sampler%set('mode', 1)
+        call basis%create(model)
+        call basis%set_sampler(sampler)
+        call hbm%create(basis)
+        call hbm%set('n_harmonics', 3)
+        call hbm%set('stability', 'off')
+        call motion%create(model, basis)
+        call motion%set('settled', 1e-3_real64)
+        call motion%set('periods', 1000)
+        call study%create(model)
+        call study%set('repeats', 1)
+        call study%set('curve_tolerance', 1e-4_real64)
+        call study%set_output(n_dof, PLM_HALF_PEAK_TO_PEAK)
+        call study%set_force_levels([0.5_real64, 1.0_real64])
+        call study%add_response('three harmonics', hbm, i)
+        call check(i == 1, 'methods count from 1')
+        call study%add_compressed('compressed', hbm, 2)
+        call study%add_compressed('compressed by tolerance', hbm)
+        call study%add_refined('refined', hbm, 1e-2_real64)
+        call study%add_marching('marching', motion, 2, i)
+        call check(i == 5, 'the fifth method')
+        call study%add_response('refined', hbm, i, stat, message)
+        call check(stat == PLM_ERR_ARGUMENT .and. i == 5, 'a name is used once: '//trim(message))
+        call study%outcome(1, text, stat)
+        call check(stat == PLM_ERR_STATE, 'no outcome before a run')
+        call hbm%set('n_harmonics', 7)
+        call study%set_reference(hbm)
+        call study%run()
+        call study%name(4, text)
+        call check(text == 'refined', 'a name is read: '//text)
+        call study%outcome(0, text)
+        call check(text == 'reached the end of its range', 'the outcome of the reference: '//text)
+        call study%get('amplitude_error', error)
+        call study%get('basis_size', sizes)
+        call check(size(error) == 5 .and. error(1) > 1e-8_real64 .and. error(1) < 0.1_real64, &
+            'three harmonics are not seven')
+        call check(sizes(2) == 2 .and. all(sizes > 0), 'sizes of bases')
+        call study%curve(1, curve, 2)
+        call curve%get('n_harmonics', n)
+        call check(n == 3, 'the curve of a method is that of its options')
+        call study%curve(5, curve, stat=stat)
+        call check(stat == PLM_ERR_STATE, 'marching has points only')
+        call study%points(1, hz, amplitude, 2)
+        call study%points(1, hz, low)
+        call check(size(hz) == size(low) .and. maxval(amplitude) > 1.2_real64*maxval(low), 'points at two levels')
+        call study%points(1, hz, low, 3, stat)
+        call check(stat == PLM_ERR_ARGUMENT, 'two levels only')
+        call study%write('no/such/folder', stat, message)
+        call check(stat == PLM_ERR_ARGUMENT .and. index(message, 'plm_study_write') == 1, 'files: '//trim(message))
+        call study%set_reference()
+        call study%run(stat)
+        call study%curve(0, curve)
+        call curve%get('n_harmonics', n)
+        call check(stat == PLM_OK .and. n == 3, 'the reference by default has the options of the first method')
+        call study%destroy()
+        call context%destroy()
+    end subroutine study_of_methods
 
     subroutine cancelled_run()
         type(plm_context) :: context

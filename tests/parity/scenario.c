@@ -201,6 +201,60 @@ static void print_estimate(plm_model *model, plm_basis *basis, plm_hbm *hbm, plm
     reals("refined_lambda", n, x);
 }
 
+/* errors and sizes of four methods at two force levels; no times */
+static void print_study(plm_model *model, plm_basis *basis, plm_hbm *hbm) {
+    enum { METHODS = 4 };
+    const double levels[] = {0.5, 1};
+    const char *const keys[] = {"frequency_error", "amplitude_error", "curve_error_l2", "curve_error_max"};
+    double x[METHODS], *hz, *amplitude;
+    char text[80];
+    int64_t integer[METHODS], n = 0, index = -1;
+    plm_study *study = NULL;
+    plm_transient *motion = NULL;
+    plm_branch *curve = NULL;
+    must(plm_transient_create(model, basis, &motion));
+    must(plm_transient_set_double(motion, "settled", 1e-4));
+    must(plm_transient_set_int(motion, "periods", 2000));
+    must(plm_study_create(model, &study));
+    must(plm_study_set_int(study, "repeats", 1));
+    must(plm_study_set_double(study, "curve_tolerance", 1e-4));
+    must(plm_study_set_output(study, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0));
+    must(plm_study_set_force_levels(study, 2, levels));
+    must(plm_hbm_set_double(hbm, "max_step", 0.25));
+    must(plm_hbm_set_string(hbm, "stability", "off"));
+    must(plm_hbm_set_int(hbm, "n_harmonics", 3));
+    must(plm_study_add_response(study, "three harmonics", hbm, NULL));
+    must(plm_hbm_set_int(hbm, "n_harmonics", H));
+    must(plm_study_add_compressed(study, "compressed", hbm, 3, NULL));
+    must(plm_study_add_refined(study, "refined", hbm, 1e-2, NULL));
+    must(plm_study_add_marching(study, "marching", motion, 3, &index));
+    must(plm_study_set_reference(study, hbm));
+    must(plm_study_run(study));
+    for (int k = 0; k < 4; k++) {
+        must(plm_study_get_array(study, keys[k], METHODS, x, &n));
+        reals(keys[k], n, x);
+    }
+    must(plm_study_get_int_array(study, "basis_size", METHODS, integer, &n));
+    wholes("basis_size", n, integer);
+    must(plm_study_get_int(study, "reference_size", &n));
+    wholes("reference_size", 1, &n);
+    must(plm_study_get_name(study, index, sizeof text, text, NULL));
+    heading(text);
+    must(plm_study_get_outcome(study, -1, sizeof text, text, NULL));
+    heading(text);
+    must(plm_study_get_curve(study, 1, 1, &curve));
+    must(plm_branch_get_int(curve, "n_points", &n));
+    wholes("study_curve", 1, &n);
+    must(plm_study_get_points(study, 0, 1, 0, NULL, NULL, &n));
+    hz = malloc((size_t)n * sizeof *hz), amplitude = malloc((size_t)n * sizeof *amplitude);
+    if (!hz || !amplitude) exit(1);
+    must(plm_study_get_points(study, 0, 1, n, hz, amplitude, &n));
+    reals("study_hz", n, hz);
+    reals("study_amplitude", n, amplitude);
+    free(hz), free(amplitude);
+    must(plm_study_destroy(&study));
+}
+
 static void print_response(plm_model *model, plm_basis *basis) {
     plm_hbm *hbm = NULL;
     plm_branch *curve = NULL, *top = NULL;
@@ -226,6 +280,7 @@ static void print_response(plm_model *model, plm_basis *basis) {
     print_point(top, 0);
     print_stability(curve, n_points, 5);
     print_motion(model, basis, curve, 5);
+    print_study(model, basis, hbm);
 }
 
 int main(void) {

@@ -127,6 +127,32 @@ void print_estimate(const plm::Model &model, const plm::Basis &basis, plm::Hbm &
     print("refined_lambda", refined.basis.get_array("lambda"));
 }
 
+void print_study(const plm::Model &model, const plm::Basis &basis, plm::Hbm &hbm) {
+    plm::Transient motion(model, basis);
+    motion.set("settled", 1e-4).set("periods", 2000);
+    plm::Study study(model);
+    study.set("repeats", 1).set("curve_tolerance", 1e-4);
+    study.set_output(watched);
+    study.set_force_levels({0.5, 1.0});
+    study.add_response("three harmonics",
+                       hbm.set("max_step", 0.25).set("stability", "off").set("n_harmonics", 3));
+    study.add_compressed("compressed", hbm.set("n_harmonics", n_harmonics), 3);
+    study.add_refined("refined", hbm, 1e-2);
+    const std::int64_t index = study.add_marching("marching", motion, 3);
+    study.set_reference(hbm);
+    study.run();
+    for (const char *key : {"frequency_error", "amplitude_error", "curve_error_l2", "curve_error_max"})
+        print(key, study.get_array(key));
+    print("basis_size", study.get_int_array("basis_size"));
+    print("reference_size", std::vector{study.get_int("reference_size")});
+    std::puts(study.name(index).c_str());
+    std::puts(study.outcome(plm::Study::reference).c_str());
+    print("study_curve", std::vector{study.curve(1, 1).size()});
+    const plm::StudyPoints points = study.points(0, 1);
+    print("study_hz", points.frequency_hz);
+    print("study_amplitude", points.amplitude);
+}
+
 void print_response(const plm::Model &model, const plm::Basis &basis) {
     plm::Hbm hbm(basis);
     hbm.set("n_harmonics", n_harmonics).set("unknowns", "modal").set("max_step", 0.05);
@@ -140,6 +166,7 @@ void print_response(const plm::Model &model, const plm::Basis &basis) {
     print_point(peak.branch, 0);
     print_stability(curve, 5);
     print_motion(model, basis, curve, 5);
+    print_study(model, basis, hbm);
 }
 
 } // namespace

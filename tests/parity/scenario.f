@@ -209,6 +209,7 @@ C     points count from 1 here.
       CALL SHOPNT(PEAK, IWATCH)
       CALL SHOSTA(CURVE, 6)
       CALL SHOMOT(MODEL, IBASIS, CURVE, 6)
+      CALL SHOSTU(MODEL, IBASIS, LHBM)
       END
 
       SUBROUTINE SHOEST(MODEL, IBASIS, LHBM, CURVE, PEAK)
@@ -319,6 +320,88 @@ C     points count from 1 here.
       CALL SHOW('periodic_multipliers_real', NUMBER, X)
       CALL SHOW('periodic_multipliers_imag', NUMBER, V)
       CALL PLMTDE(MOTION, IERR)
+      CALL MUST(IERR)
+      END
+
+      SUBROUTINE SHOSTU(MODEL, IBASIS, LHBM)
+      INCLUDE 'plmf.inc'
+      INTEGER*8 MODEL, IBASIS, LHBM, MOTION, ISTUDY, CURVE
+      INTEGER IERR, NUMBER, I, MARCH, INTS(4), MAXPTS
+      PARAMETER (MAXPTS = 2000)
+      CHARACTER*15 KEYS(4)
+      CHARACTER*80 TEXT
+      DOUBLE PRECISION X(4), SCALE(2), HZ(MAXPTS), AMPL(MAXPTS)
+      DATA KEYS /'frequency_error', 'amplitude_error',
+     1           'curve_error_l2 ', 'curve_error_max'/
+      DATA SCALE /0.5D0, 1.0D0/
+      MOTION = 0
+      ISTUDY = 0
+      CURVE = 0
+      CALL PLMTCR(MODEL, IBASIS, MOTION, IERR)
+      CALL MUST(IERR)
+      CALL PLMTSD(MOTION, 'settled', 1D-4, IERR)
+      CALL MUST(IERR)
+      CALL PLMTSI(MOTION, 'periods', 2000, IERR)
+      CALL MUST(IERR)
+      CALL PLMYCR(MODEL, ISTUDY, IERR)
+      CALL MUST(IERR)
+      CALL PLMYSI(ISTUDY, 'repeats', 1, IERR)
+      CALL MUST(IERR)
+      CALL PLMYSD(ISTUDY, 'curve_tolerance', 1D-4, IERR)
+      CALL MUST(IERR)
+      CALL PLMYSO(ISTUDY, 8, PLMPPM, 0, IERR)
+      CALL MUST(IERR)
+      CALL PLMYFL(ISTUDY, 2, SCALE, IERR)
+      CALL MUST(IERR)
+      CALL PLMHSD(LHBM, 'max_step', 0.25D0, IERR)
+      CALL MUST(IERR)
+      CALL PLMHSC(LHBM, 'stability', 'off', IERR)
+      CALL MUST(IERR)
+      CALL PLMHSI(LHBM, 'n_harmonics', 3, IERR)
+      CALL MUST(IERR)
+      CALL PLMYAR(ISTUDY, 'three harmonics', LHBM, NUMBER, IERR)
+      CALL MUST(IERR)
+      CALL PLMHSI(LHBM, 'n_harmonics', 5, IERR)
+      CALL MUST(IERR)
+      CALL PLMYAC(ISTUDY, 'compressed', LHBM, 3, NUMBER, IERR)
+      CALL MUST(IERR)
+      CALL PLMYAF(ISTUDY, 'refined', LHBM, 1D-2, NUMBER, IERR)
+      CALL MUST(IERR)
+      CALL PLMYAM(ISTUDY, 'marching', MOTION, 3, MARCH, IERR)
+      CALL MUST(IERR)
+      CALL PLMYRF(ISTUDY, LHBM, IERR)
+      CALL MUST(IERR)
+      CALL PLMYRN(ISTUDY, IERR)
+      CALL MUST(IERR)
+      DO 10 I = 1, 4
+        CALL PLMYGA(ISTUDY, KEYS(I), 4, X, NUMBER, IERR)
+        CALL MUST(IERR)
+        CALL SHOW(KEYS(I), NUMBER, X)
+   10 CONTINUE
+      CALL PLMYGN(ISTUDY, 'basis_size', 4, INTS, NUMBER, IERR)
+      CALL MUST(IERR)
+      CALL SHOWI('basis_size', NUMBER, INTS)
+      CALL PLMYGI(ISTUDY, 'reference_size', NUMBER, IERR)
+      CALL MUST(IERR)
+      INTS(1) = NUMBER
+      CALL SHOWI('reference_size', 1, INTS)
+      CALL PLMYNM(ISTUDY, MARCH, TEXT, IERR)
+      CALL MUST(IERR)
+      WRITE (*, '(A)') TEXT
+      CALL PLMYOU(ISTUDY, 0, TEXT, IERR)
+      CALL MUST(IERR)
+      WRITE (*, '(A)') TEXT
+      CALL PLMYCU(ISTUDY, 2, 2, CURVE, IERR)
+      CALL MUST(IERR)
+      CALL PLMRGI(CURVE, 'n_points', NUMBER, IERR)
+      CALL MUST(IERR)
+      INTS(1) = NUMBER
+      CALL SHOWI('study_curve', 1, INTS)
+      CALL PLMYPT(ISTUDY, 1, 2, MAXPTS, HZ, AMPL, NUMBER, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('study_hz', NUMBER, HZ)
+      CALL SHOW('study_amplitude', NUMBER, AMPL)
+      CALL PLMYDE(ISTUDY, IERR)
       CALL MUST(IERR)
       END
 

@@ -124,6 +124,7 @@ contains
         call show_point(peak, 1)
         call show_stability(curve, 6)
         call show_motion(model, basis, curve, 6)
+        call show_study(model, basis, hbm)
     end subroutine show_response
 
     subroutine show_estimate(model, basis, hbm, curve, peak)
@@ -200,6 +201,58 @@ contains
         call show('periodic_multipliers_real', real(multipliers))
         call show('periodic_multipliers_imag', aimag(multipliers))
     end subroutine show_motion
+
+    subroutine show_study(model, basis, hbm)
+        type(plm_model), intent(in) :: model
+        type(plm_basis), intent(in) :: basis
+        type(plm_hbm), intent(inout) :: hbm
+        character(len=15), parameter :: keys(4) = &
+            [character(len=15) :: 'frequency_error', 'amplitude_error', 'curve_error_l2', 'curve_error_max']
+        type(plm_study) :: study
+        type(plm_transient) :: motion
+        type(plm_branch) :: curve
+        real(real64), allocatable :: values(:), hz(:)
+        integer, allocatable :: sizes(:)
+        character(len=:), allocatable :: text
+        integer :: i, n
+        call motion%create(model, basis)
+        call motion%set('settled', 1e-4_real64)
+        call motion%set('periods', 2000)
+        call study%create(model)
+        call study%set('repeats', 1)
+        call study%set('curve_tolerance', 1e-4_real64)
+        call study%set_output(watched, PLM_HALF_PEAK_TO_PEAK)
+        call study%set_force_levels([0.5_real64, 1.0_real64])
+        call hbm%set('max_step', 0.25_real64)
+        call hbm%set('stability', 'off')
+        call hbm%set('n_harmonics', 3)
+        call study%add_response('three harmonics', hbm)
+        call hbm%set('n_harmonics', n_harmonics)
+        call study%add_compressed('compressed', hbm, 3)
+        call study%add_refined('refined', hbm, 1e-2_real64)
+        call study%add_marching('marching', motion, 3, n)
+        call study%set_reference(hbm)
+        call study%run()
+        do i = 1, size(keys)
+            call study%get(trim(keys(i)), values)
+            call show(trim(keys(i)), values)
+        end do
+        call study%get('basis_size', sizes)
+        call show_integers('basis_size', sizes)
+        call study%name(n, text)
+        call study%get('reference_size', n)
+        call show_integers('reference_size', [n])
+        write (output_unit, '(a)') text
+        call study%outcome(0, text)
+        write (output_unit, '(a)') text
+        call study%curve(2, curve, 2)
+        call curve%get('n_points', n)
+        call show_integers('study_curve', [n])
+        call study%points(1, hz, values, 2)
+        call show('study_hz', hz)
+        call show('study_amplitude', values)
+        call study%destroy()
+    end subroutine show_study
 
     subroutine show_point(branch, point)
         type(plm_branch), intent(in) :: branch

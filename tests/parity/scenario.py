@@ -86,6 +86,29 @@ def show_motion(basis, branch, point):
     show("periodic_multipliers_imag", multipliers.imag)
 
 
+def show_study(basis, hbm):
+    study = plm.Study(basis.model, repeats=1, curve_tolerance=1e-4)
+    study.set_output(WATCHED)
+    study.set_force_levels([0.5, 1])
+    hbm.set_options({"max_step": 0.25, "stability": "off", "n_harmonics": 3})
+    study.add_response("three harmonics", hbm)
+    hbm.n_harmonics = H
+    study.add_compressed("compressed", hbm, 3)
+    study.add_refined("refined", hbm, 1e-2)
+    index = study.add_marching("marching", plm.Transient(basis, settled=1e-4, periods=2000), 3)
+    study.set_reference(hbm)
+    study.run()
+    for key in ("frequency_error", "amplitude_error", "curve_error_l2", "curve_error_max", "basis_size"):
+        show(key, study[key])
+    show("reference_size", numpy.int64(study.reference_size))
+    print(study.names[index])
+    print(study.outcome("reference"))
+    show("study_curve", numpy.int64(len(study.curve("compressed", 1))))
+    points = study.points("three harmonics", 1)
+    show("study_hz", points.frequency_hz)
+    show("study_amplitude", points.amplitude)
+
+
 def show_response(basis):
     hbm = plm.Hbm(basis, n_harmonics=H, unknowns="modal", max_step=0.05)
     curve = hbm.sweep()
@@ -104,6 +127,7 @@ def show_response(basis):
     show_point(peak.branch, 0)
     show_stability(curve, 5)
     show_motion(basis, curve, 5)
+    show_study(basis, hbm)
 
 
 def main():

@@ -41,7 +41,8 @@ def main():
     names = header.constants(sys.argv[1])
     wrong += compare(names, {n: getattr(_c, n, None) for n in names}, "constant")
     called = record()
-    suite = unittest.defaultTestLoader.loadTestsFromNames(["test_run", "test_refusals", "test_callbacks", "test_search", "test_transient"])
+    suite = unittest.defaultTestLoader.loadTestsFromNames(
+        ["test_run", "test_refusals", "test_callbacks", "test_search", "test_transient", "test_study"])
     passed = unittest.TextTestRunner(verbosity=0).run(suite).wasSuccessful()
     missing = sorted(set(declared) - called - set(EXCEPTIONS))
     for name in missing:

@@ -13,11 +13,8 @@ from matplotlib import pyplot
 import models
 
 
-class Plot(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.hbm = plm.Hbm(models.basis(), n_harmonics=5)
-        cls.curve = cls.hbm.sweep()
+class Figures(unittest.TestCase):
+    """What a test has drawn can be saved."""
 
     def tearDown(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -26,6 +23,13 @@ class Plot(unittest.TestCase):
                 pyplot.figure(number).savefig(path)
                 self.assertGreater(os.path.getsize(path), 1000)
         pyplot.close("all")
+
+
+class Plot(Figures):
+    @classmethod
+    def setUpClass(cls):
+        cls.hbm = plm.Hbm(models.basis(), n_harmonics=5)
+        cls.curve = cls.hbm.sweep()
 
     def test_response(self):
         peak = self.hbm.find_peak(self.curve, models.WATCHED)
@@ -92,6 +96,66 @@ class Plot(unittest.TestCase):
         self.assertEqual([text.get_text() for text in ax.texts], ["a", "b"])
         numpy.testing.assert_array_equal(ax.lines[0].get_xdata(), [1, 2])
         self.assertEqual((ax.get_xscale(), ax.get_yscale()), ("log", "log"))
+
+    def test_pareto_front(self):
+        ax = plm.plot.error_over_time([1, 2, 3, 4], [0.1, 0.2, 0.01, float("nan")], list("abcd"), [1, 0, 1, 0])
+        self.assertEqual([text.get_text() for text in ax.texts], ["a", "b", "c"])
+        (front,) = [line for line in ax.lines if line.get_label() == "Pareto front"]
+        numpy.testing.assert_array_equal(front.get_xdata(), [1, 3])
+        numpy.testing.assert_array_equal(front.get_ydata(), [0.1, 0.01])
+
+
+class StudyPlot(Figures):
+    """Of a study of the chain: one to five harmonics, marching, and a method that fails."""
+
+    HARMONICS = [1, 3, 5]
+
+    @classmethod
+    def setUpClass(cls):
+        model = models.model().build()
+        basis = plm.Basis(model, plm.Sampler(model, system="open", mode=1))
+        cls.study = plm.Study(model, repeats=1, curve_tolerance=1e-3)
+        cls.study.set_output(models.WATCHED)
+        hbm = plm.Hbm(basis, stability="off")
+        for hbm.n_harmonics in cls.HARMONICS:
+            cls.study.add_response(f"H = {hbm.n_harmonics}", hbm)
+        cls.study.add_marching("marching", plm.Transient(basis, settled=1e-3, periods=300), 2)
+        cls.study.add_response("failed", plm.Hbm(plm.Basis(model)))
+        hbm.n_harmonics = 7
+        cls.study.set_reference(hbm)
+        cls.study.run()
+
+    def test_errors(self):
+        study = self.study
+        ax = plm.plot.study_errors(study)
+        self.assertEqual((ax.get_xscale(), ax.get_yscale()), ("log", "log"))
+        self.assertEqual(sorted(text.get_text() for text in ax.texts), sorted(study.names[:4]))  # not of the one that failed
+        boxes = [text.get_window_extent(ax.figure.canvas.get_renderer()) for text in ax.texts]
+        self.assertFalse(any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i]))
+        numpy.testing.assert_array_equal(ax.lines[0].get_ydata(), study.curve_error_l2[:4])
+        (front,) = [line for line in ax.lines if line.get_label() == "Pareto front"]
+        self.assertEqual(set(front.get_ydata()), set(study.curve_error_l2[study.pareto == 1]))
+        self.assertIn("peak", plm.plot.study_errors(study, "amplitude_error").get_ylabel())
+
+    def test_curves(self):
+        study = self.study
+        ax = plm.plot.study_curves(study)
+        self.assertEqual([line.get_label() for line in ax.lines], ["reference", *study.names[:4]])
+        self.assertEqual([line.get_linestyle() for line in ax.lines], ["-", "-", "-", "-", "None"])
+        numpy.testing.assert_array_equal(ax.lines[2].get_ydata(), study.points("H = 3").amplitude)
+        one = plm.plot.study_curves(study, methods=["H = 1"])
+        self.assertEqual([text.get_text() for text in one.get_legend().get_texts()], ["reference", "H = 1"])
+
+    def test_convergence(self):
+        study = self.study
+        ax = plm.plot.study_convergence(study, self.HARMONICS, methods=range(3), xlabel="harmonics")
+        numpy.testing.assert_array_equal(ax.lines[0].get_xdata(), self.HARMONICS)
+        numpy.testing.assert_array_equal(ax.lines[1].get_ydata(), study.amplitude_error[:3])
+        self.assertGreater(ax.lines[1].get_ydata()[0], ax.lines[1].get_ydata()[2])  # it converges
+        two = plm.plot.study_convergence(study, [9, 2], methods=["H = 1", "failed"], errors=["curve_error_l2"])
+        numpy.testing.assert_array_equal(two.lines[0].get_xdata(), [9])
+        with self.assertRaisesRegex(ValueError, "methods"):
+            plm.plot.study_convergence(study, self.HARMONICS)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,10 @@
     peak = hbm.find_peak(curve, dof=12)
     plm.plot.response(curve, dof=12)
     motion = plm.Transient(basis, frequency_hz=peak.frequency_hz, periods=200).run()
+    study = plm.Study(model)                            # error against run time
+    study.set_output(dof=12)
+    study.add_response("4 samples", hbm)
+    plm.plot.study_errors(study.run())
 
 Options and results are attributes; help(plm.Sampler) lists those of a sampler. What a function computes is said in plm.h.
 """
@@ -25,11 +29,12 @@ from ._model import Finding, Model
 from ._motion import MotionState, Transient
 from ._reduction import Basis, Sampler
 from ._response import Bifurcation, Branch, Contact, Energy, ErrorEstimate, ErrorParts, Hbm, Isolated, Peak, Refined
+from ._study import Study, StudyPoints
 
 __version__ = "0.1.0"
-__all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Transient", "Peak", "Isolated", "Bifurcation", "Energy",
-           "ErrorEstimate", "ErrorParts", "Refined", "Contact", "MotionState", "Finding", "Key", "PlmError", "PlmKeyError",
-           "PlmCancelled", "build_info", "default_context", "keys", "plot", "status_text", "version"]
+__all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Transient", "Study", "Peak", "Isolated", "Bifurcation",
+           "Energy", "ErrorEstimate", "ErrorParts", "Refined", "Contact", "MotionState", "StudyPoints", "Finding", "Key",
+           "PlmError", "PlmKeyError", "PlmCancelled", "build_info", "default_context", "keys", "plot", "status_text", "version"]
 
 _constants = [name for name in vars(_c) if name.isupper() and isinstance(getattr(_c, name), (int, float))]
 globals().update({name: getattr(_c, name) for name in _constants})  # plm.ERR_KEY, plm.REASON_SINGULAR, ...

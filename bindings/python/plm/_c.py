@@ -135,6 +135,29 @@ plm_transient_find_periodic p
 plm_transient_get_state pqpp
 plm_transient_get_history pqqpp
 plm_transient_get_multipliers pqppp
+plm_study_create pp
+plm_study_destroy p
+plm_study_set_int psq
+plm_study_set_double psd
+plm_study_set_string pss
+plm_study_get_int psp
+plm_study_get_double psp
+plm_study_get_string psqpp
+plm_study_get_array psqpp
+plm_study_get_int_array psqpp
+plm_study_set_output pqii
+plm_study_set_force_levels pqp
+plm_study_set_reference pp
+plm_study_add_response pspp
+plm_study_add_compressed pspqp
+plm_study_add_refined pspdp
+plm_study_add_marching pspqp
+plm_study_run p
+plm_study_get_name pqqpp
+plm_study_get_outcome pqqpp
+plm_study_get_curve pqqp
+plm_study_get_points pqqqppp
+plm_study_write ps
 """
 
 API_VERSION = 1
@@ -143,7 +166,7 @@ ERR_HANDLE, ERR_ARGUMENT, ERR_KEY, ERR_STATE, ERR_MEMORY, ERR_NOT_BUILT = range(
 ERR_MATRIX, ERR_NOT_POSITIVE_DEFINITE, ERR_SINGULAR, ERR_EIGENSOLVER = range(-7, -11, -1)
 ERR_CONVERGENCE, ERR_CALLBACK, ERR_INTERNAL = range(-11, -14, -1)
 
-KIND_MODEL, KIND_SAMPLER, KIND_BASIS, KIND_HBM, KIND_BRANCH, KIND_TRANSIENT = range(1, 7)
+KIND_MODEL, KIND_SAMPLER, KIND_BASIS, KIND_HBM, KIND_BRANCH, KIND_TRANSIENT, KIND_STUDY = range(1, 8)
 TYPE_INT, TYPE_DOUBLE, TYPE_STRING, TYPE_ARRAY, TYPE_INT_ARRAY = range(1, 6)
 KEY_NAME, KEY_DESCRIPTION, KEY_DEFAULT, KEY_CHOICES = range(1, 5)
 

@@ -67,7 +67,7 @@ def branch_array(branches):
 
 
 class Handle:
-    """Base of Model, Sampler, Basis, Hbm, Branch and Transient.
+    """Base of Model, Sampler, Basis, Hbm, Branch, Transient and Study.
 
     Options and results are attributes (tab completion and help() show them all), and items: sampler["n_samples"].
     """

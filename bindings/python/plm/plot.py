@@ -141,12 +141,88 @@ def contact_area_over_cycle(branch, point, n_times=256, area=None, ax=None):
     return ax
 
 
-def error_over_time(seconds, error, labels=None, ax=None):
-    """Error of several reductions against their run time. An error of 0, as the reference has it, has no place on the axis
-    and is left out."""
+def error_over_time(seconds, error, labels=None, pareto=None, ax=None):
+    """Error of several reductions against their run time; pareto: flags of those that no other one beats in both, which a
+    stepped line then joins. An error of 0, as the reference has it, has no place on the axis and is left out, and so is
+    NaN."""
     ax = _axes(ax, "run time (s)", "relative error")
-    shown = [i for i, e in enumerate(error) if e > 0]
+    shown = [i for i, e in enumerate(error) if e > 0 and seconds[i] > 0]
     ax.loglog([seconds[i] for i in shown], [error[i] for i in shown], "o")
-    for i in shown if labels else ():
-        ax.annotate(labels[i], (seconds[i], error[i]), textcoords="offset points", xytext=(6, 4))
+    front = sorted((i for i in shown if pareto is not None and pareto[i]), key=lambda i: seconds[i])
+    if front:
+        ax.loglog([seconds[i] for i in front], [error[i] for i in front], "o-", color="C3", lw=1, mfc="none", markersize=11,
+                  drawstyle="steps-post", zorder=1, label="Pareto front")
+        ax.legend()
+    if labels:
+        _name_points(ax, [(seconds[i], error[i], labels[i]) for i in shown])
+    return ax
+
+
+def _name_points(ax, points):
+    """(x, y, name): the names beside the points, one above the other where they would overlap."""
+    ax.margins(x=0.25)
+    ax.figure.draw_without_rendering()  # lays the axes out: only then is known where a point lies on the page
+    per_point = ax.figure.dpi / 72
+    taken = []  # x, y in points of the page, and the width of the text
+    for x, y, name in sorted(points):
+        left, low = ax.transData.transform((x, y)) / per_point
+        width, up = 6.0 * len(name), 4.0
+        while any(abs(low + up - y0) < 13 and left < x0 + w0 and x0 < left + width for x0, y0, w0 in taken):
+            up += 4
+        taken.append((left, low + up, width))
+        ax.annotate(name, (x, y), textcoords="offset points", xytext=(6, up),
+                    arrowprops={"arrowstyle": "-", "lw": 0.5, "color": "0.5", "relpos": (0, 0)} if up > 4 else None)
+
+
+_ERRORS = {"curve_error_l2": "error of the curve, root mean square", "curve_error_max": "error of the curve, largest",
+           "amplitude_error": "relative error of the peak", "frequency_error": "relative error of the peak's frequency"}
+
+
+def _front(seconds, error):
+    """Flags of those that no other one beats in time or error without losing in the other."""
+    return [seconds[i] == seconds[i] and error[i] == error[i] and
+            not any(t <= seconds[i] and e <= error[i] and (t < seconds[i] or e < error[i]) for t, e in zip(seconds, error))
+            for i in range(len(error))]
+
+
+def study_errors(study, error="curve_error_l2", ax=None):
+    """Error of every method of a study over its run time (set-up and curves), named, with the Pareto front. error:
+    "curve_error_l2", "curve_error_max", "amplitude_error" or "frequency_error". Methods that failed are left out."""
+    seconds, values = study.setup_seconds + study.curve_seconds, study[error]
+    ax = error_over_time(seconds, values, study.names, _front(seconds, values), ax)
+    ax.set_xlabel("set-up and curves (s)")
+    ax.set_ylabel(_ERRORS[error])
+    return ax
+
+
+def study_curves(study, level=0, methods=None, ax=None):
+    """The curves of the methods (indices or names; None: all) at a force level, thin, over that of the reference. Steady
+    states of a method that marches in time are dots; methods that failed are left out."""
+    ax = _axes(ax, "frequency (Hz)", "amplitude")
+    ax.plot(*study.points("reference", level), color="0.75", lw=5, label="reference")
+    marches = numpy.isnan(study.iteration_seconds)
+    for i, name in enumerate(study.names):
+        if (methods is None or i in methods or name in methods) and study.basis_size[i] >= 0:
+            ax.plot(*study.points(i, level), "o" if marches[i] else "-", markersize=4, lw=1.2, label=name)
+    ax.legend()
+    return ax
+
+
+def study_convergence(study, parameter, methods=None, errors=("curve_error_l2", "amplitude_error", "frequency_error"),
+                      xlabel="parameter", ax=None):
+    """Errors of the methods (indices or names; None: all) over a parameter of theirs, one number for each: samples,
+    harmonics, columns, a tolerance. An error of 0 has no place on the axis and is left out, and so is NaN."""
+    names = study.names
+    methods = range(len(names)) if methods is None else methods
+    indices = [names.index(m) if isinstance(m, str) else m for m in methods]
+    if len(indices) != len(parameter):
+        raise ValueError(f"parameter has {len(parameter)} numbers for {len(indices)} methods")
+    ax = _axes(ax, xlabel, "error")
+    for error, marker in zip(errors, "os^D"):
+        shown = sorted((x, study[error][i]) for x, i in zip(parameter, indices) if study[error][i] > 0)
+        ax.loglog([x for x, _ in shown], [e for _, e in shown], marker + "-", label=_ERRORS[error])
+    if len(parameter) <= 12:  # the numbers themselves instead of powers of ten
+        ax.set_xticks(sorted(set(parameter)), [f"{x:g}" for x in sorted(set(parameter))])
+        ax.minorticks_off()
+    ax.legend()
     return ax

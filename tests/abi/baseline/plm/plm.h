@@ -8,6 +8,7 @@
  *                  -> plm_basis   piecewise-linear modes (or Craig-Bampton, or the unreduced reference)
  *                  -> plm_hbm     harmonic balance with continuation
  *                  -> plm_branch  the response curve: amplitudes, contact, fields
+ *                  -> plm_study   error against run time of several ways to that curve
  *
  * Rules that hold for every function
  *   - It returns a plm_status: 0 done; > 0 done with an outcome to look at (results are valid); < 0 failed, and then
@@ -16,7 +17,7 @@
  *   - Handles are opaque. A child keeps its parents alive, so they may be destroyed in any order; destroying a context
  *     destroys what is left in it. A stale, foreign or wrong-kind handle gives PLM_ERR_HANDLE.
  *   - The library never prints, exits, throws, or changes the floating-point environment, signals, locale, environment
- *     or working directory of its host, and opens no file.
+ *     or working directory of its host, and opens no file but those plm_study_write is asked for.
  *   - One context belongs to one thread at a time; different contexts may run at once.
  *   - Dense arrays are column-major. DOFs and pairs are numbered from 0 unless the function takes an `index_base`.
  *   - Units are the caller's, consistent (mm-t-s, m-kg-s ...); frequencies are in Hz (1/time unit), angles in radian.
@@ -53,6 +54,7 @@ typedef struct plm_basis plm_basis;
 typedef struct plm_hbm plm_hbm;
 typedef struct plm_branch plm_branch;
 typedef struct plm_transient plm_transient;
+typedef struct plm_study plm_study;
 
 /* ---- Status ------------------------------------------------------------------------------------------------ */
 
@@ -83,7 +85,7 @@ typedef int32_t plm_status;
 #define PLM_REASON_NONE 0
 #define PLM_REASON_NOT_POSITIVE_DEFINITE 1
 #define PLM_REASON_SINGULAR 2
-#define PLM_REASON_RANGE_END 3       /* branch: left the frequency range (the normal end) */
+#define PLM_REASON_RANGE_END 3       /* branch: reached the end of its range (the normal end) */
 #define PLM_REASON_POINT_LIMIT 4     /* branch: "max_points" reached */
 #define PLM_REASON_CANCELLED 5
 #define PLM_REASON_STEP_MINIMUM 6    /* branch: step below its minimum */
@@ -125,6 +127,7 @@ PLM_API plm_status plm_build_info(int64_t capacity, char *buffer, int64_t *neede
 #define PLM_KIND_HBM 4
 #define PLM_KIND_BRANCH 5
 #define PLM_KIND_TRANSIENT 6
+#define PLM_KIND_STUDY 7
 /* types of key */
 #define PLM_TYPE_INT 1
 #define PLM_TYPE_DOUBLE 2
@@ -333,7 +336,15 @@ PLM_API plm_status plm_sampler_run(plm_sampler *sampler);
 
 /* ---- Basis: reduction matrices (paper, 2.3.3 and 2.3.4) ----------------------------------------------------------
  * Option "kind": "plm" (needs a sampler), "craig_bampton" (contact DOFs retained), "full" (the unreduced structure,
- * represented to "space_tolerance" of the model by exact modes and contact attachment vectors). */
+ * represented to "space_tolerance" of the model by exact modes and contact attachment vectors), "pod" (the parent's
+ * coordinates compressed to what its responses need: dense curves and sweeps of parameters then cost a fraction).
+ * Published rivals on the same solver, which need no sampler (it gives them the window) but contact pairs:
+ * "bilinear" (modes of the open and of the sliding system; Saito and Epureanu 2011, Zucca and Epureanu 2014),
+ * "lelsm" (modes of equivalent linear systems, k_n scaled to the bilinear frequency of each; Butcher and Lu 2007),
+ * "lelsm_updated" (modes of the system equivalent to the contact at the amplitude of the resonance, with static
+ * responses to the excitation and to the contact forces; AL-Shudeifat and Butcher 2010; "equivalent_amplitude"),
+ * "discontinuity" (modes with the contact as at rest, or closed where nothing decides, and a static field with a jump
+ * for each pair; Segalman 2007; "n_discontinuities"). */
 
 PLM_API plm_status plm_basis_create(plm_model *model, plm_basis **basis);
 PLM_API plm_status plm_basis_destroy(plm_basis **basis);
@@ -348,12 +359,19 @@ PLM_API plm_status plm_basis_get_array(plm_basis *basis, const char *key, int64_
                                        int64_t *count);
 PLM_API plm_status plm_basis_get_int_array(plm_basis *basis, const char *key, int64_t capacity, int64_t *values,
                                            int64_t *count);
-/* The samples (and the window) the piecewise-linear modes are made from; it must have run before the build. */
+/* The samples (and the window) the piecewise-linear modes are made from; it must have run before the build. Other kinds
+ * but "pod" take the window from it. */
 PLM_API plm_status plm_basis_set_sampler(plm_basis *basis, plm_sampler *sampler);
-/* First reduction under the PLM, as in the paper: a built basis of kind "craig_bampton" or "full"; NULL for none. */
+/* First reduction under the modes, as in the paper: a built basis of kind "craig_bampton" or "full"; NULL for none. For
+ * kind "pod" the basis, of any kind, the responses were computed on. */
 PLM_API plm_status plm_basis_set_parent(plm_basis *basis, plm_basis *parent);
+/* For kind "pod": the points of n curves, all computed on the parent, whose motions span the basis (proper orthogonal
+ * decomposition in the energy norm, each curve scaled by its largest response). The curves are read here and may be
+ * destroyed afterwards; n = 0 forgets them. */
+PLM_API plm_status plm_basis_set_responses(plm_basis *basis, int64_t n, plm_branch *const *branch);
 /* PLM_WARNING when a sample does not keep the mode that matches the dominant one (the selection by bands can lose the
- * resonance): see "warning". */
+ * resonance), or the equivalent stiffnesses of "lelsm_updated" did not settle: see "warning". PLM_ERR_ARGUMENT for a
+ * rival kind when the model has no contact pair or fewer than "n_discontinuities", or nothing sets an amplitude. */
 PLM_API plm_status plm_basis_build(plm_basis *basis);
 /* Columns [first, first + n) of P, or of P_0 if is_static: vector is n_dof x n with leading dimension ld >= n_dof. */
 PLM_API plm_status plm_basis_get_vectors(plm_basis *basis, int32_t is_static, int64_t first, int64_t n, double *vector,
@@ -382,7 +400,8 @@ PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
 PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, int64_t point,
                                  plm_branch **branch);
 /* The curve's highest amplitude of a DOF (see plm_branch_get_amplitude), located on the exact curve by corrected steps
- * around the highest point of `branch` (which this hbm's basis computed). peak: that point as a branch, or NULL. */
+ * around the highest point of `branch` (which this hbm's basis computed), with twice its harmonics where they are chosen
+ * automatically and the next ones would show. peak: that point as a branch, or NULL. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
 
@@ -412,6 +431,22 @@ PLM_API plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, int64_t 
  * lie on none of the known curves are traced. count: branches found, read by plm_hbm_get_found. */
 PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_branch *const *known,
                                             int64_t n_frequencies, int64_t n_states, int64_t *count);
+/* How wrong a point of `branch` is, without the unreduced solution: its contact forces are applied to the unreduced
+ * structure, and one step with the tangent of the latter, across the curve, tells what the defect does. amplitude[3] (of a
+ * DOF, as in plm_branch_get_amplitude) and frequency_hz[3] (shift of the curve), corrected less computed, by cause: basis,
+ * contact sets, harmonics beyond those solved for; the sum is the estimate. It measures errors that are small against the
+ * width of the resonance and says of larger ones that they are large. Away from a peak, amplitude and frequency belong
+ * together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the contacts do not hold all
+ * rigid-body modes. The first call of an hbm prepares the unreduced structure. */
+PLM_API plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, int64_t point, int64_t dof, int32_t measure,
+                                          int32_t harmonic, double *amplitude, double *frequency_hz);
+/* A basis for one number, the tolerance. From the basis of this hbm, however poor, and its curve: the motions, corrected
+ * as by plm_hbm_estimate_error, are compressed (kind "pod") to the basis of the next curve, until the estimated error of
+ * the reduction on it (of the DOF's amplitude over the curve's highest, of the frequency over itself) is below tolerance.
+ * refined: that basis, built, to be used with a new hbm and destroyed by the caller; error or NULL: what is left.
+ * PLM_NOT_CONVERGED: not met in eight curves; refined is the best one. */
+PLM_API plm_status plm_hbm_refine_basis(plm_hbm *hbm, int64_t dof, int32_t measure, int32_t harmonic, double tolerance,
+                                        plm_basis **refined, double *error);
 /* Nonlinear mode (motion without excitation, extended periodic motion concept): from elastic mode `mode` (1, 2, ...) of
  * the structure about its contact at rest until the first harmonic of `dof` reaches `amplitude_max`; 0: to a hundred
  * times the amplitude at which a pair first opens or closes. Energy and contact area: plm_branch_get_energy. */
@@ -510,6 +545,74 @@ PLM_API plm_status plm_transient_get_history(plm_transient *transient, int64_t o
 /* Floquet multipliers of the motion plm_transient_find_periodic found, as plm_branch_get_multipliers. */
 PLM_API plm_status plm_transient_get_multipliers(plm_transient *transient, int64_t capacity, double *real, double *imag,
                                                  int64_t *count);
+
+/* ---- Study: error against run time -------------------------------------------------------------------------------
+ * Methods, each a way to the same response curve, are run and timed beside a reference and compared with it. A method
+ * holds copies of options, taken when it is added: later changes of the handles do nothing to it. Everything is made
+ * anew from these options, the model excepted: sampler, basis, curve. Results by key are arrays with one entry per
+ * method, in the order they were added; NaN (or -1) stands where a method failed or a figure has no meaning. */
+
+/* model must be built before plm_study_run. PLM_ERR_NOT_BUILT in a build without PLM_WITH_STUDY. */
+PLM_API plm_status plm_study_create(plm_model *model, plm_study **study);
+PLM_API plm_status plm_study_destroy(plm_study **study);
+PLM_API plm_status plm_study_set_int(plm_study *study, const char *key, int64_t value);
+PLM_API plm_status plm_study_set_double(plm_study *study, const char *key, double value);
+PLM_API plm_status plm_study_set_string(plm_study *study, const char *key, const char *value);
+PLM_API plm_status plm_study_get_int(plm_study *study, const char *key, int64_t *value);
+PLM_API plm_status plm_study_get_double(plm_study *study, const char *key, double *value);
+PLM_API plm_status plm_study_get_string(plm_study *study, const char *key, int64_t capacity, char *buffer,
+                                        int64_t *needed);
+PLM_API plm_status plm_study_get_array(plm_study *study, const char *key, int64_t capacity, double *values,
+                                       int64_t *count);
+PLM_API plm_status plm_study_get_int_array(plm_study *study, const char *key, int64_t capacity, int64_t *values,
+                                           int64_t *count);
+/* The amplitude looked at, as in plm_branch_get_amplitude: dof from 0. Must be set. */
+PLM_API plm_status plm_study_set_output(plm_study *study, int64_t dof, int32_t measure, int32_t harmonic);
+/* n >= 1 factors, > 0, on the "force_scale" of every method; 1 unless set. Each method runs all of them: errors are the
+ * worst, times the sum. */
+PLM_API plm_status plm_study_set_force_levels(plm_study *study, int64_t n, const double *scale);
+/* What all methods are compared with: the recipe of plm_study_add_response, read from this hbm. NULL: the default, which
+ * is the unreduced structure (basis of kind "full") with the other options of the first method that does not march. Its
+ * frequency range is the range of every method whose hbm leaves its own at 0. */
+PLM_API plm_status plm_study_set_reference(plm_study *study, plm_hbm *hbm);
+/* A method: the curve of hbm, its basis and its basis' sampler, by the options these three hold now (and those of the
+ * basis' parent, for kind "plm"). The basis need not be built, the sampler need not have run. Not for kind "pod". A
+ * sampler that only gives the window to a basis of another kind is no part of the set-up time. name: not empty, used once,
+ * not "reference". index: of the method, from 0, or NULL; the same below. */
+PLM_API plm_status plm_study_add_response(plm_study *study, const char *name, plm_hbm *hbm, int64_t *index);
+/* The response of that recipe at the lowest and the highest force level, then a basis of kind "pod" from it, of `size`
+ * columns (0: by "pod_tolerance" of the basis), and its curve. All before that curve is set-up. */
+PLM_API plm_status plm_study_add_compressed(plm_study *study, const char *name, plm_hbm *hbm, int64_t size,
+                                            int64_t *index);
+/* plm_hbm_refine_basis from that recipe, for the study's output at the highest force level; tolerance in (0, 1). */
+PLM_API plm_status plm_study_add_refined(plm_study *study, const char *name, plm_hbm *hbm, double tolerance,
+                                         int64_t *index);
+/* Steady states by marching in time, by the options of `transient` and of its basis, at n_frequencies spread over the
+ * range with its ends, downwards, each from the one before; the first from rest. Give it "settled". Its peak is the
+ * highest of its points, and its error of the curve that of its points. PLM_ERR_NOT_BUILT without PLM_WITH_TRANSIENT. */
+PLM_API plm_status plm_study_add_marching(plm_study *study, const char *name, plm_transient *transient,
+                                          int64_t n_frequencies, int64_t *index);
+/* Each method once to warm up, then "repeats" times for the times (medians). PLM_WARNING: a method failed or ended early,
+ * see plm_study_get_outcome. PLM_CANCELLED: the methods run until then are there, if the reference was complete; otherwise
+ * the study is as it was. A reference that cannot be computed is a failure. */
+PLM_API plm_status plm_study_run(plm_study *study);
+/* index: of a method, or -1 for the reference, the same below. */
+PLM_API plm_status plm_study_get_name(plm_study *study, int64_t index, int64_t capacity, char *buffer, int64_t *needed);
+/* How the method ended in the last run, or why it failed. */
+PLM_API plm_status plm_study_get_outcome(plm_study *study, int64_t index, int64_t capacity, char *buffer,
+                                         int64_t *needed);
+/* The curve of a method at a force level (from 0) in the last run. Its basis is the study's own. PLM_ERR_STATE for a
+ * method that failed or that marches in time: that has points only. */
+PLM_API plm_status plm_study_get_curve(plm_study *study, int64_t index, int64_t level, plm_branch **branch);
+/* The same as points of frequency and amplitude of the output: `capacity` values each, or both NULL with capacity 0.
+ * Those of a curve are so many as "curve_tolerance" asks for (chords between them are good for pictures, about 1e-3);
+ * those of a marching method are its steady states. */
+PLM_API plm_status plm_study_get_points(plm_study *study, int64_t index, int64_t level, int64_t capacity,
+                                        double *frequency_hz, double *amplitude, int64_t *count);
+/* Writes the last run to files of the folder, which is made if its parent exists: report.md, table.csv, and for each
+ * method and level curve_<index>_<name>_<level>.csv (curve_reference_<level>.csv). Files of these names are overwritten,
+ * others left alone. PLM_ERR_ARGUMENT when a file cannot be written; some may have been by then. */
+PLM_API plm_status plm_study_write(plm_study *study, const char *folder);
 
 #ifdef __cplusplus
 }
