@@ -15,11 +15,11 @@ namespace {
 
 /// The sampler's result; null when the kind of basis does without.
 std::shared_ptr<const Sampler> run_sampler(const BasisHandle &b) {
-    const bool needed = b.basis_options.kind == BasisKind::plm;
+    const bool needed = needs_sampler(b.basis_options.kind);
     if (!b.sampler) {
         if (needed)
             throw Error(PLM_ERR_STATE,
-                        "a basis of kind plm needs a sampler; call plm_basis_set_sampler first")
+                        "a basis of this kind needs a sampler; call plm_basis_set_sampler first")
                 .argument("sampler");
         return nullptr;
     }

@@ -102,7 +102,7 @@ plm_status plm_branch_get_contact(plm_branch *branch, std::int64_t point, std::i
         require_range(n_times, 1, 1 << 24, "n_times");
         const plm::Matrix u = b.core->penetration_coefficients(point);
         const plm::ContactMotion law =
-            plm::contact_motion(b.core->reduced(), b.core->points()[static_cast<std::size_t>(point)]);
+            plm::whole_contact_motion(b.core->reduced(), b.core->points()[static_cast<std::size_t>(point)]);
         const plm::Matrix motion = law.u.transposed();
         const std::int64_t z = u.cols();
         for (std::int64_t k = 0; k < n_times; ++k)
@@ -124,7 +124,7 @@ plm_status plm_branch_get_closed_share(plm_branch *branch, std::int64_t point, s
                                        double *share) {
     return call<BranchHandle>("plm_branch_get_closed_share", branch, [&](BranchHandle &b) {
         require_point(*b.core, point);
-        const std::int64_t z = b.core->reduced().n_pairs();
+        const std::int64_t z = b.core->reduced().n_whole_pairs();
         require_range(n, z, z, "n");
         if (n > 0) require_pointer(share, "share");
         copy_out(b.core->closed_share(point), share);

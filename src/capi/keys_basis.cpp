@@ -22,6 +22,14 @@ Reals frequencies_hz(const H &h) {
     return f;
 }
 
+Ints pairs_carried(const H &h) {
+    const ReducedModel &reduced = *core(h).reduced();
+    if (reduced.all_pairs) return reduced.carried;
+    Ints all;
+    for (std::int64_t i = 0; i < reduced.n_pairs(); ++i) all.push_back(i);
+    return all;
+}
+
 template <class Out, class Get> Out per_sample(const H &h, Get get) {
     Out out;
     for (const SampleSelection &s : report(h).samples) out.push_back(get(s));
@@ -40,13 +48,13 @@ void add_options(std::vector<Key> &keys) {
         keys.end(),
         {
             choice_option<&O::kind>(
-                "kind", "plm,craig_bampton,full,pod,bilinear,lelsm,lelsm_updated,discontinuity",
+                "kind", "plm,craig_bampton,full,pod,bilinear,lelsm,lelsm_updated,discontinuity,snapshots",
                 "plm: piecewise-linear modes; craig_bampton: contact DOFs retained; full: the "
                 "unreduced structure; pod: the parent compressed to what its responses need; bilinear: modes "
-                "of "
-                "the open and of the sliding system; lelsm: modes of equivalent linear systems with the "
+                "of the open and of the sliding system; lelsm: modes of equivalent linear systems with the "
                 "bilinear frequencies; lelsm_updated: modes and Ritz vectors of the system equivalent at "
-                "the resonance's amplitude; discontinuity: linear modes and a static jump per pair"),
+                "the resonance's amplitude; discontinuity: linear modes and a static jump per pair; "
+                "snapshots: modes at rest and static contact solutions"),
             choice_option<&O::selection>(
                 "selection", "bands,below",
                 "modes kept of each sample or linear system: inside the bands [h f_min, h f_max] (paper), or "
@@ -77,6 +85,20 @@ void add_options(std::vector<Key> &keys) {
             int_option<&O::n_discontinuities>(
                 "n_discontinuities", 0, 1e9,
                 "discontinuity: the leading jump patterns by flexibility; 0: one vector per pair"),
+            real_option<&O::rest_factor>("rest_factor", 0.1, 100,
+                                         "snapshots: modes at rest up to this multiple of the window end"),
+            int_option<&O::n_snapshots>("n_snapshots", 2, 10000,
+                                        "snapshots: static contact solutions for each dominant mode"),
+            real_option<&O::snapshot_tolerance>(
+                "snapshot_tolerance", 0, 0.5,
+                "snapshots: left out below this share of the motion, in the energy norm"),
+            int_option<&O::n_pairs_carried>(
+                "n_pairs_carried", 0, 1e9,
+                "contact pairs in the equations (node sampling), the others lumped to them; 0: all"),
+            choice_option<&O::pair_rule>(
+                "pair_rule", "effective_independence,mdof",
+                "how the pairs carried are chosen: by their share in the rank of the "
+                "motion, or as master degrees of freedom"),
             int_option<&O::n_fixed_modes>("n_fixed_modes", 0, 1e9,
                                           "Craig-Bampton: fixed-interface modes; 0: by frequency"),
         });
@@ -91,6 +113,8 @@ void add_results(std::vector<Key> &keys) {
                       [](const H &h) { return core(h).reduced()->static_size(); }),
             result<H>("n_collected", "columns before conditioning",
                       [](const H &h) { return report(h).n_collected; }),
+            result<H>("n_rest_modes", "snapshots: modes at rest among them",
+                      [](const H &h) { return report(h).n_rest_modes; }),
             result<H>("singular_values", "singular values of the collected modes, the largest is 1",
                       [](const H &h) { return report(h).singular_values; }),
             result<H>("equivalent_share",
@@ -109,8 +133,9 @@ void add_results(std::vector<Key> &keys) {
                       [](const H &h) { return report(h).warning; }),
             result<H>("setup_seconds", "time of the build (s)",
                       [](const H &h) { return report(h).setup_seconds; }),
-            result<H>("highest_frequency_hz", "upper end of the selection rule (Hz)",
+            result<H>("highest_frequency_hz", "modes are taken up to here (Hz)",
                       [](const H &h) { return report(h).highest_frequency_hz; }),
+            result<H>("pairs_carried", "contact pairs in the equations, from 0", pairs_carried),
             result<H>("window_low_hz", "lower end of the window used (Hz)",
                       [](const H &h) { return core(h).window_min_hz(); }),
             result<H>("window_high_hz", "upper end of the window used (Hz)",

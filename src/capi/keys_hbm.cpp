@@ -72,7 +72,7 @@ const std::vector<Key> &branch_keys() {
         result<B>("n_points", "points of the curve",
                   [](const B &b) { return static_cast<std::int64_t>(built(b)->points().size()); }),
         result<B>("n_harmonics", "harmonics H of the coefficients: the largest of all points", [](const B &b) { return built(b)->n_harmonics(); }),
-        result<B>("n_pairs", "contact pairs", [](const B &b) { return built(b)->reduced().n_pairs(); }),
+        result<B>("n_pairs", "contact pairs", [](const B &b) { return built(b)->reduced().n_whole_pairs(); }),
         result<B>("n_dof", "DOFs of the model",
                   [](const B &b) { return built(b)->reduced().model->n_dof(); }),
         result<B>("force_scale", "factor on the excitation",

@@ -44,7 +44,7 @@ void read_basis(const BasisHandle &b, MethodPlan &method) {
         if (const std::size_t n = recipe.sampler->extra.size(); n > 0)
             add_text(method.options_text, "further dominant modes", std::to_string(n));
     }
-    if (b.parent && recipe.basis.kind == BasisKind::plm) {
+    if (b.parent && is_made_of_vectors(recipe.basis.kind)) {
         ParentRecipe parent{b.parent->options(), std::nullopt};
         if (b.parent->sampler()) parent.sampler = b.parent->sampler()->options();
         add_text(method.options_text, "parent", changed_options(Kind::basis, &parent.basis));

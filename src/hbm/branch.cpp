@@ -121,7 +121,7 @@ vector<double> Branch::field(std::int64_t point, double fraction) const {
 }
 
 Matrix Branch::penetration_coefficients(std::int64_t point) const {
-    return penetration_of(*reduced_, points_[point], n_harmonics_).transposed();
+    return whole_penetration_of(*reduced_, points_[point], n_harmonics_).transposed();
 }
 
 double Branch::periodicity_defect(std::int64_t point) const {
@@ -133,7 +133,7 @@ double Branch::periodicity_defect(std::int64_t point) const {
 }
 
 vector<double> Branch::closed_share(std::int64_t point) const {
-    const Matrix u = contact_motion(*reduced_, points_[point]).u;
+    const Matrix u = whole_contact_motion(*reduced_, points_[point]).u;
     ContactIndicator indicator;
     make_event_force((u.cols() - 1) / 2, u.rows())->indicator(u, indicator);
     vector<double> share(u.rows());

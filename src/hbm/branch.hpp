@@ -79,9 +79,9 @@ class Branch {
     double amplitude(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic) const;
     /// q over all n_dof at t = fraction x period.
     vector<double> field(std::int64_t point, double fraction) const;
-    /// Penetration coefficients (2H + 1) x Z, the gap included in a0.
+    /// Penetration coefficients (2H + 1) x Z of all pairs of the model, the gap included in a0.
     Matrix penetration_coefficients(std::int64_t point) const;
-    /// Share of the period during which each pair is closed, from the exact switching instants.
+    /// Share of the period during which each pair of the model is closed, from the exact switching instants.
     vector<double> closed_share(std::int64_t point) const;
     /// Relative residual of the full-order harmonic-balance equations; see plm_branch_get_full_residual.
     double full_residual(std::int64_t point) const;

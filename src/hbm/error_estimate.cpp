@@ -9,10 +9,10 @@ namespace {
 // The unknowns of `to` for a point of `from`: in compliance form they depend on the structure's own
 // stiffness, not on the penetration alone, so both that and the contact forces are carried over.
 Matrix gaps_of(const BranchPoint &p, const ReducedModel &from, const ReducedModel &to, HbmOptions o) {
-    const ContactMotion motion = contact_motion(from, p);
+    const ContactMotion motion = whole_contact_motion(from, p);
     const Formulation law = make_formulation(to, o);
     o.n_harmonics = motion.u.cols() / 2;
-    Matrix x = penetration_of(from, p, o.n_harmonics);
+    Matrix x = whole_penetration_of(from, p, o.n_harmonics);
     if (!law.compliant) return x;
     ContactIndicator closed;
     Matrix force(x.rows(), x.cols());

@@ -39,21 +39,39 @@ Formulation make_formulation(const ReducedModel &m, const HbmOptions &options) {
     return f;
 }
 
-Matrix penetration_of(const ReducedModel &m, const BranchPoint &point, std::int64_t n_harmonics) {
-    const std::int64_t z = m.n_pairs(), columns = 2 * n_harmonics;
+namespace {
+
+Matrix penetration(const Matrix &gap_0, const Matrix &gap, const vector<double> &initial_gap, const BranchPoint &point,
+                   std::int64_t n_harmonics) {
+    const std::int64_t z = gap.rows(), columns = 2 * n_harmonics;
     Matrix u(z, columns + 1), eta = point.eta;
     if (z == 0) return u;
     set_harmonics(eta, n_harmonics);
-    for (std::int64_t i = 0; i < z; ++i) u(i, 0) = -m.initial_gap[i];
-    gemv('N', 1.0, m.gap_0, point.eta_0.data(), 1.0, u.col(0));
-    const Matrix dynamic = product('N', 'N', m.gap, eta);
+    for (std::int64_t i = 0; i < z; ++i) u(i, 0) = -initial_gap[i];
+    gemv('N', 1.0, gap_0, point.eta_0.data(), 1.0, u.col(0));
+    const Matrix dynamic = product('N', 'N', gap, eta);
     std::copy(dynamic.data(), dynamic.data() + z * columns, u.col(1));
     return u;
+}
+
+} // namespace
+
+Matrix penetration_of(const ReducedModel &m, const BranchPoint &point, std::int64_t n_harmonics) {
+    return penetration(m.gap_0, m.gap, m.initial_gap, point, n_harmonics);
+}
+
+Matrix whole_penetration_of(const ReducedModel &m, const BranchPoint &point, std::int64_t n_harmonics) {
+    return penetration(m.whole_gap_0(), m.whole_gap(), m.whole_initial_gap(), point, n_harmonics);
 }
 
 ContactMotion contact_motion(const ReducedModel &m, const BranchPoint &point) {
     if (point.contact_stiffness) return {point.contact_motion, point.contact_stiffness.get()};
     return {penetration_of(m, point, point.n_harmonics), &m.contact_stiffness};
+}
+
+ContactMotion whole_contact_motion(const ReducedModel &m, const BranchPoint &point) {
+    if (!m.all_pairs) return contact_motion(m, point);
+    return {whole_penetration_of(m, point, point.n_harmonics), &m.whole_stiffness()};
 }
 
 } // namespace plm

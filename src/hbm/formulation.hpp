@@ -28,4 +28,10 @@ struct ContactMotion {
 Matrix penetration_of(const ReducedModel &reduced, const BranchPoint &point, std::int64_t n_harmonics);
 ContactMotion contact_motion(const ReducedModel &reduced, const BranchPoint &point);
 
+/// The same of all pairs of the model, carried in the equations or not (node sampling): the penetration
+/// follows from the recovered field, u = B (P_0 eta_0 + P eta) - g. Where pairs are left out, the motion is
+/// the penetration of every pair with its own k_n, in whatever form the point was solved.
+Matrix whole_penetration_of(const ReducedModel &reduced, const BranchPoint &point, std::int64_t n_harmonics);
+ContactMotion whole_contact_motion(const ReducedModel &reduced, const BranchPoint &point);
+
 } // namespace plm

@@ -108,7 +108,7 @@ class FullResidual {
 } // namespace
 
 double Branch::full_residual(std::int64_t point) const {
-    const ContactMotion motion = contact_motion(*reduced_, points_[point]);
+    const ContactMotion motion = whole_contact_motion(*reduced_, points_[point]);
     ContactIndicator indicator;
     make_event_force(points_[point].n_harmonics, motion.u.rows())->indicator(motion.u, indicator);
     Matrix contact;

@@ -38,7 +38,12 @@ void measure_contact(const ReducedModel &m, const BranchPoint &point, MotionMeas
     apply_indicator(s, *law.stiffness, v, force);
     for (std::int64_t c = 0; c < u.cols(); ++c)
         out.contact += (c == 0 ? 0.5 : 0.25) * dot(z, force.col(c), u.col(c));
-    for (std::int64_t i = 0; i < z; ++i) out.closed_share += s.averages(0, i) / static_cast<double>(z);
+    if (m.all_pairs) { // the energy is that of the equations, the area that of the surface
+        const Matrix all = whole_contact_motion(m, point).u;
+        make_event_force(all.cols() / 2, all.rows())->indicator(all, s);
+    }
+    for (std::int64_t i = 0; i < m.n_whole_pairs(); ++i)
+        out.closed_share += s.averages(0, i) / static_cast<double>(m.n_whole_pairs());
 }
 
 } // namespace

@@ -93,6 +93,7 @@ class Refiner {
         BasisOptions o = start_->options();
         o.kind = BasisKind::pod;
         o.pod_size = 0;
+        o.n_pairs_carried = 0; // what node sampling leaves out is part of the error to be met
         o.pod_tolerance = pod_tolerance_;
         return std::make_shared<const Basis>(start_->model(), start_->sampler(), full_, o, watch_,
                                              &responses);

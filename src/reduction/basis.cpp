@@ -2,8 +2,10 @@
 #include "linalg/lapack.hpp"
 #include "reduction/basis_options.hpp"
 #include "reduction/conditioning.hpp"
+#include "reduction/contact_snapshots.hpp"
 #include "reduction/load_vectors.hpp"
 #include "reduction/mode_selection.hpp"
+#include "reduction/pair_sampling.hpp"
 #include "reduction/projection.hpp"
 #include "reduction/rivals.hpp"
 #include "reduction/static_basis.hpp"
@@ -20,8 +22,8 @@ constexpr double fixed_mode_margin =
 constexpr std::int64_t least_open_modes = 10;
 
 void check_parents(const Model &model, const Sampler *sampler, const Basis *parent, BasisKind kind) {
-    if (kind == BasisKind::plm && !sampler)
-        throw Error(PLM_ERR_STATE, "piecewise-linear modes need the samples of a sampler that has run")
+    if (needs_sampler(kind) && !sampler)
+        throw Error(PLM_ERR_STATE, "this kind of basis needs the samples of a sampler that has run")
             .argument("sampler");
     if (sampler && sampler->space()->model.get() != &model)
         throw Error(PLM_ERR_ARGUMENT, "the sampler belongs to another model").argument("sampler");
@@ -29,14 +31,14 @@ void check_parents(const Model &model, const Sampler *sampler, const Basis *pare
     if (parent->model().get() != &model)
         throw Error(PLM_ERR_ARGUMENT, "the parent basis belongs to another model").argument("parent");
     if (kind == BasisKind::pod || kind == BasisKind::full) return; // any will do
-    if (is_made_of_modes(parent->options().kind) || parent->options().kind == BasisKind::pod)
+    if (is_made_of_vectors(parent->options().kind) || parent->options().kind == BasisKind::pod)
         throw Error(PLM_ERR_ARGUMENT, "the parent must be of kind \"craig_bampton\" or \"full\"")
             .argument("parent");
 }
 
 SelectionRule make_rule(const BasisOptions &o, const Sampler *sampler) {
     SelectionRule rule;
-    rule.selection = is_made_of_modes(o.kind) ? o.selection : ModeSelection::below;
+    rule.selection = is_made_of_vectors(o.kind) ? o.selection : ModeSelection::below;
     rule.n_harmonics = o.n_harmonics;
     rule.below_factor = o.below_factor;
     rule.min_hz = o.frequency_min_hz > 0 || !sampler ? o.frequency_min_hz : sampler->window().min_hz;
@@ -59,7 +61,7 @@ std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &mo
     if (o.kind == BasisKind::craig_bampton)
         return make_craig_bampton_space(model, {o.n_fixed_modes, fixed_mode_margin * highest, o.load_vectors},
                                         watch);
-    if (is_made_of_modes(o.kind) && parent) {
+    if (is_made_of_vectors(o.kind) && parent) {
         if (parent->space()->highest_frequency < highest * (1 - 1e-9))
             watch.log(
                 1,
@@ -132,26 +134,41 @@ double mass_residual(const Matrix &p, const SparseMatrix &mass, const vector<dou
     return std::sqrt(std::max(0.0, dot(n, rest.data(), momentum.data())) / size);
 }
 
-Reduction reduce_to_modes(const Space &space, const Sampler *sampler, const SelectionRule &rule,
-                          const BasisOptions &o, Watch watch) {
+// The columns of the kind before conditioning; the report tells how they came about. sampler: null where the
+// kind needs none.
+Matrix collect(const Space &space, const Sampler *sampler, const RestState &rest, const SelectionRule &rule,
+               const BasisOptions &o, BasisReport &report, Watch watch) {
+    if (o.kind == BasisKind::snapshots) {
+        CollectedSnapshots collected =
+            collect_snapshots(space, *sampler, rest, dominant_coordinates(*sampler, space), rule, o, watch);
+        report.warning = std::move(collected.warning);
+        report.n_rest_modes = collected.n_rest_modes;
+        return std::move(collected.columns);
+    }
     CollectedModes collected =
         o.kind == BasisKind::plm
             ? collect_modes(space, sampler->samples(), dominant_coordinates(*sampler, space), rule, watch)
             : collect_rival_modes(space, rule, o, watch);
+    report.samples = std::move(collected.samples);
+    report.warning = std::move(collected.warning);
+    report.equivalent_share = std::move(collected.equivalent_share);
+    return std::move(collected.columns);
+}
+
+Reduction reduce_to_vectors(const Space &space, const Sampler *sampler, const SelectionRule &rule,
+                            const BasisOptions &o, Watch watch) {
+    const RestState rest = sampler && &space == sampler->space().get() ? sampler->rest() : solve_rest(space);
     Reduction r;
-    r.report.samples = std::move(collected.samples);
-    r.report.warning = std::move(collected.warning);
-    r.report.equivalent_share = std::move(collected.equivalent_share);
-    r.report.n_collected = collected.columns.cols();
+    Matrix columns = collect(space, sampler, rest, rule, o, r.report, watch);
+    r.report.n_collected = columns.cols();
     watch.step("basis", 0.0);
     if (o.load_vectors && o.kind != BasisKind::lelsm_updated) { // which has its own
         const Matrix loads = load_vectors(space);
-        if (!loads.empty()) collected.columns.append(loads);
+        if (!loads.empty()) columns.append(loads);
     }
-    Conditioned conditioned = condition_columns(space, collected.columns, o.svd_tolerance);
+    Conditioned conditioned = condition_columns(space, columns, o.svd_tolerance);
     r.report.singular_values = std::move(conditioned.singular_values);
     watch.step("basis", 0.3);
-    const RestState rest = sampler && &space == sampler->space().get() ? sampler->rest() : solve_rest(space);
     StaticBasis statics;
     if (o.static_augmentation) statics = make_static_basis(space, conditioned.coordinates, rest.coordinates);
     watch.step("basis", 0.5);
@@ -176,6 +193,7 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     check_parents(*model_, sampler_.get(), parent.get(), options_.kind);
     if (options_.kind == BasisKind::pod) {
         compress_parent(parent.get(), responses);
+        choose_pairs();
         report_.setup_seconds =
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return;
@@ -183,10 +201,12 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     const SelectionRule rule = make_rule(options_, sampler_.get());
     window_min_hz_ = rule.min_hz;
     window_max_hz_ = rule.max_hz;
-    space_ = choose_space(model_, sampler_.get(), parent.get(), options_, rule.highest_hz(), watch,
-                          std::move(known));
-    if (is_made_of_modes(options_.kind)) {
-        Reduction r = reduce_to_modes(*space_, sampler_.get(), rule, options_, watch);
+    const bool statics = options_.kind == BasisKind::snapshots;
+    const double modes_hz = statics ? options_.rest_factor * rule.max_hz : rule.highest_hz();
+    space_ = choose_space(model_, sampler_.get(), parent.get(), options_,
+                          std::max(modes_hz, rule.highest_hz()), watch, std::move(known));
+    if (is_made_of_vectors(options_.kind)) {
+        Reduction r = reduce_to_vectors(*space_, sampler_.get(), rule, options_, watch);
         reduced_ = std::move(r.reduced);
         report_ = std::move(r.report);
     } else {
@@ -194,7 +214,8 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
         reduced_ = project_whole(*space_);
         report_.n_collected = space_->size();
     }
-    report_.highest_frequency_hz = rule.highest_hz();
+    choose_pairs();
+    report_.highest_frequency_hz = modes_hz;
     if (!report_.warning.empty()) watch.log(2, report_.warning);
     report_.setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -227,11 +248,18 @@ void Basis::compress_parent(const Basis *parent, const Responses *responses) {
     report_.highest_frequency_hz = parent->report().highest_frequency_hz;
 }
 
+void Basis::choose_pairs() {
+    if (options_.n_pairs_carried > 0)
+        reduced_ = sample_pairs(reduced_, *space_, options_.pair_rule, options_.n_pairs_carried,
+                                2 * M_PI * window_max_hz_);
+}
+
 std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch,
                                              std::shared_ptr<const Space> known) {
-    if (basis->options().kind == BasisKind::full) return basis;
+    if (basis->options().kind == BasisKind::full && !basis->reduced()->all_pairs) return basis;
     BasisOptions o = basis->options();
     o.kind = BasisKind::full;
+    o.n_pairs_carried = 0;
     o.frequency_min_hz = basis->window_min_hz();
     o.frequency_max_hz = basis->window_max_hz();
     return std::make_shared<const Basis>(basis->model(), basis->sampler(), basis, o, watch, nullptr,

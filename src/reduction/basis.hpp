@@ -6,17 +6,28 @@
 
 namespace plm {
 
-enum class BasisKind { plm, craig_bampton, full, pod, bilinear, lelsm, lelsm_updated, discontinuity };
+enum class BasisKind {
+    plm,
+    craig_bampton,
+    full,
+    pod,
+    bilinear,
+    lelsm,
+    lelsm_updated,
+    discontinuity,
+    snapshots
+};
 
-/// Modes of linear systems and vectors beside them, by one selection rule: all kinds but craig_bampton, full
-/// and pod.
-bool is_made_of_modes(BasisKind kind);
+/// Modes of linear systems and vectors beside them: all kinds but craig_bampton, full and pod.
+bool is_made_of_vectors(BasisKind kind);
 /// The name of a kind as in the options.
 const char *name_of(BasisKind kind);
 enum class ModeSelection {
     bands,
     below
 }; // paper 2.3.4: windows [h f_i, h f_f]; or all below the highest window
+
+enum class PairRule { effective_independence, mdof }; // pair_sampling.hpp
 
 struct BasisOptions {
     BasisKind kind = BasisKind::plm;
@@ -31,8 +42,18 @@ struct BasisOptions {
     std::int64_t pod_size = 0;          // pod: columns; 0: by pod_tolerance
     double equivalent_amplitude = 0;    // lelsm_updated: largest amplitude of a pair; 0: by the excitation
     std::int64_t n_discontinuities = 0; // discontinuity: leading vectors; 0: one per pair
+    double rest_factor = 5.5;           // snapshots: modes at rest up to this multiple of f_f
+    std::int64_t n_snapshots = 12;      // snapshots: static solutions for each dominant mode
+    double snapshot_tolerance = 1e-2;   // snapshots: left out below this share of the motion, energy norm
+    std::int64_t n_pairs_carried = 0;   // contact pairs in the equations (node sampling); 0: all
+    PairRule pair_rule = PairRule::effective_independence;
     std::int64_t n_fixed_modes = 0; // Craig-Bampton: fixed-interface modes; 0: all below 4 below_factor H f_f
 };
+
+/// Kinds that are made from the dominant mode and the contact sweep of a sampler.
+constexpr bool needs_sampler(BasisKind kind) {
+    return kind == BasisKind::plm || kind == BasisKind::snapshots;
+}
 
 /// What became of one sample's modes.
 struct SampleSelection {
@@ -46,6 +67,7 @@ struct SampleSelection {
 struct BasisReport {
     std::vector<SampleSelection> samples;
     std::int64_t n_collected = 0;    // columns before conditioning
+    std::int64_t n_rest_modes = 0;   // snapshots: modes at rest among them
     vector<double> singular_values;  // scaled by the largest
     vector<double> equivalent_share; // of k_n, lelsm: in each column's system; lelsm_updated: of each pair
     double preload_residual =
@@ -58,11 +80,11 @@ struct BasisReport {
 
 class Basis {
   public:
-    /// sampler: needed for kind plm; the other kinds take the window from it. parent: first reduction under
-    /// the modes or null; for kind pod the basis the responses were computed on. window_hz are taken from
-    /// options, sampler or (pod) parent; kinds other than plm and pod need options.frequency_max_hz or a
-    /// sampler, the rivals a contact pair. known: an earlier contact space of the model, or null; used where
-    /// neither sampler nor parent has one.
+    /// sampler: needed for kinds plm and snapshots; the other kinds take the window from it. parent: first
+    /// reduction under the modes or null; for kind pod the basis the responses were computed on. window_hz
+    /// are taken from options, sampler or (pod) parent; other kinds need options.frequency_max_hz or a
+    /// sampler, the rivals a contact pair. known: an earlier contact space of the model, or null;
+    /// used where neither sampler nor parent has one.
     Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> sampler,
           std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch,
           const Responses *responses = nullptr, std::shared_ptr<const Space> known = nullptr);
@@ -78,6 +100,7 @@ class Basis {
 
   private:
     void compress_parent(const Basis *parent, const Responses *responses);
+    void choose_pairs();
 
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const Sampler> sampler_;
@@ -88,8 +111,8 @@ class Basis {
     double window_min_hz_ = 0, window_max_hz_ = 0;
 };
 
-/// The basis of kind full for the same frequencies, in the contact space of `basis` where that is one, else
-/// in `known` where that reaches far enough.
+/// The basis of kind full for the same frequencies with all pairs carried, in the contact space of `basis`
+/// where that is one, else in `known` where that reaches far enough.
 std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch,
                                              std::shared_ptr<const Space> known = nullptr);
 

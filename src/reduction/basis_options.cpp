@@ -9,12 +9,12 @@ void demand(bool condition, const char *key, const std::string &text) {
 }
 
 bool is_rival(BasisKind kind) {
-    return is_made_of_modes(kind) && kind != BasisKind::plm;
+    return is_made_of_vectors(kind) && kind != BasisKind::plm && kind != BasisKind::snapshots;
 }
 
 } // namespace
 
-bool is_made_of_modes(BasisKind kind) {
+bool is_made_of_vectors(BasisKind kind) {
     return kind != BasisKind::craig_bampton && kind != BasisKind::full && kind != BasisKind::pod;
 }
 
@@ -36,6 +36,8 @@ const char *name_of(BasisKind kind) {
         return "lelsm_updated";
     case BasisKind::discontinuity:
         return "discontinuity";
+    case BasisKind::snapshots:
+        return "snapshots";
     }
     return "?";
 }
@@ -78,6 +80,17 @@ void check_options(const BasisOptions &o) {
     demand(o.n_discontinuities >= 0, "n_discontinuities",
            format("n_discontinuities is %lld; it must not be negative",
                   static_cast<long long>(o.n_discontinuities)));
+    demand(std::isfinite(o.rest_factor) && o.rest_factor > 0, "rest_factor",
+           format("rest_factor is %g; it must be above 0", o.rest_factor));
+    demand(o.n_snapshots >= 2, "n_snapshots",
+           format("n_snapshots is %lld; at least 2, one of each sign, are needed",
+                  static_cast<long long>(o.n_snapshots)));
+    demand(
+        o.snapshot_tolerance >= 0 && o.snapshot_tolerance < 1, "snapshot_tolerance",
+        format("snapshot_tolerance is %g; a share of the motion in [0, 1) is wanted", o.snapshot_tolerance));
+    demand(o.n_pairs_carried >= 0, "n_pairs_carried",
+           format("n_pairs_carried is %lld; a number of pairs, or 0 for all of them, is wanted",
+                  static_cast<long long>(o.n_pairs_carried)));
     demand(o.n_fixed_modes >= 0, "n_fixed_modes",
            format("n_fixed_modes is %lld; it must not be negative", static_cast<long long>(o.n_fixed_modes)));
 }

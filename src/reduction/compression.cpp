@@ -13,7 +13,7 @@ Space as_space(const ReducedModel &m) {
     s.model = m.model;
     s.vectors = m.vectors;
     s.lambda = m.lambda;
-    s.gap = m.gap;
+    s.gap = m.whole_gap();
     s.damping_diagonal = m.damping_diagonal;
     s.damping = m.damping;
     if (m.model->damping().has_matrix && m.damping.empty()) { // diagonal in these coordinates, not in others
@@ -92,7 +92,7 @@ void reduce_statics(const ReducedModel &from, Matrix y, const Matrix &beside, Re
         y.append(beside);
         const Coordinates c = diagonalise_stiffness(statics, thin_svd(y).u);
         to.lambda_0 = c.lambda;
-        to.gap_0 = product('N', 'N', from.gap_0, c.y);
+        to.gap_0 = product('N', 'N', from.whole_gap_0(), c.y);
         to.vectors_0 = product('N', 'N', from.static_vectors(), c.y);
         y = c.y;
     }

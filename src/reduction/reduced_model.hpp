@@ -5,6 +5,12 @@
 
 namespace plm {
 
+/// The contact of the model when the equations carry some of its pairs only (node sampling).
+struct AllPairs {
+    Matrix gap, gap_0;                             // B P, B P_0: Z x r, Z x r_0
+    vector<double> contact_stiffness, initial_gap; // Z
+};
+
 struct ReducedModel {
     std::shared_ptr<const Model> model;
     // dynamic coordinates, h >= 1
@@ -22,13 +28,27 @@ struct ReducedModel {
     std::map<int, HarmonicLoad> excitation; // h >= 1: r; h = 0: r_0
     // contact
     vector<double> contact_stiffness, initial_gap;
+    // Node sampling: all of the above about contact is of the pairs in `carried` only, their stiffness
+    // includes that of the pairs left out, and all_pairs has the model's own. Null: all pairs are carried
+    vector<std::int64_t> carried;
+    std::shared_ptr<const AllPairs> all_pairs;
     // recovery: q = P eta
     Matrix vectors;   // n_free x r
     Matrix vectors_0; // n_free x r_0, empty when same_static
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }
     std::int64_t static_size() const { return static_cast<std::int64_t>(lambda_0.size()); }
-    std::int64_t n_pairs() const { return gap.rows(); }
+    std::int64_t n_pairs() const { return gap.rows(); } // in the equations
+    // what the motion means for the pairs of the model, carried or not
+    const Matrix &whole_gap() const { return all_pairs ? all_pairs->gap : gap; }
+    const Matrix &whole_gap_0() const { return all_pairs ? all_pairs->gap_0 : gap_0; }
+    const vector<double> &whole_stiffness() const {
+        return all_pairs ? all_pairs->contact_stiffness : contact_stiffness;
+    }
+    const vector<double> &whole_initial_gap() const {
+        return all_pairs ? all_pairs->initial_gap : initial_gap;
+    }
+    std::int64_t n_whole_pairs() const { return whole_gap().rows(); }
     const Matrix &static_vectors() const { return same_static ? vectors : vectors_0; }
 };
 

@@ -30,7 +30,7 @@ BasisOptions with_window(const std::shared_ptr<const Model> &model, BasisOptions
 Recipe with_window(const std::shared_ptr<const Model> &model, const Recipe &recipe, Watch watch,
                    KnownSpace &space) {
     Recipe r = recipe;
-    if (r.basis.kind == BasisKind::plm) return r;
+    if (needs_sampler(r.basis.kind)) return r;
     r.basis = with_window(model, r.basis, r.sampler, watch, space);
     r.sampler.reset();
     r.parent.reset();
@@ -55,8 +55,10 @@ FrequencyRange range_of(const std::shared_ptr<const Model> &model, const Recipe 
 
 std::shared_ptr<const Basis> build(const std::shared_ptr<const Model> &model, const Recipe &recipe,
                                    Watch watch, KnownSpace &space) {
-    if (recipe.basis.kind == BasisKind::plm && !recipe.sampler)
-        throw Error(PLM_ERR_STATE, "a basis of kind plm needs a sampler; call plm_basis_set_sampler first")
+    if (needs_sampler(recipe.basis.kind) && !recipe.sampler)
+        throw Error(PLM_ERR_STATE,
+                    format("a basis of kind %s needs a sampler; call plm_basis_set_sampler first",
+                           name_of(recipe.basis.kind)))
             .argument("sampler");
     std::shared_ptr<const Basis> parent;
     if (recipe.parent) {

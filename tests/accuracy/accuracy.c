@@ -96,6 +96,33 @@ static answer solve(const study *t, const char *kind, const char *selection) {
     return a;
 }
 
+/* The piecewise-linear modes compressed to `size` columns by their own curve. */
+static answer compressed(const study *t, int size) {
+    int warned;
+    answer a;
+    plm_hbm *h = NULL;
+    plm_branch *curve = NULL;
+    plm_basis *pod = NULL, *parent = make_basis(t, "plm", "below", &warned);
+    must(t->ctx, plm_hbm_create(parent, &h), "hbm");
+    must(t->ctx, plm_hbm_set_int(h, "n_harmonics", 5), "n_harmonics");
+    must(t->ctx, plm_hbm_sweep(h, &curve), "sweep");
+    must(t->ctx, plm_basis_create(t->model, &pod), "basis");
+    must(t->ctx, plm_basis_set_string(pod, "kind", "pod"), "kind");
+    must(t->ctx, plm_basis_set_int(pod, "pod_size", size), "pod_size");
+    must(t->ctx, plm_basis_set_parent(pod, parent), "set parent");
+    must(t->ctx, plm_basis_set_responses(pod, 1, &curve), "set responses");
+    must(t->ctx, plm_basis_build(pod), "basis build");
+    a = peak(t, pod, 1.0);
+    a.warned = 0;
+    printf("  %-13s %-5s r = %3d  peak %.6f Hz  %.6e  residual in the full equations %.1e\n", "pod of plm",
+           "", (int)a.size, a.frequency, a.amplitude, a.residual);
+    plm_hbm_destroy(&h);
+    plm_branch_destroy(&curve);
+    plm_basis_destroy(&pod);
+    plm_basis_destroy(&parent);
+    return a;
+}
+
 static void compare(const char *what, answer got, answer want, double frequency, double amplitude) {
     char text[100];
     snprintf(text, sizeof text, "%s: resonance frequency", what);
@@ -129,9 +156,11 @@ static void cylinders(const char *size, int with_preload) {
     promise("full order: residual in the full equations", full.residual, 1e-5);
     if (with_preload) {
         compare("all modes below", below, full, 2e-4, 5e-4);
+        compare("compressed, r = 24", compressed(&t, 24), full, 1e-5, 5e-4);
         compare("bands", bands, full, 1e-3, 1e-2);
     } else {
         double blf;
+        compare("compressed, r = 18", compressed(&t, 18), full, 1e-4, 1e-3);
         compare("all modes below", below, full, 5e-4, 8e-3);
         compare("bands", bands, full, 5e-4, 8e-3);
         must(t.ctx, plm_sampler_get_double(t.sampler, "blf_hz", &blf), "blf");
@@ -144,12 +173,15 @@ static void cylinders(const char *size, int with_preload) {
 static void plate(const char *size) {
     study t = begin("cracked_plate", size, 1, 4);
     const answer full = solve(&t, "full", "below"), below = solve(&t, "plm", "below"),
-                 bands = solve(&t, "plm", "bands"), cb = solve(&t, "craig_bampton", "below");
+                 bands = solve(&t, "plm", "bands"), cb = solve(&t, "craig_bampton", "below"),
+                 snapshots = solve(&t, "snapshots", "below");
     promise("full order: residual in the full equations", full.residual, 1e-5);
     compare("all modes below", below, full, 1e-5, 1e-4);
     compare("bands", bands, full, 1e-3, 1e-2);
     promise("bands lose matched modes without a warning", bands.warned ? 0 : 1, 0);
     compare("Craig-Bampton", cb, full, 1e-3, 1e-2);
+    compare("static contact snapshots", snapshots, full, 1e-5, 1e-4);
+    promise("static contact snapshots: columns", (double)snapshots.size, 20);
     end(&t);
 }
 

@@ -15,13 +15,6 @@ SceneOwner make_scene(const char *name, bool preload) {
     return SceneOwner(s, [](scene *p) { scene_destroy(&p); });
 }
 
-Setup setup_of(const scene &s) {
-    Setup setup;
-    setup.kind = "plm";
-    setup.sampler = {{"system", s.dominant_system}, {"mode", s.dominant_mode}};
-    return setup;
-}
-
 } // namespace
 
 ColdStarts cold_starts(double ratio) {

@@ -39,11 +39,9 @@ struct Group {
 };
 
 std::vector<Group> all_groups() {
-    return {{"Contact stiffness", stiffness_rows()},
-            {"Limits", limit_rows()},
-            {"Structures", structure_rows()},
-            {"Nearly equal samples", basis_rows()},
-            {"The literature's oscillator", standard_rows()},
+    return {{"Contact stiffness", stiffness_rows()},  {"Limits", limit_rows()},
+            {"Structures", structure_rows()},         {"Nearly equal samples", basis_rows()},
+            {"Harmonics on a surface", plate_rows()}, {"The literature's oscillator", standard_rows()},
             {"No answer", no_answer_rows()}};
 }
 

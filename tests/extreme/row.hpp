@@ -29,6 +29,7 @@ std::vector<Row> stiffness_rows(); // contact stiffness from soft to rigid
 std::vector<Row> limit_rows();     // grazing, forces, damping, harmonics, always open or closed
 std::vector<Row> structure_rows(); // many pairs, rigid-body modes, mass-less DOFs, units, close resonances
 std::vector<Row> basis_rows();     // samples that nearly coincide
+std::vector<Row> plate_rows();     // the number of harmonics on a surface
 std::vector<Row> standard_rows();  // the literature's oscillator
 std::vector<Row> no_answer_rows(); // the reason has to be right
 

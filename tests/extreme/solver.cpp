@@ -99,6 +99,13 @@ std::vector<double> Curve::coefficients(std::size_t point, std::int64_t dof) con
     return c;
 }
 
+Setup setup_of(const scene &s) {
+    Setup setup;
+    setup.kind = "plm";
+    setup.sampler = {{"system", s.dominant_system}, {"mode", s.dominant_mode}};
+    return setup;
+}
+
 std::vector<double> Curve::state(std::size_t point, std::int64_t n) const {
     std::vector<double> y(2 * n, 0.0);
     for (std::int64_t dof = 0; dof < n; ++dof) {

@@ -30,6 +30,9 @@ struct Setup {
     std::map<std::string, std::int64_t> sampler; // options that define the case
 };
 
+/// Piecewise-linear modes of the scene's own dominant mode.
+Setup setup_of(const scene &s);
+
 /// What Newton and the continuation did.
 struct Work {
     std::int64_t points = 0, iterations = 0, failed_steps = 0;

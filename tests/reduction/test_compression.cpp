@@ -212,6 +212,66 @@ Matrix diagonal(const plm::vector<double> &d) {
     for (std::int64_t j = 0; j < m.cols(); ++j) m(j, j) = d[j];
     return m;
 }
+// Kerschen, Golinval, Vakakis & Bergman 2005 (Nonlinear Dynamics 41): of all bases of n vectors the proper
+// orthogonal modes hold the most energy of the responses, and the proper orthogonal values tell how much.
+struct Captured {
+    double values, modes,
+        coordinates; // share of the energy outside n vectors: by the singular values, found, of others
+};
+// Share of the motions outside the columns y, both in the coordinates of energy.
+double outside(const Matrix &motions, const Matrix &y) {
+    const Matrix u = plm::thin_svd(y).u;
+    const Matrix inside = plm::product('T', 'N', u, motions);
+    const double all = plm::norm2(motions.rows() * motions.cols(), motions.data());
+    return 1 - std::pow(plm::norm2(inside.rows() * inside.cols(), inside.data()) / all, 2);
+}
+std::vector<Captured> captured() {
+    BasisOptions full;
+    full.kind = BasisKind::full;
+    const Curve plm_curve = parent_curve(model_of(true, DampingKind::rayleigh));
+    full.frequency_min_hz = plm_curve.basis->window_min_hz();
+    full.frequency_max_hz = plm_curve.basis->window_max_hz();
+    const Curve parent = curve_on(
+        std::make_shared<const Basis>(plm_curve.basis->model(), nullptr, nullptr, full, plm::Watch()));
+    const plm::Responses responses = plm::responses_of({parent.branch});
+    const plm::ReducedModel &m = *parent.basis->reduced();
+    Matrix motions = responses.dynamic;
+    const auto to_energy =
+        [&](Matrix &a) { // |a|^2 is then the energy: M = 1, K = diag(lambda) in these coordinates
+            for (std::int64_t k = 0; k < a.cols(); ++k)
+                for (std::int64_t j = 0; j < a.rows(); ++j)
+                    a(j, k) *= std::sqrt(m.lambda[j] + responses.omega * responses.omega);
+        };
+    to_energy(motions);
+    std::vector<Captured> all;
+    for (std::int64_t n = 1; n <= 5; ++n) {
+        const plm::Compressed pod = plm::compress(responses, 0, n);
+        Matrix momentum(m.vectors.rows(), n), first(m.size(), n);
+        for (std::int64_t j = 0; j < n; ++j)
+            plm::multiply(m.model->mass(), pod.reduced->vectors.col(j), momentum.col(j));
+        Matrix y = plm::product('T', 'N', m.vectors, momentum);
+        for (std::int64_t j = 0; j < n; ++j) first(j, j) = 1; // the lowest modes of the open structure
+        to_energy(y);
+        to_energy(first);
+        double rest = 0, sum = 0;
+        for (std::size_t k = 0; k < pod.singular_values.size(); ++k) {
+            const double square = pod.singular_values[k] * pod.singular_values[k];
+            sum += square;
+            if (static_cast<std::int64_t>(k) >= n) rest += square;
+        }
+        all.push_back({rest / sum, outside(motions, y), outside(motions, first)});
+    }
+    return all;
+}
+void proper_orthogonal_modes_hold_the_most_energy(void **) {
+    for (const Captured &c : captured()) {
+        std::printf("    outside: %.3e, by the values %.3e, of as many open modes %.3e\n", c.modes, c.values,
+                    c.coordinates);
+        assert_true(below(std::abs(c.modes - c.values), 1e-9)); // rounding of 1 - 1
+        assert_true(c.modes < 0.9 * c.coordinates);
+    }
+}
+
 struct Projections {
     double mass = 1, stiffness = 1, damping = 1, mass_0 = 1, stiffness_0 = 1;
 };
@@ -431,6 +491,7 @@ int main() {
         cmocka_unit_test(without_tolerance_the_curve_is_the_parents),
         cmocka_unit_test(a_matrix_of_damping_that_happens_to_be_diagonal),
         cmocka_unit_test(the_size_is_what_was_asked_for),
+        cmocka_unit_test(proper_orthogonal_modes_hold_the_most_energy),
         cmocka_unit_test(the_columns_are_mass_normalised),
         cmocka_unit_test(motions_in_time_are_the_parents),
         cmocka_unit_test(the_rest_under_preload_is_kept),

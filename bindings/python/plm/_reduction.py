@@ -71,7 +71,7 @@ class Basis(Handle, noun="basis", kind=_c.KIND_BASIS):
         return self._model
 
     def set_sampler(self, sampler):
-        """The samples the piecewise-linear modes are made from; it must have run before the build."""
+        """The samples that kinds "plm" and "snapshots" are made from; it must have run before the build."""
         self._call("set_sampler", sampler._h)
 
     def set_parent(self, parent):

@@ -1,0 +1,276 @@
+#include "reduction/contact_snapshots.hpp"
+#include "linalg/lapack.hpp"
+#include "sampling/dominant_mode.hpp"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace plm {
+namespace {
+
+// Measured on the cracked plate and the cylinders of examples/scenes: below 0.3 no pair leaves its status at
+// rest, beyond 30 the contact area no longer moves.
+constexpr double smallest_alpha = 0.3, largest_alpha = 30;
+constexpr double damping = 0.02; // twice the share of critical damping at which a resonance is judged
+
+void scale(Matrix &x, const vector<double> &weight, bool inverse) {
+    for (std::int64_t k = 0; k < x.cols(); ++k)
+        for (std::int64_t j = 0; j < x.rows(); ++j)
+            x(j, k) = inverse ? x(j, k) / weight[j] : x(j, k) * weight[j];
+}
+
+void remove_span(const Matrix &orthonormal, Matrix &x) {
+    if (orthonormal.cols() == 0 || x.cols() == 0) return;
+    for (int pass = 0; pass < 2; ++pass) // twice is enough
+        gemm('N', 'N', -1.0, orthonormal, product('T', 'N', orthonormal, x), 1.0, x);
+}
+
+// A basis of the span; modes that contact does not touch are in both systems.
+Matrix orthonormal(const Matrix &columns) {
+    if (columns.cols() == 0) return columns;
+    const Svd svd = thin_svd(columns);
+    std::int64_t rank = 0;
+    for (double s : svd.values)
+        if (s > 1e-8 * svd.values[0]) ++rank;
+    return svd.u.columns(0, rank);
+}
+
+vector<double> snapshot_alphas(const ContactSweep &sweep, bool homogeneous, std::int64_t n) {
+    vector<double> alphas, size;
+    if (homogeneous) return vector<double>{-1.0, 1.0};
+    for (double t : sweep.thresholds) size.push_back(std::abs(t));
+    if (size.empty()) return alphas; // the dominant mode does not move the contact
+    std::nth_element(size.begin(), size.begin() + size.size() / 2, size.end());
+    const double typical = size[size.size() / 2];
+    for (int sign = 1; sign >= -1; sign -= 2) {
+        const std::int64_t count = sign > 0 ? (n + 1) / 2 : n / 2;
+        for (std::int64_t k = 0; k < count; ++k) {
+            const double x = count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 0.5;
+            alphas.push_back(sign * typical * smallest_alpha * std::pow(largest_alpha / smallest_alpha, x));
+        }
+    }
+    return alphas;
+}
+
+// Static solutions less the rest, and the penetrations they change.
+class Snapshots {
+  public:
+    Snapshots(const Space &space, const RestState &rest) : space_(space), rest_(rest) {}
+
+    void add(const vector<double> &mode, double factor) {
+        vector<double> load(space_.preload);
+        load.resize(space_.size(), 0.0);
+        for (std::int64_t j = 0; j < space_.size(); ++j) load[j] += factor * mode[j];
+        const Model &model = *space_.model;
+        StaticState state;
+        ++asked;
+        try {
+            state = solve_static(
+                {space_.lambda, space_.gap, load, model.contact_stiffness(), model.initial_gap()});
+        } catch (const Error &e) {
+            if (e.status() != PLM_ERR_CONVERGENCE) throw; // nothing holds the structure under this load
+            return;
+        }
+        Matrix column(space_.size(), 1), u(space_.n_pairs(), 1);
+        for (std::int64_t j = 0; j < column.rows(); ++j)
+            column(j, 0) = state.coordinates[j] - rest_.coordinates[j];
+        std::copy(state.penetration.begin(), state.penetration.end(), u.data());
+        const double size = norm2(column.rows(), column.data());
+        if (!(size > 0)) return;
+        for (std::int64_t j = 0; j < column.rows(); ++j) column(j, 0) /= size;
+        motions.append(column);
+        penetrations.append(u);
+        sizes.push_back(size);
+    }
+
+    /// G^T of the contact forces that the system with `closed` coupled does not have, per unit snapshot.
+    Matrix forces_beyond(const vector<char> &closed) const {
+        Matrix beyond(space_.n_pairs(), penetrations.cols());
+        for (std::int64_t i = 0; i < beyond.rows(); ++i) {
+            const double k = space_.model->contact_stiffness()[i], u0 = rest_.penetration[i];
+            for (std::int64_t c = 0; c < beyond.cols(); ++c) {
+                const double u = penetrations(i, c), linear = closed[i] ? k * (u - u0) : 0;
+                beyond(i, c) = (ContactLaw::force(k, u) - ContactLaw::force(k, u0) - linear) / sizes[c];
+            }
+        }
+        return product('T', 'N', space_.gap, beyond);
+    }
+
+    Matrix motions;      // m x n, columns of norm 1
+    Matrix penetrations; // Z x n
+    vector<double> sizes;
+    std::int64_t asked = 0;
+
+  private:
+    const Space &space_;
+    const RestState &rest_;
+};
+
+// One linearised system S and what it contributes.
+class RestSystem {
+  public:
+    RestSystem(const Space &space, vector<char> closed, const SelectionRule &rule)
+        : space_(space), closed_(std::move(closed)), omega_min_(2 * M_PI * rule.min_hz),
+          omega_max_(2 * M_PI * rule.max_hz), n_harmonics_(rule.n_harmonics) {}
+
+    /// Modes up to `highest` (rad/s) that the forces (m x n) move by more than the tolerance.
+    Matrix modes(double highest, const Matrix &forces, double tolerance) const {
+        const SpaceModes all = modes_of_contact_set(space_, closed_, highest * highest * (1 + 1e-12));
+        if (forces.cols() == 0) return all.vectors;
+        const Matrix work = product('T', 'N', all.vectors, forces);
+        Matrix kept;
+        for (std::int64_t j = 0; j < all.vectors.cols(); ++j) {
+            double largest = 0;
+            for (std::int64_t k = 0; k < work.cols(); ++k) largest = std::max(largest, std::abs(work(j, k)));
+            if (largest * receptance(all.values[j]) > tolerance) kept.append(all.vectors.columns(j, 1));
+        }
+        return kept;
+    }
+
+    /// (H omega_f)^2 K_S^-1 M x.
+    Matrix inertia_response(const Matrix &motions) const {
+        const vector<double> &stiffness = space_.model->contact_stiffness();
+        Matrix root = space_.gap, k(space_.size(), space_.size()), x = motions;
+        for (std::int64_t j = 0; j < root.cols(); ++j)
+            for (std::int64_t i = 0; i < root.rows(); ++i)
+                root(i, j) *= closed_[i] ? std::sqrt(stiffness[i]) : 0.0;
+        gemm('T', 'N', 1.0, root, root, 0.0, k);
+        const double shift = 1e-4 * omega_min_ * omega_min_; // rigid-body motion is among the modes anyway
+        for (std::int64_t j = 0; j < k.rows(); ++j) k(j, j) += space_.lambda[j] + shift;
+        DenseCholesky cholesky;
+        if (!cholesky.factor(k))
+            throw Error(PLM_ERR_SINGULAR, "the stiffness of the structure at rest is not positive definite")
+                .reason(PLM_REASON_SINGULAR);
+        cholesky.solve(x.data(), x.cols(), x.rows());
+        const double omega = static_cast<double>(n_harmonics_) * omega_max_;
+        for (std::int64_t i = 0; i < x.rows() * x.cols(); ++i) x.data()[i] *= omega * omega;
+        return x;
+    }
+
+    const vector<char> &closed() const { return closed_; }
+
+  private:
+    // Largest motion of a mode under a unit force at the harmonics of the window, times the root of its
+    // energy over that of a unit motion at f_f.
+    double receptance(double lambda) const {
+        double largest = 0;
+        const double omega = std::sqrt(lambda), floor = damping * std::max(lambda, omega_min_ * omega_min_);
+        for (std::int64_t n = 0; n <= n_harmonics_; ++n) {
+            const double h = static_cast<double>(n);
+            const double nearest = std::min(std::max(omega, h * omega_min_), h * omega_max_);
+            largest = std::max(largest, 1 / std::max(std::abs(lambda - nearest * nearest), floor));
+        }
+        return largest * std::sqrt(1 + lambda / (omega_max_ * omega_max_));
+    }
+
+    const Space &space_;
+    vector<char> closed_;
+    double omega_min_, omega_max_;
+    std::int64_t n_harmonics_;
+};
+
+// The excitation, as large as moves the dominant mode by 1 in its resonance.
+Matrix excitation_columns(const Space &space, const vector<double> &mode, double omega) {
+    Matrix columns(space.size(), 0);
+    const auto append = [&](const vector<double> &load) {
+        if (load.empty()) return;
+        const double size = norm2(space.size(), load.data());
+        if (!(size > 0)) return;
+        double work = std::abs(dot(space.size(), load.data(), mode.data()));
+        if (!(work > 1e-6 * size)) work = size; // it does not drive this mode at all
+        Matrix column(space.size(), 1);
+        for (std::int64_t j = 0; j < space.size(); ++j)
+            column(j, 0) = load[j] * damping * omega * omega / work;
+        columns.append(column);
+    };
+    for (const auto &[harmonic, load] : space.excitation) {
+        if (harmonic == 0) continue;
+        append(load.real);
+        append(load.imag);
+    }
+    return columns;
+}
+
+// The main directions of x outside the modes in the energy norm, as mass-orthonormal columns.
+Matrix main_directions(const Space &space, const Matrix &modes, Matrix x, double omega, double tolerance) {
+    remove_span(modes, x);
+    vector<double> weight;
+    for (double l : space.lambda) weight.push_back(std::sqrt(l + omega * omega));
+    scale(x, weight, false);
+    const Svd svd = thin_svd(x);
+    std::int64_t kept = 0;
+    // what rounding leaves of snapshots that lie in the modes is no direction
+    const double least = std::max(tolerance * (svd.values.empty() ? 0 : svd.values[0]), 1e-10 * omega);
+    for (double s : svd.values)
+        if (s > least) ++kept;
+    Matrix y = svd.u.columns(0, kept);
+    if (kept == 0) return y;
+    scale(y, weight, true);
+    return thin_svd(y).u;
+}
+
+std::vector<RestSystem> rest_systems(const Space &space, const RestState &rest, const SelectionRule &rule) {
+    std::vector<RestSystem> systems;
+    if (!is_homogeneous(*space.model)) {
+        systems.emplace_back(space, rest.closed, rule);
+        return systems;
+    }
+    for (LinearSystem s : {LinearSystem::open, LinearSystem::sliding})
+        systems.emplace_back(space, contact_set(s, space.n_pairs()), rule);
+    return systems;
+}
+
+std::string missing_warning(const Snapshots &s) {
+    const std::int64_t found = s.motions.cols();
+    if (s.asked == 0) return "the dominant mode does not move the contact: the basis has no snapshot";
+    if (found == s.asked) return {};
+    return format("%lld of %lld static contact solutions do not exist: their loads drive a part that only "
+                  "contact holds apart; kind \"plm\" needs none",
+                  static_cast<long long>(s.asked - found), static_cast<long long>(s.asked));
+}
+
+} // namespace
+
+CollectedSnapshots collect_snapshots(const Space &space, const Sampler &sampler, const RestState &rest,
+                                     const std::vector<vector<double>> &dominant, const SelectionRule &rule,
+                                     const BasisOptions &options, Watch watch) {
+    Snapshots snapshots(space, rest);
+    const bool homogeneous = is_homogeneous(*space.model);
+    Matrix excitation(space.size(), 0);
+    for (std::size_t d = 0; d < dominant.size(); ++d) {
+        watch.step("snapshots", 0.5 * static_cast<double>(d) / static_cast<double>(dominant.size()));
+        const double omega = 2 * M_PI * sampler.dominant()[d].frequency_hz;
+        for (double a : snapshot_alphas(sampler.sweeps()[d], homogeneous, options.n_snapshots))
+            snapshots.add(dominant[d], a * omega * omega);
+        excitation.append(excitation_columns(space, dominant[d], omega));
+    }
+    watch.step("snapshots", 0.5);
+    CollectedSnapshots result;
+    Matrix statics = snapshots.motions, modes;
+    for (const RestSystem &system : rest_systems(space, rest, rule)) {
+        Matrix forces = excitation;
+        if (snapshots.motions.cols() > 0) {
+            forces.append(snapshots.forces_beyond(system.closed()));
+            statics.append(system.inertia_response(snapshots.motions));
+        }
+        modes.append(
+            system.modes(2 * M_PI * options.rest_factor * rule.max_hz, forces, options.snapshot_tolerance));
+    }
+    result.n_rest_modes = modes.cols();
+    result.n_solutions = snapshots.motions.cols();
+    result.warning = missing_warning(snapshots);
+    result.columns = modes;
+    if (homogeneous) modes = orthonormal(modes); // those of one system are already
+    if (statics.cols() > 0)
+        result.columns.append(main_directions(space, modes, std::move(statics), 2 * M_PI * rule.max_hz,
+                                              options.snapshot_tolerance));
+    if (result.columns.cols() == 0)
+        throw Error(PLM_ERR_ARGUMENT, format("no mode at rest below %.6g Hz answers to the loads, and there "
+                                             "is no snapshot; raise rest_factor",
+                                             options.rest_factor * rule.max_hz))
+            .argument("rest_factor")
+            .reason(PLM_REASON_BASIS_TOO_SMALL);
+    return result;
+}
+
+} // namespace plm
