@@ -35,7 +35,7 @@ static plm_status follow(study_case *c, plm_hbm *hbm, study_step *s) {
 }
 
 static plm_status vary_harmonics(study_case *c, plm_hbm *hbm, study_steps *s) {
-    static const int64_t numbers[] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 12, 16, 20, 30};
+    static const int64_t numbers[] = {0, 1, 2, 3, 5, 7, 9, 12, 16, 20, 30};
     plm_status status = PLM_OK;
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers && status >= 0; i++) {
         study_step *step = &s->harmonics[s->n_harmonics++];
@@ -50,6 +50,7 @@ static plm_status vary_samples(study_case *c, plm_hbm *hbm, study_steps *s) {
     static const int64_t numbers[] = {16, 32, 64, 128, 256, 512, 1024, 0};
     plm_status status = plm_hbm_set_int(hbm, "n_harmonics", c->options->n_harmonics);
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers && status >= 0; i++) {
+        if (numbers[i] > 0 && numbers[i] <= 4 * c->options->n_harmonics) continue; /* too few for the tangent */
         study_step *step = &s->samples[s->n_samples++];
         step->number = numbers[i];
         status = plm_hbm_set_string(hbm, "aft", step->number > 0 ? "sampled" : "event");

@@ -89,9 +89,11 @@ static void add_compressed(list *l) {
         if (sizes[i] < n_free) add(l, STUDY_RIVALS | STUDY_LEVELS, STUDY_COMPRESSED, sizes[i], name, "");
     }
     add(l, STUDY_RIVALS | STUDY_LEVELS, STUDY_COMPRESSED, 0, "compressed by tolerance", "");
+    add(l, STUDY_RIVALS | STUDY_LEVELS | STUDY_REFINE, STUDY_REFINED, 0, "refined", "");
 }
 
-/* The last three start from a dominant mode that is not a good guess. */
+/* The last three start from a dominant mode that is not a good guess. Some need a larger contact space than the other
+ * methods, so that they come last. */
 static void add_refined(list *l) {
     char next[STUDY_SETTINGS], range[STUDY_SETTINGS / 2];
     double low = 0, high = 0;
@@ -99,7 +101,6 @@ static void add_refined(list *l) {
     plm_sampler_get_double(l->c->sampler, "window_high_hz", &high);
     snprintf(range, sizeof range, "basis.frequency_min_hz=%.17g basis.frequency_max_hz=%.17g", low, high);
     const int modes = l->c->scene->n_dof - l->c->scene->n_fixed > 20;
-    add(l, STUDY_RIVALS | STUDY_LEVELS | STUDY_REFINE, STUDY_REFINED, 0, "refined", "");
     add(l, STUDY_REFINE, STUDY_REFINED, 0, "refined from 1 sample", "sampler.n_samples=1");
     if (!modes) return;
     snprintf(next, sizeof next, "sampler.n_samples=1 basis.selection=bands %s", range);
@@ -145,8 +146,8 @@ int32_t study_methods(study_case *c, int groups, study_method method[STUDY_METHO
     add_all_samples(&l);
     add_rivals(&l);
     add_compressed(&l);
-    add_refined(&l);
     add_svd(&l);
     add_left_out(&l);
+    add_refined(&l);
     return l.n;
 }

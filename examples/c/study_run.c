@@ -104,6 +104,27 @@ static plm_status read_results(study_result *r) {
     return status;
 }
 
+/* methods.csv: which tables each method is in, for the pictures. */
+static int write_groups(study_case *c, const char *folder, const study_result *r) {
+    static const struct {
+        int group;
+        const char *name;
+    } groups[] = {{STUDY_RIVALS, "methods"},   {STUDY_SAMPLES, "samples"}, {STUDY_SVD, "svd"},
+                  {STUDY_LEFT_OUT, "left-out"}, {STUDY_REFINE, "refine"},   {STUDY_LEVELS, "levels"}};
+    char path[2 * STUDY_NAME];
+    snprintf(path, sizeof path, "%s/methods.csv", folder);
+    FILE *file = study_open_file(c->options, path);
+    if (!file) return 1;
+    fprintf(file, "name,way,groups\n");
+    for (int32_t i = 0; i < r->n; i++) {
+        fprintf(file, "\"%s\",%d,", r->row[i].method.name, (int)r->row[i].method.way);
+        for (size_t k = 0; k < sizeof groups / sizeof *groups; k++)
+            if (r->row[i].method.groups & groups[k].group) fprintf(file, "%s ", groups[k].name);
+        fputc('\n', file);
+    }
+    return study_close_file(file);
+}
+
 int study_run(study_case *c, int groups, int64_t n_levels, const char *name, study_result *r) {
     static study_method method[STUDY_METHODS];
     char folder[STUDY_PATH];
@@ -116,7 +137,7 @@ int study_run(study_case *c, int groups, int64_t n_levels, const char *name, stu
     if (make(c, n_levels, r) < 0 || plm_study_run(r->study) < 0 || plm_study_write(r->study, folder) < 0 ||
         read_results(r) < 0)
         return study_complain(c->ctx, "study");
-    return 0;
+    return write_groups(c, name, r);
 }
 
 const study_row *study_find(const study_result *r, const char *name) {
