@@ -1,4 +1,4 @@
-/* study_options.c: the command line of cracked_plate_study. */
+/* study_options.c: the command line of plm-study. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,17 +6,35 @@
 #include "study.h"
 
 static const char help[] =
-    "cracked_plate_study: error against run time of the reduction by piecewise-linear modes.\n"
+    "plm-study: error against run time of the ways to a response curve with contact.\n"
     "\n"
-    "  --size quick|paper   mesh of the scene (paper)\n"
-    "  --samples 1,2,4      numbers of contact samples to compare (1,2,4,6,8)\n"
-    "  --harmonics N        harmonics of the balance (5)\n"
-    "  --output DIR         folder for the CSV files (demo_output)\n"
     "  --scene NAME         cracked_plate, coaxial_cylinders or bilinear_oscillator (cracked_plate)\n"
+    "  --size quick|paper   mesh of the scene (quick)\n"
     "  --no-preload         without the static load\n"
+    "  --study PART         methods: all ways to the curve beside each other, also at several force levels;\n"
+    "                       convergence: numbers of samples, harmonics, time samples, tolerance of the "
+    "basis;\n"
+    "                       left-out: what the scene does not need, and what leaving it out saves;\n"
+    "                       refine: bases for a tolerance from several starts; all (methods)\n"
+    "  --samples 1,2,4      numbers of contact samples to compare (1,2,4,8)\n"
+    "  --harmonics N        harmonics of the balance (5)\n"
+    "  --levels N           force levels of the sweep that many curves are needed for, 1: no sweep (10)\n"
+    "  --tolerance X        what bases are refined to (1e-3)\n"
+    "  --repeats N          timed runs of each method, after one to warm up (1)\n"
+    "  --resolution X       further points are computed on curves until they are known to this (1e-6)\n"
+    "  --output DIR         folder for the report, made when missing (study_output)\n"
     "  --help\n"
     "\n"
-    "Plot the files with examples/plot/plot_study.py DIR; examples/demo.sh does it all.\n";
+    "Then examples/plot/plot_study.py DIR draws the pictures of DIR/report.md; examples/demo.sh does it "
+    "all.\n";
+
+static const char *const parts[] = {"methods", "convergence", "left-out", "refine", "all"};
+
+static int among(const char *value, const char *const *words, size_t n) {
+    for (size_t i = 0; i < n; i++)
+        if (!strcmp(value, words[i])) return 1;
+    return 0;
+}
 
 static int read_count(const char *text, char **end, int64_t *value) {
     *value = strtol(text, end, 10);
@@ -35,33 +53,76 @@ static int read_counts(const char *text, study_options *o) {
     }
 }
 
-static int bad_value(const char *name, const char *value, study_options *o) {
+static int read_share(const char *text, double *value) {
     char *end;
-    if (!strcmp(name, "--size")) return o->size = value, strcmp(value, "quick") && strcmp(value, "paper");
-    if (!strcmp(name, "--samples")) return read_counts(value, o);
-    if (!strcmp(name, "--harmonics")) return read_count(value, &end, &o->n_harmonics) || *end;
-    if (!strcmp(name, "--output")) return o->output = value, !*value;
-    if (!strcmp(name, "--scene")) return o->scene = value, 0;
-    return 1;
+    *value = strtod(text, &end);
+    return end == text || *end || !(*value > 0 && *value < 1);
+}
+
+/* NULL: good; else what is wanted. */
+static const char *read_value(const char *name, const char *value, study_options *o) {
+    static const char *const sizes[] = {"quick", "paper"};
+    char *end;
+    if (!strcmp(name, "--scene")) {
+        o->scene = value;
+        for (int i = 0; i < scene_count(); i++)
+            if (!strcmp(value, scene_name(i))) return NULL;
+        return "cracked_plate, coaxial_cylinders or bilinear_oscillator";
+    }
+    if (!strcmp(name, "--size")) return o->size = value, among(value, sizes, 2) ? NULL : "quick or paper";
+    if (!strcmp(name, "--study"))
+        return o->study = value,
+               among(value, parts, 5) ? NULL : "methods, convergence, left-out, refine or all";
+    if (!strcmp(name, "--samples"))
+        return read_counts(value, o) ? "up to 16 numbers from 1 to 1000, separated by commas" : NULL;
+    if (!strcmp(name, "--harmonics"))
+        return read_count(value, &end, &o->n_harmonics) || *end ? "a number from 1 to 1000" : NULL;
+    if (!strcmp(name, "--levels"))
+        return read_count(value, &end, &o->n_levels) || *end ? "a number from 1 to 1000" : NULL;
+    if (!strcmp(name, "--repeats"))
+        return read_count(value, &end, &o->repeats) || *end ? "a number from 1 to 1000" : NULL;
+    if (!strcmp(name, "--tolerance"))
+        return read_share(value, &o->tolerance) ? "a number between 0 and 1" : NULL;
+    if (!strcmp(name, "--resolution"))
+        return read_share(value, &o->curve_tolerance) || o->curve_tolerance > 1e-2 ||
+                       o->curve_tolerance < 1e-10
+                   ? "a number from 1e-10 to 1e-2"
+                   : NULL;
+    if (!strcmp(name, "--output")) return o->output = value, *value ? NULL : "a folder";
+    return "an option of plm-study";
+}
+
+static void remember(int argc, char **argv, study_options *o) {
+    size_t used = (size_t)snprintf(o->command, sizeof o->command, "plm-study");
+    for (int i = 1; i < argc && used < sizeof o->command; i++)
+        used += (size_t)snprintf(o->command + used, sizeof o->command - used, " %s", argv[i]);
 }
 
 int study_options_read(int argc, char **argv, study_options *o) {
-    *o = (study_options){"cracked_plate", "paper", "demo_output", 1, 5, 5, {1, 2, 4, 6, 8}};
+    memset(o, 0, sizeof *o);
+    o->scene = "cracked_plate", o->size = "quick", o->study = "methods", o->output = "study_output";
+    o->with_preload = 1;
+    o->n_harmonics = 5, o->repeats = 1, o->n_levels = 10;
+    o->tolerance = 1e-3, o->curve_tolerance = 1e-6;
+    read_counts("1,2,4,8", o);
+    remember(argc, argv, o);
     for (int i = 1; i < argc; i++) {
-        if (!strcmp(argv[i], "--help")) {
-            fputs(help, stdout);
-            return 1;
-        }
+        const char *value = i + 1 < argc ? argv[i + 1] : NULL;
+        if (!strcmp(argv[i], "--help")) return fputs(help, stdout), 1;
         if (!strcmp(argv[i], "--no-preload")) {
             o->with_preload = 0;
             continue;
         }
-        const char *value = i + 1 < argc ? argv[i + 1] : NULL;
-        if (!value || bad_value(argv[i], value, o)) {
-            fprintf(stderr, "%s %s: not understood (see --help)\n", argv[i], value ? value : "");
+        const char *wanted = value ? read_value(argv[i], value, o) : "a value, or an option of plm-study";
+        if (wanted) {
+            fprintf(stderr, "%s %s: not %s (see --help)\n", argv[i], value ? value : "", wanted);
             return 2;
         }
         i++;
     }
     return 0;
+}
+
+int study_wants(const study_options *o, const char *part) {
+    return !strcmp(o->study, part) || !strcmp(o->study, "all");
 }

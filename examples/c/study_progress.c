@@ -2,6 +2,7 @@
 #define _POSIX_C_SOURCE 200809L /* clock_gettime: C99 has no wall clock finer than a second */
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 #include <time.h>
 
 #include "study.h"
@@ -14,10 +15,10 @@ double study_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void study_say(study *s, const char *format, ...) {
+void study_say(study_case *c, const char *format, ...) {
     va_list arguments;
-    s->last_note = study_seconds();
-    printf("[%6.1f s] ", s->last_note - s->begin);
+    c->last_note = study_seconds();
+    printf("[%6.1f s] ", c->last_note - c->begin);
     va_start(arguments, format);
     vprintf(format, arguments);
     va_end(arguments);
@@ -26,8 +27,14 @@ void study_say(study *s, const char *format, ...) {
 }
 
 int32_t study_progress(plm_context *ctx, const char *stage, double fraction, void *user) {
-    study *s = user;
+    study_case *c = user;
     (void)ctx;
-    if (study_seconds() - s->last_note > silence) study_say(s, "  %s: %.0f %%", stage, 100 * fraction);
+    if (study_seconds() - c->last_note > silence) study_say(c, "  %s: %.0f %%", stage, 100 * fraction);
     return 0;
+}
+
+/* The library's note on each method that is done. */
+void study_log(plm_context *ctx, int32_t level, const char *text, void *user) {
+    (void)ctx;
+    if (level > 0 && !strncmp(text, "study: ", 7)) study_say(user, "%s", text + 7);
 }

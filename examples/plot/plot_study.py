@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Pictures of what cracked_plate_study computed: plot_study.py FOLDER [--to FOLDER] [--dpi N].
+"""Pictures of what plm-study computed: plot_study.py FOLDER [--to FOLDER] [--dpi N].
 
-Reads study.csv, table.csv, curves_<method>.csv and contact_<method>.csv; writes curves.png, error_against_time.png and
-contact_over_cycle.png.
+Draws what the folder has figures for: error_against_time.png, levels.png, curves.png, contact_over_cycle.png,
+convergence.png.
 """
 import argparse
 import csv
+import math
 import pathlib
+import re
 
 import matplotlib
 
@@ -15,18 +17,68 @@ import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker as ticker  # noqa: E402
 import numpy as np  # noqa: E402
 
-REFERENCE = "full_order"
+from labels import Labels  # noqa: E402
+
 GREY = "0.35"
+FAMILIES = {  # colour and marker
+    "piecewise-linear modes": ("tab:green", "o"),
+    "the paper's bands rule": ("tab:orange", "X"),
+    "published rivals": ("tab:red", "D"),
+    "unreduced, all or fewer pairs": ("0.45", "P"),
+    "static contact snapshots": ("tab:purple", "v"),
+    "compressed and refined": ("tab:blue", "s"),
+}
+SHOWN = {  # curves of the picture of curves: colour and line
+    "1 sample": ("tab:orange", "-"),
+    "4 samples": ("tab:green", "-"),
+    "bilinear modes": ("tab:red", (0, (4, 2))),
+    "updated LELSM": ("tab:brown", (0, (1, 1))),
+    "Craig-Bampton": ("tab:pink", (0, (3, 1, 1, 1))),
+    "snapshots": ("tab:purple", (0, (5, 1))),
+    "compressed to 12": ("tab:blue", (0, (6, 3))),
+}
 
 
-def label_of(method):
-    """Words for a method's name in the files."""
-    words = {REFERENCE: "full order", "craig_bampton": "Craig-Bampton"}
-    if method in words:
-        return words[method]
-    parts = method.split("_")
-    text = f"{parts[1]} sample" + ("" if parts[1] == "1" else "s")
-    return text + (", bands rule" if parts[-1] == "bands" else "")
+def rows_of(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def family_of(name, way):
+    if way in ("1", "2") and not name.startswith("POD"):
+        return "compressed and refined"
+    if name.endswith(", bands"):
+        return "the paper's bands rule"
+    if name == "snapshots":
+        return "static contact snapshots"
+    if name.startswith(("full", "half")):
+        return "unreduced, all or fewer pairs"
+    if re.match(r"\d+ sample|sampled|marching", name):
+        return "piecewise-linear modes"
+    return "published rivals"
+
+
+class Run:
+    """The methods of one run of the study: at one force level, or at several."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        about = {row["name"]: row for row in rows_of(folder / "methods.csv")}
+        table = rows_of(folder / "table.csv")
+        self.reference = table[0]
+        self.rows = {}
+        for number, row in enumerate(table[1:]):
+            row.update(about[row["name"]], number=number, family=family_of(row["name"], about[row["name"]]["way"]))
+            if row["basis_size"]:
+                self.rows[row["name"]] = row
+
+    def group(self, name):
+        return [row for row in self.rows.values() if name in row["groups"].split()]
+
+    def curve(self, row):
+        pattern = "curve_reference_0.csv" if row is self.reference else f"curve_{row['number']}_*_0.csv"
+        path = next(self.folder.glob(pattern))
+        return np.atleast_1d(np.genfromtxt(path, delimiter=",", names=True))
 
 
 class Study:
@@ -34,25 +86,11 @@ class Study:
 
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
-        with open(self.folder / "study.csv", newline="") as file:
-            self.facts = {row["key"]: row["value"] for row in csv.DictReader(file)}
-        with open(self.folder / "table.csv", newline="") as file:
-            rows = [row for row in csv.DictReader(file) if not row["error"]]
-        self.table = {row["method"]: row for row in rows}
-        self.curves = {m: self.read(f"curves_{m}.csv") for m in self.table}
-        self.cycles = {m: self.read(f"contact_{m}.csv") for m in self.table}
+        self.facts = {row["key"]: row["value"] for row in rows_of(self.folder / "study.csv")}
+        self.one = Run(self.folder / "one_level")
         self.n_pairs = int(self.facts["n_pairs"])
         oscillator = self.facts["scene"] == "bilinear_oscillator"  # the one scene without units
         self.unit, self.length = ("", 1.0) if oscillator else (" in µm", 1e3)
-
-    def amplitude(self, method):
-        return self.length * self.curves[method]["amplitude"]
-
-    def read(self, name):
-        return np.atleast_1d(np.genfromtxt(self.folder / name, delimiter=",", names=True))
-
-    def number(self, method, column):
-        return float(self.table[method][column])
 
     def title(self):
         f = self.facts
@@ -61,29 +99,22 @@ class Study:
         return (f"{scene[0].upper()}{scene[1:]}, {int(f['n_dof']):,} DOFs, {self.n_pairs} contact pairs, "
                 f"{load} pre-load, H = {f['harmonics']}")
 
-    def styles(self):
-        """Line and marker of every method, the reference first so that it lies beneath."""
-        result = {REFERENCE: dict(color="0.72", linewidth=5, zorder=1)} if REFERENCE in self.table else {}
-        plain = [m for m in self.table if m.startswith("plm_") and not m.endswith("_bands")]
-        for i, m in enumerate(plain):
-            color = plt.cm.viridis(0.9 * i / max(1, len(plain) - 1))
-            result[m] = dict(color=color, linewidth=1.3, zorder=3, marker="osDv^<>ph"[i % 9])
-        for m in self.table:
-            if m.endswith("_bands"):
-                result[m] = dict(color="tab:orange", linewidth=1.3, linestyle=(0, (4, 2)), zorder=4, marker="X")
-        if "craig_bampton" in self.table:
-            result["craig_bampton"] = dict(color="tab:red", linewidth=1.3, linestyle=(0, (1, 1)), zorder=2, marker="P")
-        return result
+
+def number(row, column):
+    return float(row[column]) if row[column] else math.nan
 
 
-def line(style):
-    return {k: v for k, v in style.items() if k != "marker"}
+def save(figure, path, dpi):
+    figure.savefig(path, dpi=dpi)
+    plt.close(figure)
 
 
-def names_columns(axes, handles_from=None, columns=4):
-    handles, labels = (handles_from or axes).get_legend_handles_labels()
-    axes.figure.legend(handles, labels, loc="lower center", ncol=columns, frameon=False)
+def legend_below(figure, axes, columns):
+    handles, labels = axes.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="lower center", ncol=columns, frameon=False)
 
+
+# ---- response curves ----
 
 def region_of_peak(f, a):
     """(f_low, f_high, a_low, a_high) of the top of a curve."""
@@ -99,24 +130,27 @@ def region_of_peak(f, a):
 
 
 def draw_curves(axes, study):
-    for method, style in study.styles().items():
-        curve = study.curves[method]
-        size = int(study.number(method, "basis_size"))
-        axes.plot(curve["frequency_hz"], study.amplitude(method), label=f"{label_of(method)}, r = {size}",
-                  **line(style))
+    run = study.one
+    truth = run.curve(run.reference)
+    axes.plot(truth["frequency_hz"], study.length * truth["amplitude"], color="0.75", linewidth=5,
+              label=f"reference, {run.reference['basis_size']}", zorder=1)
+    for name, (color, style) in SHOWN.items():
+        if name in run.rows:
+            curve = run.curve(run.rows[name])
+            axes.plot(curve["frequency_hz"], study.length * curve["amplitude"], color=color, linestyle=style,
+                      linewidth=1.3, label=f"{name}, r = {run.rows[name]['basis_size']}")
+    return truth["frequency_hz"], study.length * truth["amplitude"]
 
 
 def plot_curves(study, path, dpi):
     figure, axes = plt.subplots(figsize=(9, 5.8))
-    draw_curves(axes, study)
+    f, a = draw_curves(axes, study)
     axes.set(xlabel="excitation frequency in Hz", ylabel=f"half peak-to-peak displacement{study.unit}")
     axes.set_title(study.title(), fontsize=11)
     axes.grid(alpha=0.3)
     axes.set_ylim(bottom=0, top=1.08 * axes.get_ylim()[1])
-    shown = REFERENCE if REFERENCE in study.curves else next(iter(study.curves))
-    f_low, f_high, a_low, a_high = region_of_peak(study.curves[shown]["frequency_hz"], study.amplitude(shown))
-    x0, x1 = axes.get_xlim()
-    left = 0.5 * (f_low + f_high) > 0.5 * (x0 + x1)  # the emptier side
+    f_low, f_high, a_low, a_high = region_of_peak(f, a)
+    left = 0.5 * (f_low + f_high) > 0.5 * sum(axes.get_xlim())  # the emptier side
     inset = axes.inset_axes([0.1 if left else 0.66, 0.5, 0.31, 0.44])
     draw_curves(inset, study)
     inset.set(xlim=(f_low, f_high), ylim=(a_low, a_high))
@@ -125,156 +159,203 @@ def plot_curves(study, path, dpi):
     inset.xaxis.set_major_locator(ticker.MaxNLocator(4))
     inset.grid(alpha=0.3)
     axes.indicate_inset_zoom(inset, edgecolor=GREY)
-    figure.tight_layout(rect=(0, 0.13, 1, 1))
-    names_columns(axes)
-    figure.savefig(path, dpi=dpi)
+    figure.tight_layout(rect=(0, 0.12, 1, 1))
+    legend_below(figure, axes, 4)
+    save(figure, path, dpi)
 
 
-class Labels:
-    """Short texts beside points of a log-log plot, each in the first free place around its point."""
+# ---- error against time ----
 
-    places = [(7, 6), (7, -14), (-7, 6), (-7, -14), (0, 11), (0, -19), (14, -4), (-14, -4), (18, 16), (18, -24)]
-
-    def __init__(self, axes):
-        self.axes = axes
-        self.points, self.texts, self.lines = [], [], []
-
-    def add(self, x, y, text, color):
-        self.points.append((x, y))
-        self.texts.append((x, y, text, color))
-
-    def place(self):
-        renderer = self.axes.figure.canvas.get_renderer()
-        dots = self.axes.transData.transform(self.points) if self.points else []
-        taken = [matplotlib.transforms.Bbox.from_bounds(x - 6, y - 6, 12, 12) for x, y in dots]
-        frame = self.axes.get_window_extent(renderer)
-        for x in self.lines:
-            across = self.axes.transData.transform((x, 1))[0]
-            taken.append(matplotlib.transforms.Bbox.from_extents(across - 3, frame.y0, across + 3, frame.y1))
-        for x, y, text, color in self.texts:
-            for place in self.places:
-                side = "left" if place[0] > 0 else "right" if place[0] < 0 else "center"
-                note = self.axes.annotate(text, (x, y), xytext=place, textcoords="offset points", fontsize=8,
-                                          ha=side, color=color)
-                box = note.get_window_extent(renderer)
-                inside = frame.x0 < box.x0 and box.x1 < frame.x1 and frame.y0 < box.y0 and box.y1 < frame.y1
-                if inside and not any(box.overlaps(other) for other in taken):
-                    taken.append(box)
-                    break
-                note.remove()
+def front_of(points):
+    """Those that no other beats in one of time and error without losing in the other, by time."""
+    front, best = [], math.inf
+    for time, error in sorted(points):
+        if error < best:
+            front.append((time, error))
+            best = error
+    return front
 
 
-def seconds_of(study, method, whole):
-    """Time of the curve; whole: with the set-up and, where it is used, the contact space all methods share."""
-    seconds = study.number(method, "curve_seconds")
-    if whole:
-        seconds += study.number(method, "setup_seconds")
-        if method != "craig_bampton":
-            seconds += float(study.facts["contact_space_seconds"])
-    return seconds
-
-
-def set_time_ticks(axes):
-    """Round numbers, also where the axis spans less than a decade."""
-    low, high = axes.get_xlim()
-    if high / low < 8:
-        ticks = ticker.MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(low, high)
-    else:
-        ticks = [m * 10.0 ** e for e in range(-6, 6) for m in ((1, 2, 5) if high / low < 200 else (1,))]
-    axes.xaxis.set_major_locator(ticker.FixedLocator([t for t in ticks if low <= t <= high]))
-    axes.xaxis.set_minor_locator(ticker.NullLocator())
-    axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda v, _: f"{v:g}"))
-
-
-def draw_errors(axes, study, column, whole):
-    labels = Labels(axes)
-    for method, style in study.styles().items():
-        seconds = seconds_of(study, method, whole)
-        if method == REFERENCE:
-            axes.axvline(seconds, color="0.72", linewidth=3, label="full order (error 0)")
-            labels.lines.append(seconds)
+def draw_errors(axes, rows, column, whole):
+    labels, points = Labels(axes), []
+    for row in rows:
+        seconds = number(row, "curve_seconds") + (number(row, "setup_seconds") if whole else 0)
+        error = number(row, column)
+        if not seconds > 0 or math.isnan(error):
             continue
-        error = max(study.number(method, column), 1e-12)
-        size = int(study.number(method, "basis_size"))
-        axes.plot([seconds], [error], linestyle="none", marker=style["marker"], markersize=8, color=style["color"],
-                  label=label_of(method))
-        labels.add(seconds, error, f"r = {size}", GREY)
+        error = max(error, 1e-9)  # the solver's tolerance
+        points.append((seconds, error))
+        color, marker = FAMILIES[row["family"]]
+        axes.plot([seconds], [error], linestyle="none", marker=marker, markersize=6, color=color, zorder=3)
+        labels.add(seconds, error, f"{row['name']} ({row['basis_size']})", color)
+    front = front_of(points)
+    axes.plot([p[0] for p in front], [p[1] for p in front], color="0.8", linewidth=3, zorder=1)
     axes.set(xscale="log", yscale="log")
-    axes.margins(0.18)
+    axes.margins(0.13)
     axes.autoscale_view()
-    set_time_ticks(axes)
     axes.grid(alpha=0.3)
     return labels
 
 
-def plot_errors(study, path, dpi):
-    figure, axes = plt.subplots(2, 2, figsize=(10, 7.6), sharey="row")
-    rows = [("error_frequency", "relative error of the\nresonance frequency"),
-            ("error_amplitude", "relative error of the\npeak amplitude")]
-    columns = ["time of the curve in s", "time of contact space, basis and curve in s"]
+def plot_errors(study, rows, what, path, dpi):
+    columns = [("curve_seconds", "time of the curve in s", False),
+               ("both", "time of set-up (contact space, samples, basis) and curve in s", True)]
+    names = [("frequency_error", "relative error of the\nresonance frequency"),
+             ("amplitude_error", "relative error of the\npeak amplitude"),
+             ("curve_error_l2", "error of the whole curve\n(L2 over its arc length)")]
+    figure, axes = plt.subplots(3, 2, figsize=(14, 14.5), sharey="row")
     labels = []
-    for i, (column, name) in enumerate(rows):
-        for j in (0, 1):
-            labels.append(draw_errors(axes[i, j], study, column, whole=j == 1))
-            if i == 1:
-                axes[i, j].set_xlabel(columns[j])
+    for i, (column, name) in enumerate(names):
+        for j, (_, text, whole) in enumerate(columns):
+            labels.append(draw_errors(axes[i, j], rows, column, whole))
+            if i == 2:
+                axes[i, j].set_xlabel(text)
         axes[i, 0].set_ylabel(name)
-    figure.suptitle(study.title() + "\nerrors against the full order at the same H; r: size of the basis", fontsize=11)
-    figure.tight_layout(rect=(0, 0.08, 1, 1))
-    names_columns(axes[0, 0])
+    present = {row["family"] for row in rows}
+    for family, (color, marker) in FAMILIES.items():
+        if family in present:
+            axes[0, 0].plot([], [], linestyle="none", marker=marker, color=color, label=family)
+    axes[0, 0].plot([], [], color="0.8", linewidth=3, label="front: none faster and nearer")
+    figure.suptitle(f"{study.title()}\n{what}; in brackets: size of the basis", fontsize=11)
+    figure.tight_layout(rect=(0, 0.05, 1, 1))
+    legend_below(figure, axes[0, 0], 4)
     figure.canvas.draw()
     for group in labels:
         group.place()
-    figure.savefig(path, dpi=dpi)
+    save(figure, path, dpi)
 
 
-def draw_cycle(axes, study):
-    for method, style in study.styles().items():
-        cycle = study.cycles[method]
-        axes.step(cycle["time_fraction"], 100 * cycle["closed_share"], where="post", label=label_of(method),
-                  **line(style))
-    axes.set(xlabel="time in periods", ylabel="closed pairs in %", ylim=(-3, 103), xlim=(0, 1))
-    axes.set_title("over the cycle at the peak", fontsize=10)
+# ---- contact ----
 
-
-def draw_share(axes, study):
-    scale = 100 / study.n_pairs
-    for method, style in study.styles().items():
-        curve = study.curves[method]
-        axes.plot(curve["frequency_hz"], scale * curve["closed_mean"], **line(style))
-        if method == REFERENCE:
-            for column in ("closed_min", "closed_max"):
-                axes.plot(curve["frequency_hz"], scale * curve[column], color="0.55", linewidth=1, zorder=1)
-            note = dict(color=GREY, fontsize=8, ha="center", xycoords=("axes fraction", "axes fraction"))
-            axes.annotate("thin grey: most and fewest in the cycle, full order", (0.5, 0.955), **note)
-    axes.set(xlabel="excitation frequency in Hz", ylabel="closed pairs in %", ylim=(-3, 112))
-    axes.set_yticks(range(0, 101, 20))
-    axes.set_title("mean over the cycle, along the curve", fontsize=10)
+CONTACTS = {"reference": ("0.72", 5), "1_sample": ("tab:orange", 1.3), "4_samples": ("tab:green", 1.3),
+            "compressed_12": ("tab:blue", 1.3)}
 
 
 def plot_contact(study, path, dpi):
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 5.2))
-    draw_cycle(left, study)
-    draw_share(right, study)
+    scale = 100 / study.n_pairs
+    for name, (color, width) in CONTACTS.items():
+        file = study.folder / f"contact_cycle_{name}.csv"
+        if not file.exists():
+            continue
+        cycle = np.genfromtxt(file, delimiter=",", names=True)
+        left.step(cycle["time_fraction"], 100 * cycle["closed_share"], where="post", color=color, linewidth=width,
+                  label=name.replace("_", " "))
+        curve = np.genfromtxt(study.folder / f"contact_curve_{name}.csv", delimiter=",", names=True)
+        right.plot(curve["frequency_hz"], scale * curve["closed_mean"], color=color, linewidth=width)
+        if name == "reference":
+            for column in ("closed_min", "closed_max"):
+                right.plot(curve["frequency_hz"], scale * curve[column], color="0.55", linewidth=1, zorder=1)
+    left.set(xlabel="time in periods", ylabel="closed pairs in %", ylim=(-3, 103), xlim=(0, 1))
+    left.set_title("over the cycle at the peak", fontsize=10)
+    right.set(xlabel="excitation frequency in Hz", ylabel="closed pairs in %", ylim=(-3, 112))
+    right.set_yticks(range(0, 101, 20))
+    right.set_title("mean over the cycle, along the curve (thin: most and fewest)", fontsize=10)
     for axes in (left, right):
         axes.grid(alpha=0.3)
     figure.suptitle(study.title(), fontsize=11)
-    figure.tight_layout(rect=(0, 0.1, 1, 1))
-    names_columns(left)
-    figure.savefig(path, dpi=dpi)
+    figure.tight_layout(rect=(0, 0.08, 1, 1))
+    legend_below(figure, left, 4)
+    save(figure, path, dpi)
+
+
+# ---- convergence ----
+
+def errors_of_steps(rows):
+    """Numbers and relative errors of frequency and peak against the last step; the first and last are left out where
+    they have no number."""
+    truth = rows[-1]
+    kept = [row for row in rows[:-1] if int(row["number"]) > 0]
+    return [int(row["number"]) for row in kept], *(
+        [max(1e-12, abs(float(row[key]) / float(truth[key]) - 1)) for row in kept]
+        for key in ("peak_hz", "peak_amplitude"))
+
+
+def draw_two(axes, x, frequency, amplitude, style="-", suffix=""):
+    axes.plot(x, np.maximum(frequency, 1e-12), style, marker="o", color="tab:blue", label="frequency" + suffix)
+    axes.plot(x, np.maximum(amplitude, 1e-12), style, marker="s", color="tab:red", label="peak amplitude" + suffix)
+
+
+def samples_of(run, ending):
+    rows = [(int(m.group(1)), row) for row in run.group("samples")
+            if (m := re.fullmatch(r"(\d+) samples?" + ending, row["name"]))]
+    return sorted(rows, key=lambda pair: pair[0])
+
+
+def draw_samples(axes, times, run):
+    for ending, style, suffix in (("", "-", ""), (", bands", ":", ", bands")):
+        rows = samples_of(run, ending)
+        if rows:
+            x = [n for n, _ in rows]
+            draw_two(axes, x, [number(r, "frequency_error") for _, r in rows],
+                     [number(r, "amplitude_error") for _, r in rows], style, suffix)
+            times.plot(x, [1e3 * number(r, "iteration_seconds") for _, r in rows], style, marker="o", color="tab:green",
+                       label="piecewise-linear modes" + suffix)
+    if "Craig-Bampton" in run.rows:
+        times.axhline(1e3 * number(run.rows["Craig-Bampton"], "iteration_seconds"), color="tab:red",
+                      label="Craig-Bampton")
+    axes.set(xscale="log", yscale="log", xlabel="contact samples", title="samples")
+    times.set(xscale="log", yscale="log", xlabel="contact samples", ylabel="ms", title="time of a Newton iteration")
+
+
+def draw_svd(axes, run):
+    rows = [(float(row["name"].split()[1]), row) for row in run.group("svd") if row["name"].startswith("svd")]
+    rows.append((1e-6, run.rows["4 samples"]))  # the default
+    rows.sort(key=lambda pair: pair[0])
+    draw_two(axes, [t for t, _ in rows], [number(r, "frequency_error") for _, r in rows],
+             [number(r, "amplitude_error") for _, r in rows])
+    for tolerance, row in rows:
+        axes.annotate(row["basis_size"], (tolerance, max(number(row, "amplitude_error"), 1e-12)), fontsize=8,
+                      textcoords="offset points", xytext=(4, 4), color=GREY)
+    axes.set(xscale="log", yscale="log", xlabel="svd_tolerance (with the size of the basis)",
+             title="tolerance of the singular values")
+
+
+def plot_convergence(study, path, dpi):
+    figure, axes = plt.subplots(2, 3, figsize=(13, 7.6))
+    draw_samples(axes[0, 0], axes[0, 1], study.one)
+    draw_svd(axes[0, 2], study.one)
+    for place, file, name in ((axes[1, 0], "harmonics.csv", "harmonics"),
+                              (axes[1, 1], "time_samples.csv", "time samples in a period")):
+        steps = rows_of(study.folder / file)
+        draw_two(place, *errors_of_steps(steps))
+        place.set(xscale="log", yscale="log", xlabel=name, title=name)
+    steps = [row for row in rows_of(study.folder / "harmonics.csv") if int(row["number"]) > 0]
+    axes[1, 2].plot([int(r["number"]) for r in steps], [float(r["seconds"]) for r in steps], marker="o", color="tab:green")
+    axes[1, 2].set(xscale="log", yscale="log", xlabel="harmonics", ylabel="s", title="time of the curve")
+    for place in axes.flat:
+        place.grid(alpha=0.3)
+        if place.get_legend_handles_labels()[0]:
+            place.legend(fontsize=8)
+    figure.suptitle(study.title() + "\nrelative errors", fontsize=11)
+    figure.tight_layout()
+    save(figure, path, dpi)
+
+
+def draw_all(study, to, dpi):
+    one = "errors against the unreduced structure at the same H"
+    rows = study.one.group("methods")
+    if rows:
+        yield "error_against_time", lambda p: plot_errors(study, rows, one, p, dpi)
+        yield "curves", lambda p: plot_curves(study, p, dpi)
+        yield "contact_over_cycle", lambda p: plot_contact(study, p, dpi)
+    if (study.folder / "levels" / "table.csv").exists():
+        what = f"{study.facts['levels']} force levels, worst errors, sum of times"
+        yield "levels", lambda p: plot_errors(study, Run(study.folder / "levels").group("levels"), what, p, dpi)
+    if study.one.group("samples") and study.one.group("svd"):
+        yield "convergence", lambda p: plot_convergence(study, p, dpi)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", help="where cracked_plate_study wrote its files")
+    parser.add_argument("folder", help="where plm-study wrote its files")
     parser.add_argument("--to", help="folder of the pictures (the same)")
-    parser.add_argument("--dpi", type=int, default=110)
+    parser.add_argument("--dpi", type=int, default=80)
     arguments = parser.parse_args()
     study = Study(arguments.folder)
     to = pathlib.Path(arguments.to or arguments.folder)
-    pictures = {"curves": plot_curves, "error_against_time": plot_errors, "contact_over_cycle": plot_contact}
-    for name, draw in pictures.items():
-        draw(study, to / f"{name}.png", arguments.dpi)
+    for name, draw in draw_all(study, to, arguments.dpi):
+        draw(to / f"{name}.png")
         print(to / f"{name}.png")
 
 

@@ -557,8 +557,9 @@ PLM_API plm_status plm_transient_get_multipliers(plm_transient *transient, int64
 /* ---- Study: error against run time -------------------------------------------------------------------------------
  * Methods, each a way to the same response curve, are run and timed beside a reference and compared with it. A method
  * holds copies of options, taken when it is added: later changes of the handles do nothing to it. Everything is made
- * anew from these options, the model excepted: sampler, basis, curve. Results by key are arrays with one entry per
- * method, in the order they were added; NaN (or -1) stands where a method failed or a figure has no meaning. */
+ * anew from these options, the model and, with "share_space", its contact space excepted: sampler, basis, curve. Results
+ * by key are arrays with one entry per method, in the order they were added; NaN (or -1) stands where a method failed or a
+ * figure has no meaning. */
 
 /* model must be built before plm_study_run. PLM_ERR_NOT_BUILT in a build without PLM_WITH_STUDY. */
 PLM_API plm_status plm_study_create(plm_model *model, plm_study **study);

@@ -30,6 +30,10 @@ void add_options(std::vector<Key> &keys) {
                                     "curve_tolerance", 1e-10, 1e-2,
                                     "further points are computed on each curve until its interpolation "
                                     "is nearer than this, in the scale of the errors of curves"),
+                                int_option<&O::share_space>(
+                                    "share_space", 0, 1,
+                                    "1: the contact space of the model is made once, and its time added to "
+                                    "the set-up of each method that uses it; 0: each run makes its own"),
                             });
 }
 
@@ -49,6 +53,9 @@ void add_times(std::vector<Key> &keys) {
             per_method<Ints>("basis_size", "coordinates of each method; -1: it failed", &R::basis_size),
             per_method<Reals>("setup_seconds", "median time of all that comes before the curves (s)",
                               &R::setup_seconds),
+            per_method<Reals>("space_seconds",
+                              "share of it that the contact space took (s); 0: the method needs none",
+                              &R::space_seconds),
             per_method<Reals>("curve_seconds", "median time of the curves of all levels (s)",
                               &R::curve_seconds),
             per_method<Reals>("iteration_seconds", "median time of a Newton iteration (s); NaN for marching",
@@ -110,6 +117,8 @@ void add_reference(std::vector<Key> &keys) {
                       [](const H &h) { return last_run(h).reference.basis_size; }),
             result<H>("reference_setup_seconds", "time of its set-up, once (s)",
                       [](const H &h) { return last_run(h).reference.setup_seconds; }),
+            result<H>("reference_space_seconds", "as space_seconds",
+                      [](const H &h) { return last_run(h).reference.space_seconds; }),
             result<H>("reference_curve_seconds", "time of its curves, once (s)",
                       [](const H &h) { return last_run(h).reference.curve_seconds; }),
             result<H>("reference_peak_bytes", "as peak_bytes",

@@ -108,7 +108,10 @@ using namespace plm::capi;
 plm_status plm_study_create(plm_model *model, plm_study **study) {
     return call<ModelHandle>("plm_study_create", model, [&](ModelHandle &m) {
         require_pointer(study, "study");
-        if (!plm::study_is_built()) plm::run_study(nullptr, {}, plm::Watch()); // says which option
+        if (!plm::study_is_built()) { // says which option
+            plm::KnownSpace none;
+            plm::run_study(nullptr, {}, plm::Watch(), none);
+        }
         *study = publish(std::make_shared<StudyHandle>(m.owner, find<ModelHandle>(model)));
         return PLM_OK;
     });
@@ -216,7 +219,7 @@ plm_status plm_study_add_marching(plm_study *study, const char *name, plm_transi
 
 plm_status plm_study_run(plm_study *study) {
     return call<StudyHandle>("plm_study_run", study, [&](StudyHandle &s) {
-        s.result = plm::run_study(built(*s.model), s.plan, s.owner->watch());
+        s.result = plm::run_study(built(*s.model), s.plan, s.owner->watch(), s.model->space);
         return status_of(*s.result);
     });
 }

@@ -6,6 +6,7 @@
 #include "linalg/lapack.hpp"
 #include "model/space.hpp"
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -48,7 +49,7 @@ class ContactSpaceBuilder {
         space_->is_contact_space = true;
     }
 
-    std::shared_ptr<const Space> build() {
+    std::shared_ptr<Space> build() {
         exact_modes();
         static_block();
         const SpaceOptions &options = model_->space_options();
@@ -342,8 +343,12 @@ std::shared_ptr<const Space> make_contact_space(std::shared_ptr<const Model> mod
     const std::int64_t least = std::min(least_modes, model->n_free());
     if (previous && previous->highest_frequency >= highest_frequency && previous->n_exact_modes >= least)
         return previous;
-    return ContactSpaceBuilder(std::move(model), highest_frequency, least_modes, watch, previous.get())
-        .build();
+    const auto begin = std::chrono::steady_clock::now();
+    const std::shared_ptr<Space> space =
+        ContactSpaceBuilder(std::move(model), highest_frequency, least_modes, watch, previous.get()).build();
+    space->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() +
+                     (previous ? previous->seconds : 0);
+    return space;
 }
 
 } // namespace plm

@@ -56,7 +56,7 @@ SelectionRule make_rule(const BasisOptions &o, const Sampler *sampler) {
 
 std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &model, const Sampler *sampler,
                                           const Basis *parent, const BasisOptions &o, double highest_hz,
-                                          Watch watch) {
+                                          Watch watch, std::shared_ptr<const Space> known) {
     const double highest = 2 * M_PI * highest_hz;
     if (o.kind == BasisKind::craig_bampton)
         return make_craig_bampton_space(model, {o.n_fixed_modes, fixed_mode_margin * highest, o.load_vectors},
@@ -74,7 +74,8 @@ std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &mo
         parent->space()->highest_frequency >= highest * (1 - 1e-9))
         return parent->space();
     if (sampler && sampler->space()->highest_frequency >= highest * (1 - 1e-9)) return sampler->space();
-    return make_contact_space(model, highest, least_open_modes, watch, sampler ? sampler->space() : nullptr);
+    return make_contact_space(model, highest, least_open_modes, watch,
+                              sampler ? sampler->space() : std::move(known));
 }
 
 // The sampler's dominant modes in the coordinates of another space: V^T M (V_s c).
@@ -184,7 +185,7 @@ Reduction reduce_to_vectors(const Space &space, const Sampler *sampler, const Se
 
 Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> sampler,
              std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch,
-             const Responses *responses)
+             const Responses *responses, std::shared_ptr<const Space> known)
     : model_(std::move(model)), sampler_(std::move(sampler)), options_(options) {
     const auto start = std::chrono::steady_clock::now();
     check_options(options_);
@@ -203,7 +204,7 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     const bool statics = options_.kind == BasisKind::snapshots;
     const double modes_hz = statics ? options_.rest_factor * rule.max_hz : rule.highest_hz();
     space_ = choose_space(model_, sampler_.get(), parent.get(), options_,
-                          std::max(modes_hz, rule.highest_hz()), watch);
+                          std::max(modes_hz, rule.highest_hz()), watch, std::move(known));
     if (is_made_of_vectors(options_.kind)) {
         Reduction r = reduce_to_vectors(*space_, sampler_.get(), rule, options_, watch);
         reduced_ = std::move(r.reduced);
@@ -253,14 +254,16 @@ void Basis::choose_pairs() {
                                 2 * M_PI * window_max_hz_);
 }
 
-std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch) {
+std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch,
+                                             std::shared_ptr<const Space> known) {
     if (basis->options().kind == BasisKind::full && !basis->reduced()->all_pairs) return basis;
     BasisOptions o = basis->options();
     o.kind = BasisKind::full;
     o.n_pairs_carried = 0;
     o.frequency_min_hz = basis->window_min_hz();
     o.frequency_max_hz = basis->window_max_hz();
-    return std::make_shared<const Basis>(basis->model(), basis->sampler(), basis, o, watch);
+    return std::make_shared<const Basis>(basis->model(), basis->sampler(), basis, o, watch, nullptr,
+                                         std::move(known));
 }
 
 double projection_residual(const Basis &basis, bool is_static, bool use_mass, const double *q_free) {

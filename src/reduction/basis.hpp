@@ -83,10 +83,11 @@ class Basis {
     /// sampler: needed for kinds plm and snapshots; the other kinds take the window from it. parent: first
     /// reduction under the modes or null; for kind pod the basis the responses were computed on. window_hz
     /// are taken from options, sampler or (pod) parent; other kinds need options.frequency_max_hz or a
-    /// sampler, the rivals a contact pair.
+    /// sampler, the rivals a contact pair. known: an earlier contact space of the model, or null;
+    /// used where neither sampler nor parent has one.
     Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> sampler,
           std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch,
-          const Responses *responses = nullptr);
+          const Responses *responses = nullptr, std::shared_ptr<const Space> known = nullptr);
 
     const BasisOptions &options() const { return options_; }
     const BasisReport &report() const { return report_; }
@@ -111,8 +112,9 @@ class Basis {
 };
 
 /// The basis of kind full for the same frequencies with all pairs carried, in the contact space of `basis`
-/// where that is one.
-std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch);
+/// where that is one, else in `known` where that reaches far enough.
+std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch,
+                                             std::shared_ptr<const Space> known = nullptr);
 
 /// r of paper eq. (12) for any vector over the free DOFs, against P (or P_0).
 double projection_residual(const Basis &basis, bool is_static, bool use_mass, const double *q_free);

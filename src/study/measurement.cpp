@@ -44,7 +44,7 @@ class Run {
   private:
     void follow() {
         const Stopwatch setup;
-        out_.basis = build(where_.model, method_.recipe, watch_);
+        build_basis();
         if (method_.kind == MethodKind::compressed) compress_basis();
         if (method_.kind == MethodKind::refined) refine_basis();
         out_.setup_seconds = setup.seconds();
@@ -58,6 +58,14 @@ class Run {
         std::int64_t factorizations = 0;
         for (const BranchPtr &b : out_.curves) seconds += b->seconds, factorizations += b->factorizations;
         out_.iteration_seconds = seconds / static_cast<double>(std::max<std::int64_t>(1, factorizations));
+    }
+
+    void build_basis() {
+        KnownSpace space = where_.space;
+        out_.basis = build(where_.model, method_.recipe, watch_, space);
+        out_.space = contact_space_of(*out_.basis);
+        if (out_.space && out_.space != where_.space)
+            out_.space_seconds = out_.space->seconds - (where_.space ? where_.space->seconds : 0);
     }
 
     void compress_basis() {
@@ -91,7 +99,7 @@ class Run {
 
     void march() {
         const Stopwatch setup;
-        if (method_.reduced) out_.basis = build(where_.model, method_.recipe, watch_);
+        if (method_.reduced) build_basis();
         const auto reduced = out_.basis ? out_.basis->reduced() : nullptr;
         std::unique_ptr<Transient> motion = make_transient(where_.model, reduced);
         out_.setup_seconds = setup.seconds();

@@ -10,7 +10,9 @@ struct Measurement {
     std::vector<MarchedCurve> marched;                 // per level
     std::int64_t size = 0;                             // coordinates
     double setup_seconds = 0, curve_seconds = 0, iteration_seconds = not_known;
-    std::string note; // what a reader of the row has to know besides how the curves ended
+    KnownSpace space;         // the contact space used; null: none
+    double space_seconds = 0; // share of setup_seconds that its making took; 0 when it was known
+    std::string note;         // what a reader of the row has to know besides how the curves ended
 };
 
 /// What one run needs besides the method. The recipe has been through with_window().
@@ -19,6 +21,7 @@ struct MeasurementCase {
     Output output;
     std::vector<double> levels;
     FrequencyRange range; // where the method leaves it open
+    KnownSpace space;     // for a method that needs one, or null: each makes its own
 };
 
 /// The method's solver at a level, with the study's range where it has none of its own.

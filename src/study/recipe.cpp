@@ -4,20 +4,22 @@ namespace plm {
 namespace {
 
 std::shared_ptr<const Sampler> run_sampler(const std::shared_ptr<const Model> &model,
-                                           const SamplerOptions &options, Watch watch) {
+                                           const SamplerOptions &options, Watch watch, KnownSpace &space) {
     if (model->n_pairs() == 0)
         throw Error(PLM_ERR_STATE,
                     "the model has no contact pair, so there is no contact area to sample; use a basis "
                     "of kind full or craig_bampton")
             .argument("sampler");
-    return std::make_shared<const Sampler>(model, options, watch);
+    auto sampler = std::make_shared<const Sampler>(model, options, watch, space);
+    space = sampler->space();
+    return sampler;
 }
 
 // A basis that is not of kind plm takes nothing but the window from a sampler.
 BasisOptions with_window(const std::shared_ptr<const Model> &model, BasisOptions basis,
-                         const std::optional<SamplerOptions> &sampler, Watch watch) {
+                         const std::optional<SamplerOptions> &sampler, Watch watch, KnownSpace &space) {
     if (!sampler || (basis.frequency_min_hz > 0 && basis.frequency_max_hz > 0)) return basis;
-    const FrequencyWindow window = run_sampler(model, *sampler, watch)->window();
+    const FrequencyWindow window = run_sampler(model, *sampler, watch, space)->window();
     if (!(basis.frequency_min_hz > 0)) basis.frequency_min_hz = window.min_hz;
     if (!(basis.frequency_max_hz > 0)) basis.frequency_max_hz = window.max_hz;
     return basis;
@@ -25,17 +27,19 @@ BasisOptions with_window(const std::shared_ptr<const Model> &model, BasisOptions
 
 } // namespace
 
-Recipe with_window(const std::shared_ptr<const Model> &model, const Recipe &recipe, Watch watch) {
+Recipe with_window(const std::shared_ptr<const Model> &model, const Recipe &recipe, Watch watch,
+                   KnownSpace &space) {
     Recipe r = recipe;
     if (needs_sampler(r.basis.kind)) return r;
-    r.basis = with_window(model, r.basis, r.sampler, watch);
+    r.basis = with_window(model, r.basis, r.sampler, watch, space);
     r.sampler.reset();
     r.parent.reset();
     return r;
 }
 
-FrequencyRange range_of(const std::shared_ptr<const Model> &model, const Recipe &recipe, Watch watch) {
-    const BasisOptions basis = with_window(model, recipe.basis, recipe.sampler, watch);
+FrequencyRange range_of(const std::shared_ptr<const Model> &model, const Recipe &recipe, Watch watch,
+                        KnownSpace &space) {
+    const BasisOptions basis = with_window(model, recipe.basis, recipe.sampler, watch, space);
     const HbmOptions &hbm = recipe.hbm;
     const FrequencyRange range{hbm.frequency_min_hz > 0 ? hbm.frequency_min_hz : basis.frequency_min_hz,
                                hbm.frequency_max_hz > 0 ? hbm.frequency_max_hz : basis.frequency_max_hz};
@@ -50,7 +54,7 @@ FrequencyRange range_of(const std::shared_ptr<const Model> &model, const Recipe 
 }
 
 std::shared_ptr<const Basis> build(const std::shared_ptr<const Model> &model, const Recipe &recipe,
-                                   Watch watch) {
+                                   Watch watch, KnownSpace &space) {
     if (needs_sampler(recipe.basis.kind) && !recipe.sampler)
         throw Error(PLM_ERR_STATE,
                     format("a basis of kind %s needs a sampler; call plm_basis_set_sampler first",
@@ -58,11 +62,19 @@ std::shared_ptr<const Basis> build(const std::shared_ptr<const Model> &model, co
             .argument("sampler");
     std::shared_ptr<const Basis> parent;
     if (recipe.parent) {
-        const BasisOptions basis = with_window(model, recipe.parent->basis, recipe.parent->sampler, watch);
-        parent = std::make_shared<const Basis>(model, nullptr, nullptr, basis, watch);
+        const BasisOptions basis =
+            with_window(model, recipe.parent->basis, recipe.parent->sampler, watch, space);
+        parent = std::make_shared<const Basis>(model, nullptr, nullptr, basis, watch, nullptr, space);
     }
-    const auto sampler = recipe.sampler ? run_sampler(model, *recipe.sampler, watch) : nullptr;
-    return std::make_shared<const Basis>(model, sampler, parent, recipe.basis, watch);
+    const auto sampler = recipe.sampler ? run_sampler(model, *recipe.sampler, watch, space) : nullptr;
+    auto basis = std::make_shared<const Basis>(model, sampler, parent, recipe.basis, watch, nullptr, space);
+    if (KnownSpace used = contact_space_of(*basis)) space = std::move(used);
+    return basis;
+}
+
+KnownSpace contact_space_of(const Basis &basis) {
+    if (basis.space()->is_contact_space) return basis.space();
+    return basis.sampler() ? basis.sampler()->space() : nullptr;
 }
 
 } // namespace plm

@@ -38,6 +38,12 @@ bool reached_the_end(const Measurement &m) {
                                          [](const auto &b) { return b->end_reason == PLM_REASON_RANGE_END; });
 }
 
+std::int64_t bytes_of(const Space &space) {
+    const auto entries = [](const Matrix &a) { return a.rows() * a.cols(); };
+    return static_cast<std::int64_t>(sizeof(double)) *
+           (entries(space.vectors) + entries(space.gap) + entries(space.damping));
+}
+
 /// A level of the reference: all methods are compared with it.
 struct Truth {
     Peak peak;
@@ -48,8 +54,12 @@ struct Truth {
 
 class Study {
   public:
-    Study(std::shared_ptr<const Model> model, const StudyPlan &plan, Watch watch)
-        : plan_(plan), watch_(watch), where_{std::move(model), checked_output(plan), plan.levels, {}} {}
+    Study(std::shared_ptr<const Model> model, const StudyPlan &plan, Watch watch, KnownSpace &known)
+        : plan_(plan), watch_(watch),
+          known_(known), where_{std::move(model), checked_output(plan), plan.levels, {}, nullptr} {
+        if (shared()) where_.space = known;
+        out_.shared_space = shared();
+    }
 
     StudyResult result() {
         run_reference();
@@ -72,6 +82,26 @@ class Study {
                         "the study does not know the motion to look at; call plm_study_set_output first")
                 .argument("study");
         return *plan.output;
+    }
+
+    bool shared() const { return plan_.options.share_space; }
+
+    // A method's contact space is the next one's, too.
+    void keep(const KnownSpace &space) {
+        if (shared() && space) where_.space = known_ = space;
+    }
+
+    Recipe windowed(const Recipe &recipe) {
+        KnownSpace space = where_.space;
+        Recipe r = with_window(where_.model, recipe, watch_, space);
+        keep(space);
+        return r;
+    }
+
+    // Shared: what making the space took is in the set-up of every method, once and by one measurement.
+    double setup_of(const Measurement &m) const {
+        if (!shared() || !m.space) return m.setup_seconds;
+        return m.setup_seconds - m.space_seconds + m.space->seconds;
     }
 
     double share_done() const {
@@ -98,12 +128,14 @@ class Study {
         watch_.step("study", share_done());
         MethodPlan plan = reference_plan();
         plan.name = "reference";
-        plan.recipe = with_window(where_.model, plan.recipe, watch_);
-        where_.range = range_of(where_.model, plan.recipe, watch_);
+        plan.recipe = windowed(plan.recipe);
+        KnownSpace space = where_.space;
+        where_.range = range_of(where_.model, plan.recipe, watch_, space);
+        keep(space);
         MethodResult &r = out_.reference;
         r.name = plan.name, r.options_text = plan.options_text;
         const Measurement m = measured_once(plan, r);
-        r.setup_seconds = m.setup_seconds, r.curve_seconds = m.curve_seconds;
+        r.setup_seconds = setup_of(m), r.curve_seconds = m.curve_seconds;
         r.iteration_seconds = m.iteration_seconds;
         for (std::size_t level = 0; level < plan_.levels.size(); ++level) add_truth(plan, m, level);
         describe(m, r);
@@ -170,10 +202,13 @@ class Study {
     }
 
     // The first run, whose memory is counted.
-    Measurement measured_once(const MethodPlan &method, MethodResult &r) const {
+    Measurement measured_once(const MethodPlan &method, MethodResult &r) {
         const CountingScope scope;
         Measurement m = measure(method, where_, watch_);
         r.peak_bytes = scope.peak();
+        if (m.space && m.space == where_.space) r.peak_bytes += bytes_of(*m.space); // made before, used now
+        r.space_seconds = m.space ? m.space->seconds : 0;
+        keep(m.space);
         return m;
     }
 
@@ -210,7 +245,7 @@ class Study {
         try {
             watch_.step("study", share_done());
             MethodPlan method = planned;
-            method.recipe = with_window(where_.model, method.recipe, watch_);
+            method.recipe = windowed(method.recipe);
             const Measurement first = measured_once(method, r);
             describe(first, r);
             repeat(method, r);
@@ -240,13 +275,15 @@ class Study {
     }
 
     void repeat(const MethodPlan &method, MethodResult &r) const {
-        std::vector<double> setup, curve, iteration;
+        std::vector<double> setup, space, curve, iteration;
         for (std::int64_t k = 0; k < plan_.options.repeats; ++k) {
             watch_.step("study", share_done());
             const Measurement m = measure(method, where_, watch_);
-            setup.push_back(m.setup_seconds), curve.push_back(m.curve_seconds);
+            setup.push_back(setup_of(m)), curve.push_back(m.curve_seconds);
             iteration.push_back(m.iteration_seconds);
+            space.push_back(m.space ? m.space->seconds : 0);
         }
+        r.space_seconds = median(space);
         r.setup_seconds = median(setup), r.curve_seconds = median(curve);
         if (method.kind != MethodKind::marching) r.iteration_seconds = median(iteration);
     }
@@ -309,7 +346,7 @@ class Study {
                   MethodResult &r) const {
         const HbmOptions o = options_at_level(method, where_, plan_.levels[level]);
         try {
-            const auto full = unreduced_basis(m.basis, watch_)->reduced();
+            const auto full = unreduced_basis(m.basis, watch_, where_.space)->reduced();
             const ErrorParts parts =
                 ErrorEstimator(full, *peak.branch, o)
                     .estimate(0, where_.output.dof, where_.output.measure, where_.output.harmonic)
@@ -341,6 +378,7 @@ class Study {
 
     const StudyPlan &plan_;
     Watch watch_;
+    KnownSpace &known_; // of the caller
     MeasurementCase where_;
     StudyResult out_;
     std::vector<Truth> truth_; // per level
@@ -349,8 +387,9 @@ class Study {
 
 } // namespace
 
-StudyResult run_study(const std::shared_ptr<const Model> &model, const StudyPlan &plan, Watch watch) {
-    return Study(model, plan, watch).result();
+StudyResult run_study(const std::shared_ptr<const Model> &model, const StudyPlan &plan, Watch watch,
+                      KnownSpace &known) {
+    return Study(model, plan, watch, known).result();
 }
 
 bool study_is_built() {

@@ -12,6 +12,7 @@ struct StudyOptions {
     std::int64_t repeats = 3;          // timed runs of each method, besides a first one to warm up
     std::int64_t curve_samples = 1000; // points of the reference, equally spaced in arc length
     double curve_tolerance = 5e-7;     // distance of a curve from its cubic pieces
+    bool share_space = true; // the contact space is made once; its time is added to every method that uses it
 };
 
 enum class MethodKind { response, compressed, refined, marching };
@@ -51,6 +52,7 @@ struct MethodResult {
     bool complete = false; // every curve reached the end of its range
     std::int64_t basis_size = -1, n_points = 0, newton_iterations = 0, failed_steps = 0, peak_bytes = -1;
     double setup_seconds = not_known, iteration_seconds = not_known, curve_seconds = not_known;
+    double space_seconds = not_known;                       // share of setup_seconds: the contact space
     double peak_hz = not_known, peak_amplitude = not_known; // at the first level
     double frequency_error = not_known, amplitude_error = not_known;
     double curve_error_l2 = not_known, curve_error_max = not_known;
@@ -69,12 +71,15 @@ struct StudyResult {
            harmonic_shift = not_known; // of the reference's peak with twice its harmonics
     double space_error = not_known, full_residual = not_known;
     double curve_resolution = 0; // the worst of all curves
+    bool shared_space = false;   // StudyOptions::share_space
     bool cancelled = false;      // some methods were not run
 };
 
 /// Throws for what no method can do without: an output, a method, a reference that can be solved. A method
-/// that fails is a row of the result. PLM_CANCELLED is thrown when there is no reference yet.
-StudyResult run_study(const std::shared_ptr<const Model> &model, const StudyPlan &plan, Watch watch);
+/// that fails is a row of the result. PLM_CANCELLED is thrown when there is no reference yet. known: an
+/// earlier contact space of the model, or null; with share_space the last one used is left there.
+StudyResult run_study(const std::shared_ptr<const Model> &model, const StudyPlan &plan, Watch watch,
+                      KnownSpace &known);
 
 /// report.md, table.csv and curve_*.csv in the folder, which is made when its parent exists. PLM_ERR_ARGUMENT
 /// when a file cannot be written.

@@ -11,7 +11,7 @@ namespace {
 
 } // namespace
 
-StudyResult run_study(const std::shared_ptr<const Model> &, const StudyPlan &, Watch) {
+StudyResult run_study(const std::shared_ptr<const Model> &, const StudyPlan &, Watch, KnownSpace &) {
     left_out();
 }
 
