@@ -344,7 +344,15 @@ PLM_API plm_status plm_sampler_run(plm_sampler *sampler);
  * "lelsm_updated" (modes of the system equivalent to the contact at the amplitude of the resonance, with static
  * responses to the excitation and to the contact forces; AL-Shudeifat and Butcher 2010; "equivalent_amplitude"),
  * "discontinuity" (modes with the contact as at rest, or closed where nothing decides, and a static field with a jump
- * for each pair; Segalman 2007; "n_discontinuities"). */
+ * for each pair; Segalman 2007; "n_discontinuities").
+ * "snapshots" (needs a sampler; modes at rest up to "rest_factor" times the window's end that answer to the contact,
+ * and the exact unilateral static solutions under the pre-load with the dominant mode's inertia on top, at
+ * "n_snapshots" sizes, with the static response to their own inertia; small where contact is under pre-load and excites
+ * few modes).
+ * With any kind, "n_pairs_carried" leaves contact equations at some of the pairs only, chosen by "pair_rule" (node
+ * sampling: Saito, Epureanu, Castanier & Pierre 2010; effective independence: Kammer 1991; master DOFs: Henshell & Ong
+ * 1975). Each pair left out adds its k_n to the carried pair that moves most alike; results of a branch are of all
+ * pairs, from the recovered field: those of a pair left out are its own gap and k_n times its own penetration. */
 
 PLM_API plm_status plm_basis_create(plm_model *model, plm_basis **basis);
 PLM_API plm_status plm_basis_destroy(plm_basis **basis);
@@ -549,8 +557,9 @@ PLM_API plm_status plm_transient_get_multipliers(plm_transient *transient, int64
 /* ---- Study: error against run time -------------------------------------------------------------------------------
  * Methods, each a way to the same response curve, are run and timed beside a reference and compared with it. A method
  * holds copies of options, taken when it is added: later changes of the handles do nothing to it. Everything is made
- * anew from these options, the model excepted: sampler, basis, curve. Results by key are arrays with one entry per
- * method, in the order they were added; NaN (or -1) stands where a method failed or a figure has no meaning. */
+ * anew from these options, the model and, with "share_space", its contact space excepted: sampler, basis, curve. Results
+ * by key are arrays with one entry per method, in the order they were added; NaN (or -1) stands where a method failed or a
+ * figure has no meaning. */
 
 /* model must be built before plm_study_run. PLM_ERR_NOT_BUILT in a build without PLM_WITH_STUDY. */
 PLM_API plm_status plm_study_create(plm_model *model, plm_study **study);
