@@ -1,8 +1,8 @@
 #!/bin/sh
 # The demo: how good is a basis of piecewise-linear modes, and what does it cost?
 #     sh examples/demo.sh [OPTION...]
-# Builds the library and cracked_plate_study, runs the cracked plate of the paper and plots what came out. Options go to
-# the program (--size quick, --scene coaxial_cylinders, --no-preload, ...; cracked_plate_study --help tells all).
+# Builds the library and plm-study, runs the cracked plate of the paper and plots what came out. Options go to the
+# program (--size quick, --scene coaxial_cylinders, --no-preload, --study all, ...; plm-study --help tells all).
 # Missing packages are installed where that is possible. Works from any folder; everything goes to build/.
 set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd)
@@ -33,15 +33,15 @@ need_packages $packages
 
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
 cmake --preset release -B "$build" -DPLM_BUILD_TESTS=OFF
-cmake --build "$build" --parallel $jobs --target cracked_plate_study
+cmake --build "$build" --parallel $jobs --target plm-study
 built=$(date +%s)
 echo
 
 # One thread for OpenBLAS: the dense systems here have a few hundred unknowns, too few to share. Threads that wait for
 # each other cost more than they bring.
 mkdir -p "$output"
-rm -f "$output"/*.csv "$output"/*.png
-OPENBLAS_NUM_THREADS=1 "$build/examples/c/cracked_plate_study" "$@" --output "$output"
+rm -f "$output"/*.csv "$output"/*.png "$output"/*/*.csv
+OPENBLAS_NUM_THREADS=1 "$build/examples/c/plm-study" --size paper --study short "$@" --output "$output"
 
 echo
 if find_python; then
@@ -50,5 +50,5 @@ else
     echo "No pictures: no Python with numpy and matplotlib was found." >&2
 fi
 end=$(date +%s)
-echo "Curves, contact and table as CSV: $root/$output"
+echo "Report: $root/$output/report.md, with curves, contact and tables as CSV beside it"
 echo "Total time $((end - begin)) s, $((built - begin)) s of it for the build."

@@ -13,6 +13,7 @@
 
 static int groups_of(const study_options *o) {
     int groups = 0;
+    if (study_wants(o, "short")) groups |= STUDY_SHORT;
     if (study_wants(o, "methods")) groups |= STUDY_RIVALS;
     if (study_wants(o, "convergence")) groups |= STUDY_SAMPLES | STUDY_SVD;
     if (study_wants(o, "left-out")) groups |= STUDY_LEFT_OUT;
@@ -43,10 +44,11 @@ static int run(study_case *c) {
     study_findings found = {NULL, NULL, NULL};
     const study_options *o = c->options;
     if (study_write_facts(c)) return 1;
-    if (study_run(c, groups_of(o), 1, "one_level", &one)) return 1;
-    found.one = &one;
-    if (write_contacts(c, &one)) return 1;
-    if (study_wants(o, "methods") && o->n_levels > 1) {
+    if (groups_of(o)) {
+        if (study_run(c, groups_of(o), 1, "one_level", &one) || write_contacts(c, &one)) return 1;
+        found.one = &one;
+    }
+    if (study_wants(o, "levels")) {
         if (study_run(c, STUDY_LEVELS, o->n_levels, "levels", &levels)) return 1;
         found.levels = &levels;
     }
@@ -54,7 +56,7 @@ static int run(study_case *c) {
         if (study_run_steps(c, &steps) || study_write_steps(c, &steps)) return 1;
         found.steps = &steps;
     }
-    study_print_rows(&one, groups_of(o));
+    if (found.one) study_print_rows(&one, groups_of(o));
     if (found.levels) study_print_rows(&levels, STUDY_LEVELS);
     return study_write_report(c, &found);
 }

@@ -79,7 +79,8 @@ enum {
     STUDY_SVD = 4,
     STUDY_LEFT_OUT = 8,
     STUDY_REFINE = 16,
-    STUDY_LEVELS = 32
+    STUDY_LEVELS = 32,
+    STUDY_SHORT = 64
 };
 
 typedef struct study_method {
@@ -128,7 +129,8 @@ typedef struct study_step {
 typedef struct study_steps {
     int64_t basis_size;
     int32_t n_harmonics, n_samples;
-    study_step harmonics[STUDY_STEPS]; /* number: harmonics, 0: automatic; the last is the truth */
+    study_step plain, bifurcations, stability; /* without both, with either */
+    study_step harmonics[STUDY_STEPS];         /* number: harmonics, 0: automatic; the last is the truth */
     study_step
         samples[STUDY_STEPS]; /* number: time samples, 0: exact switching instants, the last and the truth */
 } study_steps;

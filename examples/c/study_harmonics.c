@@ -50,13 +50,24 @@ static plm_status vary_samples(study_case *c, plm_hbm *hbm, study_steps *s) {
     static const int64_t numbers[] = {16, 32, 64, 128, 256, 512, 1024, 0};
     plm_status status = plm_hbm_set_int(hbm, "n_harmonics", c->options->n_harmonics);
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers && status >= 0; i++) {
-        if (numbers[i] > 0 && numbers[i] <= 4 * c->options->n_harmonics) continue; /* too few for the tangent */
+        if (numbers[i] > 0 && numbers[i] <= 4 * c->options->n_harmonics)
+            continue; /* too few for the tangent */
         study_step *step = &s->samples[s->n_samples++];
         step->number = numbers[i];
         status = plm_hbm_set_string(hbm, "aft", step->number > 0 ? "sampled" : "event");
         if (status >= 0 && step->number > 0) status = plm_hbm_set_int(hbm, "time_samples", step->number);
         if (status >= 0) status = follow(c, hbm, step);
     }
+    return status;
+}
+
+static plm_status vary_search(study_case *c, plm_hbm *hbm, study_steps *s) {
+    plm_status status = follow(c, hbm, &s->plain);
+    if (status >= 0) status = plm_hbm_set_string(hbm, "bifurcations", "on");
+    if (status >= 0) status = follow(c, hbm, &s->bifurcations);
+    if (status >= 0) status = plm_hbm_set_string(hbm, "bifurcations", "off");
+    if (status >= 0) status = plm_hbm_set_string(hbm, "stability", "floquet");
+    if (status >= 0) status = follow(c, hbm, &s->stability);
     return status;
 }
 
@@ -73,6 +84,7 @@ int study_run_steps(study_case *c, study_steps *s) {
     if (status >= 0) status = plm_hbm_set_string(hbm, "bifurcations", "off");
     if (status >= 0) status = vary_harmonics(c, hbm, s);
     if (status >= 0) status = vary_samples(c, hbm, s);
+    if (status >= 0) status = vary_search(c, hbm, s);
     const int failed = status < 0 ? study_complain(c->ctx, "harmonics and time samples") : 0;
     plm_hbm_destroy(&hbm);
     plm_basis_destroy(&pod);

@@ -35,7 +35,7 @@ static void add_bands(list *l, int64_t n) {
     char name[STUDY_NAME], settings[STUDY_SETTINGS];
     snprintf(name, sizeof name, "%" PRId64 " sample%s, bands", n, n == 1 ? "" : "s");
     snprintf(settings, sizeof settings, "sampler.n_samples=%" PRId64 " basis.selection=bands", n);
-    add(l, STUDY_RIVALS | STUDY_SAMPLES, STUDY_RESPONSE, 0, name, settings);
+    add(l, STUDY_RIVALS | STUDY_SAMPLES | (n == 4 ? STUDY_SHORT : 0), STUDY_RESPONSE, 0, name, settings);
 }
 
 static void add_all_samples(list *l) {
@@ -45,7 +45,7 @@ static void add_all_samples(list *l) {
     for (int32_t i = 0; i < o->n_counts; i++) {
         const int is_base = o->count[i] == 4;
         has_base |= is_base;
-        add_samples(l, o->count[i], STUDY_RIVALS | STUDY_SAMPLES | (is_base ? base : 0));
+        add_samples(l, o->count[i], STUDY_RIVALS | STUDY_SAMPLES | STUDY_SHORT | (is_base ? base : 0));
     }
     if (!has_base) add_samples(l, 4, base);
     for (int32_t i = 0; i < o->n_counts; i++) add_bands(l, o->count[i]);
@@ -54,9 +54,10 @@ static void add_all_samples(list *l) {
 static void add_rivals(list *l) {
     const int both = STUDY_RIVALS | STUDY_LEVELS;
     char settings[STUDY_SETTINGS];
-    add(l, both | STUDY_SAMPLES | STUDY_LEFT_OUT, STUDY_RESPONSE, 0, "Craig-Bampton",
+    add(l, both | STUDY_SAMPLES | STUDY_LEFT_OUT | STUDY_SHORT, STUDY_RESPONSE, 0, "Craig-Bampton",
         "basis.kind=craig_bampton");
-    add(l, both | STUDY_LEFT_OUT, STUDY_RESPONSE, 0, "full order", "basis.kind=full hbm.unknowns=gaps");
+    add(l, both | STUDY_LEFT_OUT | STUDY_SHORT, STUDY_RESPONSE, 0, "full order",
+        "basis.kind=full hbm.unknowns=gaps");
     add(l, STUDY_RIVALS, STUDY_RESPONSE, 0, "bilinear modes", "basis.kind=bilinear");
     add(l, STUDY_RIVALS, STUDY_RESPONSE, 0, "LELSM", "basis.kind=lelsm");
     add(l, both, STUDY_RESPONSE, 0, "updated LELSM", "basis.kind=lelsm_updated");
@@ -73,7 +74,7 @@ static void add_rivals(list *l) {
         add(l, STUDY_RIVALS, STUDY_RESPONSE, 0, "half of the pairs, MDOF", settings);
     }
     add(l, STUDY_RIVALS, STUDY_RESPONSE, 0, "sampled forces, 256", "hbm.aft=sampled hbm.time_samples=256");
-    add(l, both, STUDY_COMPRESSED, 10, "POD of full order to 10", "basis.kind=full hbm.unknowns=gaps");
+    add(l, both, STUDY_COMPRESSED, 10, "POD of full order to 10", "basis.kind=full");
     if (!strcmp(l->c->options->size, "quick")) {
         add(l, STUDY_RIVALS, STUDY_MARCHING, 12, "marching, 1 sample",
             "sampler.n_samples=1 basis.selection=bands");
@@ -86,14 +87,16 @@ static void add_compressed(list *l) {
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         char name[STUDY_NAME];
         snprintf(name, sizeof name, "compressed to %" PRId64, sizes[i]);
-        if (sizes[i] < n_free) add(l, STUDY_RIVALS | STUDY_LEVELS, STUDY_COMPRESSED, sizes[i], name, "");
+        const int groups = STUDY_RIVALS | (sizes[i] == 12 ? STUDY_SHORT | STUDY_LEVELS : 0) |
+                           (sizes[i] == 24 ? STUDY_LEVELS : 0);
+        if (sizes[i] < n_free) add(l, groups, STUDY_COMPRESSED, sizes[i], name, "");
     }
-    add(l, STUDY_RIVALS | STUDY_LEVELS, STUDY_COMPRESSED, 0, "compressed by tolerance", "");
+    add(l, STUDY_RIVALS, STUDY_COMPRESSED, 0, "compressed by tolerance", "");
     add(l, STUDY_RIVALS | STUDY_LEVELS | STUDY_REFINE, STUDY_REFINED, 0, "refined", "");
 }
 
-/* The last three start from a dominant mode that is not a good guess. Some need a larger contact space than the other
- * methods, so that they come last. */
+/* The last three start from a dominant mode that is not a good guess. Some need a larger contact space than
+ * the other methods, so that they come last. */
 static void add_refined(list *l) {
     char next[STUDY_SETTINGS], range[STUDY_SETTINGS / 2];
     double low = 0, high = 0;
@@ -136,9 +139,6 @@ static void add_left_out(list *l) {
     add(l, g, STUDY_RESPONSE, 0, "twice the samples", "sampler.n_samples=8");
     add(l, g, STUDY_RESPONSE, 0, "all pairs, modal", "hbm.unknowns=modal");
     add(l, g, STUDY_RESPONSE, 0, "moving pairs only", "hbm.unknowns=gaps");
-    add(l, g, STUDY_RESPONSE, 0, "bifurcations", "hbm.bifurcations=on");
-    add(l, g, STUDY_COMPRESSED, 10, "to 10, plain", "");
-    add(l, g, STUDY_COMPRESSED, 10, "to 10, stability", "hbm.stability=floquet");
 }
 
 int32_t study_methods(study_case *c, int groups, study_method method[STUDY_METHODS]) {

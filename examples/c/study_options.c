@@ -11,24 +11,26 @@ static const char help[] =
     "  --scene NAME         cracked_plate, coaxial_cylinders or bilinear_oscillator (cracked_plate)\n"
     "  --size quick|paper   mesh of the scene (quick)\n"
     "  --no-preload         without the static load\n"
-    "  --study PART         methods: all ways to the curve beside each other, also at several force levels;\n"
+    "  --study PART         short: piecewise-linear modes beside Craig-Bampton and the full order;\n"
+    "                       methods: all ways to the curve beside each other;\n"
+    "                       levels: some of them for a sweep of force levels;\n"
     "                       convergence: numbers of samples, harmonics, time samples, tolerance of the "
     "basis;\n"
     "                       left-out: what the scene does not need, and what leaving it out saves;\n"
     "                       refine: bases for a tolerance from several starts; all (methods)\n"
     "  --samples 1,2,4      numbers of contact samples to compare (1,2,4,8)\n"
     "  --harmonics N        harmonics of the balance (5)\n"
-    "  --levels N           force levels of the sweep that many curves are needed for, 1: no sweep (10)\n"
+    "  --levels N           force levels of that sweep (10)\n"
     "  --tolerance X        what bases are refined to (1e-3)\n"
-    "  --repeats N          timed runs of each method, after one to warm up (1)\n"
-    "  --resolution X       further points are computed on curves until they are known to this (1e-6)\n"
+    "  --repeats N          timed runs of each method, after one to warm up; 0: that one (1)\n"
+    "  --resolution X       further points are computed on curves until they are known to this (1e-5)\n"
     "  --output DIR         folder for the report, made when missing (study_output)\n"
     "  --help\n"
     "\n"
     "Then examples/plot/plot_study.py DIR draws the pictures of DIR/report.md; examples/demo.sh does it "
     "all.\n";
 
-static const char *const parts[] = {"methods", "convergence", "left-out", "refine", "all"};
+static const char *const parts[] = {"short", "methods", "levels", "convergence", "left-out", "refine", "all"};
 
 static int among(const char *value, const char *const *words, size_t n) {
     for (size_t i = 0; i < n; i++)
@@ -71,8 +73,9 @@ static const char *read_value(const char *name, const char *value, study_options
     }
     if (!strcmp(name, "--size")) return o->size = value, among(value, sizes, 2) ? NULL : "quick or paper";
     if (!strcmp(name, "--study"))
-        return o->study = value,
-               among(value, parts, 5) ? NULL : "methods, convergence, left-out, refine or all";
+        return o->study = value, among(value, parts, sizeof parts / sizeof *parts)
+                                     ? NULL
+                                     : "short, methods, levels, convergence, left-out, refine or all";
     if (!strcmp(name, "--samples"))
         return read_counts(value, o) ? "up to 16 numbers from 1 to 1000, separated by commas" : NULL;
     if (!strcmp(name, "--harmonics"))
@@ -80,7 +83,9 @@ static const char *read_value(const char *name, const char *value, study_options
     if (!strcmp(name, "--levels"))
         return read_count(value, &end, &o->n_levels) || *end ? "a number from 1 to 1000" : NULL;
     if (!strcmp(name, "--repeats"))
-        return read_count(value, &end, &o->repeats) || *end ? "a number from 1 to 1000" : NULL;
+        return (read_count(value, &end, &o->repeats) && strcmp(value, "0")) || *end
+                   ? "a number from 0 to 1000"
+                   : NULL;
     if (!strcmp(name, "--tolerance"))
         return read_share(value, &o->tolerance) ? "a number between 0 and 1" : NULL;
     if (!strcmp(name, "--resolution"))
@@ -103,7 +108,7 @@ int study_options_read(int argc, char **argv, study_options *o) {
     o->scene = "cracked_plate", o->size = "quick", o->study = "methods", o->output = "study_output";
     o->with_preload = 1;
     o->n_harmonics = 5, o->repeats = 1, o->n_levels = 10;
-    o->tolerance = 1e-3, o->curve_tolerance = 1e-6;
+    o->tolerance = 1e-3, o->curve_tolerance = 1e-5;
     read_counts("1,2,4,8", o);
     remember(argc, argv, o);
     for (int i = 1; i < argc; i++) {

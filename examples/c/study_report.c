@@ -51,10 +51,9 @@ static void write_legend(FILE *to) {
                 "nearer (L2).\n\n");
 }
 
-static void write_methods(const study_result *one, FILE *to) {
-    fprintf(to, "\n## The methods\n");
-    write_legend(to);
-    study_write_rows(to, one, STUDY_RIVALS);
+static void write_methods(const study_result *one, int all, FILE *to) {
+    fprintf(to, "\n## The methods\n\n");
+    study_write_rows(to, one, all ? STUDY_RIVALS : STUDY_SHORT);
     fprintf(to, "\n![Error against time](error_against_time.png)\n\n![Response curves](curves.png)\n\n"
                 "![Contact over the cycle](contact_over_cycle.png)\n");
 }
@@ -133,8 +132,10 @@ int study_write_report(study_case *c, const study_findings *f) {
             o->with_preload ? "with" : "without");
     fprintf(to, "    OPENBLAS_NUM_THREADS=1 %s\n    plot_study.py %s\n\n", o->command, o->output);
     study_write_case(c, to);
-    write_reference(f->one, to);
-    if (study_wants(o, "methods")) write_methods(f->one, to);
+    write_reference(f->one ? f->one : f->levels, to);
+    write_legend(to);
+    if (study_wants(o, "methods") || study_wants(o, "short"))
+        write_methods(f->one, study_wants(o, "methods"), to);
     if (f->levels) write_levels(f->levels, to);
     if (study_wants(o, "convergence")) write_convergence(f, to);
     if (study_wants(o, "left-out")) write_left_out(f, to);

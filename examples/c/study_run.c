@@ -109,7 +109,7 @@ static int write_groups(study_case *c, const char *folder, const study_result *r
     static const struct {
         int group;
         const char *name;
-    } groups[] = {{STUDY_RIVALS, "methods"},   {STUDY_SAMPLES, "samples"}, {STUDY_SVD, "svd"},
+    } groups[] = {{STUDY_RIVALS, "methods"},    {STUDY_SAMPLES, "samples"}, {STUDY_SVD, "svd"},
                   {STUDY_LEFT_OUT, "left-out"}, {STUDY_REFINE, "refine"},   {STUDY_LEVELS, "levels"}};
     char path[2 * STUDY_NAME];
     snprintf(path, sizeof path, "%s/methods.csv", folder);

@@ -82,8 +82,6 @@ static const struct {
     {"the worse choice of unknowns (automatic against modal)", "4 samples", "all pairs, modal"},
     {"all contact DOFs and fixed-interface modes (against Craig-Bampton)", "4 samples", "Craig-Bampton"},
     {"the rest of the structure (against the full order)", "4 samples", "full order"},
-    {"search for folds and branch points", "4 samples", "bifurcations"},
-    {"stability of every point, on 10 coordinates", "to 10, plain", "to 10, stability"},
 };
 
 static void write_part(FILE *to, const char *part, const study_row *without, const study_row *with) {
@@ -95,19 +93,24 @@ static void write_part(FILE *to, const char *part, const study_row *without, con
             without->error_amplitude, with->error_amplitude);
 }
 
-/* Automatic harmonics, the first step, against twenty. */
-static void write_harmonics(FILE *to, const study_steps *s) {
-    const study_step *automatic = &s->harmonics[0], *twenty = NULL;
+static void write_step(FILE *to, const char *part, int64_t size, const study_step *without,
+                       const study_step *with) {
+    const double saved = with->seconds - without->seconds;
+    fprintf(to, "| %s | %" PRId64 " / %" PRId64 " | %.3g / %.3g | %.3g | %.0f %% | %.1e | %.1e | |\n", part,
+            size, size, without->seconds, with->seconds, saved, 100 * saved / with->seconds,
+            fabs(without->hz / with->hz - 1), fabs(without->amplitude / with->amplitude - 1));
+}
+
+/* On the compressed basis; automatic harmonics are the first step. */
+static void write_steps(FILE *to, const study_steps *s) {
+    char part[2 * STUDY_NAME];
+    snprintf(part, sizeof part, "harmonics no point needs (at most %" PRId64 ", against 20 everywhere)",
+             s->harmonics[0].harmonics);
     for (int32_t i = 0; i < s->n_harmonics; i++)
-        if (s->harmonics[i].number == 20) twenty = &s->harmonics[i];
-    if (!twenty) return;
-    const double saved = twenty->seconds - automatic->seconds;
-    fprintf(to,
-            "| harmonics: as many as each point needs (at most %" PRId64 ") against 20 | %" PRId64
-            " / %" PRId64 " | %.3g / %.3g | %.3g | %.0f %% | %.1e | %.1e | |\n",
-            automatic->harmonics, s->basis_size, s->basis_size, automatic->seconds, twenty->seconds, saved,
-            100 * saved / twenty->seconds, fabs(automatic->hz / twenty->hz - 1),
-            fabs(automatic->amplitude / twenty->amplitude - 1));
+        if (s->harmonics[i].number == 20)
+            write_step(to, part, s->basis_size, &s->harmonics[0], &s->harmonics[i]);
+    write_step(to, "search for folds and branch points", s->basis_size, &s->plain, &s->bifurcations);
+    write_step(to, "stability of every point", s->basis_size, &s->plain, &s->stability);
 }
 
 void study_write_left_out(FILE *to, const study_result *result, const study_steps *steps) {
@@ -120,7 +123,7 @@ void study_write_left_out(FILE *to, const study_result *result, const study_step
                         *with = study_find(result, parts[i].with);
         if (without && with) write_part(to, parts[i].part, without, with);
     }
-    if (steps) write_harmonics(to, steps);
+    if (steps) write_steps(to, steps);
 }
 
 /* ---- refinement ---- */

@@ -77,4 +77,10 @@ KnownSpace contact_space_of(const Basis &basis) {
     return basis.sampler() ? basis.sampler()->space() : nullptr;
 }
 
+std::int64_t bytes_of(const Space &space) {
+    const auto entries = [](const Matrix &a) { return a.rows() * a.cols(); };
+    return static_cast<std::int64_t>(sizeof(double)) *
+           (entries(space.vectors) + entries(space.gap) + entries(space.damping));
+}
+
 } // namespace plm

@@ -44,5 +44,7 @@ std::shared_ptr<const Basis> build(const std::shared_ptr<const Model> &model, co
 
 /// The contact space a basis or its sampler was made in; null: none (Craig-Bampton).
 KnownSpace contact_space_of(const Basis &basis);
+/// What its arrays hold.
+std::int64_t bytes_of(const Space &space);
 
 } // namespace plm

@@ -38,12 +38,6 @@ bool reached_the_end(const Measurement &m) {
                                          [](const auto &b) { return b->end_reason == PLM_REASON_RANGE_END; });
 }
 
-std::int64_t bytes_of(const Space &space) {
-    const auto entries = [](const Matrix &a) { return a.rows() * a.cols(); };
-    return static_cast<std::int64_t>(sizeof(double)) *
-           (entries(space.vectors) + entries(space.gap) + entries(space.damping));
-}
-
 /// A level of the reference: all methods are compared with it.
 struct Truth {
     Peak peak;
@@ -248,7 +242,7 @@ class Study {
             method.recipe = windowed(method.recipe);
             const Measurement first = measured_once(method, r);
             describe(first, r);
-            repeat(method, r);
+            repeat(method, first, r);
             compare(method, first, r);
             r.failed = false;
         } catch (const Error &e) {
@@ -274,14 +268,18 @@ class Study {
         return r;
     }
 
-    void repeat(const MethodPlan &method, MethodResult &r) const {
+    // Medians of the timed runs; the first one is among them where there are no others.
+    void repeat(const MethodPlan &method, const Measurement &first, MethodResult &r) const {
         std::vector<double> setup, space, curve, iteration;
-        for (std::int64_t k = 0; k < plan_.options.repeats; ++k) {
-            watch_.step("study", share_done());
-            const Measurement m = measure(method, where_, watch_);
+        const auto add = [&](const Measurement &m) {
             setup.push_back(setup_of(m)), curve.push_back(m.curve_seconds);
             iteration.push_back(m.iteration_seconds);
             space.push_back(m.space ? m.space->seconds : 0);
+        };
+        if (plan_.options.repeats == 0) add(first);
+        for (std::int64_t k = 0; k < plan_.options.repeats; ++k) {
+            watch_.step("study", share_done());
+            add(measure(method, where_, watch_));
         }
         r.space_seconds = median(space);
         r.setup_seconds = median(setup), r.curve_seconds = median(curve);

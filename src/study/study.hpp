@@ -9,7 +9,7 @@
 namespace plm {
 
 struct StudyOptions {
-    std::int64_t repeats = 3;          // timed runs of each method, besides a first one to warm up
+    std::int64_t repeats = 3;          // timed runs of each method, after one to warm up; 0: that one
     std::int64_t curve_samples = 1000; // points of the reference, equally spaced in arc length
     double curve_tolerance = 5e-7;     // distance of a curve from its cubic pieces
     bool share_space = true; // the contact space is made once; its time is added to every method that uses it
