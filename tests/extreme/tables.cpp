@@ -54,7 +54,7 @@ void print_introduction() {
         "# Extreme cases\n\n"
         "One row per case that a harmonic-balance solver with contact may stumble over. Every option has its "
         "default,\n"
-        "the number of harmonics included (as many as each point needs, `harmonic_tolerance` 1e-3), unless "
+        "the number of harmonics included (as many as each point needs, `harmonic_tolerance` 5e-4), unless "
         "the row is\n"
         "about that option or says so. Structures of a few masses are solved unreduced (`kind` = `full`) so "
         "that the "
@@ -136,9 +136,9 @@ int print_cold_starts(bool quick, std::vector<GroupWork> &works) {
 
 int print_scenes(std::vector<GroupWork> &works) {
     std::printf(
-        "\n## The scenes of examples/scenes\n\nDefault sweeps over the sampler's window, `quick` size; H = 5 "
-        "on the cylinders, where automatic harmonics take 150 to 170 s; their "
-        "accuracy is in the test `accuracy`.\n\n"
+        "\n## The scenes of examples/scenes\n\nDefault sweeps over the sampler's window, `quick` size; their "
+        "accuracy "
+        "is in the test `accuracy`.\n\n"
         "| scene | DOFs | pairs | outcome | points | iterations a point | failed steps | time (s) | |\n"
         "|---|---|---|---|---|---|---|---|---|\n");
     GroupWork group{"Scenes", 0, {}};
