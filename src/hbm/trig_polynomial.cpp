@@ -22,17 +22,20 @@ TrigValue evaluate_trig(const double *x, std::int64_t n_harmonics, double t) {
 }
 
 Matrix trig_grid(std::int64_t n_harmonics, std::int64_t n) {
-    Matrix grid(2 * n, 2 * n_harmonics + 1);
+    vector<double> cosine(n), sine(n);
     for (std::int64_t i = 0; i < n; ++i) {
-        grid(i, 0) = 1;
-        for (std::int64_t h = 1; h <= n_harmonics; ++h) {
-            // the angle is reduced in integers, so that high harmonics stay exact on the grid
-            const double angle = 2 * M_PI * static_cast<double>((h * i) % n) / static_cast<double>(n);
-            const double c = std::cos(angle), s = std::sin(angle), k = static_cast<double>(h);
-            grid(i, 2 * h - 1) = c;
-            grid(i, 2 * h) = s;
-            grid(n + i, 2 * h - 1) = -k * s;
-            grid(n + i, 2 * h) = k * c;
+        const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(n);
+        cosine[i] = std::cos(angle), sine[i] = std::sin(angle);
+    }
+    Matrix grid(2 * n, 2 * n_harmonics + 1);
+    for (std::int64_t i = 0; i < n; ++i) grid(i, 0) = 1;
+    for (std::int64_t h = 1; h <= n_harmonics; ++h) {
+        double *c = grid.col(2 * h - 1), *s = grid.col(2 * h);
+        const double k = static_cast<double>(h);
+        for (std::int64_t i = 0; i < n; ++i) {
+            const std::int64_t at = (h * i) % n; // h 2 pi i / n, reduced in integers
+            c[i] = cosine[at], s[i] = sine[at];
+            c[n + i] = -k * sine[at], s[n + i] = k * cosine[at];
         }
     }
     return grid;
