@@ -20,7 +20,7 @@ enum {
 /* ---- the command line: study_options.c ---- */
 
 typedef struct study_options {
-    const char *scene, *size, *study, *output;
+    const char *scene, *size, *study, *unknowns, *output;
     int with_preload;
     int64_t n_harmonics, repeats, n_levels;
     double tolerance, curve_tolerance;
@@ -31,7 +31,7 @@ typedef struct study_options {
 
 /* 0: go on; 1: help was printed; 2: not understood (said on stderr). */
 int study_options_read(int argc, char **argv, study_options *options);
-/* 1 when --study asks for the part of this name. */
+/* 1 when --study asks for the part of this name, among others. */
 int study_wants(const study_options *options, const char *part);
 
 /* ---- the case: study_case.c ---- */

@@ -17,9 +17,12 @@ static const char help[] =
     "                       convergence: numbers of samples, harmonics, time samples, tolerance of the "
     "basis;\n"
     "                       left-out: what the scene does not need, and what leaving it out saves;\n"
-    "                       refine: bases for a tolerance from several starts; all (methods)\n"
+    "                       refine: bases for a tolerance from several starts; all; or several: "
+    "refine,levels\n"
+    "                       (methods)\n"
     "  --samples 1,2,4      numbers of contact samples to compare (1,2,4,8)\n"
     "  --harmonics N        harmonics of the balance (5)\n"
+    "  --unknowns HOW       auto, modal or gaps, of the methods that are not compressed (auto)\n"
     "  --levels N           force levels of that sweep (10)\n"
     "  --tolerance X        what bases are refined to (1e-3)\n"
     "  --repeats N          timed runs of each method, after one to warm up; 0: that one (1)\n"
@@ -36,6 +39,22 @@ static int among(const char *value, const char *const *words, size_t n) {
     for (size_t i = 0; i < n; i++)
         if (!strcmp(value, words[i])) return 1;
     return 0;
+}
+
+/* The word at the start of a list, and its length. */
+static int is_part(const char *word, size_t n) {
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        if (strlen(parts[i]) == n && !strncmp(parts[i], word, n)) return 1;
+    return 0;
+}
+
+static int are_parts(const char *list) {
+    for (;;) {
+        const size_t n = strcspn(list, ",");
+        if (!is_part(list, n)) return 0;
+        if (!list[n]) return 1;
+        list += n + 1;
+    }
 }
 
 static int read_count(const char *text, char **end, int64_t *value) {
@@ -63,7 +82,7 @@ static int read_share(const char *text, double *value) {
 
 /* NULL: good; else what is wanted. */
 static const char *read_value(const char *name, const char *value, study_options *o) {
-    static const char *const sizes[] = {"quick", "paper"};
+    static const char *const sizes[] = {"quick", "paper"}, *const unknowns[] = {"auto", "modal", "gaps"};
     char *end;
     if (!strcmp(name, "--scene")) {
         o->scene = value;
@@ -73,9 +92,10 @@ static const char *read_value(const char *name, const char *value, study_options
     }
     if (!strcmp(name, "--size")) return o->size = value, among(value, sizes, 2) ? NULL : "quick or paper";
     if (!strcmp(name, "--study"))
-        return o->study = value, among(value, parts, sizeof parts / sizeof *parts)
-                                     ? NULL
-                                     : "short, methods, levels, convergence, left-out, refine or all";
+        return o->study = value,
+               are_parts(value) ? NULL : "short, methods, levels, convergence, left-out, refine or all";
+    if (!strcmp(name, "--unknowns"))
+        return o->unknowns = value, among(value, unknowns, 3) ? NULL : "auto, modal or gaps";
     if (!strcmp(name, "--samples"))
         return read_counts(value, o) ? "up to 16 numbers from 1 to 1000, separated by commas" : NULL;
     if (!strcmp(name, "--harmonics"))
@@ -105,7 +125,8 @@ static void remember(int argc, char **argv, study_options *o) {
 
 int study_options_read(int argc, char **argv, study_options *o) {
     memset(o, 0, sizeof *o);
-    o->scene = "cracked_plate", o->size = "quick", o->study = "methods", o->output = "study_output";
+    o->scene = "cracked_plate", o->size = "quick", o->study = "methods", o->output = "study_output",
+    o->unknowns = "auto";
     o->with_preload = 1;
     o->n_harmonics = 5, o->repeats = 1, o->n_levels = 10;
     o->tolerance = 1e-3, o->curve_tolerance = 1e-5;
@@ -129,5 +150,10 @@ int study_options_read(int argc, char **argv, study_options *o) {
 }
 
 int study_wants(const study_options *o, const char *part) {
-    return !strcmp(o->study, part) || !strcmp(o->study, "all");
+    for (const char *list = o->study;; list++) {
+        const size_t n = strcspn(list, ",");
+        if (!strncmp(list, "all", n) || (strlen(part) == n && !strncmp(list, part, n))) return 1;
+        list += n;
+        if (!*list) return 0;
+    }
 }

@@ -20,6 +20,8 @@ static plm_status add_marching(study_case *c, plm_study *study, const study_meth
 static plm_status add_method(study_case *c, plm_study *study, const study_method *m) {
     study_recipe r;
     plm_status status = study_recipe_make(c, m->settings, &r);
+    if (!status && m->way == STUDY_RESPONSE && !strstr(m->settings, "hbm.unknowns"))
+        status = plm_hbm_set_string(r.hbm, "unknowns", c->options->unknowns);
     if (!status && m->way == STUDY_RESPONSE) status = plm_study_add_response(study, m->name, r.hbm, NULL);
     if (!status && m->way == STUDY_COMPRESSED)
         status = plm_study_add_compressed(study, m->name, r.hbm, m->number, NULL);

@@ -25,7 +25,7 @@ static void options_of_the_study_are_checked(void **state) {
     const double nan_level[] = {1, NAN}, negative[] = {0.5, 1, -1}, zero = 0;
     (void)state;
     BAD(plm_study_create(c.model, NULL), "plm_study_create", "study", -1, "NULL");
-    BAD(plm_study_set_int(c.study, "repeats", 0), "plm_study_set_int", "value", -1, "repeats");
+    BAD(plm_study_set_int(c.study, "repeats", -1), "plm_study_set_int", "value", -1, "repeats");
     BAD(plm_study_set_int(c.study, "curve_samples", 1), "plm_study_set_int", "value", -1, "curve_samples");
     BAD(plm_study_set_double(c.study, "curve_tolerance", NAN), "plm_study_set_double", "value", -1,
         "curve_tolerance");

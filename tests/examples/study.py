@@ -63,7 +63,7 @@ def check_base(table, name):
 
 def check_short(program, scene, options, folder):
     name = " ".join([scene, *options])
-    if not study(program, folder, ["--scene", scene, "--study", "short", *options]):
+    if not study(program, folder, ["--scene", scene, "--study", "short", "--repeats", "0", *options]):
         return
     table = table_of(folder / "one_level")
     require(list(table) == ["reference", *SHORT], f"{name}: one row per method, in order: {list(table)}")
