@@ -22,9 +22,8 @@ const std::vector<Key> &hbm_keys() {
         int_option<&O::n_harmonics>("n_harmonics", 0, 1000,
                                     "harmonics H of the solution; 0: as many as each point needs"),
         int_option<&O::max_harmonics>("max_harmonics", 1, 1000, "with n_harmonics = 0: the most allowed"),
-        real_option<&O::harmonic_tolerance>(
-            "harmonic_tolerance", 1e-12, 1,
-            "with n_harmonics = 0: allowed \"harmonic_error\" of a point"),
+        real_option<&O::harmonic_tolerance>("harmonic_tolerance", 1e-12, 1,
+                                            "with n_harmonics = 0: allowed \"harmonic_error\" of a point"),
         choice_option<&O::tail_correction>("tail_correction", "off,on",
                                            "add the next harmonics that follow from the exact contact force"),
         int_option<&O::period_multiple>("period_multiple", 1, 64,
@@ -36,9 +35,9 @@ const std::vector<Key> &hbm_keys() {
                                      "samples per period of the sampled contact forces"),
         choice_option<&O::unknowns>("unknowns", "auto,modal,gaps",
                                     "nonlinear unknowns: reduced coordinates or contact gaps; auto: by cost"),
-        choice_option<&O::formulation>(
-            "formulation", "auto,penalty,compliance",
-            "contact law as a stiff spring, or with the force as unknown, which has the rigid limit; auto: by stiffness"),
+        choice_option<&O::formulation>("formulation", "auto,penalty,compliance",
+                                       "contact law as a stiff spring, or with the force as unknown, which "
+                                       "has the rigid limit; auto: by stiffness"),
         real_option<&O::frequency_min_hz>("frequency_min_hz", 0, huge,
                                           "lower end of a sweep (Hz); 0: the basis' window"),
         real_option<&O::frequency_max_hz>("frequency_max_hz", 0, huge,
@@ -55,12 +54,14 @@ const std::vector<Key> &hbm_keys() {
                                       "first arc-length step, 1 = the window; 0: automatic"),
         real_option<&O::min_step>("min_step", 1e-14, 1, "smallest arc-length step"),
         real_option<&O::max_step>("max_step", 1e-12, 10, "largest arc-length step"),
-        choice_option<&O::stability>("stability", "off,auto,floquet,hill",
-                                     "Floquet multipliers of every point, by the exact flow or by Hill's method; auto: by the "
-                                     "flow, up to 24 coordinates"),
-        choice_option<&O::bifurcations>("bifurcations", "off,on",
-                                        "locate folds and branch points, with stability also period doublings and "
-                                        "Neimark-Sacker points"),
+        choice_option<&O::stability>(
+            "stability", "off,auto,floquet,hill",
+            "Floquet multipliers of every point, by the exact flow or by Hill's method; auto: by the "
+            "flow, up to 24 coordinates"),
+        choice_option<&O::bifurcations>(
+            "bifurcations", "off,on",
+            "locate folds and branch points, with stability also period doublings and "
+            "Neimark-Sacker points"),
     };
     return keys;
 }
@@ -71,7 +72,8 @@ const std::vector<Key> &branch_keys() {
     static const std::vector<Key> keys = {
         result<B>("n_points", "points of the curve",
                   [](const B &b) { return static_cast<std::int64_t>(built(b)->points().size()); }),
-        result<B>("n_harmonics", "harmonics H of the coefficients: the largest of all points", [](const B &b) { return built(b)->n_harmonics(); }),
+        result<B>("n_harmonics", "harmonics H of the coefficients: the largest of all points",
+                  [](const B &b) { return built(b)->n_harmonics(); }),
         result<B>("n_pairs", "contact pairs", [](const B &b) { return built(b)->reduced().n_whole_pairs(); }),
         result<B>("n_dof", "DOFs of the model",
                   [](const B &b) { return built(b)->reduced().model->n_dof(); }),
@@ -90,18 +92,23 @@ const std::vector<Key> &branch_keys() {
                   [](const B &b) { return per_point<Ints>(b, [](auto &p) { return p.n_switching; }); }),
         result<B>("point_harmonics", "harmonics every point was solved for",
                   [](const B &b) { return per_point<Ints>(b, [](auto &p) { return p.n_harmonics; }); }),
-        result<B>("harmonic_tail", "share of the next harmonics in the motion of the gaps, of every point; -1: unknown",
+        result<B>("harmonic_tail",
+                  "share of the next harmonics in the motion of the gaps, of every point; -1: unknown",
                   [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.harmonic_tail; }); }),
-        result<B>("harmonic_error", "share of the motion that the next harmonics would change, of every point, by one step of "
+        result<B>("harmonic_error",
+                  "share of the motion that the next harmonics would change, of every point, by one step of "
                   "Newton's method; -1: unknown",
                   [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.harmonic_error; }); }),
-        result<B>("period_multiple", "excitation periods in a period of the response; harmonics count from the latter",
+        result<B>("period_multiple",
+                  "excitation periods in a period of the response; harmonics count from the latter",
                   [](const B &b) { return built(b)->period_multiple(); }),
         result<B>("point_force_scale", "factor on the excitation of every point",
                   [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.force_scale; }); }),
-        result<B>("bifurcation", "PLM_BIFURCATION_... of every point", [](const B &b) {
-            return per_point<Ints>(b, [](auto &p) { return static_cast<std::int64_t>(p.bifurcation); });
-        }),
+        result<B>("bifurcation", "PLM_BIFURCATION_... of every point",
+                  [](const B &b) {
+                      return per_point<Ints>(
+                          b, [](auto &p) { return static_cast<std::int64_t>(p.bifurcation); });
+                  }),
         result<B>("stable", "1 stable, 0 unstable, -1 not computed, of every point",
                   [](const B &b) { return per_point<Ints>(b, [](auto &p) { return stability_of(p); }); }),
         result<B>("end_reason", "why the branch ended: PLM_REASON_...",

@@ -57,7 +57,8 @@ BranchPoint on_longer_period(const BranchPoint &point, std::int64_t multiple) {
     longer.n_harmonics = multiple * point.n_harmonics;
     longer.eta.reset(r, 2 * multiple * h);
     for (std::int64_t k = 1; k <= h; ++k)
-        std::copy(point.eta.col(2 * k - 2), point.eta.col(2 * k - 2) + 2 * r, longer.eta.col(2 * multiple * k - 2));
+        std::copy(point.eta.col(2 * k - 2), point.eta.col(2 * k - 2) + 2 * r,
+                  longer.eta.col(2 * multiple * k - 2));
     longer.multipliers.clear(); // those of the longer period are powers
     return longer;
 }

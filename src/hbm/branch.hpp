@@ -42,7 +42,8 @@ std::int64_t stability_of(const BranchPoint &point);
 /// How a branch ended (PLM_REASON_...), in words.
 std::string end_text(std::int32_t reason);
 
-/// Amplitude of the motion a0, a1, b1, ..., aH, bH; harmonic is used by Measure::harmonic only, those beyond H are zero.
+/// Amplitude of the motion a0, a1, b1, ..., aH, bH; harmonic is used by Measure::harmonic only, those beyond
+/// H are zero.
 double amplitude_of(const vector<double> &coefficient, Measure measure, std::int64_t harmonic);
 
 /// The same coefficients with n harmonics: padded with zeros or cut.

@@ -1,6 +1,6 @@
 // From a located branch point or period doubling to the curve that crosses or leaves there: the tangent has a
-// null vector that does not belong to the curve at hand; a small step along it, corrected across it, is a first
-// point of the other one.
+// null vector that does not belong to the curve at hand; a small step along it, corrected across it, is a
+// first point of the other one.
 #include "hbm/curve.hpp"
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,8 @@ vector<double> null_vector(HbmSystem &system, const vector<double> &x, double om
     vector<double> v(n), r(n);
     system.residual(x.data(), omega, r.data());
     system.linearize();
-    for (std::int64_t i = 0; i < n; ++i) v[i] = 0.5 + std::fmod(0.754877666 * static_cast<double>(i + 1), 1.0);
+    for (std::int64_t i = 0; i < n; ++i)
+        v[i] = 0.5 + std::fmod(0.754877666 * static_cast<double>(i + 1), 1.0);
     for (int k = 0; k < 4; ++k) {
         system.solve(v.data(), 1);
         const double size = norm2(n, v.data());
@@ -120,15 +121,18 @@ class Switch {
 
 } // namespace
 
-std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &branch, std::int64_t point, bool mirrored) const {
+std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &branch, std::int64_t point,
+                                                 bool mirrored) const {
     const Clock::time_point begin = Clock::now();
     if (branch.reduced_model() != reduced_)
         throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("branch");
     const BranchPoint &origin = branch.points().at(static_cast<std::size_t>(point));
-    if (origin.bifurcation != PLM_BIFURCATION_BRANCH_POINT && origin.bifurcation != PLM_BIFURCATION_PERIOD_DOUBLING)
-        throw Error(PLM_ERR_ARGUMENT, format("point %lld is neither a branch point nor a period doubling; see the "
-                                             "branch's \"bifurcation\"",
-                                             static_cast<long long>(point)))
+    if (origin.bifurcation != PLM_BIFURCATION_BRANCH_POINT &&
+        origin.bifurcation != PLM_BIFURCATION_PERIOD_DOUBLING)
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("point %lld is neither a branch point nor a period doubling; see the "
+                           "branch's \"bifurcation\"",
+                           static_cast<long long>(point)))
             .argument("point")
             .index(point);
     const std::int64_t factor = origin.bifurcation == PLM_BIFURCATION_PERIOD_DOUBLING ? 2 : 1;
@@ -137,7 +141,8 @@ std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &branch, std::int6
     options.force_scale = origin.force_scale;
     const std::size_t neighbour = static_cast<std::size_t>(point > 0 ? point - 1 : point + 1);
     const BranchPoint &along = branch.points().size() > 1 ? branch.points()[neighbour] : origin;
-    Switch other(reduced_, options, on_longer_period(origin, factor), on_longer_period(along, factor), mirrored);
+    Switch other(reduced_, options, on_longer_period(origin, factor), on_longer_period(along, factor),
+                 mirrored);
     CurveStart start;
     if (!other.find(start))
         throw Error(PLM_ERR_CONVERGENCE, "no point of another curve was found beside this one")

@@ -23,8 +23,8 @@ struct PathStart {
     double parameter = 0, residual = 0;
     vector<double> direction_x = {}; // empty: by PathOptions::upward
     double direction_parameter = 0;
-    double scale = 0;     // of the metric; 0: the response at x
-    bool record = true;   // false: a path that goes on, its first point is known already
+    double scale = 0;   // of the metric; 0: the response at x
+    bool record = true; // false: a path that goes on, its first point is known already
     // not empty: the path is closed when it comes back here in this direction; otherwise at x
     vector<double> end_x = {}, end_direction_x = {};
     double end_parameter = 0, end_direction_parameter = 0;

@@ -20,11 +20,11 @@ void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch
 
 /// Solves at the frequency of `point` with more harmonics until the next ones are negligible (or the allowed
 /// number is reached): what one point needs. `point` stays where no solution with more is found.
-void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, BranchPoint &point,
-                      Watch watch = Watch());
+void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                      BranchPoint &point, Watch watch = Watch());
 
-/// Sets point.harmonic_tail and harmonic_error of a solution with options.n_harmonics > 0 harmonics; returns what
-/// the next ones are.
+/// Sets point.harmonic_tail and harmonic_error of a solution with options.n_harmonics > 0 harmonics; returns
+/// what the next ones are.
 HarmonicContent measure_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                                   BranchPoint &point);
 

@@ -97,13 +97,14 @@ class EventForce final : public ContactForce {
         if (left.slope * towards > 0 && right.slope * towards < 0) grazing_roots(left, right);
     }
 
-    // Is the second derivative certain to keep its sign in the cell, or the first? Then u has no more than two zeros,
-    // or one. The slopes at the ends give the mean second derivative, from which it differs by half of the bound of the
-    // third times the width at most.
+    // Is the second derivative certain to keep its sign in the cell, or the first? Then u has no more than
+    // two zeros, or one. The slopes at the ends give the mean second derivative, from which it differs by
+    // half of the bound of the third times the width at most.
     bool simple(const TrigEnd &left, const TrigEnd &right) const {
         const double width = right.t - left.t, change = 0.5 * width * width * twist_;
         if (std::abs(right.slope - left.slope) > change) return true;
-        return left.slope * right.slope > 0 && std::min(std::abs(left.slope), std::abs(right.slope)) > 0.25 * change;
+        return left.slope * right.slope > 0 &&
+               std::min(std::abs(left.slope), std::abs(right.slope)) > 0.25 * change;
     }
 
     // The curve turns inside the cell: two zeros if it gets across.

@@ -4,8 +4,9 @@
 namespace plm {
 namespace {
 
-constexpr double stiff = 3e3;     // k_n over the local stiffness: beyond, few harmonics follow their own ripples
-constexpr double moderate = 100; // e over the local stiffness: softer converges more slowly in H, stiffer takes more steps
+constexpr double stiff = 3e3; // k_n over the local stiffness: beyond, few harmonics follow their own ripples
+constexpr double moderate =
+    100; // e over the local stiffness: softer converges more slowly in H, stiffer takes more steps
 
 } // namespace
 
@@ -13,7 +14,8 @@ double local_stiffness(const ReducedModel &m) {
     vector<double> flexibility(m.n_pairs(), 0.0);
     for (std::int64_t j = 0; j < m.static_size(); ++j) {
         if (m.lambda_0[j] <= 0) return 0;
-        for (std::int64_t i = 0; i < m.n_pairs(); ++i) flexibility[i] += m.gap_0(i, j) * m.gap_0(i, j) / m.lambda_0[j];
+        for (std::int64_t i = 0; i < m.n_pairs(); ++i)
+            flexibility[i] += m.gap_0(i, j) * m.gap_0(i, j) / m.lambda_0[j];
     }
     if (flexibility.empty()) return 0;
     const auto middle = flexibility.begin() + static_cast<std::ptrdiff_t>(flexibility.size() / 2);
@@ -41,8 +43,8 @@ Formulation make_formulation(const ReducedModel &m, const HbmOptions &options) {
 
 namespace {
 
-Matrix penetration(const Matrix &gap_0, const Matrix &gap, const vector<double> &initial_gap, const BranchPoint &point,
-                   std::int64_t n_harmonics) {
+Matrix penetration(const Matrix &gap_0, const Matrix &gap, const vector<double> &initial_gap,
+                   const BranchPoint &point, std::int64_t n_harmonics) {
     const std::int64_t z = gap.rows(), columns = 2 * n_harmonics;
     Matrix u(z, columns + 1), eta = point.eta;
     if (z == 0) return u;

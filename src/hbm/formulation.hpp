@@ -1,7 +1,8 @@
-// How the contact law enters the equations in the contact gaps. Penalty: N = k_n max(u, 0) of the penetration u.
-// Compliance (dynamic Lagrangian): with p = N + e (u - N / k_n) the law is N = max(p, 0) for every e > 0, exactly;
-// in the length v = p / e that is a contact of the moderate stiffness e on v = u + N (1/e - 1/k_n). It does not stiffen
-// with k_n and has the rigid limit 1/k_n = 0, where a penalty on few harmonics only follows its own ripples.
+// How the contact law enters the equations in the contact gaps. Penalty: N = k_n max(u, 0) of the penetration
+// u. Compliance (dynamic Lagrangian): with p = N + e (u - N / k_n) the law is N = max(p, 0) for every e > 0,
+// exactly; in the length v = p / e that is a contact of the moderate stiffness e on v = u + N (1/e - 1/k_n).
+// It does not stiffen with k_n and has the rigid limit 1/k_n = 0, where a penalty on few harmonics only
+// follows its own ripples.
 #pragma once
 #include "hbm/hbm.hpp"
 
@@ -13,7 +14,8 @@ struct Formulation {
     bool compliant = false;   // some slack is not zero
 };
 
-/// 1 / median static flexibility of the pairs in the open structure; 0 when rigid-body modes leave it without one.
+/// 1 / median static flexibility of the pairs in the open structure; 0 when rigid-body modes leave it without
+/// one.
 double local_stiffness(const ReducedModel &reduced);
 
 Formulation make_formulation(const ReducedModel &reduced, const HbmOptions &options);

@@ -1,9 +1,8 @@
-// Harmonic balance in the contact gaps: U + g = B D(omega) (F - B' N(U)) + slack N (formulation.hpp; slack is 0 in the
-// penalty form), D the receptance of the open
-// structure in the reduced model's coordinates. Exact for the same reduced model as modal_system.cpp; the
-// size of the dense system is the number of pairs that open and close over the period times (2H + 1),
-// whatever the size of the model. Pairs that stay open or closed are eliminated harmonic by harmonic,
-// exactly, and come back the moment they move.
+// Harmonic balance in the contact gaps: U + g = B D(omega) (F - B' N(U)) + slack N (formulation.hpp; slack is
+// 0 in the penalty form), D the receptance of the open structure in the reduced model's coordinates. Exact
+// for the same reduced model as modal_system.cpp; the size of the dense system is the number of pairs that
+// open and close over the period times (2H + 1), whatever the size of the model. Pairs that stay open or
+// closed are eliminated harmonic by harmonic, exactly, and come back the moment they move.
 #include "hbm/formulation.hpp"
 #include "hbm/pair_elimination.hpp"
 #include "hbm/receptance.hpp"
@@ -47,9 +46,9 @@ class GapSystem final : public HbmSystem {
   public:
     GapSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
         : m_(std::move(reduced)), h_(options.n_harmonics), n_(2 * h_ + 1), z_(m_->n_pairs()), r_(m_->size()),
-          r0_(m_->static_size()), force_(make_contact_force(options, z_)), form_(make_formulation(*m_, options)),
-          gap_(m_->initial_gap), u_(z_, n_), contact_(z_, n_), receptance_(h_ + 1), constant_(h_ + 1),
-          eta_(h_ + 1), force_scale_(options.force_scale) {
+          r0_(m_->static_size()), force_(make_contact_force(options, z_)),
+          form_(make_formulation(*m_, options)), gap_(m_->initial_gap), u_(z_, n_), contact_(z_, n_),
+          receptance_(h_ + 1), constant_(h_ + 1), eta_(h_ + 1), force_scale_(options.force_scale) {
         update_static();
         if (form_.compliant) law_ = std::make_shared<const vector<double>>(form_.stiffness);
     }
@@ -132,7 +131,8 @@ class GapSystem final : public HbmSystem {
             const double *average = indicator_.averages.col(moving_[p]);
             for (std::int64_t c = 0; c < n_; ++c)
                 for (std::int64_t row = 0; row < n_; ++row)
-                    tangent_(row + c * n_, p) = stiffness_factor_ * form_.stiffness[moving_[p]] * indicator_entry(average, row, c);
+                    tangent_(row + c * n_, p) =
+                        stiffness_factor_ * form_.stiffness[moving_[p]] * indicator_entry(average, row, c);
             tangent_(0, p) -= reference_[moving_[p]];
         }
         assemble();
@@ -297,7 +297,8 @@ class GapSystem final : public HbmSystem {
 
     // Tangent of a pair that does not switch, in harmonic h, less the part in the reference system.
     double constant_tangent(std::int64_t i, std::int64_t h) const {
-        const double k = indicator_.state[i] == PairState::closed ? stiffness_factor_ * form_.stiffness[i] : 0.0;
+        const double k =
+            indicator_.state[i] == PairState::closed ? stiffness_factor_ * form_.stiffness[i] : 0.0;
         return h == 0 ? k - reference_[i] : k;
     }
 

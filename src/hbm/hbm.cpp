@@ -14,7 +14,8 @@ void check(const HbmOptions &o) {
     };
     if (o.n_harmonics < 0) refuse("n_harmonics", "n_harmonics must be positive, or 0 for automatic");
     if (o.unknowns == UnknownSpace::modal && o.formulation == FormulationKind::compliance)
-        refuse("formulation", "the compliance formulation has the contact gaps as unknowns; set unknowns to gaps or auto");
+        refuse("formulation",
+               "the compliance formulation has the contact gaps as unknowns; set unknowns to gaps or auto");
     if (o.period_multiple < 1) refuse("period_multiple", "period_multiple must be at least 1");
     if (!(o.frequency_min_hz > 0 && o.frequency_max_hz > o.frequency_min_hz))
         refuse("frequency_min_hz",
@@ -45,11 +46,10 @@ void Hbm::finish(Branch &branch, Clock::time_point begin) const {
     branch.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     branch.seconds_per_iteration =
         branch.seconds / static_cast<double>(std::max<std::int64_t>(1, branch.factorizations));
-    watch_.log(
-        1, format("%zu points, %lld Newton iterations, %lld factorizations, %lld failed steps, %.3g s",
-                  branch.points().size(), static_cast<long long>(branch.newton_iterations),
-                  static_cast<long long>(branch.factorizations),
-                  static_cast<long long>(branch.failed_steps), branch.seconds));
+    watch_.log(1, format("%zu points, %lld Newton iterations, %lld factorizations, %lld failed steps, %.3g s",
+                         branch.points().size(), static_cast<long long>(branch.newton_iterations),
+                         static_cast<long long>(branch.factorizations),
+                         static_cast<long long>(branch.failed_steps), branch.seconds));
 }
 
 bool Hbm::solve_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const {

@@ -12,22 +12,22 @@ enum class FormulationKind { automatic, penalty, compliance };
 enum class StabilityKind { off, automatic, floquet, hill };
 
 struct HbmOptions {
-    std::int64_t n_harmonics = 0;                    // 0: as many as each point needs
-    std::int64_t max_harmonics = 60;                 // n_harmonics = 0 only
-    double harmonic_tolerance = 5e-4;                // n_harmonics = 0: allowed harmonic_error of a point
-    bool tail_correction = false;                    // adds the next harmonics that follow from the exact force
-    std::int64_t period_multiple = 1;                // response period over excitation period
+    std::int64_t n_harmonics = 0;     // 0: as many as each point needs
+    std::int64_t max_harmonics = 60;  // n_harmonics = 0 only
+    double harmonic_tolerance = 5e-4; // n_harmonics = 0: allowed harmonic_error of a point
+    bool tail_correction = false;     // adds the next harmonics that follow from the exact force
+    std::int64_t period_multiple = 1; // response period over excitation period
     AftKind aft = AftKind::event;
-    std::int64_t time_samples = 256;                 // sampled AFT only
-    UnknownSpace unknowns = UnknownSpace::automatic; // reduced coordinates or contact gaps, by cost
+    std::int64_t time_samples = 256;                          // sampled AFT only
+    UnknownSpace unknowns = UnknownSpace::automatic;          // reduced coordinates or contact gaps, by cost
     FormulationKind formulation = FormulationKind::automatic; // of the contact law: by its stiffness
-    double frequency_min_hz = 0, frequency_max_hz = 0; // 0: the basis' window
-    bool upward = false;                               // direction of a sweep; downwards starts are safer
-    double force_scale = 1;                            // scales the excitation, not the pre-load
-    double tolerance = 1e-9;                           // of the Newton correction, relative to the solution
-    std::int64_t max_iterations = 30;                  // Newton iterations per point
-    std::int64_t max_points = 2000;                    // of a sweep
-    double initial_step = 0; // arc length relative to the curve's scale; 0: automatic
+    double frequency_min_hz = 0, frequency_max_hz = 0;        // 0: the basis' window
+    bool upward = false;              // direction of a sweep; downwards starts are safer
+    double force_scale = 1;           // scales the excitation, not the pre-load
+    double tolerance = 1e-9;          // of the Newton correction, relative to the solution
+    std::int64_t max_iterations = 30; // Newton iterations per point
+    std::int64_t max_points = 2000;   // of a sweep
+    double initial_step = 0;          // arc length relative to the curve's scale; 0: automatic
     double min_step = 1e-7,
            max_step = 0.15; // arc length, where 1 = the window's width or the response's scale
     StabilityKind stability = StabilityKind::automatic; // Floquet multipliers of each point
@@ -57,7 +57,8 @@ class Hbm {
 
     /// The curve that crosses a located branch point of `branch`, or leaves a period doubling (with twice the
     /// period); `mirrored` takes the other side.
-    std::shared_ptr<const Branch> switch_branch(const Branch &branch, std::int64_t point, bool mirrored) const;
+    std::shared_ptr<const Branch> switch_branch(const Branch &branch, std::int64_t point,
+                                                bool mirrored) const;
 
     /// See plm_hbm_find_isolated, plm_hbm_find_backbones, plm_hbm_track_fold.
     IsolatedSearch find_isolated(const Branch &main, double force_max) const;
@@ -65,10 +66,13 @@ class Hbm {
     std::shared_ptr<const Branch> track_fold(const Branch &branch, std::int64_t point, double force_min,
                                              double force_max) const;
     /// Motions marched from rest and from `n_states` multiples of the known curves' largest response.
-    std::vector<std::shared_ptr<Branch>> find_by_marching(const std::vector<std::shared_ptr<const Branch>> &known,
-                                                          std::int64_t n_frequencies, std::int64_t n_states) const;
-    /// mode: 1, 2, ... about rest; amplitude_max 0: a hundred times the amplitude at which contact first changes.
-    std::shared_ptr<const Branch> find_nonlinear_mode(std::int64_t mode, std::int64_t dof, double amplitude_max) const;
+    std::vector<std::shared_ptr<Branch>>
+    find_by_marching(const std::vector<std::shared_ptr<const Branch>> &known, std::int64_t n_frequencies,
+                     std::int64_t n_states) const;
+    /// mode: 1, 2, ... about rest; amplitude_max 0: a hundred times the amplitude at which contact first
+    /// changes.
+    std::shared_ptr<const Branch> find_nonlinear_mode(std::int64_t mode, std::int64_t dof,
+                                                      double amplitude_max) const;
 
   private:
     using Clock = std::chrono::steady_clock;

@@ -18,7 +18,8 @@ class HillMatrix {
 
     Matrix build(const ContactIndicator &indicator, const vector<double> &stiffness) {
         add_structure();
-        for (std::int64_t i = 0; i < flow_.n_pairs(); ++i) add_pair(i, stiffness[i], indicator.averages.col(i));
+        for (std::int64_t i = 0; i < flow_.n_pairs(); ++i)
+            add_pair(i, stiffness[i], indicator.averages.col(i));
         return std::move(a_);
     }
 
@@ -29,7 +30,9 @@ class HillMatrix {
     }
     // J and D enter with a minus sign in the lower half.
     void add_j(std::int64_t row, std::int64_t column, double value) { a_(n_ * c_ + row, column) -= value; }
-    void add_d(std::int64_t row, std::int64_t column, double value) { a_(n_ * c_ + row, n_ * c_ + column) -= value; }
+    void add_d(std::int64_t row, std::int64_t column, double value) {
+        a_(n_ * c_ + row, n_ * c_ + column) -= value;
+    }
 
     void add_structure() {
         for (std::int64_t c = 0; c < c_; ++c) {
@@ -75,14 +78,17 @@ vector<std::complex<double>> hill_multipliers(const FlowModel &flow, const Branc
     ContactIndicator indicator;
     const ContactMotion contact = contact_motion(flow.reduced(), point);
     make_event_force(point.n_harmonics, contact.u.rows())->indicator(contact.u, indicator);
-    const Matrix matrix = HillMatrix(flow, point.n_harmonics, omega).build(indicator, flow.contact_stiffness());
+    const Matrix matrix =
+        HillMatrix(flow, point.n_harmonics, omega).build(indicator, flow.contact_stiffness());
     auto exponents = general_eigenvalues(matrix);
-    // Every exponent appears 2H + 1 times, shifted by multiples of i omega; the unshifted ones are the accurate ones.
+    // Every exponent appears 2H + 1 times, shifted by multiples of i omega; the unshifted ones are the
+    // accurate ones.
     std::sort(exponents.begin(), exponents.end(),
               [](const auto &a, const auto &b) { return std::abs(a.imag()) < std::abs(b.imag()); });
     exponents.resize(2 * flow.size());
     for (std::complex<double> &e : exponents) e = std::exp(e * (2 * M_PI / omega));
-    std::sort(exponents.begin(), exponents.end(), [](const auto &a, const auto &b) { return std::abs(a) > std::abs(b); });
+    std::sort(exponents.begin(), exponents.end(),
+              [](const auto &a, const auto &b) { return std::abs(a) > std::abs(b); });
     return exponents;
 }
 

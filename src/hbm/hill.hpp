@@ -1,6 +1,6 @@
 // Hill's method: Floquet exponents as eigenvalues of the harmonic-balance equations of a growing perturbation
-// exp(mu t) p(t), p with H harmonics. Converges with H to the multipliers of the exact flow, shares nothing with them
-// but the contact indicator, and is the cross-check.
+// exp(mu t) p(t), p with H harmonics. Converges with H to the multipliers of the exact flow, shares nothing
+// with them but the contact indicator, and is the cross-check.
 #pragma once
 #include "hbm/branch.hpp"
 #include "transient/flow_model.hpp"

@@ -11,7 +11,7 @@ struct MarchingOptions {
     std::int64_t n_frequencies = 12;      // equidistant inside the frequency range
     vector<double> scales = {0, 1, 3, 8}; // start states: rest, and rest plus so many times the motion at the
                                           // known branches' largest response
-    std::int64_t transient_periods = 50; // marched before shooting
+    std::int64_t transient_periods = 50;  // marched before shooting
 };
 
 struct MarchingSearch {

@@ -9,8 +9,8 @@ namespace plm {
 
 namespace {
 
-// The matrix exponentials cost about n^3 each, for two events of every moving pair: beyond this size more than
-// the curve itself.
+// The matrix exponentials cost about n^3 each, for two events of every moving pair: beyond this size more
+// than the curve itself.
 constexpr std::int64_t automatic_size = 24;
 
 } // namespace
@@ -28,7 +28,8 @@ vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) co
     if (hill_) return hill_multipliers(*flow, point, period_multiple_);
     const Matrix transition = monodromy(*flow, contact_intervals(*reduced_, point, period_multiple_));
     for (std::int64_t k = 0; k < transition.rows() * transition.cols(); ++k)
-        if (!std::isfinite(transition.data()[k])) return {}; // an infinitely fast mode (mass-less DOFs): unknown
+        if (!std::isfinite(transition.data()[k]))
+            return {}; // an infinitely fast mode (mass-less DOFs): unknown
     return plm::multipliers(transition);
 }
 

@@ -9,8 +9,8 @@
 namespace plm {
 namespace {
 
-// Another parameter in the place of the frequency: the force, p = 0 at rest; the gap, p = 0 with contact out of
-// reach; the logarithm of the contact stiffness, p = 0 with soft contact. p = 1 is the problem asked for.
+// Another parameter in the place of the frequency: the force, p = 0 at rest; the gap, p = 0 with contact out
+// of reach; the logarithm of the contact stiffness, p = 0 with soft contact. p = 1 is the problem asked for.
 class StartPath final : public WrappedSystem {
   public:
     enum class Kind { force, gap, stiffness };

@@ -1,5 +1,5 @@
-#include "hbm/formulation.hpp"
 #include "hbm/system.hpp"
+#include "hbm/formulation.hpp"
 #include "hbm/wrapped_system.hpp"
 #include "linalg/lapack.hpp"
 #include <algorithm>
@@ -83,8 +83,8 @@ std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduc
         inner.time_samples *= multiple;
         reduced = on_longer_period(*reduced, multiple);
     }
-    auto system = modal ? make_modal_system(std::move(reduced), inner)
-                        : make_gap_system(std::move(reduced), inner);
+    auto system =
+        modal ? make_modal_system(std::move(reduced), inner) : make_gap_system(std::move(reduced), inner);
     if (multiple == 1) return system;
     return std::make_unique<SubharmonicSystem>(std::move(system), multiple);
 }

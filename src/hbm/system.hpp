@@ -50,7 +50,8 @@ class HbmSystem {
     /// Factor on the stiffness of every contact: 1 in the problem asked for, smaller on the path from soft
     /// contact.
     virtual void set_stiffness_factor(double factor) = 0;
-    /// Change of R by a change `force` (Z x (2H + 1)) of the contact forces, at the omega of the last residual().
+    /// Change of R by a change `force` (Z x (2H + 1)) of the contact forces, at the omega of the last
+    /// residual().
     virtual void contact_force_change(const Matrix &force, double *r) = 0;
     /// The contact forces of the last residual().
     virtual const Matrix &contact_force() const = 0;

@@ -29,7 +29,9 @@ class WrappedSystem : public HbmSystem {
     void set_force_scale(double scale) override { inner_.set_force_scale(scale); }
     void force_derivative(double *r) override { inner_.force_derivative(r); }
     void set_stiffness_factor(double factor) override { inner_.set_stiffness_factor(factor); }
-    void contact_force_change(const Matrix &force, double *r) override { inner_.contact_force_change(force, r); }
+    void contact_force_change(const Matrix &force, double *r) override {
+        inner_.contact_force_change(force, r);
+    }
     const Matrix &contact_force() const override { return inner_.contact_force(); }
     void contact_motion_change(const double *x, Matrix &u) override { inner_.contact_motion_change(x, u); }
     void set_extra_gap(double gap) override { inner_.set_extra_gap(gap); }

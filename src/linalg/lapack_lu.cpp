@@ -38,9 +38,13 @@ void RealLu::factor(Matrix &a) {
         if (lu_(i, i) == 0) lu_(i, i) = tiny;
 }
 
-void RealLu::solve(double *x, std::int64_t nrhs, std::int64_t ldx) const { solve('N', x, nrhs, ldx); }
+void RealLu::solve(double *x, std::int64_t nrhs, std::int64_t ldx) const {
+    solve('N', x, nrhs, ldx);
+}
 
-void RealLu::solve_transposed(double *x, std::int64_t nrhs, std::int64_t ldx) const { solve('T', x, nrhs, ldx); }
+void RealLu::solve_transposed(double *x, std::int64_t nrhs, std::int64_t ldx) const {
+    solve('T', x, nrhs, ldx);
+}
 
 void RealLu::solve(char op, double *x, std::int64_t nrhs, std::int64_t ldx) const {
     const blas_int n = to_blas(size()), lda = leading(size()), m = to_blas(nrhs), ldb = to_blas(ldx);

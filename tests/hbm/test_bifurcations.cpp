@@ -1,5 +1,6 @@
 // Folds, period doublings, branch points and Neimark-Sacker points of small oscillators against the exact
-// piecewise-linear flow, whose code is independent of the library; the curves that leave there; loops that close.
+// piecewise-linear flow, whose code is independent of the library; the curves that leave there; loops that
+// close.
 #include "hbm/hbm.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include "support/small_reduced.hpp"
@@ -46,7 +47,8 @@ struct Exact {
     Vec state;
 };
 double characteristic(const Vec &monodromy, double sign) {
-    return 1 - sign * (monodromy[0] + monodromy[3]) + monodromy[0] * monodromy[3] - monodromy[1] * monodromy[2];
+    return 1 - sign * (monodromy[0] + monodromy[3]) + monodromy[0] * monodromy[3] -
+           monodromy[1] * monodromy[2];
 }
 
 // Residuals of "periodic, with a multiplier at `sign`" in the unknowns q, q', omega.
@@ -102,7 +104,8 @@ struct Located {
     int n = 0;
     double error = 0;
 };
-Located errors_of(const exact::Structure &s, std::int32_t kind, double sign, double low, double high, int harmonics) {
+Located errors_of(const exact::Structure &s, std::int32_t kind, double sign, double low, double high,
+                  int harmonics) {
     const Model m = test::reduce_exactly(s);
     HbmOptions o;
     o.n_harmonics = harmonics;
@@ -120,14 +123,15 @@ Located errors_of(const exact::Structure &s, std::int32_t kind, double sign, dou
 }
 
 void period_doublings_of_the_bilinear_oscillator_are_exact(void **) {
-    const Located f = errors_of(test::bilinear_oscillator(0.02, 3, 0, 1, 0), PLM_BIFURCATION_PERIOD_DOUBLING, -1, 2.0,
-                                3.8, 60);
+    const Located f = errors_of(test::bilinear_oscillator(0.02, 3, 0, 1, 0), PLM_BIFURCATION_PERIOD_DOUBLING,
+                                -1, 2.0, 3.8, 60);
     assert_int_equal(f.n, 2);
     assert_true(below(f.error, 1e-6));
 }
 
 void folds_of_the_bilinear_oscillator_are_exact(void **) {
-    const Located f = errors_of(test::bilinear_oscillator(0.01, 3, 1.0, 0.1, 0), PLM_BIFURCATION_FOLD, 1, 0.9, 1.5, 60);
+    const Located f =
+        errors_of(test::bilinear_oscillator(0.01, 3, 1.0, 0.1, 0), PLM_BIFURCATION_FOLD, 1, 0.9, 1.5, 60);
     assert_true(f.n >= 2);
     assert_true(below(f.error, 1e-6));
 }
@@ -237,8 +241,8 @@ void the_doubled_response_repeats_after_two_periods(void **) {
     assert_true(below(d.after_two, 1e-4)); // the truncation at 20 harmonics
 }
 
-// Eigenvalues of the exact monodromy matrix of a 2-DOF orbit: |mu|^2 of the complex pair from its characteristic
-// polynomial, by the largest modulus of powers of the matrix.
+// Eigenvalues of the exact monodromy matrix of a 2-DOF orbit: |mu|^2 of the complex pair from its
+// characteristic polynomial, by the largest modulus of powers of the matrix.
 double spectral_radius(Vec a, int n) {
     double log_scale = 0;
     int power = 1;
@@ -268,7 +272,8 @@ double exact_radius(const exact::Structure &s, double omega, Vec &state) {
 }
 // Where it passes 1, by secants.
 double exact_torus(const exact::Structure &s, double omega, Vec state) {
-    double a = omega, b = omega * (1 + 1e-4), fa = exact_radius(s, a, state) - 1, fb = exact_radius(s, b, state) - 1;
+    double a = omega, b = omega * (1 + 1e-4), fa = exact_radius(s, a, state) - 1,
+           fb = exact_radius(s, b, state) - 1;
     for (int k = 0; k < 20 && std::abs(b - a) > 1e-10; ++k) {
         const double c = b - fb * (b - a) / (fb - fa);
         a = b, fa = fb;
@@ -309,7 +314,8 @@ Torus neimark_sacker() {
 void neimark_sacker_points_agree_with_the_exact_flow(void **) {
     const Torus t = neimark_sacker();
     assert_true(t.n >= 1);
-    assert_true(below(t.error, 1e-3)); // hits at a stiff stop converge slowly in H; the flow is exact for their instants
+    assert_true(below(
+        t.error, 1e-3)); // hits at a stiff stop converge slowly in H; the flow is exact for their instants
 }
 
 // Hill's method against the exact flow, for the multipliers that matter (the largest).

@@ -1,5 +1,5 @@
-// The compliance formulation: the same answers as the penalty in the limit of many harmonics, and the rigid limit,
-// where the penalty stops at the first touch.
+// The compliance formulation: the same answers as the penalty in the limit of many harmonics, and the rigid
+// limit, where the penalty stops at the first touch.
 #include "hbm/formulation.hpp"
 #include "hbm/hbm.hpp"
 #include "hbm/trig_polynomial.hpp"
@@ -74,8 +74,8 @@ Swept sweep(double stiffness, FormulationKind kind) {
     return w;
 }
 void the_rigid_limit_is_reached_by_default(void **) {
-    const Swept stiff = sweep(1e5, FormulationKind::automatic), rigid = sweep(1e12, FormulationKind::automatic),
-                soft = sweep(30, FormulationKind::automatic);
+    const Swept stiff = sweep(1e5, FormulationKind::automatic),
+                rigid = sweep(1e12, FormulationKind::automatic), soft = sweep(30, FormulationKind::automatic);
     std::printf("    peak at k_n = 30: %.6f, 1e5: %.6f, 1e12: %.6f\n", soft.top, stiff.top, rigid.top);
     assert_true(!soft.compliant && stiff.compliant && rigid.compliant);
     assert_int_equal(stiff.reason, PLM_REASON_RANGE_END);

@@ -4,7 +4,17 @@
 
 #include "plm/plm.h"
 
-enum { KIND_CONTEXT, KIND_MODEL, KIND_SAMPLER, KIND_BASIS, KIND_HBM, KIND_BRANCH, KIND_TRANSIENT, KIND_STUDY, N_KINDS };
+enum {
+    KIND_CONTEXT,
+    KIND_MODEL,
+    KIND_SAMPLER,
+    KIND_BASIS,
+    KIND_HBM,
+    KIND_BRANCH,
+    KIND_TRANSIENT,
+    KIND_STUDY,
+    N_KINDS
+};
 enum { TAKES, DESTROYS /* its argument is the address of a handle */, FREE /* no handle */ };
 
 typedef struct {

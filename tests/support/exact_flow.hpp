@@ -25,7 +25,8 @@ struct Orbit {
     double peak(int dof) const;               // max |q|, from samples refined by parabolas
 };
 
-/// State (2n) one forcing period after `start`; monodromy, if not null, receives the 2n x 2n derivative, row-major.
+/// State (2n) one forcing period after `start`; monodromy, if not null, receives the 2n x 2n derivative,
+/// row-major.
 std::vector<double> period_map(const Structure &s, double omega, const std::vector<double> &start,
                                std::vector<double> *monodromy);
 
