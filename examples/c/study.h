@@ -169,6 +169,9 @@ void study_print_rows(const study_result *result, int group);
 /* ---- time and progress: study_progress.c ---- */
 
 double study_seconds(void);
+/* From here on an interrupt cancels the running call, and study_stopped() is 1. */
+void study_watch_signals(void);
+int study_stopped(void);
 /* "[ 12.3 s] text" */
 void study_say(study_case *c, const char *format, ...);
 /* Callbacks of the context, user is the case: a line every few seconds; the study's own notes. */

@@ -142,10 +142,10 @@ int study_write_report(study_case *c, const study_findings *f) {
     if (study_wants(o, "methods") || study_wants(o, "short"))
         write_methods(f->one, study_wants(o, "methods"), to);
     if (f->levels) write_levels(f->levels, to);
-    if (study_wants(o, "convergence")) write_convergence(f, to);
+    if (study_wants(o, "convergence") && f->steps) write_convergence(f, to);
     if (study_wants(o, "left-out")) write_left_out(f, to);
     if (study_wants(o, "refine")) write_refined(c, f->one, to);
-    fprintf(to, "\n## Notes\n\n");
+    fprintf(to, "\n## Notes\n\n%s", study_stopped() ? "Interrupted: some parts are missing.\n\n" : "");
     if (f->one) study_write_notes(to, f->one);
     if (f->levels) study_write_notes(to, f->levels);
     return study_close_file(to);

@@ -4,7 +4,6 @@
 #include "capi/study_results.hpp"
 
 namespace plm::capi {
-
 namespace {
 
 constexpr const char *reference_name = "reference";
