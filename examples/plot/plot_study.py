@@ -87,7 +87,8 @@ class Study:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.facts = {row["key"]: row["value"] for row in rows_of(self.folder / "study.csv")}
-        self.one = Run(self.folder / "one_level")
+        self.one, self.levels = (Run(self.folder / name) if (self.folder / name / "methods.csv").exists() else None
+                                 for name in ("one_level", "levels"))
         self.n_pairs = int(self.facts["n_pairs"])
         oscillator = self.facts["scene"] == "bilinear_oscillator"  # the one scene without units
         self.unit, self.length = ("", 1.0) if oscillator else (" in µm", 1e3)
@@ -349,15 +350,14 @@ def plot_convergence(study, path, dpi):
 
 def draw_all(study, to, dpi):
     one = "errors against the unreduced structure at the same H"
-    rows = study.one.group("methods")
-    if rows:
-        yield "error_against_time", lambda p: plot_errors(study, rows, one, p, dpi)
+    if study.one and study.one.group("methods"):
+        yield "error_against_time", lambda p: plot_errors(study, study.one.group("methods"), one, p, dpi)
         yield "curves", lambda p: plot_curves(study, p, dpi)
         yield "contact_over_cycle", lambda p: plot_contact(study, p, dpi)
-    if (study.folder / "levels" / "table.csv").exists():
+    if study.levels:
         what = f"{study.facts['levels']} force levels, worst errors, sum of times"
-        yield "levels", lambda p: plot_errors(study, Run(study.folder / "levels").group("levels"), what, p, dpi)
-    if study.one.group("samples") and study.one.group("svd"):
+        yield "levels", lambda p: plot_errors(study, study.levels.group("levels"), what, p, dpi)
+    if study.one and study.one.group("samples") and study.one.group("svd") and (study.folder / "harmonics.csv").exists():
         yield "convergence", lambda p: plot_convergence(study, p, dpi)
 
 
