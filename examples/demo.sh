@@ -41,7 +41,7 @@ echo
 # each other cost more than they bring.
 mkdir -p "$output"
 rm -f "$output"/*.csv "$output"/*.png "$output"/*/*.csv
-OPENBLAS_NUM_THREADS=1 "$build/examples/c/plm-study" --size paper --study short "$@" --output "$output"
+OPENBLAS_NUM_THREADS=1 "$build/examples/c/plm-study" --size paper --study short --samples 1,2,4 --repeats 0 "$@" --output "$output"
 
 echo
 if find_python; then

@@ -48,11 +48,11 @@ static int run(study_case *c) {
         if (study_run(c, groups_of(o), 1, "one_level", &one) || write_contacts(c, &one)) return 1;
         found.one = &one;
     }
-    if (study_wants(o, "levels")) {
+    if (study_wants(o, "levels") && !study_stopped()) {
         if (study_run(c, STUDY_LEVELS, o->n_levels, "levels", &levels)) return 1;
         found.levels = &levels;
     }
-    if (study_wants(o, "convergence") || study_wants(o, "left-out")) {
+    if ((study_wants(o, "convergence") || study_wants(o, "left-out")) && !study_stopped()) {
         if (study_run_steps(c, &steps) || study_write_steps(c, &steps)) return 1;
         found.steps = &steps;
     }
@@ -67,6 +67,7 @@ int main(int argc, char **argv) {
     const int read = study_options_read(argc, argv, &options);
     if (read) return read == 1 ? 0 : 2;
     if (study_make_folder(options.output)) return 1;
+    study_watch_signals();
     int failed = study_open(&c, &options);
     if (!failed) {
         failed = run(&c);

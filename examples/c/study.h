@@ -160,6 +160,8 @@ typedef struct study_findings {
 
 int study_write_report(study_case *c, const study_findings *found);
 void study_write_rows(FILE *to, const study_result *result, int group);
+/* How methods ended that did not reach the end of the range, or what has to be known of them. */
+void study_write_notes(FILE *to, const study_result *result);
 void study_write_left_out(FILE *to, const study_result *result, const study_steps *steps);
 void study_write_refined(FILE *to, const study_result *result);
 void study_print_rows(const study_result *result, int group);
@@ -167,6 +169,9 @@ void study_print_rows(const study_result *result, int group);
 /* ---- time and progress: study_progress.c ---- */
 
 double study_seconds(void);
+/* From here on an interrupt cancels the running call, and study_stopped() is 1. */
+void study_watch_signals(void);
+int study_stopped(void);
 /* "[ 12.3 s] text" */
 void study_say(study_case *c, const char *format, ...);
 /* Callbacks of the context, user is the case: a line every few seconds; the study's own notes. */

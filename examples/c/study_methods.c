@@ -144,8 +144,8 @@ static void add_left_out(list *l) {
 int32_t study_methods(study_case *c, int groups, study_method method[STUDY_METHODS]) {
     list l = {c, method, 0, groups};
     add_all_samples(&l);
-    add_rivals(&l);
     add_compressed(&l);
+    add_rivals(&l);
     add_svd(&l);
     add_left_out(&l);
     add_refined(&l);

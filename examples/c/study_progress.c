@@ -1,5 +1,6 @@
 /* study_progress.c: signs of life. */
 #define _POSIX_C_SOURCE 200809L /* clock_gettime: C99 has no wall clock finer than a second */
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -26,11 +27,28 @@ void study_say(study_case *c, const char *format, ...) {
     fflush(stdout);
 }
 
+/* Ctrl-C and the like end the study in order: what is done by then is reported. */
+static volatile sig_atomic_t stopped;
+
+static void stop(int number) {
+    (void)number;
+    stopped = 1;
+}
+
+void study_watch_signals(void) {
+    signal(SIGINT, stop);
+    signal(SIGTERM, stop);
+}
+
+int study_stopped(void) {
+    return stopped;
+}
+
 int32_t study_progress(plm_context *ctx, const char *stage, double fraction, void *user) {
     study_case *c = user;
     (void)ctx;
     if (study_seconds() - c->last_note > silence) study_say(c, "  %s: %.0f %%", stage, 100 * fraction);
-    return 0;
+    return stopped;
 }
 
 /* The library's note on each method that is done. */

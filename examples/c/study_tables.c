@@ -45,15 +45,6 @@ static void write_row(FILE *to, const study_row *r, int front) {
     fputc('\n', to);
 }
 
-static void write_notes(FILE *to, const study_result *result, int group) {
-    fputc('\n', to);
-    for (int32_t i = 0; i < result->n; i++) {
-        const study_row *r = &result->row[i];
-        if ((r->method.groups & group) && strcmp(r->outcome, "reached the end of its range"))
-            fprintf(to, "* %s: %s\n", r->method.name, r->outcome);
-    }
-}
-
 void study_write_rows(FILE *to, const study_result *result, int group) {
     fprintf(to, "| method | front | r | set-up (s) | iteration (ms) | curve (s) | both (s) | memory (MB) | "
                 "frequency | peak | "
@@ -63,7 +54,14 @@ void study_write_rows(FILE *to, const study_result *result, int group) {
         const study_row *r = &result->row[i];
         if ((r->method.groups & group) && r->size >= 0) write_row(to, r, on_front(result, group, r));
     }
-    write_notes(to, result, group);
+}
+
+void study_write_notes(FILE *to, const study_result *result) {
+    for (int32_t i = 0; i < result->n; i++) {
+        const study_row *r = &result->row[i];
+        if (strcmp(r->outcome, "reached the end of its range"))
+            fprintf(to, "* %s: %s\n", r->method.name, r->outcome);
+    }
 }
 
 /* ---- left out ---- */
@@ -101,14 +99,21 @@ static void write_step(FILE *to, const char *part, int64_t size, const study_ste
             fabs(without->hz / with->hz - 1), fabs(without->amplitude / with->amplitude - 1));
 }
 
-/* On the compressed basis; automatic harmonics are the first step. */
+static const study_step *with_harmonics(const study_steps *s, int64_t number) {
+    for (int32_t i = 0; i < s->n_harmonics; i++)
+        if (s->harmonics[i].number == number) return &s->harmonics[i];
+    return NULL;
+}
+
+/* On the compressed basis. */
 static void write_steps(FILE *to, const study_steps *s) {
     char part[2 * STUDY_NAME];
-    snprintf(part, sizeof part, "harmonics no point needs (at most %" PRId64 ", against 20 everywhere)",
-             s->harmonics[0].harmonics);
-    for (int32_t i = 0; i < s->n_harmonics; i++)
-        if (s->harmonics[i].number == 20)
-            write_step(to, part, s->basis_size, &s->harmonics[0], &s->harmonics[i]);
+    const study_step *automatic = with_harmonics(s, 0), *five = with_harmonics(s, 5),
+                     *twenty = with_harmonics(s, 20);
+    snprintf(part, sizeof part, "harmonics: as many as each point asks for (up to %" PRId64 ") against 20",
+             automatic->harmonics);
+    write_step(to, part, s->basis_size, automatic, twenty);
+    write_step(to, "harmonics: 5 against 20", s->basis_size, five, twenty);
     write_step(to, "search for folds and branch points", s->basis_size, &s->plain, &s->bifurcations);
     write_step(to, "stability of every point", s->basis_size, &s->plain, &s->stability);
 }
@@ -145,6 +150,7 @@ static double median_effectivity(const study_result *result, int32_t *n) {
 void study_write_refined(FILE *to, const study_result *result) {
     int32_t n = 0, met = 0, all = 0;
     study_write_rows(to, result, STUDY_REFINE);
+    fputc('\n', to);
     for (int32_t i = 0; i < result->n; i++) {
         const study_row *r = &result->row[i];
         if (r->method.way != STUDY_REFINED) continue;

@@ -176,6 +176,18 @@ def front_of(points):
     return front
 
 
+def set_round_ticks(axes):
+    """Round numbers, also where the axis spans less than a decade."""
+    low, high = axes.get_xlim()
+    if high / low < 8:
+        ticks = ticker.MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(low, high)
+    else:
+        ticks = [m * 10.0 ** e for e in range(-6, 6) for m in ((1, 2, 5) if high / low < 200 else (1,))]
+    axes.xaxis.set_major_locator(ticker.FixedLocator([t for t in ticks if low <= t <= high]))
+    axes.xaxis.set_minor_locator(ticker.NullLocator())
+    axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda v, _: f"{v:g}"))
+
+
 def draw_errors(axes, rows, column, whole):
     labels, points = Labels(axes), []
     for row in rows:
@@ -193,6 +205,7 @@ def draw_errors(axes, rows, column, whole):
     axes.set(xscale="log", yscale="log")
     axes.margins(0.13)
     axes.autoscale_view()
+    set_round_ticks(axes)
     axes.grid(alpha=0.3)
     return labels
 
@@ -324,6 +337,8 @@ def plot_convergence(study, path, dpi):
     axes[1, 2].plot([int(r["number"]) for r in steps], [float(r["seconds"]) for r in steps], marker="o", color="tab:green")
     axes[1, 2].set(xscale="log", yscale="log", xlabel="harmonics", ylabel="s", title="time of the curve")
     for place in axes.flat:
+        if place is not axes[0, 2]:
+            set_round_ticks(place)
         place.grid(alpha=0.3)
         if place.get_legend_handles_labels()[0]:
             place.legend(fontsize=8)

@@ -4,13 +4,6 @@
 #include "capi/study_results.hpp"
 
 namespace plm::capi {
-
-const StudyResult &last_run(const StudyHandle &h) {
-    if (!h.result)
-        throw Error(PLM_ERR_STATE, "the study has not run; call plm_study_run first").argument("study");
-    return *h.result;
-}
-
 namespace {
 
 constexpr const char *reference_name = "reference";
