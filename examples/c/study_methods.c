@@ -54,8 +54,6 @@ static void add_all_samples(list *l) {
 static void add_rivals(list *l) {
     const int both = STUDY_RIVALS | STUDY_LEVELS;
     char settings[STUDY_SETTINGS];
-    add(l, both | STUDY_SAMPLES | STUDY_LEFT_OUT | STUDY_SHORT, STUDY_RESPONSE, 0, "Craig-Bampton",
-        "basis.kind=craig_bampton");
     add(l, both | STUDY_LEFT_OUT | STUDY_SHORT, STUDY_RESPONSE, 0, "full order",
         "basis.kind=full hbm.unknowns=gaps");
     add(l, STUDY_RIVALS, STUDY_RESPONSE, 0, "bilinear modes", "basis.kind=bilinear");
@@ -79,6 +77,8 @@ static void add_rivals(list *l) {
         add(l, STUDY_RIVALS, STUDY_MARCHING, 12, "marching, 1 sample",
             "sampler.n_samples=1 basis.selection=bands");
     }
+    add(l, both | STUDY_SAMPLES | STUDY_LEFT_OUT | STUDY_SHORT, STUDY_RESPONSE, 0, "Craig-Bampton",
+        "basis.kind=craig_bampton");
 }
 
 static void add_compressed(list *l) {
