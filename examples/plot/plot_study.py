@@ -357,7 +357,7 @@ def draw_all(study, to, dpi):
     if (study.folder / "levels" / "table.csv").exists():
         what = f"{study.facts['levels']} force levels, worst errors, sum of times"
         yield "levels", lambda p: plot_errors(study, Run(study.folder / "levels").group("levels"), what, p, dpi)
-    if study.one.group("samples") and study.one.group("svd"):
+    if (study.folder / "harmonics.csv").exists():
         yield "convergence", lambda p: plot_convergence(study, p, dpi)
 
 
