@@ -1,8 +1,8 @@
 #!/bin/sh
 # Builds libplm with its tests and runs them.
 #     sh tests/run.sh             preset dev
-#     sh tests/run.sh --all       preset dev with a minute of fuzzing, asan, and of tsan, permissive and release what
-#                                 differs there from dev (all of one: name it)
+#     sh tests/run.sh --all       preset dev with a minute of fuzzing, asan without the other languages, and of tsan,
+#                                 permissive and release what differs there from dev (all of one: name it)
 #     sh tests/run.sh PRESET...   these presets of CMakePresets.json
 # Missing packages are installed where that is possible. Works from any folder; everything goes to build/.
 set -u
@@ -49,6 +49,13 @@ choose() {
     programs= tests=
     [ -n "$fuzz_for_a_minute" ] || return 0
     case $1 in
+    asan) # the rooms and hosts; the other languages call the same C API
+        for room in linalg model sampling reduction transient hbm study capi host; do
+            programs="$programs tests/$room/all"
+            tests="$tests|$room"
+        done
+        programs="plm plm_static$programs"
+        tests="^(${tests#|})[.]" ;;
     permissive) # its own factorization and transforms
         programs='plm plm_static test_linalg_factor test_linalg_dft test_capi_run test_capi_transient accuracy'
         tests='^(linalg[.](factor|dft)|capi[.](run|transient)|accuracy[.]quick|abi[.](object|ledger))$' ;;

@@ -357,7 +357,7 @@ def draw_all(study, to, dpi):
     if study.levels:
         what = f"{study.facts['levels']} force levels, worst errors, sum of times"
         yield "levels", lambda p: plot_errors(study, study.levels.group("levels"), what, p, dpi)
-    if study.one and study.one.group("samples") and study.one.group("svd") and (study.folder / "harmonics.csv").exists():
+    if study.one and (study.folder / "harmonics.csv").exists():
         yield "convergence", lambda p: plot_convergence(study, p, dpi)
 
 

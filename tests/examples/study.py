@@ -62,7 +62,7 @@ def check_base(table, name):
         require(row["outcome"] != "" and float(row["setup_seconds"] or "nan") >= 0, f"{name}: {method} has times")
 
 
-def check_short(program, scene, options, folder):
+def check_short(program, plot, scene, options, folder):
     name = " ".join([scene, *options])
     if not study(program, folder, ["--scene", scene, "--study", "short", "--repeats", "0", *options]):
         return
@@ -70,7 +70,9 @@ def check_short(program, scene, options, folder):
     require(list(table) == ["reference", *SHORT], f"{name}: one row per method, in order: {list(table)}")
     check_base(table, name)
     check_contact(folder, name)
-    require("| 4 samples |" in (folder / "report.md").read_text(encoding="utf-8"), f"{name}: the report has the table")
+    report = (folder / "report.md").read_text(encoding="utf-8")
+    require("| 4 samples |" in report, f"{name}: the report has the table")
+    check_pictures(plot, folder, report, 3)
 
 
 def check_levels(folder):
@@ -108,7 +110,7 @@ def check_everything(program, plot, folder):
     report = (folder / "report.md").read_text(encoding="utf-8")
     for part in ("The reference", "The methods", "force levels", "Convergence", "left out", "Bases for a tolerance"):
         require(part in report, f"the report has a part on {part}")
-    check_pictures(plot, folder, report)
+    check_pictures(plot, folder, report, 5)
 
 
 def python_with_matplotlib():
@@ -121,14 +123,14 @@ def python_with_matplotlib():
     return None
 
 
-def check_pictures(plot, folder, report):
+def check_pictures(plot, folder, report, count):
     python = python_with_matplotlib()
     if not python:
         print("no Python with numpy and matplotlib: plot_study.py is not tried")
         return
     done = subprocess.run([python, plot, str(folder)], stdout=subprocess.DEVNULL, check=False)
     pictures = [path.name for path in folder.glob("*.png")]
-    require(done.returncode == 0 and len(pictures) == 5, f"five pictures: {pictures}")
+    require(done.returncode == 0 and len(pictures) == count, f"{count} pictures: {pictures}")
     for picture in pictures:
         require(f"]({picture})" in report, f"the report shows {picture}")
 
@@ -146,7 +148,7 @@ def main():
     refuses_nonsense(program)
     with tempfile.TemporaryDirectory() as root:
         for number, (scene, options) in enumerate(SHORT_CASES):
-            check_short(program, scene, options, pathlib.Path(root) / str(number))
+            check_short(program, plot, scene, options, pathlib.Path(root) / str(number))
         check_everything(program, plot, pathlib.Path(root) / "everything")
     sys.exit(bool(failures))
 
