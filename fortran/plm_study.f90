@@ -167,17 +167,7 @@ contains
         character(len=:), allocatable, intent(inout) :: value
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
-        character(kind=c_char, len=:), allocatable :: buffer
-        integer(plm_status) :: status
-        integer(int64) :: needed
-        needed = 0
-        status = plm_study_get_name(self%handle, int(method, int64) - 1, 0_int64, needed=needed)
-        if (status >= 0) then
-            allocate (character(kind=c_char, len=needed) :: buffer)
-            status = plm_study_get_name(self%handle, int(method, int64) - 1, needed, buffer, needed)
-        end if
-        if (status >= 0) value = f_text(buffer)
-        call finish(self%context, status, stat, errmsg)
+        call read_text(self, plm_study_get_name, method, value, stat, errmsg)
     end subroutine name_of
 
     ! How a method ended in the last run, or why it failed.
@@ -187,18 +177,28 @@ contains
         character(len=:), allocatable, intent(inout) :: value
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
+        call read_text(self, plm_study_get_outcome, method, value, stat, errmsg)
+    end subroutine outcome
+
+    subroutine read_text(self, get, method, value, stat, errmsg)
+        class(plm_study), intent(in) :: self
+        procedure(plm_study_get_name) :: get
+        integer, intent(in) :: method
+        character(len=:), allocatable, intent(inout) :: value
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
         character(kind=c_char, len=:), allocatable :: buffer
         integer(plm_status) :: status
         integer(int64) :: needed
         needed = 0
-        status = plm_study_get_outcome(self%handle, int(method, int64) - 1, 0_int64, needed=needed)
+        status = get(self%handle, int(method, int64) - 1, 0_int64, needed=needed)
         if (status >= 0) then
             allocate (character(kind=c_char, len=needed) :: buffer)
-            status = plm_study_get_outcome(self%handle, int(method, int64) - 1, needed, buffer, needed)
+            status = get(self%handle, int(method, int64) - 1, needed, buffer, needed)
         end if
         if (status >= 0) value = f_text(buffer)
         call finish(self%context, status, stat, errmsg)
-    end subroutine outcome
+    end subroutine read_text
 
     ! The curve of a method at a force level (the first if absent). A method that marches in time has points only.
     subroutine curve(self, method, branch, level, stat, errmsg)

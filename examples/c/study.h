@@ -24,6 +24,7 @@ typedef struct study_options {
     int with_preload;
     int64_t n_harmonics, repeats, n_levels;
     double tolerance, curve_tolerance;
+    double contact_stiffness; /* in local stiffnesses; 0: that of the scene */
     int32_t n_counts;
     int64_t count[STUDY_COUNTS]; /* numbers of contact samples to compare */
     char command[STUDY_TEXT];    /* as it was given */
@@ -118,7 +119,7 @@ const study_row *study_find(const study_result *result, const char *name);
 
 /* ---- on one compressed basis: study_harmonics.c ---- */
 
-enum { STUDY_STEPS = 16 };
+enum { STUDY_STEPS = 16, STUDY_MANY_HARMONICS = 20 };
 
 /* A curve with one number varied. */
 typedef struct study_step {
@@ -129,8 +130,9 @@ typedef struct study_step {
 typedef struct study_steps {
     int64_t basis_size;
     int32_t n_harmonics, n_samples;
-    study_step plain, bifurcations, stability; /* without both, with either */
-    study_step harmonics[STUDY_STEPS];         /* number: harmonics, 0: automatic; the last is the truth */
+    study_step plain;                                   /* the harmonics asked for, without all else */
+    study_step bifurcations, stability, many_harmonics; /* with one of them */
+    study_step harmonics[STUDY_STEPS]; /* number: harmonics, 0: automatic; the last is the truth */
     study_step
         samples[STUDY_STEPS]; /* number: time samples, 0: exact switching instants, the last and the truth */
 } study_steps;
@@ -162,7 +164,7 @@ int study_write_report(study_case *c, const study_findings *found);
 void study_write_rows(FILE *to, const study_result *result, int group);
 /* How methods ended that did not reach the end of the range, or what has to be known of them. */
 void study_write_notes(FILE *to, const study_result *result);
-void study_write_left_out(FILE *to, const study_result *result, const study_steps *steps);
+void study_write_left_out(FILE *to, const study_findings *found, int64_t n_harmonics);
 void study_write_refined(FILE *to, const study_result *result);
 void study_print_rows(const study_result *result, int group);
 

@@ -1,6 +1,7 @@
 /* study_case.c: the scene, its model, and what the sampler finds. */
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "scene_model.h"
@@ -11,6 +12,17 @@ int study_complain(plm_context *ctx, const char *what) {
     plm_context_get_error_text(ctx, sizeof text, text, NULL);
     fprintf(stderr, "%s: %s\n", what, text);
     return 1;
+}
+
+/* The model again with contacts as stiff as asked for. */
+static int set_contact_stiffness(study_case *c) {
+    double local = 0;
+    if (c->options->contact_stiffness == 0) return 0;
+    if (plm_model_get_double(c->model, "local_stiffness", &local)) return 1;
+    for (int64_t i = 0; i < c->scene->n_pairs; i++)
+        c->scene->contact_stiffness[i] = c->options->contact_stiffness * local;
+    plm_model_destroy(&c->model);
+    return scene_to_model(c->ctx, c->scene, &c->model) < 0;
 }
 
 int study_open(study_case *c, const study_options *o) {
@@ -28,7 +40,8 @@ int study_open(study_case *c, const study_options *o) {
     if (plm_context_create(PLM_API_VERSION, &c->ctx)) return 1;
     plm_context_set_progress(c->ctx, study_progress, c);
     plm_context_set_log(c->ctx, study_log, c);
-    if (scene_to_model(c->ctx, c->scene, &c->model)) return study_complain(c->ctx, "model");
+    if (scene_to_model(c->ctx, c->scene, &c->model) || set_contact_stiffness(c))
+        return study_complain(c->ctx, "model");
     study_say(c, "model built: matrices checked, stiffness factored");
     if (study_recipe_make(c, "", &r) || plm_sampler_run(r.sampler)) return study_complain(c->ctx, "sampler");
     c->sampler = r.sampler;
@@ -41,6 +54,16 @@ int study_open(study_case *c, const study_options *o) {
 void study_close(study_case *c) {
     plm_context_destroy(&c->ctx); /* and all that is left in it */
     scene_destroy(&c->scene);
+}
+
+static void write_contact(study_case *c, FILE *to) {
+    double local = 0, *k = malloc((size_t)c->scene->n_pairs * sizeof *k);
+    int64_t n = 0;
+    if (k && !plm_model_get_double(c->model, "local_stiffness", &local) &&
+        !plm_model_get_array(c->model, "contact_stiffness", c->scene->n_pairs, k, &n) && n > 0)
+        fprintf(to, "* Contact stiffness of a pair: %.4g, %.3g times the local stiffness.\n", k[0],
+                k[0] / local);
+    free(k);
 }
 
 static void write_rest(study_case *c, FILE *to) {
@@ -77,6 +100,7 @@ void study_write_case(study_case *c, FILE *to) {
             "* Dominant mode: number %" PRId64
             " of the %s system, %.6g Hz, %.0f %% of the drive-point response.\n",
             mode, text, hz, 100 * participation);
+    write_contact(c, to);
     write_rest(c, to);
     write_window(c->sampler, to);
     plm_sampler_get_int(c->sampler, "n_sweep_samples", &n_sets);

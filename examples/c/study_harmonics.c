@@ -1,5 +1,5 @@
-/* study_harmonics.c: what the number of harmonics and of time samples does to a curve, on one and the same
- * compressed basis, so that nothing else differs. */
+/* study_harmonics.c: what the number of harmonics, of time samples, and the search for bifurcations do to a
+ * curve, on one and the same compressed basis, so that nothing else differs. */
 #include <inttypes.h>
 #include <string.h>
 
@@ -61,13 +61,18 @@ static plm_status vary_samples(study_case *c, plm_hbm *hbm, study_steps *s) {
     return status;
 }
 
-static plm_status vary_search(study_case *c, plm_hbm *hbm, study_steps *s) {
-    plm_status status = follow(c, hbm, &s->plain);
+/* What a curve can do without. */
+static plm_status leave_out(study_case *c, plm_hbm *hbm, study_steps *s) {
+    plm_status status = plm_hbm_set_int(hbm, "n_harmonics", c->options->n_harmonics);
+    if (status >= 0) status = follow(c, hbm, &s->plain);
     if (status >= 0) status = plm_hbm_set_string(hbm, "bifurcations", "on");
     if (status >= 0) status = follow(c, hbm, &s->bifurcations);
     if (status >= 0) status = plm_hbm_set_string(hbm, "bifurcations", "off");
     if (status >= 0) status = plm_hbm_set_string(hbm, "stability", "floquet");
     if (status >= 0) status = follow(c, hbm, &s->stability);
+    if (status >= 0) status = plm_hbm_set_string(hbm, "stability", "off");
+    if (status >= 0) status = plm_hbm_set_int(hbm, "n_harmonics", STUDY_MANY_HARMONICS);
+    if (status >= 0) status = follow(c, hbm, &s->many_harmonics);
     return status;
 }
 
@@ -82,9 +87,9 @@ int study_run_steps(study_case *c, study_steps *s) {
     if (status >= 0) status = plm_hbm_create(pod, &hbm);
     if (status >= 0) status = plm_hbm_set_string(hbm, "stability", "off");
     if (status >= 0) status = plm_hbm_set_string(hbm, "bifurcations", "off");
-    if (status >= 0) status = vary_harmonics(c, hbm, s);
-    if (status >= 0) status = vary_samples(c, hbm, s);
-    if (status >= 0) status = vary_search(c, hbm, s);
+    if (status >= 0 && study_wants(c->options, "convergence")) status = vary_harmonics(c, hbm, s);
+    if (status >= 0 && study_wants(c->options, "convergence")) status = vary_samples(c, hbm, s);
+    if (status >= 0 && study_wants(c->options, "left-out")) status = leave_out(c, hbm, s);
     const int failed = status < 0 ? study_complain(c->ctx, "harmonics and time samples") : 0;
     plm_hbm_destroy(&hbm);
     plm_basis_destroy(&pod);

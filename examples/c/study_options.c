@@ -11,6 +11,7 @@ static const char help[] =
     "  --scene NAME         cracked_plate, coaxial_cylinders or bilinear_oscillator (cracked_plate)\n"
     "  --size quick|paper   mesh of the scene (quick)\n"
     "  --no-preload         without the static load\n"
+    "  --contact-stiffness X   of every pair, as a multiple of the local stiffness (that of the scene)\n"
     "  --study PART         short: piecewise-linear modes beside Craig-Bampton and the full order;\n"
     "                       methods: all ways to the curve beside each other;\n"
     "                       levels: some of them for a sweep of force levels;\n"
@@ -74,10 +75,14 @@ static int read_counts(const char *text, study_options *o) {
     }
 }
 
-static int read_share(const char *text, double *value) {
+static int read_positive(const char *text, double *value) {
     char *end;
     *value = strtod(text, &end);
-    return end == text || *end || !(*value > 0 && *value < 1);
+    return end == text || *end || !(*value > 0 && *value <= 1e12);
+}
+
+static int read_share(const char *text, double *value) {
+    return read_positive(text, value) || *value >= 1;
 }
 
 /* NULL: good; else what is wanted. */
@@ -108,6 +113,8 @@ static const char *read_value(const char *name, const char *value, study_options
                    : NULL;
     if (!strcmp(name, "--tolerance"))
         return read_share(value, &o->tolerance) ? "a number between 0 and 1" : NULL;
+    if (!strcmp(name, "--contact-stiffness"))
+        return read_positive(value, &o->contact_stiffness) ? "a positive number" : NULL;
     if (!strcmp(name, "--resolution"))
         return read_share(value, &o->curve_tolerance) || o->curve_tolerance > 1e-2 ||
                        o->curve_tolerance < 1e-10

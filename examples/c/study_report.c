@@ -20,11 +20,12 @@ static void write_reference(const study_result *one, FILE *to) {
     fprintf(to, "* Peak %.9g at %.9g Hz, between %.6g and %.6g Hz.\n",
             real(one->study, "reference_peak_amplitude"), real(one->study, "reference_peak_hz"),
             real(one->study, "frequency_low_hz"), real(one->study, "frequency_high_hz"));
-    fprintf(to,
-            "* Harmonics: twice as many change the peak by %.1e and its frequency by %.1e. All methods have "
-            "the same H, "
-            "so this is in none of their errors.\n",
-            real(one->study, "reference_harmonic_error"), real(one->study, "reference_harmonic_shift"));
+    fprintf(
+        to,
+        "* Harmonics: twice as many change the peak%s by %.1e and its frequency by %.1e. All methods have "
+        "the same H, so this is in none of their errors.\n",
+        one->n_levels > 1 ? ", at the lowest or the highest level," : "",
+        real(one->study, "reference_harmonic_error"), real(one->study, "reference_harmonic_shift"));
     fprintf(
         to,
         "* Space: its contact receptances are right to %.1e; the peak leaves a residual of %.1e in the full "
@@ -105,17 +106,16 @@ static void write_convergence(const study_findings *f, FILE *to) {
     fprintf(to, "![Convergence](convergence.png)\n");
 }
 
-static void write_left_out(const study_findings *f, FILE *to) {
+static void write_left_out(const study_findings *f, int64_t n_harmonics, FILE *to) {
     fprintf(to, "\n## What was left out and what it saved\n\nEach part switched off and on, everything else "
                 "as in the basis of "
                 "4 samples. Where leaving a part out changes the peak by no more than its error with the "
                 "part, the scene does "
-                "not need it. Rows with an empty last column are on the compressed basis that the "
-                "convergence in harmonics "
-                "is measured on. A saving of some per cent of a second is the scatter of the times. Parts of "
+                "not need it. Rows with an empty last column are on the basis compressed from that of 4 "
+                "samples. A saving of some per cent of a second is the scatter of the times. Parts of "
                 "the build: "
                 "[build_sizes.md](../build_sizes.md).\n\n");
-    study_write_left_out(to, f->one, f->steps);
+    study_write_left_out(to, f, n_harmonics);
 }
 
 static void write_refined(const study_case *c, const study_result *one, FILE *to) {
@@ -143,7 +143,7 @@ int study_write_report(study_case *c, const study_findings *f) {
         write_methods(f->one, study_wants(o, "methods"), to);
     if (f->levels) write_levels(f->levels, to);
     if (study_wants(o, "convergence") && f->steps) write_convergence(f, to);
-    if (study_wants(o, "left-out")) write_left_out(f, to);
+    if (study_wants(o, "left-out")) write_left_out(f, o->n_harmonics, to);
     if (study_wants(o, "refine")) write_refined(c, f->one, to);
     fprintf(to, "\n## Notes\n\n%s", study_stopped() ? "Interrupted: some parts are missing.\n\n" : "");
     if (f->one) study_write_notes(to, f->one);

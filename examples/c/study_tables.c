@@ -73,7 +73,7 @@ static const struct {
     {"contact set at rest among the samples", "no rest sample", "4 samples"},
     {"complements of the samples", "no complements", "4 samples"},
     {"ends of the sweep among the samples", "no ends of the sweep", "4 samples"},
-    {"static responses to the loads", "no load vectors", "4 samples"},
+    {"attachment vectors of the loads (static responses)", "no load vectors", "4 samples"},
     {"more samples, 8 for 4", "4 samples", "twice the samples"},
     {"pairs that do not open or close (gaps instead of coordinates as unknowns)", "moving pairs only",
      "all pairs, modal"},
@@ -99,36 +99,27 @@ static void write_step(FILE *to, const char *part, int64_t size, const study_ste
             fabs(without->hz / with->hz - 1), fabs(without->amplitude / with->amplitude - 1));
 }
 
-static const study_step *with_harmonics(const study_steps *s, int64_t number) {
-    for (int32_t i = 0; i < s->n_harmonics; i++)
-        if (s->harmonics[i].number == number) return &s->harmonics[i];
-    return NULL;
-}
-
-/* On the compressed basis. */
-static void write_steps(FILE *to, const study_steps *s) {
+/* On the compressed basis; n_harmonics: what the plain curve has. */
+static void write_steps(FILE *to, const study_steps *s, int64_t n_harmonics) {
     char part[2 * STUDY_NAME];
-    const study_step *automatic = with_harmonics(s, 0), *five = with_harmonics(s, 5),
-                     *twenty = with_harmonics(s, 20);
-    snprintf(part, sizeof part, "harmonics: as many as each point asks for (up to %" PRId64 ") against 20",
-             automatic->harmonics);
-    write_step(to, part, s->basis_size, automatic, twenty);
-    write_step(to, "harmonics: 5 against 20", s->basis_size, five, twenty);
+    snprintf(part, sizeof part, "harmonics above %" PRId64 " (against %d)", n_harmonics,
+             STUDY_MANY_HARMONICS);
+    write_step(to, part, s->basis_size, &s->plain, &s->many_harmonics);
     write_step(to, "search for folds and branch points", s->basis_size, &s->plain, &s->bifurcations);
     write_step(to, "stability of every point", s->basis_size, &s->plain, &s->stability);
 }
 
-void study_write_left_out(FILE *to, const study_result *result, const study_steps *steps) {
+void study_write_left_out(FILE *to, const study_findings *found, int64_t n_harmonics) {
     fprintf(to, "| left out | r without / with | curve (s) without / with | saved, set-up and curve (s) | "
                 "saved | change of "
                 "frequency | change of peak | true error of the peak without / with "
                 "|\n|---|--:|--:|--:|--:|--:|--:|--:|\n");
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
-        const study_row *without = study_find(result, parts[i].without),
-                        *with = study_find(result, parts[i].with);
+        const study_row *without = study_find(found->one, parts[i].without),
+                        *with = study_find(found->one, parts[i].with);
         if (without && with) write_part(to, parts[i].part, without, with);
     }
-    if (steps) write_steps(to, steps);
+    if (found->steps) write_steps(to, found->steps, n_harmonics);
 }
 
 /* ---- refinement ---- */

@@ -128,10 +128,10 @@ void add_reference(std::vector<Key> &keys) {
                       [](const H &h) { return last_run(h).reference.peak_hz; }),
             result<H>("reference_peak_amplitude", "its peak at the first level",
                       [](const H &h) { return last_run(h).reference.peak_amplitude; }),
-            result<H>(
-                "reference_harmonic_error",
-                "relative change of its peak with twice the harmonics, worst level; NaN: that was not found",
-                [](const H &h) { return last_run(h).harmonic_error; }),
+            result<H>("reference_harmonic_error",
+                      "relative change of its peak with twice the harmonics, the worse of the lowest and the "
+                      "highest force level; NaN: that was not found",
+                      [](const H &h) { return last_run(h).harmonic_error; }),
             result<H>("reference_harmonic_shift", "relative change of the peak's frequency with them",
                       [](const H &h) { return last_run(h).harmonic_shift; }),
             result<H>("reference_space_error",

@@ -106,6 +106,16 @@ double Branch::amplitude(std::int64_t point, std::int64_t dof, Measure measure, 
     return amplitude_of(coefficients(point, dof), measure, harmonic);
 }
 
+std::int64_t Branch::highest_point(std::int64_t dof, Measure measure, std::int64_t harmonic) const {
+    std::int64_t top = 0;
+    double highest = -1;
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(points_.size()); ++i) {
+        const double a = std::abs(amplitude(i, dof, measure, harmonic));
+        if (a > highest) highest = a, top = i;
+    }
+    return top;
+}
+
 vector<double> Branch::field(std::int64_t point, double fraction) const {
     const BranchPoint &p = points_[point];
     vector<double> eta(reduced_->size(), 0.0), free(reduced_->model->n_free()), all(reduced_->model->n_dof());

@@ -78,6 +78,8 @@ class Branch {
     /// (2H + 1) coefficients a0, a1, b1, ... of a full-model DOF (base 0; zeros when fixed) at a point.
     vector<double> coefficients(std::int64_t point, std::int64_t dof) const;
     double amplitude(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic) const;
+    /// The point where the amplitude is largest; 0 on an empty branch.
+    std::int64_t highest_point(std::int64_t dof, Measure measure, std::int64_t harmonic) const;
     /// q over all n_dof at t = fraction x period.
     vector<double> field(std::int64_t point, double fraction) const;
     /// Penetration coefficients (2H + 1) x Z of all pairs of the model, the gap included in a0.

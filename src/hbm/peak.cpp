@@ -133,13 +133,8 @@ class PeakSearch {
 Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
     if (branch.reduced_model() != reduced_)
         throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("branch");
-    const std::int64_t n = static_cast<std::int64_t>(branch.points().size());
-    std::int64_t top = 0;
-    double highest = -1;
-    for (std::int64_t i = 0; i < n; ++i) {
-        const double a = std::abs(branch.amplitude(i, dof, measure, harmonic));
-        if (a > highest) highest = a, top = i;
-    }
+    const std::int64_t n = static_cast<std::int64_t>(branch.points().size()),
+                       top = branch.highest_point(dof, measure, harmonic);
     Peak peak;
     auto one = std::make_shared<Branch>(reduced_, branch.force_scale(), branch.period_multiple());
     one->end_reason = PLM_REASON_RANGE_END;
@@ -149,23 +144,20 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         options.force_scale = point.force_scale;
         options.period_multiple = branch.period_multiple();
         options.n_harmonics = point.n_harmonics / options.period_multiple;
-        const auto search = [&] {
-            const auto system = make_system(reduced_, options);
-            point = PeakSearch(*system, options, reduced_, dof, measure, harmonic).run(branch, top).point;
+        // Where harmonics are chosen, an order better than on the curve: one point is cheap, and its
+        // amplitude is what people quote.
+        const bool automatic = options_.n_harmonics == 0;
+        const auto too_few = [&] {
+            return automatic && point.harmonic_error > 0.1 * options_.harmonic_tolerance;
         };
-        if (options_.n_harmonics > 0) {
-            search();
-        } else if (point.harmonic_error <= 0.1 * options_.harmonic_tolerance) {
-            search();
-        } else { // one point is cheap, and its amplitude is what people quote: an order better than the curve
-            do {
+        do {
+            if (too_few())
                 options.n_harmonics =
                     std::max(options.n_harmonics, std::min(options_.max_harmonics, 2 * options.n_harmonics));
-                search();
-                measure_harmonics(reduced_, options, point);
-            } while (point.harmonic_error > 0.1 * options_.harmonic_tolerance &&
-                     options.n_harmonics < options_.max_harmonics);
-        }
+            const auto system = make_system(reduced_, options);
+            point = PeakSearch(*system, options, reduced_, dof, measure, harmonic).run(branch, top).point;
+            if (automatic) measure_harmonics(reduced_, options, point);
+        } while (too_few() && options.n_harmonics < options_.max_harmonics);
     }
     one->append(std::move(point));
     one->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";

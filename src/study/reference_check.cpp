@@ -8,17 +8,6 @@ namespace {
 
 constexpr std::int64_t beside = 3; // points on either side of the highest one
 
-std::int64_t highest_point(const Branch &branch, const Output &output) {
-    std::int64_t top = 0;
-    double highest = -1;
-    for (std::size_t i = 0; i < branch.points().size(); ++i) {
-        const std::int64_t k = static_cast<std::int64_t>(i);
-        const double a = std::abs(branch.amplitude(k, output.dof, output.measure, output.harmonic));
-        if (a > highest) highest = a, top = k;
-    }
-    return top;
-}
-
 } // namespace
 
 HarmonicCheck check_harmonics(const Branch &branch, const Peak &peak, const HbmOptions &options,
@@ -29,8 +18,8 @@ HarmonicCheck check_harmonics(const Branch &branch, const Peak &peak, const HbmO
     const HbmOptions finer = options_at(summit, own, 2 * summit.n_harmonics / own.period_multiple);
     const auto system = make_system(branch.reduced_model(), finer);
     const std::int64_t n = static_cast<std::int64_t>(branch.points().size()),
-                       top = highest_point(branch, output), first = std::max<std::int64_t>(0, top - beside),
-                       last = std::min(n - 1, top + beside);
+                       top = branch.highest_point(output.dof, output.measure, output.harmonic),
+                       first = std::max<std::int64_t>(0, top - beside), last = std::min(n - 1, top + beside);
     auto around = std::make_shared<Branch>(branch.reduced_model(), finer.force_scale, finer.period_multiple);
     for (std::int64_t i = first; i <= last; ++i) {
         watch.step("reference", 0.5);

@@ -81,8 +81,9 @@ void add_reference(Text &t, const StudyResult &s) {
     t << "## The reference\n\n"
       << "* " << count(r.basis_size) << " coordinates; peak " << number(r.peak_amplitude, 9) << " at "
       << number(r.peak_hz, 10) << " Hz at force level " << number(s.levels[0], 6) << ".\n"
-      << "* With twice the harmonics its peak changes by " << error(s.harmonic_error) << " in amplitude and "
-      << error(s.harmonic_shift) << " in frequency.\n"
+      << "* With twice the harmonics its peak"
+      << (s.levels.size() > 1 ? ", at the lowest or the highest level," : "") << " changes by "
+      << error(s.harmonic_error) << " in amplitude and " << error(s.harmonic_shift) << " in frequency.\n"
       << "* Its peak leaves a residual of " << error(s.full_residual)
       << " in the full equations; the contact receptances of its space are right to " << error(s.space_error)
       << ".\n"

@@ -68,7 +68,8 @@ struct StudyResult {
     MethodResult reference;
     std::vector<MethodResult> methods;
     double harmonic_error = not_known,
-           harmonic_shift = not_known; // of the reference's peak with twice its harmonics
+           harmonic_shift =
+               not_known; // of the reference's peak with twice its harmonics; the worse of the end levels
     double space_error = not_known, full_residual = not_known;
     double curve_resolution = 0; // the worst of all curves
     bool shared_space = false;   // StudyOptions::share_space
