@@ -91,6 +91,8 @@ typedef struct study_method {
     int groups;
 } study_method;
 
+/* The method that parts are left out of: 4 samples. */
+#define STUDY_AS_IS "as it is"
 /* All methods of the groups; returns their number. */
 int32_t study_methods(study_case *c, int groups, study_method method[STUDY_METHODS]);
 

@@ -40,7 +40,7 @@ static void add_bands(list *l, int64_t n) {
 
 static void add_all_samples(list *l) {
     const study_options *o = l->c->options;
-    const int base = STUDY_LEFT_OUT | STUDY_SVD | STUDY_LEVELS | STUDY_REFINE;
+    const int base = STUDY_SVD | STUDY_LEVELS | STUDY_REFINE;
     int has_base = 0;
     for (int32_t i = 0; i < o->n_counts; i++) {
         const int is_base = o->count[i] == 4;
@@ -129,6 +129,7 @@ static void add_svd(list *l) {
 
 static void add_left_out(list *l) {
     const int g = STUDY_LEFT_OUT;
+    add(l, g, STUDY_RESPONSE, 0, STUDY_AS_IS, ""); /* timed beside the others, not minutes before */
     if (l->c->options->with_preload) {
         add(l, g, STUDY_RESPONSE, 0, "no static augmentation", "basis.static_augmentation=0");
         add(l, g, STUDY_RESPONSE, 0, "no rest sample", "sampler.include_rest=0");

@@ -70,17 +70,18 @@ static void write_levels(const study_result *levels, FILE *to) {
     fprintf(to, "\n![Error against time, all levels](levels.png)\n");
 }
 
-/* Errors against the last step but one of the harmonics' and the last of the samples'. */
+/* Errors against the last step. */
 static void write_steps(FILE *to, const char *what, const study_step *step, int32_t n, const char *zero) {
     const study_step *truth = &step[n - 1];
-    fprintf(to, "| %s | curve (s) | points | frequency | peak |\n|--:|--:|--:|--:|--:|\n", what);
+    fprintf(to, "| %s | curve (s) | points | amplitude | frequency | peak |\n|--:|--:|--:|--:|--:|--:|\n",
+            what);
     for (int32_t i = 0; i < n; i++) {
         const study_step *s = &step[i];
         if (s->number > 0)
             fprintf(to, "| %" PRId64 " |", s->number);
         else
             fprintf(to, "| %s |", zero);
-        fprintf(to, " %.3g | %" PRId64 " | %.1e | %.1e |\n", s->seconds, s->n_points,
+        fprintf(to, " %.3g | %" PRId64 " | %.6e | %.1e | %.1e |\n", s->seconds, s->n_points, s->amplitude,
                 fabs(s->hz / truth->hz - 1), fabs(s->amplitude / truth->amplitude - 1));
     }
     fputc('\n', to);

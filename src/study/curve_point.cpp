@@ -24,7 +24,8 @@ double CurveMetric::product(const vector<double> &x, double omega, const vector<
 }
 
 bool correct_across(HbmSystem &system, const CurveMetric &metric, const HbmOptions &options,
-                    const vector<double> &direction_x, double direction_omega, CurvePoint &point) {
+                    const vector<double> &direction_x, double direction_omega, CurvePoint &point,
+                    bool factored) {
     vector<double> weight(direction_x);
     for (double &w : weight) w *= metric.per_square();
     const double width = metric.omega_scale();
@@ -33,6 +34,7 @@ bool correct_across(HbmSystem &system, const CurveMetric &metric, const HbmOptio
     limits.tolerance = 1e-3 * options.tolerance; // the distances looked for are small differences
     limits.max_iterations = options.max_iterations;
     limits.omega_scale = width;
+    limits.factored = factored;
     CurvePoint moved = point;
     if (!newton(system, side, limits, moved.x, moved.omega).converged) return false;
     vector<double> change(moved.x);

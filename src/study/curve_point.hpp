@@ -26,9 +26,11 @@ class CurveMetric {
 };
 
 /// Moves the point to the curve of `system` within the hyperplane across (direction_x, direction_omega).
-/// False: Newton's method did not converge, or went far; the point is as it was.
+/// `factored`: the system was linearized near it. False: Newton's method did not converge, or went far; the
+/// point is as it was.
 bool correct_across(HbmSystem &system, const CurveMetric &metric, const HbmOptions &options,
-                    const vector<double> &direction_x, double direction_omega, CurvePoint &point);
+                    const vector<double> &direction_x, double direction_omega, CurvePoint &point,
+                    bool factored = false);
 
 CurvePoint load(HbmSystem &system, const BranchPoint &point);
 

@@ -118,7 +118,8 @@ class Step {
                 0.5 * (a.point.x[i] + b.point.x[i]) + chord_length_ / 8 * (a.direction[i] - b.direction[i]);
         m.omega = 0.5 * (a.point.omega + b.point.omega) +
                   chord_length_ / 8 * (a.direction_omega - b.direction_omega);
-        return correct_across(*system_, metric_, options_, chord_, chord_omega_, m);
+        const bool factored = true; // at the node made last
+        return correct_across(*system_, metric_, options_, chord_, chord_omega_, m, factored);
     }
 
     // By the distance of the curve's middle, and by how its direction differs there.
