@@ -7,7 +7,8 @@
 namespace plm {
 namespace {
 
-constexpr int deepest = 14;              // bisections of a step of the sweep
+constexpr int deepest = 14; // bisections of a step of the sweep
+constexpr std::size_t steps_between_polls = 8;
 constexpr double difference_step = 1e-5; // of the slope of the amplitude, in arc length
 // A piece halved is nearer by 16 where the curve is smooth. Where a pair begins to move its curvature is
 // singular: by less than 3, and the middle may lie on the piece although the rest does not.
@@ -170,12 +171,16 @@ class Step {
 } // namespace
 
 PlaneCurve plane_curve(const Branch &branch, const HbmOptions &options, const Output &output,
-                       const PlaneScale &scale, double tolerance) {
+                       const PlaneScale &scale, double tolerance, Watch watch) {
     PlaneCurve curve;
     HbmOptions own = options;
     own.period_multiple = branch.period_multiple();
-    for (std::size_t i = 0; i + 1 < branch.points().size(); ++i)
+    const std::size_t n = branch.points().size();
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+        if (i % steps_between_polls == 0)
+            watch.step("between the points", static_cast<double>(i) / static_cast<double>(n));
         Step(branch, i, own, output, scale).append_to(curve, tolerance);
+    }
     return curve;
 }
 

@@ -27,6 +27,6 @@ struct PlaneCurve {
 
 /// options: those the branch was computed with, with its frequency range. tolerance: of `resolution`.
 PlaneCurve plane_curve(const Branch &branch, const HbmOptions &options, const Output &output,
-                       const PlaneScale &scale, double tolerance);
+                       const PlaneScale &scale, double tolerance, Watch watch = Watch());
 
 } // namespace plm

@@ -153,7 +153,7 @@ class Study {
                         "the DOF of the output does not move on the reference's curve; name one that does")
                 .argument("dof");
         t.scale = {where_.range.high_hz - where_.range.low_hz, std::abs(t.peak.amplitude)};
-        t.curve = plane_curve(branch, o, where_.output, t.scale, plan_.options.curve_tolerance);
+        t.curve = plane_curve(branch, o, where_.output, t.scale, plan_.options.curve_tolerance, watch_);
         t.samples = equally_spaced(t.curve.pieces, plan_.options.curve_samples);
         note_resolution(t.curve);
         out_.reference.samples.push_back(samples_of(t.curve, t.scale));
@@ -307,8 +307,8 @@ class Study {
             const Peak &peak = peaks.emplace_back(peak_of(m, o, level));
             const double amplitude = compare_peaks(peak.frequency_hz, peak.amplitude, truth, level, r);
             if (amplitude > worst_amplitude) worst_amplitude = amplitude, worst = level;
-            const PlaneCurve curve =
-                plane_curve(*m.curves[level], o, where_.output, truth.scale, plan_.options.curve_tolerance);
+            const PlaneCurve curve = plane_curve(*m.curves[level], o, where_.output, truth.scale,
+                                                 plan_.options.curve_tolerance, watch_);
             note_resolution(curve);
             r.samples.push_back(samples_of(curve, truth.scale));
             add_distance(curve_distance(truth.samples, curve.pieces), r);
