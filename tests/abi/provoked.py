@@ -114,6 +114,11 @@ lister = build / "examples/c/list_keys"
 if lister.exists():
     refused("examples.keys", "a page of keys that lags behind", "out of date; renew it", python, tests / "examples/keys.py",
             lister, changed(source / "docs/keys.md", "`n_samples`", "`samples`"))
+shutil.copytree(source / "examples/reports", folder / "pages/examples/reports")
+shutil.copy(source / "README.md", folder / "pages")
+changed(source / "examples/reports/README.md", r"^\| refined .*", "| refined | yes | 1 |", "pages/examples/reports/README.md")
+refused("docs.reports", "figures that are in no report", "README.md is not what the reports say", python,
+        folder / "pages/examples/reports/index.py", "--check")
 doxyfile = build / "docs/Doxyfile"
 if doxyfile.exists() and shutil.which("doxygen"):
     text = doxyfile.read_text(encoding="utf-8") + f"\nINPUT = {grown}\nOUTPUT_DIRECTORY = {folder}\n"
