@@ -17,6 +17,7 @@ MODULE_NOT = C_ONLY | {"plm_context_get_error_function", "plm_context_get_error_
 def called(names):
     text = "\n".join((fortran / name).read_text() for name in names)
     found = set(re.findall(r"\b(plm_\w+)\s*\(", text))
+    found |= set(re.findall(r"\bcall \w+\(self, (plm_\w+),", text))  # handed to a procedure that calls it
     return found | {name + kind for name in found for kind in ("_i32", "_i64")}
 
 
