@@ -87,8 +87,10 @@ int study_run_steps(study_case *c, study_steps *s) {
     if (status >= 0) status = plm_hbm_create(pod, &hbm);
     if (status >= 0) status = plm_hbm_set_string(hbm, "stability", "off");
     if (status >= 0) status = plm_hbm_set_string(hbm, "bifurcations", "off");
-    if (status >= 0 && study_wants(c->options, "convergence")) status = vary_harmonics(c, hbm, s);
-    if (status >= 0 && study_wants(c->options, "convergence")) status = vary_samples(c, hbm, s);
+    if (study_wants(c->options, "convergence")) {
+        if (status >= 0) status = vary_harmonics(c, hbm, s);
+        if (status >= 0) status = vary_samples(c, hbm, s);
+    }
     if (status >= 0 && study_wants(c->options, "left-out")) status = leave_out(c, hbm, s);
     const int failed = status < 0 ? study_complain(c->ctx, "harmonics and time samples") : 0;
     plm_hbm_destroy(&hbm);

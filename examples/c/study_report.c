@@ -113,8 +113,7 @@ static void write_left_out(const study_findings *f, int64_t n_harmonics, FILE *t
                 "4 samples. Where leaving a part out changes the peak by no more than its error with the "
                 "part, the scene does "
                 "not need it. Rows with an empty last column are on the basis compressed from that of 4 "
-                "samples. A saving of some per cent of a second is the scatter of the times. Parts of "
-                "the build: "
+                "samples. Savings of less than 10 %% are the scatter of the times. Parts of the build: "
                 "[build_sizes.md](../build_sizes.md).\n\n");
     study_write_left_out(to, f, n_harmonics);
 }
