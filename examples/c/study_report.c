@@ -38,19 +38,16 @@ static void write_reference(const study_result *one, FILE *to) {
 }
 
 static void write_legend(FILE *to) {
-    fprintf(to, "\n## How to read the tables\n\nErrors are relative to the reference. Those of curves are "
-                "distances in the plane of "
-                "frequency over the width "
-                "of the window and amplitude over the reference's peak, over the arc length of the "
-                "reference's curve, so that "
-                "folds do not spoil them. Set-up is everything before the method's own curve: contact space, "
-                "samples, basis, and "
-                "for compressed and refined bases the curves they are made from. Times are medians. Memory: "
-                "the most held at "
+    fprintf(to, "\n"
+                "## How to read the tables\n\n"
+                "Errors are relative to the reference. Those of curves are distances in the plane of "
+                "frequency over the width of the window and amplitude over the reference's peak, over the "
+                "arc length of the reference's curve, so that folds do not spoil them. Set-up is everything "
+                "before the method's own curve: contact space, samples, basis, and for compressed and "
+                "refined bases the curves they are made from. Times are medians. Memory: the most held at "
                 "once by the library's arrays and CHOLMOD, the model not counted. Effectivity: the method's "
-                "own estimate of its "
-                "error over the true one. Front: no other method of the table is both faster (both) and "
-                "nearer (L2).\n\n");
+                "own estimate of its error over the true one. Front: no other method of the table is both "
+                "faster (both) and nearer (L2).\n\n");
 }
 
 static void write_methods(const study_result *one, int all, FILE *to) {
@@ -108,23 +105,23 @@ static void write_convergence(const study_findings *f, FILE *to) {
 }
 
 static void write_left_out(const study_findings *f, int64_t n_harmonics, FILE *to) {
-    fprintf(to, "\n## What was left out and what it saved\n\nEach part switched off and on, everything else "
-                "as in the basis of "
-                "4 samples. Where leaving a part out changes the peak by no more than its error with the "
-                "part, the scene does "
-                "not need it. Rows with an empty last column are on the basis compressed from that of 4 "
-                "samples. Savings of less than 10 %% are the scatter of the times. Parts of the build: "
+    fprintf(to, "\n"
+                "## What was left out and what it saved\n\n"
+                "Each part switched off and on, everything else as in the basis of 4 samples. Where leaving "
+                "a part out changes the peak by no more than its error with the part, the scene does not "
+                "need it. Rows with an empty last column are on the basis compressed from that of 4 samples. "
+                "Savings of less than 10 %% are the scatter of the times. Parts of the build: "
                 "[build_sizes.md](../build_sizes.md).\n\n");
     study_write_left_out(to, f, n_harmonics);
 }
 
 static void write_refined(const study_case *c, const study_result *one, FILE *to) {
     fprintf(to,
-            "\n## Bases for a tolerance of %g\n\nEach start is grown by corrected motions and compressed "
-            "until its own "
-            "estimate meets the tolerance. The starts of the next mode and of mode 1 have a dominant mode "
-            "that is not "
-            "the one that responds; the last one has its window, too.\n\n",
+            "\n"
+            "## Bases for a tolerance of %g\n\n"
+            "Each start is grown by corrected motions and compressed until its own estimate meets the "
+            "tolerance. The starts of the next mode and of mode 1 have a dominant mode that is not the one "
+            "that responds; the last one has its window, too.\n\n",
             c->options->tolerance);
     study_write_refined(to, one);
 }

@@ -47,8 +47,7 @@ static void write_row(FILE *to, const study_row *r, int front) {
 
 void study_write_rows(FILE *to, const study_result *result, int group) {
     fprintf(to, "| method | front | r | set-up (s) | iteration (ms) | curve (s) | both (s) | memory (MB) | "
-                "frequency | peak | "
-                "curve, L2 | curve, max | estimated | effectivity |\n"
+                "frequency | peak | curve, L2 | curve, max | estimated | effectivity |\n"
                 "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     for (int32_t i = 0; i < result->n; i++) {
         const study_row *r = &result->row[i];
@@ -111,9 +110,8 @@ static void write_steps(FILE *to, const study_steps *s, int64_t n_harmonics) {
 
 void study_write_left_out(FILE *to, const study_findings *found, int64_t n_harmonics) {
     fprintf(to, "| left out | r without / with | curve (s) without / with | saved, set-up and curve (s) | "
-                "saved | change of "
-                "frequency | change of peak | true error of the peak without / with "
-                "|\n|---|--:|--:|--:|--:|--:|--:|--:|\n");
+                "saved | change of frequency | change of peak | true error of the peak without / with |\n"
+                "|---|--:|--:|--:|--:|--:|--:|--:|\n");
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
         const study_row *without = study_find(found->one, parts[i].without),
                         *with = study_find(found->one, parts[i].with);

@@ -142,8 +142,7 @@ void add_reference(std::vector<Key> &keys) {
                       [](const H &h) { return last_run(h).full_residual; }),
             result<H>("curve_resolution_error",
                       "how far the interpolated curves are from the computed ones, the worst of all, in the "
-                      "scale of "
-                      "curve_error_max",
+                      "scale of curve_error_max",
                       [](const H &h) { return last_run(h).curve_resolution; }),
         });
 }

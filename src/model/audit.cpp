@@ -142,8 +142,7 @@ class Audit {
         if (interfering > 0)
             add(1, static_cast<double>(interfering),
                 format("%lld pairs start with interference (gap < 0), down to %g; if they should be open, "
-                       "the sign of "
-                       "the gap or the normal is reversed",
+                       "the sign of the gap or the normal is reversed",
                        Int(interfering), low));
     }
 
@@ -163,8 +162,7 @@ class Audit {
         if (repeated > 0)
             add(2, static_cast<double>(repeated),
                 format("%lld gap rows repeat an earlier one (the first: pair %lld repeats pair %lld): the "
-                       "contact "
-                       "stiffness counts twice there",
+                       "contact stiffness counts twice there",
                        Int(repeated), Int(other), Int(one)));
     }
 

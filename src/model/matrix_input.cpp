@@ -87,8 +87,7 @@ template <class Index> class Reader {
         if (number >= base && number - base < f_.n) return;
         fail(argument, p,
              format("%s[%lld] = %lld is no %s number: it must lie in %lld..%lld; check index_base and the "
-                    "size of the "
-                    "model",
+                    "size of the model",
                     argument, Int(p), Int(number), kind, Int(base), Int(base + f_.n - 1)));
     }
 
@@ -133,8 +132,7 @@ template <class Index> class Reader {
             if (diagonal[i] < 0)
                 fail("value", position[i],
                      format("value[%lld]: the diagonal entry at %s is negative (%g); mass and stiffness are "
-                            "positive "
-                            "semi-definite, check the sign of the element matrices",
+                            "positive semi-definite, check the sign of the element matrices",
                             Int(position[i]), entry_name(i, i).c_str(), diagonal[i]));
     }
 
@@ -166,8 +164,7 @@ template <class Index> class Reader {
             const std::int64_t p = position_of(row, col);
             fail("value", p >= 0 ? p : position_of(col, row),
                  format("the matrix is not symmetric: %.10g at %s but %.10g at the mirrored place, more than "
-                        "1e-8 of "
-                        "the largest entry %g apart; pass PLM_LOWER or PLM_UPPER to use one triangle",
+                        "1e-8 of the largest entry %g apart; pass PLM_LOWER or PLM_UPPER to use one triangle",
                         one, entry_name(row, col).c_str(), other, largest));
         };
         for (std::int64_t c = 0; c < f_.n; ++c) { // merge column c of S and of its transpose

@@ -107,17 +107,14 @@ double most_space_seconds(const StudyResult &s) {
 }
 
 void add_legend(Text &t, const StudyResult &s) {
-    t << "\nErrors are relative to the reference, the worst of all force levels. Those of curves are "
-         "distances in the plane "
-         "of frequency over the width of the range and amplitude over the reference's peak, at points "
-         "equally spaced in arc "
-         "length of the reference's curve (for methods that march in time: of their own points). Times are "
-         "medians and the "
-         "sum over the force levels; set-up is everything before the method's own curve. Memory is the most "
-         "held at once by "
-         "the library's arrays and by CHOLMOD, the model itself not counted. Pareto: no other method is both "
-         "faster and "
-         "nearer (curve, L2).\n";
+    t << "\n"
+         "Errors are relative to the reference, the worst of all force levels. Those of curves are distances "
+         "in the plane of frequency over the width of the range and amplitude over the reference's peak, at "
+         "points equally spaced in arc length of the reference's curve (for methods that march in time: of "
+         "their own points). Times are medians and the sum over the force levels; set-up is everything "
+         "before the method's own curve. Memory is the most held at once by the library's arrays and by "
+         "CHOLMOD, the model itself not counted. Pareto: no other method is both faster and nearer (curve, "
+         "L2).\n";
     if (s.shared_space)
         t << "The contact space was made once, in " << number(most_space_seconds(s), 3)
           << " s; its time is part of the set-up of every method that uses it, and its arrays of the "
@@ -142,12 +139,9 @@ std::string report_markdown(const StudyResult &s) {
 
 std::string table_csv(const StudyResult &s) {
     Text t;
-    t << "name,pareto,basis_size,setup_seconds,space_seconds,iteration_seconds,curve_seconds,peak_bytes,peak_"
-         "hz,peak_"
-         "amplitude,"
-         "frequency_error,amplitude_error,curve_error_l2,curve_error_max,estimated_error,effectivity,n_"
-         "points,"
-         "newton_iterations,failed_steps,outcome,options\n";
+    t << "name,pareto,basis_size,setup_seconds,space_seconds,iteration_seconds,curve_seconds,peak_bytes,"
+         "peak_hz,peak_amplitude,frequency_error,amplitude_error,curve_error_l2,curve_error_max,"
+         "estimated_error,effectivity,n_points,newton_iterations,failed_steps,outcome,options\n";
     const auto line = [&](const MethodResult &r) {
         t << quoted(r.name) << ',' << (r.pareto ? 1 : 0) << ',' << count(r.basis_size);
         for (double v : {r.setup_seconds, r.space_seconds, r.iteration_seconds, r.curve_seconds})

@@ -57,8 +57,7 @@ void print_introduction() {
         "the number of harmonics included (as many as each point needs, `harmonic_tolerance` 5e-4), unless "
         "the row is\n"
         "about that option or says so. Structures of a few masses are solved unreduced (`kind` = `full`) so "
-        "that the "
-        "error is the\n"
+        "that the error is the\n"
         "solver's; rows that name a basis, the starts and the scenes have piecewise-linear modes. ctest "
         "runs\n"
         "`extreme --quick` (label `extreme`) and fails when a row misses its bound. To renew this page:\n\n"
@@ -87,8 +86,7 @@ void print_introduction() {
 
 void print_row_head() {
     std::printf("| case | parameters | outcome | error | against | bound | points | iterations a point | "
-                "failed steps "
-                "| time (s) | error, sampled | |\n");
+                "failed steps | time (s) | error, sampled | |\n");
     std::printf("|---|---|---|---|---|---|---|---|---|---|---|---|\n");
 }
 
@@ -136,9 +134,10 @@ int print_cold_starts(bool quick, std::vector<GroupWork> &works) {
 
 int print_scenes(std::vector<GroupWork> &works) {
     std::printf(
-        "\n## The scenes of examples/scenes\n\nDefault sweeps over the sampler's window, `quick` size; their "
-        "accuracy "
-        "is in the test `accuracy`.\n\n"
+        "\n"
+        "## The scenes of examples/scenes\n\n"
+        "Default sweeps over the sampler's window, `quick` size; their accuracy is in the test "
+        "`accuracy`.\n\n"
         "| scene | DOFs | pairs | outcome | points | iterations a point | failed steps | time (s) | |\n"
         "|---|---|---|---|---|---|---|---|---|\n");
     GroupWork group{"Scenes", 0, {}};

@@ -80,8 +80,7 @@ Reached refined(bool with_preload, int mode, int n_samples, double tolerance) {
     r.frequency = std::abs(last.frequency_hz / truth.frequency_hz - 1);
     r.amplitude = std::abs(last.amplitude / truth.amplitude - 1);
     std::printf("    %d columns (error of the peak %.1e) to %d for %.0e: estimated %.1e, true %.1e in "
-                "amplitude, %.1e in "
-                "frequency, %d curves\n",
+                "amplitude, %.1e in frequency, %d curves\n",
                 static_cast<int>(r.start_size), r.first,
                 static_cast<int>(r.refinement.basis->reduced()->size()), tolerance, r.refinement.error,
                 r.amplitude, r.frequency, static_cast<int>(r.refinement.rounds));

@@ -157,8 +157,7 @@ GapErrors errors_with_gap(double gap) {
     e.lelsm = error_on(s, span_of(space, modes_of(s).columns.columns(0, e.size)));
     e.eight_modes = error_on(s, span_of(space, many.columns.columns(0, 8)));
     std::printf("    gap %g: %d modes and Ritz vectors %.1e in frequency, %.1e in amplitude; LELSM of equal "
-                "size %.1e, "
-                "%.1e; 8 modes alone %.1e, %.1e\n",
+                "size %.1e, %.1e; 8 modes alone %.1e, %.1e\n",
                 gap, static_cast<int>(e.n_modes), e.updated.frequency, e.updated.amplitude, e.lelsm.frequency,
                 e.lelsm.amplitude, e.eight_modes.frequency, e.eight_modes.amplitude);
     return e;
