@@ -152,4 +152,9 @@ vector<double> Branch::closed_share(std::int64_t point) const {
     return share;
 }
 
+void require_uncancelled(const Branch &branch) {
+    if (branch.end_reason == PLM_REASON_CANCELLED)
+        throw Error(PLM_CANCELLED, end_text(branch.end_reason)).reason(PLM_REASON_CANCELLED);
+}
+
 } // namespace plm

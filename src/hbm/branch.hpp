@@ -101,4 +101,8 @@ class Branch {
     std::vector<BranchPoint> points_;
 };
 
+/// Throws PLM_CANCELLED for a curve that the host stopped: to be called where it is a part of a larger
+/// answer.
+void require_uncancelled(const Branch &branch);
+
 } // namespace plm

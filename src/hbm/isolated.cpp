@@ -12,7 +12,6 @@ constexpr double same_solution = 1e-5;       // relative distance of phase-reson
 constexpr std::int64_t largest_system = 400; // unknowns of the backbone when harmonics are chosen by point
 constexpr double weakest_resonance = 0.05;   // of the main branch, against its largest response
 
-// A crossing of the backbone with the force, and the extrema of the force on either side of it.
 // A crossing of the backbone with the force, and the extrema of the force (points of the backbone) between it
 // and its neighbours: a loop exists from the minimum above its lower crossing to the maximum below it.
 struct Seed {
@@ -131,6 +130,7 @@ class Search {
         settle_harmonics(reduced_, options, start);
         IsolatedBranch found;
         found.branch = trace_through(reduced_, options, start, watch_);
+        require_uncancelled(*found.branch);
         found.closed = found.branch->end_reason == PLM_REASON_LOOP_CLOSED;
         const std::vector<BranchPoint> met = resonance_.on_curve(*found.branch);
         for (const BranchPoint &p : met)
@@ -236,7 +236,8 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
     o.upward = true;
     const auto after = std::make_shared<Branch>(reduced, o.force_scale, o.period_multiple);
     trace_curve(o, {start, {}}, watch, *after);
-    if (after->end_reason == PLM_REASON_LOOP_CLOSED) return after;
+    if (after->end_reason == PLM_REASON_LOOP_CLOSED || after->end_reason == PLM_REASON_CANCELLED)
+        return after;
     o.upward = false;
     Branch before(reduced, o.force_scale, o.period_multiple);
     trace_curve(o, {start, {}}, watch, before);
@@ -251,7 +252,7 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
         p.arclength += length;
         whole->append(std::move(p));
     }
-    whole->end_reason = after->end_reason;
+    whole->end_reason = before.end_reason == PLM_REASON_CANCELLED ? before.end_reason : after->end_reason;
     whole->newton_iterations = after->newton_iterations + before.newton_iterations;
     whole->factorizations = after->factorizations + before.factorizations;
     whole->failed_steps = after->failed_steps + before.failed_steps;

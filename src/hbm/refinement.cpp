@@ -43,8 +43,11 @@ class Refiner {
 
   private:
     std::shared_ptr<const Branch> sweep(const Basis &basis) const {
-        return Hbm(basis.reduced(), start_->window_min_hz(), start_->window_max_hz(), options_.hbm, watch_)
-            .sweep();
+        auto branch =
+            Hbm(basis.reduced(), start_->window_min_hz(), start_->window_max_hz(), options_.hbm, watch_)
+                .sweep();
+        require_uncancelled(*branch);
+        return branch;
     }
 
     // Points spread over the curve by their number, which its curvature sets.
@@ -56,18 +59,14 @@ class Refiner {
     }
 
     double largest_error(const Branch &branch) const {
-        const std::int64_t n = static_cast<std::int64_t>(branch.points().size());
-        double peak = 0;
-        std::int64_t highest = 0;
-        for (std::int64_t i = 0; i < n; ++i) {
-            const double a = std::abs(branch.amplitude(i, options_.dof, options_.measure, options_.harmonic));
-            if (a > peak) peak = a, highest = i;
-        }
+        const std::int64_t top = branch.highest_point(options_.dof, options_.measure, options_.harmonic);
+        const double peak =
+            std::abs(branch.amplitude(top, options_.dof, options_.measure, options_.harmonic));
         if (!(peak > 0))
             throw Error(PLM_ERR_ARGUMENT, "the DOF does not move on the curve; name one that does")
                 .argument("dof");
-        vector<std::int64_t> at = spread(n, looked_at);
-        at.push_back(highest);
+        vector<std::int64_t> at = spread(static_cast<std::int64_t>(branch.points().size()), looked_at);
+        at.push_back(top);
         const ErrorEstimator estimator(full_->reduced(), branch, options_.hbm);
         double worst = 0;
         for (std::int64_t i : at) {

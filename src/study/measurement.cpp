@@ -21,8 +21,7 @@ using BranchPtr = std::shared_ptr<const Branch>;
 BranchPtr sweep(const Basis &basis, const HbmOptions &options, Watch watch) {
     BranchPtr branch =
         Hbm(basis.reduced(), basis.window_min_hz(), basis.window_max_hz(), options, watch).sweep();
-    if (branch->end_reason == PLM_REASON_CANCELLED)
-        throw Error(PLM_CANCELLED, "cancelled by the progress callback").reason(PLM_REASON_CANCELLED);
+    require_uncancelled(*branch);
     return branch;
 }
 

@@ -169,6 +169,63 @@ static void a_cancelled_search_leaves_what_was_found(void **state) {
     assert_true(n == m && n > 3);
 }
 
+/* One request to stop ends a call, wherever it comes and whatever curve is being followed for it. At a force
+ * with an isolated branch beside the curve. */
+static plm_branch *main_curve;
+
+typedef struct {
+    int calls, stop_at;
+} listener;
+
+static int32_t stop_once(plm_context *c, const char *stage, double fraction, void *user) {
+    listener *l = (listener *)user;
+    (void)c, (void)stage, (void)fraction;
+    return ++l->calls == l->stop_at;
+}
+
+static plm_status isolated_branches(void) {
+    int64_t count = 0;
+    const plm_status status = plm_hbm_find_isolated(hbm, main_curve, 0, &count);
+    assert_true(status < 0 || status == PLM_CANCELLED || count > 0);
+    return status;
+}
+static plm_status branches_by_marching(void) {
+    int64_t count = 0;
+    const plm_status status = plm_hbm_find_by_marching(hbm, 0, NULL, 2, 0, &count);
+    assert_true(status < 0 || status == PLM_CANCELLED || count > 0);
+    return status;
+}
+static plm_status refined_basis(void) {
+    plm_basis *refined = NULL;
+    const plm_status status = plm_hbm_refine_basis(hbm, 0, PLM_PEAK, 0, 1e-3, &refined, NULL);
+    plm_basis_destroy(&refined);
+    return status;
+}
+
+static void one_request_stops(plm_status (*search)(void), int fewest) {
+    listener l = {0, 0};
+    int total, k;
+    plm_context_set_progress(ctx, stop_once, &l);
+    assert_true(search() >= 0);
+    total = l.calls;
+    assert_true(total >= fewest);
+    for (k = 1; k <= total; k += 1 + total / 40) {
+        l.calls = 0, l.stop_at = k;
+        assert_int_equal(search(), PLM_CANCELLED);
+        assert_int_equal(l.calls, k);
+    }
+    plm_context_set_progress(ctx, NULL, NULL);
+}
+
+static void one_request_stops_a_search(void **state) {
+    (void)state;
+    assert_true(done(ctx, plm_hbm_set_double(hbm, "force_scale", 0.006)));
+    assert_true(done(ctx, plm_hbm_sweep(hbm, &main_curve)));
+    one_request_stops(isolated_branches, 100);
+    one_request_stops(branches_by_marching, 100);
+    one_request_stops(refined_basis, 100);
+}
+
 static void nonlinear_mode(void **state) {
     const char *f = "plm_hbm_find_nonlinear_mode";
     plm_model *chain_of_8 = NULL;
@@ -241,6 +298,7 @@ int main(void) {
         TEST(track_fold),
         TEST(searches),
         TEST(a_cancelled_search_leaves_what_was_found),
+        TEST(one_request_stops_a_search),
         TEST(nonlinear_mode),
         TEST(of_points),
         TEST(a_new_basis_makes_old_branches_foreign),
