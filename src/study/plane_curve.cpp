@@ -3,6 +3,7 @@
 #include "study/curve_point.hpp"
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace plm {
 namespace {
@@ -38,10 +39,14 @@ class Step {
         }
     }
 
-    void append_to(PlaneCurve &curve, double tolerance) {
+    // known: what the piece before has made of the point between them, if that had as many harmonics. Becomes
+    // this piece's other end.
+    void append_to(PlaneCurve &curve, double tolerance, std::optional<Node> &known) {
         set_chord(ends_[0], ends_[1]);
         if (!(chord_length_ > 0)) return;
-        halve(node(ends_[0]), node(ends_[1]), deepest, 0, tolerance, curve);
+        const Node first = known ? turned(*known) : node(ends_[0]);
+        known = node(ends_[1]);
+        halve(first, *known, deepest, 0, tolerance, curve);
     }
 
   private:
@@ -106,6 +111,19 @@ class Step {
         }
         const double x = side[1].x - side[0].x, y = side[1].y - side[0].y, length = std::hypot(x, y);
         if (length > 0) n.tangent = {x / length, y / length};
+        return n;
+    }
+
+    // A node of the piece before, in the metric and along the chord of this one.
+    Node turned(Node n) const {
+        double length =
+            std::sqrt(metric_.product(n.direction, n.direction_omega, n.direction, n.direction_omega));
+        if (metric_.product(n.direction, n.direction_omega, chord_, chord_omega_) < 0) {
+            length = -length;
+            n.tangent = {-n.tangent.x, -n.tangent.y};
+        }
+        for (double &v : n.direction) v /= length;
+        n.direction_omega /= length;
         return n;
     }
 
@@ -175,11 +193,16 @@ PlaneCurve plane_curve(const Branch &branch, const HbmOptions &options, const Ou
     PlaneCurve curve;
     HbmOptions own = options;
     own.period_multiple = branch.period_multiple();
-    const std::size_t n = branch.points().size();
+    const std::vector<BranchPoint> &points = branch.points();
+    const std::size_t n = points.size();
+    std::optional<Node> known;
     for (std::size_t i = 0; i + 1 < n; ++i) {
         if (i % steps_between_polls == 0)
             watch.step("between the points", static_cast<double>(i) / static_cast<double>(n));
-        Step(branch, i, own, output, scale).append_to(curve, tolerance);
+        Step(branch, i, own, output, scale).append_to(curve, tolerance, known);
+        if (i + 2 < n && (points[i].n_harmonics != points[i + 1].n_harmonics ||
+                          points[i + 1].n_harmonics != points[i + 2].n_harmonics))
+            known.reset();
     }
     return curve;
 }
