@@ -22,9 +22,9 @@ LEFT = ("method", "front")  # columns of words
 HEAD = """# Reports
 
 What `plm-study` makes of the scenes of the paper at its size (H = 5): every method against the unreduced structure at the
-same number of harmonics. Each report begins with the command that makes it; two to four ran at a time on a machine of two cores,
-so that differences of some tens of per cent between times mean nothing. This page is made from them by
-`python3 examples/reports/index.py`.
+same number of harmonics. Each report begins with the command that makes it; `sh examples/demo.sh` builds its `plm-study` in
+`build/demo-release/examples/c`. Two or more ran at a time on a machine of two cores, so that differences of some tens of per cent
+between times mean nothing. This page is made from them by `python3 examples/reports/index.py`.
 """
 LEVELS_HEAD = """
 ## Ten force levels
