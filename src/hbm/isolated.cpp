@@ -130,7 +130,6 @@ class Search {
         settle_harmonics(reduced_, options, start);
         IsolatedBranch found;
         found.branch = trace_through(reduced_, options, start, watch_);
-        require_uncancelled(*found.branch);
         found.closed = found.branch->end_reason == PLM_REASON_LOOP_CLOSED;
         const std::vector<BranchPoint> met = resonance_.on_curve(*found.branch);
         for (const BranchPoint &p : met)
@@ -236,11 +235,12 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
     o.upward = true;
     const auto after = std::make_shared<Branch>(reduced, o.force_scale, o.period_multiple);
     trace_curve(o, {start, {}}, watch, *after);
-    if (after->end_reason == PLM_REASON_LOOP_CLOSED || after->end_reason == PLM_REASON_CANCELLED)
-        return after;
+    require_uncancelled(*after);
+    if (after->end_reason == PLM_REASON_LOOP_CLOSED) return after;
     o.upward = false;
     Branch before(reduced, o.force_scale, o.period_multiple);
     trace_curve(o, {start, {}}, watch, before);
+    require_uncancelled(before);
     const auto whole = std::make_shared<Branch>(reduced, o.force_scale, o.period_multiple);
     const double length = before.points().back().arclength;
     for (std::size_t i = before.points().size(); i-- > 1;) {
@@ -252,7 +252,7 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
         p.arclength += length;
         whole->append(std::move(p));
     }
-    whole->end_reason = before.end_reason == PLM_REASON_CANCELLED ? before.end_reason : after->end_reason;
+    whole->end_reason = after->end_reason;
     whole->newton_iterations = after->newton_iterations + before.newton_iterations;
     whole->factorizations = after->factorizations + before.factorizations;
     whole->failed_steps = after->failed_steps + before.failed_steps;

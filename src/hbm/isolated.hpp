@@ -28,7 +28,7 @@ IsolatedSearch find_isolated(std::shared_ptr<const ReducedModel> reduced, const 
                              const Branch &main, double force_max, Watch watch);
 
 /// The curve through a solution at options.force_scale: a loop, or both ways to the ends of the frequency
-/// range.
+/// range. Throws PLM_CANCELLED when the host wants to stop: half of the curve would be none.
 std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                                       const BranchPoint &start, Watch watch);
 

@@ -111,7 +111,6 @@ class Marching {
         }
         settle_harmonics(reduced_, options_.hbm, point);
         out_.branches.push_back(trace_through(reduced_, options_.hbm, point, watch_));
-        require_uncancelled(*out_.branches.back());
         known_.push_back(out_.branches.back());
     }
 
