@@ -589,8 +589,9 @@ PLM_API plm_status plm_study_set_reference(plm_study *study, plm_hbm *hbm);
  * sampler that only gives the window to a basis of another kind is no part of the set-up time. name: not empty, used once,
  * not "reference". index: of the method, from 0, or NULL; the same below. */
 PLM_API plm_status plm_study_add_response(plm_study *study, const char *name, plm_hbm *hbm, int64_t *index);
-/* The response of that recipe at the lowest and the highest force level, then a basis of kind "pod" from it, of `size`
- * columns (0: by "pod_tolerance" of the basis), and its curve. All before that curve is set-up. */
+/* The response of that recipe at the lowest and the highest force level (at the highest alone where neither a pre-load nor
+ * an initial gap keeps it from being proportional to the force), then a basis of kind "pod" from it, of `size` columns
+ * (0: by "pod_tolerance" of the basis), and its curve. All before that curve is set-up. */
 PLM_API plm_status plm_study_add_compressed(plm_study *study, const char *name, plm_hbm *hbm, int64_t size,
                                             int64_t *index);
 /* plm_hbm_refine_basis from that recipe, for the study's output at the highest force level; tolerance in (0, 1). */

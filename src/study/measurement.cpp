@@ -1,6 +1,7 @@
 #include "study/measurement.hpp"
 #include "hbm/refinement.hpp"
 #include "hbm/responses.hpp"
+#include "sampling/dominant_mode.hpp"
 #include <algorithm>
 #include <chrono>
 
@@ -28,9 +29,7 @@ BranchPtr sweep(const Basis &basis, const HbmOptions &options, Watch watch) {
 class Run {
   public:
     Run(const MethodPlan &method, const MeasurementCase &where, Watch watch)
-        : method_(method), where_(where), watch_(watch),
-          lowest_(*std::min_element(where.levels.begin(), where.levels.end())),
-          highest_(*std::max_element(where.levels.begin(), where.levels.end())) {}
+        : method_(method), where_(where), watch_(watch) {}
 
     Measurement result() {
         if (method_.kind == MethodKind::marching)
@@ -68,10 +67,9 @@ class Run {
     }
 
     void compress_basis() {
-        std::vector<BranchPtr> responses{
-            sweep(*out_.basis, options_at_level(method_, where_, lowest_), watch_)};
-        if (highest_ > lowest_)
-            responses.push_back(sweep(*out_.basis, options_at_level(method_, where_, highest_), watch_));
+        std::vector<BranchPtr> responses;
+        for (double level : outermost_levels(where_))
+            responses.push_back(sweep(*out_.basis, options_at_level(method_, where_, level), watch_));
         const Responses motions = responses_of(responses);
         BasisOptions o = method_.recipe.basis;
         o.kind = BasisKind::pod;
@@ -82,7 +80,7 @@ class Run {
 
     void refine_basis() {
         RefinementOptions o;
-        o.hbm = options_at_level(method_, where_, highest_);
+        o.hbm = options_at_level(method_, where_, outermost_levels(where_).back());
         o.dof = where_.output.dof;
         o.measure = where_.output.measure;
         o.harmonic = where_.output.harmonic;
@@ -122,7 +120,6 @@ class Run {
     const MethodPlan &method_;
     const MeasurementCase &where_;
     Watch watch_;
-    double lowest_, highest_;
     Measurement out_;
 };
 
@@ -134,6 +131,12 @@ HbmOptions options_at_level(const MethodPlan &method, const MeasurementCase &whe
     if (!(o.frequency_min_hz > 0)) o.frequency_min_hz = where.range.low_hz;
     if (!(o.frequency_max_hz > 0)) o.frequency_max_hz = where.range.high_hz;
     return o;
+}
+
+std::vector<double> outermost_levels(const MeasurementCase &where) {
+    const auto [low, high] = std::minmax_element(where.levels.begin(), where.levels.end());
+    if (*low == *high || is_homogeneous(*where.model)) return {*high};
+    return {*low, *high};
 }
 
 Measurement measure(const MethodPlan &method, const MeasurementCase &where, Watch watch) {

@@ -27,6 +27,10 @@ struct MeasurementCase {
 /// The method's solver at a level, with the study's range where it has none of its own.
 HbmOptions options_at_level(const MethodPlan &method, const MeasurementCase &where, double level);
 
+/// The lowest and the highest force level, in this order; the highest alone where it tells what the lowest
+/// would: the two are equal, or the response is proportional to the force.
+std::vector<double> outermost_levels(const MeasurementCase &where);
+
 /// Throws what the method throws; PLM_CANCELLED, too.
 Measurement measure(const MethodPlan &method, const MeasurementCase &where, Watch watch);
 

@@ -158,14 +158,14 @@ class Study {
         note_resolution(t.curve);
         out_.reference.samples.push_back(samples_of(t.curve, t.scale));
         out_.full_residual = worse(out_.full_residual, t.peak.branch->full_residual(0));
-        if (at_an_end(level)) check_reference(branch, t.peak, o);
+        if (is_outermost(level)) check_reference(branch, t.peak, o);
         truth_.push_back(std::move(t));
     }
 
     // The check costs as much as the curve.
-    bool at_an_end(std::size_t level) const {
-        const auto [low, high] = std::minmax_element(plan_.levels.begin(), plan_.levels.end());
-        return plan_.levels[level] == *low || plan_.levels[level] == *high;
+    bool is_outermost(std::size_t level) const {
+        const std::vector<double> outermost = outermost_levels(where_);
+        return std::find(outermost.begin(), outermost.end(), plan_.levels[level]) != outermost.end();
     }
 
     void check_reference(const Branch &branch, const Peak &peak, const HbmOptions &o) {
