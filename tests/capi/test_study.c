@@ -107,6 +107,53 @@ static void several_levels_give_the_worst_error_and_the_whole_time(void **state)
     assert_true(study_scalar(c.study, "n_levels") == 2 && study_scalar(c.study, "n_methods") == 1);
 }
 
+static void count_curves(plm_context *context, int32_t level, const char *text, void *user) {
+    (void)context, (void)level;
+    *(int *)user += strstr(text, "Newton iterations, ") != NULL; /* said at the end of each curve */
+}
+
+/* Without a gap the response is proportional to the force, and the parent's curve at one level tells all
+ * there is. */
+static void one_level_compresses_for_all_where_the_response_is_proportional(void **state) {
+    const double levels[] = {0.5, 2};
+    int followed[2] = {0, 0}, gap;
+    (void)state;
+    for (gap = 0; gap < 2; ++gap) {
+        const oscillator o = {1, 0.04, 0.3, gap == 0 ? 0 : 5, 1};
+        plm_study *study = NULL;
+        double hz[2], peak[2];
+        int k;
+        DONE(oscillator_built(ctx, &o, 1, &c.model, &c.basis));
+        DONE(plm_hbm_create(c.basis, &c.hbm));
+        DONE(plm_hbm_set_int(c.hbm, "n_harmonics", 7));
+        DONE(plm_hbm_set_double(c.hbm, "frequency_min_hz", 0.12));
+        DONE(plm_hbm_set_double(c.hbm, "frequency_max_hz", 0.2));
+        DONE(plm_study_create(c.model, &study));
+        DONE(plm_study_set_int(study, "repeats", 0));
+        DONE(plm_study_set_output(study, 0, PLM_HALF_PEAK_TO_PEAK, 0));
+        DONE(plm_study_set_force_levels(study, 2, levels));
+        DONE(plm_study_set_reference(study, c.hbm));
+        DONE(plm_study_add_compressed(study, "compressed", c.hbm, 1, NULL));
+        DONE(plm_context_set_log(ctx, count_curves, &followed[gap]));
+        DONE(plm_study_run(study));
+        DONE(plm_context_set_log(ctx, NULL, NULL));
+        assert_true(study_real(study, "amplitude_error", 0) < 1e-8 &&
+                    study_real(study, "curve_error_max", 0) < 1e-5);
+        for (k = 0; k < 2; ++k) {
+            plm_branch *curve = NULL;
+            DONE(plm_hbm_set_double(c.hbm, "force_scale", levels[k]));
+            DONE(plm_hbm_sweep(c.hbm, &curve));
+            DONE(plm_hbm_find_peak(c.hbm, curve, 0, PLM_HALF_PEAK_TO_PEAK, 0, &hz[k], &peak[k], NULL));
+        }
+        /* peaks are known to 1e-9 */
+        assert_int_equal(fabs(peak[1] / (4 * peak[0]) - 1) < 1e-8 && fabs(hz[1] / hz[0] - 1) < 1e-8,
+                         gap == 0);
+    }
+    /* the reference and the method at both levels, the parent at one or both */
+    assert_int_equal(followed[0], 2 + 2 + 1);
+    assert_int_equal(followed[1], 2 + 2 + 2);
+}
+
 static void a_method_keeps_the_options_it_was_added_with(void **state) {
     plm_transient *motion = NULL;
     double first_peak, last_peak;
@@ -459,6 +506,7 @@ int main(void) {
         TEST(the_reference_against_itself_is_exact),
         TEST(the_reference_says_how_converged_it_is),
         TEST(several_levels_give_the_worst_error_and_the_whole_time),
+        TEST(one_level_compresses_for_all_where_the_response_is_proportional),
         TEST(a_method_keeps_the_options_it_was_added_with),
         TEST(marching_finds_what_harmonic_balance_finds),
         TEST(a_method_that_fails_is_a_row),
