@@ -62,6 +62,18 @@ class Refusals(unittest.TestCase):
         self.refused(setattr, model, "n_free", 3, kind=AttributeError)
         self.refused(lambda: model.modes(3, "slidding"), kind=ValueError)
 
+    def test_arguments_of_another_type(self):
+        model, force = models.model(), numpy.zeros(models.DOFS)
+        for attempt, arguments, told in ((model.set_excitation, (force, force), "an integer is needed, not ndarray"),
+                                         (model.set_excitation, (force, 1.5), "an integer is needed, not float"),
+                                         (model.set_excitation, (force, 2**32 + 1), "does not fit"),
+                                         (model.set, ("space_tolerance", 2**64 + 1), "does not fit"),
+                                         (model.set_rayleigh_damping, (0.1, "0"), "a real number is needed, not str")):
+            error = self.refused(attempt, *arguments, kind=TypeError)
+            self.assertRegex(str(error), "^plm_model_set_[a-z_]+: argument [0-9]: .*" + told)
+        model.set_rayleigh_damping(numpy.float32(0.5), numpy.int64(0))  # numbers all the same
+        model.set_excitation(force, numpy.int32(2))
+
     def test_order(self):
         model = models.model()
         self.refused(plm.Sampler(model).run, status=plm.ERR_STATE, function="plm_sampler_run")

@@ -1,6 +1,8 @@
 """The C ABI: the shared library, its functions and its constants. Nothing above this file uses ctypes types of functions."""
 import ctypes
 import ctypes.util
+import numbers
+import operator
 import os
 import pathlib
 
@@ -220,11 +222,38 @@ def _load():
                       "library (" + "; ".join(failures) + ")")
 
 
+class _Integer:
+    """An argument that holds an integer of this many bits; ctypes by itself would cut off what does not fit."""
+
+    def __init__(self, bits, c_type):
+        self.limit, self.c_type = 2**(bits - 1), c_type
+
+    def from_param(self, value):
+        try:
+            number = operator.index(value)
+        except TypeError:
+            raise TypeError(f"an integer is needed, not {type(value).__name__}") from None
+        if not -self.limit <= number < self.limit:
+            raise TypeError(f"{number} does not fit into the library's integers, {-self.limit} to {self.limit - 1}")
+        return self.c_type(number)
+
+
+class _Real:
+    """An argument that holds a double; any real number will do, of NumPy's too."""
+
+    @staticmethod
+    def from_param(value):
+        if not isinstance(value, numbers.Real):
+            raise TypeError(f"a real number is needed, not {type(value).__name__}")
+        return ctypes.c_double(float(value))
+
+
 class _Functions:
     """The C functions as attributes, with their argument types."""
 
     def __init__(self, library):
-        letters = {"i": ctypes.c_int32, "q": ctypes.c_int64, "d": ctypes.c_double, "s": ctypes.c_char_p, "p": pointer}
+        letters = {"i": _Integer(32, ctypes.c_int32), "q": _Integer(64, ctypes.c_int64), "d": _Real,
+                   "s": ctypes.c_char_p, "p": pointer}
         self.path = library._name
         for line in FUNCTIONS.split("\n"):
             if not line.strip():

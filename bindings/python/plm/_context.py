@@ -169,6 +169,8 @@ class Context:
         self._depth += 1
         try:
             return getattr(_c.lib, name)(*arguments)
+        except ctypes.ArgumentError as error:
+            raise TypeError(f"{name}: {str(error).replace('TypeError: ', '')}") from None
         finally:
             self._depth -= 1
 
