@@ -52,11 +52,11 @@ class RestProblem {
         return d;
     }
 
-    // A rigid-body motion is still pushed: its huge step has left the slope of the line search to rounding.
-    bool pushes_rigid_motion(const vector<double> &g) const {
-        const double load = norm2(p_.gap.cols(), p_.load.data());
-        for (std::size_t j = 0; j < g.size(); ++j)
-            if (p_.lambda[j] == 0 && std::abs(g[j]) > 1e-8 * load) return true;
+    // The force that the fictitious stiffness of rigid-body coordinates would have to carry in a Newton step
+    // d: none to `scale`, where supports and contact hold the structure.
+    bool pushes_rigid_motion(const vector<double> &d, double scale) const {
+        for (std::size_t j = 0; j < d.size(); ++j)
+            if (p_.lambda[j] == 0 && pivot_[j] * std::abs(d[j]) > 1e-8 * scale) return true;
         return false;
     }
 
@@ -108,11 +108,15 @@ StaticState solve_static(const StaticProblem &p) {
     StaticState state;
     state.coordinates.assign(p.gap.cols(), 0.0);
     state.penetration = problem.penetration(state.coordinates);
-    const std::int64_t limit = 200;
+    const std::int64_t limit = 200, m = p.gap.cols();
     int settled = 0; // steps with an unchanged contact set: the second one only refines
+    double first = 0;
+    bool pushed = false; // by the last step; a huge one has left the slope of the line search to rounding
     while (settled < 2 && state.iterations < limit) {
         const vector<double> g = problem.gradient(state.coordinates, state.penetration);
         const vector<double> d = problem.newton_step(g, state.penetration);
+        if (state.iterations == 0) first = norm2(m, g.data());
+        pushed = problem.pushes_rigid_motion(d, first);
         const double t = problem.line_search(state.coordinates, d, state.penetration);
         for (std::size_t j = 0; j < d.size(); ++j) state.coordinates[j] += t * d[j];
         const vector<char> before = closed_set(state.penetration);
@@ -126,8 +130,7 @@ StaticState solve_static(const StaticProblem &p) {
                            "iterations; check the pre-load and the initial gaps",
                            static_cast<long long>(limit)))
             .reason(PLM_REASON_NO_EQUILIBRIUM);
-    if (problem.pushes_rigid_motion(problem.gradient(state.coordinates, state.penetration)))
-        throw no_equilibrium();
+    if (pushed) throw no_equilibrium();
     return state;
 }
 
