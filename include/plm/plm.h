@@ -401,7 +401,8 @@ PLM_API plm_status plm_hbm_get_double(plm_hbm *hbm, const char *key, double *val
 PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t capacity, char *buffer,
                                       int64_t *needed);
 /* Follows the response curve over [frequency_min_hz, frequency_max_hz] through its folds. PLM_NOT_CONVERGED,
- * PLM_TRUNCATED or PLM_CANCELLED still deliver the branch found so far, if it has a point. */
+ * PLM_TRUNCATED or PLM_CANCELLED still deliver the branch found so far, if it has a point. A structure in free flight, or
+ * free along a rail: mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
  * start. PLM_ERR_CONVERGENCE when no strategy converges. */
@@ -444,8 +445,8 @@ PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_b
  * DOF, as in plm_branch_get_amplitude) and frequency_hz[3] (shift of the curve), corrected less computed, by cause: basis,
  * contact sets, harmonics beyond those solved for; the sum is the estimate. It measures errors that are small against the
  * width of the resonance and says of larger ones that they are large. Away from a peak, amplitude and frequency belong
- * together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the contacts do not hold all
- * rigid-body modes. The first call of an hbm prepares the unreduced structure. */
+ * together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the model has no contact
+ * pairs. The first call of an hbm prepares the unreduced structure. */
 PLM_API plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, int64_t point, int64_t dof, int32_t measure,
                                           int32_t harmonic, double *amplitude, double *frequency_hz);
 /* A basis for one number, the tolerance. From the basis of this hbm, however poor, and its curve: the motions, corrected

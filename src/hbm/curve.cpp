@@ -189,7 +189,7 @@ class CurveTracer final : public PathOwner {
         wants_modal_ = modal_;
         if (asked_.unknowns == UnknownSpace::automatic && reduced_->n_pairs() > 0 && !compliant_) {
             const double r = static_cast<double>(reduced_->size()), moving = static_cast<double>(moved_most_);
-            if (modal_ && 1.5 * moving < r && can_condense(*reduced_)) wants_modal_ = false;
+            if (modal_ && 1.5 * moving < r) wants_modal_ = false;
             if (!modal_ && moving > 1.2 * r) wants_modal_ = true;
         }
         moved_most_ = 0;

@@ -4,6 +4,7 @@
 // open and close over the period times (2H + 1), whatever the size of the model. Pairs that stay open or
 // closed are eliminated harmonic by harmonic, exactly, and come back the moment they move.
 #include "hbm/formulation.hpp"
+#include "hbm/free_motion.hpp"
 #include "hbm/pair_elimination.hpp"
 #include "hbm/receptance.hpp"
 #include "hbm/system.hpp"
@@ -49,6 +50,7 @@ class GapSystem final : public HbmSystem {
           r0_(m_->static_size()), force_(make_contact_force(options, z_)),
           form_(make_formulation(*m_, options)), gap_(m_->initial_gap), u_(z_, n_), contact_(z_, n_),
           receptance_(h_ + 1), constant_(h_ + 1), eta_(h_ + 1), force_scale_(options.force_scale) {
+        require_balanced(*m_);
         update_static();
         if (form_.compliant) law_ = std::make_shared<const vector<double>>(form_.stiffness);
     }
@@ -200,25 +202,37 @@ class GapSystem final : public HbmSystem {
     }
 
   private:
-    // An open structure with rigid-body modes has no static receptance: then half of the contact stiffness is
-    // moved from the contact law into the static reference system (h = 0 only), which is exact.
+    // An open structure with rigid-body modes has no static receptance: then a part of the contact stiffness
+    // is moved from the contact law into the static reference system (h = 0 only), which is exact.
     void update_static() {
         bool rigid = false;
         for (double l : m_->lambda_0) rigid = rigid || l <= 0;
         reference_.assign(z_, 0.0);
         if (!rigid) return;
         Matrix k(r0_, r0_), scaled = m_->gap_0;
-        for (std::int64_t i = 0; i < z_; ++i) reference_[i] = 0.5 * form_.stiffness[i];
+        for (std::int64_t i = 0; i < z_; ++i) reference_[i] = reference_stiffness(i);
         for (std::int64_t j = 0; j < r0_; ++j)
             for (std::int64_t i = 0; i < z_; ++i) scaled(i, j) *= reference_[i];
         gemm('T', 'N', 1.0, m_->gap_0, scaled, 0.0, k);
         for (std::int64_t j = 0; j < r0_; ++j) k(j, j) += m_->lambda_0[j];
+        const Matrix hold = hold_free_motion(*m_);
+        gemm('N', 'T', 1.0, hold, hold, 1.0, k);
         if (!static_cholesky_.factor(k))
             throw Error(PLM_ERR_SINGULAR,
-                        "the structure has rigid-body modes that even closed contacts do not hold; "
+                        "the structure has rigid-body modes that closed contacts hardly hold; "
                         "fix DOFs or solve in reduced coordinates (unknowns = modal)")
                 .reason(PLM_REASON_SINGULAR);
         static_is_dense_ = true;
+    }
+
+    // No stiffer than the structure at the pair, whose flexibility would drown in the rounding of a stiff
+    // contact.
+    double reference_stiffness(std::int64_t i) const {
+        double flexibility = 0;
+        for (std::int64_t j = 0; j < r0_; ++j)
+            if (m_->lambda_0[j] > 0) flexibility += m_->gap_0(i, j) * m_->gap_0(i, j) / m_->lambda_0[j];
+        const double half = 0.5 * form_.stiffness[i];
+        return half * flexibility > 1 ? 1 / flexibility : half;
     }
 
     void apply_static(double *v) const {

@@ -66,6 +66,7 @@ class ModalJacobian {
     vector<std::int64_t> closing_;
     Matrix weights_; // Z x (4H + 1): stiffness times the averages of the indicator
     Matrix gap_, gap_0_, tangent_;
+    Matrix hold_; // hold_free_motion()
 };
 
 /// u (one column per coefficient) = gap_0 eta_0, gap a_1, gap b_1, ...

@@ -1,5 +1,6 @@
 // Harmonic balance in reduced coordinates (paper, eq. (10)): x = [eta_0 (r_0); a_1; b_1; ...; a_H; b_H (r
 // each)].
+#include "hbm/free_motion.hpp"
 #include "hbm/modal_factor.hpp"
 #include "hbm/system.hpp"
 #include <algorithm>
@@ -15,6 +16,7 @@ class ModalSystem final : public HbmSystem {
           z_(m_->n_pairs()), force_(make_contact_force(options, z_)), stiffness_(m_->contact_stiffness),
           gap_(m_->initial_gap), u_(z_, 2 * h_ + 1), contact_(z_, 2 * h_ + 1), x_(size(), 0.0),
           jacobian_(m_, h_) {
+        require_balanced(*m_);
         load_.assign(size(), 0.0);
         fill_excitation();
         ModalSystem::set_force_scale(options.force_scale);

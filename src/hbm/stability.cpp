@@ -1,7 +1,9 @@
 #include "hbm/stability.hpp"
 #include "hbm/contact_force.hpp"
 #include "hbm/formulation.hpp"
+#include "hbm/free_motion.hpp"
 #include "hbm/hill.hpp"
+#include "linalg/lapack.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +15,18 @@ namespace {
 // than the curve itself.
 constexpr std::int64_t automatic_size = 24;
 
+Matrix states_without_positions_along(const Matrix &free) {
+    const std::int64_t n = free.rows(), m = free.cols();
+    if (m == 0) return {};
+    Matrix square(n, n);
+    std::copy(free.data(), free.data() + n * m, square.data());
+    const Matrix others = thin_svd(square).u; // the first m columns span `free`
+    Matrix states(2 * n, 2 * n - m);
+    for (std::int64_t k = m; k < n; ++k) std::copy(others.col(k), others.col(k) + n, states.col(k - m));
+    for (std::int64_t i = 0; i < n; ++i) states(n + i, n - m + i) = 1;
+    return states;
+}
+
 } // namespace
 
 Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
@@ -20,6 +34,7 @@ Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptio
       wanted_(options.stability == StabilityKind::floquet || options.stability == StabilityKind::hill ||
               (options.stability == StabilityKind::automatic && reduced_->static_size() <= automatic_size)),
       hill_(options.stability == StabilityKind::hill) {
+    if (wanted_) but_positions_ = states_without_positions_along(free_motion(*reduced_));
     if (wanted_ && reduced_->structural == 0) flow_ = std::make_shared<FlowModel>(reduced_);
 }
 
@@ -30,7 +45,14 @@ vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) co
     for (std::int64_t k = 0; k < transition.rows() * transition.cols(); ++k)
         if (!std::isfinite(transition.data()[k]))
             return {}; // an infinitely fast mode (mass-less DOFs): unknown
-    return plm::multipliers(transition);
+    if (but_positions_.cols() == 0) return plm::multipliers(transition);
+    // A displacement along a free motion stays: multiplier 1. Beside that of its velocity, 1 without damping,
+    // it would be a defective pair, which rounding throws off the unit circle.
+    vector<std::complex<double>> found =
+        plm::multipliers(product('T', 'N', but_positions_, product('N', 'N', transition, but_positions_)));
+    const auto inside = std::find_if(found.begin(), found.end(), [](auto m) { return std::abs(m) < 1; });
+    found.insert(inside, but_positions_.rows() - but_positions_.cols(), 1.0);
+    return found;
 }
 
 std::vector<ContactInterval> contact_intervals(const ReducedModel &m, const BranchPoint &point,

@@ -1,7 +1,6 @@
 #include "hbm/system.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/wrapped_system.hpp"
-#include "linalg/lapack.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -13,26 +12,13 @@ std::unique_ptr<ContactForce> make_contact_force(const HbmOptions &options, std:
                : make_sampled_force(options.n_harmonics, options.time_samples, n_pairs);
 }
 
-// Rigid-body modes that even closed contact does not hold have no static receptance to condense with.
-bool can_condense(const ReducedModel &m) {
-    if (m.n_pairs() == 0) return false;
-    std::int64_t n_rigid = 0;
-    while (n_rigid < m.static_size() && m.lambda_0[n_rigid] <= 0) ++n_rigid;
-    if (n_rigid == 0) return true;
-    const Svd held = thin_svd(m.gap_0.columns(0, n_rigid));
-    double size = 0;
-    for (std::int64_t k = 0; k < m.gap_0.rows() * m.gap_0.cols(); ++k)
-        size = std::max(size, std::abs(m.gap_0.data()[k]));
-    return m.n_pairs() >= n_rigid && held.values.back() > 1e-9 * size;
-}
-
 bool prefers_modal(const ReducedModel &reduced, const HbmOptions &options) {
     const UnknownSpace unknowns = options.unknowns;
     if (unknowns != UnknownSpace::automatic || reduced.n_pairs() == 0)
         return unknowns == UnknownSpace::modal || reduced.n_pairs() == 0;
     // The dense factorization dominates both; its order is r (2H + 1) or, at the most, Z (2H + 1).
     if (make_formulation(reduced, options).compliant) return false;
-    return reduced.size() <= reduced.n_pairs() || !can_condense(reduced);
+    return reduced.size() <= reduced.n_pairs();
 }
 
 namespace {

@@ -80,8 +80,6 @@ std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduc
                                        const HbmOptions &options);
 /// Reduced coordinates (true) or contact gaps when all pairs move.
 bool prefers_modal(const ReducedModel &reduced, const HbmOptions &options);
-/// Whether the contact gaps can be the unknowns at all.
-bool can_condense(const ReducedModel &reduced);
 std::unique_ptr<HbmSystem> make_modal_system(std::shared_ptr<const ReducedModel> reduced,
                                              const HbmOptions &options);
 std::unique_ptr<HbmSystem> make_gap_system(std::shared_ptr<const ReducedModel> reduced,

@@ -4,14 +4,16 @@
 #include <cmath>
 
 namespace plm {
-namespace {
 
-Error no_equilibrium() {
+Error no_equilibrium(const char *load) {
     return Error(PLM_ERR_CONVERGENCE,
-                 "the pre-load drives a rigid-body motion that no support and no contact holds; "
-                 "fix DOFs or check the direction of the pre-load")
+                 format("the %s drives a rigid-body motion that no support and no contact holds; "
+                        "fix DOFs or check the direction of the %s",
+                        load, load))
         .reason(PLM_REASON_NO_EQUILIBRIUM);
 }
+
+namespace {
 
 // The energy is convex, so Newton with exact line search ends at the minimum from anywhere.
 class RestProblem {
@@ -81,7 +83,7 @@ class RestProblem {
         while (slope(eta, d, u, du, high) < 0) {
             low = high;
             high *= 4;
-            if (high > 1e12) throw no_equilibrium();
+            if (high > 1e12) throw no_equilibrium("pre-load");
         }
         for (int k = 0; k < 200 && high - low > 1e-15 * high; ++k) {
             const double middle = 0.5 * (low + high);
@@ -130,7 +132,7 @@ StaticState solve_static(const StaticProblem &p) {
                            "iterations; check the pre-load and the initial gaps",
                            static_cast<long long>(limit)))
             .reason(PLM_REASON_NO_EQUILIBRIUM);
-    if (pushed) throw no_equilibrium();
+    if (pushed) throw no_equilibrium("pre-load");
     return state;
 }
 

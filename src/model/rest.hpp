@@ -23,6 +23,9 @@ struct StaticState {
 /// motion.
 StaticState solve_static(const StaticProblem &problem);
 
+/// PLM_ERR_CONVERGENCE with PLM_REASON_NO_EQUILIBRIUM: the load ("pre-load") has nothing to rest on.
+Error no_equilibrium(const char *load);
+
 /// The structure at rest under the pre-load.
 struct RestState {
     vector<double> coordinates;  // in the space: q_rest = V coordinates

@@ -1,0 +1,130 @@
+// Structures whose rigid-body motion neither supports nor contact hold, against the same ones held: a pair of
+// masses in free flight moves relative to each other like one of the reduced mass on a support.
+#include "hbm/hbm.hpp"
+#include "hbm/trig_polynomial.hpp"
+#include "support/small_reduced.hpp"
+#include "support/test.hpp"
+#include <cstring>
+
+using plm::UnknownSpace;
+
+namespace {
+
+using Model = std::shared_ptr<plm::ReducedModel>;
+
+constexpr double left = 1, right = 3, spring = 1, damping = 0.03, contact = 0.8, gap = 0.5, force = 1;
+
+// q = (left mass, right mass), pushed on the left; joined by the spring and by a stop.
+Model in_free_flight() {
+    exact::Structure s;
+    s.n = 2, s.z = 1;
+    s.mass = {left, right};
+    s.stiffness = {spring, -spring, -spring, spring};
+    s.damping = {damping * left, 0, 0, damping * right}; // of each mass: the relative motion stays apart
+    s.gap_rows = {1, -1};
+    s.contact_stiffness = {contact};
+    s.gap = {gap};
+    s.force = {force, 0};
+    Model m = test::reduce_exactly(s);
+    m->lambda[0] = m->lambda_0[0] = 0; // rounding of the eigenproblem
+    return m;
+}
+
+Model on_a_support() {
+    const double mass = left * right / (left + right);
+    exact::Structure s;
+    s.n = s.z = 1;
+    s.mass = {mass};
+    s.stiffness = {spring};
+    s.damping = {damping * mass};
+    s.gap_rows = {1};
+    s.contact_stiffness = {contact};
+    s.gap = {gap};
+    s.force = {force * mass / left};
+    return test::reduce_exactly(s);
+}
+
+plm::Hbm solver(Model m, UnknownSpace unknowns) {
+    plm::HbmOptions o;
+    o.n_harmonics = 9;
+    o.unknowns = unknowns;
+    return plm::Hbm(std::move(m), 1.0 / (2 * M_PI), 1.6 / (2 * M_PI), o, plm::Watch());
+}
+
+double stroke(const plm::ReducedModel &m, const plm::BranchPoint &p) {
+    const std::int64_t n = p.eta.cols();
+    plm::vector<double> u(n + 1, 0.0);
+    for (std::int64_t j = 0; j < m.size(); ++j) {
+        u[0] += m.gap_0(0, j) * p.eta_0[j];
+        for (std::int64_t c = 0; c < n; ++c) u[c + 1] += m.gap(0, j) * p.eta(j, c);
+    }
+    const plm::TrigRange r = plm::trig_range(u.data(), n / 2);
+    return r.maximum - r.minimum;
+}
+
+void free_flight_is_the_motion_of_the_reduced_mass(void **) {
+    const Model free = in_free_flight(), held = on_a_support();
+    for (UnknownSpace unknowns : {UnknownSpace::modal, UnknownSpace::gaps})
+        for (double omega : {1.05, 1.2, 1.3, 1.4, 1.55}) {
+            const double hz = omega / (2 * M_PI);
+            const auto a = solver(free, unknowns).solve(hz, nullptr, 0),
+                       b = solver(held, UnknownSpace::modal).solve(hz, nullptr, 0);
+            const double want = stroke(*held, b->points()[0]);
+            assert_true(want > 2 * gap);                                      // the stop is met
+            assert_true(close_to(stroke(*free, a->points()[0]), want, 1e-8)); // Newton's tolerance is 1e-9
+            // the common motion: of both masses under the force, about the mean position zero
+            assert_true(std::abs(a->points()[0].eta_0[0]) < 1e-12);
+            const std::complex<double> drag(-omega * omega, omega * damping),
+                common = force / (left + right) / drag;
+            double centre[2] = {0, 0};
+            for (int c = 0; c < 2; ++c)
+                for (std::int64_t j = 0; j < free->size(); ++j)
+                    centre[c] += (left * free->vectors(0, j) + right * free->vectors(1, j)) / (left + right) *
+                                 a->points()[0].eta(j, c);
+            assert_true(close_to(std::hypot(centre[0], centre[1]), std::abs(common), 1e-8));
+        }
+}
+
+void its_sweep_is_stable_and_whole(void **) {
+    for (UnknownSpace unknowns : {UnknownSpace::automatic, UnknownSpace::modal, UnknownSpace::gaps}) {
+        const auto curve = solver(in_free_flight(), unknowns).sweep();
+        assert_int_equal(curve->end_reason, PLM_REASON_RANGE_END);
+        for (const plm::BranchPoint &p : curve->points())
+            assert_true(plm::stability_of(p) == 1 && p.bifurcation == PLM_BIFURCATION_NONE);
+    }
+}
+
+void refused(const Model &m) {
+    for (UnknownSpace unknowns : {UnknownSpace::automatic, UnknownSpace::gaps}) {
+        bool thrown = false;
+        try {
+            solver(m, unknowns).sweep();
+        } catch (const plm::Error &e) {
+            thrown = e.reason() == PLM_REASON_NO_EQUILIBRIUM && std::strstr(e.what(), "rigid-body motion");
+        }
+        assert_true(thrown);
+    }
+}
+
+void loads_that_would_carry_it_away_are_refused(void **) {
+    const Model pushed = in_free_flight(), blown = in_free_flight();
+    pushed->preload_0[0] = 1e-3;
+    refused(pushed);
+    blown->excitation[0].real = {1e-3, 0};
+    refused(blown);
+    // a balanced pre-load only presses the masses on each other
+    const Model pressed = in_free_flight();
+    pressed->preload_0[1] = 0.2;
+    assert_int_equal(solver(pressed, UnknownSpace::automatic).sweep()->end_reason, PLM_REASON_RANGE_END);
+}
+
+} // namespace
+
+int main() {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(free_flight_is_the_motion_of_the_reduced_mass),
+        cmocka_unit_test(its_sweep_is_stable_and_whole),
+        cmocka_unit_test(loads_that_would_carry_it_away_are_refused),
+    };
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
