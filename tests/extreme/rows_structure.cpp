@@ -102,6 +102,27 @@ Measured rigid_lifting(bool sampled) {
     return sweep_against(s, solver, 2000);
 }
 
+// Two masses that fly freely, joined by a spring and a stop and pressed on each other, in coordinates x = q_0
+// - q_1 and q_1: x moves like the reduced mass on a support.
+Measured free_flight(bool sampled) {
+    const double left = 1, right = 3;
+    exact::Structure truth = empty(1, 1);
+    truth.mass = {left * right / (left + right)};
+    add_spring(truth, 0, -1, 1, 0.02);
+    truth.gap_rows = {1};
+    set_contact(truth, 5, 0.3);
+    truth.force = {truth.mass[0] / left};
+    truth.preload = {0.1};
+    exact::Structure s = empty(2, 1);
+    add_spring(s, 0, -1, 1, 0.02);
+    s.gap_rows = {1, 0};
+    set_contact(s, 5, 0.3);
+    s.force = {1, 1}; // on q_0
+    s.preload = {0.1, 0};
+    Solver solver(s, {left, left, left, left + right}, range(0.6, 2.6, sampled));
+    return sweep_against(truth, solver, 2000);
+}
+
 // DOF 3 of four has no mass: its two springs, with dampers in proportion, are one spring in series.
 Measured massless_inside(bool sampled) {
     exact::Structure truth = empty(3, 1); // masses 0, 1, 2; series spring between 1 and 2
@@ -211,6 +232,8 @@ std::vector<Row> structure_rows() {
                     "linear answer", 1e-11, true, rigid_gentle});
     rows.push_back({"rigid-body-lifting", "free chain on one contact, pressed, lifting off", "exact orbits",
                     1e-3, true, rigid_lifting});
+    rows.push_back({"free-flight", "two masses held by nothing, pressed on each other, with a stop",
+                    "exact orbits of the reduced mass", 1e-3, true, free_flight});
     rows.push_back({"mass-less-inside", "a DOF without mass between springs", "exact orbits", 1e-3, true,
                     massless_inside});
     // Its displacement has kinks itself: errors fall as H^-2.

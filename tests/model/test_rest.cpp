@@ -45,6 +45,19 @@ void free_bodies_press_on_each_other(void **) {
             }
 }
 
+// A load without resultant, and contact that stays open: nothing but rounding acts on the rigid-body motion.
+void a_free_body_is_stretched(void **) {
+    const int n = 4;
+    plm::ModelInput in = test::input(test::diagonal(n, 1), test::free_chain(n, 1));
+    test::add_pair(in, {0, 1, -1, 0}, 5, 0.3);
+    in.preload = {-0.1, 0, 0, 0.1};
+    const plm::RestState rest = rest_of(in);
+    assert_true(close_to(rest.displacement[n - 1] - rest.displacement[0], 0.3, 1e-8));
+    assert_true(std::abs(rest.displacement[0] + rest.displacement[n - 1]) <
+                1e-8); // about the mean position zero
+    assert_true(rest.force[0] == 0);
+}
+
 void what_nothing_holds_is_refused(void **) {
     for (double k : {1e-3, 1.0, 1e4, 1e10})
         for (double right : {0.0, 1.0}) { // pushed away together; pulled apart
@@ -60,6 +73,7 @@ void what_nothing_holds_is_refused(void **) {
 int main() {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(free_bodies_press_on_each_other),
+        cmocka_unit_test(a_free_body_is_stretched),
         cmocka_unit_test(what_nothing_holds_is_refused),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
