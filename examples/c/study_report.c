@@ -105,15 +105,13 @@ static void write_convergence(const study_findings *f, FILE *to) {
 }
 
 static void write_left_out(const study_findings *f, int64_t n_harmonics, FILE *to) {
-    fprintf(
-        to,
-        "\n"
-        "## What was left out and what it saved\n\n"
-        "Each part switched off and on, everything else as in the basis of 4 samples. Where leaving "
-        "a part out changes the peak by no more than its error with the part, the scene does not "
-        "need it. Rows with an empty last column are on the basis compressed from that of 4 samples. "
-        "Times of a second and less scatter by up to 20 %% between two runs, longer ones by 10 %%: smaller "
-        "savings mean nothing. Parts of the build: [build_sizes.md](../build_sizes.md).\n\n");
+    fprintf(to, "\n"
+                "## What was left out and what it saved\n\n"
+                "Each part switched off and on, everything else as in the basis of 4 samples. Where leaving "
+                "a part out changes the peak by no more than its error with the part, the scene does not "
+                "need it. Rows with an empty last column are on the basis compressed from that of 4 samples. "
+                "Times scatter between runs: savings of less than 20 %% mean nothing. Parts of the build: "
+                "[build_sizes.md](../build_sizes.md).\n\n");
     study_write_left_out(to, f, n_harmonics);
 }
 

@@ -1,7 +1,11 @@
 #include "study_case.h"
 
 plm_status study_case_make(plm_context *ctx, study_case *c) {
-    const oscillator o = {1, 0.04, 0.3, 5, 1};
+    return study_case_with_gap(ctx, 5, c);
+}
+
+plm_status study_case_with_gap(plm_context *ctx, double gap, study_case *c) {
+    const oscillator o = {1, 0.04, 0.3, gap, 1};
     plm_status s = oscillator_built(ctx, &o, 1, &c->model, &c->basis);
     if (!s) s = plm_hbm_create(c->basis, &c->hbm);
     if (!s) s = plm_hbm_set_int(c->hbm, "n_harmonics", 7);

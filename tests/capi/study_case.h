@@ -15,6 +15,8 @@ typedef struct study_case {
 
 /* m = k = 1, 2 % damping, a stop of stiffness 0.3 at a distance of 5 from rest; unit force. */
 plm_status study_case_make(plm_context *ctx, study_case *c);
+/* The same with the stop at another distance. */
+plm_status study_case_with_gap(plm_context *ctx, double gap, study_case *c);
 
 /* one entry of an array result; NaN when it cannot be read */
 double study_real(plm_study *study, const char *key, int64_t index);

@@ -119,26 +119,18 @@ static void one_level_compresses_for_all_where_the_response_is_proportional(void
     int followed[2] = {0, 0}, gap;
     (void)state;
     for (gap = 0; gap < 2; ++gap) {
-        const oscillator o = {1, 0.04, 0.3, gap == 0 ? 0 : 5, 1};
-        plm_study *study = NULL;
         double hz[2], peak[2];
         int k;
-        DONE(oscillator_built(ctx, &o, 1, &c.model, &c.basis));
-        DONE(plm_hbm_create(c.basis, &c.hbm));
-        DONE(plm_hbm_set_int(c.hbm, "n_harmonics", 7));
-        DONE(plm_hbm_set_double(c.hbm, "frequency_min_hz", 0.12));
-        DONE(plm_hbm_set_double(c.hbm, "frequency_max_hz", 0.2));
-        DONE(plm_study_create(c.model, &study));
-        DONE(plm_study_set_int(study, "repeats", 0));
-        DONE(plm_study_set_output(study, 0, PLM_HALF_PEAK_TO_PEAK, 0));
-        DONE(plm_study_set_force_levels(study, 2, levels));
-        DONE(plm_study_set_reference(study, c.hbm));
-        DONE(plm_study_add_compressed(study, "compressed", c.hbm, 1, NULL));
+        DONE(study_case_with_gap(ctx, gap == 0 ? 0 : 5, &c));
+        DONE(plm_study_set_int(c.study, "repeats", 0));
+        DONE(plm_study_set_force_levels(c.study, 2, levels));
+        DONE(plm_study_set_reference(c.study, c.hbm));
+        DONE(plm_study_add_compressed(c.study, "compressed", c.hbm, 1, NULL));
         DONE(plm_context_set_log(ctx, count_curves, &followed[gap]));
-        DONE(plm_study_run(study));
+        DONE(plm_study_run(c.study));
         DONE(plm_context_set_log(ctx, NULL, NULL));
-        assert_true(study_real(study, "amplitude_error", 0) < 1e-8 &&
-                    study_real(study, "curve_error_max", 0) < 1e-5);
+        assert_true(study_real(c.study, "amplitude_error", 0) < 1e-8 &&
+                    study_real(c.study, "curve_error_max", 0) < 1e-5);
         for (k = 0; k < 2; ++k) {
             plm_branch *curve = NULL;
             DONE(plm_hbm_set_double(c.hbm, "force_scale", levels[k]));

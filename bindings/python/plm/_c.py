@@ -223,10 +223,10 @@ def _load():
 
 
 class _Integer:
-    """An argument that holds an integer of this many bits; ctypes by itself would cut off what does not fit."""
+    """An argument that holds an integer of this type; ctypes by itself would cut off what does not fit."""
 
-    def __init__(self, bits, c_type):
-        self.limit, self.c_type = 2**(bits - 1), c_type
+    def __init__(self, c_type):
+        self.limit, self.c_type = 2**(8 * ctypes.sizeof(c_type) - 1), c_type
 
     def from_param(self, value):
         try:
@@ -252,8 +252,7 @@ class _Functions:
     """The C functions as attributes, with their argument types."""
 
     def __init__(self, library):
-        letters = {"i": _Integer(32, ctypes.c_int32), "q": _Integer(64, ctypes.c_int64), "d": _Real,
-                   "s": ctypes.c_char_p, "p": pointer}
+        letters = {"i": _Integer(ctypes.c_int32), "q": _Integer(ctypes.c_int64), "d": _Real, "s": ctypes.c_char_p, "p": pointer}
         self.path = library._name
         for line in FUNCTIONS.split("\n"):
             if not line.strip():
