@@ -24,7 +24,6 @@ template <class Opaque_, Kind kind_> struct HandleOf : Object {
 struct ModelHandle final : HandleOf<plm_model, Kind::model> {
     ModelHandle(std::shared_ptr<Context> c, std::int64_t n_dof) : HandleOf(std::move(c)) {
         input.n_dof = n_dof;
-        input.fixed.assign(static_cast<std::size_t>(n_dof), 0);
     }
     void *options() override { return &space_options; }
     const char *frozen() const override {

@@ -3,6 +3,7 @@
 #include "capi/barrier.hpp"
 #include "capi/model_input.hpp"
 #include "model/matrix_input.hpp"
+#include <algorithm>
 
 namespace plm::capi {
 
@@ -55,7 +56,9 @@ plm_status fix_dofs(const char *function, plm_model *model, std::int32_t index_b
         require_range(n, 0, INT64_MAX, "n");
         if (n > 0) require_pointer(dof, "dof");
         for (std::int64_t i = 0; i < n; ++i) require_dof(dof[i], index_base, m.input.n_dof, "dof", i);
-        for (std::int64_t i = 0; i < n; ++i) m.input.fixed[static_cast<std::size_t>(dof[i] - index_base)] = 1;
+        vector<std::int64_t> &fixed = m.input.fixed;
+        fixed.reserve(std::max(fixed.size() + static_cast<std::size_t>(n), 2 * fixed.size()));
+        for (std::int64_t i = 0; i < n; ++i) fixed.push_back(dof[i] - index_base);
         return PLM_OK;
     });
 }

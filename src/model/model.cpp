@@ -72,10 +72,11 @@ void Model::assemble(const ModelInput &input) {
         throw Error(PLM_ERR_STATE, input.mass
                                        ? "the stiffness matrix is missing; hand it over with PLM_STIFFNESS"
                                        : "the mass matrix is missing; hand it over with PLM_MASS");
-    require_size("fixed", static_cast<std::int64_t>(input.fixed.size()), n_dof_);
-    free_of_.assign(n_dof_, -1);
+    constexpr std::int64_t fixed = -1;
+    free_of_.assign(n_dof_, 0);
+    for (std::int64_t dof : input.fixed) free_of_[dof] = fixed;
     for (std::int64_t i = 0; i < n_dof_; ++i)
-        if (!input.fixed[i]) {
+        if (free_of_[i] != fixed) {
             free_of_[i] = n_free();
             free_dof_.push_back(i);
         }

@@ -30,7 +30,7 @@ struct ModelInput {
     std::int64_t n_dof = 0;
     std::shared_ptr<const MatrixInput> mass, stiffness, damping_matrix;
     Damping damping;
-    vector<char> fixed; // n_dof flags
+    vector<std::int64_t> fixed; // DOFs held at zero, in any order, some perhaps twice
     // gap matrix by rows: B = [pair; dof; coefficient] triplets, one stiffness and gap per pair
     vector<std::int64_t> gap_pair, gap_dof;
     vector<double> gap_coefficient;

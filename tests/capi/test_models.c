@@ -115,12 +115,38 @@ static void no_contact_is_a_linear_model(void **state) {
                         "no contact pair"));
 }
 
+static void *count_and_allocate(int64_t bytes, void *user) {
+    *(int64_t *)user += bytes;
+    return malloc((size_t)bytes);
+}
+static void count_and_release(void *block, void *user) {
+    (void)user;
+    free(block);
+}
+
+/* A number of DOFs costs nothing by itself, however large: arrays of that size come with the matrices. */
+static void a_number_of_dofs_takes_no_memory(void **state) {
+    const int64_t most = INT64_C(3000000000), far_away[] = {most - 1, 0, most - 1};
+    int64_t bytes = 0;
+    plm_context *counting = NULL;
+    plm_model *m = NULL;
+    (void)state;
+    assert_int_equal(plm_context_create_with_allocator(PLM_API_VERSION, count_and_allocate, count_and_release,
+                                                       &bytes, &counting),
+                     PLM_OK);
+    assert_int_equal(plm_model_create(counting, most, &m), PLM_OK);
+    assert_int_equal(plm_model_fix_dofs_i64(m, 0, 3, far_away), PLM_OK);
+    assert_int_equal(plm_context_destroy(&counting), PLM_OK);
+    assert_in_range(bytes, 1, 4096); /* what was fixed, three numbers, and at most a page around them */
+}
+
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
         TEST(all_kinds_of_input_make_one_model),
         TEST(loose_bodies_held_by_contact),
         TEST(no_contact_is_a_linear_model),
+        TEST(a_number_of_dofs_takes_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -25,7 +25,6 @@ inline plm::ModelInput input(const Dense &m, const Dense &k) {
     plm::ModelInput in;
     in.n_dof = static_cast<std::int64_t>(m.size());
     in.mass = matrix(m), in.stiffness = matrix(k);
-    in.fixed.assign(m.size(), 0);
     return in;
 }
 

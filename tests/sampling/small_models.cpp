@@ -30,7 +30,6 @@ std::shared_ptr<const plm::Model> make_model(const exact::Structure &s, const Mo
     input.damping.alpha = extras.alpha;
     input.damping.beta = extras.beta;
     input.damping.modal_ratio.assign(extras.modal_ratio.begin(), extras.modal_ratio.end());
-    input.fixed.assign(s.n, 0);
     for (int p = 0; p < s.z; ++p)
         for (int j = 0; j < s.n; ++j) {
             if (s.gap_rows[p * s.n + j] == 0) continue;

@@ -227,8 +227,7 @@ std::shared_ptr<const plm::Model> model_of(const scene &s) {
     in.stiffness = std::make_shared<plm::MatrixInput>(f, s.col_ptr, s.row, s.k);
     in.damping.alpha = s.mass_damping;
     in.damping.beta = s.stiffness_damping;
-    in.fixed.assign(s.n_dof, 0);
-    for (std::int64_t i = 0; i < s.n_fixed; ++i) in.fixed[s.fixed[i]] = 1;
+    in.fixed.assign(s.fixed, s.fixed + s.n_fixed);
     for (std::int64_t k = 0; k < 3 * s.n_pairs; ++k)
         for (int side = 0; side < 2; ++side) {
             const std::int64_t dof = side ? s.dof_b[k] : s.dof_a[k];
