@@ -29,6 +29,26 @@ class Refusals(unittest.TestCase):
         twice = scipy.sparse.csc_matrix((numpy.ones(3), [0, 0, 1], [0, 2, 3]), shape=(2, 2))
         self.refused(plm.Model, twice, status=plm.ERR_MATRIX, argument="b")
 
+    def test_complex_numbers(self):
+        """The loss factor of a complex stiffness is not dropped on the way; zero imaginary parts are no loss."""
+        mass, stiffness = models.matrices()
+        lossy = stiffness * (1 + 0.02j)
+        for matrix in (lossy, lossy.tocsr(), lossy.tocoo(), lossy.tolil(), lossy.toarray()):
+            error = self.refused(plm.Model, mass, matrix, kind=ValueError)
+            self.assertRegex(str(error), "^the stiffness matrix is complex.*set_structural_damping")
+        self.assertEqual(plm.Model(mass, stiffness + 0j).n_dof, models.DOFS)
+        model, force = plm.Model(mass, stiffness), models.force()
+        for attempt, argument in ((model.set_preload, force * 1j), (model.set_modal_damping, [0.01j]),
+                                  (model.add_gap_rows, force.reshape(1, -1) * 1j),
+                                  (lambda n: model.add_ground_contacts([0, 1, 2], n), [1, 0.5j, 0])):
+            self.assertIn("complex", str(self.refused(attempt, argument, kind=ValueError)))
+        model.set_excitation(force * 1j)  # a phase is what complex numbers are for
+
+    def test_matrices_of_different_size(self):
+        mass, stiffness = models.matrices()
+        error = self.refused(plm.Model, mass, stiffness[:9, :9], kind=ValueError)
+        self.assertRegex(str(error), "the stiffness matrix is 9 x 9, but the model has 24 DOFs; hand over")
+
     def test_dofs(self):
         model = plm.Model(n_dof=4)
         self.refused(model.fix_dofs, [0, 4], status=plm.ERR_ARGUMENT, function="plm_model_fix_dofs_i64", argument="dof",
@@ -92,6 +112,43 @@ class Refusals(unittest.TestCase):
         self.refused(curve.field, len(curve), status=plm.ERR_ARGUMENT, argument="point")
         self.refused(curve.amplitude, models.DOFS, status=plm.ERR_ARGUMENT, argument="dof")
         self.refused(curve.set, "n_points", 3, kind=AttributeError)
+
+    def test_numbers_are_no_keys(self):
+        curve = plm.Hbm(models.basis()).sweep()
+        error = str(self.refused(lambda: curve[0], kind=TypeError))
+        self.assertRegex(error, 'indexed by the names of its options and results.*branch\\["frequency_hz"\\]\\[i\\]')
+        self.assertIn('model["space_tolerance"]', str(self.refused(lambda: models.model().set(3, 1), kind=TypeError)))
+        self.refused(lambda: list(curve), kind=TypeError)
+        self.assertIn("frequency_hz", curve)
+        self.assertNotIn("frequency", curve)
+
+    def test_repr(self):
+        """Every object says what it is and how far it has come, also from inside a callback."""
+        model = models.model()
+        self.assertEqual(repr(model), "<plm.Model: 24 DOFs, contact pairs: 2, not built>")
+        self.assertEqual(repr(model.build()), "<plm.Model: 24 DOFs, contact pairs: 2, built>")
+        sampler = plm.Sampler(model, system="open", mode=1)
+        self.assertEqual(repr(sampler), "<plm.Sampler: not run>")
+        self.assertRegex(repr(sampler.run()), "^<plm.Sampler: [0-9]+ samples along mode 1 of the open system, "
+                                              "window [0-9.]+ .. [0-9.]+ Hz>$")
+        basis = plm.Basis(model, sampler)
+        hbm = plm.Hbm(basis)
+        self.assertEqual(repr(hbm), "<plm.Hbm: automatic harmonics, on <plm.Basis: not built>>")
+        basis.build()
+        hbm.n_harmonics = 5
+        self.assertRegex(repr(hbm), "^<plm.Hbm: 5 harmonics, on <plm.Basis: plm, [0-9]+ columns, static ones: [0-9]+>>$")
+        curve = hbm.sweep()
+        self.assertRegex(repr(curve), f"^<plm.Branch: {len(curve)} points, [0-9.]+ .. [0-9.]+ Hz, reached the end of its range>$")
+        motion = plm.Transient(basis, frequency_hz=10)
+        motion.observe([3, 4])
+        self.assertEqual(repr(motion), "<plm.Transient: reduced model at 10 Hz, observed DOFs: 2>")
+        study = plm.Study(model)
+        study.add_response("four", hbm)
+        self.assertEqual(repr(study), "<plm.Study: methods: four; not run>")
+        self.assertEqual(repr(plm.Context(log=True)), "<plm.Context: log on, progress off, built-in solver>")
+        inside = []
+        hbm.sweep(progress=lambda *_: inside.append(repr(curve)))
+        self.assertEqual(set(inside), {"<plm.Branch>"})
 
     def test_any_order_of_destruction(self):
         context = plm.Context()

@@ -10,6 +10,7 @@ import scipy.sparse
 
 from . import _c
 from ._errors import make_error
+from ._handle import real_parts
 from ._progress import make_bar
 
 _logger = logging.getLogger("plm")
@@ -69,7 +70,7 @@ class _Host:
         def run():
             solve, n = self.factors[key]
             columns = _look(x, ld * n_rhs, ctypes.c_double).reshape((ld, n_rhs), order="F")[:n]
-            columns[...] = numpy.asarray(solve(columns.copy(order="F"))).reshape(columns.shape)
+            columns[...] = real_parts(solve(columns.copy(order="F")), "the solution").reshape(columns.shape)
             return True
         return 0 if self._guarded(run) else 1
 
@@ -101,6 +102,10 @@ class Context:
         # always there: Ctrl-C cancels by way of it
         self.call("plm_context_set_progress", self._h, ctypes.cast(self._callbacks[1], ctypes.c_void_p), None)
         self.log, self.progress = log, progress
+
+    def __repr__(self):
+        return (f"<plm.Context: log {'on' if self.log else 'off'}, progress {'on' if self.progress else 'off'}, "
+                f"{'a solver of the user' if self._host.solver else 'built-in solver'}>")
 
     def __del__(self):
         if getattr(self, "_h", None):
@@ -196,6 +201,10 @@ class Context:
         raise make_error(_c.text_of(_c.lib.plm_context_get_error_text, self._h), status, reason=reason.value,
                          function=function, index=index.value, library_code=code.value,
                          argument=_c.text_of(_c.lib.plm_context_get_error_argument, self._h))
+
+    def is_busy(self):
+        """Whether a call is under way: in this thread, which then is inside a callback, or in another one."""
+        return self._depth > 0
 
     def destroy(self, function, handle):
         """Destroys a child, or remembers to do so when a call is under way (garbage collected inside a callback)."""

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy
 
 from . import _c
+from ._errors import PlmError
 
 
 class Key(NamedTuple):
@@ -98,13 +99,29 @@ class Handle:
         else:
             self.set(name, value)  # the library refuses and names the nearest key
 
+    def __repr__(self):
+        """What it is and how far it has come; nothing is computed for it."""
+        name = f"plm.{type(self).__name__}"
+        if self.context.is_busy():  # asked from inside a callback, where the library does not answer
+            return f"<{name}>"
+        try:
+            return f"<{name}: {self._summary()}>"
+        except PlmError as error:
+            return f"<{name}: {self._unfinished if error.status == _c.ERR_STATE else 'without a handle'}>"
+
+    _unfinished = "not built"  # what repr says where _summary is too early
+
+    def _summary(self):
+        """What repr says, from results that are at hand."""
+        raise NotImplementedError
+
     # ---- options and results ----
 
     def set(self, key, value):
         """Sets an option to an int, float or str."""
         if self._noun == "branch":
             raise AttributeError(f"a branch is read-only: {key}")
-        name = key.encode()
+        name = self._name_of(key)
         if isinstance(value, (bool, numpy.bool_, numbers.Integral)):
             self._call("set_int", name, int(value))
         elif isinstance(value, str):
@@ -121,9 +138,9 @@ class Handle:
 
     def get(self, key):
         """An option or result: int, float, str or NumPy array; arrays over pairs are n_pairs x n."""
+        name = self._name_of(key)
         row = self.keys.get(key)
         kind = row.type if row else _c.TYPE_INT  # unknown: the library refuses and names the nearest
-        name = key.encode()
         if kind == _c.TYPE_STRING:
             return self._get_string(name)
         if kind == _c.TYPE_ARRAY:
@@ -138,11 +155,24 @@ class Handle:
         """All options with their present values."""
         return {name: self.get(name) for name, key in self.keys.items() if key.is_option}
 
+    def _name_of(self, key):
+        if isinstance(key, str):
+            return key.encode()
+        raise TypeError(f"a {self._noun} is indexed by the names of its options and results, such as "
+                        f"{self._noun}[\"{next(iter(self.keys))}\"], not by {key!r}{self._instead_of_index}")
+
+    _instead_of_index = ""
+
     def __getitem__(self, key):
         return self.get(key)
 
     def __setitem__(self, key, value):
         self.set(key, value)
+
+    def __contains__(self, key):
+        return key in self.keys
+
+    __iter__ = None  # else Python would try the indices 0, 1, ...
 
     def _ipython_key_completions_(self):
         return list(self.keys)
@@ -194,11 +224,22 @@ def address(array):
     return None if array is None else array.ctypes.data
 
 
+def real_parts(values, name, remedy="give its real part, if the rest means nothing"):
+    """An array of doubles; complex numbers are refused unless their imaginary parts are zero: nothing is cut off silently."""
+    array = numpy.asarray(values)
+    if numpy.iscomplexobj(array):
+        largest = numpy.max(numpy.abs(array.imag), initial=0.0)
+        if largest != 0:
+            raise ValueError(f"{name} is complex (imaginary parts up to {largest:g}), where real numbers are needed; {remedy}")
+        array = array.real
+    return numpy.asarray(array, dtype=numpy.float64)
+
+
 def reals(values, shape, name):
     """A contiguous array of doubles of this shape (a number is repeated); None stays None."""
     if values is None:
         return None
-    array = numpy.asarray(values, dtype=numpy.float64)
+    array = real_parts(values, name)
     try:
         array = numpy.broadcast_to(array, shape)
     except ValueError:

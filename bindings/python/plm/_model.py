@@ -7,9 +7,12 @@ import scipy.sparse
 
 from . import _c
 from ._context import default_context
-from ._handle import Handle, address, alike, integers, reals
+from ._handle import Handle, address, alike, integers, real_parts, reals
 
 SYSTEMS = {"open": _c.SYSTEM_OPEN, "sliding": _c.SYSTEM_SLIDING, "rest": _c.SYSTEM_REST, "given": _c.SYSTEM_GIVEN}
+MATRICES = {_c.MASS: "mass", _c.STIFFNESS: "stiffness", _c.DAMPING: "damping"}
+COMPLEX_MATRIX = ("hand over the real part, and damping by set_structural_damping (a loss factor, K (1 + i eta)), "
+                  "set_damping, set_rayleigh_damping or set_modal_damping")
 PARTS = {"full": _c.FULL, "lower": _c.LOWER, "upper": _c.UPPER}
 
 
@@ -41,12 +44,13 @@ class Model(Handle, noun="model", kind=_c.KIND_MODEL):
 
     def __init__(self, mass=None, stiffness=None, damping=None, *, n_dof=None, part="full", context=None, **options):
         super().__init__(context or default_context())
+        self._built = False
         self._borrowed = {}  # arrays the library looks at until build
         if n_dof is None:
             given = [m for m in (mass, stiffness, damping) if m is not None]
             if not given:
                 raise TypeError("Model needs a matrix or n_dof")
-            n_dof = given[0].shape[0]
+            n_dof = numpy.shape(given[0])[0]
         self.context.call("plm_model_create", self.context._h, n_dof, ctypes.byref(self._h))
         for which, matrix in ((_c.MASS, mass), (_c.STIFFNESS, stiffness), (_c.DAMPING, damping)):
             if matrix is not None:
@@ -68,10 +72,12 @@ class Model(Handle, noun="model", kind=_c.KIND_MODEL):
         self._set_matrix(_c.DAMPING, matrix, part)
 
     def _set_matrix(self, which, matrix, part):
+        name = f"the {MATRICES[which]} matrix"
         if not scipy.sparse.issparse(matrix):
-            matrix = scipy.sparse.csc_matrix(numpy.asarray(matrix, dtype=numpy.float64))
+            matrix = scipy.sparse.csc_matrix(numpy.asarray(matrix))
         if matrix.shape != (self.n_dof, self.n_dof):
-            raise ValueError(f"the matrix is {matrix.shape[0]} x {matrix.shape[1]}; needed is {self.n_dof} x {self.n_dof}")
+            raise ValueError(f"{name} is {matrix.shape[0]} x {matrix.shape[1]}, but the model has {self.n_dof} DOFs; hand over "
+                             f"all matrices as {self.n_dof} x {self.n_dof}, with the same numbering of the DOFs")
         if matrix.format == "coo":
             storage, a, b = _c.TRIPLETS, matrix.row, matrix.col
         else:
@@ -80,7 +86,7 @@ class Model(Handle, noun="model", kind=_c.KIND_MODEL):
             storage, a, b = _c.CSC if matrix.format == "csc" else _c.CSR, matrix.indptr, matrix.indices
         (a, b), width = alike(a, b)
         nnz = matrix.nnz
-        value = reals(matrix.data[:nnz], (nnz,), "matrix.data")
+        value = numpy.ascontiguousarray(real_parts(matrix.data[:nnz], name, COMPLEX_MATRIX))
         self._call("set_matrix" + width, which, storage, choice(part, PARTS, "part"), 0, _c.BORROW, nnz,
                    address(a), address(b), address(value))
         self._borrowed[which] = (a, b, value)
@@ -91,7 +97,7 @@ class Model(Handle, noun="model", kind=_c.KIND_MODEL):
 
     def set_modal_damping(self, ratio):
         """Fraction of critical damping per mode of the open system; modes beyond: the last one. []: none."""
-        ratio = numpy.ascontiguousarray(numpy.atleast_1d(ratio), dtype=numpy.float64)
+        ratio = reals(numpy.atleast_1d(ratio), numpy.atleast_1d(ratio).shape, "ratio")
         self._call("set_modal_damping", ratio.size, address(ratio))
 
     def set_structural_damping(self, eta):
@@ -128,13 +134,14 @@ class Model(Handle, noun="model", kind=_c.KIND_MODEL):
 
     def add_gap_rows(self, rows, stiffness=None, gap=None):
         """Rows of the gap matrix B (n x n_dof, sparse or dense): u = B q - gap."""
-        rows = scipy.sparse.csr_matrix(rows, dtype=numpy.float64)
+        rows = scipy.sparse.csr_matrix(rows)
+        coefficient = numpy.ascontiguousarray(real_parts(rows.data, "rows"))
         n = rows.shape[0]
         if rows.shape[1] != self.n_dof:
             raise ValueError(f"rows has {rows.shape[1]} columns; needed is n_dof = {self.n_dof}")
         (start, dof), width = alike(rows.indptr, rows.indices)
         _, stiffness, gap = self._pairs(n, None, stiffness, gap)
-        self._call("add_gap_rows" + width, 0, n, address(start), address(dof), address(rows.data), address(stiffness),
+        self._call("add_gap_rows" + width, 0, n, address(start), address(dof), address(coefficient), address(stiffness),
                    address(gap))
 
     @staticmethod
@@ -164,6 +171,7 @@ class Model(Handle, noun="model", kind=_c.KIND_MODEL):
         """Checks the whole, removes the fixed DOFs, factors K. Returns the model."""
         self._work("build", progress=progress)
         self._borrowed.clear()
+        self._built = True
         return self
 
     def solve_rest(self, progress=None):
@@ -198,3 +206,6 @@ class Model(Handle, noun="model", kind=_c.KIND_MODEL):
 
     def _n_pairs(self):
         return self.n_pairs
+
+    def _summary(self):
+        return f"{self.n_dof} DOFs, contact pairs: {self.n_pairs}, {'built' if self._built else 'not built'}"

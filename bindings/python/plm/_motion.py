@@ -99,3 +99,6 @@ class Transient(Handle, noun="transient", kind=_c.KIND_TRANSIENT):
 
     def _n_pairs(self):
         return self._model.n_pairs
+
+    def _summary(self):
+        return f"{self.motion} model at {self.frequency_hz:.6g} Hz, observed DOFs: {len(self._observed)}"

@@ -37,6 +37,12 @@ class Sampler(Handle, noun="sampler", kind=_c.KIND_SAMPLER):
     def _n_pairs(self):
         return self._model.n_pairs
 
+    _unfinished = "not run"
+
+    def _summary(self):
+        return (f"{self.n_selected} samples along mode {self.dominant_mode} of the {self.dominant_system} system, "
+                f"window {self.window_low_hz:.6g} .. {self.window_high_hz:.6g} Hz")
+
 
 class Basis(Handle, noun="basis", kind=_c.KIND_BASIS):
     """Reduction matrices P (h >= 1) and P_0 (h = 0).
@@ -106,3 +112,6 @@ class Basis(Handle, noun="basis", kind=_c.KIND_BASIS):
 
     def _n_pairs(self):
         return self._model.n_pairs
+
+    def _summary(self):
+        return f"{self.kind}, {self.size} columns, static ones: {self.static_size}"

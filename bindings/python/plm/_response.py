@@ -169,6 +169,10 @@ class Hbm(Handle, noun="hbm", kind=_c.KIND_HBM):
             found.append(Isolated(branch, tuple(force_range.tolist())))
         return found
 
+    def _summary(self):
+        harmonics = f"{self.n_harmonics} harmonics" if self.n_harmonics else "automatic harmonics"
+        return f"{harmonics}, on {self._basis!r}"
+
     def _deliver(self, verb, branch, *arguments, progress):
         name = f"plm_hbm_{verb}"
         status = self.context.run(name, self._h, *arguments, progress=progress)
@@ -279,3 +283,11 @@ class Branch(Handle, noun="branch", kind=_c.KIND_BRANCH):
 
     def _n_pairs(self):
         return self.n_pairs
+
+    def _summary(self):
+        hz = self.frequency_hz
+        span = f", {hz.min():.6g} .. {hz.max():.6g} Hz" if hz.size else ""
+        return f"{self.n_points} points{span}, {self.end_text}"
+
+    _instead_of_index = ('; what is known of one point: branch["frequency_hz"][i], branch.amplitude(dof)[i], '
+                         "branch.coefficients(i), branch.field(i), branch.contact(i)")

@@ -134,6 +134,9 @@ class Study(Handle, noun="study", kind=_c.KIND_STUDY):
             raise ValueError(f"no method is called {method!r}; there are {names}")
         return REFERENCE if method == "reference" else names.index(method)
 
+    def _summary(self):
+        return f"methods: {', '.join(self.names) or 'none'}; {'run' if self._has_run() else 'not run'}"
+
     def _has_run(self):
         count = ctypes.c_int64(0)
         return _c.lib.plm_study_get_array(self._h, b"peak_hz", 0, None, ctypes.byref(count)) == _c.OK
