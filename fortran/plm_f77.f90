@@ -733,15 +733,15 @@ subroutine plmbss(handle, sampler, ierr)
     ierr = int(plm_basis_set_sampler(as_pointer(handle), as_pointer(sampler)))
 end subroutine plmbss
 
-subroutine plmbsp(handle, ifirst, ierr)
+subroutine plmbsp(handle, basis, ierr)
     use, intrinsic :: iso_fortran_env, only: int64
     use plm_c, only: plm_basis_set_parent
     use plm_f77_support, only: as_pointer
     implicit none
     integer(int64), intent(in) :: handle
-    integer(int64), intent(in) :: ifirst
+    integer(int64), intent(in) :: basis
     integer, intent(out) :: ierr
-    ierr = int(plm_basis_set_parent(as_pointer(handle), as_pointer(ifirst)))
+    ierr = int(plm_basis_set_parent(as_pointer(handle), as_pointer(basis)))
 end subroutine plmbsp
 
 subroutine plmbsr(handle, n, curves, ierr)
@@ -851,7 +851,7 @@ subroutine plmhsw(handle, branch, ierr)
     if (as_handle(made) /= 0) branch = as_handle(made)
 end subroutine plmhsw
 
-subroutine plmhso(handle, freq, istart, ipoint, branch, ierr)
+subroutine plmhso(handle, freq, start, ipoint, branch, ierr)
     use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_c, only: plm_hbm_solve
@@ -859,13 +859,13 @@ subroutine plmhso(handle, freq, istart, ipoint, branch, ierr)
     implicit none
     integer(int64), intent(in) :: handle
     real(real64), intent(in) :: freq
-    integer(int64), intent(in) :: istart
+    integer(int64), intent(in) :: start
     integer, intent(in) :: ipoint
     integer(int64), intent(inout) :: branch
     integer, intent(out) :: ierr
     type(c_ptr) :: made
     made = c_null_ptr
-    ierr = int(plm_hbm_solve(as_pointer(handle), freq, as_pointer(istart), max(int(ipoint, int64) - 1, 0_int64), &
+    ierr = int(plm_hbm_solve(as_pointer(handle), freq, as_pointer(start), max(int(ipoint, int64) - 1, 0_int64), &
         made))
     if (as_handle(made) /= 0) branch = as_handle(made)
 end subroutine plmhso

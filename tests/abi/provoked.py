@@ -101,6 +101,9 @@ refused("fortran.constants", "another value in plmf.inc", "PLMTRU is 7, PLM_TRUN
 refused("fortran.constants", "a constant plmf.inc lacks", "PLM_OFTEN has no six letters", python,
         tests / "fortran/constants.py", changed(header, r"^#define PLM_TRUNCATED 2", r"#define PLM_OFTEN 2\n\g<0>"),
         source / "fortran/plmf.inc")
+layer = [source / "fortran" / name for name in ("plm_f77.f90", "plm_f77_keys.f90")]
+refused("fortran.include_file", "a handle named like an INTEGER", r"PLMHSO: ISTART is INTEGER by the rule .*INTEGER\*8 in", python,
+        tests / "fortran/include_file.py", changed(source / "fortran/plmf.inc", "FREQ, START, IPOINT", "FREQ, ISTART, IPOINT"), *layer)
 refused("docs.every_function_has_an_example", "a function without an example", "plm_model_forget: no example", python,
         tests / "docs/every_function.py", source, grown)
 

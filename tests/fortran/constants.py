@@ -33,7 +33,7 @@ include = open(sys.argv[2], encoding="utf-8").read()
 wanted = {name: float(value) for name, value in re.findall(r"^#define PLM_(\w+)[ \t]+\(?(-?[\d.]+)\)?[ \t]*$", header, re.M)}
 found = {name: float(value.replace("D", "E"))
          for name, value in re.findall(r"^      PARAMETER \((PLM\w+) = (-?[\d.D]+)\)$", include, re.M)}
-declared = set(re.findall(r"PLM\w+", " ".join(re.findall(r"^      (?:INTEGER|DOUBLE PRECISION) (.*)$", include, re.M))))
+declared = set(re.findall(r"PLM\w+", " ".join(re.findall(r"^      (?:INTEGER(?:\*8)?|DOUBLE PRECISION) (.*)$", include, re.M))))
 
 failures = []
 for name, value in wanted.items():
@@ -47,6 +47,9 @@ for name, value in wanted.items():
         failures.append(f"plmf.inc: {six} (PLM_{name} = {value:g}) is missing")
     elif found[six] != value:
         failures.append(f"plmf.inc: {six} is {found[six]:g}, PLM_{name} is {value:g}")
+OWN = {"PLMNUL": 0}  # NULL: no macro of plm.h
+failures += [f"plmf.inc: {six} should be {value}" for six, value in OWN.items() if found.pop(six, None) != value]
+declared -= OWN.keys()
 failures += [f"plmf.inc: {six} stands for no constant of plm.h"
              for six in sorted(found.keys() - {"PLM" + SIX[name] for name in wanted if name in SIX})]
 failures += [f"plmf.inc: {six} has a value and no type, or a type and no value" for six in sorted(found.keys() ^ declared)]

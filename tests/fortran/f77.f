@@ -48,7 +48,7 @@ C     two nodes that clap: each on its own spring, three DOFs, a pair
       INCLUDE 'plmf.inc'
       INTEGER NDOF, NT
       PARAMETER (NDOF = 6, NT = 16)
-      INTEGER*8 LCTX, MODEL, IBASIS, LHBM, CURVE, LNULL
+      INTEGER*8 LCTX, MODEL, IBASIS, LHBM, CURVE
       INTEGER I, IERR, N, ISTAT, IREASN, INDEX, ICODE
       INTEGER IDIAG(NDOF), IA(3), IB(3), ICLOSD(NT), IT(2000)
       DOUBLE PRECISION XM(NDOF), XK(NDOF), XNORM(3), FRE(NDOF)
@@ -64,7 +64,6 @@ C     two nodes that clap: each on its own spring, three DOFs, a pair
       NSTOPS = 100000
       NLINES = 0
       LCTX = 0
-      LNULL = 0
       DO 10 I = 1, NDOF
         IDIAG(I) = I
         XM(I) = 1.0D0
@@ -92,7 +91,7 @@ C     two nodes that clap: each on its own spring, three DOFs, a pair
       CALL CHECK(TEXT(1:17) .EQ. 'plm_model_set_int', 'error text')
       CALL PLMCEI(LCTX, ISTAT, IREASN, INDEX, ICODE, I)
       CALL CHECK(ISTAT .EQ. PLMEKY .AND. IREASN .EQ. PLMRNO, 'status')
-      CALL PLMMBU(LNULL, IERR)
+      CALL PLMMBU(PLMNUL, IERR)
       CALL CHECK(IERR .EQ. PLMEHD, 'handle 0')
       CALL PLMMBU(MODEL, IERR)
       CALL CHECK(IERR .EQ. PLMOK, 'build')
@@ -147,13 +146,12 @@ C     one harmonic against those the curve chose: a name that is too
 C     long for its place, an array that is too short, method 0, files
       SUBROUTINE STUDY(MODEL, LHBM)
       INCLUDE 'plmf.inc'
-      INTEGER*8 MODEL, LHBM, ISTUDY, LNULL, CURVE
+      INTEGER*8 MODEL, LHBM, ISTUDY, CURVE
       INTEGER IERR, NUMBER, N, I
       DOUBLE PRECISION ERR(1), HZ(2000), AMPL(2000), R
       CHARACTER*4 SHORT
       CHARACTER*80 TEXT
       ISTUDY = 0
-      LNULL = 0
       CURVE = 0
       CALL PLMYCR(MODEL, ISTUDY, IERR)
       CALL CHECK(IERR .EQ. PLMOK .AND. ISTUDY .NE. 0, 'study')
@@ -196,7 +194,7 @@ C     long for its place, an array that is too short, method 0, files
       CALL CHECK(ABS(R / ERR(1) - 1.0D0) .LT. 1D-2, 'highest point')
       CALL PLMYWR(ISTUDY, 'no/such/folder', IERR)
       CALL CHECK(IERR .EQ. PLMEAR, 'files')
-      CALL PLMYRF(ISTUDY, LNULL, IERR)
+      CALL PLMYRF(ISTUDY, PLMNUL, IERR)
       CALL CHECK(IERR .EQ. PLMOK, 'no reference')
       CALL PLMYDE(ISTUDY, IERR)
       CALL CHECK(IERR .EQ. PLMOK .AND. ISTUDY .EQ. 0, 'study gone')
