@@ -43,6 +43,21 @@ def balanced(text):
     return text[:-1] if text.count(")") > text.count("(") else text
 
 
+def front_page(words):
+    """The comment at the top of the header. Its chain of handles is a drawing, its rules become a section of their own."""
+    title, rest = words.split("\n", 1)
+    out = ["\\mainpage " + escaped(title.split(": ", 1)[1])]
+    for block in re.split(r"\n[ \t]*\n", rest):
+        lines = block.split("\n")
+        if lines[0].startswith("    "):
+            out.append("\\verbatim\n" + block + "\n\\endverbatim")
+        elif len(lines) > 1 and lines[1].startswith("  - "):
+            out.append("\\section rules " + escaped(lines[0]) + "\n" + escaped("\n".join(lines[1:])))
+        else:
+            out.append(escaped(block))
+    return "/** " + "\n\n".join(out) + " */"
+
+
 def generic(declaration):
     name = re.search(r"plm_status (plm_\w+)\(", declaration)
     for pattern, text in GENERIC if name else []:
@@ -59,12 +74,13 @@ def generic(declaration):
 text = open(sys.argv[1], encoding="utf-8").read()
 out, doc, group, first = [], None, None, True
 for item in re.findall(r"/\*.*?\*/|\n[ \t]*\n|[^\n]+?(?=/\*|\n|$)|\n", text, re.S):
+    if item.startswith("/* clang-format"):
+        continue
     if item.startswith("/*"):
         words = inside(item)
         section = re.match(r"-{4} ([\w ,+-]+?)(?:[:(](.*?))? ?-*$(.*)", words, re.S | re.M)
         if first:  # what stands at the top is the front page
-            out.append("/** \\file\n * \\brief The whole C API of libplm. */\n/** \\mainpage " +
-                       escaped(words) + " */")
+            out.append("/** \\file\n * \\brief The whole C API of libplm. */\n" + front_page(words))
             first = False
         elif section:
             title, more, rest = section.group(1).strip(), section.group(2) or "", section.group(3)

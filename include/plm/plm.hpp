@@ -5,17 +5,15 @@
 // in plm.h beside the C function of the same name; this page says only what C++ adds:
 //
 //   - Model, Sampler, Basis, Hbm, Branch, Transient and Study are move-only and may outlive one another and
-//   the Context in any order.
+//     the Context in any order.
 //   - A failure throws plm::Error with everything the context knows about it. PLM_NOT_CONVERGED,
-//   PLM_TRUNCATED and
-//     PLM_CANCELLED of a sweep do not throw: see Branch::status(), nor do those of Transient::run,
-//     find_periodic and Study::run, which return them. A cancelled build or sampler throws plm::Cancelled.
-//   - Arrays in: any contiguous container (std::vector, std::array, std::span, Eigen vectors, {1, 2, 3}); its
-//   size is
-//     checked. Arrays out: std::vector, matrices by columns.
+//     PLM_TRUNCATED and PLM_CANCELLED of a sweep do not throw: see Branch::status(), nor do those of
+//     Transient::run, find_periodic and Study::run, which return them. A cancelled build or sampler throws
+//     plm::Cancelled.
+//   - Arrays in: any contiguous container (std::vector, std::array, std::span, Eigen vectors, {1, 2, 3});
+//     its size is checked. Arrays out: std::vector, matrices by columns.
 //   - An exception that leaves a callback stops the call under way and is thrown again by it, and so is one
-//   in a log
-//     callback; libplm never sees it.
+//     in a log callback; libplm never sees it.
 //
 // The core of the library has names in namespace plm, too; the inline namespace keeps the two apart in a
 // static link.
@@ -42,8 +40,7 @@
 namespace plm {
 inline namespace cpp {
 
-// ---- Errors
-// ---------------------------------------------------------------------------------------------------
+// ---- Errors ----------------------------------------------------------------------------------------------
 
 /// Where and why a call failed.
 struct ErrorDetails {
@@ -75,8 +72,7 @@ class Cancelled : public Error {
     using Error::Error;
 };
 
-// ---- Arrays and matrices
-// --------------------------------------------------------------------------------------
+// ---- Arrays and matrices ---------------------------------------------------------------------------------
 
 /// A look at someone else's contiguous array; lives as long as the call it is an argument of.
 template <class T> class View {
@@ -179,8 +175,7 @@ struct LowerTriangle {
     bool positive_definite;
 };
 
-// ---- The machinery
-// --------------------------------------------------------------------------------------------
+// ---- The machinery ---------------------------------------------------------------------------------------
 
 namespace detail {
 
@@ -470,8 +465,7 @@ template <class Self, class C> class WithOptions : public Handle<C> {
 
 } // namespace detail
 
-// ---- Library
-// --------------------------------------------------------------------------------------------------
+// ---- Library ---------------------------------------------------------------------------------------------
 
 inline std::string status_text(plm_status status) {
     std::string text;
@@ -581,8 +575,7 @@ class Context {
     detail::StatePtr state_;
 };
 
-// ---- Model
-// ----------------------------------------------------------------------------------------------------
+// ---- Model -----------------------------------------------------------------------------------------------
 
 struct Modes {
     std::vector<double> frequency_hz;
@@ -742,8 +735,7 @@ class Model : public detail::WithOptions<Model, plm_model> {
     std::int64_t n_dof_;
 };
 
-// ---- Sampler and basis
-// ----------------------------------------------------------------------------------------
+// ---- Sampler and basis -----------------------------------------------------------------------------------
 
 class Sampler : public detail::WithOptions<Sampler, plm_sampler> {
   public:
@@ -801,8 +793,7 @@ class Basis : public detail::WithOptions<Basis, plm_basis> {
     std::int64_t n_dof_;
 };
 
-// ---- Response
-// -------------------------------------------------------------------------------------------------
+// ---- Response --------------------------------------------------------------------------------------------
 
 struct Energy {          // means over the period
     double energy;       // mechanical, with the potential of the pre-load; less that of the structure at rest
@@ -1041,8 +1032,7 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
     std::int64_t n_dof_;
 };
 
-// ---- Transient
-// ------------------------------------------------------------------------------------------------
+// ---- Transient -------------------------------------------------------------------------------------------
 
 struct MotionState {
     std::vector<double> q, v; // displacement and velocity of all DOFs
@@ -1108,8 +1098,7 @@ class Transient : public detail::WithOptions<Transient, plm_transient> {
     std::int64_t n_dof_;
 };
 
-// ---- Study
-// ----------------------------------------------------------------------------------------------------
+// ---- Study -----------------------------------------------------------------------------------------------
 
 struct StudyPoints { // of a curve, of the amplitude looked at
     std::vector<double> frequency_hz, amplitude;
