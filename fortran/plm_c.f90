@@ -38,6 +38,16 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_REASON_NO_EQUILIBRIUM = 10_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_LOOP_CLOSED = 11_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_BASIS_TOO_SMALL = 12_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_TURNED_BACK = 13_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_NO_PEAK = 14_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_HARMONICS_TOO_FEW = 15_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_OUTSIDE_BASIS = 16_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_OTHER_BRANCH = 17_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_NO_CONTRACTION = 18_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_NOT_FINITE = 19_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_UNVERIFIED = 20_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_NO_SWITCHING = 21_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_LOST_MODE = 22_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_NONE = 0_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_FOLD = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_BRANCH_POINT = 2_c_int32_t

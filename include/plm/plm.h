@@ -81,7 +81,7 @@ typedef int32_t plm_status;
 #define PLM_ERR_CALLBACK (-12)             /* a host callback reported a failure */
 #define PLM_ERR_INTERNAL (-13)             /* a defect of libplm: please report the text */
 
-/* Reasons a program can branch on (plm_context_get_error_info; "end_reason" of a branch). */
+/* Reasons a program can branch on (plm_context_get_error_info; "end_reason" of a branch; "warning_reasons"). */
 #define PLM_REASON_NONE 0
 #define PLM_REASON_NOT_POSITIVE_DEFINITE 1
 #define PLM_REASON_SINGULAR 2
@@ -95,6 +95,16 @@ typedef int32_t plm_status;
 #define PLM_REASON_NO_EQUILIBRIUM 10 /* pre-load drives an unsupported rigid-body motion */
 #define PLM_REASON_LOOP_CLOSED 11    /* branch: came back to its first point */
 #define PLM_REASON_BASIS_TOO_SMALL 12
+#define PLM_REASON_TURNED_BACK 13      /* branch: ran back to where it began without having passed a fold */
+#define PLM_REASON_NO_PEAK 14          /* the highest point stands at an end of the curve */
+#define PLM_REASON_HARMONICS_TOO_FEW 15 /* "harmonic_tolerance" was not reached */
+#define PLM_REASON_OUTSIDE_BASIS 16    /* frequencies, forces or motions the basis was not made for */
+#define PLM_REASON_OTHER_BRANCH 17     /* the solution is not on the branch the start belongs to */
+#define PLM_REASON_NO_CONTRACTION 18   /* the steps of an estimate do not contract: there is no number */
+#define PLM_REASON_NOT_FINITE 19       /* overflow: a number is infinite or NaN */
+#define PLM_REASON_UNVERIFIED 20       /* something that is checked by default could not be */
+#define PLM_REASON_NO_SWITCHING 21     /* no pair opens or closes: this is a linear response */
+#define PLM_REASON_LOST_MODE 22        /* a contact sample lost the mode that matches the dominant one */
 
 /* What a point of a branch is ("bifurcation" of a branch). */
 #define PLM_BIFURCATION_NONE 0
@@ -377,7 +387,7 @@ PLM_API plm_status plm_basis_set_parent(plm_basis *basis, plm_basis *parent);
  * decomposition in the energy norm, each curve scaled by its largest response). The curves are read here and may be
  * destroyed afterwards; n = 0 forgets them. */
 PLM_API plm_status plm_basis_set_responses(plm_basis *basis, int64_t n, plm_branch *const *branch);
-/* PLM_WARNING when a sample does not keep the mode that matches the dominant one (the selection by bands can lose the
+/* PLM_WARNING (see "warning", "warning_reasons") when a sample does not keep the mode that matches the dominant one (the selection by bands can lose the
  * resonance), or the equivalent stiffnesses of "lelsm_updated" did not settle: see "warning". PLM_ERR_ARGUMENT for a
  * rival kind when the model has no contact pair or fewer than "n_discontinuities", or nothing sets an amplitude. */
 PLM_API plm_status plm_basis_build(plm_basis *basis);

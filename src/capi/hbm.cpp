@@ -18,6 +18,17 @@ plm_branch *publish_branch(const HbmHandle &h, BranchPtr core) {
     return publish(std::make_shared<BranchHandle>(h.owner, std::move(core)));
 }
 
+plm_status deliver(HbmHandle &h, Warnings warnings) {
+    h.warnings = std::move(warnings);
+    return h.warnings.empty() ? PLM_OK : PLM_WARNING;
+}
+
+plm_status deliver(HbmHandle &h, BranchPtr core, plm_branch **branch) {
+    const plm_status ended = end_status(core->end_reason), warned = deliver(h, core->warnings);
+    *branch = publish_branch(h, std::move(core));
+    return ended == PLM_OK ? warned : ended;
+}
+
 std::shared_ptr<BranchHandle> own_branch(const HbmHandle &h, const plm_branch *branch, const char *name) {
     std::shared_ptr<BranchHandle> b = same_context<BranchHandle>(h, branch, name);
     if (b->core->reduced_model() != built(*h.basis)->reduced())
@@ -48,10 +59,7 @@ plm_status plm_hbm_destroy(plm_hbm **hbm) {
 plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch) {
     return call<HbmHandle>("plm_hbm_sweep", hbm, [&](HbmHandle &h) {
         require_pointer(branch, "branch");
-        BranchPtr found = solver(h).sweep();
-        const plm_status status = end_status(found->end_reason);
-        *branch = publish_branch(h, std::move(found));
-        return status;
+        return deliver(h, solver(h).sweep(), branch);
     });
 }
 
@@ -67,10 +75,7 @@ plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, s
             first = own_branch(h, start, "start");
             require_point(*first->core, point);
         }
-        BranchPtr found = solver(h).solve(frequency_hz, first ? first->core.get() : nullptr, point);
-        const plm_status status = end_status(found->end_reason);
-        *branch = publish_branch(h, std::move(found));
-        return status;
+        return deliver(h, solver(h).solve(frequency_hz, first ? first->core.get() : nullptr, point), branch);
     });
 }
 
@@ -84,9 +89,10 @@ plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, std::int64_t dof,
         require_pointer(amplitude, "amplitude");
         plm::Peak found =
             solver(h).find_peak(*curve->core, dof, static_cast<plm::Measure>(measure), harmonic);
+        const plm_status status = deliver(h, found.branch->warnings);
         if (peak) *peak = publish_branch(h, std::move(found.branch));
         *frequency_hz = found.frequency_hz, *amplitude = found.amplitude;
-        return PLM_OK;
+        return status;
     });
 }
 

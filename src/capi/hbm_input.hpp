@@ -9,6 +9,11 @@ using BranchPtr = std::shared_ptr<const Branch>;
 /// A solver with the options as they are now.
 Hbm solver(const HbmHandle &h);
 plm_branch *publish_branch(const HbmHandle &h, BranchPtr core);
+/// The result of a call goes to its caller: how it ended, or PLM_WARNING when there is something to look at,
+/// which `h` keeps as that of its last call.
+plm_status deliver(HbmHandle &h, BranchPtr core, plm_branch **branch);
+/// The same for a call without a branch, or with one beside its status.
+plm_status deliver(HbmHandle &h, Warnings warnings);
 /// A branch among the arguments: of the same reduced model, since its coordinates mean nothing in another.
 std::shared_ptr<BranchHandle> own_branch(const HbmHandle &h, const plm_branch *branch, const char *name);
 

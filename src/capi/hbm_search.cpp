@@ -36,10 +36,7 @@ plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, std::int64_t 
         require_point(*curve->core, point);
         require_range(mirrored, 0, 1, "mirrored");
         require_pointer(other, "other");
-        BranchPtr found = solver(h).switch_branch(*curve->core, point, mirrored == 1);
-        const plm_status status = end_status(found->end_reason);
-        *other = publish_branch(h, std::move(found));
-        return status;
+        return deliver(h, solver(h).switch_branch(*curve->core, point, mirrored == 1), other);
     });
 }
 
@@ -97,10 +94,7 @@ plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, std::int64_t poi
             bad_argument("force_max", -1,
                          plm::format("the range of forces [%g, %g] is empty", force_min, force_max));
         require_pointer(folds, "folds");
-        BranchPtr found = solver(h).track_fold(*curve->core, point, force_min, force_max);
-        const plm_status status = end_status(found->end_reason);
-        *folds = publish_branch(h, std::move(found));
-        return status;
+        return deliver(h, solver(h).track_fold(*curve->core, point, force_min, force_max), folds);
     });
 }
 
@@ -134,9 +128,6 @@ plm_status plm_hbm_find_nonlinear_mode(plm_hbm *hbm, std::int64_t mode, std::int
                 "amplitude_max", -1,
                 plm::format("amplitude_max is %g; it must be positive, or 0 for automatic", amplitude_max));
         require_pointer(branch, "branch");
-        BranchPtr found = solver(h).find_nonlinear_mode(mode, dof, amplitude_max);
-        const plm_status status = end_status(found->end_reason);
-        *branch = publish_branch(h, std::move(found));
-        return status;
+        return deliver(h, solver(h).find_nonlinear_mode(mode, dof, amplitude_max), branch);
     });
 }

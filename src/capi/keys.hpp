@@ -139,4 +139,14 @@ template <class H, class Get> Key result(const char *name, const char *descripti
     return key;
 }
 
+/// What a handle warns of, for people and for programs; get(const H &) gives its Warnings.
+template <class H, class Get> Key warning_text(Get get) {
+    return result<H>("warning", "what should be looked at; empty: nothing",
+                     [get](const H &h) { return get(h).text(); });
+}
+template <class H, class Get> Key warning_reasons(Get get) {
+    return result<H>("warning_reasons", "PLM_REASON_... of each part of \"warning\"",
+                     [get](const H &h) { return get(h).reasons(); });
+}
+
 } // namespace plm::capi

@@ -62,6 +62,13 @@ const std::vector<Key> &hbm_keys() {
             "bifurcations", "off,on",
             "locate folds and branch points, with stability also period doublings and "
             "Neimark-Sacker points"),
+        result<HbmHandle>("warning", "what the last call warned of; empty: nothing",
+                          [](const HbmHandle &h) { return h.warnings.text(); }),
+        result<HbmHandle>("warning_reason", "PLM_REASON_... of the first part of \"warning\"; 0: none",
+                          [](const HbmHandle &h) {
+                              return h.warnings.empty() ? std::int64_t(PLM_REASON_NONE)
+                                                        : std::int64_t(h.warnings.list().front().reason);
+                          }),
     };
     return keys;
 }
@@ -124,6 +131,8 @@ const std::vector<Key> &branch_keys() {
                   [](const B &b) { return built(b)->seconds_per_iteration; }),
         result<B>("unknowns", "nonlinear unknowns used: modal, gaps or both",
                   [](const B &b) { return built(b)->space_used; }),
+        warning_text<B>([](const B &b) -> const Warnings & { return built(b)->warnings; }),
+        warning_reasons<B>([](const B &b) -> const Warnings & { return built(b)->warnings; }),
     };
     return keys;
 }

@@ -223,6 +223,8 @@ void add_window_results(std::vector<Key> &keys) {
                       [](const H &h) { return core(h).space()->description; }),
             result<H>("space_error", "relative error of the contact receptances at the highest frequency",
                       [](const H &h) { return core(h).space()->error_estimate; }),
+            warning_text<H>([](const H &h) -> const Warnings & { return core(h).warnings(); }),
+            warning_reasons<H>([](const H &h) -> const Warnings & { return core(h).warnings(); }),
         });
 }
 

@@ -46,6 +46,6 @@ plm_status plm_sampler_run(plm_sampler *sampler) {
         s.core =
             std::make_shared<const plm::Sampler>(model, s.sampler_options, s.owner->watch(), s.model->space);
         s.model->space = s.core->space(); // the next sampler of this model starts from it
-        return PLM_OK;
+        return s.core->warnings().empty() ? PLM_OK : PLM_WARNING;
     });
 }

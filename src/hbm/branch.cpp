@@ -37,6 +37,12 @@ std::string end_text(std::int32_t reason) {
         return "no solution was found at the first frequency; start elsewhere or with less force";
     case PLM_REASON_BASIS_TOO_SMALL:
         return "the basis is too small for this response";
+    case PLM_REASON_TURNED_BACK:
+        return "ran back to where it began without having passed a fold; give the sweep the other direction, "
+               "a smaller "
+               "max_step or more harmonics";
+    case PLM_REASON_NOT_FINITE:
+        return "the response overflowed; check the units of matrices, loads and frequencies";
     default:
         return format("ended for reason %d", reason);
     }

@@ -1,6 +1,7 @@
 // A response curve: points of Fourier coefficients in reduced coordinates, and what an engineer reads from
 // them.
 #pragma once
+#include "linalg/warnings.hpp"
 #include "reduction/reduced_model.hpp"
 #include <complex>
 #include <string>
@@ -74,6 +75,7 @@ class Branch {
     std::int64_t newton_iterations = 0, failed_steps = 0, factorizations = 0;
     double seconds = 0, seconds_per_iteration = 0;
     std::string space_used; // "modal", "gaps" or "both"
+    Warnings warnings;      // what should be looked at before its points are used
 
     /// (2H + 1) coefficients a0, a1, b1, ... of a full-model DOF (base 0; zeros when fixed) at a point.
     vector<double> coefficients(std::int64_t point, std::int64_t dof) const;

@@ -1,6 +1,7 @@
 // How the core talks to its host: log lines, progress and cancellation. All of it optional.
 #pragma once
 #include "error.hpp"
+#include "warnings.hpp"
 
 namespace plm {
 
@@ -17,6 +18,17 @@ class Monitor {
 class Watch {
   public:
     explicit Watch(Monitor *monitor = nullptr) : monitor_(monitor) {}
+    /// The same host; what is warned of is kept in `warnings`, too, which must outlive the watch.
+    Watch keeping(Warnings &warnings) const {
+        Watch watch(monitor_);
+        watch.kept_ = &warnings;
+        return watch;
+    }
+    /// Something to look at with a result that is delivered: to the log and, where one is kept, to the list.
+    void warn(std::int32_t reason, const std::string &text) const {
+        log(2, text);
+        if (kept_) kept_->add(reason, text);
+    }
     void log(int level, const std::string &text) const {
         if (monitor_) monitor_->log(level, text);
     }
@@ -31,6 +43,7 @@ class Watch {
 
   private:
     Monitor *monitor_;
+    Warnings *kept_ = nullptr;
 };
 
 } // namespace plm

@@ -141,7 +141,6 @@ Matrix collect(const Space &space, const Sampler *sampler, const RestState &rest
     if (o.kind == BasisKind::snapshots) {
         CollectedSnapshots collected =
             collect_snapshots(space, *sampler, rest, dominant_coordinates(*sampler, space), rule, o, watch);
-        report.warning = std::move(collected.warning);
         report.n_rest_modes = collected.n_rest_modes;
         return std::move(collected.columns);
     }
@@ -150,7 +149,6 @@ Matrix collect(const Space &space, const Sampler *sampler, const RestState &rest
             ? collect_modes(space, sampler->samples(), dominant_coordinates(*sampler, space), rule, watch)
             : collect_rival_modes(space, rule, o, watch);
     report.samples = std::move(collected.samples);
-    report.warning = std::move(collected.warning);
     report.equivalent_share = std::move(collected.equivalent_share);
     return std::move(collected.columns);
 }
@@ -184,7 +182,7 @@ Reduction reduce_to_vectors(const Space &space, const Sampler *sampler, const Se
 } // namespace
 
 Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> sampler,
-             std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch,
+             std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch host,
              const Responses *responses, std::shared_ptr<const Space> known)
     : model_(std::move(model)), sampler_(std::move(sampler)), options_(options) {
     const auto start = std::chrono::steady_clock::now();
@@ -198,6 +196,8 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         return;
     }
+    Warnings warnings;
+    const Watch watch = host.keeping(warnings);
     const SelectionRule rule = make_rule(options_, sampler_.get());
     window_min_hz_ = rule.min_hz;
     window_max_hz_ = rule.max_hz;
@@ -216,7 +216,7 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     }
     choose_pairs();
     report_.highest_frequency_hz = modes_hz;
-    if (!report_.warning.empty()) watch.log(2, report_.warning);
+    report_.warnings = std::move(warnings);
     report_.setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

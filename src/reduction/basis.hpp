@@ -73,7 +73,7 @@ struct BasisReport {
     double preload_residual =
         0; // paper, eq. (12): q_PS against P, L2 norm over the free DOFs; 0 without pre-load
     double preload_residual_mass = 0; // the same in the M-norm
-    std::string warning;              // empty: nothing to say
+    Warnings warnings;
     double setup_seconds = 0;
     double highest_frequency_hz = 0; // upper end of the rule
 };

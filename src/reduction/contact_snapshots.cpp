@@ -220,13 +220,17 @@ std::vector<RestSystem> rest_systems(const Space &space, const RestState &rest, 
     return systems;
 }
 
-std::string missing_warning(const Snapshots &s) {
+void warn_of_missing(const Snapshots &s, Watch watch) {
     const std::int64_t found = s.motions.cols();
-    if (s.asked == 0) return "the dominant mode does not move the contact: the basis has no snapshot";
-    if (found == s.asked) return {};
-    return format("%lld of %lld static contact solutions do not exist: their loads drive a part that only "
-                  "contact holds apart; kind \"plm\" needs none",
-                  static_cast<long long>(s.asked - found), static_cast<long long>(s.asked));
+    if (s.asked == 0)
+        watch.warn(PLM_REASON_BASIS_TOO_SMALL, "the dominant mode does not move the contact: the basis has "
+                                               "no snapshot; name another dominant mode");
+    else if (found < s.asked)
+        watch.warn(
+            PLM_REASON_BASIS_TOO_SMALL,
+            format("%lld of %lld static contact solutions do not exist: their loads drive a part that only "
+                   "contact holds apart; kind \"plm\" needs none",
+                   static_cast<long long>(s.asked - found), static_cast<long long>(s.asked)));
 }
 
 } // namespace
@@ -258,7 +262,7 @@ CollectedSnapshots collect_snapshots(const Space &space, const Sampler &sampler,
     }
     result.n_rest_modes = modes.cols();
     result.n_solutions = snapshots.motions.cols();
-    result.warning = missing_warning(snapshots);
+    warn_of_missing(snapshots, watch);
     result.columns = modes;
     if (homogeneous) modes = orthonormal(modes); // those of one system are already
     if (statics.cols() > 0)

@@ -9,7 +9,6 @@ struct CollectedSnapshots {
     Matrix columns;                // space size x n, mass-normalised: modes at rest, then static vectors
     std::int64_t n_rest_modes = 0; // modes at rest among them
     std::int64_t n_solutions = 0;  // static solutions found
-    std::string warning;           // solutions that do not exist; empty: none is missing
 };
 
 /// Basis of kind "snapshots". S is the system linearised about its contact status at rest; without pre-load

@@ -59,13 +59,13 @@ SampleSelection select_modes(const MatchedModes &found, const SelectionRule &rul
     return s;
 }
 
-std::string lost_mode_warning(const std::vector<SampleSelection> &samples, const SelectionRule &rule) {
+void warn_of_lost_modes(const std::vector<SampleSelection> &samples, const SelectionRule &rule, Watch watch) {
     std::size_t n_lost = 0, first = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
         if (samples[i].matched < 0 || samples[i].matched_kept) continue;
         if (n_lost++ == 0) first = i;
     }
-    if (n_lost == 0) return {};
+    if (n_lost == 0) return;
     const SampleSelection &s = samples[first];
     std::string text =
         format("sample %zu does not keep its mode at %.6g Hz, which resembles the dominant mode (MAC "
@@ -78,7 +78,7 @@ std::string lost_mode_warning(const std::vector<SampleSelection> &samples, const
                          rule.min_hz, rule.max_hz)
                 : format("; raise below_factor or frequency_max_hz (modes are kept up to %.6g Hz)",
                          rule.highest_hz());
-    return text;
+    watch.warn(PLM_REASON_LOST_MODE, text);
 }
 
 } // namespace
@@ -95,7 +95,7 @@ CollectedModes collect_modes(const Space &space, const std::vector<SelectedSampl
         collected.columns.append(kept_columns(found.modes, collected.samples.back().kept));
     }
     if (collected.columns.cols() == 0) throw no_mode_kept(rule, "no sample");
-    collected.warning = lost_mode_warning(collected.samples, rule);
+    warn_of_lost_modes(collected.samples, rule, watch);
     return collected;
 }
 

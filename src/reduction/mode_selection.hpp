@@ -22,7 +22,6 @@ struct SelectionRule {
 struct CollectedModes {
     Matrix columns; // kept modes of all samples, space size x n_collected, mass-normalised
     std::vector<SampleSelection> samples;
-    std::string warning;             // a sample lost the mode that matches its dominant mode; empty: none did
     vector<double> equivalent_share; // lelsm: s_i of each column; lelsm_updated: of each pair; else empty
 };
 

@@ -24,9 +24,10 @@ CollectedModes collect_updated_lelsm(const Space &space, const SelectionRule &ru
     collected.columns = std::move(modes.columns);
     collected.equivalent_share = std::move(modes.motion.share);
     if (!modes.motion.settled)
-        collected.warning = format("the equivalent stiffnesses did not settle in %lld iterations; the last "
-                                   "ones are used. Set equivalent_amplitude or choose another kind",
-                                   static_cast<long long>(modes.motion.iterations) - 1);
+        watch.warn(PLM_REASON_NO_CONTRACTION,
+                   format("the equivalent stiffnesses did not settle in %lld iterations; the last "
+                          "ones are used. Set equivalent_amplitude or choose another kind",
+                          static_cast<long long>(modes.motion.iterations) - 1));
     return collected;
 }
 

@@ -109,8 +109,8 @@ std::int64_t by_response(const vector<double> &response, const vector<std::int64
     const auto weaker = [&](std::int64_t i, std::int64_t j) { return response[i] < response[j]; };
     const std::int64_t best = *std::max_element(among.begin(), among.end(), weaker);
     if (response[best] > 0) return best;
-    watch.log(
-        2,
+    watch.warn(
+        PLM_REASON_LOST_MODE,
         "the excitation moves no mode searched: the lowest flexible one is taken as the dominant mode; name "
         "the mode if another is meant");
     return among.front();

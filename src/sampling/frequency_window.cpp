@@ -30,8 +30,8 @@ double matched_frequency(const Space &space, const DominantMode &dominant, const
     }
     const double best = row.mac[row.best], hz = row.frequency_hz[row.best];
     if (best < 0.5)
-        watch.log(
-            2,
+        watch.warn(
+            PLM_REASON_LOST_MODE,
             format(
                 "no mode of %s resembles the dominant mode: the best, at %.6g Hz, has a MAC of %.2f; check "
                 "the frequency window or choose another dominant mode",

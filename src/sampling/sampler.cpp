@@ -60,9 +60,12 @@ bool moves_contact(const Space &space, const DominantMode &d) {
 ContactSweep sweep_of(const Space &space, const RestState &rest, bool homogeneous, const DominantMode &d,
                       Watch watch) {
     if (!moves_contact(space, d)) {
-        watch.log(2,
-                  format("the dominant mode at %.6g Hz does not move the contact: there is one sample only",
-                         d.frequency_hz));
+        watch.warn(
+            PLM_REASON_LOST_MODE,
+            format("the dominant mode at %.6g Hz does not move the contact: there is one sample only; name "
+                   "the mode of the resonance that opens and closes the contact (\"mode\" or "
+                   "\"mode_frequency_hz\")",
+                   d.frequency_hz));
         return sweep_contact(rest.penetration, !homogeneous, vector<double>(space.n_pairs(), 0.0));
     }
     if (!homogeneous) return sweep_contact(rest.penetration, true, d.mode_penetration);
@@ -71,15 +74,18 @@ ContactSweep sweep_of(const Space &space, const RestState &rest, bool homogeneou
 
 } // namespace
 
-Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &options, Watch watch,
+Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &options, Watch host,
                  std::shared_ptr<const Space> known)
     : options_(options), space_(std::move(known)) {
     check_options(options);
     if (model->n_pairs() == 0) throw Error(PLM_ERR_STATE, "the model has no contact pair to sample");
     const bool homogeneous = is_homogeneous(*model);
+    Watch watch = host;
     double highest = first_guess(options);
     for (int round = 0; round < 4; ++round) {
         watch.step("sampler", 0.25 * round);
+        warnings_ = Warnings(); // those of the last round stand
+        watch = host.keeping(warnings_);
         space_ = make_contact_space(model, highest, least_modes(options), watch, space_);
         rest_ = solve_rest(*space_);
         dominant_ = find_dominant_modes(*space_, rest_, homogeneous, options, watch);

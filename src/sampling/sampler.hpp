@@ -88,6 +88,7 @@ class Sampler {
         return samples_;
     } // selected, complements after, no duplicate
     const FrequencyWindow &window() const { return window_; }
+    const Warnings &warnings() const { return warnings_; }
 
   private:
     SamplerOptions options_;
@@ -97,6 +98,7 @@ class Sampler {
     std::vector<ContactSweep> sweeps_;
     std::vector<SelectedSample> samples_;
     FrequencyWindow window_;
+    Warnings warnings_;
 };
 
 } // namespace plm

@@ -47,7 +47,7 @@ class Run {
         if (method_.kind == MethodKind::refined) refine_basis();
         out_.setup_seconds = setup.seconds();
         out_.size = out_.basis->reduced()->size();
-        if (!out_.basis->report().warning.empty()) out_.note = out_.basis->report().warning;
+        out_.note = out_.basis->report().warnings.text();
         const Stopwatch curve;
         for (double level : where_.levels)
             out_.curves.push_back(sweep(*out_.basis, options_at_level(method_, where_, level), watch_));

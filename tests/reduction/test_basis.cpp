@@ -219,10 +219,10 @@ void a_lost_resonance_is_reported(void **) {
     o.frequency_min_hz = 0.999 * c.sampler->window().rest_hz; // the open sample's mode lies below
     test::Recorder recorder;
     const auto basis = build(c, o, nullptr, &recorder);
-    assert_true(basis->report().warning.find("sample") != std::string::npos);
+    assert_true(basis->report().warnings.text().find("sample") != std::string::npos);
     assert_int_equal(recorder.warnings.size(), 1);
     const auto below = build(c, rule(ModeSelection::below));
-    assert_true(below->report().warning.empty());
+    assert_true(below->report().warnings.empty());
     for (const auto &s : below->report().samples) assert_true(s.matched_kept);
 }
 

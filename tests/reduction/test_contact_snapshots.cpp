@@ -91,7 +91,7 @@ void modes_at_rest_lie_in_the_basis(void **) {
     assert_true(
         below(modes_outside(c, *basis, c.sampler->rest().closed, 5.5 * basis->window_max_hz()), space_error));
     assert_true(basis->report().n_rest_modes > 3);
-    assert_true(basis->report().warning.empty());
+    assert_true(basis->report().warnings.empty());
 }
 
 void static_contact_solutions_lie_in_the_basis(void **) {
@@ -168,7 +168,7 @@ Case lying_masses() {
 
 void solutions_that_do_not_exist_are_told(void **) {
     const auto basis = build(lying_masses(), snapshots());
-    assert_true(basis->report().warning.find("static contact solutions do not exist") != std::string::npos);
+    assert_true(basis->report().warnings.text().find("static contact solutions do not exist") != std::string::npos);
     assert_int_equal(basis->reduced()->size(), 2);
 }
 

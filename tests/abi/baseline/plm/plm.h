@@ -81,7 +81,7 @@ typedef int32_t plm_status;
 #define PLM_ERR_CALLBACK (-12)             /* a host callback reported a failure */
 #define PLM_ERR_INTERNAL (-13)             /* a defect of libplm: please report the text */
 
-/* Reasons a program can branch on (plm_context_get_error_info; "end_reason" of a branch). */
+/* Reasons a program can branch on (plm_context_get_error_info; "end_reason" of a branch; "warning_reasons"). */
 #define PLM_REASON_NONE 0
 #define PLM_REASON_NOT_POSITIVE_DEFINITE 1
 #define PLM_REASON_SINGULAR 2
@@ -95,6 +95,16 @@ typedef int32_t plm_status;
 #define PLM_REASON_NO_EQUILIBRIUM 10 /* pre-load drives an unsupported rigid-body motion */
 #define PLM_REASON_LOOP_CLOSED 11    /* branch: came back to its first point */
 #define PLM_REASON_BASIS_TOO_SMALL 12
+#define PLM_REASON_TURNED_BACK 13      /* branch: ran back to where it began without having passed a fold */
+#define PLM_REASON_NO_PEAK 14          /* the highest point stands at an end of the curve */
+#define PLM_REASON_HARMONICS_TOO_FEW 15 /* "harmonic_tolerance" was not reached */
+#define PLM_REASON_OUTSIDE_BASIS 16    /* frequencies, forces or motions the basis was not made for */
+#define PLM_REASON_OTHER_BRANCH 17     /* the solution is not on the branch the start belongs to */
+#define PLM_REASON_NO_CONTRACTION 18   /* the steps of an estimate do not contract: there is no number */
+#define PLM_REASON_NOT_FINITE 19       /* overflow: a number is infinite or NaN */
+#define PLM_REASON_UNVERIFIED 20       /* something that is checked by default could not be */
+#define PLM_REASON_NO_SWITCHING 21     /* no pair opens or closes: this is a linear response */
+#define PLM_REASON_LOST_MODE 22        /* a contact sample lost the mode that matches the dominant one */
 
 /* What a point of a branch is ("bifurcation" of a branch). */
 #define PLM_BIFURCATION_NONE 0
@@ -377,7 +387,7 @@ PLM_API plm_status plm_basis_set_parent(plm_basis *basis, plm_basis *parent);
  * decomposition in the energy norm, each curve scaled by its largest response). The curves are read here and may be
  * destroyed afterwards; n = 0 forgets them. */
 PLM_API plm_status plm_basis_set_responses(plm_basis *basis, int64_t n, plm_branch *const *branch);
-/* PLM_WARNING when a sample does not keep the mode that matches the dominant one (the selection by bands can lose the
+/* PLM_WARNING (see "warning", "warning_reasons") when a sample does not keep the mode that matches the dominant one (the selection by bands can lose the
  * resonance), or the equivalent stiffnesses of "lelsm_updated" did not settle: see "warning". PLM_ERR_ARGUMENT for a
  * rival kind when the model has no contact pair or fewer than "n_discontinuities", or nothing sets an amplitude. */
 PLM_API plm_status plm_basis_build(plm_basis *basis);
@@ -401,7 +411,8 @@ PLM_API plm_status plm_hbm_get_double(plm_hbm *hbm, const char *key, double *val
 PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t capacity, char *buffer,
                                       int64_t *needed);
 /* Follows the response curve over [frequency_min_hz, frequency_max_hz] through its folds. PLM_NOT_CONVERGED,
- * PLM_TRUNCATED or PLM_CANCELLED still deliver the branch found so far, if it has a point. */
+ * PLM_TRUNCATED or PLM_CANCELLED still deliver the branch found so far, if it has a point. A structure in free flight, or
+ * free along a rail: mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
  * start. PLM_ERR_CONVERGENCE when no strategy converges. */
@@ -444,8 +455,8 @@ PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_b
  * DOF, as in plm_branch_get_amplitude) and frequency_hz[3] (shift of the curve), corrected less computed, by cause: basis,
  * contact sets, harmonics beyond those solved for; the sum is the estimate. It measures errors that are small against the
  * width of the resonance and says of larger ones that they are large. Away from a peak, amplitude and frequency belong
- * together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the contacts do not hold all
- * rigid-body modes. The first call of an hbm prepares the unreduced structure. */
+ * together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the model has no contact
+ * pairs. The first call of an hbm prepares the unreduced structure. */
 PLM_API plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, int64_t point, int64_t dof, int32_t measure,
                                           int32_t harmonic, double *amplitude, double *frequency_hz);
 /* A basis for one number, the tolerance. From the basis of this hbm, however poor, and its curve: the motions, corrected
@@ -589,8 +600,9 @@ PLM_API plm_status plm_study_set_reference(plm_study *study, plm_hbm *hbm);
  * sampler that only gives the window to a basis of another kind is no part of the set-up time. name: not empty, used once,
  * not "reference". index: of the method, from 0, or NULL; the same below. */
 PLM_API plm_status plm_study_add_response(plm_study *study, const char *name, plm_hbm *hbm, int64_t *index);
-/* The response of that recipe at the lowest and the highest force level, then a basis of kind "pod" from it, of `size`
- * columns (0: by "pod_tolerance" of the basis), and its curve. All before that curve is set-up. */
+/* The response of that recipe at the lowest and the highest force level (at the highest alone where neither a pre-load nor
+ * an initial gap keeps it from being proportional to the force), then a basis of kind "pod" from it, of `size` columns
+ * (0: by "pod_tolerance" of the basis), and its curve. All before that curve is set-up. */
 PLM_API plm_status plm_study_add_compressed(plm_study *study, const char *name, plm_hbm *hbm, int64_t size,
                                             int64_t *index);
 /* plm_hbm_refine_basis from that recipe, for the study's output at the highest force level; tolerance in (0, 1). */
