@@ -4,6 +4,13 @@
 
 namespace plm {
 
+void Matrix::outside(std::int64_t i, std::int64_t j) const {
+    throw Error(PLM_ERR_INTERNAL,
+                format("index (%lld, %lld) of a matrix of %lld x %lld", static_cast<long long>(i),
+                       static_cast<long long>(j), static_cast<long long>(rows_),
+                       static_cast<long long>(cols_)));
+}
+
 void Matrix::reset(std::int64_t rows, std::int64_t cols) {
     require(rows >= 0 && cols >= 0 && (rows == 0 || cols <= INT64_MAX / rows), "Matrix::reset: shape");
     data_.assign(static_cast<std::size_t>(rows * cols), 0.0);

@@ -14,10 +14,11 @@ class Matrix {
     bool empty() const { return data_.empty(); }
     double *data() { return data_.data(); }
     const double *data() const { return data_.data(); }
-    double *col(std::int64_t j) { return data_.data() + j * rows_; }
-    const double *col(std::int64_t j) const { return data_.data() + j * rows_; }
-    double &operator()(std::int64_t i, std::int64_t j) { return data_[i + j * rows_]; }
-    double operator()(std::int64_t i, std::int64_t j) const { return data_[i + j * rows_]; }
+    /// Column j; j = cols() is the end of the last one.
+    double *col(std::int64_t j) { return data_.data() + column_at(j); }
+    const double *col(std::int64_t j) const { return data_.data() + column_at(j); }
+    double &operator()(std::int64_t i, std::int64_t j) { return data_.data()[entry_at(i, j)]; }
+    double operator()(std::int64_t i, std::int64_t j) const { return data_.data()[entry_at(i, j)]; }
 
     /// New shape, contents zeroed; storage is kept when it suffices.
     void reset(std::int64_t rows, std::int64_t cols);
@@ -28,6 +29,21 @@ class Matrix {
     Matrix transposed() const;
 
   private:
+    [[noreturn]] void outside(std::int64_t i, std::int64_t j) const; // PLM_ERR_INTERNAL
+#ifdef PLM_CHECKED // builds for development: no index leaves its array
+    static constexpr bool checked = true;
+#else
+    static constexpr bool checked = false;
+#endif
+    std::int64_t column_at(std::int64_t j) const {
+        if (checked && (j < 0 || j > cols_)) outside(0, j);
+        return j * rows_;
+    }
+    std::int64_t entry_at(std::int64_t i, std::int64_t j) const {
+        if (checked && (i < 0 || i >= rows_ || j < 0 || j >= cols_)) outside(i, j);
+        return i + j * rows_;
+    }
+
     std::int64_t rows_ = 0, cols_ = 0;
     vector<double> data_;
 };
