@@ -14,7 +14,7 @@ static void print_text(int32_t kind, int32_t index, int32_t field) {
 }
 
 static void print_range(int32_t kind, int32_t index, int32_t type, double minimum, double maximum) {
-    const double huge = 1e300;
+    const double huge = 1e60; /* no bound but that squares must not overflow */
     if (type == PLM_TYPE_STRING)
         print_text(kind, index, PLM_KEY_CHOICES);
     else if (maximum >= huge)

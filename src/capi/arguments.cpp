@@ -1,4 +1,5 @@
 #include "capi/arguments.hpp"
+#include "linalg/scale.hpp"
 #include <algorithm>
 #include <cstring>
 
@@ -20,8 +21,18 @@ void require_range(std::int64_t value, std::int64_t low, std::int64_t high, cons
                      format("%s is %lld; it must lie in %lld..%lld", name, Int(value), Int(low), Int(high)));
 }
 
+namespace {
+
+std::string overflows(double value) {
+    return format(" is %g; beyond %g squares and products overflow: choose units in which it is smaller",
+                  value, largest_scale);
+}
+
+} // namespace
+
 void require_finite(double value, const char *name) {
     if (!std::isfinite(value)) bad_argument(name, -1, format("%s is NaN or infinite; pass a number", name));
+    if (too_large(value)) bad_argument(name, -1, std::string(name) + overflows(value));
 }
 
 void require_finite_array(const double *values, std::int64_t n, const char *name) {
@@ -29,6 +40,8 @@ void require_finite_array(const double *values, std::int64_t n, const char *name
     for (std::int64_t i = 0; i < n; ++i)
         if (!std::isfinite(values[i]))
             bad_argument(name, i, format("%s[%lld] is NaN or infinite; pass numbers only", name, Int(i)));
+        else if (too_large(values[i]))
+            bad_argument(name, i, format("%s[%lld]", name, Int(i)) + overflows(values[i]));
 }
 
 void require_index_base(std::int32_t index_base) {

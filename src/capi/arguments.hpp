@@ -11,6 +11,7 @@ namespace plm::capi {
 void require_pointer(const void *pointer, const char *name);
 /// low <= value <= high
 void require_range(std::int64_t value, std::int64_t low, std::int64_t high, const char *name);
+/// Neither NaN nor infinite nor of a size that overflows in what is computed from it (linalg/scale.hpp).
 void require_finite(double value, const char *name);
 /// NULL is accepted when n is 0.
 void require_finite_array(const double *values, std::int64_t n, const char *name);

@@ -2,6 +2,7 @@
 // floating-point environment, refuses re-entry, and sets the context's allocator.
 #pragma once
 #include "capi/context.hpp"
+#include "linalg/work.hpp"
 
 namespace plm::capi {
 
@@ -57,6 +58,7 @@ plm_status call(const char *function, typename H::Opaque *handle, Body body) noe
         RunningCall running(context, held.host());
         if (!running) return PLM_ERR_STATE; // without touching the call that runs
         const AllocatorScope scope(&context.allocator);
+        const WorkScope work(context.listener());
         try {
             return body(*object);
         } catch (...) {

@@ -2,6 +2,7 @@
 #include "capi/barrier.hpp"
 #include "capi/handles.hpp"
 #include "hbm/responses.hpp"
+#include "linalg/scale.hpp"
 
 namespace plm::capi {
 
@@ -124,7 +125,9 @@ plm_status plm_basis_get_residual(plm_basis *basis, std::int32_t is_static, std:
         require_pointer(r, "r");
         plm::vector<double> free(static_cast<std::size_t>(model.n_free()));
         model.restrict_to_free(q, free.data());
-        *r = plm::projection_residual(core, is_static != 0, use_mass != 0, free.data());
+        const double found = plm::projection_residual(core, is_static != 0, use_mass != 0, free.data());
+        plm::require_finite_result(&found, 1, "r");
+        *r = found;
         return PLM_OK;
     });
 }

@@ -5,6 +5,8 @@
 #include "hbm/formulation.hpp"
 #include "hbm/motion_measures.hpp"
 #include "hbm/trig_polynomial.hpp"
+#include "linalg/scale.hpp"
+#include "linalg/work.hpp"
 #include <algorithm>
 
 namespace plm::capi {
@@ -59,10 +61,14 @@ plm_status plm_branch_get_amplitude(plm_branch *branch, std::int64_t dof, std::i
     return call<BranchHandle>("plm_branch_get_amplitude", branch, [&](BranchHandle &b) {
         require_measure(*b.core, dof, measure, harmonic);
         plm::vector<double> values(b.core->points().size());
-        if (amplitude)
-            for (std::size_t k = 0; k < values.size(); ++k)
-                values[k] = b.core->amplitude(static_cast<std::int64_t>(k), dof,
-                                              static_cast<plm::Measure>(measure), harmonic);
+        const double harmonics =
+            static_cast<double>(b.core->n_harmonics()); // extrema: a grid of 16 H instants
+        for (std::size_t k = 0; k < values.size() && amplitude; ++k) {
+            plm::worked(200 * harmonics * harmonics);
+            values[k] = b.core->amplitude(static_cast<std::int64_t>(k), dof,
+                                          static_cast<plm::Measure>(measure), harmonic);
+        }
+        plm::require_finite_result(values.data(), static_cast<std::int64_t>(values.size()), "amplitude");
         return put_array(values, capacity, amplitude, count);
     });
 }
@@ -77,6 +83,7 @@ plm_status plm_branch_get_coefficients(plm_branch *branch, std::int64_t point, s
         require_pointer(coefficient, "coefficient");
         plm::Matrix all(rows, n); // nothing is written unless all of it is known
         for (std::int64_t j = 0; j < n; ++j) copy_out(b.core->coefficients(point, first_dof + j), all.col(j));
+        plm::require_finite_result(all.data(), rows * n, "coefficient");
         std::copy(all.data(), all.data() + rows * n, coefficient);
         return PLM_OK;
     });
@@ -90,7 +97,9 @@ plm_status plm_branch_get_field(plm_branch *branch, std::int64_t point, double t
         const std::int64_t n_dof = b.core->reduced().model->n_dof();
         require_range(n, n_dof, n_dof, "n");
         require_pointer(q, "q");
-        copy_out(b.core->field(point, time_fraction), q);
+        const plm::vector<double> field = b.core->field(point, time_fraction);
+        plm::require_finite_result(field.data(), n, "q");
+        copy_out(field, q);
         return PLM_OK;
     });
 }
@@ -105,7 +114,8 @@ plm_status plm_branch_get_contact(plm_branch *branch, std::int64_t point, std::i
             plm::whole_contact_motion(b.core->reduced(), b.core->points()[static_cast<std::size_t>(point)]);
         const plm::Matrix motion = law.u.transposed();
         const std::int64_t z = u.cols();
-        for (std::int64_t k = 0; k < n_times; ++k)
+        for (std::int64_t k = 0; k < n_times; ++k) {
+            plm::worked(40.0 * static_cast<double>(z * motion.rows()));
             for (std::int64_t i = 0; i < z; ++i) {
                 const double t = 2 * M_PI * static_cast<double>(k) / static_cast<double>(n_times);
                 const double v = plm::evaluate_trig(motion.col(i), (motion.rows() - 1) / 2, t).value;
@@ -116,6 +126,7 @@ plm_status plm_branch_get_contact(plm_branch *branch, std::int64_t point, std::i
                         plm::ContactLaw::force((*law.stiffness)[static_cast<std::size_t>(i)], v);
                 if (closed) closed[i + k * z] = plm::ContactLaw::closed(v);
             }
+        }
         return PLM_OK;
     });
 }
@@ -127,7 +138,9 @@ plm_status plm_branch_get_closed_share(plm_branch *branch, std::int64_t point, s
         const std::int64_t z = b.core->reduced().n_whole_pairs();
         require_range(n, z, z, "n");
         if (n > 0) require_pointer(share, "share");
-        copy_out(b.core->closed_share(point), share);
+        const plm::vector<double> found = b.core->closed_share(point);
+        plm::require_finite_result(found.data(), z, "share");
+        copy_out(found, share);
         return PLM_OK;
     });
 }
@@ -138,6 +151,7 @@ plm_status plm_branch_get_energy(plm_branch *branch, std::int64_t point, double 
         require_point(*b.core, point);
         const plm::MotionMeasures m = plm::measure_motion(
             b.core->reduced(), b.core->points()[static_cast<std::size_t>(point)], b.core->period_multiple());
+        plm::require_finite_result(&m.total, 1, "energy");
         if (energy) *energy = m.total;
         if (contact_area) *contact_area = m.closed_share;
         return PLM_OK;
@@ -157,7 +171,9 @@ plm_status plm_branch_get_periodicity_defect(plm_branch *branch, std::int64_t po
     return call<BranchHandle>("plm_branch_get_periodicity_defect", branch, [&](BranchHandle &b) {
         require_point(*b.core, point);
         require_pointer(defect, "defect");
-        *defect = b.core->periodicity_defect(point);
+        const double found = b.core->periodicity_defect(point);
+        plm::require_finite_result(&found, 1, "defect");
+        *defect = found;
         return PLM_OK;
     });
 }
@@ -166,7 +182,9 @@ plm_status plm_branch_get_full_residual(plm_branch *branch, std::int64_t point, 
     return call<BranchHandle>("plm_branch_get_full_residual", branch, [&](BranchHandle &b) {
         require_point(*b.core, point);
         require_pointer(relative_residual, "relative_residual");
-        *relative_residual = b.core->full_residual(point);
+        const double found = b.core->full_residual(point);
+        plm::require_finite_result(&found, 1, "relative_residual");
+        *relative_residual = found;
         return PLM_OK;
     });
 }

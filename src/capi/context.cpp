@@ -65,10 +65,12 @@ void Context::HostMonitor::log(int level, const std::string &text) {
     context.log(context.handle, level, text.c_str(), context.log_user);
 }
 
-bool Context::HostMonitor::progress(const char *stage, double fraction) {
+bool Context::HostMonitor::progress(const char *now, double done) {
     if (!context.progress) return false;
+    if (stage != now) stage = now;
+    fraction = done;
     const HostCode host(context);
-    return context.progress(context.handle, stage, fraction, context.progress_user) != 0;
+    return context.progress(context.handle, stage.c_str(), fraction, context.progress_user) != 0;
 }
 
 } // namespace plm::capi

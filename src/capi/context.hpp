@@ -4,6 +4,7 @@
 #include "linalg/factor.hpp"
 #include "linalg/memory.hpp"
 #include "linalg/monitor.hpp"
+#include "linalg/work.hpp"
 #include <atomic>
 #include <cfenv>
 
@@ -34,6 +35,8 @@ struct Context final : Object {
 
     /// The callbacks' way into the core; silent when the host has set none.
     Watch watch() { return Watch(log || progress ? &monitor : nullptr); }
+    /// For a WorkScope around a call.
+    WorkListener *listener() { return progress ? &monitor : nullptr; }
     /// Null when the host brings no solver.
     std::shared_ptr<SolverBinding> bind_solver();
 
@@ -53,11 +56,14 @@ struct Context final : Object {
     std::fenv_t *host_environment = nullptr; // during a call: the host's floating-point environment
 
   private:
-    struct HostMonitor final : Monitor {
+    struct HostMonitor final : Monitor, WorkListener {
         explicit HostMonitor(Context &c) : context(c) {}
         void log(int level, const std::string &text) override;
         bool progress(const char *stage, double fraction) override;
+        bool goes_on() override { return progress(stage.c_str(), fraction); }
         Context &context;
+        std::string stage = "working"; // what was heard last
+        double fraction = 0;
     } monitor;
 };
 

@@ -5,6 +5,7 @@
 #include "capi/hbm_input.hpp"
 #include "hbm/error_estimate.hpp"
 #include "hbm/refinement.hpp"
+#include "linalg/scale.hpp"
 
 namespace plm::capi {
 
@@ -89,6 +90,8 @@ plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, std::int64_t dof,
         require_pointer(amplitude, "amplitude");
         plm::Peak found =
             solver(h).find_peak(*curve->core, dof, static_cast<plm::Measure>(measure), harmonic);
+        const double highest[] = {found.frequency_hz, found.amplitude};
+        plm::require_finite_result(highest, 2, "frequency_hz, amplitude");
         const plm_status status = deliver(h, found.branch->warnings);
         if (peak) *peak = publish_branch(h, std::move(found.branch));
         *frequency_hz = found.frequency_hz, *amplitude = found.amplitude;
@@ -123,6 +126,9 @@ plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, std::int64_t
         const auto put = [](const plm::ErrorParts &parts, double *out) {
             if (out) out[0] = parts.basis, out[1] = parts.contact, out[2] = parts.harmonics;
         };
+        double all[6];
+        put(e.amplitude, all), put(e.frequency_hz, all + 3);
+        plm::require_finite_result(all, 6, "amplitude, frequency_hz");
         put(e.amplitude, amplitude);
         put(e.frequency_hz, frequency_hz);
         return PLM_OK;

@@ -177,6 +177,10 @@ plm_status set_double(Object &object, const char *name, double value) {
     const Key &key = find_option(object, name);
     if (key.type != PLM_TYPE_DOUBLE) wrong_type(key, "set");
     require_bounds(key, value); // refuses NaN, too
+    if (too_small(value) && key.maximum == huge)
+        bad_argument("value", -1,
+                     format("\"%s\" is %g; below %g squares and products vanish: choose other units, or 0",
+                            key.name, value, smallest_scale));
     Value v;
     v.real = value;
     key.write_option(object.options(), v);
@@ -211,7 +215,9 @@ plm_status get_double(Object &object, const char *name, double *value) {
     require_pointer(value, "value");
     if (key.type != PLM_TYPE_DOUBLE && key.type != PLM_TYPE_INT) wrong_type(key, "get");
     const Value v = read(object, key);
-    *value = key.type == PLM_TYPE_INT ? static_cast<double>(v.integer) : v.real;
+    const double real = key.type == PLM_TYPE_INT ? static_cast<double>(v.integer) : v.real;
+    if (!key.nan_is_unknown) require_finite_result(&real, 1, key.name);
+    *value = real;
     return PLM_OK;
 }
 
@@ -226,7 +232,10 @@ plm_status get_array(Object &object, const char *name, std::int64_t capacity, do
                      std::int64_t *count) {
     const Key &key = find_key(object.kind, name);
     if (key.type != PLM_TYPE_ARRAY) wrong_type(key, "get");
-    return put_array(read(object, key).array, capacity, values, count);
+    const Value v = read(object, key);
+    if (values && !key.nan_is_unknown)
+        require_finite_result(v.array.data(), static_cast<std::int64_t>(v.array.size()), key.name);
+    return put_array(v.array, capacity, values, count);
 }
 
 plm_status get_int_array(Object &object, const char *name, std::int64_t capacity, std::int64_t *values,

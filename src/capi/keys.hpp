@@ -3,6 +3,7 @@
 #pragma once
 #include "capi/arguments.hpp"
 #include "capi/registry.hpp"
+#include "linalg/scale.hpp"
 #include <functional>
 #include <string>
 
@@ -23,7 +24,8 @@ struct Key {
     bool is_option;
     const char *description; // one line, with units
     double minimum = 0, maximum = 0;
-    const char *choices = ""; // string options: words separated by commas
+    const char *choices = "";    // string options: words separated by commas
+    bool nan_is_unknown = false; // results of studies: NaN stands for what a method did not deliver
     // options: on the options struct of the kind; write: choices as their position in `integer`
     void (*read_option)(const void *options, Value &) = nullptr;
     void (*write_option)(void *options, const Value &) = nullptr;
@@ -31,7 +33,7 @@ struct Key {
     std::function<void(const Object &, Value &)> read_result = nullptr;
 };
 
-constexpr double huge = 1e300; // "no bound"
+constexpr double huge = largest_scale; // "no bound"
 
 // The tables, one per kind (keys_<kind>.cpp).
 const std::vector<Key> &model_keys();

@@ -156,6 +156,7 @@ const std::vector<Key> &study_keys() {
         add_times(all);
         add_errors(all);
         add_reference(all);
+        for (Key &key : all) key.nan_is_unknown = !key.is_option;
         return all;
     }();
     return keys;

@@ -2,6 +2,7 @@
 #include "capi/barrier.hpp"
 #include "capi/model_input.hpp"
 #include "capi/model_space.hpp"
+#include "linalg/scale.hpp"
 #include "model/matrix_input.hpp"
 #include <algorithm>
 
@@ -59,6 +60,7 @@ vector<char> contact_set(ModelHandle &m, std::int32_t system, const std::int32_t
 void put_modes(const ModelHandle &m, const LowestModes &found, std::int64_t n, double *frequency_hz,
                double *shape) {
     const Model &model = *m.core;
+    require_finite_result(found.modes.values.data(), n, "frequency_hz");
     if (shape) {
         const Matrix free = product('N', 'N', found.space->vectors, found.modes.vectors.columns(0, n));
         for (std::int64_t j = 0; j < n; ++j) model.expand(free.col(j), shape + j * model.n_dof());

@@ -1,6 +1,7 @@
 // The contact pairs of the model: node pairs, ground contacts and raw rows all become rows of the gap matrix.
 #include "capi/barrier.hpp"
 #include "capi/model_input.hpp"
+#include "linalg/scale.hpp"
 #include <algorithm>
 
 namespace plm::capi {
@@ -42,10 +43,11 @@ void add_to(ModelInput &input, NewPairs &pairs) {
 void take_stiffness_and_gap(NewPairs &pairs, std::int64_t n, const double *stiffness, const double *gap) {
     if (n > 0) require_pointer(stiffness, "stiffness");
     for (std::int64_t i = 0; i < n; ++i)
-        if (stiffness[i] != PLM_AUTO_STIFFNESS && !(stiffness[i] > 0 && std::isfinite(stiffness[i])))
-            bad_argument(
-                "stiffness", i,
-                format("stiffness[%lld] is %g; it must be > 0, or PLM_AUTO_STIFFNESS", Int(i), stiffness[i]));
+        if (stiffness[i] != PLM_AUTO_STIFFNESS &&
+            !(stiffness[i] >= smallest_scale && stiffness[i] <= largest_scale))
+            bad_argument("stiffness", i,
+                         format("stiffness[%lld] is %g; it must be > 0 (%g to %g), or PLM_AUTO_STIFFNESS",
+                                Int(i), stiffness[i], smallest_scale, largest_scale));
     if (gap) require_finite_array(gap, n, "gap");
     pairs.stiffness.assign(stiffness, stiffness + n);
     pairs.gap.assign(static_cast<std::size_t>(n), 0.0);

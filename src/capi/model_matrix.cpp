@@ -2,6 +2,7 @@
 #include "capi/arguments.hpp"
 #include "capi/barrier.hpp"
 #include "capi/model_input.hpp"
+#include "linalg/scale.hpp"
 #include "model/matrix_input.hpp"
 #include <algorithm>
 
@@ -64,8 +65,9 @@ plm_status fix_dofs(const char *function, plm_model *model, std::int32_t index_b
 }
 
 void require_nonnegative(double value, const char *name) {
-    if (!(value >= 0) || !std::isfinite(value))
-        bad_argument(name, -1, format("%s is %g; it must be a number >= 0", name, value));
+    if (!(value >= 0 && value <= largest_scale))
+        bad_argument(name, -1,
+                     format("%s is %g; it must be a number >= 0, and <= %g", name, value, largest_scale));
 }
 
 } // namespace

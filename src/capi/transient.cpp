@@ -3,6 +3,8 @@
 #include "capi/branch_input.hpp"
 #include "capi/model_input.hpp"
 #include "capi/transient_results.hpp"
+#include "linalg/scale.hpp"
+#include <algorithm>
 
 namespace plm::capi {
 namespace {
@@ -115,7 +117,11 @@ plm_status plm_transient_find_periodic(plm_transient *transient) {
 plm_status plm_transient_get_state(plm_transient *transient, std::int64_t n, double *q, double *v) {
     return call<TransientHandle>("plm_transient_get_state", transient, [&](TransientHandle &t) {
         require_n_dof(t, n);
-        core(t).get_state(q, v);
+        plm::vector<double> state(static_cast<std::size_t>(2 * n));
+        core(t).get_state(state.data(), state.data() + n);
+        plm::require_finite_result(state.data(), 2 * n, "state");
+        if (q) std::copy_n(state.data(), n, q);
+        if (v) std::copy_n(state.data() + n, n, v);
         return PLM_OK;
     });
 }
@@ -133,6 +139,7 @@ plm_status plm_transient_get_history(plm_transient *transient, std::int64_t obse
         plm::vector<double> history(run.time.size());
         for (std::size_t k = 0; k < history.size(); ++k)
             history[k] = run.values[k * n_observed + static_cast<std::size_t>(observed)];
+        plm::require_finite_result(history.data(), static_cast<std::int64_t>(history.size()), "history");
         return put_array(history, capacity, values, count);
     });
 }

@@ -2,6 +2,7 @@
 #include "hbm/contact_force.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/trig_polynomial.hpp"
+#include "linalg/scale.hpp"
 #include "transient/shooting.hpp"
 #include <algorithm>
 #include <cmath>
@@ -56,20 +57,66 @@ void set_harmonics(Matrix &eta, std::int64_t n) {
     eta = std::move(changed);
 }
 
+namespace {
+
+// Column pairs after the first `mean` columns, cosine and sine of harmonic k, become those of multiple x k.
+Matrix spread_harmonics(const Matrix &from, std::int64_t mean, std::int64_t multiple) {
+    const std::int64_t rows = from.rows(), h = (from.cols() - mean) / 2;
+    Matrix to(rows, mean + 2 * multiple * h);
+    std::copy(from.data(), from.col(mean), to.data());
+    for (std::int64_t k = 1; k <= h; ++k)
+        std::copy(from.col(mean + 2 * k - 2), from.col(mean + 2 * k), to.col(mean + 2 * multiple * k - 2));
+    return to;
+}
+
+} // namespace
+
 BranchPoint on_longer_period(const BranchPoint &point, std::int64_t multiple) {
     if (multiple == 1) return point;
     BranchPoint longer = point;
-    const std::int64_t h = point.eta.cols() / 2, r = point.eta.rows();
     longer.n_harmonics = multiple * point.n_harmonics;
-    longer.eta.reset(r, 2 * multiple * h);
-    for (std::int64_t k = 1; k <= h; ++k)
-        std::copy(point.eta.col(2 * k - 2), point.eta.col(2 * k - 2) + 2 * r,
-                  longer.eta.col(2 * multiple * k - 2));
+    longer.eta = spread_harmonics(point.eta, 0, multiple);
+    if (point.contact_stiffness) longer.contact_motion = spread_harmonics(point.contact_motion, 1, multiple);
     longer.multipliers.clear(); // those of the longer period are powers
     return longer;
 }
 
+namespace {
+
+bool all_finite(const double *v, std::int64_t n) {
+    return std::all_of(v, v + n, [](double x) { return std::isfinite(x); });
+}
+
+bool is_motion(const BranchPoint &p) {
+    return std::isfinite(p.omega) && std::isfinite(p.arclength) && std::isfinite(p.residual) &&
+           std::isfinite(p.force_scale) &&
+           all_finite(p.eta_0.data(), static_cast<std::int64_t>(p.eta_0.size())) &&
+           all_finite(p.eta.data(), p.eta.rows() * p.eta.cols());
+}
+
+// Throws for a motion that is not finite; what is not finite beside it becomes unknown, with a warning.
+void drop_what_is_not_finite(BranchPoint &p, Warnings &warnings) {
+    if (!is_motion(p))
+        throw Error(PLM_ERR_CONVERGENCE, "a point of the branch is not finite: its equations overflow; " +
+                                             std::string(sizes_apart))
+            .reason(PLM_REASON_NOT_FINITE);
+    const bool stability = std::all_of(p.multipliers.begin(), p.multipliers.end(), [](const auto &m) {
+        return std::isfinite(m.real()) && std::isfinite(m.imag());
+    });
+    if (!stability) p.multipliers.clear();
+    bool harmonics = true;
+    for (double *indicator : {&p.harmonic_tail, &p.harmonic_error})
+        if (!std::isfinite(*indicator)) *indicator = -1, harmonics = false;
+    if (!stability || !harmonics)
+        warnings.add(PLM_REASON_NOT_FINITE, std::string(stability ? "harmonic_error" : "stability") +
+                                                " is unknown at some points, since it overflows there; " +
+                                                sizes_apart);
+}
+
+} // namespace
+
 void Branch::append(BranchPoint point) {
+    drop_what_is_not_finite(point, warnings);
     const std::int64_t n = point.eta.cols() / 2;
     if (n > n_harmonics_) {
         n_harmonics_ = n;

@@ -33,7 +33,7 @@ class Switch {
            const BranchPoint &along, bool mirrored)
         : options_(options), width_(2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz)),
           mirrored_(mirrored) {
-        options_.n_harmonics = std::max<std::int64_t>(1, origin.n_harmonics / options.period_multiple);
+        options_.n_harmonics = harmonics_of(origin, options.period_multiple);
         options_.unknowns = prefers_modal(*reduced, options) ? UnknownSpace::modal : UnknownSpace::gaps;
         system_ = make_system(std::move(reduced), options_);
         x_ = coordinates(origin);

@@ -62,15 +62,11 @@ class CurveTracer final : public PathOwner {
         compliant_ = make_formulation(*reduced_, options_).compliant;
         branch_.space_used = modal_ ? "modal" : "gaps";
         system_ = make_system(reduced_, options_);
-        PathStart path = first(start);
-        PathOptions limits = path_options(options_);
-        for (;;) {
-            const PathOutcome out = follow_path(*system_, limits, path, *this);
-            count(out);
-            if (out.end_reason != PLM_REASON_NONE) break;
-            limits.max_points = asked_.max_points - n_points();
-            limits.initial_step = out.step;
-            path = change_system(out);
+        try {
+            follow(path_options(options_), first(start));
+        } catch (const Error &e) { // stopped in the middle of a point: those found so far stay valid
+            if (e.status() != PLM_CANCELLED || n_points() == 0) throw;
+            branch_.end_reason = PLM_REASON_CANCELLED;
         }
     }
 
@@ -124,6 +120,17 @@ class CurveTracer final : public PathOwner {
     }
 
   private:
+    void follow(PathOptions limits, PathStart path) {
+        for (;;) {
+            const PathOutcome out = follow_path(*system_, limits, path, *this);
+            count(out);
+            if (out.end_reason != PLM_REASON_NONE) break;
+            limits.max_points = asked_.max_points - n_points();
+            limits.initial_step = out.step;
+            path = change_system(out);
+        }
+    }
+
     // The last step led to where its harmonics are far too few (contact has just begun to open): its points
     // may not even be near the curve.
     bool misleading() const {
@@ -351,9 +358,27 @@ HbmOptions with_first_harmonics(const ReducedModel &reduced, const HbmOptions &o
     return first;
 }
 
+std::int64_t harmonics_of(const BranchPoint &point, std::int64_t period_multiple) {
+    return std::max<std::int64_t>(1, point.n_harmonics / period_multiple);
+}
+
+HbmOptions options_at(const BranchPoint &point, const HbmOptions &options) {
+    HbmOptions o = options;
+    o.n_harmonics = harmonics_of(point, options.period_multiple);
+    o.force_scale = point.force_scale;
+    if (!point.contact_stiffness) {
+        o.formulation = FormulationKind::penalty;
+        return o;
+    }
+    if (o.formulation == FormulationKind::penalty) o.formulation = FormulationKind::automatic;
+    if (o.unknowns == UnknownSpace::modal)
+        o.unknowns = UnknownSpace::gaps; // all that the compliance form has
+    return o;
+}
+
 HarmonicContent measure_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                                   BranchPoint &point) {
-    const auto system = make_system(reduced, options);
+    const auto system = make_system(reduced, options_at(point, options));
     vector<double> x(system->size()), residual(system->size());
     system->from_point(point, x.data());
     system->residual(x.data(), point.omega, residual.data());
@@ -370,7 +395,7 @@ void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOpti
     const std::int64_t multiple = options.period_multiple;
     HbmOptions now = options;
     for (;;) {
-        now.n_harmonics = point.n_harmonics / multiple;
+        now.n_harmonics = harmonics_of(point, multiple);
         const HarmonicContent content = measure_harmonics(reduced, now, point);
         std::int64_t more = now.n_harmonics;
         if (options.n_harmonics == 0)

@@ -23,8 +23,15 @@ void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch
 void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                       BranchPoint &point, Watch watch = Watch());
 
-/// Sets point.harmonic_tail and harmonic_error of a solution with options.n_harmonics > 0 harmonics; returns
-/// what the next ones are.
+/// Harmonics of a point per period of the excitation: what HbmOptions::n_harmonics counts.
+std::int64_t harmonics_of(const BranchPoint &point, std::int64_t period_multiple);
+
+/// `options` with the harmonics, the force and the form of the contact law by which a point of a branch was
+/// solved, whatever the options say now.
+HbmOptions options_at(const BranchPoint &point, const HbmOptions &options);
+
+/// Sets point.harmonic_tail and harmonic_error of a solution, in the harmonics that it was solved with;
+/// returns what the next ones are.
 HarmonicContent measure_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                                   BranchPoint &point);
 

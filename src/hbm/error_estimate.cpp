@@ -1,4 +1,5 @@
 #include "hbm/error_estimate.hpp"
+#include "hbm/curve.hpp"
 #include "hbm/formulation.hpp"
 #include <algorithm>
 #include <cmath>
@@ -97,14 +98,6 @@ ErrorEstimator::ErrorEstimator(std::shared_ptr<const ReducedModel> full, const B
         throw Error(PLM_ERR_STATE, "errors are estimated in the contact gaps: the model needs contact pairs");
 }
 
-HbmOptions ErrorEstimator::options_at(const BranchPoint &p) const {
-    HbmOptions o = options_;
-    o.n_harmonics = p.n_harmonics / options_.period_multiple;
-    o.force_scale = p.force_scale;
-    if (!p.contact_stiffness) o.formulation = FormulationKind::penalty; // as it was solved
-    return o;
-}
-
 ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Measure measure,
                                        std::int64_t harmonic, bool with_harmonics) const {
     const BranchPoint &p = branch_.points().at(static_cast<std::size_t>(point));
@@ -113,7 +106,7 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
                     "the point is a motion without excitation, whose error is not estimated")
             .argument("point")
             .index(point);
-    HbmOptions o = options_at(p);
+    HbmOptions o = options_at(p, options_);
     ErrorEstimate e;
     double amplitude = branch_.amplitude(point, dof, measure, harmonic), hz = p.omega / (2 * M_PI);
     const auto settle = [&](Correction &c, double ErrorParts::*part) {
@@ -137,7 +130,7 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
 
 BranchPoint ErrorEstimator::corrected(std::int64_t point) const {
     const BranchPoint &p = branch_.points().at(static_cast<std::size_t>(point));
-    Correction c(full_, options_at(p), p, *branch_.reduced_model());
+    Correction c(full_, options_at(p, options_), p, *branch_.reduced_model());
     c.step(true);
     c.step(false);
     return c.point();

@@ -31,8 +31,6 @@ class ErrorEstimator {
     BranchPoint corrected(std::int64_t point) const;
 
   private:
-    HbmOptions options_at(const BranchPoint &p) const;
-
     const Branch &branch_;
     std::shared_ptr<const ReducedModel> full_;
     HbmOptions options_;

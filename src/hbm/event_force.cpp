@@ -4,6 +4,7 @@
 // indicator is 0 or 1 and its averages are integrals of cosines and sines.
 #include "hbm/contact_force.hpp"
 #include "hbm/trig_polynomial.hpp"
+#include "linalg/work.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -29,6 +30,7 @@ class EventForce final : public ContactForce {
             for (std::int64_t c = 0; c < u.cols(); ++c) x_[c] = u(i, c);
             out.state[i] = pair(values_.col(i), out.averages.col(i));
             out.n_switching += out.state[i] == PairState::switching;
+            worked(20.0 * static_cast<double>(n_grid_ * u.cols()));
         }
     }
 

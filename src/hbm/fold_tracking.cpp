@@ -1,5 +1,5 @@
 #include "hbm/fold_tracking.hpp"
-#include "hbm/continuation.hpp"
+#include "hbm/curve.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include <algorithm>
 #include <cmath>
@@ -176,7 +176,7 @@ class FoldPath final : public PathOwner {
         HbmOptions &o = options_.hbm;
         o.unknowns = UnknownSpace::modal;
         o.aft = AftKind::event;
-        o.n_harmonics = about.n_harmonics / o.period_multiple;
+        o.n_harmonics = harmonics_of(about, o.period_multiple);
         inner_ = make_system(reduced, o);
         vector<double> x(inner_->size());
         inner_->from_point(about, x.data());

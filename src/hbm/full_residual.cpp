@@ -3,6 +3,7 @@
 #include "hbm/branch.hpp"
 #include "hbm/contact_force.hpp"
 #include "hbm/formulation.hpp"
+#include "linalg/work.hpp"
 #include <cmath>
 
 namespace plm {
@@ -115,7 +116,12 @@ double Branch::full_residual(std::int64_t point) const {
     apply_indicator(indicator, *motion.stiffness, motion.u, contact);
     const FullResidual full(*reduced_, points_[point], period_multiple_);
     double residual = 0, energy = 0;
-    for (std::int64_t h = 0; h <= points_[point].n_harmonics; ++h) full.add(h, contact, residual, energy);
+    const std::int64_t last = points_[point].n_harmonics;
+    for (std::int64_t h = 0; h <= last; ++h) {
+        worked(1e4 *
+               static_cast<double>(reduced_->model->n_free())); // of a factorization's back-substitution
+        full.add(h, contact, residual, energy);
+    }
     return energy > 0 ? std::sqrt(std::max(0.0, residual) / energy) : std::sqrt(std::max(0.0, residual));
 }
 

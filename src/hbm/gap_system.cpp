@@ -8,6 +8,7 @@
 #include "hbm/pair_elimination.hpp"
 #include "hbm/receptance.hpp"
 #include "hbm/system.hpp"
+#include "linalg/work.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -136,6 +137,7 @@ class GapSystem final : public HbmSystem {
                     tangent_(row + c * n_, p) =
                         stiffness_factor_ * form_.stiffness[moving_[p]] * indicator_entry(average, row, c);
             tangent_(0, p) -= reference_[moving_[p]];
+            worked(12.0 * static_cast<double>(n_ * n_));
         }
         assemble();
         lu_.factor(jacobian_);
@@ -182,7 +184,7 @@ class GapSystem final : public HbmSystem {
                 point.eta(j, 2 * h - 1) = -eta_[h][j].imag();
             }
         point.contact_stiffness = law_;
-        if (law_) point.contact_motion = u_;
+        point.contact_motion = law_ ? u_ : Matrix();
     }
 
     void from_point(const BranchPoint &point, double *x) override {
@@ -360,7 +362,8 @@ class GapSystem final : public HbmSystem {
     void assemble() {
         const std::int64_t s = n_moving();
         jacobian_.reset(s * n_, s * n_);
-        for (std::int64_t c = 0; c < n_; ++c)
+        for (std::int64_t c = 0; c < n_; ++c) {
+            worked(8.0 * static_cast<double>(s * s * n_));
             for (std::int64_t q = 0; q < s; ++q) {
                 double *column = jacobian_.col(c * s + q);
                 const double *tangent = tangent_.col(q) + c * n_; // J(:, c) of pair q
@@ -378,6 +381,7 @@ class GapSystem final : public HbmSystem {
                 }
                 column[c * s + q] += 1;
             }
+        }
     }
 
     void solve_one(double *b) {

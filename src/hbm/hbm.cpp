@@ -2,6 +2,7 @@
 #include "hbm/curve.hpp"
 #include "hbm/stability.hpp"
 #include "hbm/start.hpp"
+#include "linalg/scale.hpp"
 #include <chrono>
 #include <cmath>
 
@@ -111,8 +112,12 @@ BranchPoint Hbm::first_guess(const Branch &start, std::int64_t point) const {
 
 std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *start, std::int64_t point) const {
     const Clock::time_point begin = Clock::now();
-    if (!(frequency_hz > 0 && std::isfinite(frequency_hz)))
-        throw Error(PLM_ERR_ARGUMENT, "the frequency must be positive and finite").argument("frequency_hz");
+    if (!(frequency_hz >= smallest_scale && frequency_hz <= largest_scale))
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("frequency_hz is %g; it must be positive, and squares must neither vanish nor "
+                           "overflow (%g to %g)",
+                           frequency_hz, smallest_scale, largest_scale))
+            .argument("frequency_hz");
     const auto branch = new_branch();
     BranchPoint guess, result;
     if (start) guess = first_guess(*start, point);

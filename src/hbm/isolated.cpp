@@ -127,7 +127,7 @@ class Search {
             options.max_step = std::max(10 * options.min_step, std::min(options.max_step, 0.3 * seed.reach));
         options.initial_step = 0.1 * options.max_step;
         BranchPoint start = seed.point;
-        settle_harmonics(reduced_, options, start);
+        settle_harmonics(reduced_, options, start, watch_);
         IsolatedBranch found;
         found.branch = trace_through(reduced_, options, start, watch_);
         found.closed = found.branch->end_reason == PLM_REASON_LOOP_CLOSED;

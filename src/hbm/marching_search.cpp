@@ -109,7 +109,7 @@ class Marching {
             ++out_.n_known;
             return;
         }
-        settle_harmonics(reduced_, options_.hbm, point);
+        settle_harmonics(reduced_, options_.hbm, point, watch_);
         out_.branches.push_back(trace_through(reduced_, options_.hbm, point, watch_));
         known_.push_back(out_.branches.back());
     }

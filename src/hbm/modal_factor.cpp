@@ -1,4 +1,5 @@
 #include "hbm/modal_factor.hpp"
+#include "linalg/work.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -92,6 +93,7 @@ void ModalFactor::add_contact_columns(std::int64_t h) {
             for (std::int64_t i = 0; i < z; ++i) scaled(i, j) /= jacobian_.model().lambda_0[j];
         real = plm::product('N', 'T', scaled, jacobian_.gap_0());
     }
+    worked(16.0 * static_cast<double>(n * z * z));
     for (std::int64_t c = 0; c < n; ++c) {
         const double *cosine = jacobian_.tangent().col(c + (h > 0 ? 2 * h - 1 : 0) * n);
         const double *sine = h > 0 ? jacobian_.tangent().col(c + 2 * h * n) : nullptr;

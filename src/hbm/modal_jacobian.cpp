@@ -1,6 +1,7 @@
 // The dense form costs (4H + 1) Z r^2 flops: one product with the precomputed products of gap rows.
 #include "hbm/modal_jacobian.hpp"
 #include "hbm/free_motion.hpp"
+#include "linalg/work.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -87,6 +88,7 @@ void ModalJacobian::expand_tangent() {
         for (std::int64_t d = 0; d < n; ++d)
             for (std::int64_t c = 0; c < n; ++c)
                 tangent_(p, c + d * n) = indicator_entry(weights.data(), c, d);
+        worked(10.0 * static_cast<double>(n * n));
     }
 }
 

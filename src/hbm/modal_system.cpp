@@ -129,6 +129,8 @@ class ModalSystem final : public HbmSystem {
         point.n_harmonics = h_;
         point.eta.reset(r_, 2 * h_);
         std::copy(x + r0_, x + size(), point.eta.data());
+        point.contact_stiffness = nullptr; // the penalty law, whatever the point was before
+        point.contact_motion = Matrix();
     }
 
     void from_point(const BranchPoint &point, double *x) override {

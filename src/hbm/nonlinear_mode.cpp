@@ -182,7 +182,13 @@ class ModePath final : public PathOwner {
         range.min_step = options_.hbm.min_step;
         range.max_step = std::min(0.05, options_.hbm.max_step);
         range.locate = true;
-        const PathOutcome out = follow_path(*system_, range, from, *this);
+        PathOutcome out;
+        try {
+            out = follow_path(*system_, range, from, *this);
+        } catch (const Error &e) { // stopped in the middle of a point: those found so far stay valid
+            if (e.status() != PLM_CANCELLED || result_.branch->points().empty()) throw;
+            out.end_reason = PLM_REASON_CANCELLED;
+        }
         Branch &branch = *result_.branch;
         branch.end_reason = out.end_reason == PLM_REASON_NONE ? PLM_REASON_RANGE_END : out.end_reason;
         branch.newton_iterations = out.newton_iterations;

@@ -20,13 +20,17 @@ struct Sample {
 class PeakSearch {
   public:
     PeakSearch(HbmSystem &system, const HbmOptions &options, std::shared_ptr<const ReducedModel> reduced,
-               std::int64_t dof, Measure measure, std::int64_t harmonic)
+               std::int64_t dof, Measure measure, std::int64_t harmonic, Watch watch)
         : system_(system), options_(options), reduced_(std::move(reduced)), dof_(dof), measure_(measure),
-          harmonic_(harmonic) {}
+          harmonic_(harmonic), watch_(watch) {}
 
-    Sample run(const Branch &branch, std::int64_t top) {
+    /// False: the highest point of the curve is no solution with this system's harmonics, nor near one.
+    bool run(const Branch &branch, std::int64_t top, BranchPoint &highest) {
         for (int k = 0; k < 3; ++k) load(branch, top - 1 + k, three_[k]);
         set_chord();
+        Sample solved; // the curve's points may have other numbers of harmonics
+        if (!corrected(three_[1].s, solved)) return false;
+        three_[1] = solved;
         double reach = 0.5 * (three_[2].s - three_[0].s);
         for (int round = 0; round < 12; ++round) {
             Sample middle;
@@ -42,7 +46,8 @@ class PeakSearch {
         }
         Sample best;
         if (!corrected(vertex(), best) || best.amplitude < three_[1].amplitude * (1 - 1e-9)) best = three_[1];
-        return best;
+        highest = std::move(best.point);
+        return true;
     }
 
   private:
@@ -90,6 +95,7 @@ class PeakSearch {
 
     // The curve's point in the hyperplane at s, from the parabola through the triple as first guess.
     bool corrected(double s, Sample &out) {
+        watch_.step("peak", 0.5);
         const Sample &a = three_[0], &b = three_[1], &c = three_[2];
         const double la = (s - b.s) * (s - c.s) / ((a.s - b.s) * (a.s - c.s)),
                      lb = (s - a.s) * (s - c.s) / ((b.s - a.s) * (b.s - c.s)),
@@ -122,6 +128,7 @@ class PeakSearch {
     std::int64_t dof_;
     Measure measure_;
     std::int64_t harmonic_;
+    Watch watch_;
     std::array<Sample, 3> three_;
     Sample origin_;
     vector<double> direction_;
@@ -143,7 +150,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         HbmOptions options = options_;
         options.force_scale = point.force_scale;
         options.period_multiple = branch.period_multiple();
-        options.n_harmonics = point.n_harmonics / options.period_multiple;
+        options.n_harmonics = harmonics_of(point, options.period_multiple);
         // Where harmonics are chosen, an order better than on the curve: one point is cheap, and its
         // amplitude is what people quote.
         const bool automatic = options_.n_harmonics == 0;
@@ -155,8 +162,9 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
                 options.n_harmonics =
                     std::max(options.n_harmonics, std::min(options_.max_harmonics, 2 * options.n_harmonics));
             const auto system = make_system(reduced_, options);
-            point = PeakSearch(*system, options, reduced_, dof, measure, harmonic).run(branch, top).point;
-            if (automatic) measure_harmonics(reduced_, options, point);
+            const bool found = PeakSearch(*system, options, reduced_, dof, measure, harmonic, watch_)
+                                   .run(branch, top, point);
+            if (found && automatic) measure_harmonics(reduced_, options, point);
         } while (too_few() && options.n_harmonics < options_.max_harmonics);
     }
     one->append(std::move(point));

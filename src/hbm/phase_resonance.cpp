@@ -50,6 +50,13 @@ PhaseResonantSystem::PhaseResonantSystem(HbmSystem &inner, const ReducedModel &m
     const auto *driven = driven_harmonic(m);
     if (!driven) return;
     const std::int64_t r = m.size(), at = m.static_size() + 2 * (driven->first * period_multiple - 1) * r;
+    if (at + 2 * r > inner.size())
+        throw Error(
+            PLM_ERR_ARGUMENT,
+            format("phase resonance is that of harmonic %d of the excitation, which n_harmonics leaves "
+                   "out; set n_harmonics to %d or more",
+                   driven->first, driven->first))
+            .argument("n_harmonics");
     const double force =
         std::hypot(norm2(r, driven->second.real.data()), norm2(r, driven->second.imag.data()));
     const double scale =

@@ -1,6 +1,7 @@
 // The classical AFT: the indicator is sampled, its averages are its discrete Fourier transform.
 #include "hbm/contact_force.hpp"
 #include "linalg/error.hpp"
+#include "linalg/work.hpp"
 
 namespace plm {
 namespace {
@@ -22,6 +23,7 @@ class SampledForce final : public ContactForce {
         displacement_.to_time(coefficients_, samples_);
         for (std::int64_t i = 0; i < z; ++i) {
             std::int64_t n_closed = 0;
+            worked(100.0 * static_cast<double>(samples_.rows())); // there and back, about
             for (std::int64_t t = 0; t < samples_.rows(); ++t) {
                 const bool closed = ContactLaw::closed(samples_(t, i));
                 samples_(t, i) = closed ? 1 : 0;

@@ -41,10 +41,15 @@ Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptio
 vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) const {
     const auto flow = flow_ ? flow_ : std::make_shared<FlowModel>(reduced_, point.omega);
     if (hill_) return hill_multipliers(*flow, point, period_multiple_);
-    const Matrix transition = monodromy(*flow, contact_intervals(*reduced_, point, period_multiple_));
+    Matrix transition;
+    try {
+        transition = monodromy(*flow, contact_intervals(*reduced_, point, period_multiple_));
+    } catch (const Error &e) { // an infinitely fast mode (mass-less DOFs): unknown
+        if (e.reason() != PLM_REASON_NOT_FINITE) throw;
+        return {};
+    }
     for (std::int64_t k = 0; k < transition.rows() * transition.cols(); ++k)
-        if (!std::isfinite(transition.data()[k]))
-            return {}; // an infinitely fast mode (mass-less DOFs): unknown
+        if (!std::isfinite(transition.data()[k])) return {};
     if (but_positions_.cols() == 0) return plm::multipliers(transition);
     // A displacement along a free motion stays: multiplier 1. Beside that of its velocity, 1 without damping,
     // it would be a defective pair, which rounding throws off the unit circle.

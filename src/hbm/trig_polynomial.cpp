@@ -1,4 +1,5 @@
 #include "hbm/trig_polynomial.hpp"
+#include "linalg/work.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -32,6 +33,7 @@ Matrix trig_grid(std::int64_t n_harmonics, std::int64_t n) {
     for (std::int64_t h = 1; h <= n_harmonics; ++h) {
         double *c = grid.col(2 * h - 1), *s = grid.col(2 * h);
         const double k = static_cast<double>(h);
+        worked(20.0 * static_cast<double>(n));
         for (std::int64_t i = 0; i < n; ++i) {
             const std::int64_t at = (h * i) % n; // h 2 pi i / n, reduced in integers
             c[i] = cosine[at], s[i] = sine[at];

@@ -44,6 +44,8 @@ void dgesvd_(const char *, const char *, const blas_int *, const blas_int *, dou
              blas_int *, strlen_t, strlen_t);
 void dgels_(const char *, const blas_int *, const blas_int *, const blas_int *, double *, const blas_int *,
             double *, const blas_int *, double *, const blas_int *, blas_int *, strlen_t);
+void dlaswp_(const blas_int *, double *, const blas_int *, const blas_int *, const blas_int *,
+             const blas_int *, const blas_int *);
 void dgetrf_(const blas_int *, const blas_int *, double *, const blas_int *, blas_int *, blas_int *);
 void dgetrs_(const char *, const blas_int *, const blas_int *, const double *, const blas_int *,
              const blas_int *, double *, const blas_int *, blas_int *, strlen_t);

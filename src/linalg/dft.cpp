@@ -1,6 +1,7 @@
 #include "dft.hpp"
 #include "blas_lapack.hpp"
 #include "dft_plan.hpp"
+#include "work.hpp"
 #include <algorithm>
 
 namespace plm {
@@ -25,11 +26,13 @@ Matrix synthesis_matrix(std::int64_t n_harmonics, std::int64_t n_samples) {
     }
     Matrix s(n_samples, 2 * n_harmonics + 1);
     std::fill_n(s.col(0), n_samples, 1.0);
-    for (std::int64_t h = 1; h <= n_harmonics; ++h)
+    for (std::int64_t h = 1; h <= n_harmonics; ++h) {
+        worked(20.0 * static_cast<double>(n_samples));
         for (std::int64_t k = 0; k < n_samples; ++k) {
             s(k, 2 * h - 1) = cosine[h * k % n_samples];
             s(k, 2 * h) = sine[h * k % n_samples];
         }
+    }
     return s;
 }
 

@@ -1,15 +1,56 @@
 // Dense factorizations: dgetrf, zgetrf, dpotrf.
 #include "blas_lapack.hpp"
 #include "lapack.hpp"
+#include "work.hpp"
 #include <algorithm>
 #include <limits>
 
 namespace plm {
 
+namespace {
+
+// Small matrices at once, large ones by panels of columns, so that the host hears of it between them. False:
+// singular.
+bool factor_panels(Matrix &lu, vector<int> &pivots) {
+    const std::int64_t size = lu.rows();
+    const double n_real = static_cast<double>(size), all = 2.0 / 3 * n_real * n_real * n_real;
+    const std::int64_t width = all < piece_of_work ? size : 128,
+                       strip = std::max<std::int64_t>(
+                           1, static_cast<std::int64_t>(piece_of_work / (256.0 * n_real)));
+    const blas_int lda = leading(size), one = 1;
+    const double plus = 1, minus = -1;
+    bool regular = true;
+    for (std::int64_t j = 0; j < size; j += width) {
+        const std::int64_t below = std::min(size, j + width);
+        const blas_int rows = to_blas(size - j), columns = to_blas(below - j), first = to_blas(j + 1),
+                       last = to_blas(below), left = to_blas(j);
+        double *const panel = lu.col(j) + j;
+        blas_int info = 0;
+        dgetrf_(&rows, &columns, panel, &lda, pivots.data() + j, &info);
+        require_valid(info, "dgetrf");
+        regular = regular && info == 0;
+        for (std::int64_t k = j; k < below; ++k) pivots[k] += left;
+        if (j > 0) dlaswp_(&left, lu.data(), &lda, &first, &last, pivots.data(), &one);
+        for (std::int64_t k = below; k < size; k += strip) {
+            const blas_int n = to_blas(std::min(strip, size - k)), m = to_blas(size - below);
+            double *const upper = lu.col(k) + j;
+            dlaswp_(&n, lu.col(k), &lda, &first, &last, pivots.data(), &one);
+            dtrsm_("L", "L", "N", "U", &columns, &n, &plus, panel, &lda, upper, &lda, 1, 1, 1, 1);
+            if (m > 0)
+                dgemm_("N", "N", &m, &n, &columns, &minus, panel + (below - j), &lda, upper, &lda, &plus,
+                       upper + (below - j), &lda, 1, 1);
+            worked(2.0 * m * n * columns);
+        }
+        worked(static_cast<double>(rows) * columns * columns);
+    }
+    return regular;
+}
+
+} // namespace
+
 void RealLu::factor(Matrix &a) {
     require(a.rows() == a.cols(), "RealLu: matrix not square");
     const std::int64_t size = a.rows();
-    const blas_int n = to_blas(size), lda = leading(size);
     double norm1 = 0, largest = 0;
     bool ok = true;
     for (std::int64_t j = 0; j < size; ++j) {
@@ -28,10 +69,7 @@ void RealLu::factor(Matrix &a) {
     std::swap(lu_, a);
     pivots_.resize(size);
     norm1_ = norm1;
-    blas_int info = 0;
-    dgetrf_(&n, &n, lu_.data(), &lda, pivots_.data(), &info);
-    require_valid(info, "dgetrf");
-    singular_ = info > 0;
+    singular_ = !factor_panels(lu_, pivots_);
     if (!singular_) return;
     const double tiny = std::numeric_limits<double>::epsilon() * (largest > 0 ? largest : 1);
     for (std::int64_t i = 0; i < size; ++i)
@@ -53,6 +91,7 @@ void RealLu::solve(char op, double *x, std::int64_t nrhs, std::int64_t ldx) cons
     blas_int info = 0;
     dgetrs_(&op, &n, &m, lu_.data(), &lda, pivots_.data(), x, &ldb, &info, 1);
     require_valid(info, "dgetrs");
+    worked(2.0 * n * n * m);
 }
 
 double RealLu::reciprocal_condition() const {
@@ -84,6 +123,7 @@ void ComplexLu::factor(std::int64_t n, vector<complex_t> &a) {
     blas_int info = 0;
     zgetrf_(&size, &size, lu_.data(), &lda, pivots_.data(), &info);
     require_valid(info, "zgetrf");
+    worked(8.0 / 3 * static_cast<double>(n) * static_cast<double>(n) * static_cast<double>(n));
     if (info == 0) return;
     n_ = 0; // nothing may be solved
     throw Error(PLM_ERR_SINGULAR, format("zgetrf: matrix singular at %d", info - 1))

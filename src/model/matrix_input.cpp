@@ -1,4 +1,5 @@
 #include "model/matrix_input.hpp"
+#include "linalg/scale.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -101,6 +102,11 @@ template <class Index> class Reader {
                 fail("value", p,
                      format("value[%lld] is NaN or infinite, at %s; look for a failed element there", Int(p),
                             entry_name(row, col).c_str()));
+            if (too_large(value))
+                fail("value", p,
+                     format("value[%lld] is %g, at %s; beyond %g squares and products overflow: look for a "
+                            "failed element there, or choose other units",
+                            Int(p), value, entry_name(row, col).c_str(), largest_scale));
             if ((f_.part == PLM_LOWER && row < col) || (f_.part == PLM_UPPER && row > col))
                 fail("b", p,
                      format("b[%lld]: the entry at %s is not in the %s triangle; pass %s or drop it", Int(p),

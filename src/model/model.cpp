@@ -1,5 +1,6 @@
 #include "model/model.hpp"
 #include "linalg/eigs.hpp"
+#include "linalg/scale.hpp"
 #include "model/matrix_input.hpp"
 #include "model/rigid_modes.hpp"
 #include <algorithm>
@@ -41,6 +42,35 @@ void require_nonnegative_diagonal(const char *name, const SparseMatrix &a,
                     .index(free_dof[j]);
 }
 
+// What the parts of a model are made of: the largest entry of each counts.
+void require_scale(const char *what, const double *values, std::int64_t n, plm_status status,
+                   const char *argument) {
+    const double largest = largest_of(values, n);
+    if (!too_large(largest) && !too_small(largest)) return;
+    throw Error(status, format("the largest entry of the %s is %g; squares and products overflow or vanish "
+                               "outside %g to %g: check its units",
+                               what, largest, smallest_scale, largest_scale))
+        .argument(argument);
+}
+void require_scale(const char *what, const SparseMatrix &a) {
+    require_scale(what, a.val.data(), a.nnz(), PLM_ERR_MATRIX, "value");
+}
+void require_scale(const char *what, const vector<double> &load) {
+    require_scale(what, load.data(), static_cast<std::int64_t>(load.size()), PLM_ERR_ARGUMENT, "force");
+}
+
+// By blocks of columns: the host is heard between them.
+void solve_in_blocks(const Factor &factor, Matrix &columns, Watch watch) {
+    constexpr std::int64_t block = 64;
+    const std::int64_t n = columns.cols();
+    for (std::int64_t first = 0; first < n; first += block) {
+        watch.step("contact flexibility", 0.8 + 0.2 * static_cast<double>(first) / static_cast<double>(n));
+        Matrix some = columns.columns(first, std::min(block, n - first));
+        factor.solve(some);
+        std::copy_n(some.data(), some.rows() * some.cols(), columns.col(first));
+    }
+}
+
 } // namespace
 
 Model::Model(const ModelInput &input, const SpaceOptions &options, const HostSolver *host, Watch watch)
@@ -51,9 +81,8 @@ Model::Model(const ModelInput &input, const SpaceOptions &options, const HostSol
     }
     assemble(input);
     factor_stiffness(watch);
-    watch.step("contact flexibility", 0.8);
     attachment_ = to_dense(transpose(gap_matrix_));
-    if (n_pairs() > 0) factor_->solve(attachment_);
+    solve_in_blocks(*factor_, attachment_, watch);
     resolve_contact_stiffness();
 }
 
@@ -87,6 +116,8 @@ void Model::assemble(const ModelInput &input) {
     stiffness_ = on_free_dofs("stiffness", *input.stiffness, free_of_, n_free());
     require_nonnegative_diagonal("mass", mass_, free_dof_);
     require_nonnegative_diagonal("stiffness", stiffness_, free_dof_);
+    require_scale("mass matrix", mass_);
+    require_scale("stiffness matrix", stiffness_);
     if (!(trace(mass_) > 0))
         throw Error(PLM_ERR_MATRIX, "no free DOF has mass; check the mass matrix and the fixed DOFs")
             .argument("value");
@@ -94,6 +125,7 @@ void Model::assemble(const ModelInput &input) {
     damping_.has_matrix = input.damping_matrix != nullptr;
     if (damping_.has_matrix)
         damping_matrix_ = on_free_dofs("damping", *input.damping_matrix, free_of_, n_free());
+    require_scale("damping matrix", damping_matrix_);
     assemble_gap(input);
     assemble_loads(input);
 }
@@ -129,11 +161,14 @@ void Model::assemble_loads(const ModelInput &input) {
         return free;
     };
     preload_ = restricted("preload", input.preload);
+    require_scale("pre-load", preload_);
     if (all_zero(preload_)) preload_.clear(); // no pre-load: nobody downstream pays for it
     for (const auto &[harmonic, load] : input.excitation) {
         HarmonicLoad &mine = excitation_[harmonic];
         mine.real = restricted("excitation", load.real);
         if (harmonic > 0) mine.imag = restricted("excitation", load.imag);
+        require_scale("excitation", mine.real);
+        require_scale("excitation", mine.imag);
     }
 }
 

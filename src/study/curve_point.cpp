@@ -4,13 +4,6 @@
 
 namespace plm {
 
-HbmOptions options_at(const BranchPoint &point, const HbmOptions &options, std::int64_t n_harmonics) {
-    HbmOptions o = options;
-    o.force_scale = point.force_scale;
-    o.n_harmonics = n_harmonics > 0 ? n_harmonics : point.n_harmonics / options.period_multiple;
-    return o;
-}
-
 CurveMetric::CurveMetric(const CurvePoint &at, const HbmOptions &o)
     : width_(2 * M_PI * (o.frequency_max_hz - o.frequency_min_hz)) {
     const double size = norm2(static_cast<std::int64_t>(at.x.size()), at.x.data());

@@ -10,9 +10,6 @@ struct CurvePoint {
     double omega = 0;
 };
 
-/// Options of the system that a point of a branch was solved by; n_harmonics 0: as many as the point has.
-HbmOptions options_at(const BranchPoint &point, const HbmOptions &options, std::int64_t n_harmonics = 0);
-
 /// Where lengths are measured: 1 is the size of the unknowns at a point or the width of the range of omega.
 class CurveMetric {
   public:

@@ -1,4 +1,5 @@
 #include "study/plane_curve.hpp"
+#include "hbm/curve.hpp"
 #include "hbm/harmonic_tail.hpp"
 #include "study/curve_point.hpp"
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include "study/reference_check.hpp"
+#include "hbm/curve.hpp"
 #include "study/curve_point.hpp"
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,8 @@ HarmonicCheck check_harmonics(const Branch &branch, const Peak &peak, const HbmO
     HbmOptions own = options;
     own.period_multiple = branch.period_multiple();
     const BranchPoint &summit = peak.branch->points()[0];
-    const HbmOptions finer = options_at(summit, own, 2 * summit.n_harmonics / own.period_multiple);
+    HbmOptions finer = options_at(summit, own);
+    finer.n_harmonics *= 2;
     const auto system = make_system(branch.reduced_model(), finer);
     const std::int64_t n = static_cast<std::int64_t>(branch.points().size()),
                        top = branch.highest_point(output.dof, output.measure, output.harmonic),

@@ -1,4 +1,6 @@
 #include "transient/exact_flow.hpp"
+#include "linalg/scale.hpp"
+#include "linalg/work.hpp"
 #include "transient/polynomial.hpp"
 #include <algorithm>
 #include <cmath>
@@ -59,6 +61,7 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
     while (state.time < t_end) {
         if (n_steps_++ % watch_interval == 0)
             watch_.step("exact flow", (state.time - begin) / (t_end - begin));
+        worked(flops_of_piece());
         const double left = t_end - state.time;
         double duration = 0;
         for (int attempt = 0;; ++attempt) {
@@ -74,6 +77,8 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
         std::fill(at_zero_.begin(), at_zero_.end(), char(0));
         if (pair >= 0) switch_pair(pair, share, state.time);
     }
+    require_finite_result(state.y.data(), model_->size(), "displacements of the exact flow");
+    require_finite_result(state.v.data(), model_->size(), "velocities of the exact flow");
 }
 
 void ExactFlow::switch_pair(std::int64_t pair, double share, double time) {
@@ -97,6 +102,12 @@ void ExactFlow::guess_contact(const FlowState &state) {
     for (std::int64_t i = 0; i < model_->n_pairs(); ++i) u[i] = -model_->initial_gap()[i];
     if (!u.empty()) gemv('N', 1.0, model_->gap(), state.y.data(), 1.0, u.data());
     for (std::int64_t i = 0; i < model_->n_pairs(); ++i) closed_[i] = ContactLaw::closed(u[i]);
+}
+
+// The series by products with the stiffness, the penetrations by one with the gap rows.
+double ExactFlow::flops_of_piece() const {
+    const double n = static_cast<double>(model_->size()), z = static_cast<double>(model_->n_pairs());
+    return static_cast<double>(n_terms_) * (2 * n * (n + z) + 100 * z) + 1e4;
 }
 
 double ExactFlow::step_length(double left) {

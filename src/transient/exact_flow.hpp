@@ -55,6 +55,7 @@ class ExactFlow {
     void check(const FlowState &state, double t_end) const;
     void guess_contact(const FlowState &state);
     double step_length(double left);
+    double flops_of_piece() const;
     void expand(const FlowState &state, double duration);
     void expand_forces(double time, double duration);
     bool correct_sides(const FlowState &state, double duration);

@@ -1,8 +1,10 @@
 #include "transient/monodromy.hpp"
 #include "linalg/lapack.hpp"
+#include "linalg/work.hpp"
 #include "transient/contact_set.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plm {
 namespace {
@@ -31,6 +33,7 @@ class Exponential {
             join(m);
             return;
         }
+        require_resolved(x);
         const int squarings = static_cast<int>(std::ceil(std::log2(x)));
         set_identity(step_);
         split(step_);
@@ -41,6 +44,7 @@ class Exponential {
         for (int k = 0; k < squarings; ++k) {
             gemm('N', 'N', 1.0, step_, step_, 0.0, square_);
             std::swap(step_, square_);
+            worked(16 * cube());
         }
         gemm('N', 'N', 1.0, step_, m, 0.0, square_);
         std::swap(m, square_);
@@ -52,12 +56,28 @@ class Exponential {
     }
 
   private:
+    // Of a phase beyond 1 / eps no digit is left; what overflowed has none either.
+    static void require_resolved(double x) {
+        if (x < 1 / std::numeric_limits<double>::epsilon()) return;
+        throw Error(
+            PLM_ERR_CONVERGENCE,
+            format("the structure's fastest motion turns by %.3g radian between two contact events, too "
+                   "far for double precision; leave out what is so fast (a DOF nearly without mass?)",
+                   x))
+            .reason(PLM_REASON_NOT_FINITE);
+    }
+
+    double cube() const {
+        return static_cast<double>(n_) * static_cast<double>(n_) * static_cast<double>(n_);
+    }
+
     // The velocity's series is the derivative of the displacement's: it needs one term more.
     static std::int64_t n_terms(double x, double tolerance) { return taylor_terms(x, tolerance) + 1; }
 
     // [y_; v_] becomes exp(A dt) [y_; v_].
     void series(double dt, std::int64_t n_terms) {
         if (dt == 0) return;
+        worked(static_cast<double>(n_terms) * 4 * cube());
         const std::int64_t size = 2 * n_ * n_;
         std::copy_n(y_.data(), size, older_.data());
         for (std::int64_t i = 0; i < size; ++i) {

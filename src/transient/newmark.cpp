@@ -1,4 +1,5 @@
 #include "transient/newmark.hpp"
+#include "linalg/scale.hpp"
 #include "model/rest.hpp"
 #include "transient/settling.hpp"
 #include <algorithm>
@@ -212,6 +213,8 @@ NewmarkResult Newmark::run(const FullState &first, NewmarkObserver *observer) {
         if (quarter && settling.quarter(distance(state_, before))) before = state_;
         if (k == steps) ++result.periods;
     }
+    require_finite_result(state_.q.data(), model_->n_free(), "displacements of the time integration");
+    require_finite_result(state_.v.data(), model_->n_free(), "velocities of the time integration");
     result.change = settling.change();
     result.settled = settling.settled();
     result.state = state_;

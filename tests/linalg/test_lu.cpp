@@ -1,5 +1,7 @@
 // LU and Cholesky of dense matrices.
+#include "linalg/error.hpp"
 #include "linalg/lapack.hpp"
+#include "linalg/work.hpp"
 #include "support.hpp"
 
 using namespace test;
@@ -16,7 +18,37 @@ double lu_error(std::int64_t n) {
 }
 
 void lu_solves_to_rounding_at_all_sizes(void **) {
-    for (std::int64_t n : {1, 2, 50, 110, 264, 462}) assert_true(lu_error(n) < 1e-13);
+    for (std::int64_t n : {1, 2, 50, 110, 264, 462, 1000}) assert_true(lu_error(n) < 1e-13);
+}
+
+/// Counts what it hears, and asks to stop at the k-th time.
+struct Listener final : plm::WorkListener {
+    int heard = 0, stop_at = 0;
+    bool goes_on() override { return ++heard == stop_at; }
+};
+/// PLM_OK or the status of what was thrown.
+int status_of_lu(std::int64_t n, Listener &listener) {
+    const plm::WorkScope scope(&listener);
+    Matrix a = random_matrix(n, n, 1);
+    plm::RealLu lu;
+    try {
+        lu.factor(a);
+    } catch (const plm::Error &e) {
+        return e.status();
+    }
+    return PLM_OK;
+}
+
+// 1200^3 2/3 = 1.2e9 flops in pieces of 3e8.
+void a_large_factorization_is_heard_of_and_can_be_stopped(void **) {
+    Listener all, none, stopped;
+    stopped.stop_at = 2;
+    assert_int_equal(status_of_lu(100, none), PLM_OK);
+    assert_int_equal(none.heard, 0);
+    assert_int_equal(status_of_lu(1200, all), PLM_OK);
+    assert_in_range(all.heard, 3, 6);
+    assert_int_equal(status_of_lu(1200, stopped), PLM_CANCELLED);
+    assert_int_equal(stopped.heard, 2);
 }
 
 /// Sign of det of a permutation times a diagonal.
@@ -100,6 +132,7 @@ void cholesky_solves_or_says_no(void **) {
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(lu_solves_to_rounding_at_all_sizes),
+        cmocka_unit_test(a_large_factorization_is_heard_of_and_can_be_stopped),
         cmocka_unit_test(determinant_sign_counts_swaps_and_signs),
         cmocka_unit_test(a_singular_pivot_is_replaced_and_reported),
         cmocka_unit_test(reciprocal_condition_sees_a_near_singularity),

@@ -135,6 +135,20 @@ void wrong_intervals_are_refused(void **) {
 }
 
 // The cost of a stability statement; the numbers stand in docs and are printed, not judged.
+// A stop of 1e40: 1e21 radian in a period, of which no digit is known.
+std::int32_t reason_of_no_digit() {
+    const exact::Structure s = bilinear_oscillator(0.05, 1e40, 0, 1, 0);
+    try {
+        plm::monodromy(*flow_model(s), {{10.0, {1}}});
+    } catch (const plm::Error &e) {
+        return e.reason();
+    }
+    return PLM_REASON_NONE;
+}
+void a_phase_without_a_digit_is_said(void **) {
+    assert_int_equal(reason_of_no_digit(), PLM_REASON_NOT_FINITE);
+}
+
 void print_times(void **) {
     for (int n : {12, 24, 42}) {
         exact::Structure s = chain(n, 0.01, 10, 0, 0, 0, {});
@@ -176,6 +190,7 @@ int main() {
         cmocka_unit_test(cutting_intervals_changes_nothing),
         cmocka_unit_test(undamped_multipliers_come_in_reciprocal_pairs),
         cmocka_unit_test(wrong_intervals_are_refused),
+        cmocka_unit_test(a_phase_without_a_digit_is_said),
         cmocka_unit_test(print_times),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -27,8 +27,8 @@ class Key(NamedTuple):
             return self.description
         allowed = self.choices
         if not allowed and self.maximum:
-            upper = "" if self.maximum >= 1e300 else f"{self.maximum:.12g}"
-            allowed = f"{self.minimum:.12g} .. {upper}" if self.minimum > -1e300 else "any number"
+            upper = "" if self.maximum >= 1e60 else f"{self.maximum:.12g}"
+            allowed = f"{self.minimum:.12g} .. {upper}" if self.minimum > -1e60 else "any number"
         return f"{self.description} [option; default {self.default}; {allowed}]"
 
 
