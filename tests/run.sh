@@ -1,7 +1,8 @@
 #!/bin/sh
 # Builds libplm with its tests and runs them.
 #     sh tests/run.sh             preset dev
-#     sh tests/run.sh --all       preset dev with a minute of fuzzing, asan without the other languages, and of tsan,
+#     sh tests/run.sh --all       preset dev with a minute of fuzzing, asan without the other languages but with a minute of
+#                                 scenarios drawn by chance, and of tsan,
 #                                 permissive and release what differs there from dev (all of one: name it)
 #     sh tests/run.sh PRESET...   these presets of CMakePresets.json
 # Missing packages are installed where that is possible. Works from any folder; everything goes to build/.
@@ -12,7 +13,7 @@ cd "$root" || exit 1
 
 fuzz_for_a_minute=
 case ${1-} in
--h | --help) sed -n '2,7s/^# //p' tests/run.sh; exit 0 ;;
+-h | --help) sed -n '2,8s/^# //p' tests/run.sh; exit 0 ;;
 --all) set -- dev asan tsan permissive release; fuzz_for_a_minute=dev ;;
 -*) echo "run.sh: unknown option $1 (see --help)" >&2; exit 2 ;;
 '') set -- dev ;;
@@ -68,9 +69,10 @@ choose() {
 for preset; do
     choose "$preset"
     if [ -n "$fuzz_for_a_minute" ]; then
-        PLM_FUZZ_SECONDS=5
+        PLM_FUZZ_SECONDS=5 PLM_SCENARIO_SECONDS=10
         [ "$preset" = "$fuzz_for_a_minute" ] && PLM_FUZZ_SECONDS=60
-        export PLM_FUZZ_SECONDS
+        [ "$preset" = asan ] && PLM_SCENARIO_SECONDS=60
+        export PLM_FUZZ_SECONDS PLM_SCENARIO_SECONDS
     fi
     stage "$preset: configure" cmake --preset "$preset" &&
         stage "$preset: build" cmake --build --preset "$preset" --parallel $jobs ${programs:+--target $programs} &&
