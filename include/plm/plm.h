@@ -164,7 +164,12 @@ PLM_API plm_status plm_key_text(int32_t kind, int32_t index, int32_t field, int6
 
 /* level: 0 detail, 1 information, 2 warning. The text lives during the call only. */
 typedef void (*plm_log_fn)(plm_context *ctx, int32_t level, const char *text, void *user);
-/* stage: a word such as "modes" or "sweep"; fraction in [0, 1]. Return non-zero to cancel. */
+/* stage: a word such as "modes" or "sweep"; fraction in [0, 1]. Return non-zero to cancel. Between two calls passes less
+ * than about half a second of the processor's time, but for what cannot be interrupted: one sparse factorization or one
+ * dense eigenvalue problem of the libraries below, announced by its stage. On solids of 70,000 DOFs the factorization
+ * of K takes 1.5 s; the count of the modes below the cutoff ("verify_counts", an indefinite factorization without
+ * supernodes) takes minutes and grows with the square of the DOFs. Dense eigenvalues of order n take 0.3 (n / 1000)^3 s,
+ * those of Hill's method, of order 2 n (2 H + 1), three times as long. */
 typedef int32_t (*plm_progress_fn)(plm_context *ctx, const char *stage, double fraction, void *user);
 /* allocate returns NULL on failure; any alignment (at least that of void*) will do. */
 typedef void *(*plm_allocate_fn)(int64_t bytes, void *user);

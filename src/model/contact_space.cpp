@@ -83,8 +83,10 @@ class ContactSpaceBuilder {
         std::int64_t count = -1;
         double checked = cutoff;
         if (cutoff > 0 && model_->space_options().verify_counts)
-            for (int attempt = 0; attempt < 3 && count < 0; ++attempt, checked *= count < 0 ? 1.003 : 1.0)
+            for (int attempt = 0; attempt < 3 && count < 0; ++attempt, checked *= count < 0 ? 1.003 : 1.0) {
+                watch_.step("count of open modes", 0.1); // a factorization, which hears nobody
                 count = count_below(*model_, checked);
+            }
         std::int64_t guess = std::max<std::int64_t>(least_modes_, count >= 0 ? count : 20);
         guess = std::max(guess, model_->rigid_modes().cols() + 1);
         EigenPairs pairs = previous_modes(guess, cutoff);
