@@ -251,6 +251,7 @@ void ModalJacobian::add_dynamic(const Matrix &blocks, std::int64_t m, std::int64
     const double *sin_difference = difference == 0 ? nullptr : blocks.col(2 * difference);
     const double sign = m > n ? 1.0 : -1.0; // sin (m - n) from sin |m - n|
     const std::int64_t row = cosine_at(m), column = cosine_at(n);
+    worked(20.0 * static_cast<double>(r_ * r_));
     for (std::int64_t j = 0; j < r_; ++j) {
         double *left = out.col(column + j) + row, *right = out.col(column + r_ + j) + row;
         const std::int64_t at = j * r_;

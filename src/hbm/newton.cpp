@@ -1,4 +1,5 @@
 #include "hbm/newton.hpp"
+#include "linalg/work.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -23,6 +24,7 @@ class Newton {
         double damping = 1;
         while (out_.iterations < limits_.max_iterations) {
             ++out_.iterations;
+            worked(1e5); // what the smallest system takes for an iteration, in time
             if (!std::isfinite(size)) return fail(PLM_REASON_SINGULAR_TANGENT);
             if (size <= allowed()) {
                 apply(1.0, step_, step_omega_);

@@ -1,5 +1,6 @@
 #include "reduction/contact_snapshots.hpp"
 #include "linalg/lapack.hpp"
+#include "linalg/work.hpp"
 #include "sampling/dominant_mode.hpp"
 #include <algorithm>
 #include <cmath>
@@ -64,6 +65,7 @@ class Snapshots {
         const Model &model = *space_.model;
         StaticState state;
         ++asked;
+        worked(1e6 + 100.0 * static_cast<double>(space_.size() * space_.n_pairs())); // about a millisecond
         try {
             state = solve_static(
                 {space_.lambda, space_.gap, load, model.contact_stiffness(), model.initial_gap()});

@@ -1,4 +1,5 @@
 #include "study/curve_distance.hpp"
+#include "linalg/work.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -87,6 +88,7 @@ struct Bezier {
 
 double distance_from(PlanePoint q, const vector<Bezier> &curve) {
     double best = std::numeric_limits<double>::infinity();
+    worked(40.0 * static_cast<double>(curve.size()) + 2000);
     for (const Bezier &piece : curve)
         if (piece.least_distance(q) < best) best = std::min(best, piece.distance(q));
     return best;
@@ -133,6 +135,7 @@ vector<PlanePoint> equally_spaced(const vector<PlanePiece> &curve, std::int64_t 
         const double wanted = whole * static_cast<double>(i) / static_cast<double>(n - 1);
         while (k + 1 < pieces.size() && end[k] < wanted) ++k;
         const double before = k > 0 ? end[k - 1] : 0, own = end[k] - before;
+        worked(2000);
         double u = own > 0 ? std::clamp((wanted - before) / own, 0.0, 1.0) : 0;
         for (int step = 0; step < 3 && u > 0 && u < 1; ++step) {
             const double speed = length(pieces[k].slope(u));
