@@ -23,7 +23,7 @@ OUTPUT_ARRAYS = {"values", "shape", "vector", "coefficient", "q", "v", "penetrat
                  ("plm_solve_fn", "x")}
 OUTPUT_SCALARS = {"needed", "major", "minor", "patch", "count", "type", "is_option", "minimum", "maximum", "status",
                   "reason", "index", "library_code", "value", "severity", "r", "relative_residual", "frequency_hz",
-                  "amplitude", "energy", "contact_area", "defect", "error"}
+                  "amplitude", "energy", "contact_area", "defect", "error", "negative"}
 # "or NULL" in the header: optional in Fortran, absent is NULL
 OPTIONAL = {"needed", "gap", "buffer", "values", "force_range", "known",
             *(("plm_context_get_error_info", name) for name in ("status", "reason", "index", "library_code")),

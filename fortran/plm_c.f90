@@ -160,6 +160,15 @@ module plm_c
             type(c_ptr), value :: factor
             type(c_ptr), value :: user
         end subroutine plm_free_factor_fn
+        function plm_inertia_fn(ctx, factor, negative, user) bind(c) result(code)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: ctx
+            type(c_ptr), value :: factor
+            integer(c_int64_t), intent(inout) :: negative
+            type(c_ptr), value :: user
+            integer(c_int32_t) :: code
+        end function plm_inertia_fn
     end interface
 
     interface
@@ -266,6 +275,13 @@ module plm_c
             type(c_ptr), value :: user
             integer(plm_status) :: code
         end function plm_context_set_solver
+        function plm_context_set_inertia(ctx, inertia) bind(c) result(code)
+            import :: c_funptr, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: ctx
+            type(c_funptr), value :: inertia
+            integer(plm_status) :: code
+        end function plm_context_set_inertia
         function plm_context_get_error_text(ctx, capacity, buffer, needed) bind(c) result(code)
             import :: c_char, c_int64_t, c_ptr, plm_status
             implicit none

@@ -103,6 +103,37 @@ static int with_solver(plm_context *ctx) {
 }
 /* [plm_context_set_solver] */
 
+/* [plm_context_set_inertia] */
+/* The negative pivots of the same elimination: as many as the matrix has negative eigenvalues (Sylvester). */
+static int32_t inertia(plm_context *ctx, void *factor_in, int64_t *negative, void *user) {
+    const dense *d = factor_in;
+    const int64_t n = d->n;
+    double *a = malloc((size_t)(n * n) * sizeof *a);
+    (void)ctx, (void)user;
+    if (!a) return 1;
+    memcpy(a, d->a, (size_t)(n * n) * sizeof *a);
+    *negative = 0;
+    for (int64_t k = 0; k < n && *negative >= 0; k++) {
+        if (a[k + n * k] == 0) { /* an elimination without pivots that broke down cannot tell */
+            *negative = -1;
+            break;
+        }
+        *negative += a[k + n * k] < 0;
+        for (int64_t i = k + 1; i < n; i++) {
+            const double f = a[i + n * k] / a[k + n * k];
+            for (int64_t j = k; j < n; j++) a[i + n * j] -= f * a[k + n * j];
+        }
+    }
+    free(a);
+    return 0;
+}
+static int with_inertia(plm_context *ctx) {
+    TRY(plm_context_set_solver(ctx, factor, solve, free_factor, NULL));
+    TRY(plm_context_set_inertia(ctx, inertia));
+    return 0;
+}
+/* [plm_context_set_inertia] */
+
 static int run(plm_context *ctx) {
     plm_basis *basis = NULL;
     TRY(start_basis(ctx, &basis));
@@ -150,6 +181,7 @@ int example(plm_context *ctx) {
     if (!line) line = with_log(ctx);
     if (!line) line = with_progress(ctx);
     if (!line) line = with_solver(ctx);
+    if (!line) line = with_inertia(ctx);
     if (!line) line = run(ctx);
     return line ? line : failure(ctx);
 }

@@ -166,6 +166,8 @@ class Factorization {
     virtual ~Factorization() = default;
     /// x (n x n_rhs, leading dimension ld) becomes the solution. Throw on failure.
     virtual void solve(double *x, std::int64_t n_rhs, std::int64_t ld) = 0;
+    /// Of the matrix factored, by which the number of modes is verified; -1: this solver cannot tell.
+    virtual std::int64_t negative_eigenvalues() { return -1; }
 };
 /// The matrix it factors: lower triangle by columns, base 0.
 struct LowerTriangle {
@@ -247,6 +249,7 @@ class State {
         check(factor ? plm_context_set_solver(context, on_factor, on_solve, on_free, this)
                      : plm_context_set_solver(context, nullptr, nullptr, nullptr, nullptr),
               "plm_context_set_solver");
+        if (factor) check(plm_context_set_inertia(context, on_inertia), "plm_context_set_inertia");
     }
 
     plm_context *context = nullptr;
@@ -290,6 +293,11 @@ class State {
                                  void *user) noexcept {
         auto *s = static_cast<State *>(user);
         return s->guarded([&] { static_cast<Factorization *>(f)->solve(x, n_rhs, ld); }) ? 0 : 1;
+    }
+    static std::int32_t on_inertia(plm_context *, void *f, std::int64_t *negative, void *user) noexcept {
+        auto *s = static_cast<State *>(user);
+        return s->guarded([&] { *negative = static_cast<Factorization *>(f)->negative_eigenvalues(); }) ? 0
+                                                                                                        : 1;
     }
     static void on_free(plm_context *, void *f, void *) noexcept { delete static_cast<Factorization *>(f); }
 };

@@ -31,6 +31,11 @@ void host_free_factor(void *handle, void *user) {
     const HostCode host(*s.context);
     s.release(s.context->handle, handle, s.user);
 }
+int host_inertia(void *handle, std::int64_t *negative, void *user) {
+    const SolverBinding &s = *static_cast<SolverBinding *>(user);
+    const HostCode host(*s.context);
+    return s.inertia(s.context->handle, handle, negative, s.user);
+}
 
 plm_status create(std::int32_t api_version, plm_allocate_fn allocate, plm_release_fn release, void *user,
                   plm_context **ctx) {
@@ -52,7 +57,7 @@ plm_status create(std::int32_t api_version, plm_allocate_fn allocate, plm_releas
 } // namespace
 
 HostSolver SolverBinding::for_core() {
-    return {host_factor, host_solve, host_free_factor, this};
+    return {host_factor, host_solve, host_free_factor, this, inertia ? host_inertia : nullptr};
 }
 
 std::shared_ptr<SolverBinding> Context::bind_solver() {
@@ -128,6 +133,18 @@ plm_status plm_context_set_solver(plm_context *ctx, plm_factor_fn factor, plm_so
                                   : "release",
                          -1, "factor, solve and release go together: pass all three or three NULLs");
         c.solver = {&c, factor, solve, release, user};
+        return PLM_OK;
+    });
+}
+
+plm_status plm_context_set_inertia(plm_context *ctx, plm_inertia_fn inertia) {
+    return call<Context>("plm_context_set_inertia", ctx, [&](Context &c) {
+        if (inertia && !c.solver.factor)
+            throw plm::Error(PLM_ERR_STATE,
+                             "the context has no solver of the host whose factorizations could be "
+                             "counted in; call plm_context_set_solver first")
+                .argument("inertia");
+        c.solver.inertia = inertia;
         return PLM_OK;
     });
 }

@@ -24,6 +24,7 @@ struct SolverBinding {
     plm_solve_fn solve = nullptr;
     plm_free_factor_fn release = nullptr;
     void *user = nullptr;
+    plm_inertia_fn inertia = nullptr; // may be null with the others set
     HostSolver for_core();
 };
 

@@ -38,10 +38,16 @@ struct HostSolver {
     int (*solve)(void *handle, std::int64_t nrhs, double *x, std::int64_t ldx, void *user) = nullptr;
     void (*release)(void *handle, void *user) = nullptr;
     void *user = nullptr;
+    // the number of negative eigenvalues, or -1: cannot tell; null: never can
+    int (*inertia)(void *handle, std::int64_t *negative, void *user) = nullptr;
 };
 
 /// Factors the symmetric matrix `a` (both triangles stored). `host` may be null. Throws plm::Error.
 std::unique_ptr<Factor> make_factor(const SparseMatrix &a, FactorKind kind, const HostSolver *host = nullptr);
+/// False: a factorization for the sake of its negative_eigenvalues() would be made in vain.
+inline bool tells_inertia(const HostSolver *host) {
+    return !host || host->inertia;
+}
 /// "CHOLMOD 3.0.14" or "Eigen 3.4.0": what make_factor uses without a host solver.
 std::string factor_backend();
 

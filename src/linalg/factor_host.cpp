@@ -52,7 +52,19 @@ class HostFactor final : public Factor {
     }
     // A factorization that was asked to be definite and succeeded leaves no other number.
     std::int64_t negative_eigenvalues() const override {
-        return kind_ == FactorKind::positive_definite ? 0 : -1;
+        if (kind_ == FactorKind::positive_definite) return 0;
+        if (!host_.inertia) return -1;
+        std::int64_t negative = -1;
+        const int status = host_.inertia(handle_, &negative, host_.user);
+        if (status != 0)
+            throw Error(PLM_ERR_CALLBACK, format("the host's inertia function failed with code %d", status))
+                .library_code(status);
+        if (negative < -1 || negative > n_)
+            throw Error(PLM_ERR_CALLBACK,
+                        format("the host's inertia function counts %lld negative eigenvalues of a matrix of "
+                               "order %lld",
+                               static_cast<long long>(negative), static_cast<long long>(n_)));
+        return negative;
     }
     double reciprocal_condition() const override { return 1; }
     std::int64_t factor_nonzeros() const override { return -1; }

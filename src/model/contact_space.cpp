@@ -13,14 +13,17 @@
 namespace plm {
 namespace {
 
-// Number of open modes below the cutoff by Sylvester's law of inertia, or -1 when the solver cannot tell.
+constexpr std::int64_t cannot_tell = -1, hit_a_mode = -2; // no count: for good, or at this frequency
+
+// Number of open modes below the cutoff by Sylvester's law of inertia, if there is one.
 std::int64_t count_below(const Model &model, double cutoff) {
+    if (!tells_inertia(model.host_solver())) return cannot_tell;
     const SparseMatrix shifted = add(1.0, model.stiffness(), -cutoff * cutoff, model.mass());
     try {
         return make_factor(shifted, FactorKind::indefinite, model.host_solver())->negative_eigenvalues();
     } catch (const Error &e) {
         if (e.status() != PLM_ERR_SINGULAR) throw;
-        return -1; // the cutoff hit an eigenvalue; the caller moves it
+        return hit_a_mode; // the caller moves the cutoff
     }
 }
 
@@ -62,8 +65,8 @@ class ContactSpaceBuilder {
             error = receptance_error();
         }
         if (error > options.tolerance)
-            watch_.log(
-                2,
+            watch_.warn(
+                PLM_REASON_BASIS_TOO_SMALL,
                 format("the contact space reaches a receptance error of %.1e at %.6g Hz, not the %.1e asked "
                        "for; raise cutoff_factor or max_blocks of the model",
                        error, highest_ / (2 * M_PI), options.tolerance));
@@ -80,13 +83,8 @@ class ContactSpaceBuilder {
         EigsOptions options;
         options.cancelled = [this] { return watch_.cancelled("open modes", 0.3); };
         const double cutoff = highest_ * model_->space_options().cutoff_factor;
-        std::int64_t count = -1;
         double checked = cutoff;
-        if (cutoff > 0 && model_->space_options().verify_counts)
-            for (int attempt = 0; attempt < 3 && count < 0; ++attempt, checked *= count < 0 ? 1.003 : 1.0) {
-                watch_.step("count of open modes", 0.1); // a factorization, which hears nobody
-                count = count_below(*model_, checked);
-            }
+        const std::int64_t count = verified_count(checked);
         std::int64_t guess = std::max<std::int64_t>(least_modes_, count >= 0 ? count : 20);
         guess = std::max(guess, model_->rigid_modes().cols() + 1);
         EigenPairs pairs = previous_modes(guess, cutoff);
@@ -113,6 +111,30 @@ class ContactSpaceBuilder {
         modes_ = std::move(pairs);
         mass_modes_ = multiply(model_->mass(), modes_.vectors);
         next_lambda_ = modes_.values.empty() ? 0 : modes_.values.back();
+    }
+
+    // What the modes found have to agree with; `frequency` moves a little where it hits a mode.
+    std::int64_t verified_count(double &frequency) const {
+        if (!(frequency > 0) || !model_->space_options().verify_counts) return cannot_tell;
+        std::int64_t count = hit_a_mode;
+        for (int attempt = 0; attempt < 3 && count == hit_a_mode; ++attempt) {
+            if (attempt > 0) frequency *= 1.003;
+            watch_.step("count of open modes", 0.1); // a factorization, which hears nobody
+            count = count_below(*model_, frequency);
+        }
+        if (count == hit_a_mode)
+            watch_.warn(PLM_REASON_UNVERIFIED,
+                        format("the number of open modes below %.6g Hz could not be verified: K - w^2 M is "
+                               "singular there and just above; compare with another cutoff_factor",
+                               frequency / (2 * M_PI)));
+        else if (count == cannot_tell)
+            watch_.log(1, unverified());
+        return count;
+    }
+
+    static std::string unverified() {
+        return "the number of open modes is not verified, since the host's solver does not tell the inertia "
+               "(plm_context_set_inertia)";
     }
 
     // The exact modes of the earlier space come first in it; empty when they do not reach far enough.
@@ -318,6 +340,8 @@ class ContactSpaceBuilder {
             "error %.1e at %.6g Hz",
             static_cast<long long>(p), std::sqrt(next_lambda_) / (2 * M_PI), static_cast<long long>(a),
             static_cast<long long>(a > 0 ? blocks : 0), space_->error_estimate, highest_ / (2 * M_PI));
+        if (highest_ > 0 && model_->space_options().verify_counts && !space_->counts_verified)
+            space_->description += "; " + unverified();
         project_onto(*space_);
         watch_.log(1, "contact space: " + space_->description);
     }

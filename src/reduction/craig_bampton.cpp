@@ -134,6 +134,7 @@ class Interior {
 
     // By Sylvester's law of inertia; -1 when the solver cannot tell.
     std::int64_t count_below(double highest) const {
+        if (!tells_inertia(model_.host_solver())) return -1;
         for (double omega = highest; omega < 1.01 * highest; omega *= 1.003) {
             try {
                 const SparseMatrix shifted = add(1.0, k_, -omega * omega, m_);

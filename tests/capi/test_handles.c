@@ -38,6 +38,7 @@ static double numbers[64];
 CASE(context, plm_context_set_log, NULL, NULL)
 CASE(context, plm_context_set_progress, NULL, NULL)
 CASE(context, plm_context_set_solver, NULL, NULL, NULL, NULL)
+CASE(context, plm_context_set_inertia, NULL)
 CASE(context, plm_context_get_error_text, 8, out[0].text, &out[1].l)
 CASE(context, plm_context_get_error_function, 8, out[0].text, &out[1].l)
 CASE(context, plm_context_get_error_argument, 8, out[0].text, &out[1].l)
@@ -143,6 +144,7 @@ static const struct {
 } functions[] = {ENTRY(CONTEXT, plm_context_set_log),
                  ENTRY(CONTEXT, plm_context_set_progress),
                  ENTRY(CONTEXT, plm_context_set_solver),
+                 ENTRY(CONTEXT, plm_context_set_inertia),
                  ENTRY(CONTEXT, plm_context_get_error_text),
                  ENTRY(CONTEXT, plm_context_get_error_function),
                  ENTRY(CONTEXT, plm_context_get_error_argument),

@@ -159,7 +159,7 @@ static void progress_cancels(void **state) {
 
 /* ---- the host's own solver: dense elimination without pivoting ---- */
 typedef struct {
-    int64_t n, fail, factors, solves, live;
+    int64_t n, fail, factors, indefinite, counted, more, solves, live;
     plm_context *ctx;
     int wrong;
 } solver;
@@ -174,7 +174,7 @@ static int32_t dense_factor(plm_context *ctx, int64_t n, const int64_t *col_ptr,
     dense *d;
     int64_t i, j, k, p;
     s->wrong |= ctx != s->ctx || n > CHAIN_DOFS || col_ptr[0] != 0;
-    ++s->factors;
+    ++s->factors, s->indefinite += !positive_definite;
     if (s->fail) return (int32_t)s->fail;
     d = (dense *)calloc(1, sizeof *d);
     d->n = n;
@@ -246,6 +246,62 @@ static void the_hosts_solver_serves(void **state) {
     assert_int_equal(s.live, 0);
     plm_context_destroy(&ctx);
     assert_false(s.wrong);
+}
+
+/* Of U in the elimination, whose diagonal has the signs of the eigenvalues, plus `more`. */
+static int32_t dense_inertia(plm_context *ctx, void *factor, int64_t *negative, void *user) {
+    const dense *d = (const dense *)factor;
+    solver *s = (solver *)user;
+    int64_t k;
+    s->wrong |= ctx != s->ctx;
+    ++s->counted;
+    *negative = s->more;
+    for (k = 0; k < d->n; ++k) *negative += d->a[k * d->n + k] < 0;
+    return 0;
+}
+
+static plm_status described(plm_context *ctx, char *text) {
+    plm_model *model = NULL;
+    plm_sampler *sampler = NULL;
+    int64_t needed;
+    plm_status s = chain_built(ctx, 1, &model);
+    if (s >= 0) s = plm_sampler_create(model, &sampler);
+    if (s >= 0) s = plm_sampler_run(sampler);
+    if (s >= 0) s = plm_sampler_get_string(sampler, "space_description", 400, text, &needed);
+    plm_model_destroy(&model);
+    plm_sampler_destroy(&sampler);
+    return s;
+}
+
+/* Without the callback no factorization is made for a number that nobody can tell, and the modes are said to
+ * be unverified; with it every indefinite factorization is one that counts, and a wrong count is found out.
+ */
+static void modes_are_verified_by_the_hosts_inertia(void **state) {
+    solver s;
+    plm_context *ctx = NULL;
+    char text[400];
+    (void)state;
+    memset(&s, 0, sizeof s);
+    assert_int_equal(plm_context_create(PLM_API_VERSION, &ctx), PLM_OK);
+    s.ctx = ctx;
+    assert_true(refused(ctx, plm_context_set_inertia(ctx, dense_inertia), PLM_ERR_STATE,
+                        "plm_context_set_inertia", "inertia", -1, "plm_context_set_solver"));
+    assert_int_equal(plm_context_set_inertia(ctx, NULL), PLM_OK);
+    assert_int_equal(plm_context_set_solver(ctx, dense_factor, dense_solve, dense_free, &s), PLM_OK);
+    assert_true(described(ctx, text) >= 0);
+    assert_int_equal(s.indefinite, 0);
+    assert_non_null(strstr(text, "not verified"));
+    assert_int_equal(plm_context_set_inertia(ctx, dense_inertia), PLM_OK);
+    assert_true(described(ctx, text) >= 0);
+    assert_true(s.counted > 0 && s.indefinite == s.counted);
+    assert_null(strstr(text, "not verified"));
+    s.more = -1;
+    assert_int_equal(described(ctx, text), PLM_ERR_EIGENSOLVER);
+    s.more = 1000;
+    assert_int_equal(described(ctx, text), PLM_ERR_CALLBACK);
+    assert_int_equal(s.live, 0);
+    assert_false(s.wrong);
+    plm_context_destroy(&ctx);
 }
 
 static void a_failing_solver_is_reported(void **state) {
@@ -348,6 +404,7 @@ int main(void) {
         cmocka_unit_test(log_and_progress_are_heard),
         cmocka_unit_test(progress_cancels),
         cmocka_unit_test(the_hosts_solver_serves),
+        cmocka_unit_test(modes_are_verified_by_the_hosts_inertia),
         cmocka_unit_test(a_failing_solver_is_reported),
         cmocka_unit_test(rounding_and_flags_stay_the_hosts),
 #ifdef __GLIBC__

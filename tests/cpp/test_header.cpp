@@ -272,6 +272,12 @@ class DenseCholesky : public plm::Factorization {
         if (fails_) throw OfTheHost{7};
         for (std::int64_t c = 0; c < n_rhs; ++c) solve(x + c * ld);
     }
+    std::int64_t negative_eigenvalues() override { // L D L': as many as D has negative entries
+        std::int64_t count = more;
+        for (std::int64_t j = 0; j < size_; ++j) count += at(j, j) < 0;
+        return count;
+    }
+    static inline std::int64_t more = 0; // a wrong count
 
   private:
     double &at(std::int64_t i, std::int64_t j) { return l_[static_cast<std::size_t>(i + j * size_)]; }
@@ -298,6 +304,11 @@ void solver_of_the_host() {
         const plm::Model model = built(context);
         CHECK(alive > 0);
         CHECK(std::abs(model.modes(PLM_SYSTEM_OPEN, 1).frequency_hz[0] / hz - 1) < 1e-10);
+        plm::Sampler(model).run();
+        DenseCholesky::more = -1; // the modes found must agree with the count
+        CHECK(caught<plm::Error>([&] { plm::Sampler(built(context)).run(); }).status() ==
+              PLM_ERR_EIGENSOLVER);
+        DenseCholesky::more = 0;
         context.set_solver(
             [&](const plm::LowerTriangle &a) { return std::make_unique<DenseCholesky>(a, &alive, true); });
         CHECK(caught<OfTheHost>([&] { built(context).modes(PLM_SYSTEM_OPEN, 1); }).what == 7);

@@ -9,7 +9,8 @@ root = pathlib.Path(sys.argv[1])
 fortran = root / "fortran"
 functions = set(re.findall(r"PLM_API\s+plm_status\s+(plm_\w+)", (root / "include/plm/plm.h").read_text()))
 # the host's own memory and solver are C pointers by nature: called through the module plm_c
-C_ONLY = {"plm_context_create_with_allocator", "plm_context_set_solver"}
+C_ONLY = {"plm_context_create_with_allocator", "plm_context_set_solver",
+          "plm_context_set_inertia"}
 # the module reads the whole text, which begins with the function and names the argument
 MODULE_NOT = C_ONLY | {"plm_context_get_error_function", "plm_context_get_error_argument"}
 

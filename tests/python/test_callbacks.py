@@ -160,6 +160,29 @@ class Callbacks(unittest.TestCase):
         gc.collect()
         self.assertFalse(self.context._host.factors)  # all released with their models
 
+    def test_inertia_of_the_own_solver(self):
+        wanted, counts = self.basis.model.modes(2), []
+
+        def factor(matrix, positive_definite):
+            lu = scipy.sparse.linalg.splu(matrix)
+
+            def solve(right_hand_sides):
+                return lu.solve(right_hand_sides)
+            solve.matrix = matrix
+            return solve
+
+        def inertia(solve):
+            counts.append(int((numpy.linalg.eigvalsh(solve.matrix.toarray()) < 0).sum()))
+            return counts[-1]
+        self.context.set_solver(factor, inertia)
+        numpy.testing.assert_allclose(plm.Sampler(models.model(context=self.context).build()).run().model.modes(2), wanted,
+                                      rtol=1e-9)
+        self.assertTrue(counts and min(counts) >= 0)
+        self.context.set_solver(factor, lambda solve: -5)
+        with self.assertRaises(plm.PlmError):
+            plm.Sampler(models.model(context=self.context).build()).run()
+        self.context.set_solver(None)
+
     def test_a_context_goes_with_its_last_user(self):
         import weakref
         context = plm.Context()

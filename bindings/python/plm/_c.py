@@ -21,6 +21,7 @@ plm_context_destroy p
 plm_context_set_log ppp
 plm_context_set_progress ppp
 plm_context_set_solver ppppp
+plm_context_set_inertia pp
 plm_context_get_error_text pqpp
 plm_context_get_error_function pqpp
 plm_context_get_error_argument pqpp
@@ -195,6 +196,7 @@ PROGRESS_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, ctypes.c_char_p, ctypes.
 FACTOR_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, ctypes.c_int64, pointer, pointer, pointer, ctypes.c_int32,
                              ctypes.POINTER(pointer), pointer)
 SOLVE_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, pointer, ctypes.c_int64, pointer, ctypes.c_int64, pointer)
+INERTIA_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, pointer, ctypes.POINTER(ctypes.c_int64), pointer)
 FREE_FACTOR_FN = ctypes.CFUNCTYPE(None, pointer, pointer, pointer)
 
 

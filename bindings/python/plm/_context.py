@@ -25,7 +25,7 @@ class _Host:
     """What runs inside a call: the user's functions, and what they raised. Apart from Context, so that no cycle forms."""
 
     def __init__(self):
-        self.log = self.progress = self.bar = self.solver = None
+        self.log = self.progress = self.bar = self.solver = self.inertia = None
         self.raised = None  # what a callback raised
         self.interrupted = False  # Ctrl-C
         self.factors = {}
@@ -74,6 +74,12 @@ class _Host:
             return True
         return 0 if self._guarded(run) else 1
 
+    def on_inertia(self, _ctx, key, negative, _user):
+        def count():
+            negative[0] = int(self.inertia(self.factors[key][0]))
+            return True
+        return 0 if self._guarded(count) else 1
+
     def on_free(self, _ctx, key, _user):
         self.factors.pop(key, None)
 
@@ -96,6 +102,7 @@ class Context:
         self._callbacks = [_c.LOG_FN(self._host.on_log), _c.PROGRESS_FN(self._host.on_progress)]
         self._solver_callbacks = [_c.FACTOR_FN(self._host.on_factor), _c.SOLVE_FN(self._host.on_solve),
                                   _c.FREE_FACTOR_FN(self._host.on_free)]
+        self._inertia_callback = _c.INERTIA_FN(self._host.on_inertia)
         status = _c.lib.plm_context_create(_c.API_VERSION, ctypes.byref(self._h))
         if status != _c.OK:
             raise make_error("plm_context_create: " + status_text(status), status, function="plm_context_create")
@@ -135,17 +142,22 @@ class Context:
 
     # ---- the user's own solver ----
 
-    def set_solver(self, factor):
+    def set_solver(self, factor, inertia=None):
         """Factorization by the user, for models built afterwards; None: the one built in.
 
         factor(matrix, positive_definite) receives a symmetric scipy.sparse.csc_matrix and returns a function that solves:
         solve(right_hand_sides) -> solutions, both n x n_rhs. Example:
 
             context.set_solver(lambda matrix, positive_definite: scipy.sparse.linalg.splu(matrix).solve)
+
+        inertia(solve) returns the number of negative eigenvalues of the matrix that `solve` belongs to, or -1; with it the
+        number of modes found is verified.
         """
-        self._host.solver = factor
+        self._host.solver, self._host.inertia = factor, inertia
         functions = [ctypes.cast(f, ctypes.c_void_p) if factor else None for f in self._solver_callbacks]
         self.call("plm_context_set_solver", self._h, *functions, None)
+        if factor and inertia:
+            self.call("plm_context_set_inertia", self._h, ctypes.cast(self._inertia_callback, ctypes.c_void_p))
 
     # ---- calls ----
 

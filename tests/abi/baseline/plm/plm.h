@@ -181,6 +181,9 @@ typedef int32_t (*plm_factor_fn)(plm_context *ctx, int64_t n, const int64_t *col
                                  const double *value, int32_t positive_definite, void **factor, void *user);
 typedef int32_t (*plm_solve_fn)(plm_context *ctx, void *factor, int64_t nrhs, double *x, int64_t ldx, void *user);
 typedef void (*plm_free_factor_fn)(plm_context *ctx, void *factor, void *user);
+/* negative: the number of negative eigenvalues of the matrix in `factor` (of the negative pivots in an LDL^T), or -1
+ * when this factorization cannot tell. */
+typedef int32_t (*plm_inertia_fn)(plm_context *ctx, void *factor, int64_t *negative, void *user);
 
 /* api_version: PLM_API_VERSION. */
 PLM_API plm_status plm_context_create(int32_t api_version, plm_context **ctx);
@@ -197,6 +200,10 @@ PLM_API plm_status plm_context_set_progress(plm_context *ctx, plm_progress_fn fn
 /* All three or none (NULL, NULL, NULL: the built-in solver). Takes effect for models built afterwards. */
 PLM_API plm_status plm_context_set_solver(plm_context *ctx, plm_factor_fn factor, plm_solve_fn solve,
                                           plm_free_factor_fn release, void *user);
+/* The inertia of the host's factorizations of indefinite matrices, by which the number of modes found is verified (one
+ * factorization of K - w^2 M). NULL, as after plm_context_set_solver: it is not, and no such factorization is made;
+ * "space_description" then says so. `user` is that of plm_context_set_solver, which comes first: else PLM_ERR_STATE. */
+PLM_API plm_status plm_context_set_inertia(plm_context *ctx, plm_inertia_fn inertia);
 
 /* The last failure in this context: "function: what is wrong (argument, index); what to do". Empty if none. */
 PLM_API plm_status plm_context_get_error_text(plm_context *ctx, int64_t capacity, char *buffer, int64_t *needed);
@@ -392,9 +399,10 @@ PLM_API plm_status plm_basis_set_parent(plm_basis *basis, plm_basis *parent);
  * decomposition in the energy norm, each curve scaled by its largest response). The curves are read here and may be
  * destroyed afterwards; n = 0 forgets them. */
 PLM_API plm_status plm_basis_set_responses(plm_basis *basis, int64_t n, plm_branch *const *branch);
-/* PLM_WARNING (see "warning", "warning_reasons") when a sample does not keep the mode that matches the dominant one (the selection by bands can lose the
- * resonance), or the equivalent stiffnesses of "lelsm_updated" did not settle: see "warning". PLM_ERR_ARGUMENT for a
- * rival kind when the model has no contact pair or fewer than "n_discontinuities", or nothing sets an amplitude. */
+/* PLM_WARNING (see "warning", "warning_reasons") when a sample does not keep the mode that matches the dominant one (the
+ * selection by bands can lose the resonance), or the equivalent stiffnesses of "lelsm_updated" did not settle.
+ * PLM_ERR_ARGUMENT for a rival kind when the model has no contact pair or fewer than "n_discontinuities", or nothing
+ * sets an amplitude. */
 PLM_API plm_status plm_basis_build(plm_basis *basis);
 /* Columns [first, first + n) of P, or of P_0 if is_static: vector is n_dof x n with leading dimension ld >= n_dof. */
 PLM_API plm_status plm_basis_get_vectors(plm_basis *basis, int32_t is_static, int64_t first, int64_t n, double *vector,
@@ -416,16 +424,24 @@ PLM_API plm_status plm_hbm_get_double(plm_hbm *hbm, const char *key, double *val
 PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t capacity, char *buffer,
                                       int64_t *needed);
 /* Follows the response curve over [frequency_min_hz, frequency_max_hz] through its folds. PLM_NOT_CONVERGED,
- * PLM_TRUNCATED or PLM_CANCELLED still deliver the branch found so far, if it has a point. A structure in free flight, or
- * free along a rail: mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
+ * PLM_TRUNCATED or PLM_CANCELLED still deliver the branch found so far, if it has a point. Where an end of the range is
+ * a sampler's estimate and the response (its norm over the structure) is largest there, the curve goes on past it, to
+ * one and a half times the window at most; PLM_WARNING with PLM_REASON_NO_PEAK when no peak comes inside. An end that
+ * the host gave (frequency_min_hz, frequency_max_hz here or of the basis, window_min_hz, window_max_hz of the sampler)
+ * stays. PLM_WARNING with PLM_REASON_OUTSIDE_BASIS when the largest response outside the basis' window misses the
+ * equations of the whole structure by more than 1 % (plm_branch_get_full_residual), with PLM_REASON_NO_SWITCHING
+ * when no pair would open or close under a hundred times the motion. A structure in free flight, or free along a rail:
+ * mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
- * start. PLM_ERR_CONVERGENCE when no strategy converges. */
+ * start. PLM_ERR_CONVERGENCE when no strategy converges; PLM_WARNING with PLM_REASON_OUTSIDE_BASIS as for a sweep. */
 PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, int64_t point,
                                  plm_branch **branch);
 /* The curve's highest amplitude of a DOF (see plm_branch_get_amplitude), located on the exact curve by corrected steps
  * around the highest point of `branch` (which this hbm's basis computed), with twice its harmonics where they are chosen
- * automatically and the next ones would show. peak: that point as a branch, or NULL. */
+ * automatically and the next ones would show. peak: that point as a branch, or NULL. PLM_WARNING with
+ * PLM_REASON_NO_PEAK when the highest point stands at an end of the curve (also of one that was cut off): frequency and
+ * amplitude are those of that point, and the peak lies elsewhere. A closed curve has no ends. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
 
