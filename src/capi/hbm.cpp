@@ -11,8 +11,7 @@ namespace plm::capi {
 
 Hbm solver(const HbmHandle &h) {
     const Basis &basis = *built(*h.basis);
-    return Hbm(basis.reduced(), basis.window_min_hz(), basis.window_max_hz(), h.hbm_options,
-               h.owner->watch());
+    return Hbm(basis.reduced(), basis.sweep_range(), h.hbm_options, h.owner->watch());
 }
 
 plm_branch *publish_branch(const HbmHandle &h, BranchPtr core) {

@@ -39,9 +39,11 @@ const std::vector<Key> &hbm_keys() {
                                        "contact law as a stiff spring, or with the force as unknown, which "
                                        "has the rigid limit; auto: by stiffness"),
         real_option<&O::frequency_min_hz>("frequency_min_hz", 0, huge,
-                                          "lower end of a sweep (Hz); 0: the basis' window"),
+                                          "lower end of a sweep (Hz); 0: the basis' window, an estimated end "
+                                          "of which moves until the peak is "
+                                          "inside"),
         real_option<&O::frequency_max_hz>("frequency_max_hz", 0, huge,
-                                          "upper end of a sweep (Hz); 0: the basis' window"),
+                                          "upper end of a sweep (Hz); 0: as frequency_min_hz"),
         choice_option<&O::upward>("direction", "down,up",
                                   "a sweep starts at the upper (down) or lower (up) end"),
         real_option<&O::force_scale>("force_scale", -huge, huge,
@@ -127,8 +129,9 @@ const std::vector<Key> &branch_keys() {
                   [](const B &b) { return built(b)->failed_steps; }),
         result<B>("factorizations", "tangents factored", [](const B &b) { return built(b)->factorizations; }),
         result<B>("seconds", "time of the run (s)", [](const B &b) { return built(b)->seconds; }),
-        result<B>("seconds_per_iteration", "time of a Newton iteration (s)",
-                  [](const B &b) { return built(b)->seconds_per_iteration; }),
+        result<B>("seconds_per_iteration",
+                  "mean time of a Newton iteration, without stability and harmonics (s)",
+                  [](const B &b) { return built(b)->seconds_per_iteration(); }),
         result<B>("unknowns", "nonlinear unknowns used: modal, gaps or both",
                   [](const B &b) { return built(b)->space_used; }),
         warning_text<B>([](const B &b) -> const Warnings & { return built(b)->warnings; }),

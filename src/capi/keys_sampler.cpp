@@ -64,8 +64,9 @@ void add_options(std::vector<Key> &keys) {
         {
             choice_option<&O::system, -1>(
                 "system", "auto,open,sliding",
-                "linear system of the dominant mode; auto: sliding when most pairs are "
-                "closed at rest, else open"),
+                "linear system of the dominant mode; auto: sliding when most pairs are closed at rest, else "
+                "open; without pre-load and gap open, unless contact alone holds a part or the sliding mode "
+                "explains both half cycles clearly better"),
             int_option<&O::mode>("mode", 0, 1e6,
                                  "number of the dominant mode, 1, 2, ...; 0: by mode_frequency_hz, or "
                                  "proposed by its participation"),
@@ -82,12 +83,13 @@ void add_options(std::vector<Key> &keys) {
             int_option<&O::include_rest>("include_rest", 0, 1,
                                          "1: with pre-load, the contact set at rest is among the samples"),
             real_option<&O::window_half_width>(
-                "window_half_width", 0, 1, "half width of the window as a share of the estimated resonance"),
+                "window_half_width", 1e-6, 0.9,
+                "half width of the window as a share of the estimated resonance"),
             real_option<&O::window_min_hz>("window_min_hz", 0, huge,
                                            "lower end of the window (Hz); 0: estimated"),
             real_option<&O::window_max_hz>("window_max_hz", 0, huge,
                                            "upper end of the window (Hz); 0: estimated"),
-            int_option<&O::n_harmonics>("n_harmonics", 0, 1000,
+            int_option<&O::n_harmonics>("n_harmonics", 1, 1000,
                                         "harmonics of the window up to which the contact space is accurate"),
         });
 }

@@ -115,6 +115,29 @@ void drop_what_is_not_finite(BranchPoint &p, Warnings &warnings) {
 
 } // namespace
 
+void Branch::prepend(const Branch &piece) {
+    if (piece.points_.empty()) return;
+    const double length = piece.points_.back().arclength;
+    std::vector<BranchPoint> old;
+    old.swap(points_);
+    for (std::size_t i = piece.points_.size(); i-- > 1;) {
+        append(piece.points_[i]);
+        points_.back().arclength = length - piece.points_[i].arclength;
+    }
+    for (BranchPoint &point : old) {
+        point.arclength += length;
+        append(std::move(point));
+    }
+}
+
+void Branch::continue_with(const Branch &piece) {
+    const double length = points_.empty() ? 0 : points_.back().arclength;
+    for (std::size_t i = 1; i < piece.points_.size(); ++i) {
+        append(piece.points_[i]);
+        points_.back().arclength += length;
+    }
+}
+
 void Branch::append(BranchPoint point) {
     drop_what_is_not_finite(point, warnings);
     const std::int64_t n = point.eta.cols() / 2;

@@ -60,6 +60,11 @@ class Branch {
 
     /// Points may differ in their number of harmonics; all are padded with zeros to the largest.
     void append(BranchPoint point);
+    /// Puts the points of `piece`, which leads away from the first point (and begins with it), before it: the
+    /// curve then runs from the far end of the piece on.
+    void prepend(const Branch &piece);
+    /// Adds the points of `piece`, which leads on from the last point (and begins with it).
+    void continue_with(const Branch &piece);
     /// Takes back the points from `count` on.
     void truncate(std::int64_t count) { points_.resize(static_cast<std::size_t>(count)); }
     const std::vector<BranchPoint> &points() const { return points_; }
@@ -73,7 +78,10 @@ class Branch {
     // how it ended and what it cost
     std::int32_t end_reason = PLM_REASON_NONE; // PLM_REASON_...
     std::int64_t newton_iterations = 0, failed_steps = 0, factorizations = 0;
-    double seconds = 0, seconds_per_iteration = 0;
+    double seconds = 0, newton_seconds = 0; // of the whole run; of its Newton iterations alone
+    double seconds_per_iteration() const {
+        return newton_iterations > 0 ? newton_seconds / static_cast<double>(newton_iterations) : 0;
+    }
     std::string space_used; // "modal", "gaps" or "both"
     Warnings warnings;      // what should be looked at before its points are used
 

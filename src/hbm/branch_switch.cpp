@@ -59,6 +59,7 @@ class Switch {
     }
 
     std::int64_t iterations() const { return iterations_; }
+    double seconds() const { return seconds_; } // of the iterations
 
   private:
     vector<double> coordinates(const BranchPoint &point) {
@@ -98,6 +99,7 @@ class Switch {
         limits.omega_scale = width_;
         const NewtonOutcome out = newton(*system_, side, limits, x, omega);
         iterations_ += out.iterations;
+        seconds_ += out.seconds;
         if (!out.converged || std::abs(omega - omega_) > 0.2 * width_) return false;
         double moved = 0;
         for (std::int64_t i = 0; i < n; ++i) moved = std::hypot(moved, (x[i] - x_[i]) / scale_);
@@ -117,6 +119,7 @@ class Switch {
     std::unique_ptr<HbmSystem> system_;
     vector<double> x_, direction_;
     std::int64_t iterations_ = 0;
+    double seconds_ = 0;
 };
 
 } // namespace
@@ -150,6 +153,7 @@ std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &branch, std::int6
             .reason(PLM_REASON_START_FAILED);
     auto found = std::make_shared<Branch>(reduced_, options.force_scale, options.period_multiple);
     found->newton_iterations = other.iterations();
+    found->newton_seconds = other.seconds();
     trace_curve(options, start, watch_, *found);
     finish(*found, begin);
     return found;

@@ -171,6 +171,7 @@ class Continuation {
 
     void count(const NewtonOutcome &out) {
         out_.newton_iterations += out.iterations;
+        out_.newton_seconds += out.seconds;
         out_.factorizations += out.factorizations;
     }
 

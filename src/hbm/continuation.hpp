@@ -61,6 +61,7 @@ struct PathOutcome {
     double direction_parameter = 0;
     double scale = 0, arclength = 0, step = 0;
     std::int64_t newton_iterations = 0, factorizations = 0, failed_steps = 0, n_points = 0;
+    double newton_seconds = 0;
 };
 
 /// Follows the path from `start` until it leaves the range, closes, or cannot go on. The last point lies on

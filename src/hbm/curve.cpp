@@ -91,6 +91,7 @@ class CurveTracer final : public PathOwner {
         try {
             const StartOutcome out = find_start(*system_, *reduced_, options_, omega, true, watch_, x);
             branch_.newton_iterations += out.iterations;
+            branch_.newton_seconds += out.seconds;
             branch_.factorizations += out.factorizations;
             return out.converged;
         } catch (const Error &e) { // the branch found so far stays valid
@@ -144,6 +145,7 @@ class CurveTracer final : public PathOwner {
     void count(const PathOutcome &out) {
         branch_.end_reason = out.end_reason;
         branch_.newton_iterations += out.newton_iterations;
+        branch_.newton_seconds += out.newton_seconds;
         branch_.factorizations += out.factorizations;
         branch_.failed_steps += out.failed_steps;
         base_arclength_ += out.arclength;
@@ -152,6 +154,7 @@ class CurveTracer final : public PathOwner {
     PathStart first(const CurveStart &start) {
         PathStart path = leaving(start.point, start.towards.empty() ? start.point : start.towards[0]);
         if (start.towards.empty()) path.direction_x.clear();
+        if (start.away) turn_round(path);
         path.residual = start.point.residual;
         return path;
     }
@@ -256,8 +259,7 @@ class CurveTracer final : public PathOwner {
         const BranchPoint &at = branch_.points()[static_cast<std::size_t>(n - 1)];
         path = leaving(at, n > 1 ? branch_.points()[static_cast<std::size_t>(n - 2)] : at);
         path.record = false;
-        for (double &d : path.direction_x) d = -d; // on, not back
-        path.direction_parameter *= -1;
+        turn_round(path); // on, not back
         if (n == 1) path.direction_parameter = options_.upward ? 1 : -1;
         return correct(path);
     }
@@ -295,6 +297,11 @@ class CurveTracer final : public PathOwner {
         return path;
     }
 
+    static void turn_round(PathStart &path) {
+        for (double &d : path.direction_x) d = -d;
+        path.direction_parameter *= -1;
+    }
+
     PathStart resume(const PathOutcome &out) const {
         PathStart path;
         path.x = out.x;
@@ -321,6 +328,7 @@ class CurveTracer final : public PathOwner {
         const double omega = path.parameter;
         const NewtonOutcome out = newton(*system_, side, limits, path.x, path.parameter);
         branch_.newton_iterations += out.iterations;
+        branch_.newton_seconds += out.seconds;
         branch_.factorizations += out.factorizations;
         double change = 0;
         for (std::size_t i = 0; i < guess.size(); ++i) change = std::hypot(change, path.x[i] - guess[i]);

@@ -12,6 +12,7 @@ struct CurveStart {
     /// Not empty: a second point beside the first, on the side to which the curve is followed; otherwise
     /// options.upward decides.
     std::vector<BranchPoint> towards;
+    bool away = false; // the curve leaves on the other side: on past `point`, as one comes from towards[0]
 };
 
 /// Appends the curve's points to `branch` and sets its ending and its cost. n_harmonics of the options is the

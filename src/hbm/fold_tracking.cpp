@@ -223,6 +223,7 @@ class FoldPath final : public PathOwner {
         const PathOutcome out = follow_path(*system_, range, from, *this);
         branch_->end_reason = out.end_reason;
         branch_->newton_iterations = out.newton_iterations;
+        branch_->newton_seconds = out.newton_seconds;
         branch_->factorizations = out.factorizations;
         branch_->failed_steps = out.failed_steps;
         branch_->space_used = "modal";

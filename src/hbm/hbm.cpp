@@ -1,7 +1,9 @@
 #include "hbm/hbm.hpp"
 #include "hbm/curve.hpp"
+#include "hbm/curve_verdicts.hpp"
 #include "hbm/stability.hpp"
 #include "hbm/start.hpp"
+#include "hbm/wider_range.hpp"
 #include "linalg/scale.hpp"
 #include <chrono>
 #include <cmath>
@@ -29,11 +31,15 @@ void check(const HbmOptions &o) {
 
 } // namespace
 
-Hbm::Hbm(std::shared_ptr<const ReducedModel> reduced, double window_min_hz, double window_max_hz,
-         const HbmOptions &options, Watch watch)
-    : reduced_(std::move(reduced)), options_(options), watch_(watch) {
-    if (options_.frequency_min_hz <= 0) options_.frequency_min_hz = window_min_hz;
-    if (options_.frequency_max_hz <= 0) options_.frequency_max_hz = window_max_hz;
+Hbm::Hbm(std::shared_ptr<const ReducedModel> reduced, const SweepRange &window, const HbmOptions &options,
+         Watch watch)
+    : reduced_(std::move(reduced)), options_(options), window_(window), watch_(watch) {
+    const bool fixed_min = options_.frequency_min_hz > 0, fixed_max = options_.frequency_max_hz > 0;
+    if (!fixed_min) options_.frequency_min_hz = window.min_hz;
+    if (!fixed_max) options_.frequency_max_hz = window.max_hz;
+    reach_ = {options_.frequency_min_hz, options_.frequency_max_hz,
+              fixed_min ? options_.frequency_min_hz : window.least_hz,
+              fixed_max ? options_.frequency_max_hz : window.most_hz};
     check(options_);
 }
 
@@ -45,8 +51,6 @@ std::shared_ptr<Branch> Hbm::new_branch() const {
 
 void Hbm::finish(Branch &branch, Clock::time_point begin) const {
     branch.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    branch.seconds_per_iteration =
-        branch.seconds / static_cast<double>(std::max<std::int64_t>(1, branch.factorizations));
     watch_.log(1, format("%zu points, %lld Newton iterations, %lld factorizations, %lld failed steps, %.3g s",
                          branch.points().size(), static_cast<long long>(branch.newton_iterations),
                          static_cast<long long>(branch.factorizations),
@@ -60,6 +64,7 @@ bool Hbm::solve_at(double omega, const BranchPoint *guess, Branch &branch, Branc
     if (guess) system->from_point(*guess, x.data());
     const StartOutcome out = find_start(*system, *reduced_, first, omega, guess != nullptr, watch_, x);
     branch.newton_iterations += out.iterations;
+    branch.newton_seconds += out.seconds;
     branch.factorizations += out.factorizations;
     if (!out.converged) return false;
     point = BranchPoint();
@@ -92,6 +97,9 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
                    from / (2 * M_PI)))
             .reason(PLM_REASON_START_FAILED);
     trace_curve(options_, start, watch_, *branch);
+    bring_peak_inside(options_, reach_, watch_, *branch);
+    check_window(window_, watch_, *branch);
+    check_switching(watch_, *branch);
     finish(*branch, begin);
     return branch;
 }
@@ -133,6 +141,7 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
     branch->append(std::move(result));
     branch->end_reason = PLM_REASON_RANGE_END;
     branch->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
+    check_window(window_, watch_, *branch);
     finish(*branch, begin);
     return branch;
 }

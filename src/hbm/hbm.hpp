@@ -2,6 +2,7 @@
 #pragma once
 #include "hbm/branch.hpp"
 #include "linalg/monitor.hpp"
+#include "reduction/sweep_range.hpp"
 #include <chrono>
 
 namespace plm {
@@ -45,8 +46,14 @@ struct Backbone;       // phase_resonance.hpp
 
 class Hbm {
   public:
-    Hbm(std::shared_ptr<const ReducedModel> reduced, double window_min_hz, double window_max_hz,
-        const HbmOptions &options, Watch watch);
+    /// window: that of the basis, taken where the options have no frequencies of their own; a sweep goes on
+    /// past its estimated ends to have the peak inside, and what lies outside it is checked.
+    Hbm(std::shared_ptr<const ReducedModel> reduced, const SweepRange &window, const HbmOptions &options,
+        Watch watch);
+    /// A range that stays as it is.
+    Hbm(std::shared_ptr<const ReducedModel> reduced, double min_hz, double max_hz, const HbmOptions &options,
+        Watch watch)
+        : Hbm(std::move(reduced), SweepRange{min_hz, max_hz, min_hz, max_hz}, options, watch) {}
     ~Hbm();
 
     /// Always returns a branch with at least one point, or throws; the outcome is in branch->end_reason.
@@ -83,6 +90,7 @@ class Hbm {
 
     std::shared_ptr<const ReducedModel> reduced_;
     HbmOptions options_;
+    SweepRange window_, reach_; // of the basis; of a sweep with these options
     Watch watch_;
 };
 

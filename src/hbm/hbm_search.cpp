@@ -4,6 +4,7 @@
 #include "hbm/isolated.hpp"
 #include "hbm/marching_search.hpp"
 #include "hbm/nonlinear_mode.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace plm {
@@ -11,7 +12,12 @@ namespace plm {
 IsolatedSearch Hbm::find_isolated(const Branch &main, double force_max) const {
     if (main.reduced_model() != reduced_)
         throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("main_branch");
-    return plm::find_isolated(reduced_, options_, main, force_max, watch_);
+    HbmOptions options = options_; // the curve may have gone on past the window to its peak
+    for (const BranchPoint &p : main.points()) {
+        options.frequency_min_hz = std::min(options.frequency_min_hz, p.omega / (2 * M_PI));
+        options.frequency_max_hz = std::max(options.frequency_max_hz, p.omega / (2 * M_PI));
+    }
+    return plm::find_isolated(reduced_, options, main, force_max, watch_);
 }
 
 std::vector<Backbone> Hbm::find_backbones(double force_max) const {

@@ -254,6 +254,7 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
     }
     whole->end_reason = after->end_reason;
     whole->newton_iterations = after->newton_iterations + before.newton_iterations;
+    whole->newton_seconds = after->newton_seconds + before.newton_seconds;
     whole->factorizations = after->factorizations + before.factorizations;
     whole->failed_steps = after->failed_steps + before.failed_steps;
     whole->space_used = after->space_used;

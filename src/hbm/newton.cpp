@@ -1,6 +1,7 @@
 #include "hbm/newton.hpp"
 #include "linalg/work.hpp"
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace plm {
@@ -163,7 +164,11 @@ class Newton {
 
 NewtonOutcome newton(HbmSystem &system, const SideCondition &side, const NewtonLimits &limits,
                      vector<double> &x, double &omega) {
-    return Newton(system, side, limits, x, omega).run();
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    NewtonOutcome out = Newton(system, side, limits, x, omega).run();
+    out.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    return out;
 }
 
 } // namespace plm

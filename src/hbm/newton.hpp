@@ -25,6 +25,7 @@ struct NewtonOutcome {
     bool converged = false;
     std::int32_t reason = PLM_REASON_NONE; // why not
     std::int64_t iterations = 0, factorizations = 0;
+    double seconds = 0;         // of the iterations
     double residual = 0;        // |R| over residual_scale()
     bool factored_here = false; // the system's factorization belongs to (nearly) the solution
 };

@@ -192,6 +192,7 @@ class ModePath final : public PathOwner {
         Branch &branch = *result_.branch;
         branch.end_reason = out.end_reason == PLM_REASON_NONE ? PLM_REASON_RANGE_END : out.end_reason;
         branch.newton_iterations = out.newton_iterations;
+        branch.newton_seconds = out.newton_seconds;
         branch.factorizations = out.factorizations;
         branch.failed_steps = out.failed_steps;
         branch.space_used = "modal";

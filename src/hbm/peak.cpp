@@ -25,8 +25,8 @@ class PeakSearch {
           harmonic_(harmonic), watch_(watch) {}
 
     /// False: the highest point of the curve is no solution with this system's harmonics, nor near one.
-    bool run(const Branch &branch, std::int64_t top, BranchPoint &highest) {
-        for (int k = 0; k < 3; ++k) load(branch, top - 1 + k, three_[k]);
+    bool run(const Branch &branch, const std::array<std::int64_t, 3> &around, BranchPoint &highest) {
+        for (int k = 0; k < 3; ++k) load(branch, around[k], three_[k]);
         set_chord();
         Sample solved; // the curve's points may have other numbers of harmonics
         if (!corrected(three_[1].s, solved)) return false;
@@ -135,18 +135,48 @@ class PeakSearch {
     double direction_omega_ = 0, scale_ = 1, omega_scale_ = 1, span_ = 1;
 };
 
+// The highest point and its neighbours; a closed curve, whose last point is its first, has no ends. False:
+// the highest point stands at an end.
+bool neighbours(const Branch &branch, std::int64_t top, std::array<std::int64_t, 3> &around) {
+    const std::int64_t n = static_cast<std::int64_t>(branch.points().size());
+    const bool inner = top > 0 && top < n - 1;
+    around =
+        inner ? std::array<std::int64_t, 3>{top - 1, top, top + 1} : std::array<std::int64_t, 3>{n - 2, 0, 1};
+    return inner || (branch.end_reason == PLM_REASON_LOOP_CLOSED && n > 3);
+}
+
+std::string why_no_peak(const Branch &branch, std::int64_t top, double amplitude) {
+    const std::int64_t n = static_cast<std::int64_t>(branch.points().size());
+    const double hz = branch.points()[static_cast<std::size_t>(top)].omega / (2 * M_PI);
+    if (amplitude == 0) return "this DOF does not move on the curve (in this measure): it has no peak";
+    if (n == 1) return format("the curve is a single point, %.6g Hz: its amplitude is no peak", hz);
+    if (top > 0 && branch.end_reason != PLM_REASON_RANGE_END)
+        return format(
+            "the highest point, %.6g Hz, is where the curve ended early (%s): no peak is known to be "
+            "there",
+            hz, end_text(branch.end_reason).c_str());
+    return format(
+        "the highest point stands at an end of the curve, %.6g Hz: the peak lies beyond it. Follow the "
+        "curve over a wider range (frequency_min_hz, frequency_max_hz)",
+        hz);
+}
+
 } // namespace
 
 Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
     if (branch.reduced_model() != reduced_)
         throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("branch");
-    const std::int64_t n = static_cast<std::int64_t>(branch.points().size()),
-                       top = branch.highest_point(dof, measure, harmonic);
+    const std::int64_t top = branch.highest_point(dof, measure, harmonic);
+    const double highest = branch.amplitude(top, dof, measure, harmonic);
+    std::array<std::int64_t, 3> around;
+    const bool is_peak = neighbours(branch, top, around) && highest != 0;
     Peak peak;
     auto one = std::make_shared<Branch>(reduced_, branch.force_scale(), branch.period_multiple());
     one->end_reason = PLM_REASON_RANGE_END;
     BranchPoint point = branch.points()[top];
-    if (top > 0 && top < n - 1) { // a maximum at an end of the curve stays where it is
+    if (!is_peak) // it stays where it is
+        watch_.keeping(one->warnings).warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, highest));
+    if (is_peak) {
         HbmOptions options = options_;
         options.force_scale = point.force_scale;
         options.period_multiple = branch.period_multiple();
@@ -163,7 +193,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
                     std::max(options.n_harmonics, std::min(options_.max_harmonics, 2 * options.n_harmonics));
             const auto system = make_system(reduced_, options);
             const bool found = PeakSearch(*system, options, reduced_, dof, measure, harmonic, watch_)
-                                   .run(branch, top, point);
+                                   .run(branch, around, point);
             if (found && automatic) measure_harmonics(reduced_, options, point);
         } while (too_few() && options.n_harmonics < options_.max_harmonics);
     }

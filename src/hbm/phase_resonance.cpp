@@ -201,6 +201,7 @@ Backbone PhaseResonance::follow(const BranchPoint &start, bool upward) const {
     Branch &branch = *path.result.branch;
     branch.end_reason = out.end_reason == PLM_REASON_NONE ? PLM_REASON_RANGE_END : out.end_reason;
     branch.newton_iterations = out.newton_iterations;
+    branch.newton_seconds = out.newton_seconds;
     branch.factorizations = out.factorizations;
     branch.failed_steps = out.failed_steps;
     branch.space_used = "modal";
@@ -230,6 +231,7 @@ Backbone PhaseResonance::through(const BranchPoint &point) const {
     if (point.force_scale == options_.hbm.force_scale) all.crossings.push_back(joint);
     for (std::size_t i : up.crossings) all.crossings.push_back(joint + i);
     all.branch->newton_iterations = down.branch->newton_iterations + up.branch->newton_iterations;
+    all.branch->newton_seconds = down.branch->newton_seconds + up.branch->newton_seconds;
     all.branch->factorizations = down.branch->factorizations + up.branch->factorizations;
     all.branch->failed_steps = down.branch->failed_steps + up.branch->failed_steps;
     all.branch->space_used = up.branch->space_used;

@@ -43,9 +43,7 @@ class Refiner {
 
   private:
     std::shared_ptr<const Branch> sweep(const Basis &basis) const {
-        auto branch =
-            Hbm(basis.reduced(), start_->window_min_hz(), start_->window_max_hz(), options_.hbm, watch_)
-                .sweep();
+        auto branch = Hbm(basis.reduced(), start_->sweep_range(), options_.hbm, watch_).sweep();
         require_uncancelled(*branch);
         return branch;
     }

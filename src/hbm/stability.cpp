@@ -32,7 +32,7 @@ Matrix states_without_positions_along(const Matrix &free) {
 Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
     : reduced_(std::move(reduced)), period_multiple_(options.period_multiple),
       wanted_(options.stability == StabilityKind::floquet || options.stability == StabilityKind::hill ||
-              (options.stability == StabilityKind::automatic && reduced_->static_size() <= automatic_size)),
+              (options.stability == StabilityKind::automatic && reduced_->size() <= automatic_size)),
       hill_(options.stability == StabilityKind::hill) {
     if (wanted_) but_positions_ = states_without_positions_along(free_motion(*reduced_));
     if (wanted_ && reduced_->structural == 0) flow_ = std::make_shared<FlowModel>(reduced_);

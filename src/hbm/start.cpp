@@ -79,6 +79,7 @@ class Starter {
         vector<double> x = x_;
         const NewtonOutcome newton_out = newton(system_, SideCondition(), limits, x, omega);
         out_.iterations += newton_out.iterations;
+        out_.seconds += newton_out.seconds;
         out_.factorizations += newton_out.factorizations;
         out_.residual = newton_out.residual;
         out_.converged = newton_out.converged;
@@ -186,6 +187,7 @@ class Starter {
 
     bool arrived(const PathOutcome &out, double parameter) {
         out_.iterations += out.newton_iterations;
+        out_.seconds += out.newton_seconds;
         out_.factorizations += out.factorizations;
         if (out.end_reason != PLM_REASON_RANGE_END || out.parameter != parameter) return false;
         x_ = out.x;

@@ -11,7 +11,7 @@ vector<double> share_at_rest(const ReducedModel &reduced);
 struct StartOutcome {
     bool converged = false;
     std::int64_t iterations = 0, factorizations = 0;
-    double residual = 0;
+    double seconds = 0, residual = 0; // seconds: of the iterations
 };
 
 /// Solves at omega; on entry x is a first guess when `have_guess`. Then, until one works: the linear response

@@ -201,6 +201,9 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     const SelectionRule rule = make_rule(options_, sampler_.get());
     window_min_hz_ = rule.min_hz;
     window_max_hz_ = rule.max_hz;
+    const bool estimated = sampler_ && sampler_->options().window_max_hz == 0;
+    estimated_min_ = estimated && options_.frequency_min_hz == 0;
+    estimated_max_ = estimated && options_.frequency_max_hz == 0;
     const bool statics = options_.kind == BasisKind::snapshots;
     const double modes_hz = statics ? options_.rest_factor * rule.max_hz : rule.highest_hz();
     space_ = choose_space(model_, sampler_.get(), parent.get(), options_,
@@ -237,6 +240,8 @@ void Basis::compress_parent(const Basis *parent, const Responses *responses) {
     space_ = parent->space();
     window_min_hz_ = options_.frequency_min_hz > 0 ? options_.frequency_min_hz : parent->window_min_hz();
     window_max_hz_ = options_.frequency_max_hz > 0 ? options_.frequency_max_hz : parent->window_max_hz();
+    estimated_min_ = parent->estimated_min_ && options_.frequency_min_hz == 0;
+    estimated_max_ = parent->estimated_max_ && options_.frequency_max_hz == 0;
     if (!(window_min_hz_ < window_max_hz_))
         throw Error(PLM_ERR_ARGUMENT, format("frequency_min_hz (%g) must be below frequency_max_hz (%g)",
                                              window_min_hz_, window_max_hz_))
@@ -246,6 +251,19 @@ void Basis::compress_parent(const Basis *parent, const Responses *responses) {
     report_.singular_values = std::move(c.singular_values);
     report_.n_collected = parent->reduced()->size();
     report_.highest_frequency_hz = parent->report().highest_frequency_hz;
+}
+
+// Half as much again in either direction: a resonance further off is not that of the dominant mode. Upwards
+// the basis must still hold modes for the contact there; bands hold none outside the window.
+SweepRange Basis::sweep_range() const {
+    constexpr double reach = 1.5;
+    SweepRange range{window_min_hz_, window_max_hz_, window_min_hz_, window_max_hz_};
+    if (is_made_of_vectors(options_.kind) && options_.selection == ModeSelection::bands) return range;
+    if (estimated_min_) range.least_hz = window_min_hz_ / reach;
+    if (estimated_max_)
+        range.most_hz =
+            std::max(window_max_hz_, std::min(reach * window_max_hz_, report_.highest_frequency_hz / reach));
+    return range;
 }
 
 void Basis::choose_pairs() {

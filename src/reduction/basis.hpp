@@ -2,6 +2,7 @@
 // ReducedModel.
 #pragma once
 #include "reduction/compression.hpp"
+#include "reduction/sweep_range.hpp"
 #include "sampling/sampler.hpp"
 
 namespace plm {
@@ -97,6 +98,8 @@ class Basis {
     const std::shared_ptr<const Model> &model() const { return model_; }
     double window_min_hz() const { return window_min_hz_; }
     double window_max_hz() const { return window_max_hz_; }
+    /// The window and how far beyond its estimated ends the basis still serves.
+    SweepRange sweep_range() const;
 
   private:
     void compress_parent(const Basis *parent, const Responses *responses);
@@ -109,6 +112,7 @@ class Basis {
     std::shared_ptr<const Space> space_;
     std::shared_ptr<const ReducedModel> reduced_;
     double window_min_hz_ = 0, window_max_hz_ = 0;
+    bool estimated_min_ = false, estimated_max_ = false; // ends of the window that are a sampler's estimate
 };
 
 /// The basis of kind full for the same frequencies with all pairs carried, in the contact space of `basis`

@@ -17,17 +17,6 @@ bool is_homogeneous(const Model &model) {
            std::all_of(model.initial_gap().begin(), model.initial_gap().end(), zero);
 }
 
-LinearSystem reference_system(LinearSystem asked, const RestState &rest, bool homogeneous) {
-    if (asked != LinearSystem::automatic) return asked;
-    // Either would do without pre-load (paper, 2.3.2); in the sliding system the shapes belong to the
-    // assembly.
-    if (homogeneous) return LinearSystem::sliding;
-    const auto n_closed =
-        std::count_if(rest.closed.begin(), rest.closed.end(), [](char c) { return c != 0; });
-    return 2 * n_closed > static_cast<std::int64_t>(rest.closed.size()) ? LinearSystem::sliding
-                                                                        : LinearSystem::open;
-}
-
 namespace {
 
 constexpr std::int64_t n_proposed = 20; // modes a proposal looks at when no range is given

@@ -18,10 +18,6 @@ vector<char> contact_set(LinearSystem system, std::int64_t n_pairs);
 /// True when neither a pre-load nor an initial gap sets a scale: the problem is homogeneous of degree one.
 bool is_homogeneous(const Model &model);
 
-/// `automatic` resolved: sliding when at rest more than half of the pairs are closed or nothing decides, else
-/// open.
-LinearSystem reference_system(LinearSystem asked, const RestState &rest, bool homogeneous);
-
 /// Throws PLM_ERR_ARGUMENT when the mode asked for does not exist.
 DominantMode find_dominant_mode(const Space &space, const ModeRequest &request, Watch watch);
 

@@ -12,9 +12,13 @@ double bilinear_frequency(double f1_hz, double f2_hz) {
 
 namespace {
 
-// The frequency of the mode that resembles the dominant one; its row is added to the table.
+// Half of a mode's kinetic energy: below it the mode is more unlike than like the dominant one.
+constexpr double resembles = 0.5;
+
+// The frequency of the mode that resembles the dominant one; its row is added to the table. `decides`: the
+// window stands or falls with it, otherwise it only makes it wider than it need be.
 double matched_frequency(const Space &space, const DominantMode &dominant, const vector<char> &closed,
-                         const char *name, FrequencyWindow &window, Watch watch) {
+                         const char *name, bool decides, FrequencyWindow &window, Watch watch) {
     const double omega = 2 * M_PI * dominant.frequency_hz;
     const MatchedModes matched = match_modes(space, closed, dominant.coordinates, 9 * omega * omega);
     if (matched.best < 0)
@@ -29,13 +33,16 @@ double matched_frequency(const Space &space, const DominantMode &dominant, const
         row.mac.push_back(matched.mac[j]);
     }
     const double best = row.mac[row.best], hz = row.frequency_hz[row.best];
-    if (best < 0.5)
-        watch.warn(
-            PLM_REASON_LOST_MODE,
-            format(
-                "no mode of %s resembles the dominant mode: the best, at %.6g Hz, has a MAC of %.2f; check "
-                "the frequency window or choose another dominant mode",
-                name, hz, best));
+    if (best < resembles) {
+        const std::string text = format(
+            "no mode of %s resembles the dominant mode: the best, at %.6g Hz, has a MAC of %.2f; check "
+            "the frequency window or choose another dominant mode",
+            name, hz, best);
+        if (decides)
+            watch.warn(PLM_REASON_LOST_MODE, text);
+        else
+            watch.log(1, text);
+    }
     window.mac.push_back(std::move(row));
     return hz;
 }
@@ -75,11 +82,13 @@ FrequencyWindow find_window(const Space &space, const DominantMode &dominant, co
                             const RestState &rest, const SamplerOptions &options, Watch watch) {
     FrequencyWindow w;
     w.preload_case = sweep.offset_is_rest;
-    w.f1_hz = matched_frequency(space, dominant, sweep.samples.back(), "system 1", w, watch);
-    w.f2_hz = matched_frequency(space, dominant, sweep.samples.front(), "system 2", w, watch);
+    const bool estimated = options.window_max_hz == 0, by_halves = estimated && !w.preload_case;
+    w.f1_hz = matched_frequency(space, dominant, sweep.samples.back(), "system 1", by_halves, w, watch);
+    w.f2_hz = matched_frequency(space, dominant, sweep.samples.front(), "system 2", by_halves, w, watch);
     w.blf_hz = bilinear_frequency(w.f1_hz, w.f2_hz);
-    if (w.preload_case) w.rest_hz = matched_frequency(space, dominant, rest.closed, "rest", w, watch);
-    if (options.window_max_hz > 0) {
+    if (w.preload_case)
+        w.rest_hz = matched_frequency(space, dominant, rest.closed, "rest", estimated, w, watch);
+    if (!estimated) {
         w.min_hz = options.window_min_hz;
         w.max_hz = options.window_max_hz;
         w.why = format("given by the caller; the bilinear frequency is %.6g Hz", w.blf_hz);

@@ -3,6 +3,7 @@
 #include "sampling/dominant_mode.hpp"
 #include "sampling/frequency_window.hpp"
 #include "sampling/mode_match.hpp"
+#include "sampling/reference_system.hpp"
 #include "sampling/sampler_options.hpp"
 #include "sampling/static_offset.hpp"
 #include <algorithm>
@@ -32,11 +33,11 @@ std::int64_t least_modes(const SamplerOptions &o) {
 std::vector<DominantMode> find_dominant_modes(const Space &space, const RestState &rest, bool homogeneous,
                                               const SamplerOptions &o, Watch watch) {
     ModeRequest request;
-    request.system = reference_system(o.system, rest, homogeneous);
     request.mode = o.mode;
     request.frequency_hz = o.mode_frequency_hz;
     request.search_min_hz = o.search_min_hz;
     request.search_max_hz = o.search_max_hz;
+    request.system = reference_system(o.system, space, rest, homogeneous, request);
     std::vector<DominantMode> dominant;
     dominant.push_back(find_dominant_mode(space, request, watch));
     for (const SamplerOptions::Extra &e : o.extra) {

@@ -9,7 +9,7 @@ enum class LinearSystem { automatic = -1, open = 0, sliding = 1 };
 
 struct SamplerOptions {
     LinearSystem system =
-        LinearSystem::automatic;  // automatic: sliding when most pairs are closed at rest, else open
+        LinearSystem::automatic;  // automatic: see reference_system()
     std::int64_t mode = 0;        // 1, 2, ...; 0: by frequency or proposed
     double mode_frequency_hz = 0; // > 0: the mode nearest to it; 0: proposed by participation
     double search_min_hz = 0, search_max_hz = 0; // proposal: range searched (0, 0: the 20 lowest modes)

@@ -53,9 +53,10 @@ class Run {
             out_.curves.push_back(sweep(*out_.basis, options_at_level(method_, where_, level), watch_));
         out_.curve_seconds = curve.seconds();
         double seconds = 0;
-        std::int64_t factorizations = 0;
-        for (const BranchPtr &b : out_.curves) seconds += b->seconds, factorizations += b->factorizations;
-        out_.iteration_seconds = seconds / static_cast<double>(std::max<std::int64_t>(1, factorizations));
+        std::int64_t iterations = 0;
+        for (const BranchPtr &b : out_.curves)
+            seconds += b->newton_seconds, iterations += b->newton_iterations;
+        out_.iteration_seconds = seconds / static_cast<double>(std::max<std::int64_t>(1, iterations));
     }
 
     void build_basis() {

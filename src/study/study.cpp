@@ -131,8 +131,9 @@ class Study {
         const Measurement m = measured_once(plan, r);
         r.setup_seconds = setup_of(m), r.curve_seconds = m.curve_seconds;
         r.iteration_seconds = m.iteration_seconds;
-        for (std::size_t level = 0; level < plan_.levels.size(); ++level) add_truth(plan, m, level);
         describe(m, r);
+        for (std::size_t level = 0; level < plan_.levels.size(); ++level) add_truth(plan, m, level);
+        for (std::size_t level = 0; level < truth_.size(); ++level) note_peak(truth_[level].peak, level, r);
         r.peak_hz = truth_[0].peak.frequency_hz, r.peak_amplitude = truth_[0].peak.amplitude;
         out_.space_error = m.basis->space()->error_estimate;
         out_.range = where_.range;
@@ -182,6 +183,12 @@ class Study {
     Peak peak_of(const Measurement &m, const HbmOptions &o, std::size_t level) const {
         return Hbm(m.basis->reduced(), m.basis->window_min_hz(), m.basis->window_max_hz(), o, watch_)
             .find_peak(*m.curves[level], where_.output.dof, where_.output.measure, where_.output.harmonic);
+    }
+
+    // A highest point at an end of the curve is compared with another one's resonance.
+    static void note_peak(const Peak &peak, std::size_t level, MethodResult &r) {
+        const std::string text = peak.branch->warnings.text();
+        if (!text.empty()) r.outcome += format("; level %zu: ", level) + text;
     }
 
     void note_resolution(const PlaneCurve &curve) {
@@ -305,6 +312,7 @@ class Study {
             const HbmOptions o = options_at_level(method, where_, plan_.levels[level]);
             const Truth &truth = truth_[level];
             const Peak &peak = peaks.emplace_back(peak_of(m, o, level));
+            note_peak(peak, level, r);
             const double amplitude = compare_peaks(peak.frequency_hz, peak.amplitude, truth, level, r);
             if (amplitude > worst_amplitude) worst_amplitude = amplitude, worst = level;
             const PlaneCurve curve = plane_curve(*m.curves[level], o, where_.output, truth.scale,

@@ -408,9 +408,44 @@ static void children_outlive_their_parents(void **state) {
     assert_true(done(ctx, plm_branch_get_full_residual(curve, 0, &residual)));
 }
 
+/* An iteration is a part of the run: all of them take less than the whole, and a fair share of it. */
+static void an_iteration_takes_its_share_of_the_run(void **state) {
+    double seconds = 0, each = 0;
+    int64_t iterations = 0;
+    (void)state;
+    assert_int_equal(plm_branch_get_double(curve, "seconds", &seconds), PLM_OK);
+    assert_int_equal(plm_branch_get_double(curve, "seconds_per_iteration", &each), PLM_OK);
+    assert_int_equal(plm_branch_get_int(curve, "newton_iterations", &iterations), PLM_OK);
+    assert_true(each > 0 && (double)iterations * each < seconds);
+}
+
+/* The sampler has solved for rest; the model knows it without another call. */
+static void rest_is_known_after_the_sampler(void **state) {
+    plm_context *own = NULL;
+    plm_model *m = NULL;
+    plm_sampler *s = NULL;
+    int64_t before = -1, after = -1;
+    (void)state;
+    assert_int_equal(plm_context_create(PLM_API_VERSION, &own), PLM_OK);
+    assert_true(done(own, chain_built(own, 1, &m)));
+    assert_int_equal(plm_model_get_int(m, "rest_n_closed", &before), PLM_ERR_STATE);
+    assert_int_equal(plm_sampler_create(m, &s), PLM_OK);
+    assert_true(done(own, plm_sampler_run(s)));
+    assert_int_equal(plm_model_get_int(m, "rest_n_closed", &before), PLM_OK);
+    plm_context_destroy(&own);
+    assert_int_equal(plm_context_create(PLM_API_VERSION, &own), PLM_OK);
+    assert_true(done(own, chain_built(own, 1, &m)));
+    assert_true(done(own, plm_model_solve_rest(m)));
+    assert_int_equal(plm_model_get_int(m, "rest_n_closed", &after), PLM_OK);
+    assert_int_equal(before, after);
+    plm_context_destroy(&own);
+}
+
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
+        TEST(an_iteration_takes_its_share_of_the_run),
+        TEST(rest_is_known_after_the_sampler),
         TEST(modes_of_every_system),
         TEST(model_results),
         cmocka_unit_test_setup_teardown(rest_state, set_up_preloaded, tear_down),

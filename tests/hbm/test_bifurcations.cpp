@@ -2,6 +2,7 @@
 // piecewise-linear flow, whose code is independent of the library; the curves that leave there; loops that
 // close.
 #include "hbm/hbm.hpp"
+#include "hbm/stability.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"
@@ -337,10 +338,31 @@ void hills_method_converges_to_the_multipliers_of_the_flow(void **) {
     assert_true(many < few);
 }
 
+// "auto" goes up to 24 coordinates of the basis; the static response to a pre-load beside them is none of
+// them. (With structural damping no flow is made before a point is known, so that the model needs no masses
+// here.)
+bool stability_by_default(int n, bool preloaded) {
+    auto m = test::reduce_exactly(test::chain(n, 0.01, 10, 0.1, 1, 0, {3}));
+    m->structural = 0.01;
+    if (preloaded) {
+        m->same_static = false;
+        m->lambda_0.push_back(1.0);
+        m->gap_0.append(plm::Matrix(m->gap.rows(), 1));
+        m->preload_0.push_back(1.0);
+    }
+    return plm::Stability(m, HbmOptions()).wanted();
+}
+
+void twenty_four_coordinates_are_those_of_the_basis(void **) {
+    assert_true(stability_by_default(24, false) && stability_by_default(24, true));
+    assert_true(!stability_by_default(25, false) && !stability_by_default(25, true));
+}
+
 } // namespace
 
 int main() {
     const CMUnitTest tests[] = {
+        cmocka_unit_test(twenty_four_coordinates_are_those_of_the_basis),
         cmocka_unit_test(period_doublings_of_the_bilinear_oscillator_are_exact),
         cmocka_unit_test(folds_of_the_bilinear_oscillator_are_exact),
         cmocka_unit_test(symmetry_breaking_is_exact_and_both_sides_are_found),

@@ -44,6 +44,22 @@ std::shared_ptr<const plm::Model> make_model(const exact::Structure &s, const Mo
     return std::make_shared<plm::Model>(input, options, nullptr, plm::Watch());
 }
 
+exact::Structure breathing_crack() {
+    constexpr double spring = 1e4, bending = 2e4;
+    exact::Structure s;
+    s.n = 2, s.z = 5; // displacement of the middle of the section, rotation
+    s.mass = {1, 25};
+    s.stiffness = {spring, -3 * spring, -3 * spring, 9 * spring + bending};
+    s.damping = s.stiffness;
+    for (double &c : s.damping) c *= 1e-4;
+    for (int i = 0; i < s.z; ++i) s.gap_rows.insert(s.gap_rows.end(), {1.0, i - 2.0});
+    s.contact_stiffness.assign(s.z, spring);
+    s.gap.assign(s.z, 0.0);
+    s.force = {0, 1};
+    s.preload.assign(s.n, 0.0);
+    return s;
+}
+
 exact::Structure two_chains(int n, int n_pairs, double contact_stiffness, bool supported) {
     exact::Structure s;
     s.n = 2 * n;

@@ -24,6 +24,11 @@ std::shared_ptr<const plm::Model> make_model(const exact::Structure &s, const Mo
 /// symmetric ties.
 exact::Structure two_chains(int n, int n_pairs, double contact_stiffness, bool supported);
 
+/// A body that is hinged by a ligament at height -3 and touches a wall with five pairs at the heights -2 ..
+/// 2: a breathing crack through five sixths of a section. Open it turns about the ligament, with all pairs on
+/// one side; closed about the middle of the section, with pairs on both.
+exact::Structure breathing_crack();
+
 /// Eigenvalues and M-orthonormal vectors of K + B^T k B over the closed pairs, dense over all DOFs.
 plm::SymmetricEigen dense_modes(const exact::Structure &s, const plm::vector<char> &closed);
 plm::Matrix dense_stiffness(const exact::Structure &s, const plm::vector<char> &closed);

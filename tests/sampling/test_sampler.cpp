@@ -2,11 +2,14 @@
 // its errors.
 #include "sampling/contact_sweep.hpp"
 #include "sampling/mode_match.hpp"
+#include "sampling/reference_system.hpp"
 #include "sampling/sampler.hpp"
 #include "small_models.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 using plm::LinearSystem;
 using plm::Sampler;
@@ -119,14 +122,45 @@ void the_search_range_limits_the_proposal(void **) {
 }
 
 void the_reference_system_follows_the_contact_at_rest(void **) {
-    assert_true(run(test::two_chains(40, 9, 300, true))->dominant()[0].system ==
-                LinearSystem::sliding); // homogeneous
     const auto closed = run(pressed_chains(50)), open = run(pressed_chains(-50));
     const auto n_closed = [](const Sampler &s) {
         return std::count(s.rest().closed.begin(), s.rest().closed.end(), 1);
     };
     assert_true(2 * n_closed(*closed) > 9 && closed->dominant()[0].system == LinearSystem::sliding);
     assert_true(n_closed(*open) == 0 && open->dominant()[0].system == LinearSystem::open);
+}
+
+// Without pre-load and gap: the open system, as no pair is closed at rest; but the sliding one where contact
+// alone holds the body.
+void without_preload_the_reference_system_is_the_one_that_can_serve(void **) {
+    const auto crack = run(test::breathing_crack());
+    assert_true(crack->dominant()[0].system == LinearSystem::open);
+    assert_true(run(test::two_chains(40, 9, 300, true))->dominant()[0].system == LinearSystem::open);
+    exact::Structure loose = test::breathing_crack(); // without its ligament
+    loose.stiffness = {0, 0, 0, 2e4};
+    assert_true(run(loose)->dominant()[0].system == LinearSystem::sliding);
+    // In the sliding mode some pairs of the crack open while others close, which no half cycle shows.
+    const auto sliding = run(test::breathing_crack(), with_mode(LinearSystem::sliding, 1));
+    const double good = plm::half_cycle_agreement(*crack->space(), crack->dominant()[0]),
+                 bad = plm::half_cycle_agreement(*sliding->space(), sliding->dominant()[0]);
+    assert_true(good > 1.5 * bad);
+}
+
+// The exact motion, at steps of 2 % over twice the window, responds most inside it.
+void the_window_of_a_breathing_crack_holds_its_resonance(void **) {
+    const exact::Structure s = test::breathing_crack();
+    const auto sampler = run(s);
+    double best = 0, at = 0;
+    std::vector<double> guess;
+    for (double hz = 0.7 * sampler->window().min_hz; hz < 1.4 * sampler->window().max_hz; hz *= 1.02) {
+        const exact::Orbit o = exact::periodic_orbit(s, 2 * M_PI * hz, guess, 2, 32);
+        if (!o.converged) continue;
+        guess = o.start;
+        if (o.peak(1) > best) best = o.peak(1), at = hz;
+    }
+    std::printf("    resonance %.4f Hz, window [%.4f, %.4f] Hz\n", at, sampler->window().min_hz,
+                sampler->window().max_hz);
+    assert_true(at > 1.01 * sampler->window().min_hz && at < sampler->window().max_hz / 1.01);
 }
 
 void the_sweep_starts_from_rest_with_preload_and_from_the_static_offset_without(void **) {
@@ -222,6 +256,8 @@ int main() {
         cmocka_unit_test(the_responding_mode_is_proposed),
         cmocka_unit_test(the_search_range_limits_the_proposal),
         cmocka_unit_test(the_reference_system_follows_the_contact_at_rest),
+        cmocka_unit_test(without_preload_the_reference_system_is_the_one_that_can_serve),
+        cmocka_unit_test(the_window_of_a_breathing_crack_holds_its_resonance),
         cmocka_unit_test(the_sweep_starts_from_rest_with_preload_and_from_the_static_offset_without),
         cmocka_unit_test(further_dominant_modes_add_their_sweeps),
         cmocka_unit_test(rigid_body_modes_count_but_are_not_proposed),

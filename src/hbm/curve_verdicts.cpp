@@ -1,0 +1,79 @@
+#include "hbm/curve_verdicts.hpp"
+#include "hbm/trig_polynomial.hpp"
+#include "hbm/wider_range.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plm {
+namespace {
+
+// No result of this library is to be wrong by more without a word.
+constexpr double missed = 0.01;
+// A host that goes up from small forces begins within two decades of where contact changes.
+constexpr double far_from_switching = 100;
+
+// The point outside the window where the response is largest; -1: all lie inside.
+std::int64_t largest_outside(const SweepRange &window, const Branch &branch) {
+    std::int64_t best = -1;
+    double most = -1;
+    for (std::size_t i = 0; i < branch.points().size(); ++i) {
+        const double hz = branch.points()[i].omega / (2 * M_PI);
+        if (hz > window.min_hz * (1 - 1e-6) && hz < window.max_hz * (1 + 1e-6)) continue;
+        const double size = response_size(branch, static_cast<std::int64_t>(i));
+        if (size > most) most = size, best = static_cast<std::int64_t>(i);
+    }
+    return best;
+}
+
+// How many times as large the motion at a point would have to be for the first pair to switch.
+double factor_to_switching(const Branch &branch, std::int64_t point) {
+    const Matrix u = branch.penetration_coefficients(point);
+    const std::int64_t n = u.rows() / 2;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::int64_t i = 0; i < u.cols(); ++i) {
+        const TrigRange range = trig_range(u.col(i), n);
+        const double half = 0.5 * (range.maximum - range.minimum);
+        if (half > 0) least = std::min(least, std::abs(u(0, i)) / half);
+    }
+    return least;
+}
+
+} // namespace
+
+void check_window(const SweepRange &window, Watch watch, Branch &branch) {
+    if (!(window.max_hz > 0) || !branch.reduced().model) return;
+    const std::int64_t worst = largest_outside(window, branch);
+    if (worst < 0) return;
+    const double residual = branch.full_residual(worst);
+    if (residual <= missed) return;
+    watch.keeping(branch.warnings)
+        .warn(
+            PLM_REASON_OUTSIDE_BASIS,
+            format(
+                "the basis is made for %.6g to %.6g Hz; at %.6g Hz the response misses the equations of the "
+                "whole structure by %.2g of its size (full residual). Build a basis for these frequencies: "
+                "frequency_min_hz and frequency_max_hz of the basis, or window_min_hz and window_max_hz of "
+                "the sampler",
+                window.min_hz, window.max_hz,
+                branch.points()[static_cast<std::size_t>(worst)].omega / (2 * M_PI), residual));
+}
+
+void check_switching(Watch watch, Branch &branch) {
+    if (branch.reduced().n_pairs() == 0) return;
+    for (const BranchPoint &p : branch.points())
+        if (p.n_switching > 0) return;
+    const std::int64_t top = largest_response(branch);
+    if (!(response_size(branch, top) > 0)) return; // nothing is excited
+    const double factor = factor_to_switching(branch, top);
+    if (factor < far_from_switching) return;
+    watch.keeping(branch.warnings)
+        .warn(
+            PLM_REASON_NO_SWITCHING,
+            format("no contact pair opens or closes on this curve, nor would one unless the motion were %.2g "
+                   "times as large: this is a linear response. Check the units of gaps, pre-load and "
+                   "excitation, and the direction of the pairs",
+                   factor));
+}
+
+} // namespace plm

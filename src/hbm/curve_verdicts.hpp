@@ -1,0 +1,17 @@
+// What is said with a curve that was followed to its end: whether basis and contact were what it is about.
+#pragma once
+#include "hbm/branch.hpp"
+#include "linalg/monitor.hpp"
+#include "reduction/sweep_range.hpp"
+
+namespace plm {
+
+/// A basis is made for its window. Beyond it many bases still serve: the largest response there is put into
+/// the equations of the whole structure, once, and what they miss decides.
+void check_window(const SweepRange &window, Watch watch, Branch &branch);
+
+/// A curve on which no pair comes near to opening or closing is a linear response, most often of a gap or a
+/// pre-load in other units than the force.
+void check_switching(Watch watch, Branch &branch);
+
+} // namespace plm
