@@ -16,6 +16,11 @@ endif()
 if(PLM_CHECKED)
     add_compile_definitions($<$<COMPILE_LANGUAGE:CXX>:PLM_CHECKED> $<$<COMPILE_LANGUAGE:CXX>:_GLIBCXX_ASSERTIONS>)
 endif()
+# What is installed checks its own stack and copies, in the host's interest.
+if(NOT PLM_SANITIZE)
+    add_compile_options("$<$<CONFIG:Release,MinSizeRel>:-fstack-protector-strong;-fstack-clash-protection>"
+                        "$<$<CONFIG:Release,MinSizeRel>:-U_FORTIFY_SOURCE;-D_FORTIFY_SOURCE=2>") # Ubuntu's gcc defines it
+endif()
 if(PLM_SANITIZE)
     add_compile_options(-fsanitize=${PLM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     add_link_options(-fsanitize=${PLM_SANITIZE})

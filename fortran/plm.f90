@@ -11,7 +11,8 @@
 !                                         call context%destroy(): and all that was made in it
 !
 ! Every procedure ends with the optional arguments stat (a PLM_... status) and errmsg. Without stat a failure is written
-! to error_unit and the program stops with error stop. DOFs, points and columns count from 1; 0 stands for "no DOF".
+! to error_unit and the program stops with error stop; an outcome (a status above 0: something to look at) is written
+! there, too, and the program goes on. DOFs, points and columns count from 1; 0 stands for "no DOF".
 ! There are no finalizers: what is not destroyed goes with its context. A copy by assignment is the same object.
 module plm
     use plm_constants

@@ -25,6 +25,7 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_ERR_CONVERGENCE = -11_c_int32_t
     integer(c_int32_t), parameter :: PLM_ERR_CALLBACK = -12_c_int32_t
     integer(c_int32_t), parameter :: PLM_ERR_INTERNAL = -13_c_int32_t
+    integer(c_int32_t), parameter :: PLM_ERR_BUSY = -14_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_NONE = 0_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_NOT_POSITIVE_DEFINITE = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_SINGULAR = 2_c_int32_t
@@ -48,6 +49,7 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_REASON_UNVERIFIED = 20_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_NO_SWITCHING = 21_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_LOST_MODE = 22_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_MODEL = 23_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_NONE = 0_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_FOLD = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_BRANCH_POINT = 2_c_int32_t

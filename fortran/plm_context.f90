@@ -114,7 +114,7 @@ contains
         call finish(self%handle, status, stat, errmsg)
     end subroutine set_progress
 
-    ! PLM_REASON_... of the last failure
+    ! PLM_REASON_... of the last failure or outcome
     integer function error_reason(self)
         class(plm_context), intent(in) :: self
         integer(c_int32_t) :: reason

@@ -1,5 +1,6 @@
-! plm_errors.f90: how every procedure of the module plm reports: by stat and errmsg where the caller gives stat, else
-! by a line on error_unit and error stop. Outcomes above 0 (not converged, cancelled ...) are no failures.
+! plm_errors.f90: how every procedure of the module plm reports: by stat and errmsg where the caller gives stat. Else a
+! failure is a line on error_unit and error stop; an outcome above 0 (not converged, truncated, something to look at) is a
+! line on error_unit, and the program goes on with results that are valid as far as they go.
 module plm_errors
     use, intrinsic :: iso_c_binding, only: c_char, c_ptr, c_null_char
     use, intrinsic :: iso_fortran_env, only: error_unit, int64
@@ -18,9 +19,11 @@ contains
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
         if (present(stat)) stat = int(status)
-        if (status >= 0) return
+        if (status == PLM_OK) return
         if (present(errmsg)) errmsg = error_text(context, status)
-        if (.not. present(stat)) call stop_with(error_text(context, status))
+        if (present(stat)) return
+        if (status < 0) call stop_with(error_text(context, status))
+        write (error_unit, '(a)') 'libplm: '//error_text(context, status)
     end subroutine finish
 
     ! The same for an argument that this layer does not pass on.
@@ -39,7 +42,7 @@ contains
         error stop 1
     end subroutine stop_with
 
-    ! The context's text where it is about this failure, else what the status says by itself.
+    ! The context's text where it is about this call, else what the status says by itself.
     function error_text(context, status) result(text)
         type(c_ptr), intent(in) :: context
         integer(plm_status), intent(in) :: status

@@ -3,7 +3,7 @@
 !
 ! Handles are INTEGER*8, numbers default INTEGER and DOUBLE PRECISION, texts CHARACTER*(*) with blanks behind. DOFs,
 ! pairs, points, columns and compressed pointers count from 1; 0 is "no DOF". The last argument IERR is the plm_status:
-! 0 done, > 0 done with an outcome to look at, < 0 failed.
+! 0 done, > 0 done with an outcome to look at, < 0 failed; PLMCET has the text after both.
 module plm_f77_support
     use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_null_ptr, c_char, c_double, c_int32_t, c_null_char, &
         c_f_procpointer

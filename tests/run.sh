@@ -19,7 +19,7 @@ case ${1-} in
 '') set -- dev ;;
 esac
 
-need_packages g++ gfortran cmake ninja-build pkg-config libopenblas-dev liblapack-dev libarpack2-dev libfftw3-dev \
+need_packages g++ gfortran cmake ninja-build pkg-config libopenblas-dev libopenblas-serial-dev liblapack-dev libarpack2-dev libfftw3-dev \
     libsuitesparse-dev libeigen3-dev libcmocka-dev python3 python3-numpy python3-scipy python3-matplotlib \
     python3-pip calculix-ccx abigail-tools valgrind doxygen clang libclang-rt-dev make
 
@@ -61,8 +61,9 @@ choose() {
         programs='plm plm_static test_linalg_factor test_linalg_dft test_capi_run test_capi_transient accuracy'
         tests='^(linalg[.](factor|dft)|capi[.](run|transient)|accuracy[.]quick|abi[.](object|ledger))$' ;;
     release) # what the shared object carries and hides
-        programs='plm plm_static test_capi_run test_host_own_lapack test_host_quiet_blas'
-        tests='^(capi[.]run|host[.](own_lapack|quiet_blas)|abi[.](object|ledger))$' ;;
+        programs='plm plm_static test_capi_run test_host_own_lapack test_host_quiet_blas test_host_ilp64 test_host_fork
+                  test_host_limit test_host_starved test_host_unload test_host_plugin_shared test_host_plugin_static'
+        tests='^(capi[.]run|host[.](own_lapack|quiet_blas|ilp64|fork|limit|starved|unload|plugin_exports)|abi[.](object|ledger))$' ;;
     esac
 }
 

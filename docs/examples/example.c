@@ -21,17 +21,17 @@ plm_status start_model(plm_context *ctx, plm_model **model) {
 plm_status basis_of(plm_model *model, plm_basis **basis) {
     plm_sampler *sampler = NULL;
     plm_status s = plm_sampler_create(model, &sampler);
-    if (!s) s = plm_sampler_run(sampler);
-    if (!s) s = plm_basis_create(model, basis);
-    if (!s) s = plm_basis_set_sampler(*basis, sampler);
-    return s ? s : plm_basis_build(*basis);
+    if (s >= 0) s = plm_sampler_run(sampler);
+    if (s >= 0) s = plm_basis_create(model, basis);
+    if (s >= 0) s = plm_basis_set_sampler(*basis, sampler);
+    return s < 0 ? s : plm_basis_build(*basis);
 }
 
 plm_status start_basis(plm_context *ctx, plm_basis **basis) {
     plm_model *model = NULL;
     plm_status s = start_model(ctx, &model);
     if (!s) s = plm_model_build(model);
-    return s ? s : basis_of(model, basis);
+    return s < 0 ? s : basis_of(model, basis);
 }
 
 int main(void) {

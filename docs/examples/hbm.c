@@ -200,7 +200,10 @@ static int other_searches(plm_hbm *hbm, plm_branch *curve) {
 
     /* [plm_hbm_find_nonlinear_mode] */
     plm_branch *mode = NULL; /* motion without excitation: mode 1, until DOF 0 moves by 1.5 m */
+    double damping[2000];    /* share of critical damping over the amplitude */
     TRY(plm_hbm_find_nonlinear_mode(hbm, 1, 0, 1.5, &mode));
+    TRY(plm_branch_get_array(mode, "damping_ratio", 2000, damping, &count));
+    printf("damping ratio %g at the least amplitude, %g at 1.5 m\n", damping[0], damping[count - 1]);
     /* [plm_hbm_find_nonlinear_mode] */
     EXPECT(fabs(last_of(mode) / 1.5 - 1) < 1e-6);
     return 0;

@@ -52,12 +52,9 @@ int main(void) {
     plm_context *ctx = NULL;
     TRY(plm_context_create(PLM_API_VERSION, &ctx));
     const int failed = find_peak(ctx, &hz, &amplitude);
-    if (failed) {
-        plm_context_get_error_text(ctx, sizeof text, text, NULL);
-        printf("%s\n", text);
-    } else {
-        printf("peak: %.4f mm at %.3f Hz\n", 1e3 * amplitude, hz);
-    }
+    plm_context_get_error_text(ctx, sizeof text, text, NULL);
+    if (*text) fprintf(stderr, "%s\n", text); /* what failed, or what should be looked at */
+    if (!failed) printf("peak: %.4f mm at %.3f Hz\n", 1e3 * amplitude, hz);
     plm_context_destroy(&ctx); /* and everything made in it */
     return failed;
 }

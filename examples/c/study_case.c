@@ -40,10 +40,11 @@ int study_open(study_case *c, const study_options *o) {
     if (plm_context_create(PLM_API_VERSION, &c->ctx)) return 1;
     plm_context_set_progress(c->ctx, study_progress, c);
     plm_context_set_log(c->ctx, study_log, c);
-    if (scene_to_model(c->ctx, c->scene, &c->model) || set_contact_stiffness(c))
+    if (scene_to_model(c->ctx, c->scene, &c->model) < 0 || set_contact_stiffness(c))
         return study_complain(c->ctx, "model");
     study_say(c, "model built: matrices checked, stiffness factored");
-    if (study_recipe_make(c, "", &r) || plm_sampler_run(r.sampler)) return study_complain(c->ctx, "sampler");
+    if (study_recipe_make(c, "", &r) || plm_sampler_run(r.sampler) < 0)
+        return study_complain(c->ctx, "sampler");
     c->sampler = r.sampler;
     r.sampler = NULL;
     study_recipe_free(&r);

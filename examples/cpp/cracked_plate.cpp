@@ -65,8 +65,8 @@ double peak_of(const plm::Basis &basis, std::int64_t dof, const char *name) {
 int run(const char *size) {
     const Scene s = make_scene(size);
     plm::Context context;
-    context.on_log([](int level, std::string_view text) { // silent unless something should be looked at
-        if (level == 2) std::fprintf(stderr, "%.*s\n", static_cast<int>(text.size()), text.data());
+    context.on_outcome([](plm_status, std::string_view text) { // silent unless something should be looked at
+        std::fprintf(stderr, "%.*s\n", static_cast<int>(text.size()), text.data());
     });
     const plm::Model model = make_model(context, *s);
     const plm::Sampler sampler = make_sampler(model, *s);

@@ -6,10 +6,10 @@
 //
 //   - Model, Sampler, Basis, Hbm, Branch, Transient and Study are move-only and may outlive one another and
 //     the Context in any order.
-//   - A failure throws plm::Error with everything the context knows about it. PLM_NOT_CONVERGED,
-//     PLM_TRUNCATED and PLM_CANCELLED of a sweep do not throw: see Branch::status(), nor do those of
-//     Transient::run, find_periodic and Study::run, which return them. A cancelled build or sampler throws
-//     plm::Cancelled.
+//   - A failure throws plm::Error with everything the context knows about it. An outcome (a status above 0:
+//     PLM_WARNING, PLM_NOT_CONVERGED, PLM_TRUNCATED, PLM_CANCELLED) does not throw: what returns no result
+//     returns it, a Branch keeps it as status(), and Context::on_outcome hears of every one with its text. A
+//     cancelled call without a result throws plm::Cancelled.
 //   - Arrays in: any contiguous container (std::vector, std::array, std::span, Eigen vectors, {1, 2, 3});
 //     its size is checked. Arrays out: std::vector, matrices by columns.
 //   - An exception that leaves a callback stops the call under way and is thrown again by it, and so is one
@@ -47,7 +47,7 @@ struct ErrorDetails {
     plm_status status = PLM_ERR_INTERNAL;
     std::int32_t reason = PLM_REASON_NONE; // PLM_REASON_...
     std::int64_t index = -1;               // offending position in the argument, -1: none
-    std::int64_t library_code = 0;         // of LAPACK, ARPACK, the factorization or a callback
+    std::int64_t library_code = 0;         // of LAPACK, the factorization or a callback
     std::string function, argument;        // of plm.h
 };
 
@@ -201,6 +201,7 @@ class State {
   public:
     using Log = std::function<void(int, std::string_view)>;
     using Progress = std::function<bool(std::string_view, double)>;
+    using Outcome = std::function<void(plm_status, std::string_view)>;
     using Factor = std::function<std::unique_ptr<Factorization>(const LowerTriangle &)>;
 
     State() = default;
@@ -208,10 +209,11 @@ class State {
     State &operator=(const State &) = delete;
     ~State() { plm_context_destroy(&context); }
 
-    /// Throws what a callback threw during the call, else an Error when the call failed.
+    /// Throws what a callback threw during the call, else an Error when the call failed; tells of outcomes.
     void check(plm_status status, const char *function) {
         if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
         if (status < 0) fail(status, function);
+        if (status > 0 && status != PLM_CANCELLED && outcome) outcome(status, last_text(status, function));
     }
     /// For calls that have no result when they were cancelled.
     plm_status finished(plm_status status, const char *function) {
@@ -220,21 +222,32 @@ class State {
         return status;
     }
 
-    [[noreturn]] void fail(plm_status status, const char *function) const {
-        ErrorDetails d;
-        std::string text;
+    /// What the context keeps of the last call; false when that was another one: a dead handle, a call from
+    /// inside a callback or beside another thread's are not heard of.
+    bool details(plm_status status, const char *function, ErrorDetails &d) const {
         read_text([&](auto... x) { return plm_context_get_error_function(context, x...); }, d.function);
         plm_context_get_error_info(context, &d.status, &d.reason, &d.index, &d.library_code);
-        const bool known = d.function == function && d.status == status;
-        if (known) {
-            read_text([&](auto... x) { return plm_context_get_error_argument(context, x...); }, d.argument);
+        if (d.function == function && d.status == status) return true;
+        d = ErrorDetails();
+        d.status = status, d.function = function;
+        return false;
+    }
+    std::string last_text(plm_status status, const char *function) const {
+        ErrorDetails d;
+        std::string text;
+        if (details(status, function, d)) {
             read_text([&](auto... x) { return plm_context_get_error_text(context, x...); }, text);
-        } else { // a dead handle, or a call from inside a callback: the context has not heard of it
-            d = ErrorDetails();
-            d.status = status, d.function = function;
-            read_text([&](auto... x) { return plm_status_text(status, x...); }, text);
-            text = std::string(function) + ": " + text;
+            return text;
         }
+        read_text([&](auto... x) { return plm_status_text(status, x...); }, text);
+        return std::string(function) + ": " + text;
+    }
+
+    [[noreturn]] void fail(plm_status status, const char *function) const {
+        ErrorDetails d;
+        if (details(status, function, d))
+            read_text([&](auto... x) { return plm_context_get_error_argument(context, x...); }, d.argument);
+        const std::string text = last_text(status, function);
         if (status == PLM_CANCELLED) throw Cancelled(text, std::move(d));
         throw Error(text, std::move(d));
     }
@@ -256,6 +269,7 @@ class State {
     Log log;
     Progress progress;
     Factor factor;
+    Outcome outcome;
     std::exception_ptr thrown; // by a callback, to be thrown again after the call
 
   private:
@@ -398,7 +412,7 @@ template <class C> class Handle {
     Handle(StatePtr state, C *handle) : state_(std::move(state)), handle_(handle) {}
 
     void check(plm_status status, const char *verb) const {
-        if (status < 0 || (state_ && state_->thrown)) living().check(status, full_name(verb).c_str());
+        if (status != PLM_OK || (state_ && state_->thrown)) living().check(status, full_name(verb).c_str());
     }
     plm_status finished(plm_status status, const char *verb) const {
         return status == PLM_OK && !state_->thrown ? status
@@ -551,6 +565,9 @@ class Context {
             state()->progress = std::move(f);
         state()->install();
     }
+    /// f(status, text) hears what should be looked at, of every call that is done with an outcome; the text
+    /// lives during the call only. It may throw: what was computed is then lost.
+    template <class F> void on_outcome(F f) { state()->outcome = std::move(f); }
     void silence() {
         state()->log = nullptr;
         state()->progress = nullptr;
@@ -814,7 +831,8 @@ struct Contact { // over the cycle, each n_pairs x n_times
 
 class Branch : public detail::Handle<plm_branch> {
   public:
-    /// PLM_OK, PLM_NOT_CONVERGED, PLM_TRUNCATED or PLM_CANCELLED, as the call that made it returned.
+    /// PLM_OK, PLM_WARNING, PLM_NOT_CONVERGED, PLM_TRUNCATED or PLM_CANCELLED, as the call that made it
+    /// returned; get_string("warning") and get_string("end_text") say why.
     plm_status status() const { return status_; }
     std::int64_t size() const { return get_int("n_points"); }
     std::vector<double> frequency_hz() const { return get_array("frequency_hz"); }
@@ -943,7 +961,7 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
             plm_hbm_find_peak(handle_, branch.handle_, dof, measure, harmonic, &hz, &amplitude, &b);
         return {hz, amplitude, deliver(s, b, "find_peak")};
     }
-    /// How wrong a point of `branch` is, without the unreduced solution.
+    /// How wrong a point of `branch` is, without the unreduced solution; NaN where that cannot be told.
     ErrorEstimate estimate_error(const Branch &branch, std::int64_t point, std::int64_t dof,
                                  std::int32_t measure = PLM_HALF_PEAK_TO_PEAK, std::int32_t harmonic = 0) {
         double a[3] = {}, f[3] = {};

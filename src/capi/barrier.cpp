@@ -44,4 +44,16 @@ plm_status record_failure(const char *function, Context *context) noexcept {
     }
 }
 
+plm_status finished(const char *function, Context &context, const Outcome &outcome) noexcept {
+    if (outcome.status <= 0) return outcome.status;
+    try {
+        Error said(outcome.status, outcome.text.empty() ? status_words(outcome.status) : outcome.text);
+        store(&context, function, said.reason(outcome.reason));
+    } catch (...) { // no memory even for the text: the results stand
+        context.error = ErrorDetails();
+        context.error.status = outcome.status, context.error.reason = outcome.reason;
+    }
+    return outcome.status;
+}
+
 } // namespace plm::capi

@@ -2,6 +2,8 @@
 // floating-point environment, refuses re-entry, and sets the context's allocator.
 #pragma once
 #include "capi/context.hpp"
+#include "linalg/blas_host.hpp"
+#include "capi/outcome.hpp"
 #include "linalg/work.hpp"
 
 namespace plm::capi {
@@ -22,21 +24,27 @@ class HeldFloatingPoint {
     std::fenv_t host_;
 };
 
-/// Marks the context as running; false when a call is under way already (from a callback, or from another
-/// thread).
+/// Marks the context as running; false when a call is under way already, which is then not touched.
 class RunningCall {
   public:
     RunningCall(Context &context, std::fenv_t *host)
         : context_(context), mine_(!context.running.exchange(true)) {
-        if (mine_) context_.host_environment = host;
+        if (!mine_) return;
+        context_.runner = std::this_thread::get_id();
+        context_.host_environment = host;
     }
     ~RunningCall() {
         if (!mine_) return;
         context_.host_environment = nullptr;
+        context_.runner = std::thread::id();
         context_.running = false;
     }
     RunningCall(const RunningCall &) = delete;
     explicit operator bool() const { return mine_; }
+    /// Why not: this thread is inside a callback of the call under way, or that call is another thread's.
+    plm_status refusal() const {
+        return context_.runner.load() == std::this_thread::get_id() ? PLM_ERR_STATE : PLM_ERR_BUSY;
+    }
 
   private:
     Context &context_;
@@ -46,8 +54,10 @@ class RunningCall {
 /// Status for the exception being handled; details go to `context` unless it is null. Call from a catch block
 /// only.
 plm_status record_failure(const char *function, Context *context) noexcept;
+/// The status of a call that is done; what it has to say goes to the context.
+plm_status finished(const char *function, Context &context, const Outcome &outcome) noexcept;
 
-/// An exported function on a handle of class H: body(H &) returns the status.
+/// An exported function on a handle of class H: body(H &) returns the status, or an Outcome.
 template <class H, class Body>
 plm_status call(const char *function, typename H::Opaque *handle, Body body) noexcept {
     HeldFloatingPoint held;
@@ -56,11 +66,12 @@ plm_status call(const char *function, typename H::Opaque *handle, Body body) noe
         if (!object) return PLM_ERR_HANDLE;
         Context &context = object->context();
         RunningCall running(context, held.host());
-        if (!running) return PLM_ERR_STATE; // without touching the call that runs
+        if (!running) return running.refusal();
         const AllocatorScope scope(&context.allocator);
         const WorkScope work(context.listener());
         try {
-            return body(*object);
+            const BlasBuffer buffer;
+            return finished(function, context, body(*object));
         } catch (...) {
             return record_failure(function, &context);
         }
@@ -79,16 +90,24 @@ template <class Body> plm_status call_free(Body body) noexcept {
     }
 }
 
+/// A handle whose object is gone already, with its context or by a copy of the handle: there is nothing to
+/// do, in whatever order a host destroys things. Anything else never was a handle of this kind.
+template <class H> plm_status forget(typename H::Opaque **handle) {
+    if (!registry::is_gone(*handle, H::the_kind)) return PLM_ERR_HANDLE;
+    *handle = nullptr;
+    return PLM_OK;
+}
+
 /// plm_X_destroy.
 template <class H> plm_status destroy(typename H::Opaque **handle) noexcept {
     if (!handle || !*handle) return PLM_OK;
     HeldFloatingPoint held;
     try {
         std::shared_ptr<H> object = find<H>(*handle);
-        if (!object) return PLM_ERR_HANDLE;
+        if (!object) return forget<H>(handle);
         const std::shared_ptr<Context> keep = object->owner; // outlives the object's members
         RunningCall running(*keep, held.host());
-        if (!running) return PLM_ERR_STATE;
+        if (!running) return running.refusal();
         registry::remove(*handle, H::the_kind);
         *handle = nullptr;
         object.reset();

@@ -93,7 +93,7 @@ plm_status plm_basis_build(plm_basis *basis) {
         const std::shared_ptr<const plm::Model> &model = built(*b.model);
         b.core = std::make_shared<const plm::Basis>(model, run_sampler(b), b.parent, b.basis_options,
                                                     b.owner->watch(), b.responses.get());
-        return b.core->report().warnings.empty() ? PLM_OK : PLM_WARNING;
+        return Outcome(b.core->report().warnings);
     });
 }
 

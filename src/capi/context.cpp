@@ -41,6 +41,7 @@ plm_status create(std::int32_t api_version, plm_allocate_fn allocate, plm_releas
                   plm_context **ctx) {
     if (!ctx || api_version != PLM_API_VERSION) return PLM_ERR_ARGUMENT;
     return call_free([&]() -> plm_status {
+        const BlasBuffer buffer;
         if (blas_takes_other_integers()) return PLM_ERR_NOT_BUILT; // there is no context yet to hold a text
         keep_own_blas_to_one_thread();
         auto context = std::make_shared<Context>();
@@ -97,9 +98,9 @@ plm_status plm_context_destroy(plm_context **ctx) {
     HeldFloatingPoint held;
     try {
         const std::shared_ptr<Context> context = find<Context>(*ctx);
-        if (!context) return PLM_ERR_HANDLE;
+        if (!context) return forget<Context>(ctx);
         RunningCall running(*context, held.host());
-        if (!running) return PLM_ERR_STATE;
+        if (!running) return running.refusal();
         for (std::shared_ptr<Object> &child : registry::remove_children(context.get())) child.reset();
         registry::remove(*ctx, Kind::context);
         *ctx = nullptr;

@@ -7,6 +7,7 @@
 #include "linalg/work.hpp"
 #include <atomic>
 #include <cfenv>
+#include <thread>
 
 namespace plm::capi {
 
@@ -52,8 +53,9 @@ struct Context final : Object {
     void *log_user = nullptr, *progress_user = nullptr;
     SolverBinding solver;
 
-    ErrorDetails error;
+    ErrorDetails error;                      // of the last call that did not return PLM_OK
     std::atomic<bool> running{false};        // a call is under way
+    std::atomic<std::thread::id> runner{};   // in this thread
     std::fenv_t *host_environment = nullptr; // during a call: the host's floating-point environment
 
   private:

@@ -18,15 +18,19 @@ plm_branch *publish_branch(const HbmHandle &h, BranchPtr core) {
     return publish(std::make_shared<BranchHandle>(h.owner, std::move(core)));
 }
 
-plm_status deliver(HbmHandle &h, Warnings warnings) {
+Outcome deliver(HbmHandle &h, Warnings warnings) {
     h.warnings = std::move(warnings);
-    return h.warnings.empty() ? PLM_OK : PLM_WARNING;
+    return h.warnings;
 }
 
-plm_status deliver(HbmHandle &h, BranchPtr core, plm_branch **branch) {
-    const plm_status ended = end_status(core->end_reason), warned = deliver(h, core->warnings);
+Outcome deliver(HbmHandle &h, BranchPtr core, plm_branch **branch) {
+    const std::int32_t reason = core->end_reason;
+    Outcome outcome = deliver(h, core->warnings);
+    if (const plm_status ended = end_status(reason); ended != PLM_OK)
+        outcome = {ended, reason,
+                   end_text(reason) + (outcome.text.empty() ? "" : "; beside that: " + outcome.text)};
     *branch = publish_branch(h, std::move(core));
-    return ended == PLM_OK ? warned : ended;
+    return outcome;
 }
 
 std::shared_ptr<BranchHandle> own_branch(const HbmHandle &h, const plm_branch *branch, const char *name) {
@@ -91,10 +95,10 @@ plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, std::int64_t dof,
             solver(h).find_peak(*curve->core, dof, static_cast<plm::Measure>(measure), harmonic);
         const double highest[] = {found.frequency_hz, found.amplitude};
         plm::require_finite_result(highest, 2, "frequency_hz, amplitude");
-        const plm_status status = deliver(h, found.branch->warnings);
+        Outcome outcome = deliver(h, found.branch->warnings);
         if (peak) *peak = publish_branch(h, std::move(found.branch));
         *frequency_hz = found.frequency_hz, *amplitude = found.amplitude;
-        return status;
+        return outcome;
     });
 }
 
@@ -127,10 +131,20 @@ plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, std::int64_t
         };
         double all[6];
         put(e.amplitude, all), put(e.frequency_hz, all + 3);
-        plm::require_finite_result(all, 6, "amplitude, frequency_hz");
+        if (e.complete())
+            plm::require_finite_result(all, 6, "amplitude, frequency_hz"); // else NaN where unknown
         put(e.amplitude, amplitude);
         put(e.frequency_hz, frequency_hz);
-        return PLM_OK;
+        plm::Warnings warnings;
+        if (!e.complete())
+            warnings.add(PLM_REASON_NO_CONTRACTION,
+                         std::string(e.known
+                                         ? "what the harmonics beyond those solved for change at this point"
+                                         : "the error of this point") +
+                             " cannot be estimated (NaN): the steps towards the better solution do not "
+                             "contract, so that the error may be large; give the basis more vectors, the "
+                             "curve more harmonics or the contact less stiffness, and compare");
+        return deliver(h, std::move(warnings));
     });
 }
 
@@ -163,6 +177,11 @@ plm_status plm_hbm_refine_basis(plm_hbm *hbm, std::int64_t dof, std::int32_t mea
         made->core = found.basis;
         *refined = publish(made);
         if (error) *error = found.error;
-        return found.met ? PLM_OK : PLM_NOT_CONVERGED;
+        if (found.met) return Outcome(PLM_OK);
+        return Outcome(
+            PLM_NOT_CONVERGED, PLM_REASON_BASIS_TOO_SMALL,
+            plm::format("after %lld curves the estimated error is still %.1e, above the tolerance %g; "
+                        "refined is the best basis found. Raise the tolerance, or begin with a larger basis",
+                        static_cast<long long>(found.rounds), found.error, tolerance));
     });
 }

@@ -1,6 +1,7 @@
 // What the functions of an hbm share: the solver behind it, its branches in and out.
 #pragma once
 #include "capi/handles.hpp"
+#include "capi/outcome.hpp"
 
 namespace plm::capi {
 
@@ -11,9 +12,9 @@ Hbm solver(const HbmHandle &h);
 plm_branch *publish_branch(const HbmHandle &h, BranchPtr core);
 /// The result of a call goes to its caller: how it ended, or PLM_WARNING when there is something to look at,
 /// which `h` keeps as that of its last call.
-plm_status deliver(HbmHandle &h, BranchPtr core, plm_branch **branch);
+Outcome deliver(HbmHandle &h, BranchPtr core, plm_branch **branch);
 /// The same for a call without a branch, or with one beside its status.
-plm_status deliver(HbmHandle &h, Warnings warnings);
+Outcome deliver(HbmHandle &h, Warnings warnings);
 /// A branch among the arguments: of the same reduced model, since its coordinates mean nothing in another.
 std::shared_ptr<BranchHandle> own_branch(const HbmHandle &h, const plm_branch *branch, const char *name);
 

@@ -27,6 +27,15 @@ BranchPtr own_curve(const HbmHandle &h, const plm_branch *branch, const char *na
     }
 }
 
+/// What the last search found is kept for plm_hbm_get_found, with all that its branches warn of.
+plm_status keep_found(HbmHandle &h, std::vector<FoundBranch> found, std::int64_t *count) {
+    plm::Warnings warnings;
+    for (const FoundBranch &f : found) warnings.add(f.branch->warnings);
+    h.found = std::move(found);
+    *count = static_cast<std::int64_t>(h.found.size());
+    return deliver(h, std::move(warnings));
+}
+
 } // namespace
 
 plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, std::int64_t point, std::int32_t mirrored,
@@ -47,11 +56,10 @@ plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double f
         require_force(force_max, "force_max");
         require_pointer(count, "count");
         const plm::IsolatedSearch search = solver(h).find_isolated(*curve->core, force_max);
-        h.found.clear();
+        std::vector<FoundBranch> found;
         for (const plm::IsolatedBranch &b : search.branches)
-            h.found.push_back({b.branch, b.birth_force, b.merge_force});
-        *count = static_cast<std::int64_t>(h.found.size());
-        return PLM_OK;
+            found.push_back({b.branch, b.birth_force, b.merge_force});
+        return keep_found(h, std::move(found), count);
     });
 }
 
@@ -60,10 +68,9 @@ plm_status plm_hbm_find_backbones(plm_hbm *hbm, double force_max, std::int64_t *
         require_force(force_max, "force_max");
         require_pointer(count, "count");
         const std::vector<plm::Backbone> backbones = solver(h).find_backbones(force_max);
-        h.found.clear();
-        for (const plm::Backbone &b : backbones) h.found.push_back({b.branch, unknown, unknown});
-        *count = static_cast<std::int64_t>(h.found.size());
-        return PLM_OK;
+        std::vector<FoundBranch> found;
+        for (const plm::Backbone &b : backbones) found.push_back({b.branch, unknown, unknown});
+        return keep_found(h, std::move(found), count);
     });
 }
 
@@ -109,10 +116,9 @@ plm_status plm_hbm_find_by_marching(plm_hbm *hbm, std::int64_t n_known, plm_bran
         std::vector<BranchPtr> curves;
         for (std::int64_t i = 0; i < n_known; ++i) curves.push_back(own_curve(h, known[i], "known", i));
         const auto branches = solver(h).find_by_marching(curves, n_frequencies, n_states);
-        h.found.clear();
-        for (const auto &b : branches) h.found.push_back({b, unknown, unknown});
-        *count = static_cast<std::int64_t>(h.found.size());
-        return PLM_OK;
+        std::vector<FoundBranch> found;
+        for (const auto &b : branches) found.push_back({b, unknown, unknown});
+        return keep_found(h, std::move(found), count);
     });
 }
 

@@ -14,20 +14,19 @@
 using namespace plm;
 using namespace plm::capi;
 
-namespace {
-
-const char *status_words(plm_status status) {
+const char *plm::capi::status_words(plm_status status) {
     switch (status) {
     case PLM_OK:
         return "done";
     case PLM_NOT_CONVERGED:
-        return "the branch ended early because no corrector converged; see its end_reason";
+        return "ended early because no corrector converged; results are valid as far as they go, see "
+               "end_reason";
     case PLM_TRUNCATED:
-        return "the branch ended at the allowed number of points (max_points)";
+        return "the branch ended at the allowed number of points; raise max_points";
     case PLM_CANCELLED:
         return "cancelled by the progress callback";
     case PLM_WARNING:
-        return "done, but see the handle's warning";
+        return "done, but something should be looked at; see the text of the context or the handle's warning";
     case PLM_ERR_HANDLE:
         return "the handle is NULL, stale, foreign or of the wrong kind";
     case PLM_ERR_ARGUMENT:
@@ -36,6 +35,10 @@ const char *status_words(plm_status status) {
         return "no option or result has this name";
     case PLM_ERR_STATE:
         return "called too early, too late, or from inside a callback";
+    case PLM_ERR_BUSY:
+        return "another thread is inside a call of this context; give each thread a context of its own, or "
+               "let the "
+               "threads take turns";
     case PLM_ERR_MEMORY:
         return "an allocation failed";
     case PLM_ERR_NOT_BUILT:
@@ -47,7 +50,7 @@ const char *status_words(plm_status status) {
     case PLM_ERR_SINGULAR:
         return "a linear system has no unique solution";
     case PLM_ERR_EIGENSOLVER:
-        return "ARPACK or LAPACK did not deliver the eigenpairs";
+        return "ARPACK, the Lanczos method or LAPACK did not deliver the eigenpairs";
     case PLM_ERR_CONVERGENCE:
         return "an iteration did not converge and there is no partial result";
     case PLM_ERR_CALLBACK:
@@ -58,6 +61,8 @@ const char *status_words(plm_status status) {
         return nullptr;
     }
 }
+
+namespace {
 
 // A kind or key index from outside.
 const std::vector<Key> &table(std::int32_t kind) {
@@ -90,7 +95,7 @@ plm_status plm_version(std::int32_t *major, std::int32_t *minor, std::int32_t *p
 plm_status plm_build_info(std::int64_t capacity, char *buffer, std::int64_t *needed) {
     return call_free([&] {
         return put_text(
-            format("libplm %d.%d.%d; factorization: %s; eigensolver: ARPACK; Fourier transform: %s; "
+            format("libplm %d.%d.%d; factorization: %s; eigensolver: ARPACK and Lanczos; Fourier transform: %s; "
                    "components: model, sampler, basis, hbm%s%s",
                    PLM_VERSION_MAJOR, PLM_VERSION_MINOR, PLM_VERSION_PATCH, factor_backend().c_str(),
                    dft_backend().c_str(), transient_is_built() ? ", transient" : "",

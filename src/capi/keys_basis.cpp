@@ -18,6 +18,7 @@ const BasisReport &report(const H &h) {
 
 Reals frequencies_hz(const H &h) {
     Reals f = core(h).reduced()->lambda;
+    f.resize(f.size() - core(h).reduced()->n_massless);
     for (double &x : f) x = std::sqrt(std::max(0.0, x)) / (2 * M_PI);
     return f;
 }
@@ -121,9 +122,16 @@ void add_results(std::vector<Key> &keys) {
                       "share of k_n in the equivalent linear system, lelsm: of each mode's; lelsm_updated: "
                       "of each pair; else empty",
                       [](const H &h) { return report(h).equivalent_share; }),
-            result<H>("lambda", "eigenvalues of the reduced stiffness (rad^2/time^2)",
+            result<H>(
+                "n_massless",
+                "columns of P, the last ones, without mass: what has none, or so little that it follows "
+                "statically, is no mode but a flexibility",
+                [](const H &h) { return core(h).reduced()->n_massless; }),
+            result<H>("lambda",
+                      "reduced stiffness of each column of P over its reduced mass (rad^2/time^2); of those "
+                      "without mass, over 1",
                       [](const H &h) { return core(h).reduced()->lambda; }),
-            result<H>("frequencies_hz", "their frequencies (Hz)", frequencies_hz),
+            result<H>("frequencies_hz", "frequencies of those with mass (Hz)", frequencies_hz),
             result<H>("preload_residual",
                       "static response against P, L2 norm (paper, eq. (12)); 0 without pre-load",
                       [](const H &h) { return report(h).preload_residual; }),

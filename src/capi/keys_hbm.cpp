@@ -19,11 +19,15 @@ template <class Out, class Get> Out per_point(const B &b, Get get) {
 const std::vector<Key> &hbm_keys() {
     using O = HbmOptions;
     static const std::vector<Key> keys = {
-        int_option<&O::n_harmonics>("n_harmonics", 0, 1000,
-                                    "harmonics H of the solution; 0: as many as each point needs"),
+        int_option<&O::n_harmonics>(
+            "n_harmonics", 0, 1000,
+            "harmonics H of the solution, all of the excitation's; 0: as many as each "
+            "point needs"),
         int_option<&O::max_harmonics>("max_harmonics", 1, 1000, "with n_harmonics = 0: the most allowed"),
-        real_option<&O::harmonic_tolerance>("harmonic_tolerance", 1e-12, 1,
-                                            "with n_harmonics = 0: allowed \"harmonic_error\" of a point"),
+        real_option<&O::harmonic_tolerance>(
+            "harmonic_tolerance", 1e-12, 1,
+            "with n_harmonics = 0: allowed \"harmonic_error\" of a point; where "
+            "it is not reached, the branch warns"),
         choice_option<&O::tail_correction>("tail_correction", "off,on",
                                            "add the next harmonics that follow from the exact contact force"),
         int_option<&O::period_multiple>("period_multiple", 1, 64,
@@ -104,15 +108,23 @@ const std::vector<Key> &branch_keys() {
         result<B>("harmonic_tail",
                   "share of the next harmonics in the motion of the gaps, of every point; -1: unknown",
                   [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.harmonic_tail; }); }),
-        result<B>("harmonic_error",
-                  "share of the motion that the next harmonics would change, of every point, by one step of "
-                  "Newton's method; -1: unknown",
-                  [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.harmonic_error; }); }),
+        result<B>(
+            "harmonic_error",
+            "what the next harmonics would change, of every point, by one step of Newton's method: the "
+            "largest share of the whole motion, of the motion of a DOF in contact (or of 3 % of the largest "
+            "such motion), or of the frequency; -1: unknown",
+            [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.harmonic_error; }); }),
         result<B>("period_multiple",
                   "excitation periods in a period of the response; harmonics count from the latter",
                   [](const B &b) { return built(b)->period_multiple(); }),
         result<B>("point_force_scale", "factor on the excitation of every point",
                   [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.force_scale; }); }),
+        result<B>("damping_ratio",
+                  "share of critical damping, of every point of a nonlinear mode; other branches: no entry",
+                  [](const B &b) {
+                      return built(b)->is_mode ? per_point<Reals>(b, [](auto &p) { return p.damping_ratio; })
+                                               : Reals();
+                  }),
         result<B>("bifurcation", "PLM_BIFURCATION_... of every point",
                   [](const B &b) {
                       return per_point<Ints>(
@@ -122,7 +134,8 @@ const std::vector<Key> &branch_keys() {
                   [](const B &b) { return per_point<Ints>(b, [](auto &p) { return stability_of(p); }); }),
         result<B>("end_reason", "why the branch ended: PLM_REASON_...",
                   [](const B &b) { return static_cast<std::int64_t>(built(b)->end_reason); }),
-        result<B>("end_text", "the same in words", [](const B &b) { return end_text(built(b)->end_reason); }),
+        result<B>("end_text", "the same in words",
+                  [](const B &b) { return end_text(built(b)->end_reason, built(b)->sampled); }),
         result<B>("newton_iterations", "Newton iterations of the whole run",
                   [](const B &b) { return built(b)->newton_iterations; }),
         result<B>("failed_steps", "continuation steps that were repeated",

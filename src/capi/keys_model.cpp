@@ -24,6 +24,10 @@ vector<std::int64_t> as_ints(const vector<char> &flags) {
     return vector<std::int64_t>(flags.begin(), flags.end());
 }
 
+const Warnings &built_warnings(const H &h) {
+    return built(h), h.warnings;
+}
+
 std::int64_t n_closed(const RestState &r) {
     std::int64_t n = 0;
     for (char c : r.closed) n += c != 0;
@@ -53,6 +57,8 @@ const std::vector<Key> &model_keys() {
                       return h.core ? h.core->n_pairs()
                                     : static_cast<std::int64_t>(h.input.contact_stiffness.size());
                   }),
+        warning_text<H>([](const H &h) -> const Warnings & { return built_warnings(h); }),
+        warning_reasons<H>([](const H &h) -> const Warnings & { return built_warnings(h); }),
         result<H>("n_rigid_modes", "rigid-body modes of the open structure",
                   [](const H &h) { return built(h)->rigid_modes().cols(); }),
         result<H>("shift", "sigma of the factored K + sigma M (rad^2/time^2); 0 when K is positive definite",

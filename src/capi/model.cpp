@@ -31,6 +31,17 @@ std::shared_ptr<const Model> build(ModelHandle &m) {
     return std::shared_ptr<const Model>(model.release(), [binding](const Model *p) { delete p; });
 }
 
+// Who never asks for the audit hears the worst of it all the same, and the rest in the log.
+Warnings look_over(const Model &model, Watch watch) {
+    constexpr int worth_a_look = 1, probably_wrong = 2;
+    Warnings warnings;
+    for (const Finding &f : quick_audit(model)) {
+        if (f.severity >= worth_a_look) watch.log(2, f.text);
+        if (f.severity >= probably_wrong) warnings.add(PLM_REASON_MODEL, f.text);
+    }
+    return warnings;
+}
+
 vector<double> copied_load(const char *name, std::int64_t n, const double *force, std::int64_t n_dof) {
     if (n != n_dof)
         bad_argument("n", -1,
@@ -121,12 +132,14 @@ plm_status plm_model_set_excitation(plm_model *model, std::int32_t harmonic, std
 plm_status plm_model_build(plm_model *model) {
     return call<ModelHandle>("plm_model_build", model, [&](ModelHandle &m) {
         require_open(m);
-        m.core = build(m);
+        std::shared_ptr<const plm::Model> core = build(m);
+        m.warnings = look_over(*core, m.owner->watch());
+        m.core = std::move(core);
         const std::int64_t n_dof = m.input.n_dof;
         m.input =
             plm::ModelInput(); // the matrices live in the core now; borrowed arrays are the caller's again
         m.input.n_dof = n_dof;
-        return PLM_OK;
+        return Outcome(m.warnings);
     });
 }
 

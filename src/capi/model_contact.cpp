@@ -90,6 +90,23 @@ void add_side(NewPairs &pairs, const char *name, const Index *dof, const double 
     }
 }
 
+// A node against itself never opens or closes.
+template <class Index>
+void refuse_same_nodes(const Index *dof_a, const Index *dof_b, const double *normal, std::int64_t n,
+                       std::int64_t base) {
+    for (std::int64_t i = 0; i < n; ++i) {
+        bool same = true;
+        for (std::int64_t k = 3 * i; k < 3 * i + 3; ++k)
+            same = same && (normal[k] == 0 || dof_a[k] == dof_b[k] || (dof_a[k] < base && dof_b[k] < base));
+        if (same)
+            bad_argument(
+                "dof_b", 3 * i,
+                format("both sides of pair %lld have the same DOFs along the normal: its gap can never "
+                       "change; give the DOFs of the two nodes that face each other",
+                       Int(i)));
+    }
+}
+
 template <class Index> struct NodePairs {
     std::int32_t index_base;
     std::int64_t n;
@@ -108,7 +125,10 @@ plm_status add_nodes(const char *function, plm_model *model, const NodePairs<Ind
         NewPairs pairs;
         check_normals(x.normal, x.n);
         add_side(pairs, x.name_a, x.dof_a, x.normal, 1.0, x.n, x.index_base, m.input.n_dof);
-        if (!x.ground) add_side(pairs, "dof_b", x.dof_b, x.normal, -1.0, x.n, x.index_base, m.input.n_dof);
+        if (!x.ground) {
+            add_side(pairs, "dof_b", x.dof_b, x.normal, -1.0, x.n, x.index_base, m.input.n_dof);
+            refuse_same_nodes(x.dof_a, x.dof_b, x.normal, x.n, x.index_base);
+        }
         take_stiffness_and_gap(pairs, x.n, x.stiffness, x.gap);
         add_to(m.input, pairs);
         return PLM_OK;

@@ -24,24 +24,39 @@ Table &table() {
     return *the_table;
 }
 
-// Handle = generation | slot | 1. Odd, so that it is the address of nothing a host could have allocated.
-constexpr int slot_bits = sizeof(std::uintptr_t) >= 8 ? 24 : 14;
+// Handle = generation | kind | slot | 1. Odd, so that it is the address of nothing a host could have
+// allocated.
+constexpr int slot_bits = sizeof(std::uintptr_t) >= 8 ? 24 : 14, kind_bits = 4;
 constexpr std::uintptr_t slot_mask = (std::uintptr_t(1) << slot_bits) - 1;
-constexpr std::uintptr_t generation_mask = ~std::uintptr_t(0) >> (slot_bits + 1);
+constexpr std::uintptr_t kind_mask = (std::uintptr_t(1) << kind_bits) - 1;
+constexpr std::uintptr_t generation_mask = ~std::uintptr_t(0) >> (slot_bits + kind_bits + 1);
 
-void *encode(std::size_t slot, std::uintptr_t generation) {
-    return reinterpret_cast<void *>((((generation << slot_bits) | slot) << 1) | 1);
+void *encode(std::size_t slot, Kind kind, std::uintptr_t generation) {
+    const std::uintptr_t named = (generation << kind_bits) | static_cast<std::uintptr_t>(kind);
+    return reinterpret_cast<void *>((((named << slot_bits) | slot) << 1) | 1);
 }
 
-// The live slot behind a handle, or null. The table is locked.
-Slot *decode(Table &t, const void *handle, Kind kind) {
+struct Decoded {
+    Slot *slot = nullptr; // null: no handle of this kind was ever made like this
+    std::uintptr_t generation = 0;
+};
+
+// The table is locked.
+Decoded decode(Table &t, const void *handle, Kind kind) {
     const std::uintptr_t bits = reinterpret_cast<std::uintptr_t>(handle);
-    if (!(bits & 1)) return nullptr;
     const std::size_t slot = static_cast<std::size_t>((bits >> 1) & slot_mask);
-    if (slot >= t.slots.size()) return nullptr;
-    Slot &s = t.slots[slot];
-    const bool live = s.object && s.generation == (bits >> 1) >> slot_bits && s.object->kind == kind;
-    return live ? &s : nullptr;
+    if (!(bits & 1) || slot >= t.slots.size()) return {};
+    const std::uintptr_t named = (bits >> 1) >> slot_bits;
+    if ((named & kind_mask) != static_cast<std::uintptr_t>(kind)) return {};
+    return {&t.slots[slot], named >> kind_bits};
+}
+
+// The live slot behind a handle, or null.
+Slot *live(Table &t, const void *handle, Kind kind) {
+    const Decoded d = decode(t, handle, kind);
+    const bool alive =
+        d.slot && d.slot->object && d.slot->generation == d.generation && d.slot->object->kind == kind;
+    return alive ? d.slot : nullptr;
 }
 
 std::shared_ptr<Object> vacate(Table &t, Slot &s) {
@@ -65,20 +80,27 @@ void *add(std::shared_ptr<Object> object) {
     t.unused.pop_back();
     t.slots[slot].object = std::move(object);
     t.slots[slot].born = ++t.births;
-    return encode(slot, t.slots[slot].generation);
+    return encode(slot, t.slots[slot].object->kind, t.slots[slot].generation);
 }
 
 std::shared_ptr<Object> find(const void *handle, Kind kind) {
     Table &t = table();
     const std::lock_guard<std::mutex> lock(t.mutex);
-    const Slot *s = decode(t, handle, kind);
+    const Slot *s = live(t, handle, kind);
     return s ? s->object : nullptr;
+}
+
+bool is_gone(const void *handle, Kind kind) {
+    Table &t = table();
+    const std::lock_guard<std::mutex> lock(t.mutex);
+    const Decoded d = decode(t, handle, kind);
+    return d.slot && d.generation > 0 && d.generation < d.slot->generation;
 }
 
 std::shared_ptr<Object> remove(const void *handle, Kind kind) {
     Table &t = table();
     const std::lock_guard<std::mutex> lock(t.mutex);
-    Slot *s = decode(t, handle, kind);
+    Slot *s = live(t, handle, kind);
     return s ? vacate(t, *s) : nullptr;
 }
 

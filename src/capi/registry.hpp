@@ -38,6 +38,8 @@ struct Object {
 
 namespace registry {
 void *add(std::shared_ptr<Object> object);
+/// Did the handle name an object of this kind that has been destroyed since?
+bool is_gone(const void *handle, Kind kind);
 /// Null when the handle is not a live one of this kind.
 std::shared_ptr<Object> find(const void *handle, Kind kind);
 /// Takes the object out; the handle is stale from now on. Null as for find().

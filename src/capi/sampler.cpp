@@ -47,6 +47,6 @@ plm_status plm_sampler_run(plm_sampler *sampler) {
             std::make_shared<const plm::Sampler>(model, s.sampler_options, s.owner->watch(), s.model->space);
         s.model->space = s.core->space(); // the next sampler of this model starts from it
         if (!s.model->rest) s.model->rest = std::make_shared<const plm::RestState>(s.core->rest());
-        return s.core->warnings().empty() ? PLM_OK : PLM_WARNING;
+        return Outcome(s.core->warnings());
     });
 }

@@ -86,11 +86,18 @@ const MethodResult &measured(const StudyHandle &s, std::int64_t index, std::int6
     return row;
 }
 
-plm_status status_of(const StudyResult &result) {
+Outcome outcome_of(const StudyResult &result) {
     if (result.cancelled) return PLM_CANCELLED;
-    bool complete = result.reference.complete;
-    for (const MethodResult &r : result.methods) complete = complete && !r.failed && r.complete;
-    return complete ? PLM_OK : PLM_WARNING;
+    std::string incomplete;
+    const auto look_at = [&](const char *what, const MethodResult &r) {
+        if (!r.failed && r.complete) return;
+        incomplete += format("%s%s \"%.80s\": %s", incomplete.empty() ? "" : "; ", what, r.name.c_str(),
+                             r.outcome.c_str());
+    };
+    look_at("the reference", result.reference);
+    for (const MethodResult &r : result.methods) look_at("the method", r);
+    if (incomplete.empty()) return PLM_OK;
+    return {PLM_WARNING, PLM_REASON_NONE, incomplete};
 }
 
 } // namespace
@@ -213,7 +220,7 @@ plm_status plm_study_add_marching(plm_study *study, const char *name, plm_transi
 plm_status plm_study_run(plm_study *study) {
     return call<StudyHandle>("plm_study_run", study, [&](StudyHandle &s) {
         s.result = plm::run_study(built(*s.model), s.plan, s.owner->watch(), s.model->space);
-        return status_of(*s.result);
+        return outcome_of(*s.result);
     });
 }
 

@@ -110,7 +110,12 @@ plm_status plm_transient_run(plm_transient *transient) {
 plm_status plm_transient_find_periodic(plm_transient *transient) {
     return call<TransientHandle>("plm_transient_find_periodic", transient, [&](TransientHandle &t) {
         t.periodic = core(t).find_periodic(t.transient_options, t.owner->watch());
-        return t.periodic->converged ? PLM_OK : PLM_NOT_CONVERGED;
+        if (t.periodic->converged) return Outcome(PLM_OK);
+        return Outcome(
+            PLM_NOT_CONVERGED, PLM_REASON_NONE,
+            plm::format("no periodic motion was found near this state; the best one has the periodicity "
+                        "defect %.1e. March more periods first, or start at a point of a curve",
+                        t.periodic->defect));
     });
 }
 

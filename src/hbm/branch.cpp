@@ -16,7 +16,11 @@ std::int64_t stability_of(const BranchPoint &point) {
     return 1;
 }
 
-std::string end_text(std::int32_t reason) {
+std::string end_text(std::int32_t reason, bool sampled) {
+    if (sampled && (reason == PLM_REASON_STEP_MINIMUM || reason == PLM_REASON_CONTACT_CHATTER ||
+                    reason == PLM_REASON_TURNED_BACK))
+        return "sampled contact forces have a corner at every sample that switches, and the curve could not "
+               "be followed round one; raise time_samples or set aft to event";
     switch (reason) {
     case PLM_REASON_NONE:
         return "complete";
@@ -38,6 +42,10 @@ std::string end_text(std::int32_t reason) {
         return "no solution was found at the first frequency; start elsewhere or with less force";
     case PLM_REASON_BASIS_TOO_SMALL:
         return "the basis is too small for this response";
+    case PLM_REASON_HARMONICS_TOO_FEW:
+        return "its points have far too few harmonics, and no solution with more was found beside them; make "
+               "the "
+               "basis for more harmonics, the contact softer or the damping larger";
     case PLM_REASON_TURNED_BACK:
         return "ran back to where it began without having passed a fold; give the sweep the other direction, "
                "a smaller "

@@ -18,6 +18,7 @@ struct BranchPoint {
     double harmonic_tail = -1;    // share of the gaps' motion in the next harmonics, from the exact force
     double harmonic_error = -1;   // what they would change, see harmonic_error(); -1: unknown
     double force_scale = 1;       // factor on the excitation
+    double damping_ratio = 0;     // of a nonlinear mode, see Branch::is_mode
     std::int32_t bifurcation = PLM_BIFURCATION_NONE;
     vector<std::complex<double>> multipliers; // Floquet multipliers; empty: not computed
     // Compliance formulation only (formulation.hpp): Z x (2H + 1) polynomials and their stiffness, whose
@@ -40,8 +41,8 @@ enum class Measure {
 /// +1 stable (all multipliers inside the unit circle), 0 unstable, -1 not computed.
 std::int64_t stability_of(const BranchPoint &point);
 
-/// How a branch ended (PLM_REASON_...), in words.
-std::string end_text(std::int32_t reason);
+/// How a branch ended (PLM_REASON_...), in words; `sampled`: its contact forces came from time samples.
+std::string end_text(std::int32_t reason, bool sampled = false);
 
 /// Amplitude of the motion a0, a1, b1, ..., aH, bH; harmonic is used by Measure::harmonic only, those beyond
 /// H are zero.
@@ -83,7 +84,9 @@ class Branch {
         return newton_iterations > 0 ? newton_seconds / static_cast<double>(newton_iterations) : 0;
     }
     std::string space_used; // "modal", "gaps" or "both"
+    bool sampled = false;   // contact forces from time samples
     Warnings warnings;      // what should be looked at before its points are used
+    bool is_mode = false;   // a nonlinear mode: motions without excitation, each with a damping ratio
 
     /// (2H + 1) coefficients a0, a1, b1, ... of a full-model DOF (base 0; zeros when fixed) at a point.
     vector<double> coefficients(std::int64_t point, std::int64_t dof) const;

@@ -39,6 +39,7 @@ class Continuation {
         out_.parameter = now_.omega;
         out_.direction_x = tangent_.x;
         out_.direction_parameter = tangent_.omega;
+        out_.orientation = orientation_;
         out_.scale = scale_;
         out_.arclength = arclength_;
         out_.step = step_;
@@ -62,6 +63,7 @@ class Continuation {
         }
         target_tangent_ =
             start.end_x.empty() ? tangent_ : State{start.end_direction_x, start.end_direction_parameter};
+        orientation_ = orientation();
         evaluate(tests_);
         if (start.record) record(start.residual, 0, PLM_BIFURCATION_NONE);
     }
@@ -113,6 +115,17 @@ class Continuation {
         tangent_ = std::move(t);
     }
 
+    // sign(det) of the tangent bordered by the path's direction: along a path it changes at branch points
+    // only, where the path goes straight on, but not at a corner, however sharp.
+    double orientation() const { return system_.determinant_sign() * (tangent_.omega < 0 ? -1.0 : 1.0); }
+
+    // The tangent on the side that keeps the orientation of the path.
+    void orient() {
+        if (orientation() * orientation_ > 0) return;
+        for (double &v : tangent_.x) v = -v;
+        tangent_.omega = -tangent_.omega;
+    }
+
     // Predictor: the tangent, bent by how the tangent turned over the last step (which is dropped after a
     // failure).
     State predict(double step) const {
@@ -157,13 +170,18 @@ class Continuation {
         make_tangent(&old_tangent);
         const double cosine = product(tangent_.x, tangent_.omega, old_tangent.x, old_tangent.omega);
         const double angle = std::acos(std::min(1.0, std::max(-1.0, cosine)));
-        if (angle > 0.6 && step > 20 * options_.min_step) { // a corner, or another branch: come closer first
+        if (angle > sharp_angle &&
+            step > 20 * options_.min_step) { // a corner, or another branch: closer first
             now_ = before;
             tangent_ = old_tangent;
             factored_ = false;
             return retry(step, PLM_REASON_STEP_MINIMUM);
         }
+        // The steps cannot resolve this corner (contact that begins with a grazing touch bends the path like
+        // the square root of the way): beyond a right angle the nearer of the two directions leads back.
+        if (angle > sharp_angle) orient();
         if (!accept(out, moved, old_tangent, before)) return retry(step, PLM_REASON_STEP_MINIMUM);
+        orientation_ = orientation();
         double factor = std::min(1.6, std::max(0.35, target_angle / std::max(angle, 1e-6)));
         if (out.iterations > 6) factor = std::min(factor, 0.6);
         step = std::min(options_.max_step, std::max(options_.min_step, step * factor));
@@ -193,10 +211,7 @@ class Continuation {
         last_tangent_ = old_tangent;
         plain_predictor_ = false;
         rescued_ = false;
-        if (now_.omega < low_ || now_.omega > high_) {
-            leave_range(before, old_tangent);
-            return true;
-        }
+        if (now_.omega < low_ || now_.omega > high_) return leave_range(before, old_tangent);
         const vector<double> old_tests = tests_;
         evaluate(tests_);
         jumped_ = false;
@@ -208,9 +223,15 @@ class Continuation {
             return false;
         }
         arclength_ += moved;
-        if (closes(before, moved)) {
-            close_loop();
-            return true;
+        if (passes_start(before, moved)) {
+            if (product(tangent_.x, tangent_.omega, target_tangent_.x, target_tangent_.omega) > 0) {
+                close_loop();
+                return true;
+            }
+            if (is_start(before)) {
+                end(PLM_REASON_TURNED_BACK);
+                return true;
+            }
         }
         record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
         const double old_scale = scale_;
@@ -220,15 +241,36 @@ class Continuation {
         return true;
     }
 
-    // The step from `before` passed the point where the loop began, in the direction it was left.
-    bool closes(const State &before, double moved) const {
+    // The step from `before` passed the point where the path began.
+    bool passes_start(const State &before, double moved) const {
         if (from_start_ && n_recorded_ < 6) return false;
         const State chord = difference(now_, before), back = difference(target_, before);
         const double along = product(chord.x, chord.omega, back.x, back.omega) / (moved * moved);
         if (!(along > 0 && along <= 1)) return false;
         const double distance = std::sqrt(product(back.x, back.omega, back.x, back.omega));
-        return std::sqrt(std::max(0.0, distance * distance - along * along * moved * moved)) < 0.2 * moved &&
-               product(tangent_.x, tangent_.omega, target_tangent_.x, target_tangent_.omega) > 0;
+        return std::sqrt(std::max(0.0, distance * distance - along * along * moved * moved)) < 0.2 * moved;
+    }
+
+    // Whether the solution on the present step at the parameter of the start is the start itself.
+    bool is_start(const State &before) {
+        const double width = now_.omega - before.omega;
+        const double part = width != 0 ? (target_.omega - before.omega) / width : 1;
+        State at = before;
+        for (std::int64_t i = 0; i < n_; ++i) at.x[i] += part * (now_.x[i] - before.x[i]);
+        at.omega = target_.omega;
+        const bool same = at_frequency(at).converged && distance(at, target_) < same_solution;
+        linearize_here();
+        return same;
+    }
+
+    NewtonOutcome at_frequency(State &s) {
+        NewtonLimits limits;
+        limits.tolerance = options_.tolerance;
+        limits.max_iterations = options_.max_iterations;
+        limits.omega_scale = width_;
+        const NewtonOutcome out = newton(system_, SideCondition(), limits, s.x, s.omega);
+        count(out);
+        return out;
     }
 
     void close_loop() {
@@ -260,8 +302,7 @@ class Continuation {
         const double along = tangent_.omega * dot(n_, tangent_.x.data(), a.data()) / (scale_ * scale_);
         for (std::int64_t i = 0; i < n_; ++i) a[i] += along * border[i];
         const double size = norm2(n_, a.data());
-        const double sign = system_.determinant_sign() * (tangent_.omega < 0 ? -1.0 : 1.0);
-        return size > 0 && std::isfinite(size) ? sign / size : 0;
+        return size > 0 && std::isfinite(size) ? orientation() / size : 0;
     }
 
     struct Crossing {
@@ -333,12 +374,15 @@ class Continuation {
         now_ = std::move(p);
         linearize_here();
         make_tangent(&s.tangent_before);
+        if (product(s.tangent_before.x, s.tangent_before.omega, s.tangent_after.x, s.tangent_after.omega) <
+            std::cos(sharp_angle))
+            orient();
         evaluate(tests);
         return true;
     }
 
     // Regula falsi (Illinois) with bisection on the chord. False when the function jumps instead of
-    // vanishing; the step then may have crossed to another curve.
+    // vanishing (but for a corner at which p turns round); the step then may have crossed to another curve.
     bool find_zero(const Step &s, std::size_t k, double left, double right, Crossing &c) {
         const State chord = difference(s.after, s.before);
         const double size = std::min(std::abs(left), std::abs(right));
@@ -368,25 +412,40 @@ class Continuation {
             if (distance(below, above) > 20 * (b - a) * s.length) break;
         }
         if (best <= 1e-3 * size) return true;
+        if (kinds_[k] == PLM_BIFURCATION_FOLD && is_corner_fold(s, below, above, c)) return true;
         jumped_ = jumped_ || kinds_[k] == PLM_BIFURCATION_BRANCH_POINT;
         return false;
     }
 
-    // The last point lies on the boundary of the range.
-    void leave_range(const State &before, const State &old_tangent) {
+    // Where contact begins or, with sampled forces, at the switching of a sample the path has a corner: p
+    // turns round there without its derivative passing zero. `below` and `above` enclose the zero of the
+    // fold's test.
+    bool is_corner_fold(const Step &s, const State &below, const State &above, Crossing &c) const {
+        if (distance(below, above) > std::max(1e-3 * s.length, options_.min_step)) return false; // a jump
+        const double up = s.tangent_before.omega > 0 ? 1 : -1;
+        const State &top = up * below.omega > up * above.omega ? below : above;
+        c.state = top;
+        return true;
+    }
+
+    // The last point lies on the boundary of the range. False: it was not found; the path is back before.
+    bool leave_range(const State &before, const State &old_tangent) {
         const double edge = now_.omega < low_ ? low_ : high_;
         const double part = (edge - before.omega) / (now_.omega - before.omega);
         for (std::int64_t i = 0; i < n_; ++i) now_.x[i] = before.x[i] + part * (now_.x[i] - before.x[i]);
         now_.omega = edge;
-        NewtonLimits limits;
-        limits.tolerance = options_.tolerance;
-        limits.max_iterations = options_.max_iterations;
-        limits.omega_scale = width_;
-        const NewtonOutcome out = newton(system_, SideCondition(), limits, now_.x, now_.omega);
-        count(out);
-        end(PLM_REASON_RANGE_END);
+        const NewtonOutcome out = at_frequency(now_);
         const double moved = distance(now_, before);
-        if (!out.converged || moved > 4 * options_.max_step) return;
+        if (!out.converged || moved > 4 * options_.max_step) {
+            last_step_ = 0;
+            restore(before, old_tangent);
+            return false;
+        }
+        end(PLM_REASON_RANGE_END);
+        // a path that begins on the boundary and leaves at once has its last point already
+        if (moved < options_.min_step) return true;
+        if (target_.omega == edge && n_recorded_ > 1 && distance(now_, target_) < same_solution)
+            end(PLM_REASON_TURNED_BACK);
         linearize_here();
         make_tangent(&old_tangent);
         const vector<double> old_tests = tests_;
@@ -394,6 +453,7 @@ class Continuation {
         locate(before, old_tangent, moved, old_tests);
         arclength_ += moved;
         record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
+        return true;
     }
 
     // A smaller step with a new factorization; then the other predictor; then a fresh start a little further
@@ -404,11 +464,52 @@ class Continuation {
         plain_predictor_ = out_.failed_steps % 2 == 0;
         step *= 0.4;
         if (step >= options_.min_step) return;
+        if (turn_corner(step)) return;
         if (!rescued_ && rescue()) {
             step = 0.05 * options_.max_step;
             return;
         }
         end(reason == PLM_REASON_NONE ? PLM_REASON_STEP_MINIMUM : reason);
+    }
+
+    // Contact that begins with a grazing touch adds stiffness like the square root of the way: the path turns
+    // within any step by an angle that may exceed a right one, and the plane across the step then misses it.
+    // Its direction beyond is that of the tangent matrix a step ahead, on the side that the orientation says.
+    bool turn_corner(double &step) {
+        const State before = now_, old_tangent = tangent_;
+        for (double length = 10 * options_.min_step; length < 0.01 * options_.max_step; length *= 10) {
+            last_step_ = 0;
+            const State ahead = predict(length);
+            system_.residual(ahead.x.data(), ahead.omega, scratch_.data());
+            system_.linearize();
+            ++out_.factorizations;
+            make_tangent(nullptr);
+            orient();
+            const State direction = tangent_;
+            tangent_ = old_tangent;
+            const double cosine = product(direction.x, direction.omega, tangent_.x, tangent_.omega);
+            if (cosine > std::cos(sharp_angle)) continue;
+            State next = ahead; // so that Newton's method begins on the other side of the corner
+            for (std::int64_t i = 0; i < n_; ++i) next.x[i] += length * (1 - cosine) * direction.x[i];
+            next.omega += length * (1 - cosine) * direction.omega;
+            const NewtonOutcome out = correct(next, direction, 0.2, false);
+            const double moved = out.converged ? distance(next, before) : 0;
+            if (!out.converged || moved > 2 * length || moved < 0.3 * length) continue;
+            now_ = next;
+            linearize_here();
+            make_tangent(nullptr);
+            orient();
+            if (product(direction.x, direction.omega, tangent_.x, tangent_.omega) > 0.5 &&
+                accept(out, moved, old_tangent, before)) {
+                last_step_ = 0;
+                factored_ = false;
+                step = length;
+                return true;
+            }
+            now_ = before;
+            tangent_ = old_tangent;
+        }
+        return false;
     }
 
     // A solution just beyond, found by the owner's own means; accepted only if it stays close.
@@ -424,6 +525,7 @@ class Continuation {
             now_ = next;
             linearize_here();
             make_tangent(&old_tangent);
+            orientation_ = orientation();
             last_step_ = 0;
             evaluate(tests_);
             record(0.0, 0, PLM_BIFURCATION_NONE);
@@ -438,6 +540,8 @@ class Continuation {
     }
 
     static constexpr double target_angle = 0.25; // rad between neighbouring tangents
+    static constexpr double sharp_angle = 0.6;
+    static constexpr double same_solution = 1e-6; // distance of two solutions that were computed twice
 
     HbmSystem &system_;
     const PathOptions &options_;
@@ -445,7 +549,7 @@ class Continuation {
     std::int64_t n_;
     double low_, high_, width_;
     State now_, target_, tangent_, target_tangent_, last_tangent_; // State::omega is the path's parameter
-    double scale_ = 0, arclength_ = 0, last_step_ = 0, step_ = 0;
+    double scale_ = 0, arclength_ = 0, last_step_ = 0, step_ = 0, orientation_ = 1;
     bool factored_ = false, plain_predictor_ = false, rescued_ = false, interrupted_ = false,
          from_start_ = true;
     std::vector<std::int32_t> kinds_; // of the test functions

@@ -59,13 +59,15 @@ struct PathOutcome {
     double parameter = 0;
     vector<double> direction_x; // unit tangent there, in the direction travelled
     double direction_parameter = 0;
+    double orientation = 1; // sign of det(dR/dx) times that of direction_parameter
     double scale = 0, arclength = 0, step = 0;
     std::int64_t newton_iterations = 0, factorizations = 0, failed_steps = 0, n_points = 0;
     double newton_seconds = 0;
 };
 
 /// Follows the path from `start` until it leaves the range, closes, or cannot go on. The last point lies on
-/// the boundary of the range when it was left (PLM_REASON_RANGE_END). `system` takes p in the place of omega.
+/// the boundary of the range when it was left (PLM_REASON_RANGE_END; PLM_REASON_TURNED_BACK when it came back
+/// to where it began, against the direction in which it had left). `system` takes p in the place of omega.
 PathOutcome follow_path(HbmSystem &system, const PathOptions &options, const PathStart &start,
                         PathOwner &owner);
 

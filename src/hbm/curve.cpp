@@ -8,8 +8,8 @@
 namespace plm {
 namespace {
 
-constexpr std::int64_t first_harmonics = 5;
-constexpr std::int64_t patience = 5; // points between changes to something cheaper
+constexpr std::int64_t patience = 5;            // points between changes to something cheaper
+constexpr std::int64_t most_failed_growths = 3; // in a row, from points that say nothing
 
 PathOptions path_options(const HbmOptions &o) {
     PathOptions p;
@@ -26,28 +26,6 @@ PathOptions path_options(const HbmOptions &o) {
     return p;
 }
 
-std::int64_t highest_excitation(const ReducedModel &m) {
-    return m.excitation.empty() ? 1 : std::max(1, m.excitation.rbegin()->first);
-}
-
-// Allowed share of the next harmonics in the motion of the gaps, as a multiple of harmonic_tolerance: local
-// motions of the surfaces that hardly act back on the structure may be left coarse, but not unresolved.
-constexpr double tail_allowance = 20;
-
-// The number of harmonics a point asks for, from what it has; `error`: harmonic_error().
-std::int64_t next_harmonics(const HbmOptions &limits, std::int64_t fewest, std::int64_t now,
-                            const HarmonicContent &content, double error) {
-    const std::int64_t most = std::max(limits.max_harmonics, now);
-    const double over = std::max(error, content.tail / tail_allowance) / limits.harmonic_tolerance;
-    if (over > 30) return std::min(most, 2 * now);
-    if (over > 1) return std::min(most, std::max(now + 2, (7 * now + 4) / 5));
-    // without the upper two fifths the tail would grow from `tail` to `tail + top`, and its effect with it
-    const double grows = content.tail > 0 ? 1 + content.top / content.tail : 1;
-    if (over * grows < 0.3 && content.tail + content.top < 0.3 * tail_allowance * limits.harmonic_tolerance)
-        return std::max(fewest, now - (2 * now) / 5);
-    return now;
-}
-
 class CurveTracer final : public PathOwner {
   public:
     CurveTracer(const HbmOptions &options, Watch watch, Branch &branch)
@@ -56,11 +34,14 @@ class CurveTracer final : public PathOwner {
           fewest_(std::max<std::int64_t>(3, highest_excitation(*reduced_))) {}
 
     void run(const CurveStart &start) {
+        has_side_ = !start.towards.empty();
         options_.n_harmonics = start.point.n_harmonics / options_.period_multiple;
+        limit_harmonics(start.point);
         wants_modal_ = modal_ = prefers_modal(*reduced_, options_);
         options_.unknowns = modal_ ? UnknownSpace::modal : UnknownSpace::gaps;
         compliant_ = make_formulation(*reduced_, options_).compliant;
         branch_.space_used = modal_ ? "modal" : "gaps";
+        branch_.sampled = options_.aft == AftKind::sampled;
         system_ = make_system(reduced_, options_);
         try {
             follow(path_options(options_), first(start));
@@ -68,6 +49,7 @@ class CurveTracer final : public PathOwner {
             if (e.status() != PLM_CANCELLED || n_points() == 0) throw;
             branch_.end_reason = PLM_REASON_CANCELLED;
         }
+        warn_of_harmonics(asked_, branch_);
     }
 
     void record(const PathPoint &p) override {
@@ -112,8 +94,8 @@ class CurveTracer final : public PathOwner {
 
     bool interrupt() override {
         ++since_change_;
-        const bool grow = wanted_harmonics_ > options_.n_harmonics && since_change_ > blocked_;
-        rejects_ = grow && n_kept_ > 1 && misleading();
+        const bool grow = may_grow();
+        rejects_ = grow && can_reject();
         if (!rejects_) n_kept_ = n_points();
         if (since_change_ < patience) return grow;
         choose_space();
@@ -125,20 +107,34 @@ class CurveTracer final : public PathOwner {
         for (;;) {
             const PathOutcome out = follow_path(*system_, limits, path, *this);
             count(out);
-            if (out.end_reason != PLM_REASON_NONE) break;
+            const bool ended = out.end_reason != PLM_REASON_NONE;
+            // its owner is not asked after the point at the range's end
+            if (out.end_reason == PLM_REASON_RANGE_END) rejects_ = may_grow() && can_reject();
+            if (ended && !(out.end_reason == PLM_REASON_RANGE_END && rejects_)) break;
+            path = resume(out);
+            if (!change_system(out.orientation, path) && ended) break;
+            if (failed_growths_ >= most_failed_growths) {
+                branch_.end_reason = PLM_REASON_HARMONICS_TOO_FEW;
+                break;
+            }
             limits.max_points = asked_.max_points - n_points();
             limits.initial_step = out.step;
-            path = change_system(out);
         }
     }
 
-    // The last step led to where its harmonics are far too few (contact has just begun to open): its points
-    // may not even be near the curve.
-    bool misleading() const {
-        const double now = branch_.points().back().harmonic_tail,
-                     before = branch_.points()[static_cast<std::size_t>(n_kept_ - 1)].harmonic_tail;
-        return now > 20 * asked_.harmonic_tolerance && before < 0.3 * now;
+    // Where the first point could not be had to the tolerance, more harmonics did not help there: the curve
+    // is not made worse, nor slow, by trying them at every point.
+    void limit_harmonics(const BranchPoint &first) {
+        limits_ = asked_;
+        if (first.harmonic_error > 10 * asked_.harmonic_tolerance)
+            limits_.max_harmonics = options_.n_harmonics;
     }
+
+    bool may_grow() const { return wanted_harmonics_ > options_.n_harmonics && since_change_ > blocked_; }
+    // Back to the last point with enough harmonics; from the first one the side is known by the range only.
+    bool can_reject() const { return n_kept_ > (has_side_ ? 1 : 0); }
+
+    double window_width() const { return 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz); }
 
     std::int64_t n_points() const { return static_cast<std::int64_t>(branch_.points().size()); }
 
@@ -185,10 +181,11 @@ class CurveTracer final : public PathOwner {
         const HarmonicContent content = harmonic_content(*reduced_, point, options_.period_multiple);
         point.harmonic_tail = content.tail;
         if (asked_.n_harmonics == 0) {
-            point.harmonic_error =
-                harmonic_error(*reduced_, point, options_.period_multiple, content, *system_, x.data());
+            point.harmonic_error = harmonic_error(
+                *reduced_, point,
+                harmonic_change(*reduced_, point, options_.period_multiple, content, *system_, x.data()));
             wanted_harmonics_ =
-                next_harmonics(asked_, fewest_, options_.n_harmonics, content, point.harmonic_error);
+                next_harmonics(limits_, fewest_, options_.n_harmonics, content, point.harmonic_error);
         }
         if (!asked_.tail_correction) return;
         point.eta.append(content.tail_response);
@@ -206,26 +203,32 @@ class CurveTracer final : public PathOwner {
     }
 
     // The last point kept in the new system, corrected across the direction travelled; the old system goes on
-    // when that fails.
-    PathStart change_system(const PathOutcome &out) {
+    // from `path` when that fails (false). More harmonics are taken in smaller numbers then: the curve of
+    // many may turn away from that of few, but the next ones are near.
+    bool change_system(double orientation, PathStart &path) {
         since_change_ = 0;
-        const PathStart path = resume(out);
-        HbmOptions changed = options_;
-        changed.n_harmonics = wanted_harmonics_;
-        changed.unknowns = wants_modal_ ? UnknownSpace::modal : UnknownSpace::gaps;
+        for (std::int64_t more = wanted_harmonics_ - options_.n_harmonics;; more /= 2) {
+            HbmOptions changed = options_;
+            changed.n_harmonics += more;
+            changed.unknowns = wants_modal_ ? UnknownSpace::modal : UnknownSpace::gaps;
+            if (change_to(changed, orientation, path)) return true;
+            if (more <= 1) break;
+        }
+        keep_system();
+        return false;
+    }
+
+    bool change_to(const HbmOptions &changed, double orientation, PathStart &path) {
         auto next = make_system(reduced_, changed);
         next.swap(system_);
         std::int64_t n = rejects_ ? n_kept_ : n_points();
         PathStart other;
-        if (!go_on_from(n, changed.n_harmonics < options_.n_harmonics, other)) {
+        if (!go_on_from(n, changed.n_harmonics, orientation, other)) {
             next.swap(system_);
-            blocked_ = 4 * patience;
-            wanted_harmonics_ = options_.n_harmonics;
-            wants_modal_ = modal_;
-            n_kept_ = n_points();
-            return path;
+            return false;
         }
         blocked_ = 0;
+        failed_growths_ = 0;
         base_arclength_ = branch_.points()[static_cast<std::size_t>(n - 1)].arclength;
         branch_.truncate(n);
         n_kept_ = n;
@@ -233,26 +236,84 @@ class CurveTracer final : public PathOwner {
         options_ = changed;
         modal_ = wants_modal_;
         set_end(other);
-        return other;
+        path = other;
+        return true;
+    }
+
+    // On with what there is, for a while; not for ever where its points say nothing.
+    void keep_system() {
+        blocked_ = 4 * patience;
+        const bool worthless = branch_.points().back().harmonic_error > worthless_error;
+        if (wanted_harmonics_ > options_.n_harmonics) failed_growths_ = worthless ? failed_growths_ + 1 : 0;
+        wanted_harmonics_ = options_.n_harmonics;
+        wants_modal_ = modal_;
+        n_kept_ = n_points();
     }
 
     // The n-th point in the present system or, when that sees another stability there, one of those before
     // it: otherwise a bifurcation would be passed twice, or not at all. Fewer harmonics have to see the same.
-    bool go_on_from(std::int64_t &n, bool fewer, PathStart &path) {
+    // Where the present system has a corner in between, its curve would be followed back. A bifurcation just
+    // passed with too few harmonics is located again with more.
+    bool go_on_from(std::int64_t &n, std::int64_t harmonics, double orientation, PathStart &path) {
+        const bool fewer = harmonics < options_.n_harmonics;
         const std::int64_t last = n;
         if (!go_on_from_point(last, path)) return false;
-        if (fewer) return same_stability(last, path);
+        const bool possible = keeps_direction(last, orientation, path);
+        if (fewer) return possible && same_stability(last, path);
         PathStart earlier = path;
+        std::int64_t behind = 0; // the first point that would do, but for a bifurcation before it
+        bool passed = false;
         for (; n > 2 && n > last - patience; --n) {
-            if (branch_.points()[static_cast<std::size_t>(n - 1)].bifurcation != PLM_BIFURCATION_NONE)
+            const BranchPoint &at = branch_.points()[static_cast<std::size_t>(n - 1)];
+            if (at.bifurcation != PLM_BIFURCATION_NONE) {
+                if (behind > 0 && at.n_harmonics < harmonics * options_.period_multiple) passed = true;
                 continue;
+            }
             if (n < last && !go_on_from_point(n, earlier)) break;
-            if (!same_stability(n, earlier)) continue;
-            path = earlier;
-            return true;
+            if (!same_stability(n, earlier) || !keeps_direction(n, orientation, earlier)) continue;
+            if (behind == 0 || passed) path = earlier;
+            if (passed) return true;
+            if (behind == 0) behind = n;
+            if (!located_with_fewer(last - patience, n - 1, harmonics)) break;
         }
-        n = last;
-        return true;
+        n = behind > 0 ? behind : last;
+        return behind > 0 || possible;
+    }
+
+    // Whether one of the points before the n-th, but not before the first, is such a bifurcation.
+    bool located_with_fewer(std::int64_t first, std::int64_t n, std::int64_t harmonics) const {
+        for (std::int64_t i = std::max<std::int64_t>(first, 0); i < n; ++i) {
+            const BranchPoint &p = branch_.points()[static_cast<std::size_t>(i)];
+            if (p.bifurcation != PLM_BIFURCATION_NONE && p.n_harmonics < harmonics * options_.period_multiple)
+                return true;
+        }
+        return false;
+    }
+
+    // Whether the path in the present system leaves its start along the direction given, with the
+    // orientation that the path before it had. (Harmonics more or less do not change the sign of the
+    // determinant: those of the structure alone have a positive one. Other unknowns may.)
+    bool keeps_direction(std::int64_t n, double orientation, const PathStart &path) {
+        if (n == 1) return true; // into the range
+        const std::int64_t size = system_->size();
+        const double scale = norm2(size, path.x.data()), width = window_width();
+        vector<double> tangent(size);
+        system_->residual(path.x.data(), path.parameter, tangent.data());
+        system_->linearize();
+        ++branch_.factorizations;
+        system_->omega_derivative(tangent.data());
+        system_->solve(tangent.data(), 1); // minus the tangent, for a unit of frequency
+        const auto product = [&](const vector<double> &a, double a_omega, const vector<double> &b,
+                                 double b_omega) {
+            return dot(size, a.data(), b.data()) / (scale * scale) + a_omega * b_omega / (width * width);
+        };
+        const vector<double> &d = path.direction_x;
+        const double along = -product(tangent, -1, d, path.direction_parameter),
+                     length = std::sqrt(product(tangent, -1, tangent, -1) *
+                                        product(d, path.direction_parameter, d, path.direction_parameter));
+        if (!(std::abs(along) > 0.8 * length)) return false;
+        return wants_modal_ != modal_ ||
+               system_->determinant_sign() * (along < 0 ? -1.0 : 1.0) * orientation > 0;
     }
 
     bool go_on_from_point(std::int64_t n, PathStart &path) {
@@ -314,8 +375,7 @@ class CurveTracer final : public PathOwner {
     }
 
     bool correct(PathStart &path) {
-        const double scale = norm2(system_->size(), path.x.data()),
-                     width = 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz);
+        const double scale = norm2(system_->size(), path.x.data()), width = window_width();
         vector<double> weight(path.direction_x);
         for (double &w : weight) w /= scale > 0 ? scale * scale : 1;
         const SideCondition side{&weight, path.direction_parameter / (width * width)};
@@ -337,15 +397,18 @@ class CurveTracer final : public PathOwner {
 
     const HbmOptions asked_;
     HbmOptions options_; // with the harmonics and the unknowns of now
+    HbmOptions limits_;  // as asked, with the most harmonics that help
     Watch watch_;
     Branch &branch_;
     std::shared_ptr<const ReducedModel> reduced_;
     Stability stability_;
     std::unique_ptr<HbmSystem> system_;
     bool compliant_ = false, modal_ = true, wants_modal_ = true, cancelled_ = false;
-    bool rejects_ = false;    // the last step, see misleading()
-    std::int64_t n_kept_ = 0; // points up to the last step that was kept
-    std::int64_t fewest_, wanted_harmonics_ = 0, since_change_ = 0, blocked_ = 0, moved_most_ = 0;
+    bool rejects_ = false;  // the last step: its points have too few harmonics and are solved again with more
+    bool has_side_ = false; // the curve leaves its first point to a side given
+    std::int64_t n_kept_ = 1; // points up to the last step that was kept
+    std::int64_t fewest_, wanted_harmonics_ = 0, since_change_ = 0, blocked_ = 0, moved_most_ = 0,
+                          failed_growths_ = 0;
     double base_arclength_ = 0;
     vector<double> known_x_;
     double known_omega_ = -1;
@@ -356,73 +419,6 @@ class CurveTracer final : public PathOwner {
 
 void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch) {
     CurveTracer(options, watch, branch).run(start);
-}
-
-HbmOptions with_first_harmonics(const ReducedModel &reduced, const HbmOptions &options) {
-    HbmOptions first = options;
-    if (first.n_harmonics == 0)
-        first.n_harmonics =
-            std::min(options.max_harmonics, std::max(first_harmonics, highest_excitation(reduced)));
-    return first;
-}
-
-std::int64_t harmonics_of(const BranchPoint &point, std::int64_t period_multiple) {
-    return std::max<std::int64_t>(1, point.n_harmonics / period_multiple);
-}
-
-HbmOptions options_at(const BranchPoint &point, const HbmOptions &options) {
-    HbmOptions o = options;
-    o.n_harmonics = harmonics_of(point, options.period_multiple);
-    o.force_scale = point.force_scale;
-    if (!point.contact_stiffness) {
-        o.formulation = FormulationKind::penalty;
-        return o;
-    }
-    if (o.formulation == FormulationKind::penalty) o.formulation = FormulationKind::automatic;
-    if (o.unknowns == UnknownSpace::modal)
-        o.unknowns = UnknownSpace::gaps; // all that the compliance form has
-    return o;
-}
-
-HarmonicContent measure_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
-                                  BranchPoint &point) {
-    const auto system = make_system(reduced, options_at(point, options));
-    vector<double> x(system->size()), residual(system->size());
-    system->from_point(point, x.data());
-    system->residual(x.data(), point.omega, residual.data());
-    system->linearize();
-    HarmonicContent content = harmonic_content(*reduced, point, options.period_multiple);
-    point.harmonic_tail = content.tail;
-    point.harmonic_error =
-        harmonic_error(*reduced, point, options.period_multiple, content, *system, x.data());
-    return content;
-}
-
-void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
-                      BranchPoint &point, Watch watch) {
-    const std::int64_t multiple = options.period_multiple;
-    HbmOptions now = options;
-    for (;;) {
-        now.n_harmonics = harmonics_of(point, multiple);
-        const HarmonicContent content = measure_harmonics(reduced, now, point);
-        std::int64_t more = now.n_harmonics;
-        if (options.n_harmonics == 0)
-            more = next_harmonics(options, more, more, content, point.harmonic_error);
-        if (more <= now.n_harmonics) {
-            if (options.tail_correction) point.eta.append(content.tail_response);
-            return;
-        }
-        now.n_harmonics = more;
-        const auto system = make_system(reduced, now);
-        vector<double> x(system->size());
-        system->from_point(point, x.data());
-        const StartOutcome out = find_start(*system, *reduced, now, point.omega, true, watch, x);
-        if (!out.converged) return;
-        point.iterations += out.iterations;
-        point.residual = out.residual;
-        system->to_point(x.data(), point.omega, point);
-        point.n_switching = system->indicator().n_switching;
-    }
 }
 
 } // namespace plm

@@ -3,6 +3,7 @@
 #include "hbm/formulation.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plm {
 namespace {
@@ -24,6 +25,13 @@ Matrix gaps_of(const BranchPoint &p, const ReducedModel &from, const ReducedMode
     return x;
 }
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double contracts = 0.5;    // second step over first with one tangent: else it does not hold so far
+constexpr double settled = 0.05;     // last step over first, with tangents renewed
+constexpr double negligible = 1e-10; // relative step that asks for no more
+constexpr double diverged = 1.0;     // relative step that has left the neighbourhood of the point
+constexpr int most_steps = 8;
+
 // One point in the gaps of the unreduced structure, corrected step by step across the curve.
 class Correction {
   public:
@@ -37,8 +45,8 @@ class Correction {
         std::copy(gaps.data(), gaps.data() + known, x_.begin());
     }
 
-    // Newton's step from here; the tangent of the first one is kept.
-    void step(bool with_new_tangent) {
+    // Newton's step from here; the tangent of the first one is kept. Its length, relative.
+    double step(bool with_new_tangent) {
         const std::int64_t n = system_->size();
         vector<double> change(n);
         system_->residual(x_.data(), omega_, change.data());
@@ -54,13 +62,34 @@ class Correction {
         // across the tangent (along, 1), lengths measured by the solution and the frequency themselves
         const double shift = per_length * dot(n, along_.data(), change.data()) /
                              (per_length * dot(n, along_.data(), along_.data()) + 1 / (omega_ * omega_));
-        for (std::int64_t i = 0; i < n; ++i) x_[i] += shift * along_[i] - change[i];
+        double moved = 0;
+        for (std::int64_t i = 0; i < n; ++i) {
+            const double d = shift * along_[i] - change[i];
+            x_[i] += d;
+            moved += per_length * d * d;
+        }
+        const double length = std::hypot(std::sqrt(moved), shift / omega_);
         omega_ += shift;
         if (!std::isfinite(omega_) || !std::isfinite(norm2(n, x_.data())))
             throw Error(PLM_ERR_CONVERGENCE,
                         "the tangent of the unreduced structure is singular at this point")
                 .argument("point")
                 .reason(PLM_REASON_SINGULAR_TANGENT);
+        return length;
+    }
+
+    // The second step, and more with tangents renewed where the first one's does not hold as far as the first
+    // step (`length`) went. False: they do not contract, the point is worth nothing.
+    bool settle(double length) {
+        double last = length, now = step(false);
+        if (now <= contracts * last + negligible) return true;
+        for (int k = 0; k < most_steps; ++k) {
+            last = now;
+            now = step(true);
+            if (!(now < diverged)) return false;
+            if (now <= settled * length + negligible) return true;
+        }
+        return false;
     }
 
     double amplitude(std::int64_t dof, Measure measure, std::int64_t harmonic) {
@@ -116,24 +145,26 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
         amplitude = a, hz = f;
     };
     Correction c(full_, o, p, *branch_.reduced_model());
-    c.step(true);
+    const double length = c.step(true);
     settle(c, &ErrorParts::basis);
-    c.step(false);
+    e.known = c.settle(length);
     settle(c, &ErrorParts::contact);
-    if (!with_harmonics) return e;
-    o.n_harmonics = finer(o.n_harmonics);
-    Correction more(full_, o, c.point(), *full_);
-    more.step(true);
-    settle(more, &ErrorParts::harmonics);
+    if (e.known && with_harmonics) {
+        o.n_harmonics = finer(o.n_harmonics);
+        Correction more(full_, o, c.point(), *full_);
+        const double further = more.step(true);
+        settle(more, &ErrorParts::harmonics);
+        if (!more.settle(further)) e.amplitude.harmonics = e.frequency_hz.harmonics = unknown;
+    }
+    if (!e.known) e.amplitude = e.frequency_hz = {unknown, unknown, unknown};
     return e;
 }
 
 BranchPoint ErrorEstimator::corrected(std::int64_t point) const {
     const BranchPoint &p = branch_.points().at(static_cast<std::size_t>(point));
     Correction c(full_, options_at(p, options_), p, *branch_.reduced_model());
-    c.step(true);
-    c.step(false);
-    return c.point();
+    const BranchPoint as_computed = c.point();
+    return c.settle(c.step(true)) ? c.point() : as_computed;
 }
 
 } // namespace plm

@@ -1,9 +1,11 @@
 // How wrong a point of a response curve is, without the unreduced solution: its contact forces are applied to
 // the unreduced structure, and the gaps that answer differ from those of the reduced one. What this defect
-// does to the solution follows from one step of Newton's method with the tangent of the unreduced structure,
-// across the curve.
+// does to the solution follows from a step of Newton's method with the tangent of the unreduced structure,
+// across the curve; a second one shows whether that tangent holds so far, and further ones renew it where
+// not.
 #pragma once
 #include "hbm/system.hpp"
+#include <cmath>
 
 namespace plm {
 
@@ -17,6 +19,9 @@ struct ErrorParts {
 struct ErrorEstimate {
     ErrorParts amplitude;    // of the DOF asked for
     ErrorParts frequency_hz; // shift of the curve along the frequency
+    // Parts whose steps do not contract are NaN: that of the harmonics, or all of them
+    bool known = true; // false: all of them
+    bool complete() const { return std::isfinite(amplitude.sum()); }
 };
 
 class ErrorEstimator {
@@ -27,7 +32,8 @@ class ErrorEstimator {
     /// PLM_ERR_CONVERGENCE when the tangent is singular.
     ErrorEstimate estimate(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic,
                            bool with_harmonics = true) const;
-    /// The point in the coordinates of `full`, after both steps of the correction.
+    /// The point in the coordinates of `full` after the correction, or as computed where that does not
+    /// contract.
     BranchPoint corrected(std::int64_t point) const;
 
   private:

@@ -275,4 +275,46 @@ std::shared_ptr<Branch> follow_folds(std::shared_ptr<const ReducedModel> reduced
     return path.follow(start);
 }
 
+namespace {
+
+bool ends_well(const Branch &b) {
+    return b.end_reason == PLM_REASON_RANGE_END || b.end_reason == PLM_REASON_LOOP_CLOSED;
+}
+
+// Both begin at the same point.
+std::shared_ptr<Branch> joined(const Branch &below, const Branch &above) {
+    const auto whole =
+        std::make_shared<Branch>(above.reduced_model(), above.force_scale(), above.period_multiple());
+    const double length = below.points().back().arclength;
+    for (auto p = below.points().rbegin(); p != below.points().rend() - 1; ++p) {
+        BranchPoint point = *p;
+        point.arclength = length - point.arclength;
+        whole->append(std::move(point));
+    }
+    for (BranchPoint point : above.points()) {
+        point.arclength += length;
+        whole->append(std::move(point));
+    }
+    whole->end_reason = ends_well(below) ? above.end_reason : below.end_reason;
+    whole->newton_iterations = below.newton_iterations + above.newton_iterations;
+    whole->factorizations = below.factorizations + above.factorizations;
+    whole->failed_steps = below.failed_steps + above.failed_steps;
+    whole->space_used = above.space_used;
+    return whole;
+}
+
+} // namespace
+
+std::shared_ptr<Branch> follow_folds_both_ways(std::shared_ptr<const ReducedModel> reduced,
+                                               FoldOptions options, const BranchPoint &fold, Watch watch) {
+    options.upward = false;
+    const auto below = follow_folds(reduced, options, fold, watch);
+    if (!below || below->end_reason == PLM_REASON_LOOP_CLOSED) return below;
+    const std::int64_t used = static_cast<std::int64_t>(below->points().size());
+    options.upward = true;
+    options.hbm.max_points = std::max<std::int64_t>(1, options.hbm.max_points - used + 1);
+    const auto above = follow_folds(std::move(reduced), options, fold, watch);
+    return above ? joined(*below, *above) : below;
+}
+
 } // namespace plm

@@ -66,4 +66,9 @@ struct FoldOptions {
 std::shared_ptr<Branch> follow_folds(std::shared_ptr<const ReducedModel> reduced, const FoldOptions &options,
                                      const BranchPoint &fold, Watch watch);
 
+/// The same to both sides of the fold, as one curve: the side of smaller forces first, backwards. It ends for
+/// the reason of the side that did not get to the end of the range, if any.
+std::shared_ptr<Branch> follow_folds_both_ways(std::shared_ptr<const ReducedModel> reduced,
+                                               FoldOptions options, const BranchPoint &fold, Watch watch);
+
 } // namespace plm

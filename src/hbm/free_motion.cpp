@@ -5,8 +5,29 @@
 #include <cmath>
 
 namespace plm {
+namespace {
+
+bool acts_along(const Matrix &directions, const vector<double> &load) {
+    const std::int64_t n = static_cast<std::int64_t>(load.size());
+    if (n == 0 || directions.cols() == 0) return false;
+    vector<double> along(directions.cols(), 0.0);
+    gemv('T', 1.0, directions, load.data(), 0.0, along.data());
+    return norm2(directions.cols(), along.data()) > 1e-8 * norm2(n, load.data());
+}
+
+vector<char> closing_pairs(const ContactIndicator &indicator) {
+    vector<char> closing(indicator.state.size());
+    for (std::size_t i = 0; i < closing.size(); ++i) closing[i] = indicator.state[i] != PairState::open;
+    return closing;
+}
+
+} // namespace
 
 Matrix free_motion(const ReducedModel &m) {
+    return free_motion(m, vector<char>(m.n_pairs(), 1));
+}
+
+Matrix free_motion(const ReducedModel &m, const vector<char> &holding) {
     std::int64_t n_rigid = 0;
     while (n_rigid < m.static_size() && m.lambda_0[n_rigid] <= 0) ++n_rigid;
     if (n_rigid == 0) return Matrix(m.static_size(), 0);
@@ -14,7 +35,7 @@ Matrix free_motion(const ReducedModel &m) {
     Matrix gap(std::max(z, n_rigid), n_rigid); // rows of zeros below: the SVD is to have all directions
     double size = 0;
     for (std::int64_t i = 0; i < z; ++i) {
-        for (std::int64_t j = 0; j < n_rigid; ++j) gap(i, j) = m.gap_0(i, j);
+        for (std::int64_t j = 0; j < n_rigid; ++j) gap(i, j) = holding[i] ? m.gap_0(i, j) : 0.0;
         for (std::int64_t j = 0; j < m.static_size(); ++j) size = std::max(size, std::abs(m.gap_0(i, j)));
     }
     const Svd held = thin_svd(gap);
@@ -26,28 +47,44 @@ Matrix free_motion(const ReducedModel &m) {
     return free;
 }
 
-Matrix hold_free_motion(const ReducedModel &m) {
-    Matrix s = free_motion(m);
+MeanHold::MeanHold(const ReducedModel &m) : always_(free_motion(m)) {
+    depends_ = free_motion(m, vector<char>(m.n_pairs(), 0)).cols() > always_.cols();
+    assign(m, always_);
+}
+
+void MeanHold::assign(const ReducedModel &m, Matrix directions) {
     const auto flexible = std::find_if(m.lambda_0.begin(), m.lambda_0.end(), [](double l) { return l > 0; });
     const double root = flexible == m.lambda_0.end() ? 1 : std::sqrt(*flexible);
-    for (std::int64_t k = 0; k < s.rows() * s.cols(); ++k) s.data()[k] *= root;
-    return s;
+    columns_ = std::move(directions);
+    for (std::int64_t k = 0; k < columns_.rows() * columns_.cols(); ++k) columns_.data()[k] *= root;
+}
+
+bool MeanHold::set(const ReducedModel &m, const ContactIndicator &indicator,
+                   const vector<double> &mean_load) {
+    if (!depends_) return false;
+    vector<char> holding = closing_pairs(indicator);
+    const bool others = holding != holding_;
+    if (others) directions_ = free_motion(m, holding);
+    const bool pushed = acts_along(directions_, mean_load);
+    if (!others && pushed == pushed_) return false;
+    holding_ = std::move(holding);
+    pushed_ = pushed;
+    assign(m, pushed ? always_ : directions_);
+    return true;
 }
 
 void require_balanced(const ReducedModel &m) {
     const Matrix free = free_motion(m);
-    if (free.cols() == 0) return;
-    const auto drives = [&](const vector<double> &load) {
-        const std::int64_t n = static_cast<std::int64_t>(load.size());
-        if (n == 0) return false;
-        vector<double> along(free.cols(), 0.0);
-        gemv('T', 1.0, free, load.data(), 0.0, along.data());
-        return norm2(free.cols(), along.data()) > 1e-8 * norm2(n, load.data());
-    };
     const auto mean = m.excitation.find(0);
-    if (drives(m.preload_0)) throw no_equilibrium("pre-load");
-    if (mean != m.excitation.end() && drives(mean->second.real))
+    if (acts_along(free, m.preload_0)) throw no_equilibrium("pre-load");
+    if (mean != m.excitation.end() && acts_along(free, mean->second.real))
         throw no_equilibrium("mean of the excitation");
+}
+
+std::string drift_hint(const ReducedModel &m) {
+    if (!MeanHold(m).depends_on_contact()) return {};
+    return "; nothing but its contacts holds the structure, and the mean of the loads may carry it out of "
+           "their reach: support it, or press the contacts together by a pre-load";
 }
 
 } // namespace plm

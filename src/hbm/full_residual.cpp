@@ -76,7 +76,8 @@ class FullResidual {
         }
         for (std::int64_t c = 0; c < 2; ++c)
             for (std::int64_t j = 0; j < reduced_.size(); ++j)
-                ceta(j, c) -= (damping.alpha + damping.beta * reduced_.lambda[j]) * eta(j, c);
+                ceta(j, c) -=
+                    (damping.alpha * reduced_.mass(j) + damping.beta * reduced_.lambda[j]) * eta(j, c);
         if (damping.has_matrix) return; // its projection is inside c already and cannot be told apart
         const Matrix extra = multiply(model_.mass(), product('N', 'N', reduced_.vectors, ceta));
         for (std::int64_t k = 0; k < loss.rows() * 2; ++k) loss.data()[k] += w * extra.data()[k];

@@ -52,6 +52,8 @@ class GapSystem final : public HbmSystem {
           form_(make_formulation(*m_, options)), gap_(m_->initial_gap), u_(z_, n_), contact_(z_, n_),
           receptance_(h_ + 1), constant_(h_ + 1), eta_(h_ + 1), force_scale_(options.force_scale) {
         require_balanced(*m_);
+        for (double l : m_->lambda_0) static_is_dense_ = static_is_dense_ || l <= 0;
+        hold_ = MeanHold(*m_);
         update_static();
         if (form_.compliant) law_ = std::make_shared<const vector<double>>(form_.stiffness);
     }
@@ -110,6 +112,7 @@ class GapSystem final : public HbmSystem {
     }
 
     double residual_scale() const override { return norm2(size(), u_.data()); }
+    bool in_balance() const override { return !hold_.carried_away(); }
 
     void residual(const double *x, double omega, double *r) override {
         std::copy(x, x + size(), u_.data());
@@ -117,6 +120,7 @@ class GapSystem final : public HbmSystem {
         force_->indicator(u_, indicator_);
         apply_indicator(indicator_, form_.stiffness, u_, contact_);
         for (std::int64_t k = 0; k < size(); ++k) contact_.data()[k] *= stiffness_factor_;
+        hold_mean();
         respond();
         gaps_of_response(r);
         for (std::int64_t k = 0; k < size(); ++k) r[k] = u_.data()[k] - r[k];
@@ -165,6 +169,7 @@ class GapSystem final : public HbmSystem {
         set_frequency(omega);
         constant_indicator(share, h_, indicator_);
         contact_.reset(z_, n_);
+        hold_mean();
         respond(); // at u = 0 with zero force: R = -(B D F - g)
         gaps_of_response(x);
         linearize();
@@ -207,24 +212,31 @@ class GapSystem final : public HbmSystem {
     // An open structure with rigid-body modes has no static receptance: then a part of the contact stiffness
     // is moved from the contact law into the static reference system (h = 0 only), which is exact.
     void update_static() {
-        bool rigid = false;
-        for (double l : m_->lambda_0) rigid = rigid || l <= 0;
         reference_.assign(z_, 0.0);
-        if (!rigid) return;
+        if (!static_is_dense_) return;
         Matrix k(r0_, r0_), scaled = m_->gap_0;
         for (std::int64_t i = 0; i < z_; ++i) reference_[i] = reference_stiffness(i);
         for (std::int64_t j = 0; j < r0_; ++j)
             for (std::int64_t i = 0; i < z_; ++i) scaled(i, j) *= reference_[i];
         gemm('T', 'N', 1.0, m_->gap_0, scaled, 0.0, k);
         for (std::int64_t j = 0; j < r0_; ++j) k(j, j) += m_->lambda_0[j];
-        const Matrix hold = hold_free_motion(*m_);
-        gemm('N', 'T', 1.0, hold, hold, 1.0, k);
+        gemm('N', 'T', 1.0, hold_.columns(), hold_.columns(), 1.0, k);
         if (!static_cholesky_.factor(k))
             throw Error(PLM_ERR_SINGULAR,
                         "the structure has rigid-body modes that closed contacts hardly hold; "
                         "fix DOFs or solve in reduced coordinates (unknowns = modal)")
                 .reason(PLM_REASON_SINGULAR);
-        static_is_dense_ = true;
+    }
+
+    void hold_mean() {
+        if (hold_.depends_on_contact() && hold_.set(*m_, indicator_, mean_load())) update_static();
+    }
+
+    vector<double> mean_load() const {
+        vector<double> load = m_->preload_0;
+        if (const HarmonicLoad *mean = excitation(0))
+            for (std::int64_t j = 0; j < r0_; ++j) load[j] += force_scale_ * mean->real[j];
+        return load;
     }
 
     // No stiffer than the structure at the pair, whose flexibility would drown in the rounding of a stiff
@@ -256,9 +268,7 @@ class GapSystem final : public HbmSystem {
 
     // eta = D (F - B' N) for every harmonic, from contact_.
     void respond() {
-        eta_0_ = m_->preload_0;
-        if (const HarmonicLoad *load = excitation(0))
-            for (std::int64_t j = 0; j < r0_; ++j) eta_0_[j] += force_scale_ * load->real[j];
+        eta_0_ = mean_load();
         vector<double> n(z_);
         for (std::int64_t i = 0; i < z_; ++i) n[i] = contact_(i, 0) - reference_[i] * (u_(i, 0) + gap_[i]);
         gemv('T', -1.0, m_->gap_0, n.data(), 1.0, eta_0_.data());
@@ -461,6 +471,7 @@ class GapSystem final : public HbmSystem {
     std::vector<Constant> constant_;
     std::vector<vector<Complex>> eta_; // harmonics >= 1
     vector<double> eta_0_, reference_, real_, imag_;
+    MeanHold hold_;
     DenseCholesky static_cholesky_;
     bool static_is_dense_ = false;
     double force_scale_, stiffness_factor_ = 1, omega_ = -1;

@@ -99,25 +99,93 @@ HarmonicContent harmonic_content(const ReducedModel &m, const BranchPoint &p, st
     return content;
 }
 
-double harmonic_error(const ReducedModel &m, const BranchPoint &point, std::int64_t multiple,
-                      const HarmonicContent &content, HbmSystem &system, const double *x) {
+HarmonicChange harmonic_change(const ReducedModel &m, const BranchPoint &point, std::int64_t multiple,
+                               const HarmonicContent &content, HbmSystem &system, const double *x) {
     const std::int64_t solved = point.n_harmonics, r = m.size();
-    const double motion = norm2(r * 2 * solved, point.eta.data());
-    if (content.tail == 0 || motion == 0) return 0;
+    HarmonicChange out;
+    out.motion.reset(r, 2 * (2 * solved + 2));
+    if (content.tail == 0) return out;
     double shift = 0;
     const vector<double> change = across_curve(system, x, point.omega, content.force_change, shift);
+    out.shift = shift / point.omega;
     Matrix u, force;
     system.contact_motion_change(change.data(), u);
     const ContactMotion contact = contact_motion(m, point);
     apply_indicator(system.indicator(), *contact.stiffness, u, force);
     for (std::int64_t k = 0; k < force.rows() * force.cols(); ++k)
         force.data()[k] += content.force_change.data()[k];
-    Matrix moved(r, 2 * solved);
     for (std::int64_t h = 1; h <= solved; ++h)
-        respond(m, h, point.omega, multiple, force, 0.0, moved.col(2 * h - 2), moved.col(2 * h - 1));
-    const double own = norm2(r * content.tail_response.cols(), content.tail_response.data());
-    return std::max(std::hypot(norm2(r * 2 * solved, moved.data()), own) / motion,
-                    std::abs(shift) / point.omega);
+        respond(m, h, point.omega, multiple, force, 0.0, out.motion.col(2 * h - 2),
+                out.motion.col(2 * h - 1));
+    const Matrix &tail = content.tail_response;
+    std::copy(tail.data(), tail.data() + r * tail.cols(), out.motion.col(2 * solved));
+    return out;
+}
+
+namespace {
+
+double norm_of_row(const Matrix &a, std::int64_t row) {
+    double size = 0;
+    for (std::int64_t c = 0; c < a.cols(); ++c) size = std::hypot(size, a(row, c));
+    return size;
+}
+
+// Rows of P at the DOFs that the pairs of the equations hold.
+Matrix contact_rows(const ReducedModel &m) {
+    if (!m.model || m.vectors.rows() != m.model->n_free()) return Matrix();
+    const SparseMatrix &b = m.model->gap_matrix();
+    vector<char> carried(b.rows, m.all_pairs ? 0 : 1), held(b.cols, 0);
+    for (std::int64_t i : m.carried) carried[i] = 1;
+    for (std::int64_t j = 0; j < b.cols; ++j)
+        for (std::int64_t k = b.ptr[j]; k < b.ptr[j + 1]; ++k)
+            if (b.val[k] != 0 && carried[b.idx[k]]) held[j] = 1;
+    Matrix rows(std::count(held.begin(), held.end(), 1), m.size());
+    std::int64_t row = 0;
+    for (std::int64_t j = 0; j < b.cols; ++j) {
+        if (!held[j]) continue;
+        for (std::int64_t c = 0; c < m.size(); ++c) rows(row, c) = m.vectors(j, c);
+        ++row;
+    }
+    return rows;
+}
+
+double largest_at_contact(const ReducedModel &m, const Matrix &motion, const Matrix &change) {
+    const Matrix rows = contact_rows(m);
+    if (rows.rows() == 0) return 0;
+    const Matrix moves = product('N', 'N', rows, motion), changes = product('N', 'N', rows, change);
+    vector<double> size(rows.rows());
+    for (std::int64_t i = 0; i < rows.rows(); ++i) size[i] = norm_of_row(moves, i);
+    const double least = least_motion * *std::max_element(size.begin(), size.end());
+    double worst = 0;
+    for (std::int64_t i = 0; i < rows.rows() && least > 0; ++i)
+        worst = std::max(worst, norm_of_row(changes, i) / std::max(least, size[i]));
+    return worst;
+}
+
+} // namespace
+
+double harmonic_error(const ReducedModel &m, const BranchPoint &point, const HarmonicChange &change) {
+    const Matrix motion = point.eta.columns(0, 2 * point.n_harmonics);
+    const double size = norm2(motion.rows() * motion.cols(), motion.data());
+    if (size == 0) return 0;
+    const double whole = norm2(change.motion.rows() * change.motion.cols(), change.motion.data()) / size;
+    return std::max({whole, std::abs(change.shift), largest_at_contact(m, motion, change.motion)});
+}
+
+double harmonic_error_at(const ReducedModel &m, const BranchPoint &point, const HarmonicChange &change,
+                         std::int64_t dof, Measure measure, std::int64_t harmonic) {
+    const std::int64_t row = m.model->free_index(dof);
+    if (row < 0) return 0;
+    const bool one = measure == Measure::harmonic && harmonic > 0;
+    const auto size = [&](const Matrix &eta, std::int64_t n) {
+        vector<double> motion(2 * n);
+        for (std::int64_t c = one ? 2 * harmonic - 2 : 0; c < 2 * (one ? std::min(harmonic, n) : n); ++c)
+            for (std::int64_t j = 0; j < m.size(); ++j) motion[c] += m.vectors(row, j) * eta(j, c);
+        return norm2(2 * n, motion.data());
+    };
+    const double motion = size(point.eta, point.n_harmonics),
+                 moved = size(change.motion, change.motion.cols() / 2);
+    return std::max(motion > 0 ? moved / motion : 0, std::abs(change.shift));
 }
 
 } // namespace plm

@@ -1,10 +1,12 @@
 #include "hbm/hbm.hpp"
 #include "hbm/curve.hpp"
 #include "hbm/curve_verdicts.hpp"
+#include "hbm/free_motion.hpp"
 #include "hbm/stability.hpp"
 #include "hbm/start.hpp"
 #include "hbm/wider_range.hpp"
 #include "linalg/scale.hpp"
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -57,12 +59,12 @@ void Hbm::finish(Branch &branch, Clock::time_point begin) const {
                          static_cast<long long>(branch.failed_steps), branch.seconds));
 }
 
-bool Hbm::solve_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const {
-    const HbmOptions first = with_first_harmonics(*reduced_, options_);
-    const auto system = make_system(reduced_, first);
+bool Hbm::solve_with(const HbmOptions &options, double omega, const BranchPoint *guess, Branch &branch,
+                     BranchPoint &point) const {
+    const auto system = make_system(reduced_, options);
     vector<double> x(system->size(), 0.0);
     if (guess) system->from_point(*guess, x.data());
-    const StartOutcome out = find_start(*system, *reduced_, first, omega, guess != nullptr, watch_, x);
+    const StartOutcome out = find_start(*system, *reduced_, options, omega, guess != nullptr, watch_, x);
     branch.newton_iterations += out.iterations;
     branch.newton_seconds += out.seconds;
     branch.factorizations += out.factorizations;
@@ -73,8 +75,19 @@ bool Hbm::solve_at(double omega, const BranchPoint *guess, Branch &branch, Branc
     point.force_scale = options_.force_scale;
     system->to_point(x.data(), omega, point);
     point.n_switching = system->indicator().n_switching;
-    settle_harmonics(reduced_, options_, point, watch_);
     return true;
+}
+
+bool Hbm::solve_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const {
+    const HbmOptions wanted = with_first_harmonics(*reduced_, options_);
+    HbmOptions few = options_;
+    few.n_harmonics = std::min(wanted.n_harmonics, few_harmonics(*reduced_));
+    const bool climbs = !guess && wanted.n_harmonics > 2 * few.n_harmonics;
+    bool found = climbs && solve_with(few, omega, nullptr, branch, point) &&
+                 climb_harmonics(reduced_, options_, wanted.n_harmonics, point, watch_);
+    found = found || solve_with(wanted, omega, guess, branch, point);
+    if (found) settle_harmonics(reduced_, options_, point, watch_);
+    return found;
 }
 
 std::shared_ptr<const Branch> Hbm::sweep() const {
@@ -82,19 +95,24 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
     const auto branch = new_branch();
     const double low = 2 * M_PI * options_.frequency_min_hz, high = 2 * M_PI * options_.frequency_max_hz;
     const double from = options_.upward ? low : high, into = options_.upward ? high - low : low - high;
-    // A start inside a super-harmonic region may fail: the range is entered a little further on then.
+    // A start inside a super-harmonic region may fail, or find no solution that more harmonics confirm: the
+    // range is entered a little further on then, if that is better.
     CurveStart start;
     bool found = false;
-    for (int attempt = 0; attempt < 5 && !found; ++attempt) {
+    for (int attempt = 0; attempt < 5; ++attempt) {
         watch_.step("sweep", 0.0);
-        found = solve_at(from + 0.02 * attempt * into, nullptr, *branch, start.point);
+        BranchPoint point;
+        if (!solve_at(from + 0.02 * attempt * into, nullptr, *branch, point)) continue;
+        if (!found || point.harmonic_error < start.point.harmonic_error) start.point = point;
+        found = true;
+        if (options_.n_harmonics != 0 || start.point.harmonic_error < worthless_error) break;
     }
     if (!found)
         throw Error(
             PLM_ERR_CONVERGENCE,
             format("no periodic response was found at the start of the sweep (%.6g Hz and four neighbours); "
-                   "start from the other end (direction) or with a smaller force_scale",
-                   from / (2 * M_PI)))
+                   "start from the other end (direction) or with a smaller force_scale%s",
+                   from / (2 * M_PI), drift_hint(*reduced_).c_str()))
             .reason(PLM_REASON_START_FAILED);
     trace_curve(options_, start, watch_, *branch);
     bring_peak_inside(options_, reach_, watch_, *branch);
@@ -132,13 +150,14 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
     if (!solve_at(2 * M_PI * frequency_hz, start ? &guess : nullptr, *branch, result))
         throw Error(PLM_ERR_CONVERGENCE,
                     format("no periodic response was found at %.6g Hz; give a neighbouring point "
-                           "as start or use a sweep",
-                           frequency_hz))
+                           "as start or use a sweep%s",
+                           frequency_hz, drift_hint(*reduced_).c_str()))
             .argument("frequency_hz")
             .reason(PLM_REASON_START_FAILED);
     const Stability stability(reduced_, options_);
     if (stability.wanted()) result.multipliers = stability.multipliers(result);
     branch->append(std::move(result));
+    warn_of_harmonics(options_, *branch);
     branch->end_reason = PLM_REASON_RANGE_END;
     branch->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
     check_window(window_, watch_, *branch);

@@ -85,6 +85,8 @@ class Hbm {
     using Clock = std::chrono::steady_clock;
     std::shared_ptr<Branch> new_branch() const;
     void finish(Branch &branch, Clock::time_point begin) const;
+    bool solve_with(const HbmOptions &options, double omega, const BranchPoint *guess, Branch &branch,
+                    BranchPoint &point) const;
     bool solve_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const;
     BranchPoint first_guess(const Branch &start, std::int64_t point) const;
 

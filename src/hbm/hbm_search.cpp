@@ -46,7 +46,7 @@ std::shared_ptr<const Branch> Hbm::track_fold(const Branch &branch, std::int64_t
     options.hbm.period_multiple = branch.period_multiple();
     options.force_min = force_min;
     options.force_max = force_max;
-    const auto folds = follow_folds(reduced_, options, fold, watch_);
+    const auto folds = follow_folds_both_ways(reduced_, options, fold, watch_);
     if (!folds)
         throw Error(PLM_ERR_CONVERGENCE, "the fold could not be corrected at its own force")
             .argument("point")

@@ -7,8 +7,8 @@
 
 namespace plm {
 
-/// 2 n multipliers over one period of the response, largest modulus first. Order of the eigenproblem:
-/// 2 n (2 H + 1).
+/// FlowModel::state_size() multipliers over one period of the response, largest modulus first. Order of the
+/// eigenproblem: (2 H + 1) times as many.
 vector<std::complex<double>> hill_multipliers(const FlowModel &flow, const BranchPoint &point,
                                               std::int64_t period_multiple);
 

@@ -51,8 +51,8 @@ class Search {
         BackboneOptions o;
         o.hbm = options_;
         o.force_max = force_max_;
-        if (options_.n_harmonics > 0) return o;
         const std::int64_t first = with_first_harmonics(*reduced_, options_).n_harmonics;
+        if (options_.n_harmonics > 0) return o;
         const std::int64_t room = largest_system / (2 * std::max<std::int64_t>(1, reduced_->size()));
         std::int64_t most = 0;
         for (const BranchPoint &p : main_.points())
@@ -258,6 +258,7 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
     whole->factorizations = after->factorizations + before.factorizations;
     whole->failed_steps = after->failed_steps + before.failed_steps;
     whole->space_used = after->space_used;
+    warn_of_harmonics(options, *whole);
     return whole;
 }
 

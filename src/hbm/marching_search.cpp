@@ -82,12 +82,13 @@ class Marching {
         const auto model = std::make_shared<const FlowModel>(reduced_, omega);
         ExactFlow flow(model, omega, hbm_.force_scale, watch_);
         FlowState start;
-        start.y = rest_;
-        start.v.assign(rest_.size(), 0.0);
+        const vector<double> rest = model->from_static_coordinates(rest_);
+        start.y = rest;
+        start.v.assign(rest.size(), 0.0);
         if (scale != 0) {
             const FlowState moving = model->state(largest_.eta_0, largest_.eta, omega, 0.0);
-            for (std::size_t j = 0; j < rest_.size(); ++j) {
-                start.y[j] += scale * (moving.y[j] - rest_[j]);
+            for (std::size_t j = 0; j < rest.size(); ++j) {
+                start.y[j] += scale * (moving.y[j] - rest[j]);
                 start.v[j] = scale * moving.v[j];
             }
         }
@@ -137,12 +138,13 @@ class Marching {
         point.omega = flow.omega();
         point.force_scale = hbm_.force_scale;
         point.n_harmonics = h;
-        point.eta_0.assign(coefficient.col(0), coefficient.col(0) + n);
-        point.eta = product('T', 'N', to_flow(flow.model(), r), coefficient.columns(1, 2 * h));
+        point.eta_0 =
+            flow.model().in_static_coordinates(vector<double>(coefficient.col(0), coefficient.col(0) + n));
+        point.eta = least_squares(to_flow(flow.model(), r), coefficient.columns(1, 2 * h));
         return point;
     }
 
-    // T: n x r with orthonormal columns, from what the flow makes of unit coordinates.
+    // T: n x r, from what the flow makes of unit coordinates.
     static Matrix to_flow(const FlowModel &model, std::int64_t r) {
         Matrix t(model.size(), r);
         const vector<double> zero(model.size(), 0.0);

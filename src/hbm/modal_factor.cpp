@@ -69,7 +69,8 @@ bool ModalFactor::invert_linear_part() {
     for (std::int64_t h = 1; h <= jacobian_.n_harmonics(); ++h) {
         const double w = static_cast<double>(h) * jacobian_.omega();
         for (std::int64_t j = 0; j < m.size(); ++j)
-            if (!(std::abs(jacobian_.dynamic_stiffness(h, j)) > singular * (std::abs(m.lambda[j]) + w * w)))
+            if (!(std::abs(jacobian_.dynamic_stiffness(h, j)) >
+                  singular * (std::abs(m.lambda[j]) + w * w * m.mass(j))))
                 return false;
         try {
             receptance_[h].update(m, h, jacobian_.omega(), jacobian_.self_excitation());

@@ -1,6 +1,5 @@
 // The dense form costs (4H + 1) Z r^2 flops: one product with the precomputed products of gap rows.
 #include "hbm/modal_jacobian.hpp"
-#include "hbm/free_motion.hpp"
 #include "linalg/work.hpp"
 #include <algorithm>
 #include <cmath>
@@ -66,7 +65,7 @@ struct ModalJacobian::Products {
 
 ModalJacobian::ModalJacobian(std::shared_ptr<const ReducedModel> reduced, std::int64_t n_harmonics)
     : m_(std::move(reduced)), products_(std::make_shared<Products>()), h_(n_harmonics), r_(m_->size()),
-      r0_(m_->static_size()), weights_(m_->n_pairs(), 4 * h_ + 1), hold_(hold_free_motion(*m_)) {}
+      r0_(m_->static_size()), weights_(m_->n_pairs(), 4 * h_ + 1), hold_(*m_) {}
 
 void ModalJacobian::set_tangent(const ContactIndicator &indicator, const vector<double> &stiffness) {
     closing_.clear();
@@ -97,15 +96,16 @@ void ModalJacobian::expand_tangent() {
 std::complex<double> ModalJacobian::dynamic_stiffness(std::int64_t h, std::int64_t j) const {
     const double w = static_cast<double>(h) * omega_, l = m_->lambda[j];
     const double damping = m_->damping.empty() ? m_->damping_diagonal[j] : 0.0;
-    return {l - w * w, m_->structural * l + w * (damping - 2 * self_excitation_ * omega_)};
+    const double m = m_->mass(j);
+    return {l - w * w * m, m_->structural * l + w * (damping - 2 * self_excitation_ * omega_ * m)};
 }
 
 void ModalJacobian::add_linear_product(const double *x, double *y) const {
     for (std::int64_t j = 0; j < r0_; ++j) y[j] += m_->lambda_0[j] * x[j];
-    if (hold_.cols() > 0) {
-        vector<double> held(hold_.cols(), 0.0);
-        gemv('T', 1.0, hold_, x, 0.0, held.data());
-        gemv('N', 1.0, hold_, held.data(), 1.0, y);
+    if (const Matrix &hold = hold_.columns(); hold.cols() > 0) {
+        vector<double> held(hold.cols(), 0.0);
+        gemv('T', 1.0, hold, x, 0.0, held.data());
+        gemv('N', 1.0, hold, held.data(), 1.0, y);
     }
     for (std::int64_t h = 1; h <= h_; ++h) {
         const double *a = x + cosine_at(h), *b = a + r_;
@@ -170,9 +170,10 @@ void ModalJacobian::add_to(Matrix &out) const {
 
 void ModalJacobian::add_linear(Matrix &out) const {
     for (std::int64_t j = 0; j < r0_; ++j) out(j, j) += m_->lambda_0[j];
-    for (std::int64_t k = 0; k < hold_.cols(); ++k)
+    const Matrix &hold = hold_.columns();
+    for (std::int64_t k = 0; k < hold.cols(); ++k)
         for (std::int64_t j = 0; j < r0_; ++j)
-            for (std::int64_t i = 0; i < r0_; ++i) out(i, j) += hold_(i, k) * hold_(j, k);
+            for (std::int64_t i = 0; i < r0_; ++i) out(i, j) += hold(i, k) * hold(j, k);
     for (std::int64_t h = 1; h <= h_; ++h) {
         const std::int64_t c = cosine_at(h), s = c + r_;
         for (std::int64_t j = 0; j < r_; ++j) {

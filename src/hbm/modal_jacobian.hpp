@@ -3,6 +3,7 @@
 // gap rows of every harmonic, T couples the harmonics of one pair.
 #pragma once
 #include "hbm/contact_force.hpp"
+#include "hbm/free_motion.hpp"
 #include "reduction/reduced_model.hpp"
 #include <complex>
 
@@ -17,6 +18,10 @@ class ModalJacobian {
     /// Adds the damping -2 xi omega M (nonlinear modes).
     void set_self_excitation(double xi) { self_excitation_ = xi; }
     void set_tangent(const ContactIndicator &indicator, const vector<double> &stiffness);
+    /// What holds the mean position of motion that no contact holds: before add_linear_product().
+    void set_hold(const ContactIndicator &indicator, const vector<double> &mean_load) {
+        hold_.set(*m_, indicator, mean_load);
+    }
     /// Call it before product() and what stands below add_to(), which does without.
     void expand_tangent();
 
@@ -66,7 +71,7 @@ class ModalJacobian {
     vector<std::int64_t> closing_;
     Matrix weights_; // Z x (4H + 1): stiffness times the averages of the indicator
     Matrix gap_, gap_0_, tangent_;
-    Matrix hold_; // hold_free_motion()
+    MeanHold hold_;
 };
 
 /// u (one column per coefficient) = gap_0 eta_0, gap a_1, gap b_1, ...

@@ -71,6 +71,7 @@ class ModalSystem final : public HbmSystem {
         penetration();
         force_->indicator(u_, indicator_);
         apply_indicator(indicator_, stiffness_, u_, contact_);
+        hold_mean();
         for (std::int64_t j = 0; j < size(); ++j) r[j] = -load_[j];
         jacobian_.add_linear_product(x, r);
         add_coordinates_of_gaps(m_->gap_0, m_->gap, 1.0, contact_, r);
@@ -103,8 +104,8 @@ class ModalSystem final : public HbmSystem {
             const double k = static_cast<double>(h), mass = -2 * k * k * omega_,
                          excitation = -4 * k * jacobian_.self_excitation() * omega_;
             for (std::int64_t j = 0; j < r_; ++j) {
-                rc[j] = mass * a[j] + excitation * b[j];
-                rs[j] = mass * b[j] - excitation * a[j];
+                rc[j] = m_->mass(j) * (mass * a[j] + excitation * b[j]);
+                rs[j] = m_->mass(j) * (mass * b[j] - excitation * a[j]);
             }
             add_damping_product(k, b, rc);
             add_damping_product(-k, a, rs);
@@ -115,6 +116,7 @@ class ModalSystem final : public HbmSystem {
         set_omega(omega);
         x_.assign(size(), 0.0);
         constant_indicator(share, h_, indicator_);
+        hold_mean();
         linearize();
         std::copy(load_.begin(), load_.end(), x);
         vector<double> gap_force(z_); // -B' k s (-g)
@@ -145,6 +147,7 @@ class ModalSystem final : public HbmSystem {
         omega_ = omega;
         jacobian_.set_omega(omega);
     }
+    void hold_mean() { jacobian_.set_hold(indicator_, {load_.begin(), load_.begin() + r0_}); }
     std::int64_t cosine_at(std::int64_t h) const { return jacobian_.cosine_at(h); }
 
     void fill_excitation() {

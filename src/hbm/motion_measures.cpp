@@ -59,7 +59,7 @@ MotionMeasures measure_motion(const ReducedModel &m, const BranchPoint &point, s
                      w = h * point.omega / static_cast<double>(period_multiple);
         for (std::int64_t j = 0; j < m.size(); ++j) {
             const double square = point.eta(j, c) * point.eta(j, c);
-            out.kinetic += 0.25 * w * w * square;
+            out.kinetic += 0.25 * w * w * m.mass(j) * square;
             out.strain += 0.25 * m.lambda[j] * square;
         }
     }

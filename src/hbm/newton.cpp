@@ -137,7 +137,7 @@ class Newton {
         system_.residual(x_.data(), omega_, r_.data());
         const double scale = system_.residual_scale();
         out_.residual = scale > 0 ? norm2(n_, r_.data()) / scale : norm2(n_, r_.data());
-        out_.converged = std::isfinite(out_.residual);
+        out_.converged = std::isfinite(out_.residual) && system_.in_balance();
         out_.factored_here = fresh_ && size < 1e-6;
         return out_;
     }

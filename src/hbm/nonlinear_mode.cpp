@@ -1,6 +1,7 @@
 #include "hbm/nonlinear_mode.hpp"
 #include "hbm/continuation.hpp"
 #include "hbm/harmonic_tail.hpp"
+#include "hbm/modes_at_rest.hpp"
 #include "hbm/start.hpp"
 #include "model/rest.hpp"
 #include <algorithm>
@@ -8,10 +9,12 @@
 
 namespace plm {
 
-NonlinearModeSystem::NonlinearModeSystem(HbmSystem &inner, std::int64_t n_coordinates, vector<double> shape,
+NonlinearModeSystem::NonlinearModeSystem(HbmSystem &inner, const ReducedModel &m, vector<double> shape,
                                          double omega_reference, double largest_amplitude)
-    : AugmentedSystem(inner, 2), r_(n_coordinates), shape_(std::move(shape)),
-      omega_reference_(omega_reference), largest_(largest_amplitude), y_(inner.size() + 2), x_(inner.size()) {
+    : AugmentedSystem(inner, 2), r_(m.size()), n_with_mass_(m.size() - m.n_massless),
+      shape_(std::move(shape)), omega_reference_(omega_reference), largest_(largest_amplitude),
+      y_(inner.size() + 2), x_(inner.size()) {
+    for (std::int64_t j = 0; j < r_; ++j) shape_[j] *= m.mass(j);
 }
 
 void NonlinearModeSystem::unscale(const double *y, double amplitude, double *x) const {
@@ -23,7 +26,7 @@ void NonlinearModeSystem::add_self_excitation(const double *x, double factor, do
     const std::int64_t s = static_size(), harmonics = (inner_.size() - s) / (2 * r_);
     for (std::int64_t h = 1; h <= harmonics; ++h) {
         const std::int64_t a = s + 2 * (h - 1) * r_, b = a + r_;
-        for (std::int64_t j = 0; j < r_; ++j) {
+        for (std::int64_t j = 0; j < n_with_mass_; ++j) {
             r[a + j] -= factor * static_cast<double>(h) * x[b + j];
             r[b + j] += factor * static_cast<double>(h) * x[a + j];
         }
@@ -87,6 +90,7 @@ void NonlinearModeSystem::to_point(const double *y, double log_amplitude, Branch
     unscale(y, std::exp(log_amplitude), x.data());
     inner_.to_point(x.data(), omega_reference_ * (1 + y[inner_.size()]), point);
     point.force_scale = 0;
+    point.damping_ratio = y[inner_.size() + 1];
 }
 
 void NonlinearModeSystem::from_point(const BranchPoint &point, double *y) {
@@ -95,7 +99,7 @@ void NonlinearModeSystem::from_point(const BranchPoint &point, double *y) {
     const double amplitude = dot(r_, shape_.data(), y + s);
     for (std::int64_t i = 0; i < n; ++i) y[i] /= i < s ? largest_ : amplitude;
     y[n] = point.omega / omega_reference_ - 1;
-    y[n + 1] = 0;
+    y[n + 1] = point.damping_ratio;
 }
 
 // --- the path over the amplitude
@@ -136,7 +140,6 @@ class ModePath final : public PathOwner {
         point.harmonic_tail = harmonic_content(*m_, point, 1).tail;
         largest_tail_ = std::max(largest_tail_, point.harmonic_tail);
         result_.amplitude.push_back(std::exp(p.parameter));
-        result_.damping_ratio.push_back(system_->damping_ratio(p.x.data()));
         result_.measures.push_back(measure_motion(*m_, point));
         result_.branch->append(std::move(point));
     }
@@ -168,10 +171,10 @@ class ModePath final : public PathOwner {
         largest_tail_ = 0;
         reached_ = false;
         find_amplitudes();
-        system_ = std::make_unique<NonlinearModeSystem>(*inner_, m_->size(), shape_, omega_,
-                                                        options_.amplitude_max);
+        system_ = std::make_unique<NonlinearModeSystem>(*inner_, *m_, shape_, omega_, options_.amplitude_max);
         const PathStart from = start();
         result_.branch = std::make_shared<Branch>(m_, 0.0);
+        result_.branch->is_mode = true;
         PathOptions range;
         range.low = std::log(options_.amplitude_min);
         range.high = std::log(options_.amplitude_max);
@@ -201,24 +204,16 @@ class ModePath final : public PathOwner {
 
     // The mode about rest with the number asked for, or the nearest to the frequency asked for.
     void find_mode() {
-        const ReducedModel &m = *m_;
-        const std::int64_t r = m.size();
-        Matrix k(r, r), coupled = m.gap;
-        for (std::int64_t i = 0; i < m.n_pairs(); ++i)
-            for (std::int64_t j = 0; j < r; ++j) coupled(i, j) *= share_[i] * m.contact_stiffness[i];
-        if (m.n_pairs() > 0) gemm('T', 'N', 1.0, m.gap, coupled, 0.0, k);
-        for (std::int64_t j = 0; j < r; ++j) k(j, j) += m.lambda[j];
-        const SymmetricEigen modes = symmetric_eigen(k);
+        const SpaceModes modes = modes_at_rest(*m_, share_);
         const std::int64_t best = choose_mode(modes.values);
         omega_ = std::sqrt(modes.values[best]);
-        shape_.assign(modes.vectors.col(best), modes.vectors.col(best) + r);
+        shape_.assign(modes.vectors.col(best), modes.vectors.col(best) + m_->size());
     }
 
     std::int64_t choose_mode(const vector<double> &squares) const {
-        const double rigid = 1e-10 * squares.back();
         std::int64_t elastic = 0, best = -1;
         for (std::size_t j = 0; j < squares.size(); ++j) {
-            if (!(squares[j] > rigid)) continue;
+            if (!(squares[j] > 0)) continue; // rigid-body motion
             const std::int64_t column = static_cast<std::int64_t>(j);
             if (++elastic == options_.mode) return column;
             const auto away = [&](std::int64_t i) {

@@ -174,6 +174,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     auto one = std::make_shared<Branch>(reduced_, branch.force_scale(), branch.period_multiple());
     one->end_reason = PLM_REASON_RANGE_END;
     BranchPoint point = branch.points()[top];
+    double error = point.harmonic_error; // in what is asked for, where harmonics are chosen
     if (!is_peak) // it stays where it is
         watch_.keeping(one->warnings).warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, highest));
     if (is_peak) {
@@ -184,20 +185,23 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         // Where harmonics are chosen, an order better than on the curve: one point is cheap, and its
         // amplitude is what people quote.
         const bool automatic = options_.n_harmonics == 0;
-        const auto too_few = [&] {
-            return automatic && point.harmonic_error > 0.1 * options_.harmonic_tolerance;
+        const double wanted = 0.1 * options_.harmonic_tolerance;
+        const auto error_here = [&] { // at the DOF, which need not be that of the motion as a whole
+            const MeasuredHarmonics next = measure_harmonics(reduced_, options, point);
+            return harmonic_error_at(*reduced_, point, next.change, dof, measure, harmonic);
         };
+        if (automatic) error = error_here();
         do {
-            if (too_few())
+            if (error > wanted)
                 options.n_harmonics =
                     std::max(options.n_harmonics, std::min(options_.max_harmonics, 2 * options.n_harmonics));
             const auto system = make_system(reduced_, options);
-            const bool found = PeakSearch(*system, options, reduced_, dof, measure, harmonic, watch_)
-                                   .run(branch, around, point);
-            if (found && automatic) measure_harmonics(reduced_, options, point);
-        } while (too_few() && options.n_harmonics < options_.max_harmonics);
+            PeakSearch(*system, options, reduced_, dof, measure, harmonic, watch_).run(branch, around, point);
+            if (automatic) error = error_here();
+        } while (error > wanted && options.n_harmonics < options_.max_harmonics);
     }
     one->append(std::move(point));
+    warn_of_harmonics(options_, error, *one);
     one->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);

@@ -1,5 +1,6 @@
 #include "hbm/phase_resonance.hpp"
 #include "hbm/continuation.hpp"
+#include "hbm/modes_at_rest.hpp"
 #include "hbm/start.hpp"
 #include <algorithm>
 #include <cmath>
@@ -246,14 +247,7 @@ std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
     const vector<double> share = share_at_rest(m);
     const auto *driven = driven_harmonic(m);
     if (!driven || driven->first > options_.hbm.n_harmonics) return {};
-    const std::int64_t r = m.size();
-    Matrix k(r, r), coupled = m.gap;
-    for (std::int64_t i = 0; i < m.n_pairs(); ++i)
-        for (std::int64_t j = 0; j < r; ++j) coupled(i, j) *= share[i] * m.contact_stiffness[i];
-    if (m.n_pairs() > 0) gemm('T', 'N', 1.0, m.gap, coupled, 0.0, k);
-    for (std::int64_t j = 0; j < r; ++j) k(j, j) += m.lambda[j];
-    const vector<double> lambda = symmetric_eigen(k).values;
-
+    const vector<double> lambda = modes_at_rest(m, share).values;
     const auto system = make_system(reduced_, options_.hbm);
     std::vector<BranchPoint> points;
     vector<double> x(system->size());
@@ -268,7 +262,7 @@ std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
         system->to_point(x.data(), omega, point);
         double force = 0;
         if (!linear_range(share, point, force)) continue;
-        for (std::int64_t i = 0; i < point.eta.cols() * r; ++i)
+        for (std::int64_t i = 0; i < point.eta.cols() * m.size(); ++i)
             point.eta.data()[i] *= force / point.force_scale;
         point.force_scale = force;
         points.push_back(std::move(point));

@@ -14,8 +14,9 @@ void Receptance::update(const ReducedModel &m, std::int64_t h, double omega, dou
     for (std::int64_t j = 0; j < r; ++j) {
         const double c = m.damping.empty() ? m.damping_diagonal[j] : 0.0;
         diagonal_[j] =
-            Complex(m.lambda[j] - w * w, w * (c - 2 * self_excitation * omega) + m.structural * m.lambda[j]);
-        derivative_[j] = static_cast<double>(h) * Complex(-2 * w, c); // d(1/D)/d omega
+            Complex(m.lambda[j] - w * w * m.mass(j),
+                    w * (c - 2 * self_excitation * omega * m.mass(j)) + m.structural * m.lambda[j]);
+        derivative_[j] = static_cast<double>(h) * Complex(-2 * w * m.mass(j), c); // d(1/D)/d omega
     }
     harmonic_ = static_cast<double>(h);
     if (m.damping.empty()) {

@@ -3,6 +3,7 @@
 #include "hbm/responses.hpp"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plm {
 namespace {
@@ -71,6 +72,7 @@ class Refiner {
             watch_.step("refinement", 0.5);
             const ErrorEstimate e =
                 estimator.estimate(i, options_.dof, options_.measure, options_.harmonic, false);
+            if (!e.known) return std::numeric_limits<double>::infinity(); // larger than can be told
             const double hz = branch.points()[i].omega / (2 * M_PI);
             worst = std::max({worst, std::abs(e.amplitude.basis + e.amplitude.contact) / peak,
                               std::abs(e.frequency_hz.basis + e.frequency_hz.contact) / hz});

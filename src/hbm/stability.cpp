@@ -15,16 +15,25 @@ namespace {
 // than the curve itself.
 constexpr std::int64_t automatic_size = 24;
 
-Matrix states_without_positions_along(const Matrix &free) {
-    const std::int64_t n = free.rows(), m = free.cols();
+// Free motions have mass: their coordinates are among the first, as in the state.
+Matrix states_without_positions_along(const Matrix &free, const FlowModel &flow) {
+    const std::int64_t n = flow.n_moving(), m = free.cols(), all = flow.state_size();
     if (m == 0) return {};
     Matrix square(n, n);
-    std::copy(free.data(), free.data() + n * m, square.data());
+    for (std::int64_t k = 0; k < m; ++k) std::copy_n(free.col(k), n, square.col(k));
     const Matrix others = thin_svd(square).u; // the first m columns span `free`
-    Matrix states(2 * n, 2 * n - m);
+    Matrix states(all, all - m);
     for (std::int64_t k = m; k < n; ++k) std::copy(others.col(k), others.col(k) + n, states.col(k - m));
-    for (std::int64_t i = 0; i < n; ++i) states(n + i, n - m + i) = 1;
+    for (std::int64_t i = n; i < all; ++i) states(i, i - m) = 1;
     return states;
+}
+
+vector<char> closing_pairs(const ReducedModel &m, const BranchPoint &point) {
+    const SwitchingInstants switching = switching_instants(contact_motion(m, point).u);
+    vector<char> closing = switching.closed_first;
+    for (std::size_t i = 0; i < closing.size(); ++i)
+        if (!switching.instants[i].empty()) closing[i] = 1;
+    return closing;
 }
 
 } // namespace
@@ -34,7 +43,6 @@ Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptio
       wanted_(options.stability == StabilityKind::floquet || options.stability == StabilityKind::hill ||
               (options.stability == StabilityKind::automatic && reduced_->size() <= automatic_size)),
       hill_(options.stability == StabilityKind::hill) {
-    if (wanted_) but_positions_ = states_without_positions_along(free_motion(*reduced_));
     if (wanted_ && reduced_->structural == 0) flow_ = std::make_shared<FlowModel>(reduced_);
 }
 
@@ -44,19 +52,21 @@ vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) co
     Matrix transition;
     try {
         transition = monodromy(*flow, contact_intervals(*reduced_, point, period_multiple_));
-    } catch (const Error &e) { // an infinitely fast mode (mass-less DOFs): unknown
+    } catch (const Error &e) { // too fast a mode for the exponential: unknown
         if (e.reason() != PLM_REASON_NOT_FINITE) throw;
         return {};
     }
     for (std::int64_t k = 0; k < transition.rows() * transition.cols(); ++k)
         if (!std::isfinite(transition.data()[k])) return {};
-    if (but_positions_.cols() == 0) return plm::multipliers(transition);
+    const Matrix but_positions =
+        states_without_positions_along(free_motion(*reduced_, closing_pairs(*reduced_, point)), *flow);
+    if (but_positions.cols() == 0) return plm::multipliers(transition);
     // A displacement along a free motion stays: multiplier 1. Beside that of its velocity, 1 without damping,
     // it would be a defective pair, which rounding throws off the unit circle.
     vector<std::complex<double>> found =
-        plm::multipliers(product('T', 'N', but_positions_, product('N', 'N', transition, but_positions_)));
+        plm::multipliers(product('T', 'N', but_positions, product('N', 'N', transition, but_positions)));
     const auto inside = std::find_if(found.begin(), found.end(), [](auto m) { return std::abs(m) < 1; });
-    found.insert(inside, but_positions_.rows() - but_positions_.cols(), 1.0);
+    found.insert(inside, but_positions.rows() - but_positions.cols(), 1.0);
     return found;
 }
 

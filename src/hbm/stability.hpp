@@ -21,8 +21,6 @@ class Stability {
     std::int64_t period_multiple_;
     bool wanted_, hill_;
     std::shared_ptr<const FlowModel> flow_; // null when it depends on the frequency
-    // 2 n x (2 n - m): states without the positions of the m free motions; empty: there are none
-    Matrix but_positions_;
 };
 
 /// The contact sets of a point over its period, from the zeros of its penetrations, as the flow takes them.

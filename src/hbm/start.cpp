@@ -70,20 +70,12 @@ class Starter {
 
   private:
     bool attempt() {
-        watch_.step("start", 0.0);
-        NewtonLimits limits;
-        limits.tolerance = options_.tolerance;
-        limits.max_iterations = options_.max_iterations;
-        limits.omega_scale = omega_;
-        double omega = omega_;
-        vector<double> x = x_;
-        const NewtonOutcome newton_out = newton(system_, SideCondition(), limits, x, omega);
-        out_.iterations += newton_out.iterations;
-        out_.seconds += newton_out.seconds;
-        out_.factorizations += newton_out.factorizations;
-        out_.residual = newton_out.residual;
-        out_.converged = newton_out.converged;
-        if (out_.converged) x_ = x;
+        const StartOutcome found = correct_at(system_, options_, omega_, watch_, x_);
+        out_.iterations += found.iterations;
+        out_.seconds += found.seconds;
+        out_.factorizations += found.factorizations;
+        out_.residual = found.residual;
+        out_.converged = found.converged;
         return out_.converged;
     }
 
@@ -234,6 +226,25 @@ vector<double> share_at_rest(const ReducedModel &m) {
     vector<double> share(u.size());
     for (std::size_t i = 0; i < u.size(); ++i) share[i] = u[i] > 0 ? 1.0 : u[i] < 0 ? 0.0 : 0.5;
     return share;
+}
+
+StartOutcome correct_at(HbmSystem &system, const HbmOptions &options, double omega, Watch watch,
+                        vector<double> &x) {
+    watch.step("start", 0.0);
+    NewtonLimits limits;
+    limits.tolerance = options.tolerance;
+    limits.max_iterations = options.max_iterations;
+    limits.omega_scale = omega;
+    vector<double> solution = x;
+    const NewtonOutcome found = newton(system, SideCondition(), limits, solution, omega);
+    if (found.converged) x = solution;
+    StartOutcome out;
+    out.converged = found.converged;
+    out.iterations = found.iterations;
+    out.factorizations = found.factorizations;
+    out.seconds = found.seconds;
+    out.residual = found.residual;
+    return out;
 }
 
 StartOutcome find_start(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options,

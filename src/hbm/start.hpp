@@ -20,4 +20,8 @@ struct StartOutcome {
 StartOutcome find_start(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options,
                         double omega, bool have_guess, Watch watch, vector<double> &x);
 
+/// Newton's method at omega from x alone.
+StartOutcome correct_at(HbmSystem &system, const HbmOptions &options, double omega, Watch watch,
+                        vector<double> &x);
+
 } // namespace plm

@@ -39,6 +39,9 @@ class HbmSystem {
     virtual void linear_response(const vector<double> &share, double omega, double *x) = 0;
     /// Norm of the force side of the equations: a residual is small or large against it.
     virtual double residual_scale() const = 0;
+    /// False: nothing holds the structure against the mean of the loads where residual() was last evaluated;
+    /// there is no solution there, whatever rounding leaves of the residual.
+    virtual bool in_balance() const { return true; }
 
     virtual void to_point(const double *x, double omega, BranchPoint &point) = 0;
     virtual void from_point(const BranchPoint &point, double *x) = 0;

@@ -24,6 +24,7 @@ class WrappedSystem : public HbmSystem {
         inner_.linear_response(share, p, x);
     }
     double residual_scale() const override { return inner_.residual_scale(); }
+    bool in_balance() const override { return inner_.in_balance(); }
     void to_point(const double *x, double p, BranchPoint &point) override { inner_.to_point(x, p, point); }
     void from_point(const BranchPoint &point, double *x) override { inner_.from_point(point, x); }
     void set_force_scale(double scale) override { inner_.set_force_scale(scale); }

@@ -5,10 +5,9 @@
 namespace plm {
 
 void Matrix::outside(std::int64_t i, std::int64_t j) const {
-    throw Error(PLM_ERR_INTERNAL,
-                format("index (%lld, %lld) of a matrix of %lld x %lld", static_cast<long long>(i),
-                       static_cast<long long>(j), static_cast<long long>(rows_),
-                       static_cast<long long>(cols_)));
+    throw Error(PLM_ERR_INTERNAL, format("index (%lld, %lld) of a matrix of %lld x %lld",
+                                         static_cast<long long>(i), static_cast<long long>(j),
+                                         static_cast<long long>(rows_), static_cast<long long>(cols_)));
 }
 
 void Matrix::reset(std::int64_t rows, std::int64_t cols) {

@@ -1,4 +1,7 @@
 #include "dft_plan.hpp"
+#ifdef PLM_CARRIED_FFTW
+#include "carried/fftw_parts.hpp"
+#endif
 #include <fftw3.h>
 #include <mutex>
 #include <new>
@@ -11,12 +14,24 @@ std::mutex &planner() { // FFTW's planner is the only part of it that is not thr
     return mutex;
 }
 
+/// FFTW knows no failing malloc: it ends the process. A carried one is not begun without memory.
+void require_memory(std::int64_t n_samples) {
+#ifdef PLM_CARRIED_FFTW
+    // measured for all n up to 3,000 and some up to 70,000: 212 kB for the planner and 131 n for a transform
+    if (!carried_fftw_may_work(512 * 1024 + 256 * static_cast<std::size_t>(n_samples)))
+        throw std::bad_alloc();
+#else
+    (void)n_samples;
+#endif
+}
+
 } // namespace
 
 FftwPlan::FftwPlan(std::int64_t n_samples)
     : samples_(n_samples), spectrum_(2 * (static_cast<std::size_t>(n_samples) / 2 + 1)) {
     const int n = static_cast<int>(n_samples);
     auto *spectrum = reinterpret_cast<fftw_complex *>(spectrum_.data());
+    require_memory(n_samples);
     const std::lock_guard<std::mutex> lock(planner());
     // FFTW_ESTIMATE: a measured plan would make results depend on the timing of this run.
     forward_ = fftw_plan_dft_r2c_1d(n, samples_.data(), spectrum, FFTW_ESTIMATE);

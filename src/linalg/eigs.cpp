@@ -67,8 +67,8 @@ bool needs_dense(const Pencil &pencil, std::int64_t n_wanted) {
     return rank <= 64 || n_wanted > rank - 2 || (rank <= 1000 && 3 * n_wanted > rank);
 }
 
-/// M may have a lower rank than its diagonal tells. Then ARPACK breaks down, or fills up with theta ~ 0, and
-/// the direct way is the better one as long as it is affordable.
+/// M may have a lower rank than its diagonal tells. Then the Lanczos process breaks down, or fills up with
+/// theta ~ 0, and the direct way is the better one as long as it is affordable.
 constexpr std::int64_t dense_limit = 2000;
 
 EigenPairs finite_ones(const Pencil &pencil, EigenPairs pairs, std::int64_t n_wanted) {
@@ -85,34 +85,59 @@ EigenPairs finite_ones(const Pencil &pencil, EigenPairs pairs, std::int64_t n_wa
     return pairs;
 }
 
+/// ARPACK holds its lock for the whole problem, so that it gets those of an instant only: some 0.1 s, most
+/// far less (about five solutions per Lanczos vector at 1e9 operations a second).
+bool suits_arpack(const Pencil &pencil, const KrylovRequest &request) {
+    const auto vectors = static_cast<double>(request.n_lanczos), n = static_cast<double>(pencil.size());
+    const auto nonzeros = static_cast<double>(pencil.factor.factor_nonzeros()); // negative: not known
+    return !pencil.factor.calls_host() && nonzeros >= 0 &&
+           5 * vectors * (4 * nonzeros + 4 * n * vectors) < 1e8;
+}
+
+/// ARPACK within few restarts where it suits; else, and where it did not converge, the Lanczos method of our
+/// own.
+KrylovResult run(const Pencil &pencil, const KrylovRequest &request) {
+    if (suits_arpack(pencil, request)) {
+        pencil.poll();
+        KrylovRequest quick = request;
+        quick.max_restarts = std::min<std::int64_t>(request.max_restarts, 20);
+        KrylovResult result = run_arpack(pencil, quick);
+        if (result.end == KrylovEnd::converged) return result;
+    }
+    return run_lanczos(pencil, request);
+}
+
+const char *meaning(KrylovEnd end) {
+    return end == KrylovEnd::too_few
+               ? "the others did not converge within the allowed restarts"
+               : "the mass matrix has too low a rank for more; ask for fewer, or check the masses";
+}
+
 EigenPairs search(const Pencil &pencil, std::int64_t n_wanted) {
-    ArpackRequest request{n_wanted, std::max(2 * n_wanted + 1, n_wanted + 20), pencil.options.tolerance,
+    KrylovRequest request{n_wanted, std::max(2 * n_wanted + 1, n_wanted + 20), pencil.options.tolerance,
                           pencil.options.max_restarts, 1};
-    ArpackResult result;
+    KrylovResult result{};
     for (int attempt = 0; attempt < 3; ++attempt, request.n_lanczos *= 2) {
         request.n_lanczos = std::min(request.n_lanczos, pencil.rank());
-        result = run_arpack(pencil, request);
-        const auto found = static_cast<std::int64_t>(result.pairs.values.size());
-        if (result.info == 0 && found == n_wanted)
-            return finite_ones(pencil, std::move(result.pairs), n_wanted);
-        if (result.info < 0) break;
+        result = run(pencil, request);
+        if (result.end == KrylovEnd::converged) return finite_ones(pencil, std::move(result.pairs), n_wanted);
+        if (result.end == KrylovEnd::exhausted) break;
     }
-    if (result.info < 0 && pencil.rank() <= dense_limit) return dense_eigenpairs(pencil, n_wanted);
-    throw Error(PLM_ERR_EIGENSOLVER,
-                format("ARPACK found %lld of %lld eigenpairs (info = %d: %s)",
-                       static_cast<long long>(result.pairs.values.size()), static_cast<long long>(n_wanted),
-                       result.info, arpack_meaning(result.info)))
-        .library_code(result.info);
+    if (result.end == KrylovEnd::exhausted && pencil.rank() <= dense_limit)
+        return dense_eigenpairs(pencil, n_wanted);
+    throw Error(PLM_ERR_EIGENSOLVER, format("%lld of %lld eigenpairs were found: %s",
+                                            static_cast<long long>(result.pairs.values.size()),
+                                            static_cast<long long>(n_wanted), meaning(result.end)));
 }
 
 /// The best pair M-orthogonal to those known, or none if the search does not converge.
 EigenPairs best_of_the_rest(const Pencil &pencil, const Matrix &known, const Matrix &m_known,
                             double tolerance, std::int64_t n_lanczos, std::int64_t max_restarts) {
-    ArpackRequest request{1, std::min(n_lanczos, pencil.rank() - known.cols()), tolerance, max_restarts, 2};
+    KrylovRequest request{1, std::min(n_lanczos, pencil.rank() - known.cols()), tolerance, max_restarts, 2};
     request.known = &known;
     request.m_known = &m_known;
-    ArpackResult result = run_arpack(pencil, request);
-    if (result.info != 0) return {};
+    KrylovResult result = run(pencil, request);
+    if (result.end != KrylovEnd::converged) return {};
     return std::move(result.pairs);
 }
 

@@ -1,4 +1,4 @@
-// Lowest eigenpairs of a sparse symmetric pencil by ARPACK in shift-invert mode.
+// Lowest eigenpairs of a sparse symmetric pencil by Lanczos methods in shift-invert mode.
 #pragma once
 #include "factor.hpp"
 #include <functional>
@@ -20,9 +20,7 @@ struct EigsOptions {
 /// M and no eigenvalue lies below `shift` (positive definite factor). K and M symmetric, M positive
 /// semi-definite. Fewer are returned when the pencil has fewer finite eigenvalues. Multiple eigenvalues come
 /// with all their copies. Small, nearly mass-less or fully wanted problems are solved densely. Deterministic
-/// start vector. ARPACK's hidden state is guarded: one problem runs at a time in the process (others wait),
-/// also while a host solver's callback or `cancelled` runs; a second problem started from inside one of these
-/// is PLM_ERR_STATE.
+/// start vector. Problems run side by side, also one inside a callback of another.
 EigenPairs lowest_eigenpairs(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
                              std::int64_t n_wanted, const EigsOptions &options = {});
 

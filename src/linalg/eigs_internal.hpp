@@ -22,21 +22,27 @@ struct Pencil {
 /// have unit M-norm.
 EigenPairs dense_eigenpairs(const Pencil &pencil, std::int64_t n_wanted);
 
-struct ArpackRequest {
-    std::int64_t n_wanted, n_lanczos; // nev, ncv
-    double tolerance;
+struct KrylovRequest {
+    std::int64_t n_wanted, n_lanczos; // pairs, and the largest dimension of the space: more than n_wanted
+    double tolerance;                 // of theta, relative; 0: machine precision
     std::int64_t max_restarts;
-    int seed; // of the start vector
+    std::int64_t seed; // of the start vector
     /// Columns (M-orthonormal) and M times them that the search is kept away from; null for none.
     const Matrix *known = nullptr, *m_known = nullptr;
 };
-struct ArpackResult {
-    int info = 0;     // of dsaupd or dseupd; 1: too few converged within the restarts
-    EigenPairs pairs; // the converged ones, in ARPACK's order
+enum class KrylovEnd {
+    converged,
+    too_few,  // converged within the restarts
+    exhausted // the space closed in itself with fewer dimensions than pairs wanted: M has too low a rank
 };
-/// One complete dsaupd/dseupd problem under the process-wide lock. Throws PLM_ERR_STATE when called from
-/// inside another one on this thread.
-ArpackResult run_arpack(const Pencil &pencil, const ArpackRequest &request);
-const char *arpack_meaning(int info);
+struct KrylovResult {
+    KrylovEnd end;
+    EigenPairs pairs; // the converged ones
+};
+/// By a Lanczos method of our own: nothing is shared, the host is asked whether to go on.
+KrylovResult run_lanczos(const Pencil &pencil, const KrylovRequest &request);
+/// By ARPACK, whose state is the process's: others wait meanwhile, and nothing of the host may be called. For
+/// problems of an instant with a factorization of ours.
+KrylovResult run_arpack(const Pencil &pencil, const KrylovRequest &request);
 
 } // namespace plm

@@ -18,6 +18,7 @@ class Factor {
     /// Rough reciprocal condition number from the factor's diagonal; 1 when the solver cannot tell.
     virtual double reciprocal_condition() const = 0;
     virtual std::int64_t factor_nonzeros() const = 0; // -1 when unknown
+    virtual bool calls_host() const { return false; } // solve() does
     void solve(Matrix &x) const { solve(x.data(), x.cols(), x.rows()); }
 };
 

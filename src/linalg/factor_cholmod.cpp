@@ -38,6 +38,14 @@ struct Cholmod {
 
     void note_memory() { memory.holds(common.memory_inuse, common.memory_usage); }
 
+    /// As cholmod_l_ensure_dense, but a failure is seen.
+    void shape(cholmod_dense *&block, std::size_t rows, std::size_t cols) {
+        if (block && block->nrow == rows && block->ncol == cols && block->d == rows) return;
+        cholmod_l_free_dense(&block, &common);
+        block = cholmod_l_allocate_dense(rows, cols, rows, CHOLMOD_REAL, &common);
+        check("workspace");
+    }
+
     void check(const char *step) const {
         if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
         if (common.status < 0)
@@ -142,6 +150,11 @@ class CholmodFactor final : public Factor {
 
     void solve_some(double *x, std::int64_t nrhs, std::int64_t ldx) const {
         cholmod_dense rhs = view(x, n_, nrhs, ldx);
+        const cholmod_factor &f = *lib_.factor;
+        if (f.is_super) { // cholmod_l_solve2 forgets that it got no Y once it got E, and writes to it
+            lib_.shape(lib_.y, f.n, static_cast<std::size_t>(nrhs));
+            lib_.shape(lib_.e, static_cast<std::size_t>(nrhs), f.maxesize);
+        }
         const int ok = cholmod_l_solve2(CHOLMOD_A, lib_.factor, &rhs, nullptr, &lib_.x, nullptr, &lib_.y,
                                         &lib_.e, &lib_.common);
         lib_.check("solve");

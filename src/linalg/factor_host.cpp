@@ -68,6 +68,7 @@ class HostFactor final : public Factor {
     }
     double reciprocal_condition() const override { return 1; }
     std::int64_t factor_nonzeros() const override { return -1; }
+    bool calls_host() const override { return true; }
 
   private:
     HostSolver host_;

@@ -8,7 +8,9 @@ namespace {
 
 constexpr std::size_t alignment = 64; // a cache line, and enough for every vector unit
 
-thread_local const Allocator *active = nullptr;
+// initial-exec: the other model asks malloc for each new thread in a library that was loaded by dlopen, and
+// the loader ends the process where it gets none.
+[[gnu::tls_model("initial-exec")]] thread_local const Allocator *active = nullptr;
 
 /// Stands directly before each block. The allocator is kept by value, so that a block may outlive the scope
 /// (and the Allocator object) it was made in and may be freed on any thread.

@@ -58,7 +58,7 @@ class MemoryCounter {
 };
 
 namespace {
-thread_local MemoryCounter *counting = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local MemoryCounter *counting = nullptr; // as in memory.cpp
 } // namespace
 
 CountingScope::CountingScope()

@@ -147,13 +147,19 @@ double norm_inf(const SparseMatrix &a) {
     return largest;
 }
 
-double trace(const SparseMatrix &a) {
-    double sum = 0;
+vector<double> diagonal(const SparseMatrix &a) {
+    vector<double> d(a.cols, 0.0);
     for (std::int64_t j = 0; j < a.cols; ++j) {
         const auto begin = a.idx.begin() + a.ptr[j], end = a.idx.begin() + a.ptr[j + 1];
         const auto at = std::lower_bound(begin, end, j);
-        if (at != end && *at == j) sum += a.val[at - a.idx.begin()];
+        if (at != end && *at == j) d[j] = a.val[at - a.idx.begin()];
     }
+    return d;
+}
+
+double trace(const SparseMatrix &a) {
+    double sum = 0;
+    for (double d : diagonal(a)) sum += d;
     return sum;
 }
 

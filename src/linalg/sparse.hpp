@@ -30,6 +30,7 @@ Matrix multiply(const SparseMatrix &a, const Matrix &x);
 Matrix multiply_transposed(const SparseMatrix &a, const Matrix &x);
 Matrix to_dense(const SparseMatrix &a);
 double norm_inf(const SparseMatrix &a); // largest absolute row sum
+vector<double> diagonal(const SparseMatrix &a);
 double trace(const SparseMatrix &a);
 
 } // namespace plm

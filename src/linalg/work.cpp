@@ -4,8 +4,9 @@
 namespace plm {
 namespace {
 
-thread_local WorkListener *listening = nullptr;
-thread_local double flops_since = 0;
+// initial-exec: as in memory.cpp
+[[gnu::tls_model("initial-exec")]] thread_local WorkListener *listening = nullptr;
+[[gnu::tls_model("initial-exec")]] thread_local double flops_since = 0;
 
 } // namespace
 

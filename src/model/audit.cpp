@@ -1,5 +1,6 @@
 #include "model/audit.hpp"
 #include "linalg/eigs.hpp"
+#include "linalg/lapack.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,12 +14,12 @@ class Audit {
   public:
     explicit Audit(const Model &model) : m_(model) {}
 
-    std::vector<Finding> run() {
+    std::vector<Finding> run(bool quick) {
         mass();
         massless_dofs();
         rigid_modes();
         conditioning();
-        frequencies();
+        if (!quick) frequencies();
         damping();
         loads();
         if (m_.n_pairs() == 0) {
@@ -26,6 +27,8 @@ class Audit {
             return findings_;
         }
         gaps();
+        opened_by_preload();
+        rotations();
         repeated_rows();
         row_balance();
         contact_stiffness();
@@ -37,33 +40,33 @@ class Audit {
         findings_.push_back({severity, value, std::move(text)});
     }
 
-    // Translation of all nodes: DOFs first, first + step, ... move by one. Fixed DOFs carry no mass here.
-    double mass_along(std::int64_t first, std::int64_t step) const {
-        vector<double> all(m_.n_dof(), 0.0), r(m_.n_free()), mr(m_.n_free());
-        for (std::int64_t i = first; i < m_.n_dof(); i += step) all[i] = 1;
-        m_.restrict_to_free(all.data(), r.data());
-        multiply(m_.mass(), r.data(), mr.data());
-        return dot(m_.n_free(), r.data(), mr.data());
-    }
-
+    // Only what the matrices tell: how many DOFs a node has is not known otherwise.
     void mass() {
-        if (m_.n_dof() % 3 != 0) {
-            const double total = mass_along(0, 1);
-            add(total > 0 ? 0 : 2, total, format("mass of the free DOFs moving together: %g", total));
+        if (m_.translations().empty()) {
+            add(0, trace(m_.mass()),
+                format("which DOFs are translations cannot be told from K (it holds supports already, or the "
+                       "DOFs "
+                       "are not numbered node by node); the diagonal of the mass matrix sums up to %g",
+                       trace(m_.mass())));
             return;
         }
         double smallest = INFINITY, largest = 0;
-        for (int d = 0; d < 3; ++d) {
-            const double total = mass_along(d, 3);
-            smallest = std::min(smallest, total), largest = std::max(largest, total);
-            add(0, total,
-                format("mass of the free DOFs in direction %c (three DOFs per node taken): %g", "xyz"[d],
-                       total));
+        for (const Translation &t : m_.translations()) {
+            smallest = std::min(smallest, t.mass), largest = std::max(largest, t.mass);
+            add(t.mass > 0 ? 0 : 2, t.mass,
+                format("mass %g of the whole structure in the translation of DOFs %lld, %lld, %lld, ... "
+                       "(%lld per "
+                       "node)%s",
+                       t.mass, Int(t.first), Int(t.first + t.step), Int(t.first + 2 * t.step), Int(t.step),
+                       t.mass > 0 ? "" : ": check the assembly of the mass matrix"));
         }
-        if (largest > 0 && smallest < 0.5 * largest)
+        // lumped and consistent masses are the same in all directions
+        if (smallest > 0 && smallest < 0.99 * largest)
             add(1, smallest / largest,
-                "the mass differs between the directions by more than half: are there three "
-                "DOFs per node, in the order x, y, z?");
+                format("the mass differs between the translations, %g to %g: is the mass matrix complete in "
+                       "every "
+                       "direction?",
+                       smallest, largest));
     }
 
     void massless_dofs() {
@@ -73,17 +76,56 @@ class Audit {
                 if (m_.mass().idx[p] == j && m_.mass().val[p] > 0) --count;
         if (count > 0)
             add(1, static_cast<double>(count),
-                format("%lld free DOFs have no mass; they follow quasi-statically", Int(count)));
+                format("%lld free DOFs have no mass; they follow quasi-statically. Give them their (rotary) "
+                       "inertia if "
+                       "their own motion matters",
+                       Int(count)));
     }
 
     void rigid_modes() {
         const std::int64_t n = m_.rigid_modes().cols();
-        if (n == 0)
+        if (n == 0) {
             add(0, 0, "no rigid-body mode: the structure is held while its contacts are open");
+            return;
+        }
+        const std::int64_t loose = n - held_by_contact();
+        const std::string fact =
+            format("%lld rigid-body modes while the contacts are open%s", Int(n),
+                   n > 6 ? " (several loose bodies, or parts that are not connected)" : "");
+        if (loose > 0)
+            add(1, static_cast<double>(n),
+                format("%s, and %lld of them whatever contact closes: is a support missing? Fix DOFs by "
+                       "plm_model_fix_dofs; where free flight is meant, its mean position is taken as zero",
+                       fact.c_str(), Int(loose)));
+        else if (!m_.has_preload())
+            add(1, static_cast<double>(n),
+                fact + ", and no pre-load presses the contacts together that could hold them: give the "
+                       "pre-load by "
+                       "plm_model_set_preload, or fix DOFs by plm_model_fix_dofs");
         else
-            add(n > 6 ? 1 : 0, static_cast<double>(n),
-                format("%lld rigid-body modes while the contacts are open%s", Int(n),
-                       n > 6 ? ": several loose bodies, or parts that are not connected" : ""));
+            add(n > 6 ? 1 : 0, static_cast<double>(n), fact + "; closed contacts can hold them");
+    }
+
+    // Rank of the gaps' answer to rigid motion: B R, each row over what its terms are before they cancel.
+    std::int64_t held_by_contact() const {
+        const Matrix &rigid = m_.rigid_modes();
+        if (m_.n_pairs() == 0) return 0;
+        Matrix size = rigid;
+        for (std::int64_t j = 0; j < size.cols(); ++j)
+            for (std::int64_t i = 0; i < size.rows(); ++i) size(i, j) = std::abs(size(i, j));
+        SparseMatrix rows = m_.gap_matrix();
+        Matrix answer = multiply(rows, rigid);
+        for (double &v : rows.val) v = std::abs(v);
+        const Matrix terms = multiply(rows, size);
+        for (std::int64_t i = 0; i < answer.rows(); ++i) {
+            double scale = 0;
+            for (std::int64_t j = 0; j < answer.cols(); ++j) scale = std::max(scale, terms(i, j));
+            for (std::int64_t j = 0; j < answer.cols(); ++j)
+                answer(i, j) = scale > 0 ? answer(i, j) / scale : 0;
+        }
+        constexpr double cancelled = 1e-6; // rigid modes of rounded matrices
+        const vector<double> values = thin_svd(answer).values;
+        return std::count_if(values.begin(), values.end(), [](double v) { return v > cancelled; });
     }
 
     void conditioning() {
@@ -114,7 +156,9 @@ class Audit {
         const bool modal =
             std::any_of(d.modal_ratio.begin(), d.modal_ratio.end(), [](double z) { return z > 0; });
         if (d.alpha == 0 && d.beta == 0 && d.structural == 0 && !modal && !d.has_matrix)
-            add(1, 0, "no damping: the response at resonance is unbounded");
+            add(1, 0,
+                "no damping: the response at resonance is unbounded, and a curve may end there; give some by "
+                "plm_model_set_modal_damping, _rayleigh_damping or _structural_damping");
     }
 
     void loads() {
@@ -130,7 +174,12 @@ class Audit {
         if (dynamic > 0)
             add(0, dynamic, format("harmonic excitation, norm %g", dynamic));
         else
-            add(1, 0, "no harmonic excitation on the free DOFs: the response is zero");
+            add(1, 0,
+                format("no harmonic excitation on the free DOFs: the response is zero; %s",
+                       m_.excitation_on_supports() > 0
+                           ? "the one there is acts on fixed DOFs only: move it to DOFs "
+                             "that are free"
+                           : "give one by plm_model_set_excitation, harmonic 1"));
     }
 
     void gaps() {
@@ -138,12 +187,65 @@ class Audit {
         const double low = *std::min_element(g.begin(), g.end()),
                      high = *std::max_element(g.begin(), g.end());
         const auto interfering = std::count_if(g.begin(), g.end(), [](double v) { return v < 0; });
-        add(0, high, format("initial gaps from %g to %g over %lld pairs", low, high, Int(m_.n_pairs())));
+        add(0, high,
+            format("initial gaps from %g to %g over %lld pairs; %s", low, high, Int(m_.n_pairs()),
+                   closing_motion().c_str()));
         if (interfering > 0)
             add(1, static_cast<double>(interfering),
                 format("%lld pairs start with interference (gap < 0), down to %g; if they should be open, "
                        "the sign of the gap or the normal is reversed",
                        Int(interfering), low));
+    }
+
+    // A reversed sign shows here at a glance.
+    std::string closing_motion() const {
+        const SparseMatrix rows = transpose(m_.gap_matrix());
+        std::int64_t strongest = rows.ptr[0];
+        for (std::int64_t p = rows.ptr[0]; p < rows.ptr[1]; ++p)
+            if (std::abs(rows.val[p]) > std::abs(rows.val[strongest])) strongest = p;
+        return format("motion of DOF %lld in its %s direction closes pair 0",
+                      Int(m_.free_dof()[rows.idx[strongest]]),
+                      rows.val[strongest] > 0 ? "positive" : "negative");
+    }
+
+    // The linear answer of the open structure to the pre-load; B K^-1 f from the attachment vectors that are
+    // there.
+    void opened_by_preload() {
+        if (!m_.has_preload() || m_.rigid_modes().cols() > 0) return;
+        vector<double> u(m_.n_pairs(), 0.0);
+        gemv('T', 1.0, m_.attachment(), m_.preload().data(), 0.0, u.data());
+        for (std::int64_t i = 0; i < m_.n_pairs(); ++i) u[i] -= m_.initial_gap()[i];
+        const double closest = *std::max_element(u.begin(), u.end());
+        if (closest >= 0) return;
+        add(1, closest,
+            format("under the pre-load all %lld pairs are open, the closest by %g: if it should press them "
+                   "together, "
+                   "its sign, the normals (out of body a towards b) or the gaps are wrong",
+                   Int(m_.n_pairs()), -closest));
+    }
+
+    // Where translations are known, a gap row of other DOFs alone measures an angle.
+    void rotations() {
+        const vector<Translation> &known = m_.translations();
+        if (known.empty() || known.front().step < 2) return;
+        const SparseMatrix rows = transpose(m_.gap_matrix());
+        std::int64_t turned = 0, one = -1;
+        for (std::int64_t i = 0; i < rows.cols; ++i) {
+            const bool moves = std::any_of(
+                rows.idx.data() + rows.ptr[i], rows.idx.data() + rows.ptr[i + 1], [&](std::int64_t k) {
+                    return std::any_of(known.begin(), known.end(),
+                                       [&](const Translation &t) { return t.holds(m_.free_dof()[k]); });
+                });
+            if (!moves && turned++ == 0) one = i;
+        }
+        if (turned > 0)
+            add(1, static_cast<double>(turned),
+                format("%lld pairs (the first: pair %lld, DOF %lld) touch no DOF of a translation: do they "
+                       "use a "
+                       "rotation, or numbers that are off by one? Translations are DOFs %lld, %lld, ... "
+                       "counted from 0",
+                       Int(turned), Int(one), Int(m_.free_dof()[rows.idx[rows.ptr[one]]]),
+                       Int(known.front().first), Int(known.front().first + known.front().step)));
     }
 
     // Rows as (DOF, coefficient) lists; equal ones share a key.
@@ -162,7 +264,7 @@ class Audit {
         if (repeated > 0)
             add(2, static_cast<double>(repeated),
                 format("%lld gap rows repeat an earlier one (the first: pair %lld repeats pair %lld): the "
-                       "contact stiffness counts twice there",
+                       "contact stiffness counts twice there; add each pair once",
                        Int(repeated), Int(other), Int(one)));
     }
 
@@ -184,12 +286,15 @@ class Audit {
         }
         if (unbalanced > 0)
             add(1, static_cast<double>(unbalanced),
-                format("%lld two-DOF gap rows do not sum to zero: moving both nodes together changes the gap",
+                format("%lld two-DOF gap rows do not sum to zero: moving both nodes together changes the "
+                       "gap. Give "
+                       "both sides the same normal, with opposite signs",
                        Int(unbalanced)));
         if (scaled > 0)
             add(1, static_cast<double>(scaled),
                 format("%lld gap rows are far from unit length: k_n and the gap are "
-                       "then not per unit of distance",
+                       "then not per unit of distance. Divide each row by its length (a DOF given twice adds "
+                       "up)",
                        Int(scaled)));
     }
 
@@ -198,7 +303,10 @@ class Audit {
         const auto [low, high] = std::minmax_element(k.begin(), k.end());
         const double local = m_.local_stiffness();
         if (!(local > 0)) {
-            add(1, 0, "the bodies are rigid at the contact: no local stiffness to compare k_n with");
+            add(1, 0,
+                "the bodies are rigid at the contact: no local stiffness to compare k_n with; choose it by "
+                "the "
+                "penetration you allow, largest contact force over k_n");
             return;
         }
         const double ratio = *high / local;
@@ -207,7 +315,9 @@ class Audit {
                    *low / local, ratio, local);
         if (ratio > 1000)
             add(1, ratio,
-                fact + "; above 1000, curves of few harmonics grow small loops: 1 to 50 is a good choice");
+                fact + (ratio > 1e6 ? "; are k_n and K in the same units? Above 1000" : "; above 1000") +
+                    ", curves of few harmonics grow small loops and are slow: 1 to 50 is a good choice "
+                    "(PLM_AUTO_STIFFNESS: 10)");
         else if (*low / local < 0.1)
             add(1, *low / local,
                 fact + "; below 0.1 the contact is soft and bodies interpenetrate: 1 to 50 is a good choice");
@@ -222,7 +332,11 @@ class Audit {
 } // namespace
 
 std::vector<Finding> audit(const Model &model) {
-    return Audit(model).run();
+    return Audit(model).run(false);
+}
+
+std::vector<Finding> quick_audit(const Model &model) {
+    return Audit(model).run(true);
 }
 
 } // namespace plm

@@ -4,6 +4,7 @@
 // enough.
 #include "linalg/eigs.hpp"
 #include "linalg/lapack.hpp"
+#include "model/massless.hpp"
 #include "model/space.hpp"
 #include <algorithm>
 #include <chrono>
@@ -12,6 +13,10 @@
 
 namespace plm {
 namespace {
+
+// Where no highest frequency is known yet: so far above the lowest that only what is nothing to double
+// precision is left out, since a soft support may stand between them.
+constexpr double far_above_the_first = 3e4;
 
 constexpr std::int64_t cannot_tell = -1, hit_a_mode = -2; // no count: for good, or at this frequency
 
@@ -105,9 +110,12 @@ class ContactSpaceBuilder {
                            static_cast<long long>(count)));
             space_->counts_verified = true;
         }
+        const std::int64_t n_rigid =
+            std::min<std::int64_t>(model_->rigid_modes().cols(), pairs.values.size());
+        std::fill(pairs.values.begin(), pairs.values.begin() + n_rigid, 0.0); // exactly
         const double flexible = flexible_eigenvalue(pairs.values);
-        for (double &l : pairs.values)
-            if (l < 1e-7 * flexible) l = 0; // rigid-body modes, exactly
+        reach_ = highest_ > 0 ? highest_ : far_above_the_first * std::sqrt(flexible);
+        leave_out_followers(pairs);
         modes_ = std::move(pairs);
         mass_modes_ = multiply(model_->mass(), modes_.vectors);
         next_lambda_ = modes_.values.empty() ? 0 : modes_.values.back();
@@ -135,6 +143,16 @@ class ContactSpaceBuilder {
     static std::string unverified() {
         return "the number of open modes is not verified, since the host's solver does not tell the inertia "
                "(plm_context_set_inertia)";
+    }
+
+    // "Modes" of next to no mass: what they carry of the contact forces is among the attachment vectors.
+    void leave_out_followers(EigenPairs &pairs) const {
+        const double limit = reach_ * reach_ / negligible_inertia;
+        std::int64_t kept = 0;
+        for (double l : pairs.values) kept += l < limit;
+        if (kept == pairs.vectors.cols()) return;
+        pairs.values.resize(kept); // ascending
+        pairs.vectors = pairs.vectors.columns(0, kept);
     }
 
     // The exact modes of the earlier space come first in it; empty when they do not reach far enough.
@@ -239,9 +257,7 @@ class ContactSpaceBuilder {
         Matrix gram = product('T', 'N', basis_, multiply(model_->mass(), basis_));
         for (std::int64_t k = 0; k < gram.rows() * gram.cols(); ++k) gram.data()[k] *= -1; // slowest first
         ritz_ = symmetric_eigen(gram);
-        const double largest = std::max(-ritz_.values.front(), 1e-300);
-        for (double &mu : ritz_.values)
-            mu = std::max(-mu, 1e-15 * largest); // mass-less directions: quasi-static
+        for (double &mu : ritz_.values) mu = std::max(-mu, 0.0); // 0: no mass
     }
 
     // The next Krylov block from those directions that are slow enough to matter at the highest frequency.
@@ -310,24 +326,23 @@ class ContactSpaceBuilder {
         return std::abs(dot(r.rows(), r.data(), e.data())) * amplification / compliance;
     }
 
+    // Exact modes and attachment vectors by frequency, then what has no mass.
     void assemble(std::int64_t blocks) {
         const std::int64_t p = modes_.vectors.cols(), a = basis_.cols();
         Matrix vectors = modes_.vectors;
         vector<double> lambda(modes_.values);
         if (a > 0) {
-            Matrix scaled = ritz_.vectors;
-            for (std::int64_t k = 0; k < a; ++k) {
-                const double root = 1 / std::sqrt(ritz_.values[k]); // energy 1 -> mass 1
-                for (std::int64_t i = 0; i < a; ++i) scaled(i, k) *= root;
-                lambda.push_back(1 / ritz_.values[k] - sigma_);
-            }
-            Matrix attachment = product('N', 'N', basis_, scaled);
+            const RitzVectors attached = attachment_coordinates();
+            space_->n_massless = attached.n_massless;
+            lambda.insert(lambda.end(), attached.lambda.begin(), attached.lambda.end());
+            Matrix attachment = product('N', 'N', basis_, attached.vectors);
             deflate(attachment); // scaling has magnified what rounding left of the exact modes
             vectors.append(attachment);
         }
         vector<std::int64_t> order(lambda.size());
         std::iota(order.begin(), order.end(), 0);
-        std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return lambda[i] < lambda[j]; });
+        std::stable_sort(order.begin(), order.end() - space_->n_massless,
+                         [&](auto i, auto j) { return lambda[i] < lambda[j]; });
         space_->lambda.resize(lambda.size());
         space_->vectors.reset(model_->n_free(), static_cast<std::int64_t>(lambda.size()));
         for (std::size_t j = 0; j < order.size(); ++j) {
@@ -335,15 +350,33 @@ class ContactSpaceBuilder {
             std::copy_n(vectors.col(order[j]), model_->n_free(), space_->vectors.col(j));
         }
         space_->n_exact_modes = p;
-        space_->description = format(
-            "%lld open modes up to %.6g Hz and %lld contact attachment vectors in %lld block(s); receptance "
-            "error %.1e at %.6g Hz",
-            static_cast<long long>(p), std::sqrt(next_lambda_) / (2 * M_PI), static_cast<long long>(a),
-            static_cast<long long>(a > 0 ? blocks : 0), space_->error_estimate, highest_ / (2 * M_PI));
-        if (highest_ > 0 && model_->space_options().verify_counts && !space_->counts_verified)
-            space_->description += "; " + unverified();
+        describe(blocks);
         project_onto(*space_);
         watch_.log(1, "contact space: " + space_->description);
+    }
+
+    RitzVectors attachment_coordinates() const {
+        const std::int64_t a = basis_.cols();
+        vector<double> mu(ritz_.values.rbegin(), ritz_.values.rend());
+        Matrix y(a, a);
+        for (std::int64_t j = 0; j < a; ++j) std::copy_n(ritz_.vectors.col(a - 1 - j), a, y.col(j));
+        return ritz_vectors(mu, y, sigma_, reach_);
+    }
+
+    void describe(std::int64_t blocks) {
+        const std::int64_t a = basis_.cols();
+        space_->description = format(
+            "%lld open modes up to %.6g Hz and %lld contact attachment vectors in %lld block(s)%s; "
+            "receptance "
+            "error %.1e at %.6g Hz",
+            static_cast<long long>(modes_.vectors.cols()), std::sqrt(next_lambda_) / (2 * M_PI),
+            static_cast<long long>(a), static_cast<long long>(a > 0 ? blocks : 0),
+            space_->n_massless > 0
+                ? format(", %lld of them without inertia", static_cast<long long>(space_->n_massless)).c_str()
+                : "",
+            space_->error_estimate, highest_ / (2 * M_PI));
+        if (highest_ > 0 && model_->space_options().verify_counts && !space_->counts_verified)
+            space_->description += "; " + unverified();
     }
 
     std::shared_ptr<const Model> model_;
@@ -355,8 +388,8 @@ class ContactSpaceBuilder {
     double sigma_;
     SparseMatrix shifted_; // K + sigma M when sigma > 0
     EigenPairs modes_;
-    Matrix mass_modes_; // M Phi
-    double next_lambda_ = 0;
+    Matrix mass_modes_;                   // M Phi
+    double next_lambda_ = 0, reach_ = 0;  // reach_: rad/s, of the highest frequency of interest
     Matrix basis_, stiff_basis_, newest_; // K-orthonormal attachment vectors Y, K Y, the last block
     SymmetricEigen ritz_;                 // of M in basis_: compliances and vectors
 };

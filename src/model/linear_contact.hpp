@@ -5,12 +5,18 @@
 
 namespace plm {
 
-/// Modes of diag(lambda) + G^T diag(spring) G in the space's coordinates, ascending, mass-normalised; those
-/// below `upper` (rad^2/s^2), or all when upper is infinite. spring: Z, >= 0, 0: the pair is open.
-SpaceModes modes_with_springs(const Space &space, const vector<double> &spring, double upper);
+/// Modes of diag(lambda) + G^T diag(spring) G, ascending, mass-normalised; those below `upper` (rad^2/s^2),
+/// or all when upper is infinite. lambda: m, >= 0, exactly 0 for rigid-body motion, ascending but for the
+/// last n_massless, which have no mass; gap: G, Z x m; spring: Z, >= 0, 0: the pair is open. Exact zeros
+/// remain of what no spring holds.
+SpaceModes modes_with_springs(const vector<double> &lambda, std::int64_t n_massless, const Matrix &gap,
+                              const vector<double> &spring, double upper);
 
-/// x (m) becomes (diag(pivot) + G^T diag(spring) G)^-1 x. pivot: m, > 0; gap: G, Z x m; spring: Z, >= 0.
+/// X (m x n) becomes (diag(pivot) + G^T diag(spring) G)^-1 X. pivot: m, > 0; gap: G, Z x m; spring: Z, >= 0.
 /// Throws PLM_ERR_SINGULAR when two pairs with infinite springs repeat the same gap row.
+void solve_with_springs(const vector<double> &pivot, const Matrix &gap, const vector<double> &spring,
+                        Matrix &x);
+/// The same for one right-hand side.
 void solve_with_springs(const vector<double> &pivot, const Matrix &gap, const vector<double> &spring,
                         vector<double> &x);
 

@@ -22,11 +22,10 @@ void require_size(const char *what, std::int64_t size, std::int64_t n_dof) {
             .argument(what);
 }
 
-/// Free DOFs of the full symmetric matrix in `input`.
-SparseMatrix on_free_dofs(const char *name, const MatrixInput &input, const vector<std::int64_t> &free_of,
-                          std::int64_t n_free) {
-    require_size(name, input.layout.n, static_cast<std::int64_t>(free_of.size()));
-    return submatrix(input.to_sparse(), free_of, n_free, free_of, n_free);
+/// The full symmetric matrix in `input`, over all DOFs.
+SparseMatrix over_all_dofs(const char *name, const MatrixInput &input, std::int64_t n_dof) {
+    require_size(name, input.layout.n, n_dof);
+    return input.to_sparse();
 }
 
 void require_nonnegative_diagonal(const char *name, const SparseMatrix &a,
@@ -112,8 +111,7 @@ void Model::assemble(const ModelInput &input) {
     if (free_dof_.empty())
         throw Error(PLM_ERR_ARGUMENT, "all DOFs are fixed; nothing is left to move").argument("dof");
 
-    mass_ = on_free_dofs("mass", *input.mass, free_of_, n_free());
-    stiffness_ = on_free_dofs("stiffness", *input.stiffness, free_of_, n_free());
+    assemble_matrices(input);
     require_nonnegative_diagonal("mass", mass_, free_dof_);
     require_nonnegative_diagonal("stiffness", stiffness_, free_dof_);
     require_scale("mass matrix", mass_);
@@ -121,13 +119,24 @@ void Model::assemble(const ModelInput &input) {
     if (!(trace(mass_) > 0))
         throw Error(PLM_ERR_MATRIX, "no free DOF has mass; check the mass matrix and the fixed DOFs")
             .argument("value");
-    damping_ = input.damping;
-    damping_.has_matrix = input.damping_matrix != nullptr;
-    if (damping_.has_matrix)
-        damping_matrix_ = on_free_dofs("damping", *input.damping_matrix, free_of_, n_free());
     require_scale("damping matrix", damping_matrix_);
     assemble_gap(input);
     assemble_loads(input);
+}
+
+void Model::assemble_matrices(const ModelInput &input) {
+    // one at a time: over all DOFs they are large
+    SparseMatrix all = over_all_dofs("stiffness", *input.stiffness, n_dof_);
+    translations_ = find_translations(all);
+    stiffness_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
+    all = over_all_dofs("mass", *input.mass, n_dof_);
+    weigh(translations_, all);
+    mass_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
+    damping_ = input.damping;
+    damping_.has_matrix = input.damping_matrix != nullptr;
+    if (!damping_.has_matrix) return;
+    all = over_all_dofs("damping", *input.damping_matrix, n_dof_);
+    damping_matrix_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
 }
 
 void Model::assemble_gap(const ModelInput &input) {
@@ -169,6 +178,11 @@ void Model::assemble_loads(const ModelInput &input) {
         if (harmonic > 0) mine.imag = restricted("excitation", load.imag);
         require_scale("excitation", mine.real);
         require_scale("excitation", mine.imag);
+        if (harmonic == 0) continue;
+        for (std::int64_t dof : input.fixed)
+            for (const vector<double> *part : {&load.real, &load.imag})
+                if (!part->empty())
+                    excitation_on_supports_ = std::hypot(excitation_on_supports_, (*part)[dof]);
     }
 }
 
@@ -193,8 +207,8 @@ void Model::resolve_contact_stiffness() {
             whole += rows.val[p] * attachment_(rows.idx[p], i);
         for (std::int64_t j = 0; j < rigid_gap.cols(); ++j)
             rigid += rigid_gap(i, j) * rigid_gap(i, j) / shift_;
-        // below 1e-10 the difference is rounding: this pair sees rigid motion only
-        if (whole - rigid > 1e-10 * whole) flexibility.push_back(whole - rigid);
+        // below 1e-13 the difference is rounding: this pair sees rigid motion only
+        if (whole - rigid > 1e-13 * whole) flexibility.push_back(whole - rigid);
     }
     if (!flexibility.empty()) {
         const std::size_t n = flexibility.size();

@@ -4,6 +4,7 @@
 #include "linalg/factor.hpp"
 #include "linalg/monitor.hpp"
 #include "model/contact_law.hpp"
+#include "model/translations.hpp"
 #include <complex>
 #include <map>
 #include <memory>
@@ -80,6 +81,11 @@ class Model {
     const vector<double> &preload() const { return preload_; }
     const std::map<int, HarmonicLoad> &excitation() const { return excitation_; }
 
+    /// Motions known to strain nothing before supports are applied; empty where the matrices do not tell.
+    const vector<Translation> &translations() const { return translations_; }
+    /// Norm of the harmonic excitation on fixed DOFs, where it does nothing.
+    double excitation_on_supports() const { return excitation_on_supports_; }
+
     /// Factor of K + shift() M; shift() is 0 when K is positive definite.
     const Factor &factor() const { return *factor_; }
     double shift() const { return shift_; }
@@ -97,6 +103,7 @@ class Model {
 
   private:
     void assemble(const ModelInput &input);
+    void assemble_matrices(const ModelInput &input);
     void assemble_gap(const ModelInput &input);
     void assemble_loads(const ModelInput &input);
     void factor_stiffness(Watch watch);
@@ -108,6 +115,8 @@ class Model {
     Damping damping_;
     vector<double> contact_stiffness_, initial_gap_, preload_;
     std::map<int, HarmonicLoad> excitation_;
+    vector<Translation> translations_;
+    double excitation_on_supports_ = 0;
     double local_stiffness_ = 0, shift_ = 0;
     std::unique_ptr<Factor> factor_;
     Matrix rigid_modes_, attachment_;

@@ -17,8 +17,8 @@ vector<double> project(const Matrix &v, const vector<double> &f) {
 vector<double> diagonal_damping(const Space &space, const Damping &damping) {
     vector<double> c(space.size());
     for (std::int64_t j = 0; j < space.size(); ++j) {
-        c[j] = damping.alpha + damping.beta * space.lambda[j];
-        if (damping.modal_ratio.empty()) continue;
+        c[j] = damping.alpha * space.mass(j) + damping.beta * space.lambda[j];
+        if (damping.modal_ratio.empty() || space.mass(j) == 0) continue; // 2 D sqrt(k m)
         std::int64_t last = static_cast<std::int64_t>(damping.modal_ratio.size()) - 1;
         c[j] += 2 * damping.modal_ratio[std::min(j, last)] * std::sqrt(space.lambda[j]);
     }
@@ -48,7 +48,7 @@ SpaceModes modes_of_contact_set(const Space &space, const vector<char> &closed, 
     vector<double> spring(space.model->contact_stiffness());
     for (std::size_t i = 0; i < spring.size(); ++i)
         if (!closed[i]) spring[i] = 0;
-    return modes_with_springs(space, spring, upper);
+    return modes_with_springs(space.lambda, space.n_massless, space.gap, spring, upper);
 }
 
 } // namespace plm

@@ -1,6 +1,10 @@
 // A subspace of the free DOFs in which M and K are diagonal, with everything the reduced problem needs
 // projected on it. The contact space (unreduced structure to a tolerance) and Craig-Bampton are two ways to
 // make one.
+//
+// Directions without mass have no frequency: they follow statically, and so do those whose inertia does not
+// count (massless.hpp). They are coordinates like the others, with a stiffness and their damping, but no
+// mass.
 #pragma once
 #include "model/model.hpp"
 
@@ -8,8 +12,9 @@ namespace plm {
 
 struct Space {
     std::shared_ptr<const Model> model;
-    Matrix vectors;                  // V: n_free x m, M-orthonormal
-    vector<double> lambda;           // V^T K V = diag(lambda), ascending, >= 0 (rigid-body modes: exactly 0)
+    Matrix vectors;                  // V: n_free x m; V^T M V = diag(mass)
+    vector<double> lambda;           // V^T K V = diag(lambda), >= 0 (rigid-body modes: exactly 0), ascending
+    std::int64_t n_massless = 0;     // the last ones: mass 0, and one stiffness for all
     Matrix gap;                      // B V: Z x m
     vector<double> damping_diagonal; // V^T C V = diag(...) when the damping is proportional or modal
     Matrix damping;                  // V^T C V, m x m, when an explicit C is present; else empty
@@ -24,6 +29,8 @@ struct Space {
     std::string description;       // "78 open modes below 20.1 kHz + 2 x 92 attachment vectors, error 3e-8"
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }
+    std::int64_t n_massive() const { return size() - n_massless; }
+    double mass(std::int64_t j) const { return j < n_massive() ? 1.0 : 0.0; }
     std::int64_t n_pairs() const { return gap.rows(); }
 };
 
@@ -31,11 +38,13 @@ struct Space {
 void project_onto(Space &space);
 
 /// Modes of the linear system in which pairs with closed[i] != 0 are coupled by k_n, in the space's
-/// coordinates: eigenvalues (rad^2/s^2) ascending, vectors m x count orthonormal (= mass-normalised). Those
-/// below `upper` (rad^2/s^2), or all when upper is infinite.
+/// coordinates: eigenvalues (rad^2/s^2) ascending, vectors m x count mass-normalised. Those below `upper`
+/// (rad^2/s^2), or all when upper is infinite; then the directions without mass, too, of unit stiffness in
+/// the coupled system: together they are its flexibility, sum of v v^T / value and of w w^T.
 struct SpaceModes {
     vector<double> values;
     Matrix vectors;
+    Matrix massless; // m x n_massless, when all are asked for
 };
 SpaceModes modes_of_contact_set(const Space &space, const vector<char> &closed, double upper);
 

@@ -1,5 +1,6 @@
 #include "reduction/basis.hpp"
 #include "linalg/lapack.hpp"
+#include "model/massless.hpp"
 #include "reduction/basis_options.hpp"
 #include "reduction/conditioning.hpp"
 #include "reduction/contact_snapshots.hpp"
@@ -78,7 +79,7 @@ std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &mo
                               sampler ? sampler->space() : std::move(known));
 }
 
-// The sampler's dominant modes in the coordinates of another space: V^T M (V_s c).
+// The sampler's dominant modes in the coordinates of another space.
 std::vector<vector<double>> dominant_coordinates(const Sampler &sampler, const Space &space) {
     std::vector<vector<double>> result;
     const Space &source = *sampler.space();
@@ -88,11 +89,11 @@ std::vector<vector<double>> dominant_coordinates(const Sampler &sampler, const S
             continue;
         }
         const Model &model = *space.model;
-        vector<double> shape(model.n_free()), momentum(model.n_free()), c(space.size(), 0.0);
+        Matrix shape(model.n_free(), 1);
         gemv('N', 1.0, source.vectors, d.coordinates.data(), 0.0, shape.data());
-        multiply(model.mass(), shape.data(), momentum.data());
-        gemv('T', 1.0, space.vectors, momentum.data(), 0.0, c.data());
-        result.push_back(std::move(c));
+        const Matrix c = coordinates_of(shape, space.vectors, space.lambda, space.n_massless, model.mass(),
+                                        model.stiffness());
+        result.emplace_back(c.data(), c.data() + space.size());
     }
     return result;
 }
@@ -174,7 +175,7 @@ Reduction reduce_to_vectors(const Space &space, const Sampler *sampler, const Se
     watch.step("basis", 0.9);
     if (norm2(space.size(), rest.coordinates.data()) > 0) {
         r.report.preload_residual = euclidean_residual(r.reduced->vectors, rest.displacement);
-        r.report.preload_residual_mass = relative_remainder(conditioned.coordinates.y, rest.coordinates);
+        r.report.preload_residual_mass = relative_remainder(conditioned.coordinates, rest.coordinates);
     }
     return r;
 }

@@ -1,5 +1,6 @@
 #include "reduction/compression.hpp"
 #include "linalg/lapack.hpp"
+#include "model/massless.hpp"
 #include "reduction/projection.hpp"
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,7 @@ Space as_space(const ReducedModel &m) {
     s.model = m.model;
     s.vectors = m.vectors;
     s.lambda = m.lambda;
+    s.n_massless = m.n_massless;
     s.gap = m.whole_gap();
     s.damping_diagonal = m.damping_diagonal;
     s.damping = m.damping;
@@ -28,9 +30,10 @@ Space as_space(const ReducedModel &m) {
 constexpr double rounding = 1e-14;
 
 // Energy norm: elastic and kinetic at a typical frequency.
-vector<double> energy_weights(const vector<double> &lambda, double omega) {
+vector<double> energy_weights(const vector<double> &lambda, std::int64_t n_massless, double omega) {
     vector<double> weight;
     for (double l : lambda) weight.push_back(std::sqrt(l + omega * omega));
+    for (std::size_t j = lambda.size() - n_massless; j < lambda.size(); ++j) weight[j] = std::sqrt(lambda[j]);
     return weight;
 }
 
@@ -68,11 +71,7 @@ struct Decomposition {
 
 // The dynamic coordinates y among the static ones, whose basis P_0 holds P.
 Matrix among_statics(const ReducedModel &m, const Matrix &y) {
-    if (m.same_static) return y;
-    Matrix momentum(m.vectors.rows(), m.vectors.cols());
-    for (std::int64_t j = 0; j < momentum.cols(); ++j)
-        multiply(m.model->mass(), m.vectors.col(j), momentum.col(j));
-    return product('N', 'N', product('T', 'N', m.vectors_0, momentum), y);
+    return m.same_static ? y : product('N', 'N', static_coordinates_of(m, m.vectors), y);
 }
 
 // What is left of motions outside the orthonormal y.
@@ -89,9 +88,11 @@ void reduce_statics(const ReducedModel &from, Matrix y, const Matrix &beside, Re
     if (!to.same_static) {
         Space statics;
         statics.lambda = from.lambda_0;
+        statics.n_massless = from.n_massless_0;
         y.append(beside);
-        const Coordinates c = diagonalise_stiffness(statics, thin_svd(y).u);
+        const Coordinates c = diagonalise(statics, thin_svd(y).u);
         to.lambda_0 = c.lambda;
+        to.n_massless_0 = c.n_massless;
         to.gap_0 = product('N', 'N', from.whole_gap_0(), c.y);
         to.vectors_0 = product('N', 'N', from.static_vectors(), c.y);
         y = c.y;
@@ -111,21 +112,22 @@ void reduce_statics(const ReducedModel &from, Matrix y, const Matrix &beside, Re
 Compressed compress(const Responses &responses, double tolerance, std::int64_t size) {
     const ReducedModel &from = *responses.of;
     const Space space = as_space(from);
-    const Decomposition dynamic(responses.dynamic, energy_weights(from.lambda, responses.omega));
+    const Decomposition dynamic(responses.dynamic,
+                                energy_weights(from.lambda, from.n_massless, responses.omega));
     if (!(dynamic.energy > 0))
         throw Error(PLM_ERR_STATE, "nothing moves in the responses; they give no basis")
             .argument("responses");
     const double largest = dynamic.svd.values[0], share = tolerance * tolerance;
     const std::int64_t kept = size > 0 ? std::min(size, dynamic.needed(0, rounding * largest))
                                        : dynamic.needed(share * dynamic.energy, rounding * largest);
-    const Coordinates coordinates =
-        diagonalise_stiffness(space, dynamic.directions(std::max<std::int64_t>(kept, 1)));
+    const Coordinates coordinates = diagonalise(space, dynamic.directions(std::max<std::int64_t>(kept, 1)));
     const auto reduced = std::make_shared<ReducedModel>(*project(space, coordinates, StaticBasis()));
 
     // mean parts: to the same tolerance, of themselves and of the motions about them
-    const vector<double> weights = energy_weights(from.lambda_0, responses.omega);
+    const vector<double> weights = energy_weights(from.lambda_0, from.n_massless_0, responses.omega);
     const Matrix y_0 = among_statics(from, coordinates.y);
-    const Decomposition mean(responses.mean, weights), beside(remainder(responses.mean, y_0), weights);
+    const Decomposition mean(responses.mean, weights),
+        beside(remainder(responses.mean, orthonormal_span(y_0, from.n_massless_0)), weights);
     const std::int64_t n = beside.needed(share * std::min(mean.energy, dynamic.energy),
                                          rounding * std::sqrt(std::max(mean.energy, dynamic.energy)));
     reduce_statics(from, y_0, beside.directions(n), *reduced);

@@ -1,27 +1,76 @@
 #include "reduction/conditioning.hpp"
 #include "linalg/lapack.hpp"
+#include "model/massless.hpp"
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace plm {
 
-Coordinates diagonalise_stiffness(const Space &space, const Matrix &orthonormal) {
-    Matrix scaled = orthonormal; // diag(sqrt(lambda)) U: its Gram matrix is k, symmetric to the last bit
-    for (std::int64_t j = 0; j < scaled.cols(); ++j)
-        for (std::int64_t i = 0; i < scaled.rows(); ++i) scaled(i, j) *= std::sqrt(space.lambda[i]);
-    SymmetricEigen eigen = symmetric_eigen(product('T', 'N', scaled, scaled));
+namespace {
+
+// What makes K invertible where there is rigid-body motion.
+double rigid_shift(const Space &space) {
+    if (space.size() == 0 || space.lambda.front() > 0) return 0;
+    for (double l : space.lambda)
+        if (l > 0) return l;
+    return 1;
+}
+
+// Basis of the columns that is orthonormal in K + sigma M, times the root of that matrix. Columns of one size
+// first: their energies differ by many orders.
+Matrix energy_orthonormal(Matrix columns, const vector<double> &root) {
+    for (std::int64_t j = 0; j < columns.cols(); ++j) {
+        double *c = columns.col(j);
+        for (std::int64_t i = 0; i < columns.rows(); ++i) c[i] *= root[i];
+        const double size = norm2(columns.rows(), c);
+        for (std::int64_t i = 0; i < columns.rows() && size > 0; ++i) c[i] /= size;
+    }
+    return thin_svd(columns).u;
+}
+
+// Fast modes have lost digits in their compliance; Rayleigh's quotient has the opposite strength.
+void refine_fast_ones(const Space &space, Coordinates &c) {
+    const std::int64_t massive = static_cast<std::int64_t>(c.lambda.size()) - c.n_massless;
+    for (std::int64_t j = 0; j < massive; ++j) {
+        if (!(c.lambda[j] > 1e8 * c.lambda[0]) || c.lambda[0] == 0) continue;
+        double stiffness = 0;
+        for (std::int64_t i = 0; i < c.y.rows(); ++i) stiffness += space.lambda[i] * c.y(i, j) * c.y(i, j);
+        c.lambda[j] = stiffness;
+    }
+}
+
+} // namespace
+
+Coordinates diagonalise(const Space &space, const Matrix &columns) {
     Coordinates c;
-    c.y = product('N', 'N', orthonormal, eigen.vectors);
-    c.lambda = std::move(eigen.values);
-    const double rounding = c.lambda.empty() ? 0 : 1e-14 * c.lambda.back();
-    for (double &l : c.lambda)
-        if (l < rounding) l = 0; // rigid-body motion
+    if (columns.cols() == 0) {
+        c.y = columns;
+        return c;
+    }
+    const double sigma = rigid_shift(space);
+    const double reach = space.n_massless > 0 ? std::sqrt(space.lambda.back()) : 0;
+    vector<double> root(space.size());
+    for (std::int64_t i = 0; i < space.size(); ++i)
+        root[i] = std::sqrt(space.lambda[i] + sigma * space.mass(i));
+    Matrix q = energy_orthonormal(columns, root), inertia = q;
+    for (std::int64_t j = 0; j < q.cols(); ++j)
+        for (std::int64_t i = 0; i < q.rows(); ++i) {
+            q(i, j) /= root[i];
+            inertia(i, j) = space.mass(i) * q(i, j);
+        }
+    const SymmetricEigen e =
+        symmetric_eigen(product('T', 'N', inertia, inertia)); // symmetric to the last bit
+    RitzVectors ritz = ritz_vectors(e.values, e.vectors, sigma, reach);
+    c.y = product('N', 'N', q, ritz.vectors);
+    c.lambda = std::move(ritz.lambda);
+    c.n_massless = ritz.n_massless;
+    refine_fast_ones(space, c);
     return c;
 }
 
 Conditioned condition_columns(const Space &space, const Matrix &columns, double tolerance) {
-    Svd svd = thin_svd(columns); // coordinates are M-orthonormal: this is the SVD in the M-inner product
+    Svd svd = thin_svd(columns); // in the M-inner product, since coordinates with mass are M-orthonormal
     Conditioned result;
     const double largest = svd.values.empty() ? 0 : svd.values.front();
     if (!(largest > 0))
@@ -32,7 +81,7 @@ Conditioned condition_columns(const Space &space, const Matrix &columns, double 
         result.singular_values.push_back(s / largest);
         if (s > tolerance * largest) ++kept;
     }
-    result.coordinates = diagonalise_stiffness(space, svd.u.columns(0, kept));
+    result.coordinates = diagonalise(space, svd.u.columns(0, kept));
     return result;
 }
 

@@ -4,21 +4,22 @@
 
 namespace plm {
 
-/// Coordinates Y in a space with Y^T Y = I (so m = P^T M P = I for P = V Y) and Y^T diag(lambda) Y diagonal.
+/// Coordinates Y in a space, P = V Y, with diagonal m = P^T M P and k = P^T K P.
 struct Coordinates {
-    Matrix y;              // space size x r
-    vector<double> lambda; // r, ascending, >= 0
+    Matrix y;                    // space size x r
+    vector<double> lambda;       // r, >= 0, ascending but for the last ones
+    std::int64_t n_massless = 0; // without mass; m = 1 for all others
 };
 
-/// Rotates orthonormal columns so that the stiffness is diagonal.
-Coordinates diagonalise_stiffness(const Space &space, const Matrix &orthonormal);
+/// The same span in coordinates that diagonalise both. columns: independent, of comparable size.
+Coordinates diagonalise(const Space &space, const Matrix &columns);
 
 struct Conditioned {
     Coordinates coordinates;
     vector<double> singular_values; // of the columns in the M-inner product, scaled by the largest
 };
-/// SVD of mass-normalised columns; directions whose scaled singular value is not above `tolerance` are
-/// dropped.
+/// SVD of mass-normalised columns, in which coordinates without mass count by their stiffness; directions
+/// whose scaled singular value is not above `tolerance` are dropped.
 Conditioned condition_columns(const Space &space, const Matrix &columns, double tolerance);
 
 } // namespace plm

@@ -1,6 +1,7 @@
 #include "reduction/contact_snapshots.hpp"
 #include "linalg/lapack.hpp"
 #include "linalg/work.hpp"
+#include "model/linear_contact.hpp"
 #include "sampling/dominant_mode.hpp"
 #include <algorithm>
 #include <cmath>
@@ -20,20 +21,32 @@ void scale(Matrix &x, const vector<double> &weight, bool inverse) {
             x(j, k) = inverse ? x(j, k) / weight[j] : x(j, k) * weight[j];
 }
 
-void remove_span(const Matrix &orthonormal, Matrix &x) {
-    if (orthonormal.cols() == 0 || x.cols() == 0) return;
-    for (int pass = 0; pass < 2; ++pass) // twice is enough
-        gemm('N', 'N', -1.0, orthonormal, product('T', 'N', orthonormal, x), 1.0, x);
+Matrix momentum(const Space &space, Matrix x) {
+    for (std::int64_t k = 0; k < x.cols(); ++k)
+        for (std::int64_t j = space.n_massive(); j < space.size(); ++j) x(j, k) = 0;
+    return x;
 }
 
-// A basis of the span; modes that contact does not touch are in both systems.
-Matrix orthonormal(const Matrix &columns) {
+// modes: mass-orthonormal
+void remove_span(const Space &space, const Matrix &modes, Matrix &x) {
+    if (modes.cols() == 0 || x.cols() == 0) return;
+    for (int pass = 0; pass < 2; ++pass) // twice is enough
+        gemm('N', 'N', -1.0, modes, product('T', 'N', modes, momentum(space, x)), 1.0, x);
+}
+
+// A mass-orthonormal basis of the span; modes that contact does not touch are in both systems.
+Matrix orthonormal(const Space &space, const Matrix &columns) {
     if (columns.cols() == 0) return columns;
-    const Svd svd = thin_svd(columns);
+    const Svd svd = thin_svd(momentum(space, columns));
     std::int64_t rank = 0;
     for (double s : svd.values)
         if (s > 1e-8 * svd.values[0]) ++rank;
-    return svd.u.columns(0, rank);
+    Matrix back = svd.vt.transposed().columns(0, rank); // columns times this: where there is no mass, too
+    for (std::int64_t j = 0; j < rank; ++j)
+        for (std::int64_t i = 0; i < back.rows(); ++i) back(i, j) /= svd.values[j];
+    Matrix y = product('N', 'N', columns, back);
+    for (std::int64_t j = 0; j < rank; ++j) std::copy_n(svd.u.col(j), space.n_massive(), y.col(j));
+    return y;
 }
 
 vector<double> snapshot_alphas(const ContactSweep &sweep, bool homogeneous, std::int64_t n) {
@@ -61,7 +74,7 @@ class Snapshots {
     void add(const vector<double> &mode, double factor) {
         vector<double> load(space_.preload);
         load.resize(space_.size(), 0.0);
-        for (std::int64_t j = 0; j < space_.size(); ++j) load[j] += factor * mode[j];
+        for (std::int64_t j = 0; j < space_.size(); ++j) load[j] += factor * space_.mass(j) * mode[j];
         const Model &model = *space_.model;
         StaticState state;
         ++asked;
@@ -131,19 +144,13 @@ class RestSystem {
 
     /// (H omega_f)^2 K_S^-1 M x.
     Matrix inertia_response(const Matrix &motions) const {
-        const vector<double> &stiffness = space_.model->contact_stiffness();
-        Matrix root = space_.gap, k(space_.size(), space_.size()), x = motions;
-        for (std::int64_t j = 0; j < root.cols(); ++j)
-            for (std::int64_t i = 0; i < root.rows(); ++i)
-                root(i, j) *= closed_[i] ? std::sqrt(stiffness[i]) : 0.0;
-        gemm('T', 'N', 1.0, root, root, 0.0, k);
+        vector<double> pivot(space_.lambda), spring(space_.model->contact_stiffness());
         const double shift = 1e-4 * omega_min_ * omega_min_; // rigid-body motion is among the modes anyway
-        for (std::int64_t j = 0; j < k.rows(); ++j) k(j, j) += space_.lambda[j] + shift;
-        DenseCholesky cholesky;
-        if (!cholesky.factor(k))
-            throw Error(PLM_ERR_SINGULAR, "the stiffness of the structure at rest is not positive definite")
-                .reason(PLM_REASON_SINGULAR);
-        cholesky.solve(x.data(), x.cols(), x.rows());
+        for (std::int64_t j = 0; j < space_.size(); ++j) pivot[j] += shift * space_.mass(j);
+        for (std::size_t i = 0; i < spring.size(); ++i)
+            if (!closed_[i]) spring[i] = 0;
+        Matrix x = momentum(space_, motions);
+        solve_with_springs(pivot, space_.gap, spring, x);
         const double omega = static_cast<double>(n_harmonics_) * omega_max_;
         for (std::int64_t i = 0; i < x.rows() * x.cols(); ++i) x.data()[i] *= omega * omega;
         return x;
@@ -193,11 +200,12 @@ Matrix excitation_columns(const Space &space, const vector<double> &mode, double
     return columns;
 }
 
-// The main directions of x outside the modes in the energy norm, as mass-orthonormal columns.
+// The main directions of x outside the modes in the energy norm.
 Matrix main_directions(const Space &space, const Matrix &modes, Matrix x, double omega, double tolerance) {
-    remove_span(modes, x);
+    remove_span(space, modes, x);
     vector<double> weight;
-    for (double l : space.lambda) weight.push_back(std::sqrt(l + omega * omega));
+    for (std::int64_t j = 0; j < space.size(); ++j)
+        weight.push_back(std::sqrt(space.lambda[j] + space.mass(j) * omega * omega));
     scale(x, weight, false);
     const Svd svd = thin_svd(x);
     std::int64_t kept = 0;
@@ -266,7 +274,7 @@ CollectedSnapshots collect_snapshots(const Space &space, const Sampler &sampler,
     result.n_solutions = snapshots.motions.cols();
     warn_of_missing(snapshots, watch);
     result.columns = modes;
-    if (homogeneous) modes = orthonormal(modes); // those of one system are already
+    if (homogeneous) modes = orthonormal(space, modes); // those of one system are already
     if (statics.cols() > 0)
         result.columns.append(main_directions(space, modes, std::move(statics), 2 * M_PI * rule.max_hz,
                                               options.snapshot_tolerance));

@@ -2,6 +2,7 @@
 // by fixed-interface modes.
 #include "linalg/eigs.hpp"
 #include "linalg/lapack.hpp"
+#include "model/massless.hpp"
 #include "reduction/basis.hpp"
 #include <algorithm>
 #include <cmath>
@@ -74,26 +75,33 @@ class Interior {
         }
     }
 
-    /// Static responses of the fixed-interface interior to the loads on it, M-orthonormal among themselves
-    /// and to the fixed-interface modes `phi`, which carry little of the deformation around a point load.
+    /// Static responses of the fixed-interface interior to the loads on it, of unit energy, orthogonal among
+    /// themselves and to the fixed-interface modes `phi`, which carry little of the deformation around a
+    /// point load, and nothing of it where there is no mass.
     Matrix load_modes(const Matrix &loads, const Matrix &phi) const {
-        Matrix basis = phi;
-        Matrix x = static_response(loads);
+        const SparseMatrix shifted = shift_ > 0 ? add(1.0, k_, shift_, m_) : k_;
+        Matrix basis = phi, x = static_response(loads);
+        for (std::int64_t j = 0; j < basis.cols(); ++j) to_unit_energy(shifted, basis.col(j));
         for (std::int64_t j = 0; j < x.cols(); ++j) {
             Matrix column = x.columns(j, 1);
-            const double before = mass_norm(column);
+            to_unit_energy(shifted, column.data());
             for (int pass = 0; pass < 2; ++pass) // twice is enough
-                gemm('N', 'N', -1.0, basis, product('T', 'N', basis, multiply(m_, column)), 1.0, column);
-            const double after = mass_norm(column);
-            if (!(after > 1e-8 * before)) continue;
-            for (std::int64_t i = 0; i < n_; ++i) column(i, 0) /= after;
+                gemm('N', 'N', -1.0, basis, product('T', 'N', basis, multiply(shifted, column)), 1.0, column);
+            if (!(to_unit_energy(shifted, column.data()) > 1e-8)) continue;
             basis.append(column);
         }
         return basis.columns(phi.cols(), basis.cols() - phi.cols());
     }
 
   private:
-    double mass_norm(const Matrix &x) const { return std::sqrt(dot(n_, x.data(), multiply(m_, x).data())); }
+    // The root of what its energy was.
+    double to_unit_energy(const SparseMatrix &stiffness, double *x) const {
+        vector<double> force(n_);
+        multiply(stiffness, x, force.data());
+        const double size = std::sqrt(std::max(0.0, dot(n_, x, force.data())));
+        for (std::int64_t i = 0; i < n_ && size > 0; ++i) x[i] /= size;
+        return size;
+    }
 
     // K_ii is singular when a part of the interior is held by nothing but the contact: then K_ii + sigma
     // M_ii.
@@ -198,46 +206,12 @@ void symmetrise(Matrix &a) {
         for (std::int64_t i = j + 1; i < a.rows(); ++i) a(i, j) = a(j, i) = 0.5 * (a(i, j) + a(j, i));
 }
 
-Matrix congruence(const Matrix &a, const Matrix &t) {
-    Matrix r = product('T', 'N', t, product('N', 'N', a, t));
-    symmetrise(r);
-    return r;
-}
-
-// A basis of the directions that carry mass, the mass-less ones following statically: x_n = -K_nn^-1 K_nr
-// x_r.
-Matrix condense_massless(const Matrix &k, const Matrix &m, Watch watch) {
-    const SymmetricEigen eigen = symmetric_eigen(m);
-    std::int64_t n_null = 0;
-    while (n_null < m.cols() && eigen.values[n_null] <= 1e-15 * eigen.values.back()) ++n_null;
-    if (n_null == 0) return eigen.vectors;
-    watch.log(
-        2, format("%lld mass-less directions of the contact DOFs are condensed statically in Craig-Bampton; "
-                  "contact forces do not deform them",
-                  static_cast<long long>(n_null)));
-    const Matrix none = eigen.vectors.columns(0, n_null);
-    Matrix rest = eigen.vectors.columns(n_null, m.cols() - n_null);
-    Matrix knn = congruence(k, none);
-    Matrix follow = product('T', 'N', none, product('N', 'N', k, rest));
-    DenseCholesky cholesky;
-    if (!cholesky.factor(knn))
-        throw Error(PLM_ERR_SINGULAR, "a contact DOF has neither mass nor stiffness")
-            .reason(PLM_REASON_SINGULAR);
-    cholesky.solve(follow.data(), follow.cols(), follow.rows());
-    gemm('N', 'N', -1.0, none, follow, 1.0, rest);
-    return rest;
-}
-
-// M-orthonormal coordinates that diagonalise both.
-SymmetricEigen diagonalise(const Matrix &k, const Matrix &m, Watch watch) {
-    try {
-        return symmetric_eigen_general(k, m);
-    } catch (const Error &) { // mass matrix not positive definite
-        const Matrix r = condense_massless(k, m, watch);
-        SymmetricEigen eigen = symmetric_eigen_general(congruence(k, r), congruence(m, r));
-        eigen.vectors = product('N', 'N', r, eigen.vectors);
-        return eigen;
-    }
+// Coordinates that diagonalise both; contact DOFs without mass keep their flexibility.
+RitzVectors diagonalise(const Matrix &k, const Matrix &m, double sigma, double reach) {
+    Matrix shifted = k;
+    for (std::int64_t i = 0; i < k.rows() * k.cols(); ++i) shifted.data()[i] += sigma * m.data()[i];
+    const SymmetricEigen inertia = symmetric_eigen_general(m, shifted);
+    return ritz_vectors(inertia.values, inertia.vectors, sigma, reach);
 }
 
 // Rigid-body modes lie in the space (but for too few fixed-interface modes of an interior that is free
@@ -260,12 +234,13 @@ std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Mode
     symmetrise(k);
     symmetrise(m);
     watch.step("Craig-Bampton", 0.8);
-    SymmetricEigen eigen = diagonalise(k, m, watch);
+    RitzVectors ritz = diagonalise(k, m, model->shift(), options.highest_frequency);
 
     auto space = std::make_shared<Space>();
     space->model = model;
-    space->vectors = product('N', 'N', t, eigen.vectors);
-    space->lambda = std::move(eigen.values);
+    space->vectors = product('N', 'N', t, ritz.vectors);
+    space->lambda = std::move(ritz.lambda);
+    space->n_massless = ritz.n_massless;
     clear_rigid_values(model->rigid_modes().cols(), space->lambda);
     space->highest_frequency = options.highest_frequency;
     const long long n_boundary = static_cast<long long>(p.boundary_dof.size());

@@ -24,6 +24,7 @@ Matrix negative_flexibility(const Space &space, const SpaceModes &all) {
         const double root = all.values[j] > 0 ? 1 / std::sqrt(all.values[j]) : 0.0;
         for (std::int64_t p = 0; p < scaled.rows(); ++p) scaled(p, j) *= root;
     }
+    if (all.massless.cols() > 0) scaled.append(product('N', 'N', space.gap, all.massless));
     Matrix f(scaled.rows(), scaled.rows());
     gemm('N', 'T', -1.0, scaled, scaled, 0.0, f);
     return f;

@@ -212,9 +212,11 @@ class Iteration {
     }
 
     SpaceModes lowest_modes() const {
-        SpaceModes modes = modes_with_springs(space_, motion_.spring, options_.highest_eigenvalue);
+        SpaceModes modes = modes_with_springs(space_.lambda, space_.n_massless, space_.gap, motion_.spring,
+                                              options_.highest_eigenvalue);
         if (!modes.values.empty() && modes.values.back() > 0) return modes;
-        return modes_with_springs(space_, motion_.spring, std::numeric_limits<double>::infinity());
+        return modes_with_springs(space_.lambda, space_.n_massless, space_.gap, motion_.spring,
+                                  std::numeric_limits<double>::infinity());
     }
 
     // First by its response, then by its likeness with the last one. Rigid-body motion has no resonance.
@@ -226,7 +228,7 @@ class Iteration {
             if (!(modes.values[j] > 0)) continue;
             const double *mode = modes.vectors.col(j);
             const double value = shape_.empty() ? resonance_.response(mode, modes.values[j], omega)
-                                                : mac(space_.size(), mode, shape_.data());
+                                                : mac(space_.n_massive(), mode, shape_.data());
             if (value > most) most = value, best = j;
         }
         if (best < 0)

@@ -60,7 +60,7 @@ class EquivalentFamily {
     SpaceModes modes_at(double share, double upper) const {
         vector<double> spring(space_.model->contact_stiffness());
         for (double &k : spring) k *= share;
-        return modes_with_springs(space_, spring, upper);
+        return modes_with_springs(space_.lambda, space_.n_massless, space_.gap, spring, upper);
     }
 
     // As many as there are open ones.

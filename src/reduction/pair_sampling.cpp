@@ -37,7 +37,7 @@ Matrix energy_motions(const ReducedModel &m, double omega) {
     Matrix motions = m.gap;
     for (std::int64_t j = 0; j < motions.cols(); ++j)
         for (std::int64_t i = 0; i < motions.rows(); ++i)
-            motions(i, j) /= std::sqrt(m.lambda[j] + omega * omega);
+            motions(i, j) /= std::sqrt(m.lambda[j] + m.mass(j) * omega * omega);
     return motions;
 }
 
@@ -71,8 +71,8 @@ vector<std::int64_t> master_pairs(const Space &space, double omega, std::int64_t
     Matrix root = space.gap, flexible = space.gap;
     for (std::int64_t j = 0; j < root.cols(); ++j)
         for (std::int64_t i = 0; i < root.rows(); ++i) {
-            root(i, j) /= std::sqrt(space.lambda[j] + shift);
-            flexible(i, j) /= space.lambda[j] + shift;
+            root(i, j) /= std::sqrt(space.lambda[j] + space.mass(j) * shift);
+            flexible(i, j) *= space.mass(j) / (space.lambda[j] + shift);
         }
     Matrix f = product('N', 'T', root, root);
     for (std::int64_t i = 0; i < f.rows(); ++i) f(i, i) += 1 / space.model->contact_stiffness()[i];

@@ -1,4 +1,5 @@
 #include "reduction/reduced_model.hpp"
+#include "model/massless.hpp"
 #include "reduction/projection.hpp"
 #include <algorithm>
 #include <cmath>
@@ -36,12 +37,18 @@ void project_damping(const Space &space, const Coordinates &dynamic, ReducedMode
     if (!space.damping.empty()) {
         set_damping(product('T', 'N', dynamic.y, product('N', 'N', space.damping, dynamic.y)), reduced);
     } else if (damping.modal_ratio.empty()) { // Rayleigh: diagonal wherever m and k are
-        for (double l : dynamic.lambda) reduced.damping_diagonal.push_back(damping.alpha + damping.beta * l);
+        for (std::int64_t j = 0; j < reduced.size(); ++j)
+            reduced.damping_diagonal.push_back(damping.alpha * reduced.mass(j) +
+                                               damping.beta * reduced.lambda[j]);
     } else {
         Matrix cy = dynamic.y;
         for (std::int64_t j = 0; j < cy.cols(); ++j)
             for (std::int64_t i = 0; i < cy.rows(); ++i) cy(i, j) *= space.damping_diagonal[i];
-        set_damping(product('T', 'N', dynamic.y, cy), reduced);
+        Matrix c = product('T', 'N', dynamic.y, cy); // a ratio of critical damping is nothing without mass
+        for (std::int64_t j = 0; j < c.cols(); ++j)
+            for (std::int64_t i = 0; i < c.rows(); ++i)
+                if (reduced.mass(i) * reduced.mass(j) == 0) c(i, j) = 0;
+        set_damping(std::move(c), reduced);
     }
 }
 
@@ -53,6 +60,7 @@ void finish(const Space &space, ReducedModel &reduced) {
     reduced.initial_gap = space.model->initial_gap();
     if (reduced.same_static) {
         reduced.lambda_0 = reduced.lambda;
+        reduced.n_massless_0 = reduced.n_massless;
         reduced.gap_0 = reduced.gap;
     }
     reduced.preload_0.resize(reduced.lambda_0.size(), 0.0);
@@ -60,17 +68,24 @@ void finish(const Space &space, ReducedModel &reduced) {
 
 } // namespace
 
+Matrix static_coordinates_of(const ReducedModel &m, const Matrix &motions) {
+    return coordinates_of(motions, m.static_vectors(), m.lambda_0, m.n_massless_0, m.model->mass(),
+                          m.model->stiffness());
+}
+
 std::shared_ptr<const ReducedModel> project(const Space &space, const Coordinates &dynamic,
                                             const StaticBasis &statics) {
     auto reduced = std::make_shared<ReducedModel>();
     const Matrix &y_0 = statics.same ? dynamic.y : statics.coordinates.y;
     reduced->lambda = dynamic.lambda;
+    reduced->n_massless = dynamic.n_massless;
     reduced->gap = product('N', 'N', space.gap, dynamic.y);
     reduced->vectors = product('N', 'N', space.vectors, dynamic.y);
     project_damping(space, dynamic, *reduced);
     reduced->same_static = statics.same;
     if (!statics.same) {
         reduced->lambda_0 = statics.coordinates.lambda;
+        reduced->n_massless_0 = statics.coordinates.n_massless;
         reduced->gap_0 = product('N', 'N', space.gap, y_0);
         reduced->vectors_0 = product('N', 'N', space.vectors, y_0);
     }
@@ -86,6 +101,7 @@ std::shared_ptr<const ReducedModel> project(const Space &space, const Coordinate
 std::shared_ptr<const ReducedModel> project_whole(const Space &space) {
     auto reduced = std::make_shared<ReducedModel>();
     reduced->lambda = space.lambda;
+    reduced->n_massless = space.n_massless;
     reduced->gap = space.gap;
     reduced->vectors = space.vectors;
     if (space.damping.empty())

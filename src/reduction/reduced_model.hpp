@@ -1,5 +1,6 @@
-// The reduced equations (paper, eq. (10), (11)) in coordinates where m = I and k is diagonal, with a basis P
-// for h >= 1 and P_0 for h = 0. All that harmonic balance sees of the structure.
+// The reduced equations (paper, eq. (10), (11)) in coordinates where m and k are diagonal, with a basis P for
+// h >= 1 and P_0 for h = 0. All that harmonic balance sees of the structure. m = 1, or 0 for the directions
+// that follow statically (massless.hpp).
 #pragma once
 #include "model/space.hpp"
 
@@ -14,7 +15,8 @@ struct AllPairs {
 struct ReducedModel {
     std::shared_ptr<const Model> model;
     // dynamic coordinates, h >= 1
-    vector<double> lambda;           // r, rad^2/s^2
+    vector<double> lambda;           // r, rad^2/s^2: k, over a mass of 1
+    std::int64_t n_massless = 0;     // the last ones: no mass
     vector<double> damping_diagonal; // r, when diagonal
     Matrix damping;                  // r x r when not diagonal; else empty
     double structural = 0;           // eta: k (1 + i eta)
@@ -22,6 +24,7 @@ struct ReducedModel {
     // static coordinates, h = 0; when `same_static` they are the dynamic ones and the *_0 members repeat them
     bool same_static = true;
     vector<double> lambda_0;
+    std::int64_t n_massless_0 = 0;
     Matrix gap_0; // B P_0: Z x r_0
     // loads
     vector<double> preload_0;               // P_0^T F_preload, r_0 (zeros without pre-load)
@@ -38,6 +41,8 @@ struct ReducedModel {
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }
     std::int64_t static_size() const { return static_cast<std::int64_t>(lambda_0.size()); }
+    double mass(std::int64_t j) const { return j < size() - n_massless ? 1.0 : 0.0; }
+    double mass_0(std::int64_t j) const { return j < static_size() - n_massless_0 ? 1.0 : 0.0; }
     std::int64_t n_pairs() const { return gap.rows(); } // in the equations
     // what the motion means for the pairs of the model, carried or not
     const Matrix &whole_gap() const { return all_pairs ? all_pairs->gap : gap; }
@@ -51,5 +56,8 @@ struct ReducedModel {
     std::int64_t n_whole_pairs() const { return whole_gap().rows(); }
     const Matrix &static_vectors() const { return same_static ? vectors : vectors_0; }
 };
+
+/// P_0 coordinates of motions q over the free DOFs (n_free x k).
+Matrix static_coordinates_of(const ReducedModel &reduced, const Matrix &motions);
 
 } // namespace plm

@@ -1,4 +1,5 @@
 #include "reduction/static_basis.hpp"
+#include "model/massless.hpp"
 #include <algorithm>
 
 namespace plm {
@@ -14,12 +15,12 @@ void orthogonalise(const Matrix &y, vector<double> &q) {
 
 } // namespace
 
-double relative_remainder(const Matrix &y, const vector<double> &q) {
+double relative_remainder(const Coordinates &dynamic, const vector<double> &q) {
     const std::int64_t n = static_cast<std::int64_t>(q.size());
     const double size = norm2(n, q.data());
     if (!(size > 0)) return 0;
     vector<double> rest(q);
-    orthogonalise(y, rest);
+    orthogonalise(orthonormal_span(dynamic.y, dynamic.n_massless), rest);
     return norm2(n, rest.data()) / size;
 }
 
@@ -30,15 +31,15 @@ StaticBasis make_static_basis(const Space &space, const Coordinates &dynamic, co
     if (!(size > 0)) return basis;
     vector<double> unit(q_ps);
     for (double &v : unit) v /= size;
-    orthogonalise(dynamic.y, unit);
+    Matrix extended = orthonormal_span(dynamic.y, dynamic.n_massless);
+    orthogonalise(extended, unit);
     const double rest = norm2(n, unit.data());
     if (rest < 1e-10) return basis;
     Matrix column(n, 1);
     for (std::int64_t i = 0; i < n; ++i) column(i, 0) = unit[i] / rest;
-    Matrix extended = dynamic.y;
     extended.append(column);
     basis.same = false;
-    basis.coordinates = diagonalise_stiffness(space, extended);
+    basis.coordinates = diagonalise(space, extended);
     return basis;
 }
 

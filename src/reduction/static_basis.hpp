@@ -13,7 +13,8 @@ struct StaticBasis {
 /// and left out when less than 1e-10 of it remains.
 StaticBasis make_static_basis(const Space &space, const Coordinates &dynamic, const vector<double> &q_ps);
 
-/// Relative part of q outside the span of orthonormal columns y: paper, eq. (12), in the M-norm.
-double relative_remainder(const Matrix &y, const vector<double> &q);
+/// Relative part of q outside the span: paper, eq. (12), in the M-norm (where there is no mass, in that of
+/// K).
+double relative_remainder(const Coordinates &dynamic, const vector<double> &q);
 
 } // namespace plm

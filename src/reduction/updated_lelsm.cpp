@@ -36,8 +36,8 @@ UpdatedModes updated_lelsm_modes(const Space &space, const SelectionRule &rule, 
     UpdatedModes result;
     const double middle = M_PI * (rule.min_hz + rule.max_hz);
     result.motion = equivalent_motion(space, {middle, rule.highest_eigenvalue(), amplitude}, watch);
-    const SpaceModes all =
-        modes_with_springs(space, result.motion.spring, std::numeric_limits<double>::infinity());
+    const SpaceModes all = modes_with_springs(space.lambda, space.n_massless, space.gap, result.motion.spring,
+                                              std::numeric_limits<double>::infinity());
     vector<char> kept;
     for (double value : all.values) kept.push_back(rule.keeps(to_hz(value)));
     result.columns = kept_columns(all, kept);

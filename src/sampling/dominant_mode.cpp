@@ -124,7 +124,7 @@ double share(const vector<double> &response, vector<std::int64_t> among, std::in
 
 DominantMode find_dominant_mode(const Space &space, const ModeRequest &request, Watch watch) {
     std::int64_t rigid = 0; // not proposed, but counted
-    while (rigid < space.size() && space.lambda[rigid] == 0) ++rigid;
+    while (rigid < space.n_massive() && space.lambda[rigid] == 0) ++rigid;
     const SpaceModes modes = lowest_modes(space, request.system, std::max(request.mode, rigid + n_proposed),
                                           std::max(request.frequency_hz, request.search_max_hz));
     const vector<double> response = responses(space, modes);

@@ -27,7 +27,7 @@ MatchedModes match_below(const Space &space, const vector<char> &closed, const v
     const std::int64_t count = matched.modes.vectors.cols();
     matched.mac.resize(count);
     for (std::int64_t j = 0; j < count; ++j) {
-        matched.mac[j] = mac(space.size(), matched.modes.vectors.col(j), shape.data());
+        matched.mac[j] = mac(space.n_massive(), matched.modes.vectors.col(j), shape.data());
         // Repeated and mirrored modes tie: do not let rounding choose.
         if (matched.best < 0 || matched.mac[j] > matched.mac[matched.best] + 1e-9) matched.best = j;
     }
@@ -47,7 +47,7 @@ MatchedModes match_modes(const Space &space, const vector<char> &closed, const v
                          double upper) {
     for (int attempt = 0; attempt < 3 && upper > 0; ++attempt, upper *= 9) {
         MatchedModes matched = match_below(space, closed, shape, upper);
-        if (is_settled(matched) || matched.modes.vectors.cols() == space.size()) return matched;
+        if (is_settled(matched) || matched.modes.vectors.cols() == space.n_massive()) return matched;
     }
     return match_below(space, closed, shape, std::numeric_limits<double>::infinity());
 }

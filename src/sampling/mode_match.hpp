@@ -1,6 +1,5 @@
 // Which mode of one linear system resembles a given shape: the mass-weighted modal assurance criterion (MAC).
-// In the coordinates of a Space shapes are M-orthonormal, so the MAC is the squared cosine of two coordinate
-// vectors.
+// In the coordinates of a Space it is the squared cosine of the coordinates that have mass.
 #pragma once
 #include "model/space.hpp"
 

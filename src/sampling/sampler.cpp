@@ -49,12 +49,17 @@ std::vector<DominantMode> find_dominant_modes(const Space &space, const RestStat
     return dominant;
 }
 
-// A mode that does not move the pairs has a dV of rounding errors only.
+// A mode that does not move the pairs has a dV of rounding errors only, against what motions of its energy
+// can do to them: a light or mass-less part moves far for little.
 bool moves_contact(const Space &space, const DominantMode &d) {
+    const double omega = 2 * M_PI * d.frequency_hz;
     double dv = 0, scale = 0;
     for (double v : d.mode_penetration) dv = std::max(dv, std::abs(v));
-    for (std::int64_t k = 0; k < space.gap.rows() * space.gap.cols(); ++k)
-        scale = std::max(scale, std::abs(space.gap.data()[k]));
+    for (std::int64_t j = 0; j < space.size(); ++j) {
+        const double reach = omega / std::sqrt(space.lambda[j] + space.mass(j) * omega * omega);
+        for (std::int64_t i = 0; i < space.gap.rows(); ++i)
+            scale = std::max(scale, reach * std::abs(space.gap(i, j)));
+    }
     return dv > 1e-12 * scale;
 }
 

@@ -47,11 +47,13 @@ class Run {
         if (method_.kind == MethodKind::refined) refine_basis();
         out_.setup_seconds = setup.seconds();
         out_.size = out_.basis->reduced()->size();
-        out_.note = out_.basis->report().warnings.text();
         const Stopwatch curve;
         for (double level : where_.levels)
             out_.curves.push_back(sweep(*out_.basis, options_at_level(method_, where_, level), watch_));
         out_.curve_seconds = curve.seconds();
+        Warnings said = out_.basis->report().warnings;
+        for (const BranchPtr &b : out_.curves) said.add(b->warnings);
+        if (!said.empty()) out_.note += (out_.note.empty() ? "" : "; ") + said.text();
         double seconds = 0;
         std::int64_t iterations = 0;
         for (const BranchPtr &b : out_.curves)

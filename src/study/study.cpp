@@ -359,10 +359,14 @@ class Study {
         const HbmOptions o = options_at_level(method, where_, plan_.levels[level]);
         try {
             const auto full = unreduced_basis(m.basis, watch_, where_.space)->reduced();
-            const ErrorParts parts =
+            const ErrorEstimate told =
                 ErrorEstimator(full, *peak.branch, o)
-                    .estimate(0, where_.output.dof, where_.output.measure, where_.output.harmonic)
-                    .amplitude;
+                    .estimate(0, where_.output.dof, where_.output.measure, where_.output.harmonic);
+            if (!told.complete()) {
+                watch_.log(1, "study: " + method.name + ": no estimate: its steps do not contract");
+                return;
+            }
+            const ErrorParts &parts = told.amplitude;
             const double size = std::abs(peak.amplitude);
             r.estimated_error = std::abs(parts.sum()) / size;
             // harmonics that the reference lacks as well are no part of the difference

@@ -1,6 +1,7 @@
 #include "transient/exact_flow.hpp"
 #include "linalg/scale.hpp"
 #include "linalg/work.hpp"
+#include "transient/contact_step.hpp"
 #include "transient/polynomial.hpp"
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,8 @@ constexpr int side_corrections = 8; // one is usual; more when pairs that rest a
 ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, double force_scale, Watch watch)
     : model_(std::move(model)), omega_(omega), force_scale_(force_scale), watch_(watch), system_(*model_),
       closed_(model_->n_pairs()), at_zero_(model_->n_pairs()), row_norm_(model_->n_pairs()),
-      noise_(model_->n_pairs()), sides_(model_->n_pairs()), polynomial_(max_polynomial_degree + 1) {
+      noise_(model_->n_pairs()), sides_(model_->n_pairs()), polynomial_(max_polynomial_degree + 1),
+      following_(model_->size()) {
     if (!(omega > 0 && std::isfinite(omega) && std::isfinite(force_scale)))
         throw Error(PLM_ERR_ARGUMENT, "the flow needs a positive, finite frequency and a finite force scale")
             .argument("omega");
@@ -95,13 +97,37 @@ void ExactFlow::switch_pair(std::int64_t pair, double share, double time) {
         .index(pair);
 }
 
-// By the penetration alone; pairs at zero get their side from the series.
+// By the penetration alone; pairs at zero get their side from the series. What follows without mass is where
+// the present forces put it, the contact's among them.
 void ExactFlow::guess_contact(const FlowState &state) {
     std::fill(at_zero_.begin(), at_zero_.end(), char(0));
-    vector<double> &u = noise_; // not in use yet
-    for (std::int64_t i = 0; i < model_->n_pairs(); ++i) u[i] = -model_->initial_gap()[i];
-    if (!u.empty()) gemv('N', 1.0, model_->gap(), state.y.data(), 1.0, u.data());
-    for (std::int64_t i = 0; i < model_->n_pairs(); ++i) closed_[i] = ContactLaw::closed(u[i]);
+    const std::int64_t z = model_->n_pairs();
+    if (z == 0) return;
+    vector<double> moving(state.y), u(z);
+    std::fill(moving.begin() + model_->n_moving(), moving.end(), 0.0);
+    n_terms_ = 1;
+    expand_forces(state.time, 0.0);
+    std::copy_n(offset_.data(), z, u.data());
+    gemv('N', 1.0, model_->gap(), moving.data(), 1.0, u.data());
+    if (model_->n_following() > 0) {
+        ContactStep step(model_->flexibility(), model_->contact_stiffness());
+        vector<double> force(z, 0.0);
+        step.solve(u, force);
+        u = step.penetration();
+    }
+    for (std::int64_t i = 0; i < z; ++i) closed_[i] = ContactLaw::closed(u[i]);
+}
+
+void ExactFlow::complete(FlowState &state) {
+    if (model_->n_massive() == model_->size()) return;
+    guess_contact(state);
+    system_.assign(closed_);
+    const double duration = step_length(0.125 * period());
+    expand(state, duration);
+    for (std::int64_t j = model_->n_massive(); j < model_->size(); ++j) {
+        state.y[j] = coefficient_(j, 0);
+        state.v[j] = coefficient_(j, 1) / duration;
+    }
 }
 
 // The series by products with the stiffness, the penetrations by one with the gap rows.
@@ -120,18 +146,19 @@ double ExactFlow::step_length(double left) {
 
 // (k + 1)(k + 2) y_{k+2} = duration^2 (f_k - K y_k) - duration (k + 1) C y_{k+1}, powers of s = t / duration.
 void ExactFlow::expand(const FlowState &state, double duration) {
-    const std::int64_t n = model_->size(), z = model_->n_pairs();
+    const std::int64_t n = model_->n_massive(), moving = model_->n_moving();
     expand_forces(state.time, duration);
-    coefficient_.reset(n, n_terms_);
-    for (std::int64_t j = 0; j < n; ++j) {
+    coefficient_.reset(model_->size(), n_terms_);
+    for (std::int64_t j = 0; j < moving; ++j) {
         coefficient_(j, 0) = state.y[j];
-        coefficient_(j, 1) = duration * state.v[j];
+        if (j < n) coefficient_(j, 1) = duration * state.v[j];
     }
+    system_.relax(1, duration, coefficient_.col(0), force_.col(0), coefficient_.col(1));
     for (std::int64_t k = 2; k < n_terms_; ++k) {
         const double order = static_cast<double>(k), factor = duration * duration / (order * (order - 1));
         const double *before = coefficient_.col(k - 1);
         double *next = coefficient_.col(k);
-        std::copy_n(force_.col(k - 2), n, next);
+        std::copy_n(force_.col(k - 2), moving, next);
         gemv('N', -factor, system_.stiffness(), coefficient_.col(k - 2), factor, next);
         if (model_->has_diagonal_damping()) {
             const vector<double> &c = model_->damping_diagonal();
@@ -139,23 +166,38 @@ void ExactFlow::expand(const FlowState &state, double duration) {
         } else {
             gemv('N', -duration / order, model_->damping(), before, 1.0, next);
         }
+        system_.relax(k, duration, before, force_.col(k - 1), next);
     }
-    penetration_.reset(z, n_terms_);
-    if (z == 0) return;
-    gemm('N', 'N', 1.0, model_->gap(), coefficient_, 0.0, penetration_);
-    for (std::int64_t i = 0; i < z; ++i) penetration_(i, 0) -= model_->initial_gap()[i];
+    penetration_ = offset_;
+    if (model_->n_pairs() > 0) gemm('N', 'N', 1.0, model_->gap(), coefficient_, 1.0, penetration_);
+    follow();
+}
+
+// What has neither mass nor damping: y = (f - G^T N) / k.
+void ExactFlow::follow() {
+    const std::int64_t moving = model_->n_moving(), n = model_->n_following();
+    if (n == 0) return;
+    system_.add_contact(penetration_, contact_force_);
+    for (std::int64_t k = 0; k < n_terms_; ++k) {
+        double *f = following_.data();
+        std::copy_n(force_.col(k) + moving, n, f + moving);
+        if (model_->n_pairs() > 0) gemv('T', -1.0, model_->gap(), contact_force_.col(k), 1.0, f);
+        for (std::int64_t j = moving; j < moving + n; ++j) coefficient_(j, k) = f[j] / model_->lambda()[j];
+    }
 }
 
 // Taylor coefficients of all forces but K y: Re(F_h exp(i h w t)) has F_h exp(i h w t_0) (i h w duration)^k /
-// k!.
+// k!. The gaps act through the springs of the closed pairs, too, and so does what the forces do at the
+// contact by themselves where there is no mass.
 void ExactFlow::expand_forces(double time, double duration) {
     const std::int64_t n = model_->size();
+    const std::int64_t count = model_->n_massive() < n ? n_terms_ : std::max<std::int64_t>(n_terms_ - 2, 1);
     force_.reset(n, n_terms_);
-    for (std::int64_t j = 0; j < n; ++j) force_(j, 0) = model_->preload()[j] + system_.gap_force()[j];
+    for (std::int64_t j = 0; j < n; ++j) force_(j, 0) = model_->preload()[j];
     for (const auto &[harmonic, load] : model_->excitation()) {
         const double step = static_cast<double>(harmonic) * omega_ * duration;
         std::complex<double> z = std::polar(force_scale_, static_cast<double>(harmonic) * omega_ * time);
-        for (std::int64_t k = 0; k + 2 < n_terms_; ++k) {
+        for (std::int64_t k = 0; k < count; ++k) {
             double *f = force_.col(k);
             for (std::int64_t j = 0; j < n; ++j) f[j] += z.real() * load.real[j];
             if (harmonic == 0) break;
@@ -163,6 +205,27 @@ void ExactFlow::expand_forces(double time, double duration) {
             z *= std::complex<double>(0.0, step / static_cast<double>(k + 1));
         }
     }
+    expand_offsets();
+    still_.reset(model_->n_pairs(), model_->n_following() > 0 ? n_terms_ : 1);
+    if (model_->n_pairs() == 0) return;
+    std::copy_n(offset_.data(), still_.rows() * still_.cols(), still_.data());
+    system_.add_contact(still_, contact_force_);
+    for (std::int64_t k = 0; k < still_.cols(); ++k) {
+        gemv('T', -1.0, model_->gap(), contact_force_.col(k), 0.0, following_.data());
+        for (std::int64_t j = 0; j < model_->n_moving(); ++j) force_(j, k) += following_[j];
+    }
+}
+
+// Penetrations with the moving coordinates at zero, without contact forces.
+void ExactFlow::expand_offsets() {
+    const std::int64_t moving = model_->n_moving(), n = model_->n_following(), z = model_->n_pairs();
+    offset_.reset(z, n_terms_);
+    std::fill(following_.begin(), following_.end(), 0.0);
+    for (std::int64_t k = 0; k < n_terms_ && n > 0 && z > 0; ++k) {
+        for (std::int64_t j = moving; j < moving + n; ++j) following_[j] = force_(j, k) / model_->lambda()[j];
+        gemv('N', 1.0, model_->gap(), following_.data(), 0.0, offset_.col(k));
+    }
+    for (std::int64_t i = 0; i < z; ++i) offset_(i, 0) -= model_->initial_gap()[i];
 }
 
 // The contact set that the motion itself confirms: each pair on the side to which it first moves away from

@@ -35,6 +35,10 @@ class ExactFlow {
     /// PLM_ERR_ARGUMENT for wrong sizes, NaN or Inf; PLM_CANCELLED.
     void advance(FlowState &state, double t_end, FlowRecorder *recorder = nullptr);
 
+    /// Gives the coordinates without mass what the others and the forces make of them: velocities, and the
+    /// displacements of those that follow at once.
+    void complete(FlowState &state);
+
     const FlowModel &model() const { return *model_; }
     double omega() const { return omega_; }
     double period() const { return 2 * M_PI / omega_; }
@@ -58,6 +62,8 @@ class ExactFlow {
     double flops_of_piece() const;
     void expand(const FlowState &state, double duration);
     void expand_forces(double time, double duration);
+    void expand_offsets();
+    void follow();
     bool correct_sides(const FlowState &state, double duration);
     Side side_of(std::int64_t pair, double noise) const;
     double first_event(std::int64_t &pair);
@@ -72,8 +78,8 @@ class ExactFlow {
     vector<char> closed_, at_zero_; // at_zero_: its zero was just located
     vector<double> row_norm_, noise_;
     std::vector<Side> sides_;
-    Matrix coefficient_, force_, penetration_, shortened_;
-    vector<double> polynomial_;
+    Matrix coefficient_, force_, offset_, still_, penetration_, contact_force_, shortened_;
+    vector<double> polynomial_, following_;
     std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_ = 0, stalled_ = 0;
     double events_left_ = 0;
 };

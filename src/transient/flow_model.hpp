@@ -1,7 +1,11 @@
 // A reduced model in the time domain: y'' + C y' + diag(lambda) y = F_preload + F(t) - G^T max(k_n u, 0),
 // u = G y - g, in mass-normalised coordinates. Harmonic balance may use two sets of coordinates, P for
-// h >= 1 and P_0 for h = 0; a flow needs one. P_0 spans P and is M-orthonormal with a diagonal stiffness too,
-// so the flow lives in P_0, and T = P_0^T M P (orthonormal columns) takes dynamic coordinates to its own.
+// h >= 1 and P_0 for h = 0; a flow needs one. P_0 spans P and has diagonal m and k too, so the flow lives in
+// P_0, and T (static_coordinates_of) takes dynamic coordinates to its own.
+//
+// Coordinates without mass come last. They are turned so that their own damping is diagonal: those with
+// damping relax (c y' + k y = f: their displacement is a state), those without follow at once (k y = f: no
+// state, a flexibility at the contact).
 #pragma once
 #include "reduction/reduced_model.hpp"
 
@@ -23,16 +27,23 @@ class FlowModel {
     explicit FlowModel(std::shared_ptr<const ReducedModel> reduced, double omega = 0);
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda_.size()); }
-    std::int64_t n_pairs() const { return gap_->rows(); }
+    std::int64_t n_massive() const { return size() - n_relaxing_ - n_following_; } // the first ones
+    std::int64_t n_moving() const { return size() - n_following_; } // and those that relax: in the state
+    std::int64_t n_following() const { return n_following_; }
+    std::int64_t state_size() const { return n_moving() + n_massive(); } // displacements, velocities
+    double mass(std::int64_t j) const { return j < n_massive() ? 1.0 : 0.0; }
+    std::int64_t n_pairs() const { return gap_.rows(); }
     const ReducedModel &reduced() const { return *reduced_; }
 
     const vector<double> &lambda() const { return lambda_; } // n
     bool has_diagonal_damping() const { return damping_.empty(); }
     const vector<double> &damping_diagonal() const { return damping_diagonal_; } // n, when diagonal
     const Matrix &damping() const { return damping_; }                           // n x n, when not
-    double damping_trace() const;
-    const Matrix &gap() const { return *gap_; } // Z x n
-    const vector<double> &preload() const { return reduced_->preload_0; }
+    double damping_trace() const;                                                // over a mass of 1
+    const Matrix &gap() const { return gap_; }                                   // Z x n
+    /// What the coordinates that follow do at the contact: Z x Z, empty without them.
+    const Matrix &flexibility() const { return flexibility_; }
+    const vector<double> &preload() const { return preload_; }
     const std::map<int, HarmonicLoad> &excitation() const { return excitation_; } // n each, h = 0 too
     const vector<double> &contact_stiffness() const { return reduced_->contact_stiffness; }
     const vector<double> &initial_gap() const { return reduced_->initial_gap; }
@@ -45,18 +56,25 @@ class FlowModel {
     vector<double> dof_row(std::int64_t dof) const;
     /// q over all DOFs of the model (n_dof).
     vector<double> field(const vector<double> &y) const;
+    /// y in the coordinates of P_0, and back.
+    vector<double> in_static_coordinates(const vector<double> &y) const;
+    vector<double> from_static_coordinates(const vector<double> &y) const;
 
   private:
     void find_coordinates();
     void project_loads();
     void add_structural_damping(double omega);
     void project_damping();
+    void sort_massless();
+    double least_damping() const;
+    void turn_damping();
 
     std::shared_ptr<const ReducedModel> reduced_;
     Matrix to_flow_; // T: n x r; empty when the coordinates are the dynamic ones
-    const Matrix *gap_ = nullptr;
-    vector<double> lambda_, damping_diagonal_;
-    Matrix damping_;
+    Matrix turn_; // of the last coordinates: those of P_0 = turn times the flow's; empty: they all have mass
+    Matrix gap_, flexibility_, damping_;
+    vector<double> lambda_, damping_diagonal_, preload_;
+    std::int64_t n_relaxing_ = 0, n_following_ = 0;
     std::map<int, HarmonicLoad> excitation_;
 };
 

@@ -15,14 +15,16 @@ namespace {
 // here.
 constexpr double longest_series = 3.0;
 
-// The exponential of [0 I; -K -C] applied to matrices [Y; V] of n + n rows and 2n columns. With T_k the
-// Taylor terms of Y, T_{k+2} = -dt^2 / ((k + 1)(k + 2)) K T_k - dt / (k + 2) C T_{k+1}: one n x n by n x 2n
-// product a term, two when C is not diagonal, that is 4 n^3 (8 n^3) flops.
+// The exponential of [0 I; -K -C] applied to matrices [Y; V] of n + m rows and n + m columns, n displacements
+// of which the first m have mass and a velocity. With T_k the Taylor terms of Y, T_{k+2} = -dt^2 / ((k + 1)(k
+// + 2)) K T_k - dt / (k + 2) C T_{k+1}: one n x n by n x 2n product a term, two when C is not diagonal, that
+// is 4 n^3 (8 n^3) flops. What has no mass relaxes (ContactSet::relax) from term to term.
 class Exponential {
   public:
     Exponential(const FlowModel &model, double tolerance)
-        : model_(model), system_(model), n_(model.size()), tolerance_(tolerance), older_(n_, 2 * n_),
-          newer_(n_, 2 * n_), next_(n_, 2 * n_), y_(n_, 2 * n_), v_(n_, 2 * n_) {}
+        : model_(model), system_(model), n_(model.n_moving()), massive_(model.n_massive()),
+          size_(model.state_size()), tolerance_(tolerance), older_(n_, size_), newer_(n_, size_),
+          next_(n_, size_), y_(n_, size_), v_(n_, size_) {}
 
     void apply(const ContactInterval &interval, Matrix &m) {
         system_.assign(interval.closed);
@@ -40,7 +42,7 @@ class Exponential {
         series(std::ldexp(interval.duration, -squarings),
                n_terms(std::ldexp(x, -squarings), std::ldexp(tolerance_, -squarings)));
         join(step_);
-        square_.reset(2 * n_, 2 * n_);
+        square_.reset(size_, size_);
         for (int k = 0; k < squarings; ++k) {
             gemm('N', 'N', 1.0, step_, step_, 0.0, square_);
             std::swap(step_, square_);
@@ -51,8 +53,8 @@ class Exponential {
     }
 
     void set_identity(Matrix &m) const {
-        m.reset(2 * n_, 2 * n_);
-        for (std::int64_t j = 0; j < 2 * n_; ++j) m(j, j) = 1;
+        m.reset(size_, size_);
+        for (std::int64_t j = 0; j < size_; ++j) m(j, j) = 1;
     }
 
   private:
@@ -78,10 +80,11 @@ class Exponential {
     void series(double dt, std::int64_t n_terms) {
         if (dt == 0) return;
         worked(static_cast<double>(n_terms) * 4 * cube());
-        const std::int64_t size = 2 * n_ * n_;
+        const std::int64_t size = n_ * size_;
         std::copy_n(y_.data(), size, older_.data());
+        for (std::int64_t i = 0; i < size; ++i) newer_.data()[i] = dt * v_.data()[i];
+        relax(1, dt, older_, newer_);
         for (std::int64_t i = 0; i < size; ++i) {
-            newer_.data()[i] = dt * v_.data()[i];
             y_.data()[i] += newer_.data()[i];
             v_.data()[i] = newer_.data()[i]; // dt v is summed: sum of k T_k
         }
@@ -89,6 +92,7 @@ class Exponential {
             const double order = static_cast<double>(k);
             gemm('N', 'N', -dt * dt / (order * (order - 1)), system_.stiffness(), older_, 0.0, next_);
             subtract_damping(dt / order);
+            relax(k, dt, newer_, next_);
             for (std::int64_t i = 0; i < size; ++i) {
                 y_.data()[i] += next_.data()[i];
                 v_.data()[i] += order * next_.data()[i];
@@ -99,35 +103,48 @@ class Exponential {
         for (std::int64_t i = 0; i < size; ++i) v_.data()[i] /= dt;
     }
 
+    void relax(std::int64_t k, double dt, const Matrix &before, Matrix &next) const {
+        if (n_ == massive_) return;
+        for (std::int64_t j = 0; j < size_; ++j) system_.relax(k, dt, before.col(j), nullptr, next.col(j));
+    }
+
     void subtract_damping(double factor) {
         if (!model_.has_diagonal_damping()) {
-            gemm('N', 'N', -factor, model_.damping(), newer_, 1.0, next_);
+            if (damping_.empty()) damping_ = moving_part(model_.damping());
+            gemm('N', 'N', -factor, damping_, newer_, 1.0, next_);
             return;
         }
         const vector<double> &c = model_.damping_diagonal();
-        for (std::int64_t j = 0; j < 2 * n_; ++j)
+        for (std::int64_t j = 0; j < size_; ++j)
             for (std::int64_t i = 0; i < n_; ++i) next_(i, j) -= factor * c[i] * newer_(i, j);
     }
 
+    Matrix moving_part(const Matrix &c) const {
+        Matrix part(n_, n_);
+        for (std::int64_t j = 0; j < n_; ++j) std::copy_n(c.col(j), n_, part.col(j));
+        return part;
+    }
+
     void split(const Matrix &m) {
-        for (std::int64_t j = 0; j < 2 * n_; ++j) {
+        for (std::int64_t j = 0; j < size_; ++j) {
             std::copy_n(m.col(j), n_, y_.col(j));
-            std::copy_n(m.col(j) + n_, n_, v_.col(j));
+            std::copy_n(m.col(j) + n_, massive_, v_.col(j));
+            std::fill(v_.col(j) + massive_, v_.col(j) + n_, 0.0);
         }
     }
 
     void join(Matrix &m) const {
-        for (std::int64_t j = 0; j < 2 * n_; ++j) {
+        for (std::int64_t j = 0; j < size_; ++j) {
             std::copy_n(y_.col(j), n_, m.col(j));
-            std::copy_n(v_.col(j), n_, m.col(j) + n_);
+            std::copy_n(v_.col(j), massive_, m.col(j) + n_);
         }
     }
 
     const FlowModel &model_;
     ContactSet system_;
-    std::int64_t n_;
+    std::int64_t n_, massive_, size_;
     double tolerance_;
-    Matrix older_, newer_, next_, y_, v_, step_, square_;
+    Matrix older_, newer_, next_, y_, v_, step_, square_, damping_;
 };
 
 void check(const FlowModel &model, const ContactInterval &interval, std::int64_t index) {

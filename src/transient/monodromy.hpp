@@ -13,7 +13,8 @@ struct ContactInterval {
     vector<char> closed;
 };
 
-/// d(y, y') at the end / d(y, y') at the beginning, 2n x 2n, for a given sequence of contact sets;
+/// d(y, y') at the end / d(y, y') at the beginning for a given sequence of contact sets: square of order 2n,
+/// or FlowModel::state_size() where coordinates have no mass (y of those that move, y' of those with mass);
 /// `tolerance` bounds the truncation error of each interval. PLM_ERR_ARGUMENT for a wrong number of pairs or
 /// a duration that is not finite and >= 0.
 /// Cost of an interval of length dt, x = rate dt (contact_set.hpp): (12 + 5 x) 4 n^3 flops about, up to x =

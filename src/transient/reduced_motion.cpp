@@ -31,12 +31,13 @@ class ShareOfRun final : public Monitor {
     double n_pieces_, done_ = 0;
 };
 
-// In the norm of M, velocities against displacements as for the excitation's frequency.
-double distance(const FlowState &a, const FlowState &b, double omega) {
+// In the norm of M, velocities against displacements as for the excitation's frequency; without mass in that
+// of K.
+double distance(const FlowModel &model, const FlowState &a, const FlowState &b, double omega) {
     double sum = 0;
-    for (std::size_t j = 0; j < a.y.size(); ++j) {
-        const double dy = omega * (a.y[j] - b.y[j]), dv = a.v[j] - b.v[j];
-        sum += dy * dy + dv * dv;
+    for (std::int64_t j = 0; j < model.n_moving(); ++j) {
+        const double dy = a.y[j] - b.y[j], dv = a.v[j] - b.v[j], m = model.mass(j);
+        sum += (m > 0 ? omega * omega : model.lambda()[j]) * dy * dy + m * dv * dv;
     }
     return std::sqrt(sum);
 }
@@ -87,7 +88,7 @@ class ReducedMotion::March {
             Watch(&share_).step("exact flow", 0.0);
             recorder_.continue_at(static_cast<double>(periods_) * flow_.period() + part());
             flow_.advance(state_, begin_ + 0.25 * quarter * flow_.period(), &recorder_);
-            if (settling_.quarter(distance(state_, before_, flow_.omega()))) before_ = state_;
+            if (settling_.quarter(distance(flow_.model(), state_, before_, flow_.omega()))) before_ = state_;
         }
         state_.time = begin_;
         ++periods_;
@@ -121,7 +122,7 @@ const FlowState &ReducedMotion::present() {
         const ReducedModel &m = *reduced_;
         const StaticState rest =
             solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap});
-        state_ = {rest.coordinates, vector<double>(size(), 0.0), 0};
+        state_ = {flow_model_->from_static_coordinates(rest.coordinates), vector<double>(size(), 0.0), 0};
     }
     return state_;
 }
@@ -129,12 +130,12 @@ const FlowState &ReducedMotion::present() {
 void ReducedMotion::set_state(const double *q, const double *v) {
     const Model &model = *reduced_->model;
     FlowState state{vector<double>(size(), 0.0), vector<double>(size(), 0.0), 0};
-    vector<double> free(model.n_free()), momentum(model.n_free());
+    Matrix free(model.n_free(), 1);
     const auto project = [&](const double *all, vector<double> &coordinates) {
         if (!all) return;
         model.restrict_to_free(all, free.data());
-        multiply(model.mass(), free.data(), momentum.data());
-        gemv('T', 1.0, reduced_->static_vectors(), momentum.data(), 0.0, coordinates.data());
+        const Matrix c = static_coordinates_of(*reduced_, free);
+        coordinates = flow_model_->from_static_coordinates(vector<double>(c.data(), c.data() + size()));
     };
     project(q, state.y);
     project(v, state.v);

@@ -11,7 +11,7 @@ class ReducedMotion final : public Transient {
 
     bool is_reduced() const override { return true; }
     std::int64_t size() const override { return flow_model_->size(); }
-    void set_state(const double *q, const double *v) override; // their projection P_0^T M q
+    void set_state(const double *q, const double *v) override; // static_coordinates_of()
     void start_at(const HarmonicMotion &motion) override;
     void get_state(double *q, double *v) override;
     TransientRun run(const TransientOptions &options, const vector<std::int64_t> &observed,

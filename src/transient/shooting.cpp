@@ -11,19 +11,20 @@ constexpr std::int64_t first_march = 4; // periods; doubled each time
 
 class EnergyNorm {
   public:
-    explicit EnergyNorm(const ExactFlow &flow) : lambda_(flow.model().lambda()), omega_(flow.omega()) {}
-    double weight(std::int64_t j) const { return lambda_[j] + omega_ * omega_; }
+    explicit EnergyNorm(const ExactFlow &flow) : model_(flow.model()), omega_(flow.omega()) {}
+    // What follows is no state.
     double distance(const FlowState &a, const FlowState &b) const {
         double sum = 0;
-        for (std::size_t j = 0; j < lambda_.size(); ++j) {
+        for (std::int64_t j = 0; j < model_.n_moving(); ++j) {
             const double dy = a.y[j] - b.y[j], dv = a.v[j] - b.v[j];
-            sum += (lambda_[j] + omega_ * omega_) * dy * dy + dv * dv;
+            sum +=
+                (model_.lambda()[j] + model_.mass(j) * omega_ * omega_) * dy * dy + model_.mass(j) * dv * dv;
         }
         return std::sqrt(sum);
     }
 
   private:
-    const vector<double> &lambda_;
+    const FlowModel &model_;
     double omega_;
 };
 
@@ -77,28 +78,24 @@ Run run_once(ExactFlow &flow, const FlowState &start, std::int64_t periods) {
 
 // (I - M) step = end - start
 vector<double> newton_step(const FlowModel &model, const FlowState &start, const Run &run) {
-    const std::int64_t n = model.size();
+    const std::int64_t n = model.state_size(), moving = model.n_moving();
     Matrix a = monodromy(model, run.intervals);
-    vector<double> step(2 * n);
-    for (std::int64_t j = 0; j < n; ++j) {
-        step[j] = run.end.y[j] - start.y[j];
-        step[n + j] = run.end.v[j] - start.v[j];
-    }
-    for (std::int64_t j = 0; j < 2 * n; ++j)
-        for (std::int64_t i = 0; i < 2 * n; ++i) a(i, j) = (i == j ? 1.0 : 0.0) - a(i, j);
+    vector<double> step(n);
+    for (std::int64_t j = 0; j < moving; ++j) step[j] = run.end.y[j] - start.y[j];
+    for (std::int64_t j = 0; j < n - moving; ++j) step[moving + j] = run.end.v[j] - start.v[j];
+    for (std::int64_t j = 0; j < n; ++j)
+        for (std::int64_t i = 0; i < n; ++i) a(i, j) = (i == j ? 1.0 : 0.0) - a(i, j);
     RealLu lu;
     lu.factor(a);
-    lu.solve(step.data(), 1, 2 * n);
+    lu.solve(step.data(), 1, n);
     return step;
 }
 
-FlowState moved(const FlowState &state, const vector<double> &step, double factor) {
+FlowState moved(const FlowModel &model, const FlowState &state, const vector<double> &step, double factor) {
     FlowState next = state;
-    const std::size_t n = state.y.size();
-    for (std::size_t j = 0; j < n; ++j) {
-        next.y[j] += factor * step[j];
-        next.v[j] += factor * step[n + j];
-    }
+    const std::int64_t moving = model.n_moving();
+    for (std::int64_t j = 0; j < moving; ++j) next.y[j] += factor * step[j];
+    for (std::int64_t j = 0; j < model.n_massive(); ++j) next.v[j] += factor * step[moving + j];
     return next;
 }
 
@@ -128,7 +125,7 @@ void march(ExactFlow &flow, FlowState &state, std::int64_t periods) {
 bool improve(ExactFlow &flow, std::int64_t periods, FlowState &state, Run &run) {
     const vector<double> step = newton_step(flow.model(), state, run);
     for (double factor = 1; factor >= least_damping; factor *= 0.5) {
-        FlowState next = moved(state, step, factor);
+        FlowState next = moved(flow.model(), state, step, factor);
         Run next_run = run_once(flow, next, periods);
         if (!(next_run.distance < (1 - 0.25 * factor) * run.distance)) continue;
         state = std::move(next);
@@ -167,6 +164,7 @@ PeriodicOrbit periodic_orbit(ExactFlow &flow, const FlowState &start, const Shoo
         }
         keep_closer(run, state, best, orbit);
     }
+    flow.complete(orbit.state);
     orbit.converged = orbit.defect <= options.tolerance;
     orbit.multipliers = multipliers(monodromy(flow.model(), best.intervals));
     orbit.contact_history = std::move(best.intervals);

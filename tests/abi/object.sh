@@ -1,8 +1,9 @@
 #!/bin/sh
-# object.sh LIBPLM_SO SONAME "REQUIRED...": what the loader sees. REQUIRED are names of libraries, each an
+# object.sh LIBPLM_SO SONAME "REQUIRED..." [LIBPLM_A]: what the loader sees. REQUIRED are names of libraries, each an
 # extended regular expression ("-": no condition on NEEDED); besides them only the runtimes of the compilers are allowed.
+# LIBPLM_A: given where its own objects must have been compiled with stack protector and checked copies (preset release).
 set -eu
-library=$1 soname=$2 required=${3-}
+library=$1 soname=$2 required=${3-} hardened=${4-}
 dynamic=$(readelf -dW "$library")
 fail() { echo "$1"; exit 1; }
 
@@ -13,6 +14,13 @@ stack=$(readelf -lW "$library" | grep GNU_STACK) || fail "no GNU_STACK header: t
 printf '%s\n' "$stack" | grep -q RWE && fail "executable stack"
 readelf -lW "$library" | awk '$1 == "LOAD" && /RWE/ {exit 1}' || fail "a segment both writable and executable"
 nm -D --defined-only "$library" | grep -E ' [uVvWBDR] ' && fail "exports data or weak symbols"
+printf '%s\n' "$dynamic" | grep -qE 'BIND_NOW|FLAGS.* NOW' || fail "lazy binding: link with -z now"
+readelf -lW "$library" | grep -q GNU_RELRO || fail "no GNU_RELRO segment: link with -z relro"
+if [ -n "$hardened" ]; then # linalg/error.cpp formats text
+    imported=$(nm -A --undefined-only "$hardened" 2>/dev/null | grep ':error.cpp.o:')
+    printf '%s\n' "$imported" | grep -q __stack_chk_fail || fail "compiled without -fstack-protector-strong"
+    printf '%s\n' "$imported" | grep -q __vsnprintf_chk || fail "compiled without _FORTIFY_SOURCE"
+fi
 
 needed=$(printf '%s\n' "$dynamic" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p')
 echo "NEEDED:" $needed

@@ -41,7 +41,7 @@ def changed(path, old, new, name=None):
 def shared_object(name, code, *flags):
     (folder / f"{name}.c").write_text(code, encoding="utf-8")
     out = folder / f"{name}.so"
-    subprocess.run([cc, "-shared", "-fPIC", "-Wl,-soname,libplm.so.0", folder / f"{name}.c", *flags, "-o", out], check=True)
+    subprocess.run([cc, "-shared", "-fPIC", "-Wl,-soname,libplm.so.0,-z,now", folder / f"{name}.c", *flags, "-o", out], check=True)
     return out
 
 
@@ -78,6 +78,10 @@ refused("abi.object", "a run path", "a run path of the build machine", *objects,
         shared_object("rpath", plain, "-Wl,-rpath,/home/me"), "libplm.so.0", "-")
 refused("abi.object", "exported data", "exports data", *objects,
         shared_object("data", plain + "int plm_counter = 1;\n"), "libplm.so.0", "-")
+refused("abi.object", "lazy binding", "lazy binding", *objects,
+        shared_object("lazy", plain, "-Wl,-z,lazy"), "libplm.so.0", "-")
+refused("abi.object", "a segment that stays writable", "no GNU_RELRO", *objects,
+        shared_object("norelro", plain, "-Wl,-z,norelro"), "libplm.so.0", "-")
 refused("abi.object", "a library more than is known", "also needs: libcholmod|also needs: libm|also needs", *objects,
         shared_object("needs", plain, "-Wl,--no-as-needed", "-lopenblas"), "libplm.so.0", "")
 refused("install.symbols", "an export that is not plm_", "^helper|T helper", "sh", tests / "install/symbols.sh",

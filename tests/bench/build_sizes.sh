@@ -37,10 +37,10 @@ row() {
     strip -o "$shared" "$folder/$1/src/libplm.so"
     exported=$(nm -D --defined-only "$shared" | grep -c ' T plm_')
     # shellcheck disable=SC2086
-    link "$1" host -larpack $3 ${4:+-lfftw3} -lopenblas -lstdc++ -lm -lpthread
+    link "$1" host -larpack -lopenblas -lstdc++ -lm -lpthread
     # shellcheck disable=SC2086
-    link "$1" host_static -static-libgcc -Wl,-Bstatic -larpack ${4:+-lfftw3} -lopenblas -lgfortran -lquadmath -lstdc++ \
-        -Wl,-Bdynamic $3 -lm -lpthread
+    link "$1" host_static -static-libgcc -Wl,-Bstatic -larpack -lopenblas -lgfortran -lquadmath -lstdc++ \
+        -Wl,-Bdynamic -lm -lpthread
     left=$(readelf -d "$folder/$1/host_static" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p' | tr '\n' ' ')
     echo "| $2 | $(kilobytes "$shared") | $exported | $(kilobytes "$folder/$1/host") |" \
         "$(functions "$folder/$1/host.named") | $(kilobytes "$folder/$1/host_static") | $left|"

@@ -84,8 +84,10 @@ static peak_of find_peak(const plate *p, plm_basis *basis, int64_t n_harmonics) 
 }
 
 static void estimate(const plate *p, const peak_of *top, double *amplitude, double *hz) {
-    DONE(plm_hbm_estimate_error(top->hbm, top->point, 0, p->host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0,
-                                amplitude, hz));
+    const plm_status status = plm_hbm_estimate_error(top->hbm, top->point, 0, p->host->output_dof,
+                                                     PLM_HALF_PEAK_TO_PEAK, 0, amplitude, hz);
+    if (status != PLM_WARNING)
+        DONE(status); /* a warning: some parts are NaN, since their steps do not contract */
 }
 
 /* a[0] + a[1] against the true difference of the peaks */
@@ -107,8 +109,9 @@ static void basis_errors_are_right(const plate *p) {
             if (relative < 0.01 && relative > 1e-8) {
                 assert_true(close_to(estimated, missing, 0.2));
                 ++compared;
-            } else if (relative >= 0.01) { /* far off: the estimate must not say it is well */
-                assert_true(fabs(estimated) > 0.003 * truth.amplitude);
+            } else if (relative >=
+                       0.01) { /* far off: the estimate must not say it is well (NaN: it says nothing) */
+                assert_true(!(fabs(estimated) <= 0.003 * truth.amplitude));
             }
         }
     assert_true(compared >= 2);

@@ -312,17 +312,43 @@ static void destroying_twice_or_nothing(void **state) {
     assert_int_equal(plm_model_destroy(&h.model), PLM_OK);
     assert_null(h.model);
     assert_int_equal(plm_model_destroy(&h.model), PLM_OK);
-    assert_int_equal(plm_model_destroy(&copy.model), PLM_ERR_HANDLE);
+    assert_int_equal(plm_model_destroy(&copy.model), PLM_OK); /* gone already */
+    assert_null(copy.model);
     assert_int_equal(plm_basis_destroy(&h.basis), PLM_OK);
-    assert_int_equal(plm_basis_destroy(&copy.basis), PLM_ERR_HANDLE);
+    assert_int_equal(plm_basis_destroy(&copy.basis), PLM_OK); /* gone already */
+    assert_null(copy.basis);
     assert_int_equal(plm_hbm_set_int(h.hbm, "n_harmonics", 3), PLM_OK);
     assert_int_equal(plm_sampler_set_int(h.sampler, "n_samples", 3), PLM_OK);
     assert_int_equal(plm_hbm_destroy(&h.hbm), PLM_OK);
-    assert_int_equal(plm_hbm_destroy(&copy.hbm), PLM_ERR_HANDLE);
+    assert_int_equal(plm_hbm_destroy(&copy.hbm), PLM_OK); /* gone already */
+    assert_null(copy.hbm);
     assert_int_equal(plm_sampler_destroy(&h.sampler), PLM_OK);
-    assert_int_equal(plm_sampler_destroy(&copy.sampler), PLM_ERR_HANDLE);
+    assert_int_equal(plm_sampler_destroy(&copy.sampler), PLM_OK); /* gone already */
+    assert_null(copy.sampler);
     assert_int_equal(plm_context_destroy(&h.context), PLM_OK);
-    assert_int_equal(plm_context_destroy(&copy.context), PLM_ERR_HANDLE);
+    assert_int_equal(plm_context_destroy(&copy.context), PLM_OK); /* gone already */
+    assert_null(copy.context);
+}
+
+/* In any order: the context first, and what was made in it afterwards, even when new objects have taken their
+ * places. */
+static void the_context_goes_first(void **state) {
+    handles h, next;
+    plm_branch *not_mine;
+    (void)state;
+    assert_true(make(&h));
+    assert_int_equal(plm_context_destroy(&h.context), PLM_OK);
+    assert_true(make(&next));
+    assert_int_equal(plm_model_set_int(h.model, "max_blocks", 3), PLM_ERR_HANDLE);
+    not_mine = (plm_branch *)(void *)h.model;
+    assert_int_equal(plm_branch_destroy(&not_mine), PLM_ERR_HANDLE);
+    assert_int_equal(plm_hbm_destroy(&h.hbm), PLM_OK);
+    assert_int_equal(plm_basis_destroy(&h.basis), PLM_OK);
+    assert_int_equal(plm_sampler_destroy(&h.sampler), PLM_OK);
+    assert_int_equal(plm_model_destroy(&h.model), PLM_OK);
+    assert_true(h.hbm == NULL && h.basis == NULL && h.sampler == NULL && h.model == NULL);
+    assert_int_equal(plm_model_set_int(next.model, "max_blocks", 3), PLM_OK); /* the others live */
+    plm_context_destroy(&next.context);
 }
 
 static void contexts_do_not_mix(void **state) {
@@ -346,6 +372,7 @@ int main(void) {
         cmocka_unit_test(wrong_kinds_are_refused),
         cmocka_unit_test(stale_handles_are_refused),
         cmocka_unit_test(destroying_twice_or_nothing),
+        cmocka_unit_test(the_context_goes_first),
         cmocka_unit_test(contexts_do_not_mix),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

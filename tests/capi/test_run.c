@@ -384,9 +384,14 @@ static void starts_with_other_harmonics_lead_to_the_same_solution(void **state) 
 static void few_points_truncate(void **state) {
     plm_branch *short_one = NULL;
     int64_t n = 0, reason = 0;
+    int32_t why = 0;
     (void)state;
     assert_int_equal(plm_hbm_set_int(hbm, "max_points", 3), PLM_OK);
     assert_int_equal(plm_hbm_sweep(hbm, &short_one), PLM_TRUNCATED);
+    assert_true(
+        refused(ctx, PLM_TRUNCATED, PLM_TRUNCATED, "plm_hbm_sweep", "", -1, "max_points reached; raise it"));
+    assert_int_equal(plm_context_get_error_info(ctx, NULL, &why, NULL, NULL), PLM_OK);
+    assert_int_equal(why, PLM_REASON_POINT_LIMIT);
     assert_int_equal(plm_branch_get_int(short_one, "n_points", &n), PLM_OK);
     assert_int_equal(plm_branch_get_int(short_one, "end_reason", &reason), PLM_OK);
     assert_true(n == 3 && reason == PLM_REASON_POINT_LIMIT);

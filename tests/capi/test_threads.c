@@ -59,7 +59,53 @@ static void contexts_run_at_once(void **state) {
     for (k = 0; k < THREADS; ++k) assert_memory_equal(&alone, &together[k], sizeof alone);
 }
 
+/* While one thread is inside a call, every other call of the context is refused: from that thread, inside a
+ * callback, and from another one, which is told so by a status of its own. */
+typedef struct {
+    plm_context *ctx;
+    plm_model *model;
+    plm_status inside, beside, destroyed;
+} caller;
+
+static void *from_another_thread(void *user) {
+    caller *c = (caller *)user;
+    plm_model *copy = c->model;
+    c->beside = plm_model_set_int(c->model, "max_blocks", 3);
+    c->destroyed = plm_model_destroy(&copy);
+    return NULL;
+}
+static int32_t from_a_callback(plm_context *ctx, const char *stage, double fraction, void *user) {
+    caller *c = (caller *)user;
+    pthread_t id;
+    (void)ctx, (void)stage, (void)fraction;
+    c->inside = plm_model_set_int(c->model, "max_blocks", 3);
+    if (pthread_create(&id, NULL, from_another_thread, c) == 0) pthread_join(id, NULL);
+    return 1;
+}
+
+static void a_busy_context_says_who_is_at_fault(void **state) {
+    caller c = {NULL, NULL, PLM_OK, PLM_OK, PLM_OK};
+    plm_model *other = NULL;
+    char text[300] = "";
+    (void)state;
+    assert_int_equal(plm_context_create(PLM_API_VERSION, &c.ctx), PLM_OK);
+    assert_int_equal(chain_built(c.ctx, 1, &c.model), PLM_OK);
+    assert_int_equal(plm_context_set_progress(c.ctx, from_a_callback, &c), PLM_OK);
+    assert_int_equal(chain_built(c.ctx, 1, &other), PLM_CANCELLED);
+    assert_int_equal(c.inside, PLM_ERR_STATE);
+    assert_int_equal(c.beside, PLM_ERR_BUSY);
+    assert_int_equal(c.destroyed, PLM_ERR_BUSY);
+    assert_int_equal(plm_status_text(PLM_ERR_BUSY, sizeof text, text, NULL), PLM_OK);
+    assert_non_null(strstr(text, "another thread"));
+    assert_non_null(strstr(text, "a context of its own"));
+    from_another_thread(&c);                   /* when the call is over, any thread may go on */
+    assert_int_equal(c.beside, PLM_ERR_STATE); /* built: no longer changes */
+    assert_int_equal(c.destroyed, PLM_OK);
+    plm_context_destroy(&c.ctx);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(contexts_run_at_once)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(contexts_run_at_once),
+                                       cmocka_unit_test(a_busy_context_says_who_is_at_fault)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -321,6 +321,20 @@ void solver_of_the_host() {
     CHECK(alive == 0);
 }
 
+void outcomes() {
+    plm::Context context;
+    plm_status status = PLM_OK;
+    std::string said;
+    context.on_outcome([&](plm_status s, std::string_view text) { status = s, said = text; });
+    plm::Hbm hbm(basis_of(built(context)));
+    CHECK(said.empty());
+    const plm::Branch curve = hbm.set("max_points", 3).sweep();
+    CHECK(curve.status() == PLM_TRUNCATED && status == PLM_TRUNCATED && curve.size() == 3);
+    CHECK(said.find("plm_hbm_sweep: max_points reached; raise it") == 0);
+    context.on_outcome([](plm_status, std::string_view) { throw OfTheHost{9}; });
+    CHECK(caught<OfTheHost>([&] { hbm.sweep(); }).what == 9);
+}
+
 std::int64_t blocks = 0;
 void memory_of_the_host() {
     {
@@ -338,6 +352,7 @@ void memory_of_the_host() {
 
 int main() {
     the_run();
+    outcomes();
     bases();
     studies();
     containers();

@@ -133,6 +133,13 @@ C     have lambda = 2.0D4
      1             'closed where the penetration is positive')
    20 CONTINUE
       CALL STUDY(MODEL, LHBM)
+      CALL PLMHSI(LHBM, 'max_points', 3, IERR)
+      CALL PLMHSW(LHBM, CURVE, IERR)
+      CALL CHECK(IERR .EQ. PLMTRU, 'truncated')
+      CALL PLMCET(LCTX, TEXT, IERR)
+      CALL CHECK(TEXT(1:25) .EQ. 'plm_hbm_sweep: max_points',
+     1           'text of an outcome')
+      CALL PLMHSI(LHBM, 'max_points', 1000, IERR)
       NSTOPS = 8
       CALL PLMCSP(LCTX, WATCH, IERR)
       CALL PLMHSW(LHBM, CURVE, IERR)

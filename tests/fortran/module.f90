@@ -88,6 +88,7 @@ contains
         call context%destroy()
         call model%build(stat, text)
         call check(stat == PLM_ERR_HANDLE .and. len_trim(text) > 0, 'a model whose context is gone: '//trim(text))
+        call model%destroy() ! went with its context: nothing left to do, in whatever order
     end subroutine errors
 
     ! one matrix in each of the forms
@@ -143,6 +144,7 @@ contains
         integer, allocatable :: iterations(:)
         integer(int64), allocatable :: wide(:)
         character(len=:), allocatable :: text
+        character(len=200) :: message
         integer :: n, h, i, severity, stat
         integer(int64) :: n64
         call context%create()
@@ -222,6 +224,10 @@ contains
         call small%build(stat)
         call check(stat == PLM_ERR_STATE, 'responses are forgotten')
         call check(logger%lines > 0, 'the logger was called')
+        call hbm%set('max_points', 3)
+        call hbm%sweep(curve, stat, message)
+        call check(stat == PLM_TRUNCATED .and. index(message, 'max_points reached') > 0, 'an outcome: '//trim(message))
+        call check(context%error_reason() == PLM_REASON_POINT_LIMIT, 'the reason of an outcome')
         call context%destroy()
     end subroutine whole_run
 

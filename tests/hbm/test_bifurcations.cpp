@@ -319,6 +319,64 @@ void neimark_sacker_points_agree_with_the_exact_flow(void **) {
         t.error, 1e-3)); // hits at a stiff stop converge slowly in H; the flow is exact for their instants
 }
 
+// The curve of folds through one fold of the response meets the other one at the same force, and passes the
+// cusp below; sweeps know nothing of it.
+exact::Structure folding_oscillator() {
+    return test::bilinear_oscillator(0.03, 4, 1, 0.1, 0);
+}
+struct FoldCurve {
+    double first = 0, last = 0, ends = 0, lowest = 0; // omega at both ends, their force, the smallest force
+    std::int32_t reason = 0;
+};
+FoldCurve fold_curve(std::size_t from, std::vector<double> &folds) {
+    HbmOptions o;
+    o.n_harmonics = 21;
+    const plm::Hbm hbm = solver(test::reduce_exactly(folding_oscillator()), o, 0.6, 1.9);
+    const BranchPtr curve = hbm.sweep();
+    const auto at = of_kind(*curve, PLM_BIFURCATION_FOLD);
+    for (std::int64_t i : at) folds.push_back(curve->points()[i].omega);
+    const auto tracked = hbm.track_fold(*curve, at.at(from), 0.3, 1.0);
+    FoldCurve f;
+    f.first = tracked->points().front().omega;
+    f.last = tracked->points().back().omega;
+    f.ends = std::min(tracked->points().front().force_scale, tracked->points().back().force_scale);
+    f.lowest = 1;
+    for (const plm::BranchPoint &p : tracked->points()) f.lowest = std::min(f.lowest, p.force_scale);
+    f.reason = tracked->end_reason;
+    return f;
+}
+void a_curve_of_folds_goes_to_both_sides(void **) {
+    for (std::size_t from : {0, 1}) {
+        std::vector<double> folds;
+        const FoldCurve f = fold_curve(from, folds);
+        assert_int_equal(folds.size(), 2);
+        assert_int_equal(f.reason, PLM_REASON_RANGE_END);
+        assert_true(f.ends == 1 && f.lowest < 0.7 && f.lowest > 0.3);
+        assert_true(close_to(std::min(f.first, f.last), std::min(folds[0], folds[1]), 1e-6));
+        assert_true(close_to(std::max(f.first, f.last), std::max(folds[0], folds[1]), 1e-6));
+    }
+}
+
+// With sampled forces the curve has a corner wherever a sample switches, and most folds are such corners.
+std::vector<double> outer_folds(plm::AftKind aft) {
+    HbmOptions o;
+    o.n_harmonics = 7;
+    o.aft = aft;
+    o.time_samples = 1024; // with 256 the upper fold is 1.006e-3 beside the exact one
+    o.stability = plm::StabilityKind::off;
+    const BranchPtr curve = solver(test::reduce_exactly(folding_oscillator()), o, 0.6, 1.9).sweep();
+    std::vector<double> folds;
+    for (std::int64_t i : of_kind(*curve, PLM_BIFURCATION_FOLD)) folds.push_back(curve->points()[i].omega);
+    if (folds.empty()) return {0, 0};
+    return {*std::min_element(folds.begin(), folds.end()), *std::max_element(folds.begin(), folds.end())};
+}
+void folds_are_found_with_sampled_forces(void **) {
+    const std::vector<double> exact = outer_folds(plm::AftKind::event),
+                              sampled = outer_folds(plm::AftKind::sampled);
+    assert_true(close_to(sampled[0], exact[0], 1e-3)); // one sample of 1024 is 1e-3 of the period
+    assert_true(close_to(sampled[1], exact[1], 1e-3));
+}
+
 // Hill's method against the exact flow, for the multipliers that matter (the largest).
 double hill_error(int harmonics) {
     const Model m = test::reduce_exactly(test::chain(3, 0.02, 5, 0.1, 0.3, 0.2, {0, 2}));
@@ -368,6 +426,8 @@ int main() {
         cmocka_unit_test(symmetry_breaking_is_exact_and_both_sides_are_found),
         cmocka_unit_test(the_doubled_response_repeats_after_two_periods),
         cmocka_unit_test(neimark_sacker_points_agree_with_the_exact_flow),
+        cmocka_unit_test(a_curve_of_folds_goes_to_both_sides),
+        cmocka_unit_test(folds_are_found_with_sampled_forces),
         cmocka_unit_test(hills_method_converges_to_the_multipliers_of_the_flow),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

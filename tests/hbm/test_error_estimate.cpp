@@ -123,6 +123,54 @@ void in_compliance_form_up_to_the_rigid_limit(void **) {
     assert_true(laws_differ);
 }
 
+// Stiff contact on a coarse basis: contact sets differ, and one tangent does not hold as far as its step
+// goes. What is told is then either the way to the unreduced curve, or nothing.
+struct Stiff {
+    int told = 0, refused = 0;
+    double left = 0; // of what is told, the worst distance from the unreduced curve over how far it went
+};
+Stiff stiff_points(double contact_stiffness, std::int64_t basis_harmonics) {
+    const Chains c = chains(contact_stiffness, false, basis_harmonics);
+    HbmOptions o = nine_harmonics();
+    o.formulation = plm::FormulationKind::penalty;
+    const plm::Hbm reduced = solver(c.reduced->reduced(), o, c.low_hz, c.high_hz),
+                   full = solver(c.full->reduced(), o, c.low_hz, c.high_hz);
+    Stiff s;
+    for (int k = 1; k < 8; ++k) {
+        const double hz = c.low_hz + (c.high_hz - c.low_hz) * k / 8;
+        const BranchPtr point = reduced.solve(hz, nullptr, 0);
+        const ErrorEstimate e =
+            ErrorEstimator(c.full->reduced(), *point, o).estimate(0, watched, measure, 0, false);
+        if (!e.known) {
+            ++s.refused;
+            s.left = std::isnan(e.amplitude.sum() + e.frequency_hz.sum()) ? s.left : 1e300;
+            continue;
+        }
+        const double a = amplitude(*point), by = e.amplitude.sum(),
+                     there = amplitude(*full.solve(hz + e.frequency_hz.sum(), nullptr, 0)),
+                     moved = std::hypot(by / a, e.frequency_hz.sum() / hz);
+        ++s.told;
+        std::printf("      at %.4g Hz told %.1e (%.1e in frequency), off the curve by %.1e\n", hz, by / a,
+                    e.frequency_hz.sum() / hz, std::abs(there - a - by) / a);
+        s.left = std::max(s.left, std::abs(there - a - by) / a / std::max(moved, 1e-8));
+    }
+    std::printf("    stiffness %.0e: %d told, %d refused, left %.1e\n", contact_stiffness, s.told, s.refused,
+                s.left);
+    return s;
+}
+void where_contact_is_stiff_the_estimate_is_right_or_none(void **) {
+    int told = 0, refused = 0;
+    double left = 0;
+    for (const std::int64_t basis_harmonics : {1, 3})
+        for (const double contact_stiffness : {200.0, 2e3}) {
+            const Stiff s = stiff_points(contact_stiffness, basis_harmonics);
+            told += s.told, refused += s.refused;
+            left = std::max(left, s.left);
+        }
+    assert_true(told > 0 && refused > 0);
+    assert_true(below(left, 0.3)); // the last step is a small part of the first one
+}
+
 // Of the unreduced structure itself only harmonics are missing.
 struct OfTheWhole {
     double basis = 1, harmonics = 0, missing = 0;
@@ -223,6 +271,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(corrected_points_lie_on_the_unreduced_curve),
         cmocka_unit_test(in_compliance_form_up_to_the_rigid_limit),
+        cmocka_unit_test(where_contact_is_stiff_the_estimate_is_right_or_none),
         cmocka_unit_test(of_the_unreduced_structure_only_harmonics_are_missing),
         cmocka_unit_test(on_a_branch_of_twice_the_period),
         cmocka_unit_test(motions_without_excitation_are_refused),

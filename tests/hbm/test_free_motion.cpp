@@ -4,7 +4,9 @@
 #include "hbm/trig_polynomial.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"
+#include <complex>
 #include <cstring>
+#include <string>
 
 using plm::UnknownSpace;
 
@@ -118,6 +120,93 @@ void loads_that_would_carry_it_away_are_refused(void **) {
     assert_int_equal(solver(pressed, UnknownSpace::automatic).sweep()->end_reason, PLM_REASON_RANGE_END);
 }
 
+// The pair of masses beside a wall: no spring but the stop would ever hold it.
+Model beside_a_wall(double wall) {
+    Model m = in_free_flight();
+    for (std::int64_t j = 0; j < m->size(); ++j) m->gap(0, j) = m->gap_0(0, j) = m->vectors(1, j);
+    m->initial_gap[0] = wall;
+    return m;
+}
+
+// Out of reach: the linear motion about the place where the model stands, wherever the sweep begins.
+// X = F / (m1 + m2) / (-w^2 + i w c) for the centre, and for the right mass less what the spring makes of it.
+double right_mass_without_wall(double omega) {
+    const std::complex<double> d1(spring - left * omega * omega, omega * damping * left),
+        d2(spring - right * omega * omega, omega * damping * right);
+    return std::abs(force * spring / (d1 * d2 - spring * spring)); // Cramer's rule
+}
+struct Wall {
+    double mean = 0, amplitude = 0, stable = 1;
+    std::int32_t reason = 0;
+};
+Wall swept_beside_a_wall(UnknownSpace unknowns) {
+    const Model m = beside_a_wall(20);
+    const auto curve = solver(m, unknowns).sweep();
+    Wall w;
+    w.reason = curve->end_reason;
+    for (const plm::BranchPoint &p : curve->points()) {
+        const auto q = test::displacement(*m, p.eta_0, p.eta, 1);
+        w.mean = std::max(w.mean, std::abs(q[0]));
+        w.amplitude =
+            std::max(w.amplitude, std::abs(std::hypot(q[1], q[2]) / right_mass_without_wall(p.omega) - 1));
+        if (plm::stability_of(p) != 1) w.stable = 0;
+    }
+    return w;
+}
+void a_stop_out_of_reach_leaves_the_mean_position_at_zero(void **) {
+    for (UnknownSpace unknowns : {UnknownSpace::automatic, UnknownSpace::modal, UnknownSpace::gaps}) {
+        const Wall w = swept_beside_a_wall(unknowns);
+        assert_int_equal(w.reason, PLM_REASON_RANGE_END);
+        assert_true(below(w.mean, 1e-9));      // of amplitudes near 1
+        assert_true(below(w.amplitude, 1e-7)); // Newton's tolerance is 1e-9 of the force
+        assert_true(w.stable == 1);
+    }
+}
+
+// Within reach: the wall pushes, and nothing pushes back, until it is touched no more. The linear motion
+// again, as far away as it has to be.
+double reach_beside_a_near_wall(UnknownSpace unknowns, double omega) {
+    const Model m = beside_a_wall(0.1);
+    const auto alone = solver(m, unknowns).solve(omega / (2 * M_PI), nullptr, 0);
+    const auto q = test::displacement(*m, alone->points()[0].eta_0, alone->points()[0].eta, 1);
+    return q[0] + right_mass_without_wall(omega); // the furthest place
+}
+void a_wall_pushes_it_out_of_its_reach(void **) {
+    for (UnknownSpace unknowns : {UnknownSpace::modal, UnknownSpace::gaps})
+        for (double omega : {1.05, 1.3, 1.5})
+            assert_true(close_to(reach_beside_a_near_wall(unknowns, omega), 0.1, 1e-6));
+}
+
+// A mean force away from the wall: nothing ever holds it.
+std::string said_of_a_mean_force_away(UnknownSpace unknowns) {
+    const Model m = beside_a_wall(0.1);
+    m->excitation[0].real = {m->vectors(1, 0) > 0 ? -0.1 : 0.1, 0};
+    try {
+        solver(m, unknowns).solve(1.3 / (2 * M_PI), nullptr, 0);
+    } catch (const plm::Error &e) {
+        return e.what();
+    }
+    return "";
+}
+void a_mean_force_away_from_the_wall_is_told_of(void **) {
+    for (UnknownSpace unknowns : {UnknownSpace::modal, UnknownSpace::gaps}) {
+        const std::string said = said_of_a_mean_force_away(unknowns);
+        assert_true(said.find("nothing but its contacts holds") != std::string::npos);
+    }
+}
+
+// A mean force towards the wall holds it there: nothing is held at zero then, whichever way the search goes.
+void a_mean_force_presses_it_against_the_wall(void **) {
+    const Model m = beside_a_wall(0.1);
+    m->preload_0[0] =
+        2 / std::sqrt(left + right) * (m->vectors(1, 0) > 0 ? 1 : -1); // 2 on the centre of mass
+    for (UnknownSpace unknowns : {UnknownSpace::modal, UnknownSpace::gaps}) {
+        const auto one = solver(m, unknowns).solve(1.6 / (2 * M_PI), nullptr, 0);
+        const auto q = test::displacement(*m, one->points()[0].eta_0, one->points()[0].eta, 1);
+        assert_true(close_to(contact * (q[0] - 0.1), 2, 0.2)); // closed for most of the time
+    }
+}
+
 } // namespace
 
 int main() {
@@ -125,6 +214,10 @@ int main() {
         cmocka_unit_test(free_flight_is_the_motion_of_the_reduced_mass),
         cmocka_unit_test(its_sweep_is_stable_and_whole),
         cmocka_unit_test(loads_that_would_carry_it_away_are_refused),
+        cmocka_unit_test(a_stop_out_of_reach_leaves_the_mean_position_at_zero),
+        cmocka_unit_test(a_wall_pushes_it_out_of_its_reach),
+        cmocka_unit_test(a_mean_force_away_from_the_wall_is_told_of),
+        cmocka_unit_test(a_mean_force_presses_it_against_the_wall),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

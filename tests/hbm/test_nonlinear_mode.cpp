@@ -48,7 +48,7 @@ Errors against_closed_form(const plm::NonlinearMode &mode, double gap) {
         e.frequency = std::max(e.frequency, std::abs(p.omega / x.omega - 1));
         e.closed = std::max(e.closed, std::abs(mode.measures[i].closed_share - x.closed));
         e.energy = std::max(e.energy, std::abs(mode.measures[i].total / (0.5 * open_side * open_side) - 1));
-        e.damping = std::max(e.damping, std::abs(mode.damping_ratio[i]));
+        e.damping = std::max(e.damping, std::abs(p.damping_ratio));
         e.low = std::min(e.low, p.omega);
         e.high = std::max(e.high, p.omega);
     }
@@ -96,12 +96,13 @@ Damped preloaded() {
     Damped d;
     d.first_frequency = mode.branch->points().front().omega;
     d.last_frequency = mode.branch->points().back().omega;
-    d.first_damping = mode.damping_ratio.front();
+    d.first_damping = mode.branch->points().front().damping_ratio;
     d.first_energy = mode.measures.front().total;
     d.first_amplitude = mode.amplitude.front();
     d.first_share = mode.measures.front().closed_share;
     d.last_share = mode.measures.back().closed_share;
-    for (double x : mode.damping_ratio) d.least_damping = std::min(d.least_damping, x);
+    for (const plm::BranchPoint &p : mode.branch->points())
+        d.least_damping = std::min(d.least_damping, p.damping_ratio);
     return d;
 }
 void preload_keeps_contact_until_it_opens(void **) {
@@ -118,6 +119,78 @@ void preload_keeps_contact_until_it_opens(void **) {
     assert_true(d.least_damping > 0);
 }
 
+// Two masses, the second pressed against the ground by 0.5: the modes of [2 -1; -1 1 + k]. A stiff contact
+// only ends the motion of the second mass; the first stays the first, whatever the upper eigenvalue.
+struct Stiff {
+    double omega = 0, want = 0;
+};
+Stiff first_mode_on(double k) {
+    plm::NonlinearModeOptions o;
+    o.hbm.n_harmonics = 3;
+    o.mode = 1;
+    o.amplitude_min = 0.1, o.amplitude_max = 0.11; // the contact opens at about 0.5
+    const auto mode = plm::follow_nonlinear_mode(test::reduce_exactly(test::chain(2, 0, k, 0, 0, 0.5, {1})),
+                                                 o, plm::Watch());
+    const double trace = 3 + k, determinant = 1 + 2 * k;
+    return {mode.branch->points().front().omega,
+            std::sqrt(2 * determinant / (trace + std::sqrt(trace * trace - 4 * determinant)))};
+}
+void stiff_contact_does_not_change_the_mode_asked_for(void **) {
+    for (double k : {1.0, 1e3, 1e6, 1e9, 1e12}) {
+        const Stiff s = first_mode_on(k);
+        assert_true(close_to(s.omega, s.want, 1e-9)); // tolerance of the equations
+    }
+}
+
+// What the damping takes in a period, pi sum h w (a' C a + b' C b) w h, is what xi gives: 2 xi w M in the
+// place of C. The contact does no work over a period.
+struct Balance {
+    std::size_t points = 0;
+    double error = 0, first = 0, least = 1e300, most = 0, share = 1;
+};
+Balance energy_balance(const exact::Structure &s) {
+    plm::NonlinearModeOptions o;
+    o.hbm.n_harmonics = 9;
+    o.hbm.tolerance = 1e-11;
+    o.mode = 1;
+    const auto mode = plm::follow_nonlinear_mode(test::reduce_exactly(s), o, plm::Watch());
+    Balance b;
+    b.points = mode.branch->points().size();
+    for (const plm::BranchPoint &p : mode.branch->points()) {
+        std::vector<plm::vector<double>> q;
+        for (int i = 0; i < s.n; ++i)
+            q.push_back(test::displacement(mode.branch->reduced(), p.eta_0, p.eta, i));
+        double taken = 0, given = 0;
+        for (std::int64_t c = 1; c <= p.eta.cols(); ++c) {
+            const double h = static_cast<double>((c + 1) / 2);
+            for (int i = 0; i < s.n; ++i) {
+                given += 2 * p.damping_ratio * p.omega * h * h * s.mass[i] * q[i][c] * q[i][c];
+                for (int j = 0; j < s.n; ++j) taken += h * h * q[i][c] * s.damping[i * s.n + j] * q[j][c];
+            }
+        }
+        b.error = std::max(b.error, std::abs(given / taken - 1));
+        b.least = std::min(b.least, p.damping_ratio);
+        b.most = std::max(b.most, p.damping_ratio);
+    }
+    b.first = mode.branch->points().front().damping_ratio;
+    b.share = mode.measures.back().closed_share;
+    return b;
+}
+void damping_ratio_balances_the_energy(void **) {
+    // C = 2 zeta / w_1 K of the chain without its contact; the closed one: xi = phi' C phi / (2 w) to zeta^2
+    const double zeta = 0.002, w1 = 2 * std::sin(M_PI / 10), k = 2;
+    const double square = 2 * (1 + 2 * k) / (3 + k + std::sqrt((3 + k) * (3 + k) - 4 * (1 + 2 * k)));
+    const double ratio = 2 - square; // (2 - w^2) q_1 = q_2
+    const double linear =
+        zeta / w1 * (2 - 2 * ratio + ratio * ratio) / (1 + ratio * ratio) / std::sqrt(square);
+    const Balance b = energy_balance(test::chain(2, zeta, k, 0, 0, 0.5, {1}));
+    std::printf("    %zu points, xi %.3e to %.3e, linear %.3e; balance %.1e\n", b.points, b.least, b.most,
+                linear, b.error);
+    assert_true(close_to(b.first, linear, 1e-4)); // zeta^2
+    assert_true(below(b.error, 1e-7));
+    assert_true(b.share < 0.9 && b.most > 1.05 * b.least); // the contact opened, and xi told of it
+}
+
 } // namespace
 
 int main() {
@@ -125,6 +198,8 @@ int main() {
         cmocka_unit_test(bilinear_frequency_at_every_amplitude),
         cmocka_unit_test(gap_stiffens_as_the_exact_motion_does),
         cmocka_unit_test(preload_keeps_contact_until_it_opens),
+        cmocka_unit_test(stiff_contact_does_not_change_the_mode_asked_for),
+        cmocka_unit_test(damping_ratio_balances_the_energy),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -216,6 +216,23 @@ void soft_and_stiff_contact_converge(void **) {
     }
 }
 
+// Through the resonance into a hard stop: the upper branch leaves the range steeply, at the boundary itself.
+double last_frequency(double zeta, double high) {
+    const double resonance = 1 / (2 * zeta);
+    const auto m = test::reduce_exactly(test::bilinear_oscillator(zeta, 1e3, 0.3 * resonance, 1, 0));
+    HbmOptions o;
+    o.n_harmonics = 7;
+    o.upward = true;
+    o.stability = plm::StabilityKind::off;
+    const auto branch = solver(m, o, 0.8, high).sweep();
+    return branch->end_reason == PLM_REASON_RANGE_END ? branch->points().back().omega : -1;
+}
+void a_curve_that_ends_at_its_range_has_its_last_point_there(void **) {
+    for (double zeta : {5e-3, 5e-4})
+        for (double high : {1.26, 1.28, 1.3, 1.32, 1.34, 1.36, 1.38, 1.4})
+            assert_true(close_to(last_frequency(zeta, high), high, 1e-12));
+}
+
 } // namespace
 
 int main() {
@@ -224,6 +241,7 @@ int main() {
         cmocka_unit_test(forced_bilinear_oscillator_converges_to_the_exact_orbit),
         cmocka_unit_test(chain_agrees_with_exact_time_marching),
         cmocka_unit_test(sweeps_pass_folds_in_both_directions),
+        cmocka_unit_test(a_curve_that_ends_at_its_range_has_its_last_point_there),
         cmocka_unit_test(response_without_preload_is_proportional_to_the_force),
         cmocka_unit_test(soft_and_stiff_contact_converge),
     };

@@ -131,6 +131,14 @@ void check_derivatives(std::shared_ptr<ReducedModel> m) {
 void jacobians_match_differences(void **) {
     check_derivatives(chain_model());
 }
+std::shared_ptr<ReducedModel> with_a_massless_coordinate() {
+    auto m = chain_model();
+    m->n_massless = m->n_massless_0 = 1;
+    return m;
+}
+void jacobians_match_without_mass(void **) {
+    check_derivatives(with_a_massless_coordinate());
+}
 void jacobians_match_with_full_damping(void **) {
     check_derivatives(with_full_damping());
 }
@@ -164,7 +172,8 @@ void jacobians_match_with_self_excitation(void **) {
 
 // With more equations: phase resonance (parameter: the force), nonlinear modes (parameter: log amplitude).
 void jacobians_with_more_equations_match_differences(void **) {
-    for (const auto &m : {chain_model(), with_full_damping(), with_static_basis()}) {
+    for (const auto &m :
+         {chain_model(), with_full_damping(), with_static_basis(), with_a_massless_coordinate()}) {
         const auto inner = system_of(m, 4, UnknownSpace::modal);
         plm::vector<double> x = random_point(*inner, *m, 0.7);
         x.push_back(0.1);
@@ -174,7 +183,7 @@ void jacobians_with_more_equations_match_differences(void **) {
         assert_true(below(omega_derivative_error(resonance, x, 0.9), 1e-7));
         x.push_back(0.03);
         plm::vector<double> shape(m->size(), 0.3);
-        plm::NonlinearModeSystem mode(*inner, m->size(), shape, 0.65, 2.5);
+        plm::NonlinearModeSystem mode(*inner, *m, shape, 0.65, 2.5);
         assert_true(below(solution_error(mode, x, 0.2, 1e-7), 1e-5));
     }
 }
@@ -456,6 +465,7 @@ void open_and_closed_contact_are_linear(void **) {
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(jacobians_match_differences),
+        cmocka_unit_test(jacobians_match_without_mass),
         cmocka_unit_test(jacobians_match_with_full_damping),
         cmocka_unit_test(jacobians_match_with_structural_damping),
         cmocka_unit_test(jacobians_match_with_a_static_basis),

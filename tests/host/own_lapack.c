@@ -1,4 +1,4 @@
-/* A host with its own ARPACK, LAPACK and FFTW: here they abort, so that any captured call is seen. */
+/* A host with its own ARPACK, LAPACK, CHOLMOD and FFTW: here they abort, so that any captured call is seen. */
 #include "whole_run.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,6 +16,12 @@ OWN(dsyevd_)
 OWN(dsygvd_)
 OWN(dgesdd_)
 OWN(zgetrf_)
+OWN(dpotrf_)
+OWN(dgemm_)
+OWN(cholmod_l_start)
+OWN(cholmod_l_analyze)
+OWN(SuiteSparse_malloc)
+OWN(GOMP_parallel)
 OWN(fftw_execute)
 
 int main(void) {

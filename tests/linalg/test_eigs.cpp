@@ -1,5 +1,6 @@
 // Lowest eigenpairs against dense solutions and closed forms.
 #include "linalg/eigs.hpp"
+#include "linalg/eigs_internal.hpp"
 #include "linalg/lapack.hpp"
 #include "support.hpp"
 
@@ -50,7 +51,7 @@ vector<double> membrane_values(std::int64_t nx, std::int64_t ny, bool fixed = tr
     return values;
 }
 
-void arpack_agrees_with_lapack_on_random_pencils(void **) {
+void lanczos_agrees_with_lapack_on_random_pencils(void **) {
     for (std::uint64_t seed : {1, 2, 3}) {
         const std::int64_t n = 300;
         const SparseMatrix k = random_definite(n, seed), m = random_definite(n, seed + 100);
@@ -59,6 +60,25 @@ void arpack_agrees_with_lapack_on_random_pencils(void **) {
             const auto e = lowest(k, m, 0, count);
             assert_int_equal(e.values.size(), count);
             assert_true(worst_error(k, m, e, exact.values) < 1e-10);
+        }
+    }
+}
+
+/// The two methods for the same pencils, each alone, against the closed form.
+void arpack_and_lanczos_agree(void **) {
+    for (std::int64_t n : {15, 40}) {
+        const SparseMatrix k = membrane(n, n - 1), m = unit_mass(n * (n - 1));
+        const auto factor = plm::make_factor(k, plm::FactorKind::positive_definite);
+        const plm::EigsOptions options;
+        const plm::Pencil pencil{k, m, *factor, 0, options, {}};
+        const plm::KrylovRequest request{6, 26, 0, 300, 1};
+        for (const auto &run : {plm::run_arpack, plm::run_lanczos}) {
+            plm::KrylovResult result = run(pencil, request);
+            std::sort(result.pairs.values.begin(), result.pairs.values.end());
+            assert_true(result.end == plm::KrylovEnd::converged);
+            assert_int_equal(result.pairs.values.size(), 6);
+            const vector<double> exact = membrane_values(n, n - 1);
+            for (int j = 0; j < 6; ++j) assert_true(std::fabs(result.pairs.values[j] / exact[j] - 1) < 1e-11);
         }
     }
 }
@@ -74,9 +94,9 @@ void double_eigenvalues_of_a_square_membrane_come_in_pairs(void **) {
     }
 }
 
-/// With a loose tolerance ARPACK converges before its rounding errors show it the second copies: six values
-/// requested from it alone end with one that is 30 % too high.
-void a_copy_that_arpack_misses_is_put_in(void **) {
+/// With a loose tolerance a Lanczos process converges before its rounding errors show it the second copies:
+/// six values requested from it alone end with one that is 30 % too high.
+void a_copy_that_lanczos_misses_is_put_in(void **) {
     for (std::int64_t n : {20, 40}) {
         const SparseMatrix k = membrane(n, n), m = unit_mass(n * n);
         const vector<double> exact = membrane_values(n, n);
@@ -111,7 +131,7 @@ void many_equal_copies_are_all_found(void **) {
 }
 
 void rigid_modes_are_found_with_a_negative_shift(void **) {
-    for (std::int64_t n : {6, 25}) { // dense and ARPACK
+    for (std::int64_t n : {6, 25}) { // dense and Lanczos
         const SparseMatrix k = membrane(n, n, false), m = unit_mass(n * n);
         const auto e = lowest(k, m, -0.01, 9);
         assert_true(std::fabs(e.values[0]) < 1e-12);
@@ -136,7 +156,7 @@ vector<double> condensed_values(const SparseMatrix &k, const vector<double> &mas
 }
 
 void massless_dofs_carry_no_mode(void **) {
-    for (std::int64_t n : {7, 18}) { // dense and ARPACK
+    for (std::int64_t n : {7, 18}) { // dense and Lanczos
         const SparseMatrix k = membrane(n, n);
         vector<double> mass(n * n);
         for (std::int64_t i = 0; i < n * n; ++i)
@@ -195,9 +215,10 @@ void two_runs_give_the_same_bits(void **) {
 
 int main() {
     const CMUnitTest tests[] = {
-        cmocka_unit_test(arpack_agrees_with_lapack_on_random_pencils),
+        cmocka_unit_test(lanczos_agrees_with_lapack_on_random_pencils),
+        cmocka_unit_test(arpack_and_lanczos_agree),
         cmocka_unit_test(double_eigenvalues_of_a_square_membrane_come_in_pairs),
-        cmocka_unit_test(a_copy_that_arpack_misses_is_put_in),
+        cmocka_unit_test(a_copy_that_lanczos_misses_is_put_in),
         cmocka_unit_test(many_equal_copies_are_all_found),
         cmocka_unit_test(rigid_modes_are_found_with_a_negative_shift),
         cmocka_unit_test(massless_dofs_carry_no_mode),

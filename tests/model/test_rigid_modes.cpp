@@ -122,6 +122,119 @@ void singular_stiffness_shows_with_any_solver(void **) {
     assert_int_equal(model.rigid_modes().cols(), 1);
 }
 
+// --- fine meshes: the first elastic eigenvalue comes near the rounding of the matrices
+
+struct Triplets {
+    std::vector<std::int32_t> i, j;
+    std::vector<double> v;
+    void add(int row, int column, double value) { // lower triangle
+        i.push_back(std::max(row, column)), j.push_back(std::min(row, column)), v.push_back(value);
+    }
+    std::shared_ptr<const plm::MatrixInput> matrix(int n) const {
+        plm::MatrixFormat f;
+        f.n = n, f.nnz = static_cast<std::int64_t>(v.size());
+        f.storage = PLM_TRIPLETS, f.part = PLM_LOWER, f.negative_diagonal = true;
+        return std::make_shared<const plm::MatrixInput>(f, i.data(), j.data(), v.data());
+    }
+};
+
+struct Body {
+    Triplets m, k;
+    int n = 0;
+    // n masses in a row, springs k; returns the first DOF
+    int chain(int masses, double stiffness, double mass = 1) {
+        const int first = n;
+        for (int a = 0; a < masses; ++a) m.add(first + a, first + a, mass);
+        for (int a = 0; a + 1 < masses; ++a) spring(first + a, first + a + 1, stiffness);
+        n += masses;
+        return first;
+    }
+    void spring(int a, int b, double stiffness) {
+        k.add(a, a, stiffness), k.add(b, b, stiffness), k.add(a, b, -stiffness);
+    }
+    // Euler-Bernoulli elements of a free beam of length 1: deflection and rotation at every node
+    void beam(int elements, double bending, double mass, double length) {
+        const double h = length / elements, a = bending / (h * h * h), b = mass * h / 420;
+        const double ke[4][4] = {{12, 6, -12, 6}, {6, 4, -6, 2}, {-12, -6, 12, -6}, {6, 2, -6, 4}};
+        const double me[4][4] = {{156, 22, 54, -13}, {22, 4, 13, -3}, {54, 13, 156, -22}, {-13, -3, -22, 4}};
+        for (int e = 0; e < elements; ++e)
+            for (int r = 0; r < 4; ++r)
+                for (int c = 0; c <= r; ++c) {
+                    const double turn = (r % 2 ? h : 1) * (c % 2 ? h : 1);
+                    k.add(2 * e + r, 2 * e + c, a * turn * ke[r][c]);
+                    m.add(2 * e + r, 2 * e + c, b * turn * me[r][c]);
+                }
+        n = 2 * (elements + 1);
+    }
+    ModelInput input() const {
+        ModelInput in;
+        in.n_dof = n;
+        in.mass = m.matrix(n), in.stiffness = k.matrix(n);
+        return in;
+    }
+};
+
+double first_of_chain(int n, double k) {
+    return 4 * k * std::pow(std::sin(M_PI / (2 * n)), 2);
+}
+
+void a_free_chain_of_ten_thousand_masses(void **) {
+    const int n = 10000;
+    Body body;
+    body.chain(n, 1e9);
+    ModelInput in = body.input();
+    std::vector<double> first(n);
+    first[0] = 1;
+    test::add_pair(in, first, PLM_AUTO_STIFFNESS);
+    const auto m = test::build(in);
+    assert_int_equal(m->rigid_modes().cols(), 1);
+    assert_true(close_to(m->shift(), 1e-2 * first_of_chain(n, 1e9), 1e-6));
+    double end = 0; // elastic flexibility of the end, sum phi^2 / lambda
+    for (int p = 1; p < n; ++p) {
+        const double lambda = 4e9 * std::pow(std::sin(p * M_PI / (2 * n)), 2);
+        end += 2.0 / n * std::pow(std::cos(p * M_PI / (2 * n)), 2) / lambda;
+    }
+    assert_true(
+        close_to(m->local_stiffness(), 1 / end, 0.02)); // sigma is 1 % of the first elastic eigenvalue
+}
+
+std::int64_t rigid_modes_held_by(int n, double share) {
+    Body body;
+    body.chain(n, 1e9);
+    body.k.add(0, 0, share * 1e9);
+    return test::build(body.input())->rigid_modes().cols();
+}
+void a_soft_support_is_one(void **) {
+    for (int n : {10, 1000, 10000}) assert_int_equal(rigid_modes_held_by(n, 1e-6), 0);
+    assert_int_equal(rigid_modes_held_by(10, 1e-10), 0);
+}
+
+std::int64_t rigid_modes_of_beam(int elements, double bending, double mass, double length) {
+    Body body;
+    body.beam(elements, bending, mass, length);
+    return test::build(body.input())->rigid_modes().cols();
+}
+void rotations_beside_translations_in_any_units(void **) {
+    for (int elements : {10, 300, 1000}) {
+        assert_int_equal(rigid_modes_of_beam(elements, 175, 0.78, 1), 2);         // m, N, kg
+        assert_int_equal(rigid_modes_of_beam(elements, 175e6, 0.78e-6, 1000), 2); // mm, N, t
+    }
+}
+
+// Bodies of rubber and steel; two of them joined by a penalty.
+std::int64_t rigid_modes_of_three(double penalty) {
+    Body body;
+    const int first = body.chain(50, 1), second = body.chain(80, 1e4, 5);
+    body.chain(30, 1e8, 0.1);
+    if (penalty > 0) body.spring(first + 49, second, penalty);
+    return test::build(body.input())->rigid_modes().cols();
+}
+void bodies_of_any_stiffness_and_penalties(void **) {
+    assert_int_equal(rigid_modes_of_three(0), 3);
+    assert_int_equal(rigid_modes_of_three(1), 2);
+    assert_int_equal(rigid_modes_of_three(1e10), 2);
+}
+
 } // namespace
 
 int main() {
@@ -133,6 +246,10 @@ int main() {
         cmocka_unit_test(loose_massless_part_is_refused),
         cmocka_unit_test(negative_stiffness_is_refused),
         cmocka_unit_test(singular_stiffness_shows_with_any_solver),
+        cmocka_unit_test(a_free_chain_of_ten_thousand_masses),
+        cmocka_unit_test(a_soft_support_is_one),
+        cmocka_unit_test(rotations_beside_translations_in_any_units),
+        cmocka_unit_test(bodies_of_any_stiffness_and_penalties),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -2,6 +2,7 @@
 import gc
 import signal
 import sys
+import threading
 import types
 import unittest
 
@@ -65,6 +66,24 @@ class Callbacks(unittest.TestCase):
         with self.assertRaises(plm.PlmError) as caught:
             self.sweep(call_in)
         self.assertEqual((caught.exception.status, caught.exception.function), (plm.ERR_STATE, "plm_basis_set_int"))
+
+    def test_another_thread(self):
+        """A context that another thread uses is not called too early or too late."""
+        def use():
+            try:
+                self.basis.set("n_harmonics", 3)
+            except plm.PlmError as error:
+                refused.append(error)
+
+        def call_beside(_stage, _fraction):
+            thread = threading.Thread(target=use)
+            thread.start()
+            thread.join()
+        refused = []
+        self.sweep(call_beside)
+        self.assertEqual({error.status for error in refused}, {plm.ERR_BUSY})
+        self.assertRegex(str(refused[0]), "^plm_basis_set_int: another thread is inside a call of this context; give each "
+                                          "thread a context of its own")
 
     def test_ctrl_c(self):
         def interrupt(stage, fraction):

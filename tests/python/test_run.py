@@ -49,7 +49,10 @@ class Run(unittest.TestCase):
         hbm["tolerance"] = numpy.float64(1e-7)
         self.assertEqual((hbm["max_points"], hbm.tolerance), (7, 1e-7))
         self.assertEqual(set(hbm.options()), {k.name for k in plm.keys(plm.KIND_HBM) if k.is_option})
-        self.assertEqual(hbm.sweep().status, plm.TRUNCATED)
+        with self.assertWarnsRegex(plm.PlmWarning, "^plm_hbm_sweep: max_points reached; raise it") as caught:
+            self.assertEqual(hbm.sweep().status, plm.TRUNCATED)
+        self.assertEqual(caught.filename, __file__)  # the line of the user, not one of the package
+        self.assertEqual((caught.warning.status, caught.warning.reason), (plm.TRUNCATED, plm.REASON_POINT_LIMIT))
 
     def test_options_of_every_handle(self):
         self.assertEqual(models.model(verify_counts=True, space_tolerance=1e-9).build().verify_counts, 1)

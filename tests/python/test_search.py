@@ -85,6 +85,9 @@ class Carrier(unittest.TestCase):
         self.assertTrue(first[-2] < 1.5)
         self.assertAlmostEqual(first[-1], 1.5, places=6)
         self.assertFalse(mode.point_force_scale.any())
+        self.assertEqual(len(mode.damping_ratio), len(mode))
+        self.assertTrue((mode.damping_ratio > 0).all())
+        self.assertEqual(len(self.curve.damping_ratio), 0)  # a driven motion has none
         # as long as it is closed: the linear mode about rest, and its energy
         rest_hz = self.basis.model.modes(2, "rest")
         self.assertLess(abs(mode.frequency_hz[0] / rest_hz[0] - 1), 1e-6)

@@ -23,12 +23,15 @@ std::shared_ptr<const plm::Model> make_model(const exact::Structure &s, const Mo
                                              const plm::SpaceOptions &options) {
     plm::ModelInput input;
     input.n_dof = s.n;
-    input.mass = to_input(s.n, [&](int i, int j) { return i == j ? s.mass[i] : 0.0; });
+    input.mass = to_input(s.n, [&](int i, int j) {
+        return !extras.mass.empty() ? extras.mass[i * s.n + j] : i == j ? s.mass[i] : 0.0;
+    });
     input.stiffness = to_input(s.n, [&](int i, int j) { return s.stiffness[i * s.n + j]; });
     if (extras.explicit_damping)
         input.damping_matrix = to_input(s.n, [&](int i, int j) { return s.damping[i * s.n + j]; });
     input.damping.alpha = extras.alpha;
     input.damping.beta = extras.beta;
+    input.damping.structural = extras.structural;
     input.damping.modal_ratio.assign(extras.modal_ratio.begin(), extras.modal_ratio.end());
     for (int p = 0; p < s.z; ++p)
         for (int j = 0; j < s.n; ++j) {

@@ -10,11 +10,13 @@
 namespace test {
 
 /// damping_ratios: modal damping instead of the structure's C when not empty; explicit_damping: C as a
-/// matrix.
+/// matrix; mass: n x n instead of the structure's diagonal when not empty.
 struct ModelExtras {
     std::vector<double> modal_ratio;
     double alpha = 0, beta = 0;
     bool explicit_damping = false;
+    double structural = 0;
+    std::vector<double> mass;
 };
 std::shared_ptr<const plm::Model> make_model(const exact::Structure &s, const ModelExtras &extras = {},
                                              const plm::SpaceOptions &options = {});

@@ -74,6 +74,32 @@ void ties_are_one_threshold(void **) {
     assert_true(alphas_reproduce(sweep, dv));
 }
 
+// A crack with its mirror image, each pair off by `asymmetry` of its twin's threshold: as many samples as the
+// half has, and twins closed together in all of them. 1e-5 apart they are two pairs.
+ContactSweep mirrored(double asymmetry) {
+    plm::vector<double> offset, dv;
+    for (int i = 0; i < 20; ++i)
+        for (int side = -1; side <= 1; side += 2) {
+            dv.push_back(1 + 0.3 * std::cos(2.0 * i));
+            offset.push_back((std::sin(1.0 + i * i) - 0.2) * dv.back() * (1 + 0.5 * side * asymmetry));
+        }
+    return plm::sweep_contact(offset, true, dv);
+}
+int torn_twins(const ContactSweep &sweep) {
+    int torn = 0;
+    for (const auto &sample : sweep.samples)
+        for (std::size_t i = 0; i < sample.size(); i += 2) torn += sample[i] != sample[i + 1];
+    return torn;
+}
+void twins_of_a_nearly_symmetric_mesh_switch_together(void **) {
+    for (double asymmetry : {0.0, 1e-12, 1e-9, 1e-8, 1e-7, 5e-7}) {
+        const ContactSweep sweep = mirrored(asymmetry);
+        assert_int_equal(sweep.samples.size(), 21);
+        assert_int_equal(torn_twins(sweep), 0);
+    }
+    assert_int_equal(mirrored(1e-4).samples.size(), 41);
+}
+
 void a_pair_that_hardly_moves_does_not_blur_the_others(void **) {
     // pair 2 switches at alpha = -1e8: 1e-9 of the range would be 0.1
     const ContactSweep sweep = plm::sweep_contact(numbers({1, 1.01, 1}), true, numbers({1, 1, 1e-8}));
@@ -155,6 +181,7 @@ int main() {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distinct_thresholds_give_z_plus_1_samples),
         cmocka_unit_test(ties_are_one_threshold),
+        cmocka_unit_test(twins_of_a_nearly_symmetric_mesh_switch_together),
         cmocka_unit_test(a_pair_that_hardly_moves_does_not_blur_the_others),
         cmocka_unit_test(motionless_pairs_never_switch),
         cmocka_unit_test(without_offset_all_pairs_switch_at_once),

@@ -17,7 +17,7 @@ std::shared_ptr<const plm::ReducedModel> reduced_with_static(const ModelExtras &
     const auto space = plm::make_contact_space(model, 3.0, 10, plm::Watch());
     Matrix first(space->size(), 4);
     for (int j = 0; j < 4; ++j) first(j, j) = 1;
-    const plm::Coordinates dynamic = plm::diagonalise_stiffness(*space, first);
+    const plm::Coordinates dynamic = plm::diagonalise(*space, first);
     return plm::project(*space, dynamic,
                         plm::make_static_basis(*space, dynamic, plm::solve_rest(*space).coordinates));
 }

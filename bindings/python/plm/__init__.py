@@ -23,7 +23,7 @@ import importlib
 
 from . import _c
 from ._context import Context, build_info, default_context, status_text, version
-from ._errors import PlmCancelled, PlmError, PlmKeyError
+from ._errors import PlmCancelled, PlmError, PlmKeyError, PlmWarning
 from ._handle import Key, keys
 from ._model import Finding, Model
 from ._motion import MotionState, Transient
@@ -34,7 +34,7 @@ from ._study import Study, StudyPoints
 __version__ = "0.1.0"
 __all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Transient", "Study", "Peak", "Isolated", "Bifurcation",
            "Energy", "ErrorEstimate", "ErrorParts", "Refined", "Contact", "MotionState", "StudyPoints", "Finding", "Key",
-           "PlmError", "PlmKeyError", "PlmCancelled", "build_info", "default_context", "keys", "plot", "status_text", "version"]
+           "PlmError", "PlmKeyError", "PlmCancelled", "PlmWarning", "build_info", "default_context", "keys", "plot", "status_text", "version"]
 
 _constants = [name for name in vars(_c) if name.isupper() and isinstance(getattr(_c, name), (int, float))]
 globals().update({name: getattr(_c, name) for name in _constants})  # plm.ERR_KEY, plm.REASON_SINGULAR, ...

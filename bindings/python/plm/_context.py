@@ -2,14 +2,17 @@
 import contextlib
 import ctypes
 import logging
+import pathlib
 import signal
+import sys
 import threading
+import warnings
 
 import numpy
 import scipy.sparse
 
 from . import _c
-from ._errors import make_error
+from ._errors import PlmWarning, make_error
 from ._handle import real_parts
 from ._progress import make_bar
 
@@ -171,10 +174,16 @@ class Context:
             return self._run(name, arguments)
 
     def finish(self, name, status, has_result=False):
-        """What `run` returned, or an exception; a cancelled call without a result is one, too."""
+        """What `run` returned, or an exception; a cancelled call without a result is one, too. Other outcomes above 0 are
+        PlmWarnings."""
         self._checked(name, status)
-        if status == _c.CANCELLED and not has_result:
-            self._fail(name, status)
+        if status == _c.CANCELLED:
+            if not has_result:
+                self._fail(name, status)
+        elif status > 0:
+            known, reason = self._last(name, status)
+            text = _c.text_of(_c.lib.plm_context_get_error_text, self._h) if known else f"{name}: {status_text(status)}"
+            warnings.warn(PlmWarning(text, status, reason), stacklevel=_depth_of_caller())
         return status
 
     def _run(self, name, arguments):
@@ -202,16 +211,22 @@ class Context:
             self._fail(name, status)
         return status
 
-    def _fail(self, name, status):
-        function = _c.text_of(_c.lib.plm_context_get_error_function, self._h)
+    def _last(self, name, status):
+        """(whether the context's text is about this call, its reason): of a dead handle, of a call from inside a callback or
+        beside another thread's the context has not heard."""
         known, reason = ctypes.c_int32(0), ctypes.c_int32(0)
-        index, code = ctypes.c_int64(-1), ctypes.c_int64(0)
-        _c.lib.plm_context_get_error_info(self._h, *map(ctypes.byref, (known, reason, index, code)))
-        if function != name or known.value != status:
-            # a dead handle, or a call from inside a callback: the context has not heard of it
+        _c.lib.plm_context_get_error_info(self._h, ctypes.byref(known), ctypes.byref(reason), None, None)
+        function = _c.text_of(_c.lib.plm_context_get_error_function, self._h)
+        return function == name and known.value == status, reason.value
+
+    def _fail(self, name, status):
+        known, reason = self._last(name, status)
+        if not known:
             raise make_error(f"{name}: {status_text(status)}", status, function=name)
-        raise make_error(_c.text_of(_c.lib.plm_context_get_error_text, self._h), status, reason=reason.value,
-                         function=function, index=index.value, library_code=code.value,
+        index, code = ctypes.c_int64(-1), ctypes.c_int64(0)
+        _c.lib.plm_context_get_error_info(self._h, None, None, ctypes.byref(index), ctypes.byref(code))
+        raise make_error(_c.text_of(_c.lib.plm_context_get_error_text, self._h), status, reason=reason, function=name,
+                         index=index.value, library_code=code.value,
                          argument=_c.text_of(_c.lib.plm_context_get_error_argument, self._h))
 
     def is_busy(self):
@@ -257,6 +272,17 @@ class Context:
             yield
         finally:
             signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
+_PACKAGE = str(pathlib.Path(__file__).parent)
+
+
+def _depth_of_caller():
+    """The stacklevel for warnings.warn, called one frame above, that names the user's line."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
+        level, frame = level + 1, frame.f_back
+    return level
 
 
 def _look(address, n, kind):

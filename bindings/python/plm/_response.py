@@ -106,7 +106,8 @@ class Hbm(Handle, noun="hbm", kind=_c.KIND_HBM):
 
     def estimate_error(self, branch, point, dof, measure="half_peak_to_peak", harmonic=0, progress=None):
         """ErrorEstimate(amplitude, frequency_hz) of a point without the unreduced solution: corrected less computed, by
-        cause: .basis, .contact (contact sets), .harmonics, and .total."""
+        cause: .basis, .contact (contact sets), .harmonics, and .total; NaN where the steps do not contract, see
+        `warning`."""
         amplitude, hz = numpy.empty(3), numpy.empty(3)
         self._work("estimate_error", branch._h, branch._from_end(point), dof, choice(measure, MEASURES, "measure"), harmonic,
                    address(amplitude), address(hz), progress=progress)

@@ -489,7 +489,9 @@ PLM_API plm_status plm_hbm_refine_basis(plm_hbm *hbm, int64_t dof, int32_t measu
                                         plm_basis **refined, double *error);
 /* Nonlinear mode (motion without excitation, extended periodic motion concept): from elastic mode `mode` (1, 2, ...) of
  * the structure about its contact at rest until the first harmonic of `dof` reaches `amplitude_max`; 0: to a hundred
- * times the amplitude at which a pair first opens or closes. Energy and contact area: plm_branch_get_energy. */
+ * times the amplitude at which a pair first opens or closes. Energy and contact area: plm_branch_get_energy; result
+ * "damping_ratio": xi of the force 2 xi omega M q' that makes up for what the damping takes, at a small amplitude the
+ * linear mode's share of critical damping. */
 PLM_API plm_status plm_hbm_find_nonlinear_mode(plm_hbm *hbm, int64_t mode, int64_t dof, double amplitude_max,
                                                plm_branch **branch);
 

@@ -1,0 +1,93 @@
+# CHOLMOD and FFTW from their static archives, as one object inside libplm.so and libplm.a. Only what libplm calls is
+# taken, under names of our own (carried_...), so that it neither lends nor borrows symbols; and src/linalg/carried puts
+# parts of our own in place of those that would start threads, print, or end the process.
+option(PLM_CARRY "Carry CHOLMOD and FFTW from their static archives; OFF: link the shared ones" ON)
+
+# plm_find_archive(<variable> <name>): lib<name>.a, or nothing
+function(plm_find_archive variable name)
+    find_library(${variable} NAMES ${CMAKE_STATIC_LIBRARY_PREFIX}${name}${CMAKE_STATIC_LIBRARY_SUFFIX})
+    mark_as_advanced(${variable})
+endfunction()
+
+# plm_find_archives(<variable> <name>...): all of them, or nothing
+function(plm_find_archives variable)
+    set(found)
+    foreach(name ${ARGN})
+        string(TOUPPER PLM_${name}_ARCHIVE one)
+        plm_find_archive(${one} ${name})
+        if(NOT ${one})
+            message(STATUS "No static lib${name}: its shared library is linked")
+            set(found)
+            break()
+        endif()
+        list(APPEND found ${${one}})
+    endforeach()
+    set(${variable} "${found}" PARENT_SCOPE)
+endfunction()
+
+set(PLM_CARRIED_CHOLMOD)
+set(PLM_CARRIED_FFTW)
+set(plm_carried_names)
+set(plm_carried_parts)
+if(PLM_CARRY AND PLM_WITH_CHOLMOD)
+    plm_find_archives(PLM_CARRIED_CHOLMOD cholmod amd colamd suitesparseconfig)
+endif()
+if(PLM_CARRY AND PLM_WITH_FFTW)
+    plm_find_archives(PLM_CARRIED_FFTW fftw3)
+endif()
+if(PLM_CARRIED_CHOLMOD)
+    foreach(name start finish analyze factorize allocate_dense free_dense free_factor rcond solve2 version)
+        list(APPEND plm_carried_names cholmod_l_${name})
+    endforeach()
+    list(APPEND plm_carried_parts cholmod_parts.cpp openmp_parts.cpp)
+endif()
+if(PLM_CARRIED_FFTW)
+    list(APPEND plm_carried_names fftw_plan_dft_r2c_1d fftw_plan_dft_c2r_1d fftw_destroy_plan fftw_execute fftw_version)
+    list(APPEND plm_carried_parts fftw_parts.cpp)
+    set(plm_carried_defined PLM_CARRIED_FFTW)
+endif()
+
+add_library(plm_dep_carried INTERFACE)
+set(PLM_CARRIED_OBJECT)
+if(NOT plm_carried_names)
+    return()
+endif()
+
+# The names that libplm's own sources use become those of the object.
+set(PLM_CARRIED_DEFINITIONS ${plm_carried_defined})
+set(plm_new_names)
+foreach(name ${plm_carried_names})
+    list(APPEND PLM_CARRIED_DEFINITIONS ${name}=carried_${name})
+    string(APPEND plm_new_names "${name} carried_${name}\n")
+endforeach()
+
+list(TRANSFORM plm_carried_parts PREPEND ${PROJECT_SOURCE_DIR}/src/linalg/carried/)
+add_library(plm_carried_parts OBJECT ${plm_carried_parts})
+target_include_directories(plm_carried_parts PRIVATE ${PROJECT_SOURCE_DIR}/src)
+if(PLM_CARRIED_CHOLMOD)
+    target_include_directories(plm_carried_parts SYSTEM PRIVATE ${PLM_CHOLMOD_INCLUDE})
+endif()
+# nothing of a sanitizer's or a fuzzer's: these stand among functions that were compiled without
+if(PLM_SANITIZE)
+    target_compile_options(plm_carried_parts PRIVATE -fno-sanitize=all)
+endif()
+
+set(plm_carried_folder ${PROJECT_BINARY_DIR}/carried)
+string(REPLACE ";" "\n" plm_kept "${plm_carried_names}")
+file(WRITE ${plm_carried_folder}/kept "${plm_kept}\ncarried_fftw_may_work\n")
+file(WRITE ${plm_carried_folder}/renamed "${plm_new_names}")
+list(TRANSFORM plm_carried_names PREPEND LINKER:--undefined= OUTPUT_VARIABLE plm_wanted)
+list(TRANSFORM plm_wanted REPLACE "^LINKER:" "-Wl,")
+set(PLM_CARRIED_OBJECT ${plm_carried_folder}/carried.o)
+add_custom_command(
+    OUTPUT ${PLM_CARRIED_OBJECT}
+    COMMAND ${CMAKE_C_COMPILER} -r -nostdlib -Wl,--force-group-allocation -o ${plm_carried_folder}/all.o $<TARGET_OBJECTS:plm_carried_parts> ${plm_wanted}
+            ${PLM_CARRIED_CHOLMOD} ${PLM_CARRIED_FFTW}
+    COMMAND ${CMAKE_OBJCOPY} --keep-global-symbols=${plm_carried_folder}/kept ${plm_carried_folder}/all.o
+    COMMAND ${CMAKE_OBJCOPY} --redefine-syms=${plm_carried_folder}/renamed ${plm_carried_folder}/all.o ${PLM_CARRIED_OBJECT}
+    DEPENDS plm_carried_parts $<TARGET_OBJECTS:plm_carried_parts> ${PLM_CARRIED_CHOLMOD} ${PLM_CARRIED_FFTW}
+            ${plm_carried_folder}/kept ${plm_carried_folder}/renamed
+    COMMAND_EXPAND_LISTS VERBATIM
+    COMMENT "Carrying CHOLMOD and FFTW")
+add_custom_target(plm_carried_object DEPENDS ${PLM_CARRIED_OBJECT})
+target_link_libraries(plm_dep_carried INTERFACE ${PLM_CARRIED_OBJECT})

@@ -1,0 +1,13 @@
+#include "hbm/modes_at_rest.hpp"
+#include "model/linear_contact.hpp"
+#include <limits>
+
+namespace plm {
+
+SpaceModes modes_at_rest(const ReducedModel &m, const vector<double> &share) {
+    vector<double> spring(share);
+    for (std::int64_t i = 0; i < m.n_pairs(); ++i) spring[i] *= m.contact_stiffness[i];
+    return modes_with_springs(m.lambda, m.n_massless, m.gap, spring, std::numeric_limits<double>::infinity());
+}
+
+} // namespace plm

@@ -1,0 +1,178 @@
+"""Random models with nothing set, against exact motions: campaign.py [--count N] [--seed S] [--only FAMILY] [--one K] [--limit S]
+
+Each model goes through sampler, basis, sweep and peak with defaults. Its peak is then compared with the highest amplitude of the
+exact periodic motions of the unreduced model (exact.py) along the curve through it. Ends with 1 when a peak is wrong by more than
+1 % without a status or a warning, or a model was refused or did not end within --limit seconds of the processor. The seed of
+model K is S + K: --one K runs that one alone.
+"""
+import argparse
+import os
+import pickle
+import resource
+import signal
+import sys
+import time
+
+import numpy as np
+import plm
+import scipy.sparse as sp
+
+import exact
+import families
+
+ALLOWED = 1e-2
+
+
+def build(m):
+    model = plm.Model(sp.csc_matrix(m.get("M_library", m["M"])), sp.csc_matrix(m["K"]),
+                      sp.csc_matrix(m["C"]) if m["damping"][0] == "matrix" else None)
+    if m["damping"][0] == "rayleigh":
+        model.set_rayleigh_damping(*m["damping"][1:])
+    elif m["damping"][0] == "modal":
+        model.set_modal_damping(m["damping"][1])
+    model.add_gap_rows(sp.csr_matrix(m["B"]), stiffness=m["kn"], gap=m["g"])
+    if np.any(m["P"]):
+        model.set_preload(m["P"])
+    model.set_excitation(m["F"])
+    return model.build()
+
+
+def run_library(m, result):
+    begin = time.process_time()
+    try:
+        model = build(m)
+        sampler = plm.Sampler(model).run()
+        basis = plm.Basis(model, sampler).build()
+        hbm = plm.Hbm(basis)
+        curve = hbm.sweep()
+        peak = hbm.find_peak(curve, m["out"], "peak")
+    finally:
+        result["seconds"] = time.process_time() - begin
+    said = [w for w in (sampler.warning, basis.warning, curve.warning, peak.branch.warning, hbm.warning) if w]
+    result.update(points=len(curve), status=int(curve.status), end=curve.end_text, said="; ".join(dict.fromkeys(said)),
+                  hz=peak.frequency_hz, amplitude=peak.amplitude, harmonics=int(peak.branch.n_harmonics), r=int(basis.size),
+                  stable=int(curve.stable[int(np.argmax(curve.amplitude(m["out"], "peak")))]))
+    q = peak.branch.coefficients(0)
+    h = np.arange(1, (len(q) - 1) // 2 + 1)[:, None]
+    omega = 2 * np.pi * peak.frequency_hz
+    return np.concatenate([q[0] + q[1::2].sum(0), omega * (h * q[2::2]).sum(0)]), omega
+
+
+def compare(m, x, omega, result):
+    """The exact peak nearest that of the library."""
+    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], m["F"].astype(complex), m["out"])
+    try:
+        w, amplitude, phi, moved = s.peak_near(x, omega)
+    except (exact.NoPeriodicMotion, np.linalg.LinAlgError, FloatingPointError) as e:
+        result["truth"] = str(e)
+        return
+    result.update(exact_hz=w / 2 / np.pi, exact_amplitude=amplitude, moved=moved,
+                  error=abs(result["amplitude"] / amplitude - 1), frequency_error=abs(omega / w - 1),
+                  multiplier=float(np.abs(np.linalg.eigvals(phi)).max()))
+
+
+def one(family, seed, keep=lambda result: None):
+    """What came of a model; keep() is handed what is known after the library and again after the exact motion."""
+    result = dict(family=family.__name__, seed=seed)
+    m = family(np.random.default_rng(seed))
+    result["n"], result["pairs"], result["kind"] = len(m["M"]), len(m["B"]), m["kind"]
+    try:
+        x, omega = run_library(m, result)
+    except plm.PlmError as e:
+        result["refused"] = str(e)
+        keep(result)
+        return result
+    keep(dict(result, truth="the exact motion took too long"))
+    with np.errstate(all="ignore"):
+        compare(m, x, omega, result)
+    keep(result)
+    return result
+
+
+def in_child(family, seed, limit):
+    """The result, from a process of its own: a crash or a run without end is a result, too."""
+    read, write = os.pipe()
+    child = os.fork()
+    if child == 0:
+        os.close(read)
+        resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 2))
+        with os.fdopen(write, "wb") as out:
+            one(family, seed, lambda so_far: (pickle.dump(so_far, out), out.flush()))
+        os._exit(0)
+    os.close(write)
+    known = None
+    with os.fdopen(read, "rb") as source:
+        try:
+            while True:
+                known = pickle.load(source)
+        except (EOFError, pickle.UnpicklingError):
+            pass
+    _, ended = os.waitpid(child, 0)
+    if known:
+        return known
+    name = signal.Signals(os.WTERMSIG(ended)).name if os.WIFSIGNALED(ended) else f"exit {os.WEXITSTATUS(ended)}"
+    return dict(family=family.__name__, seed=seed, died="no end" if name in ("SIGXCPU", "SIGKILL") else name)
+
+
+def verdict(r):
+    """One of right, said, refused, no end, unknown, SILENT, DIED."""
+    if "died" in r:
+        return "no end" if r["died"] == "no end" else "DIED"
+    if "refused" in r:
+        return "refused"
+    spoke = r["status"] != plm.OK or bool(r["said"])
+    if "error" not in r:
+        return "said" if spoke else "unknown"
+    if max(r["error"], r["frequency_error"]) <= ALLOWED:
+        return "right"
+    return "said" if spoke else "SILENT"
+
+
+def line(r):
+    text = f"{r['family']:16s} {r['seed']:6d} {verdict(r):8s}"
+    if "died" in r:
+        return text + r["died"]
+    text += f"n {r['n']:2d} pairs {r['pairs']} {r['kind']:12s} {r['seconds']:6.2f} s "
+    if "refused" in r:
+        return text + r["refused"]
+    text += f"r {r['r']:2d} H {r['harmonics']:2d} {r['points']:4d} points, status {r['status']}, {r['hz']:.5g} Hz {r['amplitude']:.5g}"
+    if "error" in r:
+        text += f", error {r['error']:.1e} {r['frequency_error']:.1e}"
+        if r["stable"] >= 0 and (r["multiplier"] < 1) != (r["stable"] == 1) and abs(r["multiplier"] - 1) > 1e-2:
+            text += f", stable {r['stable']} but multiplier {r['multiplier']:.3f}"
+    else:
+        text += ", " + r["truth"]
+    return text + (f" ({r['end']})" if r["status"] else "") + (f" [{r['said']}]" if r["said"] else "")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--count", type=int, default=150)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="")
+    parser.add_argument("--one", type=int, default=-1)
+    parser.add_argument("--limit", type=int, default=120)
+    parser.add_argument("--unknown", type=float, default=0.05, help="share of models whose exact motion may stay unknown")
+    a = parser.parse_args()
+    results = []
+    for k in range(a.count) if a.one < 0 else [a.one]:
+        family = families.FAMILIES[k % len(families.FAMILIES)]
+        if a.only and family.__name__ != a.only:
+            continue
+        r = in_child(family, a.seed + k, a.limit) if a.one < 0 else one(family, a.seed + k)
+        results.append(r)
+        print(f"{k:4d} " + line(r), flush=True)
+    verdicts = [verdict(r) for r in results]
+    errors = np.array([r["error"] for r in results if "error" in r])
+    times = np.array([r["seconds"] for r in results if "seconds" in r])
+    print(", ".join(f"{verdicts.count(v)} {v}" for v in ("right", "said", "SILENT", "refused", "no end", "DIED", "unknown")))
+    if len(errors):
+        print(f"error of the peak: median {np.median(errors):.1e}, 95 % {np.quantile(errors, 0.95):.1e}; "
+              f"time: median {np.median(times):.2f} s, longest {times.max():.1f} s")
+    bad = sum(verdicts.count(v) for v in ("SILENT", "refused", "no end", "DIED"))
+    if bad or verdicts.count("unknown") > a.unknown * len(results):
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,59 @@
+"""The exact motions of exact.py against closed forms."""
+import numpy as np
+
+from exact import Structure
+
+
+def bilinear(zeta, ratio):
+    """Mass 1 on a spring 1, a second spring `ratio` - 1 where it is pushed: no gap."""
+    return Structure(np.eye(1), np.array([[2 * zeta]]), np.eye(1), np.eye(1), np.array([ratio - 1]), np.zeros(1), np.zeros(1),
+                     np.array([1 + 0j]), 0)
+
+
+def linear_response():
+    s = Structure(np.eye(1), np.array([[0.02]]), np.eye(1), np.eye(1), np.array([3.0]), np.array([1e9]), np.zeros(1),
+                  np.array([1 + 0j]), 0)
+    for omega in (0.5, 0.9, 1.3):
+        x, phi = s.periodic(np.array([0.3, -0.2]), omega)
+        expected = abs(1 / (1 - omega**2 + 0.02j * omega))
+        assert abs(s.amplitude(x, omega) / expected - 1) < 2e-8, omega  # cubics over 1/150 period: (0.042)^4 / 384
+        decay = np.exp(-0.01 * 2 * np.pi / omega)  # |multipliers| of a damped oscillator
+        assert np.allclose(np.abs(np.linalg.eigvals(phi)), decay, rtol=1e-12)
+
+
+def bilinear_resonance():
+    """Two half-cycles of frequencies 1 and 2: the resonance tends to 2 * 1 * 2 / (1 + 2), its shift is of second order in damping,
+    and half a cycle in each spring makes two events a period."""
+    for zeta, allowed in ((1e-1, 2e-2), (1e-2, 2e-4)):
+        s = bilinear(zeta, 4.0)
+        expected = 4 / 3
+        x, _ = settle(s, expected, zeta)
+        omega, amplitude, phi, _ = s.peak_near(x, expected)
+        assert abs(omega / expected - 1) < allowed, (zeta, omega)
+        assert s.events == 2
+        # over one period the free motion shrinks by exp(-zeta T): det(monodromy) = exp(-2 zeta T), whatever the events
+        assert abs(np.linalg.det(phi) / np.exp(-2 * zeta * 2 * np.pi / omega) - 1) < 1e-8
+
+
+def settle(s, omega, zeta):
+    x = np.zeros(2)
+    for _ in range(int(1.5 / zeta)):
+        x = s.flow(x, omega)
+    return s.periodic(x, omega)
+
+
+def monodromy_is_the_derivative():
+    K = np.array([[1.0, -1.0], [-1.0, 2.0]])
+    s = Structure(np.eye(2), 0.03 * K, K, np.array([[1.0, 0.0]]), np.array([100.0]), np.array([1.0]), np.zeros(2),
+                  np.array([0, 0.1 + 0j]), 0)
+    x, omega = np.array([0.9, 0.4, 0.8, -0.2]), 0.62
+    _, phi = s.flow(x, omega, 1, True)
+    assert s.events >= 2
+    for j in range(4):
+        d = 1e-6 * np.eye(4)[j]
+        assert np.allclose((s.flow(x + d, omega) - s.flow(x - d, omega)) / 2e-6, phi[:, j], atol=1e-6)
+
+
+for test in (linear_response, bilinear_resonance, monodromy_is_the_derivative):
+    test()
+    print(test.__name__, "ok")
