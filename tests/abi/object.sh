@@ -1,9 +1,10 @@
 #!/bin/sh
 # object.sh LIBPLM_SO SONAME "REQUIRED..." [LIBPLM_A]: what the loader sees. REQUIRED are names of libraries, each an
-# extended regular expression ("-": no condition on NEEDED); besides them only the runtimes of the compilers are allowed.
+# extended regular expression ("none"; "-": no condition on NEEDED); besides them only the runtimes of the compilers are allowed.
 # LIBPLM_A: given where its own objects must have been compiled with stack protector and checked copies (preset release).
 set -eu
 library=$1 soname=$2 required=${3-} hardened=${4-}
+[ "$required" = none ] && required=
 dynamic=$(readelf -dW "$library")
 fail() { echo "$1"; exit 1; }
 
