@@ -542,7 +542,8 @@ PLM_API plm_status plm_branch_get_closed_share(plm_branch *branch, int64_t point
  * structure at rest, and the mean closed share of the pairs in [0, 1]. Each output may be NULL. */
 PLM_API plm_status plm_branch_get_energy(plm_branch *branch, int64_t point, double *energy, double *contact_area);
 /* Floquet multipliers of a point over one period of the response, largest modulus first; count 0 where they were not
- * computed (option "stability"). real, imag: each `capacity` values, or NULL with capacity 0. */
+ * computed (option "stability") or no exact motion was found beside the point. real, imag: each `capacity` values, or
+ * NULL with capacity 0. */
 PLM_API plm_status plm_branch_get_multipliers(plm_branch *branch, int64_t point, int64_t capacity, double *real,
                                               double *imag, int64_t *count);
 /* |state after a period - state| over the size of the motion, by the exact flow of the reduced model from the point's

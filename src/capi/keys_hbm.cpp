@@ -62,8 +62,8 @@ const std::vector<Key> &hbm_keys() {
         real_option<&O::max_step>("max_step", 1e-12, 10, "largest arc-length step"),
         choice_option<&O::stability>(
             "stability", "off,auto,floquet,hill",
-            "Floquet multipliers of every point, by the exact flow or by Hill's method; auto: by the "
-            "flow, up to 24 coordinates"),
+            "Floquet multipliers of the exact motion beside every point, or of the point by Hill's method; "
+            "auto: of the exact motion, up to 24 coordinates"),
         choice_option<&O::bifurcations>(
             "bifurcations", "off,on",
             "locate folds and branch points, with stability also period doublings and "
@@ -130,7 +130,8 @@ const std::vector<Key> &branch_keys() {
                       return per_point<Ints>(
                           b, [](auto &p) { return static_cast<std::int64_t>(p.bifurcation); });
                   }),
-        result<B>("stable", "1 stable, 0 unstable, -1 not computed, of every point",
+        result<B>("stable",
+                  "1 stable, 0 unstable, -1 not computed or no exact motion beside it, of every point",
                   [](const B &b) { return per_point<Ints>(b, [](auto &p) { return stability_of(p); }); }),
         result<B>("end_reason", "why the branch ended: PLM_REASON_...",
                   [](const B &b) { return static_cast<std::int64_t>(built(b)->end_reason); }),

@@ -396,6 +396,7 @@ class Continuation {
             double residual = 0;
             if (!move_to(s, t, chord, tests, residual)) break;
             const double value = value_of(tests, k);
+            if (std::isnan(value)) break;
             if (std::abs(value) < best) {
                 best = std::abs(value);
                 c = {t, now_, kinds_[k], residual};

@@ -30,7 +30,7 @@ class CurveTracer final : public PathOwner {
   public:
     CurveTracer(const HbmOptions &options, Watch watch, Branch &branch)
         : asked_(options), options_(options), watch_(watch), branch_(branch),
-          reduced_(branch.reduced_model()), stability_(reduced_, options),
+          reduced_(branch.reduced_model()), stability_(reduced_, options, watch),
           fewest_(std::max<std::int64_t>(3, highest_excitation(*reduced_))) {}
 
     void run(const CurveStart &start) {
@@ -50,6 +50,7 @@ class CurveTracer final : public PathOwner {
             branch_.end_reason = PLM_REASON_CANCELLED;
         }
         warn_of_harmonics(asked_, branch_);
+        warn_of_unverified();
     }
 
     void record(const PathPoint &p) override {
@@ -133,6 +134,14 @@ class CurveTracer final : public PathOwner {
     bool may_grow() const { return wanted_harmonics_ > options_.n_harmonics && since_change_ > blocked_; }
     // Back to the last point with enough harmonics; from the first one the side is known by the range only.
     bool can_reject() const { return n_kept_ > (has_side_ ? 1 : 0); }
+    // A few beside folds, where the exact curve has turned already, are no reason to worry.
+    void warn_of_unverified() {
+        if (!stability_.wanted()) return;
+        std::int64_t unverified = 0;
+        for (const BranchPoint &p : branch_.points()) unverified += p.multipliers.empty();
+        if (10 * unverified > n_points())
+            branch_.warnings.add(PLM_REASON_UNVERIFIED, unverified_text(unverified, n_points()));
+    }
 
     double window_width() const { return 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz); }
 

@@ -1,6 +1,7 @@
 #include "hbm/hbm.hpp"
 #include "hbm/curve.hpp"
 #include "hbm/curve_verdicts.hpp"
+#include "hbm/follow.hpp"
 #include "hbm/free_motion.hpp"
 #include "hbm/stability.hpp"
 #include "hbm/start.hpp"
@@ -63,8 +64,16 @@ bool Hbm::solve_with(const HbmOptions &options, double omega, const BranchPoint 
                      BranchPoint &point) const {
     const auto system = make_system(reduced_, options);
     vector<double> x(system->size(), 0.0);
-    if (guess) system->from_point(*guess, x.data());
-    const StartOutcome out = find_start(*system, *reduced_, options, omega, guess != nullptr, watch_, x);
+    StartOutcome out;
+    if (guess) {
+        system->from_point(*guess, x.data());
+        out = follow_to(*system, options, guess->omega, omega, watch_, x);
+    }
+    if (!out.converged) {
+        const vector<double> guessed = x;
+        out.add(find_start(*system, *reduced_, options, omega, guess != nullptr, watch_, x));
+        if (guess && out.converged) warn_of_other_branch(*system, guessed, x, *guess, omega, branch);
+    }
     branch.newton_iterations += out.iterations;
     branch.newton_seconds += out.seconds;
     branch.factorizations += out.factorizations;
@@ -79,7 +88,11 @@ bool Hbm::solve_with(const HbmOptions &options, double omega, const BranchPoint 
 }
 
 bool Hbm::solve_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const {
-    const HbmOptions wanted = with_first_harmonics(*reduced_, options_);
+    HbmOptions wanted = with_first_harmonics(*reduced_, options_);
+    if (guess && options_.n_harmonics == 0) // a start with its harmonics cut would be another motion
+        wanted.n_harmonics =
+            std::min(options_.max_harmonics,
+                     std::max(wanted.n_harmonics, harmonics_of(*guess, options_.period_multiple)));
     HbmOptions few = options_;
     few.n_harmonics = std::min(wanted.n_harmonics, few_harmonics(*reduced_));
     const bool climbs = !guess && wanted.n_harmonics > 2 * few.n_harmonics;
@@ -154,8 +167,10 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
                            frequency_hz, drift_hint(*reduced_).c_str()))
             .argument("frequency_hz")
             .reason(PLM_REASON_START_FAILED);
-    const Stability stability(reduced_, options_);
+    Stability stability(reduced_, options_, watch_);
     if (stability.wanted()) result.multipliers = stability.multipliers(result);
+    if (stability.wanted() && result.multipliers.empty())
+        branch->warnings.add(PLM_REASON_UNVERIFIED, unverified_text(1, 1));
     branch->append(std::move(result));
     warn_of_harmonics(options_, *branch);
     branch->end_reason = PLM_REASON_RANGE_END;

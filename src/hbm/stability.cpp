@@ -1,5 +1,6 @@
 #include "hbm/stability.hpp"
 #include "hbm/contact_force.hpp"
+#include "hbm/exact_motion.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/free_motion.hpp"
 #include "hbm/hill.hpp"
@@ -15,16 +16,31 @@ namespace {
 // than the curve itself.
 constexpr std::int64_t automatic_size = 24;
 
-// Free motions have mass: their coordinates are among the first, as in the state.
-Matrix states_without_positions_along(const Matrix &free, const FlowModel &flow) {
-    const std::int64_t n = flow.n_moving(), m = free.cols(), all = flow.state_size();
-    if (m == 0) return {};
-    Matrix square(n, n);
+// Orthonormal, beside the columns of `free` cut to n rows (what is left out there is 0): n x (n - m).
+Matrix complement(const Matrix &free, std::int64_t n) {
+    const std::int64_t m = free.cols();
+    Matrix square(n, n), rest(n, n - m);
     for (std::int64_t k = 0; k < m; ++k) std::copy_n(free.col(k), n, square.col(k));
-    const Matrix others = thin_svd(square).u; // the first m columns span `free`
-    Matrix states(all, all - m);
-    for (std::int64_t k = m; k < n; ++k) std::copy(others.col(k), others.col(k) + n, states.col(k - m));
-    for (std::int64_t i = n; i < all; ++i) states(i, i - m) = 1;
+    const Matrix turned = thin_svd(square).u; // the first m columns span `free`
+    for (std::int64_t k = m; k < n; ++k) std::copy_n(turned.col(k), n, rest.col(k - m));
+    return rest;
+}
+
+Matrix identity(std::int64_t n) {
+    Matrix one(n, n);
+    for (std::int64_t i = 0; i < n; ++i) one(i, i) = 1;
+    return one;
+}
+
+// States without free motion: without its positions and, unless `velocities`, without its velocities. Free
+// motions have mass: their coordinates are among the first, as in the state.
+Matrix states_beside(const Matrix &free, const FlowModel &flow, bool velocities) {
+    const std::int64_t n = flow.n_moving(), speeds = flow.n_massive(), m = free.cols();
+    if (m == 0) return {};
+    const Matrix y = complement(free, n), v = velocities ? identity(speeds) : complement(free, speeds);
+    Matrix states(n + speeds, y.cols() + v.cols());
+    for (std::int64_t k = 0; k < y.cols(); ++k) std::copy_n(y.col(k), n, states.col(k));
+    for (std::int64_t k = 0; k < v.cols(); ++k) std::copy_n(v.col(k), speeds, states.col(y.cols() + k) + n);
     return states;
 }
 
@@ -38,36 +54,48 @@ vector<char> closing_pairs(const ReducedModel &m, const BranchPoint &point) {
 
 } // namespace
 
-Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
-    : reduced_(std::move(reduced)), period_multiple_(options.period_multiple),
+Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, Watch watch)
+    : reduced_(std::move(reduced)), beside_(options.period_multiple, watch),
+      period_multiple_(options.period_multiple),
       wanted_(options.stability == StabilityKind::floquet || options.stability == StabilityKind::hill ||
               (options.stability == StabilityKind::automatic && reduced_->size() <= automatic_size)),
       hill_(options.stability == StabilityKind::hill) {
     if (wanted_ && reduced_->structural == 0) flow_ = std::make_shared<FlowModel>(reduced_);
 }
 
-vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) const {
+vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) {
     const auto flow = flow_ ? flow_ : std::make_shared<FlowModel>(reduced_, point.omega);
     if (hill_) return hill_multipliers(*flow, point, period_multiple_);
+    const Matrix free = free_motion(*reduced_, closing_pairs(*reduced_, point));
+    const Matrix transition = monodromy_of(flow, point, free);
+    if (transition.rows() == 0) return {};
+    if (free.cols() == 0) return plm::multipliers(transition);
+    // A displacement along a free motion stays: multiplier 1. Beside that of its velocity, 1 without damping,
+    // it would be a defective pair, which rounding throws off the unit circle.
+    const Matrix but_positions = states_beside(free, *flow, true);
+    vector<std::complex<double>> found =
+        plm::multipliers(product('T', 'N', but_positions, product('N', 'N', transition, but_positions)));
+    const auto inside = std::find_if(found.begin(), found.end(), [](auto m) { return std::abs(m) < 1; });
+    found.insert(inside, but_positions.rows() - but_positions.cols(), 1.0);
+    return found;
+}
+
+// Where no pair switches the solution is exact. Elsewhere the instants of harmonic balance are those of a
+// nearby motion, to whose shifts a stiff contact's multipliers answer with a factor of ten.
+Matrix Stability::monodromy_of(const std::shared_ptr<const FlowModel> &flow, const BranchPoint &point,
+                               const Matrix &free) {
+    const auto intervals = contact_intervals(*reduced_, point, period_multiple_);
+    if (intervals.size() > 1) return beside_.monodromy(flow, point, states_beside(free, *flow, false));
     Matrix transition;
     try {
-        transition = monodromy(*flow, contact_intervals(*reduced_, point, period_multiple_));
+        transition = monodromy(*flow, intervals);
     } catch (const Error &e) { // too fast a mode for the exponential: unknown
         if (e.reason() != PLM_REASON_NOT_FINITE) throw;
         return {};
     }
     for (std::int64_t k = 0; k < transition.rows() * transition.cols(); ++k)
         if (!std::isfinite(transition.data()[k])) return {};
-    const Matrix but_positions =
-        states_without_positions_along(free_motion(*reduced_, closing_pairs(*reduced_, point)), *flow);
-    if (but_positions.cols() == 0) return plm::multipliers(transition);
-    // A displacement along a free motion stays: multiplier 1. Beside that of its velocity, 1 without damping,
-    // it would be a defective pair, which rounding throws off the unit circle.
-    vector<std::complex<double>> found =
-        plm::multipliers(product('T', 'N', but_positions, product('N', 'N', transition, but_positions)));
-    const auto inside = std::find_if(found.begin(), found.end(), [](auto m) { return std::abs(m) < 1; });
-    found.insert(inside, but_positions.rows() - but_positions.cols(), 1.0);
-    return found;
+    return transition;
 }
 
 std::vector<ContactInterval> contact_intervals(const ReducedModel &m, const BranchPoint &point,
@@ -92,7 +120,15 @@ std::vector<ContactInterval> contact_intervals(const ReducedModel &m, const Bran
     return intervals;
 }
 
+std::string unverified_text(std::int64_t n_unverified, std::int64_t n_points) {
+    return format(
+        "the stability of %lld of %lld points is not known: no exact motion was found beside them, so "
+        "that their harmonics do not describe one; take more harmonics, or set stability to off",
+        static_cast<long long>(n_unverified), static_cast<long long>(n_points));
+}
+
 vector<double> bifurcation_tests(const vector<std::complex<double>> &multipliers) {
+    if (multipliers.empty()) return {NAN, NAN};
     double doubling = 1, nearest = 1;
     std::int64_t outside = 0;
     for (const std::complex<double> &m : multipliers) {

@@ -1,6 +1,7 @@
-// Stability of periodic responses: Floquet multipliers from the exact piecewise-linear flow between the
-// switching instants of the solution, and what their passage of the unit circle means.
+// Stability of periodic responses: Floquet multipliers of the exact motion beside the solution, and what
+// their passage of the unit circle means.
 #pragma once
+#include "hbm/exact_motion.hpp"
 #include "hbm/hbm.hpp"
 #include "transient/monodromy.hpp"
 
@@ -8,27 +9,34 @@ namespace plm {
 
 class Stability {
   public:
-    Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
+    Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, Watch watch = Watch());
     /// Whether the options and the size of the model ask for multipliers.
     bool wanted() const { return wanted_; }
     /// Of the perturbations over one period of the response, largest first: 2 n, n the coordinates of the
-    /// flow. Structural damping counts as viscous damping that loses the same energy at the response
-    /// frequency.
-    vector<std::complex<double>> multipliers(const BranchPoint &point) const;
+    /// flow. Empty: no exact motion was found beside the point. Structural damping counts as viscous damping
+    /// that loses the same energy at the response frequency.
+    vector<std::complex<double>> multipliers(const BranchPoint &point);
 
   private:
+    Matrix monodromy_of(const std::shared_ptr<const FlowModel> &flow, const BranchPoint &point,
+                        const Matrix &free);
+
     std::shared_ptr<const ReducedModel> reduced_;
+    MotionBeside beside_;
     std::int64_t period_multiple_;
     bool wanted_, hill_;
     std::shared_ptr<const FlowModel> flow_; // null when it depends on the frequency
 };
+
+/// What is said with points that have no multipliers.
+std::string unverified_text(std::int64_t n_unverified, std::int64_t n_points);
 
 /// The contact sets of a point over its period, from the zeros of its penetrations, as the flow takes them.
 std::vector<ContactInterval> contact_intervals(const ReducedModel &reduced, const BranchPoint &point,
                                                std::int64_t period_multiple);
 
 /// Two functions that change sign at a period doubling (a multiplier at -1) and at a Neimark-Sacker point (a
-/// complex pair on the unit circle).
+/// complex pair on the unit circle). NaN without multipliers.
 vector<double> bifurcation_tests(const vector<std::complex<double>> &multipliers);
 
 } // namespace plm

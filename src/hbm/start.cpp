@@ -70,12 +70,7 @@ class Starter {
 
   private:
     bool attempt() {
-        const StartOutcome found = correct_at(system_, options_, omega_, watch_, x_);
-        out_.iterations += found.iterations;
-        out_.seconds += found.seconds;
-        out_.factorizations += found.factorizations;
-        out_.residual = found.residual;
-        out_.converged = found.converged;
+        out_.add(correct_at(system_, options_, omega_, watch_, x_));
         return out_.converged;
     }
 
@@ -186,23 +181,8 @@ class Starter {
         return true;
     }
 
-    // A path nobody looks at.
-    class Quiet final : public PathOwner {
-      public:
-        explicit Quiet(Watch watch) : watch_(watch) {}
-        void record(const PathPoint &) override {}
-        bool cancelled(double fraction) override {
-            watch_.step("start", fraction);
-            return false;
-        }
-        bool rescue(double, vector<double> &) override { return false; }
-
-      private:
-        Watch watch_;
-    };
-
     Watch watch_;
-    Quiet quiet_;
+    QuietOwner quiet_;
     HbmSystem &system_;
     const ReducedModel &reduced_;
     const HbmOptions &options_;
@@ -226,6 +206,14 @@ vector<double> share_at_rest(const ReducedModel &m) {
     vector<double> share(u.size());
     for (std::size_t i = 0; i < u.size(); ++i) share[i] = u[i] > 0 ? 1.0 : u[i] < 0 ? 0.0 : 0.5;
     return share;
+}
+
+void StartOutcome::add(const StartOutcome &next) {
+    iterations += next.iterations;
+    factorizations += next.factorizations;
+    seconds += next.seconds;
+    residual = next.residual;
+    converged = next.converged;
 }
 
 StartOutcome correct_at(HbmSystem &system, const HbmOptions &options, double omega, Watch watch,

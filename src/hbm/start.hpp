@@ -1,7 +1,6 @@
 // First solutions: from the structure at rest to a converged periodic response at one frequency.
 #pragma once
-#include "hbm/newton.hpp"
-#include "linalg/monitor.hpp"
+#include "hbm/continuation.hpp"
 
 namespace plm {
 
@@ -12,6 +11,23 @@ struct StartOutcome {
     bool converged = false;
     std::int64_t iterations = 0, factorizations = 0;
     double seconds = 0, residual = 0; // seconds: of the iterations
+    /// What came next: its work is added, its outcome counts.
+    void add(const StartOutcome &next);
+};
+
+/// Of a path that is a means only: nothing is kept.
+class QuietOwner final : public PathOwner {
+  public:
+    explicit QuietOwner(Watch watch) : watch_(watch) {}
+    void record(const PathPoint &) override {}
+    bool cancelled(double fraction) override {
+        watch_.step("start", fraction);
+        return false;
+    }
+    bool rescue(double, vector<double> &) override { return false; }
+
+  private:
+    Watch watch_;
 };
 
 /// Solves at omega; on entry x is a first guess when `have_guess`. Then, until one works: the linear response

@@ -131,6 +131,8 @@ class Run {
 HbmOptions options_at_level(const MethodPlan &method, const MeasurementCase &where, double level) {
     HbmOptions o = method.recipe.hbm;
     o.force_scale *= level;
+    // No error that a study measures asks for it, and the unreduced reference goes without.
+    if (o.stability == StabilityKind::automatic) o.stability = StabilityKind::off;
     if (!(o.frequency_min_hz > 0)) o.frequency_min_hz = where.range.low_hz;
     if (!(o.frequency_max_hz > 0)) o.frequency_max_hz = where.range.high_hz;
     return o;

@@ -1,5 +1,5 @@
 #include "transient/shooting.hpp"
-#include "linalg/lapack.hpp"
+#include "transient/period_map.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -8,96 +8,6 @@ namespace {
 
 constexpr double least_damping = 1.0 / 64;
 constexpr std::int64_t first_march = 4; // periods; doubled each time
-
-class EnergyNorm {
-  public:
-    explicit EnergyNorm(const ExactFlow &flow) : model_(flow.model()), omega_(flow.omega()) {}
-    // What follows is no state.
-    double distance(const FlowState &a, const FlowState &b) const {
-        double sum = 0;
-        for (std::int64_t j = 0; j < model_.n_moving(); ++j) {
-            const double dy = a.y[j] - b.y[j], dv = a.v[j] - b.v[j];
-            sum +=
-                (model_.lambda()[j] + model_.mass(j) * omega_ * omega_) * dy * dy + model_.mass(j) * dv * dv;
-        }
-        return std::sqrt(sum);
-    }
-
-  private:
-    const FlowModel &model_;
-    double omega_;
-};
-
-// Contact history, and the largest distance from the start at the ends of the pieces.
-class RunRecorder final : public FlowRecorder {
-  public:
-    RunRecorder(const EnergyNorm &norm, const FlowState &start) : norm_(norm), start_(start), now_(start) {}
-    void record(const FlowPiece &piece) override {
-        history_.record(piece);
-        const std::int64_t n = piece.coefficient.rows();
-        std::fill(now_.y.begin(), now_.y.end(), 0.0);
-        std::fill(now_.v.begin(), now_.v.end(), 0.0);
-        for (std::int64_t k = 0; k < piece.coefficient.cols(); ++k)
-            for (std::int64_t j = 0; j < n; ++j) {
-                const double c = piece.coefficient(j, k);
-                now_.y[j] += c;
-                now_.v[j] += static_cast<double>(k) * c / piece.duration;
-            }
-        size_ = std::max(size_, norm_.distance(now_, start_));
-    }
-    double size() const { return size_; }
-    const std::vector<ContactInterval> &intervals() const { return history_.intervals(); }
-
-  private:
-    const EnergyNorm &norm_;
-    const FlowState &start_;
-    FlowState now_;
-    ContactHistory history_;
-    double size_ = 0;
-};
-
-// One run over the orbit from a state.
-struct Run {
-    FlowState end;
-    double distance = 0, size = 0;
-    std::vector<ContactInterval> intervals;
-    double defect() const { return size > 0 ? distance / size : 0.0; }
-};
-
-Run run_once(ExactFlow &flow, const FlowState &start, std::int64_t periods) {
-    const EnergyNorm norm(flow);
-    RunRecorder recorder(norm, start);
-    Run run;
-    run.end = start;
-    flow.advance(run.end, start.time + static_cast<double>(periods) * flow.period(), &recorder);
-    run.distance = norm.distance(run.end, start);
-    run.size = recorder.size();
-    run.intervals = recorder.intervals();
-    return run;
-}
-
-// (I - M) step = end - start
-vector<double> newton_step(const FlowModel &model, const FlowState &start, const Run &run) {
-    const std::int64_t n = model.state_size(), moving = model.n_moving();
-    Matrix a = monodromy(model, run.intervals);
-    vector<double> step(n);
-    for (std::int64_t j = 0; j < moving; ++j) step[j] = run.end.y[j] - start.y[j];
-    for (std::int64_t j = 0; j < n - moving; ++j) step[moving + j] = run.end.v[j] - start.v[j];
-    for (std::int64_t j = 0; j < n; ++j)
-        for (std::int64_t i = 0; i < n; ++i) a(i, j) = (i == j ? 1.0 : 0.0) - a(i, j);
-    RealLu lu;
-    lu.factor(a);
-    lu.solve(step.data(), 1, n);
-    return step;
-}
-
-FlowState moved(const FlowModel &model, const FlowState &state, const vector<double> &step, double factor) {
-    FlowState next = state;
-    const std::int64_t moving = model.n_moving();
-    for (std::int64_t j = 0; j < moving; ++j) next.y[j] += factor * step[j];
-    for (std::int64_t j = 0; j < model.n_massive(); ++j) next.v[j] += factor * step[moving + j];
-    return next;
-}
 
 void check(const ShootingOptions &o) {
     if (o.period_multiple < 1 || o.transient_periods < 0 || !(o.tolerance > 0) || o.max_iterations < 0)
@@ -122,11 +32,11 @@ void march(ExactFlow &flow, FlowState &state, std::int64_t periods) {
 
 // One step of Newton's method, shortened until the state at the end comes closer to that at the start: along
 // the step it does, unless the contact events change too much. False: nothing has changed.
-bool improve(ExactFlow &flow, std::int64_t periods, FlowState &state, Run &run) {
-    const vector<double> step = newton_step(flow.model(), state, run);
+bool improve(ExactFlow &flow, std::int64_t periods, FlowState &state, PeriodRun &run) {
+    const vector<double> step = period_step(flow.model(), state, run, monodromy(flow.model(), run.intervals));
     for (double factor = 1; factor >= least_damping; factor *= 0.5) {
         FlowState next = moved(flow.model(), state, step, factor);
-        Run next_run = run_once(flow, next, periods);
+        PeriodRun next_run = run_periods(flow, next, periods);
         if (!(next_run.distance < (1 - 0.25 * factor) * run.distance)) continue;
         state = std::move(next);
         run = std::move(next_run);
@@ -135,7 +45,7 @@ bool improve(ExactFlow &flow, std::int64_t periods, FlowState &state, Run &run) 
     return false;
 }
 
-void keep_closer(const Run &run, const FlowState &state, Run &best, PeriodicOrbit &orbit) {
+void keep_closer(const PeriodRun &run, const FlowState &state, PeriodRun &best, PeriodicOrbit &orbit) {
     if (!best.end.y.empty() && !(run.defect() < best.defect())) return;
     best = run;
     orbit.state = state;
@@ -151,7 +61,7 @@ PeriodicOrbit periodic_orbit(ExactFlow &flow, const FlowState &start, const Shoo
     march(flow, state, options.transient_periods);
     PeriodicOrbit orbit;
     orbit.period_multiple = options.period_multiple;
-    Run run = run_once(flow, state, orbit.period_multiple), best;
+    PeriodRun run = run_periods(flow, state, orbit.period_multiple), best;
     keep_closer(run, state, best, orbit);
     std::int64_t patience = first_march;
     while (orbit.iterations < options.max_iterations && orbit.defect > options.tolerance) {
@@ -160,7 +70,7 @@ PeriodicOrbit periodic_orbit(ExactFlow &flow, const FlowState &start, const Shoo
             if (!options.march_when_stuck) break;
             march(flow, state, patience * orbit.period_multiple);
             patience *= 2;
-            run = run_once(flow, state, orbit.period_multiple);
+            run = run_periods(flow, state, orbit.period_multiple);
         }
         keep_closer(run, state, best, orbit);
     }
@@ -174,7 +84,7 @@ PeriodicOrbit periodic_orbit(ExactFlow &flow, const FlowState &start, const Shoo
 double periodicity_defect(ExactFlow &flow, const FlowState &state, std::int64_t period_multiple) {
     if (period_multiple < 1)
         throw Error(PLM_ERR_ARGUMENT, "period_multiple must be at least 1").argument("period_multiple");
-    return run_once(flow, state, period_multiple).defect();
+    return run_periods(flow, state, period_multiple).defect();
 }
 
 vector<double> orbit_peaks(ExactFlow &flow, const PeriodicOrbit &orbit, const Matrix &rows) {

@@ -377,6 +377,96 @@ void folds_are_found_with_sampled_forces(void **) {
     assert_true(close_to(sampled[1], exact[1], 1e-3));
 }
 
+// A solution from a start stays on the start's branch while that goes on, and says so when it does not.
+struct FromStart {
+    double kept = 0;     // largest difference from the branch, whose amplitude is above 1
+    bool quiet = true;   // without a warning there
+    bool warned = false; // beyond the fold at which the branch ends
+};
+FromStart solve_from_the_upper_branch() {
+    HbmOptions o;
+    o.n_harmonics = 21;
+    o.stability = plm::StabilityKind::off;
+    const plm::Hbm hbm = solver(test::reduce_exactly(folding_oscillator()), o, 0.6, 1.9);
+    const BranchPtr curve = hbm.sweep();
+    const auto omega = [&](std::int64_t i) { return curve->points()[i].omega; };
+    auto folds = of_kind(*curve, PLM_BIFURCATION_FOLD);
+    std::sort(folds.begin(), folds.end(), [&](auto a, auto b) { return omega(a) < omega(b); });
+    // beyond the upper fold, coming down: the branch of large amplitudes
+    const std::int64_t first = folds.back() + 1, last = first + 12;
+    FromStart f;
+    for (std::int64_t i = first; i < last; i += 3)
+        for (std::int64_t k = first; k < last; k += 3) {
+            const BranchPtr one = hbm.solve(omega(k) / (2 * M_PI), curve.get(), i);
+            const plm::Matrix &want = curve->points()[k].eta, &is = one->points()[0].eta;
+            for (std::int64_t j = 0; j < want.cols(); ++j)
+                f.kept = std::max(f.kept, std::abs(is(0, j) - want(0, j)));
+            f.quiet = f.quiet && one->warnings.empty();
+        }
+    const BranchPtr beyond = hbm.solve(1.02 * omega(folds.back()) / (2 * M_PI), curve.get(), first);
+    f.warned = beyond->warnings.has(PLM_REASON_OTHER_BRANCH);
+    return f;
+}
+void a_solution_from_a_start_keeps_to_its_branch_or_says_so(void **) {
+    const FromStart f = solve_from_the_upper_branch();
+    assert_true(below(f.kept, 1e-6)); // two corrections by Newton's method to 1e-9, near a fold
+    assert_true(f.quiet);
+    assert_true(f.warned);
+}
+
+// Stability flags of the curve against the exact motion at the same frequency, where shooting from the point
+// finds one nearby.
+struct Flags {
+    int looked_at = 0, wrong = 0, unknown = 0;
+};
+Flags flags_against_exact_motions(const exact::Structure &s, double low, double high, int harmonics,
+                                  int every) {
+    const Model m = test::reduce_exactly(s);
+    HbmOptions o;
+    o.n_harmonics = harmonics;
+    const BranchPtr branch = solver(m, o, low, high).sweep();
+    Flags f;
+    for (std::size_t i = 0; i < branch->points().size(); i += every) {
+        const plm::BranchPoint &p = branch->points()[i];
+        const Vec start = state_of(*m, p, p.omega);
+        Vec state = start;
+        const double radius = exact_radius(s, p.omega, state);
+        double far = 0, size = 0;
+        for (std::size_t k = 0; k < state.size(); ++k)
+            far = std::max(far, std::abs(state[k] - start[k])), size = std::max(size, std::abs(start[k]));
+        if (!(std::isfinite(radius) && far < 0.1 * size && std::abs(radius - 1) > 1e-3)) continue;
+        ++f.looked_at;
+        const std::int64_t flag = plm::stability_of(p);
+        f.unknown += flag < 0;
+        f.wrong += flag >= 0 && flag != (radius < 1);
+    }
+    std::printf("    H = %d: %d points looked at, %d wrong, %d unknown\n", harmonics, f.looked_at, f.wrong,
+                f.unknown);
+    return f;
+}
+exact::Structure two_masses_and_a_stop() { // the oscillator of the literature
+    exact::Structure s;
+    s.n = 2;
+    s.z = 1;
+    s.mass = {1, 1};
+    s.stiffness = {1, -1, -1, 2};
+    s.damping = {0.03, -0.03, -0.03, 0.06};
+    s.gap_rows = {1, 0};
+    s.contact_stiffness = {100};
+    s.gap = {1};
+    s.force = {0, 0.1};
+    s.preload = {0, 0};
+    return s;
+}
+void stability_is_that_of_the_exact_motion(void **) {
+    for (int harmonics : {9, 21}) {
+        const Flags f = flags_against_exact_motions(two_masses_and_a_stop(), 0.5, 0.8, harmonics, 4);
+        assert_true(f.looked_at >= 30);
+        assert_int_equal(f.wrong, 0);
+        assert_true(10 * f.unknown <= f.looked_at); // beside folds, of which this curve has four
+    }
+}
+
 // Hill's method against the exact flow, for the multipliers that matter (the largest).
 double hill_error(int harmonics) {
     const Model m = test::reduce_exactly(test::chain(3, 0.02, 5, 0.1, 0.3, 0.2, {0, 2}));
@@ -428,6 +518,8 @@ int main() {
         cmocka_unit_test(neimark_sacker_points_agree_with_the_exact_flow),
         cmocka_unit_test(a_curve_of_folds_goes_to_both_sides),
         cmocka_unit_test(folds_are_found_with_sampled_forces),
+        cmocka_unit_test(a_solution_from_a_start_keeps_to_its_branch_or_says_so),
+        cmocka_unit_test(stability_is_that_of_the_exact_motion),
         cmocka_unit_test(hills_method_converges_to_the_multipliers_of_the_flow),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

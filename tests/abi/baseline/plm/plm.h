@@ -11,14 +11,18 @@
  *                  -> plm_study   error against run time of several ways to that curve
  *
  * Rules that hold for every function
- *   - It returns a plm_status: 0 done; > 0 done with an outcome to look at (results are valid); < 0 failed, and then
- *     nothing has changed and no output has been written. The text of the failure waits on the context.
+ *   - It returns a plm_status: 0 done; > 0 done with an outcome to look at (results are valid as far as they go);
+ *     < 0 failed, and then nothing has changed and no output has been written. What failed, or what should be looked
+ *     at, waits as a text on the context (plm_context_get_error_text). Ask for status < 0 where a failure is meant:
+ *     only functions that compute have outcomes.
  *   - Outputs come last. Pointers to outputs must not be NULL unless the declaration says "or NULL".
- *   - Handles are opaque. A child keeps its parents alive, so they may be destroyed in any order; destroying a context
- *     destroys what is left in it. A stale, foreign or wrong-kind handle gives PLM_ERR_HANDLE.
+ *   - Handles are opaque. A child keeps its parents alive, and destroying a context destroys what is left in it;
+ *     destroying what is gone already does nothing: any order is right. For any other use, a stale handle gives
+ *     PLM_ERR_HANDLE, as a foreign or wrong-kind one always does.
  *   - The library never prints, exits, throws, or changes the floating-point environment, signals, locale, environment
  *     or working directory of its host, and opens no file but those plm_study_write is asked for.
- *   - One context belongs to one thread at a time; different contexts may run at once.
+ *   - One context belongs to one thread at a time (another one gets PLM_ERR_BUSY meanwhile); different contexts may
+ *     run at once.
  *   - Dense arrays are column-major. DOFs and pairs are numbered from 0 unless the function takes an `index_base`.
  *   - Units are the caller's, consistent (mm-t-s, m-kg-s ...); frequencies are in Hz (1/time unit), angles in radian.
  *   - Text is copied into a buffer of `capacity` bytes, always ended by NUL and cut if it must be; `needed` (or NULL)
@@ -80,6 +84,7 @@ typedef int32_t plm_status;
 #define PLM_ERR_CONVERGENCE (-11)          /* an iteration did not converge and there is no partial result */
 #define PLM_ERR_CALLBACK (-12)             /* a host callback reported a failure */
 #define PLM_ERR_INTERNAL (-13)             /* a defect of libplm: please report the text */
+#define PLM_ERR_BUSY (-14)                 /* another thread is inside a call of this context */
 
 /* Reasons a program can branch on (plm_context_get_error_info; "end_reason" of a branch; "warning_reasons"). */
 #define PLM_REASON_NONE 0
@@ -105,6 +110,7 @@ typedef int32_t plm_status;
 #define PLM_REASON_UNVERIFIED 20       /* something that is checked by default could not be */
 #define PLM_REASON_NO_SWITCHING 21     /* no pair opens or closes: this is a linear response */
 #define PLM_REASON_LOST_MODE 22        /* a contact sample lost the mode that matches the dominant one */
+#define PLM_REASON_MODEL 23            /* the model is probably not meant so, see plm_model_audit */
 
 /* What a point of a branch is ("bifurcation" of a branch). */
 #define PLM_BIFURCATION_NONE 0
@@ -188,7 +194,7 @@ typedef int32_t (*plm_inertia_fn)(plm_context *ctx, void *factor, int64_t *negat
 /* api_version: PLM_API_VERSION. */
 PLM_API plm_status plm_context_create(int32_t api_version, plm_context **ctx);
 /* All arrays of the library made for this context come from `allocate`, which must be able to serve until the context
- * is destroyed. (The factorization library and ARPACK keep their own malloc.) */
+ * is destroyed. (The factorization library and FFTW keep to malloc.) */
 PLM_API plm_status plm_context_create_with_allocator(int32_t api_version, plm_allocate_fn allocate,
                                                      plm_release_fn release, void *user, plm_context **ctx);
 /* Destroys the context and all that is left in it; NULL and *ctx == NULL are accepted; *ctx becomes NULL. */
@@ -205,11 +211,12 @@ PLM_API plm_status plm_context_set_solver(plm_context *ctx, plm_factor_fn factor
  * "space_description" then says so. `user` is that of plm_context_set_solver, which comes first: else PLM_ERR_STATE. */
 PLM_API plm_status plm_context_set_inertia(plm_context *ctx, plm_inertia_fn inertia);
 
-/* The last failure in this context: "function: what is wrong (argument, index); what to do". Empty if none. */
+/* Of the last call in this context that did not return PLM_OK: "function: what is wrong, or should be looked at; what to
+ * do". After a failure (status < 0) and after an outcome (> 0) alike, the same below. Empty if there was none. */
 PLM_API plm_status plm_context_get_error_text(plm_context *ctx, int64_t capacity, char *buffer, int64_t *needed);
 PLM_API plm_status plm_context_get_error_function(plm_context *ctx, int64_t capacity, char *buffer, int64_t *needed);
 PLM_API plm_status plm_context_get_error_argument(plm_context *ctx, int64_t capacity, char *buffer, int64_t *needed);
-/* index: the offending position in the argument (its own base), -1 if none; library_code: of LAPACK, ARPACK, the
+/* index: the offending position in the argument (its own base), -1 if none; library_code: of LAPACK, the
  * factorization or the host's callback, 0 if none. Each output may be NULL. */
 PLM_API plm_status plm_context_get_error_info(plm_context *ctx, plm_status *status, int32_t *reason, int64_t *index,
                                               int64_t *library_code);
@@ -309,7 +316,8 @@ PLM_API plm_status plm_model_get_array(plm_model *model, const char *key, int64_
 PLM_API plm_status plm_model_get_int_array(plm_model *model, const char *key, int64_t capacity, int64_t *values,
                                            int64_t *count);
 
-/* Checks the whole, removes the fixed DOFs, factors K. Afterwards the model no longer changes.
+/* Checks the whole, removes the fixed DOFs, factors K. Afterwards the model no longer changes. PLM_WARNING when something
+ * is probably wrong, such as a pair given twice: "warning"; what is only worth a look goes to the log (plm_model_audit).
  * PLM_ERR_STATE without M or K; PLM_ERR_NOT_POSITIVE_DEFINITE if K + sigma M is not. Rigid-body modes are allowed. */
 PLM_API plm_status plm_model_build(plm_model *model);
 
@@ -461,8 +469,9 @@ PLM_API plm_status plm_hbm_find_backbones(plm_hbm *hbm, double force_max, int64_
 /* What the last plm_hbm_find_... of this hbm found. force_range[2] or NULL: force scales between which an isolated
  * branch exists, NaN where unknown or meaningless. */
 PLM_API plm_status plm_hbm_get_found(plm_hbm *hbm, int64_t index, double *force_range, plm_branch **branch);
-/* The curve of folds over (frequency, force) from a located fold of `branch`, in the range of force scales given. Its
- * points of "bifurcation" PLM_BIFURCATION_FOLD are extrema of the force: an isolated branch is born or merges there. */
+/* The curve of folds over (frequency, force) through a located fold of `branch`, to both sides of it as far as the range
+ * of force scales given goes; the side that begins towards smaller forces comes first. Its points of "bifurcation"
+ * PLM_BIFURCATION_FOLD are extrema of the force: an isolated branch is born or merges there. */
 PLM_API plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, int64_t point, double force_min,
                                       double force_max, plm_branch **folds);
 
@@ -475,7 +484,8 @@ PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_b
  * structure, and one step with the tangent of the latter, across the curve, tells what the defect does. amplitude[3] (of a
  * DOF, as in plm_branch_get_amplitude) and frequency_hz[3] (shift of the curve), corrected less computed, by cause: basis,
  * contact sets, harmonics beyond those solved for; the sum is the estimate. It measures errors that are small against the
- * width of the resonance and says of larger ones that they are large. Away from a peak, amplitude and frequency belong
+ * width of the resonance. Where the tangent does not hold as far as its step leads it is renewed; a part whose steps do
+ * not contract even then is NaN, with PLM_WARNING (PLM_REASON_NO_CONTRACTION): the error may be large. Away from a peak, amplitude and frequency belong
  * together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the model has no contact
  * pairs. The first call of an hbm prepares the unreduced structure. */
 PLM_API plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, int64_t point, int64_t dof, int32_t measure,
@@ -532,7 +542,8 @@ PLM_API plm_status plm_branch_get_closed_share(plm_branch *branch, int64_t point
  * structure at rest, and the mean closed share of the pairs in [0, 1]. Each output may be NULL. */
 PLM_API plm_status plm_branch_get_energy(plm_branch *branch, int64_t point, double *energy, double *contact_area);
 /* Floquet multipliers of a point over one period of the response, largest modulus first; count 0 where they were not
- * computed (option "stability"). real, imag: each `capacity` values, or NULL with capacity 0. */
+ * computed (option "stability") or no exact motion was found beside the point. real, imag: each `capacity` values, or
+ * NULL with capacity 0. */
 PLM_API plm_status plm_branch_get_multipliers(plm_branch *branch, int64_t point, int64_t capacity, double *real,
                                               double *imag, int64_t *count);
 /* |state after a period - state| over the size of the motion, by the exact flow of the reduced model from the point's
