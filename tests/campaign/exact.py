@@ -68,10 +68,6 @@ class Structure:
             xp = lambda time: np.real(f * np.exp(1j * omega * time)) + p.fixed
             c = p.inverse @ (x - xp(t))
             base = self.B @ p.fixed[:n] - self.g
-            gaps = lambda tau: (np.real(p.gaps @ (c[:, None] * np.exp(np.outer(p.values, tau))))
-                                + np.real(fg[:, None] * np.exp(1j * omega * (t + tau))) + base[:, None])
-            rates = lambda tau: (np.real(p.gaps @ ((c * p.values)[:, None] * np.exp(np.outer(p.values, tau))))
-                                 + np.real(1j * omega * fg[:, None] * np.exp(1j * omega * (t + tau))))
             alone = lambda i: (
                 lambda time: (np.dot(p.gaps[i] * c, np.exp(p.values * time)).real
                               + (fg[i] * np.exp(1j * omega * (t + time))).real + base[i]),
@@ -82,19 +78,27 @@ class Structure:
             live = (weight.max(axis=0, initial=0) > 1e-7 * size) & (np.abs(p.values.imag) > np.abs(p.values.real))
             fastest = np.abs(p.values.imag[live]).max(initial=omega)
             dt = min(end / periods / samples, 0.5 / fastest)
-            tau, hit = 0.0, None
-            while hit is None and t + tau < end:
-                grid = tau + dt * np.arange(33)
+            tau, hit, chunk = 0.0, None, 16
+            while hit is None and end - t - tau > 1e-14 * end:
+                chunk = min(2 * chunk, 512)
+                grid = tau + dt * np.arange(chunk + 1)
                 if grid[-1] >= end - t - 1e-14 * end:
                     grid = np.append(grid[grid < end - t - 1e-14 * end], end - t)
-                hit = self._first_event(gaps, rates, alone, grid, closed) if len(self.g) else None
-                stop = grid[-1] if hit is None else hit[0]
-                inside = np.append(grid[grid < stop], stop)
-                e = np.exp(np.outer(p.values, inside))
-                w = np.exp(1j * omega * (t + inside))
-                q = np.real(p.out @ (c[:, None] * e)) + np.real(fo * w) + p.fixed[self.out]
-                v = np.real(p.out @ ((c * p.values)[:, None] * e)) + np.real(1j * omega * fo * w)
-                peak = max(peak, largest(inside, q, v))
+                free, wave = c[:, None] * np.exp(np.outer(p.values, grid)), np.exp(1j * omega * (t + grid))
+                rate, swing = p.values[:, None] * free, 1j * omega * wave
+                if len(self.g):
+                    gaps = np.real(p.gaps @ free) + np.real(np.outer(fg, wave)) + base[:, None]
+                    hit = self._first_event(gaps, np.real(p.gaps @ rate) + np.real(np.outer(fg, swing)), alone, grid, closed)
+                q = np.real(p.out @ free) + np.real(fo * wave) + p.fixed[self.out]
+                v = np.real(p.out @ rate) + np.real(fo * swing)
+                stop = grid[-1]
+                if hit is not None:
+                    stop, before = hit[0], grid < hit[0]
+                    free, wave = c * np.exp(p.values * stop), np.exp(1j * omega * (t + stop))
+                    grid = np.append(grid[before], stop)
+                    q = np.append(q[before], (p.out @ free + fo * wave).real + p.fixed[self.out])
+                    v = np.append(v[before], (p.out @ (p.values * free) + 1j * omega * fo * wave).real)
+                peak = max(peak, largest(grid, q, v))
                 tau = stop
             growth = np.exp(p.values * tau)
             if derivative:
@@ -113,9 +117,9 @@ class Structure:
     @staticmethod
     def _first_event(gaps, rates, alone, grid, closed):
         """(time, pair) of the first change of sign after grid[0], or None; dips between grid points are looked at.
-        alone(i): the gap of pair i and its rate, as functions of one time."""
+        gaps, rates: (pairs, times) on the grid; alone(i): the gap of pair i and its rate, as functions of one time."""
         sign = np.where(closed, 1.0, -1.0)
-        g, r = gaps(grid) * sign[:, None], rates(grid) * sign[:, None]  # positive while the state lasts
+        g, r = gaps * sign[:, None], rates * sign[:, None]  # positive while the state lasts
         g[:, 0] = np.maximum(g[:, 0], 0.0)  # the piece may begin at an event
         suspect = (g[:, 1:] < 0) | ((r[:, :-1] < 0) & (r[:, 1:] > 0))
         first = None

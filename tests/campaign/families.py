@@ -75,7 +75,7 @@ def finish(rng, M, K, B, stiffness=(-1, 2.5), gap="any", preload=None, out=None,
 def random_damping(rng, M, K):
     """As the library is told, and as a matrix."""
     w2, phi = scipy.linalg.eigh(K, M)
-    w1 = np.sqrt(w2[w2 > 1e-9 * w2[-1]][0]) if np.any(w2 > 1e-9 * w2[-1]) else 1.0
+    w1 = np.sqrt(w2[w2 > 1e-14 * w2[-1]][0])  # penalties and pads without mass have modes far above the first
     zeta = 10 ** rng.uniform(-2.6, -1.3)
     kind = rng.choice(["beta", "alpha_beta", "modal", "matrix"])
     if kind == "beta":
@@ -215,7 +215,7 @@ def massless(rng):
     m = finish(rng, M, K, [gap_row(n + 1, (n, 1.0))], out=at, gap=rng.choice(["zero", "open", "preload"]))
     m["M_library"] = M.copy()
     m["M_library"][n, n] = 0.0
-    if m["damping"][0] in ("modal", "matrix") or m["damping"][0] == "rayleigh" and m["damping"][2] == 0:
+    if m["damping"][0] in ("modal", "matrix"):
         zeta_beta = 2e-2 / np.sqrt(scipy.linalg.eigh(K, M, eigvals_only=True)[0])
         m["damping"], m["C"] = ("rayleigh", 0.0, zeta_beta), zeta_beta * K
     return m
