@@ -437,8 +437,9 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
  * one and a half times the window at most; PLM_WARNING with PLM_REASON_NO_PEAK when no peak comes inside. An end that
  * the host gave (frequency_min_hz, frequency_max_hz here or of the basis, window_min_hz, window_max_hz of the sampler)
  * stays. PLM_WARNING with PLM_REASON_OUTSIDE_BASIS when the largest response outside the basis' window misses the
- * equations of the whole structure by more than 1 % (plm_branch_get_full_residual), with PLM_REASON_NO_SWITCHING
- * when no pair would open or close under a hundred times the motion. A structure in free flight, or free along a rail:
+ * equations of the whole structure by more than 1 % (plm_branch_get_full_residual), with PLM_REASON_BASIS_TOO_SMALL when
+ * the largest inside it does, with PLM_REASON_NO_SWITCHING when no pair would open or close under a hundred times the
+ * motion. A structure in free flight, or free along a rail:
  * mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
@@ -449,7 +450,8 @@ PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *
  * around the highest point of `branch` (which this hbm's basis computed), with twice its harmonics where they are chosen
  * automatically and the next ones would show. peak: that point as a branch, or NULL. PLM_WARNING with
  * PLM_REASON_NO_PEAK when the highest point stands at an end of the curve (also of one that was cut off): frequency and
- * amplitude are those of that point, and the peak lies elsewhere. A closed curve has no ends. */
+ * amplitude are those of that point, and the peak lies elsewhere; with PLM_REASON_BASIS_TOO_SMALL as for a sweep. A
+ * closed curve has no ends. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
 

@@ -13,13 +13,17 @@ constexpr double missed = 0.01;
 // A host that goes up from small forces begins within two decades of where contact changes.
 constexpr double far_from_switching = 100;
 
+bool is_inside(const SweepRange &window, const BranchPoint &p) {
+    const double hz = p.omega / (2 * M_PI);
+    return hz > window.min_hz * (1 - 1e-6) && hz < window.max_hz * (1 + 1e-6);
+}
+
 // The point outside the window where the response is largest; -1: all lie inside.
 std::int64_t largest_outside(const SweepRange &window, const Branch &branch) {
     std::int64_t best = -1;
     double most = -1;
     for (std::size_t i = 0; i < branch.points().size(); ++i) {
-        const double hz = branch.points()[i].omega / (2 * M_PI);
-        if (hz > window.min_hz * (1 - 1e-6) && hz < window.max_hz * (1 + 1e-6)) continue;
+        if (is_inside(window, branch.points()[i])) continue;
         const double size = response_size(branch, static_cast<std::int64_t>(i));
         if (size > most) most = size, best = static_cast<std::int64_t>(i);
     }
@@ -57,6 +61,35 @@ void check_window(const SweepRange &window, Watch watch, Branch &branch) {
                 "the sampler",
                 window.min_hz, window.max_hz,
                 branch.points()[static_cast<std::size_t>(worst)].omega / (2 * M_PI), residual));
+}
+
+namespace {
+
+// Whether what the full residual shows is the basis alone: forces from samples miss by themselves, and of
+// damping by a matrix and by ratios at once it sees the matrix only.
+bool shows_the_basis(const Branch &branch) {
+    const Damping &damping = branch.reduced().model->damping();
+    return !branch.sampled && !branch.is_mode && !(damping.has_matrix && !damping.modal_ratio.empty());
+}
+
+} // namespace
+
+void check_basis(const SweepRange &window, Watch watch, Branch &branch) {
+    if (!branch.reduced().model || branch.points().empty() || !shows_the_basis(branch)) return;
+    const std::int64_t top = largest_response(branch);
+    const BranchPoint &p = branch.points()[static_cast<std::size_t>(top)];
+    if (window.max_hz > 0 && !is_inside(window, p)) return; // check_window() speaks of that
+    const double residual = branch.full_residual(top);
+    if (residual <= missed) return;
+    watch.keeping(branch.warnings)
+        .warn(PLM_REASON_BASIS_TOO_SMALL,
+              format("the basis (%lld coordinates) is too small: at %.6g Hz the response misses the "
+                     "equations of the whole structure by %.2g of its size (full residual), and amplitudes "
+                     "are in doubt by as much (plm_hbm_estimate_error). %s",
+                     static_cast<long long>(branch.reduced().size()), p.omega / (2 * M_PI), residual,
+                     branch.reduced().all_pairs
+                         ? "Carry more pairs (n_pairs_carried), or raise below_factor of the basis"
+                         : "Raise below_factor or n_harmonics of the basis, or take kind \"full\""));
 }
 
 void check_switching(Watch watch, Branch &branch) {

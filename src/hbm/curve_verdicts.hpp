@@ -10,6 +10,10 @@ namespace plm {
 /// the equations of the whole structure, once, and what they miss decides.
 void check_window(const SweepRange &window, Watch watch, Branch &branch);
 
+/// A basis may be too small inside its window, too, where the contact is much stiffer than what it touches or
+/// many harmonics are needed: the largest response there is judged in the same way. For a peak found: alone.
+void check_basis(const SweepRange &window, Watch watch, Branch &branch);
+
 /// A curve on which no pair comes near to opening or closing is a linear response, most often of a gap or a
 /// pre-load in other units than the force.
 void check_switching(Watch watch, Branch &branch);

@@ -130,6 +130,7 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
     trace_curve(options_, start, watch_, *branch);
     bring_peak_inside(options_, reach_, watch_, *branch);
     check_window(window_, watch_, *branch);
+    check_basis(window_, watch_, *branch);
     check_switching(watch_, *branch);
     finish(*branch, begin);
     return branch;

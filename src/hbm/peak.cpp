@@ -1,6 +1,7 @@
 // The highest point of a curve, found on the curve itself: points on hyperplanes across the chord through the
 // three highest ones, by successive parabolic interpolation.
 #include "hbm/curve.hpp"
+#include "hbm/curve_verdicts.hpp"
 #include "hbm/hbm.hpp"
 #include "hbm/newton.hpp"
 #include <algorithm>
@@ -175,7 +176,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     one->end_reason = PLM_REASON_RANGE_END;
     BranchPoint point = branch.points()[top];
     double error = point.harmonic_error; // in what is asked for, where harmonics are chosen
-    if (!is_peak) // it stays where it is
+    if (!is_peak)                        // it stays where it is
         watch_.keeping(one->warnings).warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, highest));
     if (is_peak) {
         HbmOptions options = options_;
@@ -202,6 +203,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     }
     one->append(std::move(point));
     warn_of_harmonics(options_, error, *one);
+    check_basis(window_, watch_, *one);
     one->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);

@@ -23,6 +23,10 @@ vector<char> held_coordinates(const ReducedModel &m, double omega) {
 
 enum class End { none, first, last };
 
+// Of the largest response: where the curve ends higher, its top is so near that single DOFs may have theirs
+// beyond.
+constexpr double still_high = 0.9;
+
 class Widening {
   public:
     Widening(const HbmOptions &options, const SweepRange &range, Watch watch, Branch &branch)
@@ -33,7 +37,8 @@ class Widening {
     void run() {
         for (;;) {
             const End at = where_highest();
-            if (at == End::none || is_fixed(at)) return;
+            if (at == End::none) return leave_room();
+            if (is_fixed(at)) return;
             if (!move_range(is_low(at)) || !go_on(at)) return warn(at);
             if (branch_.end_reason != PLM_REASON_RANGE_END) return;
         }
@@ -51,6 +56,16 @@ class Widening {
         const std::int64_t top = largest_response(branch_), n = static_cast<std::int64_t>(points().size());
         if (n < 2 || (top > 0 && top < n - 1) || !(response_size(branch_, top) > 0)) return End::none;
         return top == 0 ? End::first : End::last;
+    }
+
+    // The peak of the response as a whole is inside, those of single DOFs stand beside it.
+    void leave_room() {
+        const double most = response_size(branch_, largest_response(branch_));
+        for (End at : {End::first, End::last}) {
+            const std::int64_t i = at == End::first ? 0 : static_cast<std::int64_t>(points().size()) - 1;
+            if (!(response_size(branch_, i) > still_high * most) || is_fixed(at)) continue;
+            if (!move_range(is_low(at)) || !go_on(at) || branch_.end_reason != PLM_REASON_RANGE_END) return;
+        }
     }
 
     bool is_fixed(End at) const {

@@ -161,6 +161,35 @@ void responses_outside_the_basis_are_said(void **) {
     assert_true(fine->full_residual(0) < 1e-6 && fine->warnings.empty());
 }
 
+// A chain that strikes a stop ten times as stiff as its springs, on the modes of two harmonics and on all of
+// them.
+struct Struck {
+    plm::Peak peak;
+    bool said = false; // by the curve
+};
+Struck struck_chain(bool all) {
+    const auto model = test::make_model(test::chain(8, 0.02, 10, 0, 0.1, 0, {7}), {{0.02}});
+    const auto sampler = std::make_shared<plm::Sampler>(model, plm::SamplerOptions(), plm::Watch());
+    plm::BasisOptions o;
+    o.n_harmonics = 2;
+    if (all) o.kind = plm::BasisKind::full;
+    const plm::Basis basis(model, sampler, nullptr, o, plm::Watch());
+    const plm::Hbm hbm(basis.reduced(), basis.sweep_range(), plm::HbmOptions(), plm::Watch());
+    const auto curve = hbm.sweep();
+    return {hbm.find_peak(*curve, 7, plm::Measure::peak, 0), curve->warnings.has(PLM_REASON_BASIS_TOO_SMALL)};
+}
+
+void a_basis_too_small_for_the_contact_is_said(void **) {
+    const Struck small = struck_chain(false), whole = struck_chain(true);
+    const double wrong = std::abs(small.peak.amplitude / whole.peak.amplitude - 1);
+    assert_true(wrong > 0.01);
+    assert_true(small.said && small.peak.branch->warnings.has(PLM_REASON_BASIS_TOO_SMALL));
+    // the number said is the size of the error
+    const double number = small.peak.branch->full_residual(0);
+    assert_true(number > 0.3 * wrong && number < 3 * wrong);
+    assert_true(!whole.said && !whole.peak.branch->warnings.has(PLM_REASON_BASIS_TOO_SMALL));
+}
+
 // Gap 1: at resonance the mass moves by force / (2 zeta) = 50 force, so a force of 1e-5 stays 2,000 times
 // below the stop, one of 1e-3 twenty times, and a force of 0.05 strikes it.
 void a_linear_response_is_said_where_contact_is_out_of_reach(void **) {
@@ -185,6 +214,7 @@ int main() {
         cmocka_unit_test(a_range_of_the_host_stays),
         cmocka_unit_test(a_cut_off_curve_has_no_peak),
         cmocka_unit_test(responses_outside_the_basis_are_said),
+        cmocka_unit_test(a_basis_too_small_for_the_contact_is_said),
         cmocka_unit_test(a_linear_response_is_said_where_contact_is_out_of_reach),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
