@@ -137,28 +137,31 @@ double mass_residual(const Matrix &p, const SparseMatrix &mass, const vector<dou
 
 // The columns of the kind before conditioning; the report tells how they came about. sampler: null where the
 // kind needs none.
-Matrix collect(const Space &space, const Sampler *sampler, const RestState &rest, const SelectionRule &rule,
-               const BasisOptions &o, BasisReport &report, Watch watch) {
+CollectedModes collect(const Space &space, const Sampler *sampler, const RestState &rest,
+                       const SelectionRule &rule, const BasisOptions &o, BasisReport &report, Watch watch) {
     if (o.kind == BasisKind::snapshots) {
         CollectedSnapshots collected =
             collect_snapshots(space, *sampler, rest, dominant_coordinates(*sampler, space), rule, o, watch);
         report.n_rest_modes = collected.n_rest_modes;
-        return std::move(collected.columns);
+        CollectedModes snapshots;
+        snapshots.columns = std::move(collected.columns);
+        return snapshots;
     }
     CollectedModes collected =
         o.kind == BasisKind::plm
             ? collect_modes(space, sampler->samples(), dominant_coordinates(*sampler, space), rule, watch)
             : collect_rival_modes(space, rule, o, watch);
-    report.samples = std::move(collected.samples);
+    report.samples = collected.samples;
     report.equivalent_share = std::move(collected.equivalent_share);
-    return std::move(collected.columns);
+    return collected;
 }
 
 Reduction reduce_to_vectors(const Space &space, const Sampler *sampler, const SelectionRule &rule,
                             const BasisOptions &o, Watch watch) {
     const RestState rest = sampler && &space == sampler->space().get() ? sampler->rest() : solve_rest(space);
     Reduction r;
-    Matrix columns = collect(space, sampler, rest, rule, o, r.report, watch);
+    CollectedModes collected = collect(space, sampler, rest, rule, o, r.report, watch);
+    Matrix columns = std::move(collected.columns);
     r.report.n_collected = columns.cols();
     watch.step("basis", 0.0);
     if (o.load_vectors && o.kind != BasisKind::lelsm_updated) { // which has its own
@@ -167,6 +170,8 @@ Reduction reduce_to_vectors(const Space &space, const Sampler *sampler, const Se
     }
     Conditioned conditioned = condition_columns(space, columns, o.svd_tolerance);
     r.report.singular_values = std::move(conditioned.singular_values);
+    if (!collected.lost.empty())
+        warn_of_lost_modes(r.report.samples, collected.lost, conditioned.coordinates, rule, watch);
     watch.step("basis", 0.3);
     StaticBasis statics;
     if (o.static_augmentation) statics = make_static_basis(space, conditioned.coordinates, rest.coordinates);

@@ -1,4 +1,5 @@
 #include "reduction/mode_selection.hpp"
+#include "reduction/static_basis.hpp"
 #include "sampling/mode_match.hpp"
 #include <algorithm>
 #include <cmath>
@@ -45,6 +46,9 @@ Error no_mode_kept(const SelectionRule &rule, const char *who) {
 
 namespace {
 
+// Of a mode's size: a part outside the basis that is not worth a word.
+constexpr double held = 1e-2;
+
 SampleSelection select_modes(const MatchedModes &found, const SelectionRule &rule) {
     SampleSelection s;
     for (double value : found.modes.values) {
@@ -59,10 +63,28 @@ SampleSelection select_modes(const MatchedModes &found, const SelectionRule &rul
     return s;
 }
 
-void warn_of_lost_modes(const std::vector<SampleSelection> &samples, const SelectionRule &rule, Watch watch) {
+bool is_lost(const SampleSelection &s) {
+    return s.matched >= 0 && !s.matched_kept;
+}
+
+std::string remedy(const SelectionRule &rule) {
+    if (rule.selection == ModeSelection::bands)
+        return format("the resonance may be lost: widen the window [%.6g, %.6g] Hz or choose selection "
+                      "\"below\"",
+                      rule.min_hz, rule.max_hz);
+    return format("raise below_factor or frequency_max_hz (modes are kept up to %.6g Hz)", rule.highest_hz());
+}
+
+} // namespace
+
+void warn_of_lost_modes(const std::vector<SampleSelection> &samples, const Matrix &lost,
+                        const Coordinates &basis, const SelectionRule &rule, Watch watch) {
     std::size_t n_lost = 0, first = 0;
+    std::int64_t column = 0;
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        if (samples[i].matched < 0 || samples[i].matched_kept) continue;
+        if (!is_lost(samples[i])) continue;
+        const double *mode = lost.col(column++);
+        if (relative_remainder(basis, vector<double>(mode, mode + lost.rows())) <= held) continue;
         if (n_lost++ == 0) first = i;
     }
     if (n_lost == 0) return;
@@ -72,16 +94,8 @@ void warn_of_lost_modes(const std::vector<SampleSelection> &samples, const Selec
                "%.2f)",
                first, s.frequency_hz[s.matched], s.matched_mac);
     if (n_lost > 1) text += format(", nor do %zu other samples keep theirs", n_lost - 1);
-    text += rule.selection == ModeSelection::bands
-                ? format("; the resonance may be lost: widen the window [%.6g, %.6g] Hz or choose selection "
-                         "\"below\"",
-                         rule.min_hz, rule.max_hz)
-                : format("; raise below_factor or frequency_max_hz (modes are kept up to %.6g Hz)",
-                         rule.highest_hz());
-    watch.warn(PLM_REASON_LOST_MODE, text);
+    watch.warn(PLM_REASON_LOST_MODE, text + "; " + remedy(rule));
 }
-
-} // namespace
 
 CollectedModes collect_modes(const Space &space, const std::vector<SelectedSample> &samples,
                              const std::vector<vector<double>> &dominant, const SelectionRule &rule,
@@ -92,10 +106,11 @@ CollectedModes collect_modes(const Space &space, const std::vector<SelectedSampl
         const MatchedModes found =
             match_modes(space, samples[i].closed, dominant[samples[i].dominant], rule.highest_eigenvalue());
         collected.samples.push_back(select_modes(found, rule));
-        collected.columns.append(kept_columns(found.modes, collected.samples.back().kept));
+        const SampleSelection &sample = collected.samples.back();
+        collected.columns.append(kept_columns(found.modes, sample.kept));
+        if (is_lost(sample)) collected.lost.append(found.modes.vectors.columns(sample.matched, 1));
     }
     if (collected.columns.cols() == 0) throw no_mode_kept(rule, "no sample");
-    warn_of_lost_modes(collected.samples, rule, watch);
     return collected;
 }
 

@@ -1,6 +1,7 @@
 // Which modes of each contact sample enter the reduction matrix (paper, 2.3.4).
 #pragma once
 #include "reduction/basis.hpp"
+#include "reduction/conditioning.hpp"
 
 namespace plm {
 
@@ -22,6 +23,7 @@ struct SelectionRule {
 struct CollectedModes {
     Matrix columns; // kept modes of all samples, space size x n_collected, mass-normalised
     std::vector<SampleSelection> samples;
+    Matrix lost;                     // modes that match the dominant one and are not kept, sample by sample
     vector<double> equivalent_share; // lelsm: s_i of each column; lelsm_updated: of each pair; else empty
 };
 
@@ -29,6 +31,11 @@ struct CollectedModes {
 Matrix kept_columns(const SpaceModes &modes, const vector<char> &kept);
 /// PLM_ERR_ARGUMENT: "<who> has a mode in the windows ...".
 Error no_mode_kept(const SelectionRule &rule, const char *who);
+
+/// Says which samples do not keep the mode that matches the dominant one, unless the basis holds that mode
+/// all the same: from other samples, or because it holds everything.
+void warn_of_lost_modes(const std::vector<SampleSelection> &samples, const Matrix &lost,
+                        const Coordinates &basis, const SelectionRule &rule, Watch watch);
 
 /// dominant: coordinates of the dominant modes in this space.
 CollectedModes collect_modes(const Space &space, const std::vector<SelectedSample> &samples,

@@ -3,6 +3,7 @@
 #include "reduction/basis.hpp"
 #include "sampling/mode_match.hpp"
 #include "sampling/small_models.hpp"
+#include "support/small_reduced.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 
@@ -226,6 +227,20 @@ void a_lost_resonance_is_reported(void **) {
     for (const auto &s : below->report().samples) assert_true(s.matched_kept);
 }
 
+// Where the basis holds everything, nothing is lost.
+void a_mode_that_the_basis_holds_is_not_lost(void **) {
+    // two masses, the second against a stop 10^4 times as stiff: closed, its modes are far apart
+    exact::Structure s = test::chain(2, 0.01, 1e4, 0, 1, 0, {1});
+    const auto model = test::make_model(s, {{0.01}});
+    const auto sampler = std::make_shared<Sampler>(model, SamplerOptions(), plm::Watch());
+    const Basis basis(model, sampler, nullptr, BasisOptions(), plm::Watch());
+    bool lost = false;
+    for (const auto &sample : basis.report().samples) lost = lost || !sample.matched_kept;
+    assert_true(lost);                              // by a sample,
+    assert_int_equal(basis.reduced()->size(), s.n); // not by the basis
+    assert_true(basis.report().warnings.empty());
+}
+
 void no_mode_at_all_is_an_error(void **) {
     const Case c = make_case(pressed_chains());
     BasisOptions o = rule(ModeSelection::bands);
@@ -377,6 +392,7 @@ int main() {
         cmocka_unit_test(the_preload_residual_is_eq_12),
         cmocka_unit_test(static_augmentation_is_left_out_when_not_needed),
         cmocka_unit_test(a_lost_resonance_is_reported),
+        cmocka_unit_test(a_mode_that_the_basis_holds_is_not_lost),
         cmocka_unit_test(no_mode_at_all_is_an_error),
         cmocka_unit_test(a_larger_svd_tolerance_gives_a_smaller_basis),
         cmocka_unit_test(proportional_damping_stays_diagonal),
