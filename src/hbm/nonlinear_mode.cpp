@@ -123,8 +123,10 @@ class ModePath final : public PathOwner {
         for (std::int64_t h = std::min<std::int64_t>(7, options_.hbm.max_harmonics);;
              h = std::min(2 * h, options_.hbm.max_harmonics)) {
             NonlinearMode found = follow(h);
-            if (largest_tail_ <= options_.hbm.harmonic_tolerance || h >= options_.hbm.max_harmonics)
-                return found;
+            if (largest_tail_ <= options_.hbm.harmonic_tolerance) return found;
+            if (h < options_.hbm.max_harmonics) continue;
+            warn_of_tail(*found.branch);
+            return found;
         }
     }
 
@@ -161,6 +163,24 @@ class ModePath final : public PathOwner {
 
   private:
     static constexpr std::int32_t reached = -1; // kind of the test function, as bifurcations have theirs
+
+    void warn_of_tail(Branch &branch) const {
+        const auto &points = branch.points();
+        std::size_t over = 0, worst = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (points[i].harmonic_tail > points[worst].harmonic_tail) worst = i;
+            over += points[i].harmonic_tail > options_.hbm.harmonic_tolerance;
+        }
+        watch_.keeping(branch.warnings)
+            .warn(PLM_REASON_HARMONICS_TOO_FEW,
+                  format("harmonic_tolerance (%.2g) was not reached at %zu of %zu points of the nonlinear "
+                         "mode: at point %zu (%.6g Hz) the next harmonics have a share of %.2g in the "
+                         "motion of the gaps. Raise max_harmonics (%lld) or, if that is accurate enough, "
+                         "harmonic_tolerance; or end at a smaller amplitude (amplitude_max)",
+                         options_.hbm.harmonic_tolerance, over, points.size(), worst,
+                         points[worst].omega / (2 * M_PI), points[worst].harmonic_tail,
+                         static_cast<long long>(options_.hbm.max_harmonics)));
+    }
 
     bool ends_by_dof() const { return options_.dof >= 0 && options_.dof_amplitude_max > 0; }
 

@@ -29,16 +29,19 @@ class PeakSearch {
     bool run(const Branch &branch, const std::array<std::int64_t, 3> &around, BranchPoint &highest) {
         for (int k = 0; k < 3; ++k) load(branch, around[k], three_[k]);
         set_chord();
-        Sample solved; // the curve's points may have other numbers of harmonics
+        // the curve's points may have other numbers of harmonics; a parabola through both kinds has no
+        // meaning
+        Sample solved, left, right;
         if (!corrected(three_[1].s, solved)) return false;
+        const bool all = corrected(three_[0].s, left) && corrected(three_[2].s, right);
         three_[1] = solved;
+        if (all) three_[0] = left, three_[2] = right;
         double reach = 0.5 * (three_[2].s - three_[0].s);
         for (int round = 0; round < 12; ++round) {
             Sample middle;
             if (!corrected(vertex(), middle)) break;
             // New triple around the vertex, ten times closer: interpolation error falls with its square.
             reach = std::max(0.1 * reach, 2e-3 * span_);
-            Sample left, right;
             if (!corrected(middle.s - reach, left) || !corrected(middle.s + reach, right)) break;
             three_ = {left, middle, right};
             if (reach <= 2e-3 * span_ && left.amplitude < middle.amplitude &&

@@ -191,6 +191,28 @@ void damping_ratio_balances_the_energy(void **) {
     assert_true(b.share < 0.9 && b.most > 1.05 * b.least); // the contact opened, and xi told of it
 }
 
+// Harmonics chosen, but no more than `most`: the mode of an oscillator that strikes a stop.
+plm::Warnings said_with(int most, double &tail) {
+    plm::NonlinearModeOptions o;
+    o.hbm.n_harmonics = 0;
+    o.hbm.max_harmonics = most;
+    o.frequency_hz = 1 / (2 * M_PI);
+    o.amplitude_min = 0.5;
+    o.amplitude_max = 5;
+    const auto mode = plm::follow_nonlinear_mode(
+        test::reduce_exactly(test::bilinear_oscillator(0, 3, 1, 0, 0)), o, plm::Watch());
+    tail = 0;
+    for (const auto &p : mode.branch->points()) tail = std::max(tail, p.harmonic_tail);
+    return mode.branch->warnings;
+}
+
+void too_few_harmonics_are_said(void **) {
+    const double wanted = plm::HbmOptions().harmonic_tolerance;
+    double tail = 0;
+    assert_true(said_with(3, tail).has(PLM_REASON_HARMONICS_TOO_FEW) && tail > wanted);
+    assert_true(said_with(60, tail).empty() && tail <= wanted);
+}
+
 } // namespace
 
 int main() {
@@ -200,6 +222,7 @@ int main() {
         cmocka_unit_test(preload_keeps_contact_until_it_opens),
         cmocka_unit_test(stiff_contact_does_not_change_the_mode_asked_for),
         cmocka_unit_test(damping_ratio_balances_the_energy),
+        cmocka_unit_test(too_few_harmonics_are_said),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
