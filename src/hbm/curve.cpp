@@ -140,7 +140,7 @@ class CurveTracer final : public PathOwner {
         std::int64_t unverified = 0;
         for (const BranchPoint &p : branch_.points()) unverified += p.multipliers.empty();
         if (10 * unverified > n_points())
-            branch_.warnings.add(PLM_REASON_UNVERIFIED, unverified_text(unverified, n_points()));
+            branch_.warnings.add(PLM_REASON_UNVERIFIED, stability_.unknown_text(unverified, n_points()));
     }
 
     double window_width() const { return 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz); }

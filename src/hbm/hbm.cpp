@@ -171,7 +171,7 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
     Stability stability(reduced_, options_, watch_);
     if (stability.wanted()) result.multipliers = stability.multipliers(result);
     if (stability.wanted() && result.multipliers.empty())
-        branch->warnings.add(PLM_REASON_UNVERIFIED, unverified_text(1, 1));
+        branch->warnings.add(PLM_REASON_UNVERIFIED, stability.unknown_text(1, 1));
     branch->append(std::move(result));
     warn_of_harmonics(options_, *branch);
     branch->end_reason = PLM_REASON_RANGE_END;

@@ -129,6 +129,7 @@ class HillMatrix {
 
 vector<std::complex<double>> hill_multipliers(const FlowModel &flow, const BranchPoint &point,
                                               std::int64_t period_multiple) {
+    if (flow.state_size() * (2 * point.n_harmonics + 1) > largest_hill_order) return {};
     const double omega = point.omega / static_cast<double>(period_multiple);
     ContactIndicator indicator;
     const ContactMotion contact = contact_motion(flow.reduced(), point);

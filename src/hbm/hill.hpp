@@ -7,8 +7,11 @@
 
 namespace plm {
 
-/// FlowModel::state_size() multipliers over one period of the response, largest modulus first. Order of the
-/// eigenproblem: (2 H + 1) times as many.
+/// Of the eigenproblem: one call of LAPACK, which takes a second there and knows nothing of the host.
+constexpr std::int64_t largest_hill_order = 600;
+
+/// FlowModel::state_size() multipliers over one period of the response, largest modulus first; empty where
+/// the eigenproblem, of order (2 H + 1) times as many, would be larger than largest_hill_order.
 vector<std::complex<double>> hill_multipliers(const FlowModel &flow, const BranchPoint &point,
                                               std::int64_t period_multiple);
 

@@ -120,11 +120,14 @@ std::vector<ContactInterval> contact_intervals(const ReducedModel &m, const Bran
     return intervals;
 }
 
-std::string unverified_text(std::int64_t n_unverified, std::int64_t n_points) {
-    return format(
-        "the stability of %lld of %lld points is not known: no exact motion was found beside them, so "
-        "that their harmonics do not describe one; take more harmonics, or set stability to off",
-        static_cast<long long>(n_unverified), static_cast<long long>(n_points));
+std::string Stability::unknown_text(std::int64_t n_unknown, std::int64_t n_points) const {
+    const std::string why =
+        hill_ ? format("Hill's matrix would be larger than %lld there; set stability to floquet",
+                       static_cast<long long>(largest_hill_order))
+              : "no exact motion was found beside them, so that their harmonics do not describe one; take "
+                "more harmonics, or set stability to off";
+    return format("the stability of %lld of %lld points is not known: %s", static_cast<long long>(n_unknown),
+                  static_cast<long long>(n_points), why.c_str());
 }
 
 vector<double> bifurcation_tests(const vector<std::complex<double>> &multipliers) {

@@ -16,6 +16,8 @@ class Stability {
     /// flow. Empty: no exact motion was found beside the point. Structural damping counts as viscous damping
     /// that loses the same energy at the response frequency.
     vector<std::complex<double>> multipliers(const BranchPoint &point);
+    /// What is said with points that have no multipliers.
+    std::string unknown_text(std::int64_t n_unknown, std::int64_t n_points) const;
 
   private:
     Matrix monodromy_of(const std::shared_ptr<const FlowModel> &flow, const BranchPoint &point,
@@ -27,9 +29,6 @@ class Stability {
     bool wanted_, hill_;
     std::shared_ptr<const FlowModel> flow_; // null when it depends on the frequency
 };
-
-/// What is said with points that have no multipliers.
-std::string unverified_text(std::int64_t n_unverified, std::int64_t n_points);
 
 /// The contact sets of a point over its period, from the zeros of its penetrations, as the flow takes them.
 std::vector<ContactInterval> contact_intervals(const ReducedModel &reduced, const BranchPoint &point,

@@ -486,6 +486,19 @@ void hills_method_converges_to_the_multipliers_of_the_flow(void **) {
     assert_true(many < few);
 }
 
+// One call of LAPACK cannot be stopped: where it would take seconds, Hill's method leaves stability unknown.
+void hills_method_ends_where_it_would_not_be_heard_of(void **) {
+    const Model m = test::reduce_exactly(test::chain(3, 0.02, 5, 0.1, 0.3, 0.2, {0, 2}));
+    HbmOptions o;
+    o.stability = plm::StabilityKind::hill;
+    for (int harmonics : {49, 50}) { // 6 (2 H + 1) = 594, 606
+        o.n_harmonics = harmonics;
+        const auto one = solver(m, o, 0.2, 1.5).solve(0.7 / (2 * M_PI), nullptr, 0);
+        assert_int_equal(one->points()[0].multipliers.empty(), harmonics == 50);
+        assert_int_equal(one->warnings.has(PLM_REASON_UNVERIFIED), harmonics == 50);
+    }
+}
+
 // "auto" goes up to 24 coordinates of the basis; the static response to a pre-load beside them is none of
 // them. (With structural damping no flow is made before a point is known, so that the model needs no masses
 // here.)
@@ -521,6 +534,7 @@ int main() {
         cmocka_unit_test(a_solution_from_a_start_keeps_to_its_branch_or_says_so),
         cmocka_unit_test(stability_is_that_of_the_exact_motion),
         cmocka_unit_test(hills_method_converges_to_the_multipliers_of_the_flow),
+        cmocka_unit_test(hills_method_ends_where_it_would_not_be_heard_of),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
