@@ -21,12 +21,18 @@ esac
 
 need_packages g++ gfortran cmake ninja-build pkg-config libopenblas-dev libopenblas-serial-dev liblapack-dev libarpack2-dev libfftw3-dev \
     libsuitesparse-dev libeigen3-dev libcmocka-dev python3 python3-numpy python3-scipy python3-matplotlib \
-    python3-pip calculix-ccx abigail-tools valgrind doxygen clang libclang-rt-dev make
+    python3-pip calculix-ccx abigail-tools valgrind doxygen clang libclang-rt-dev make ccache
 
 jobs=2
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
 export OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}" # the tests themselves run side by side
 export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
+
+# What two presets compile alike is compiled once.
+if command -v ccache >/dev/null && [ -z "${CMAKE_CXX_COMPILER_LAUNCHER-}" ]; then
+    export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
+    export CCACHE_DIR="${CCACHE_DIR:-$root/build/ccache}" CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1
+fi
 
 summary=
 failures=0
