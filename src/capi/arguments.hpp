@@ -2,6 +2,7 @@
 #pragma once
 #include "linalg/error.hpp"
 #include "linalg/memory.hpp"
+#include "linalg/scale.hpp"
 #include <cmath>
 
 namespace plm::capi {
@@ -53,6 +54,8 @@ plm_status put_complex_array(const vector<Complex> &from, std::int64_t capacity,
         parts[0].push_back(c.real());
         parts[1].push_back(c.imag());
     }
+    for (const vector<double> &part : parts)
+        require_finite_result(part.data(), static_cast<std::int64_t>(part.size()), "real, imag");
     put_array(parts[0], capacity, real, count);
     return put_array(parts[1], capacity, imag, count);
 }

@@ -108,6 +108,7 @@ plm_status plm_basis_get_vectors(plm_basis *basis, std::int32_t is_static, std::
         require_range(n, 0, p.cols() - first, "n");
         require_range(ld, model.n_dof(), INT64_MAX / 64, "ld");
         if (n > 0) require_pointer(vector, "vector");
+        plm::require_finite_result(p.data() + first * p.rows(), n * p.rows(), "vector");
         for (std::int64_t j = 0; j < n; ++j) model.expand(p.col(first + j), vector + j * ld);
         return PLM_OK;
     });

@@ -117,7 +117,7 @@ EigenPairs search(const Pencil &pencil, std::int64_t n_wanted) {
     KrylovRequest request{n_wanted, std::max(2 * n_wanted + 1, n_wanted + 20), pencil.options.tolerance,
                           pencil.options.max_restarts, 1};
     KrylovResult result{};
-    for (int attempt = 0; attempt < 3; ++attempt, request.n_lanczos *= 2) {
+    for (int attempt = 0; attempt < pencil.options.max_attempts; ++attempt, request.n_lanczos *= 2) {
         request.n_lanczos = std::min(request.n_lanczos, pencil.rank());
         result = run(pencil, request);
         if (result.end == KrylovEnd::converged) return finite_ones(pencil, std::move(result.pairs), n_wanted);
@@ -127,7 +127,8 @@ EigenPairs search(const Pencil &pencil, std::int64_t n_wanted) {
         return dense_eigenpairs(pencil, n_wanted);
     throw Error(PLM_ERR_EIGENSOLVER, format("%lld of %lld eigenpairs were found: %s",
                                             static_cast<long long>(result.pairs.values.size()),
-                                            static_cast<long long>(n_wanted), meaning(result.end)));
+                                            static_cast<long long>(n_wanted), meaning(result.end)))
+        .library_code(result.end == KrylovEnd::too_few ? eigs_too_few : 0);
 }
 
 /// The best pair M-orthogonal to those known, or none if the search does not converge.

@@ -19,6 +19,7 @@ class Audit {
         massless_dofs();
         rigid_modes();
         conditioning();
+        rounding();
         if (!quick) frequencies();
         damping();
         loads();
@@ -134,6 +135,18 @@ class Audit {
             format("reciprocal condition of the factored %s, estimated from its pivots: %.1e%s",
                    m_.shift() > 0 ? "K + sigma M" : "stiffness", condition,
                    condition < 1e-12 ? "; very stiff or very thin elements, or penalty terms?" : ""));
+    }
+
+    // Frequencies carry half of what their squares do; no result is to be wrong by 1 % without a word.
+    void rounding() {
+        const double share = 0.5 * m_.uncertainty();
+        if (share < 1e-3) return;
+        add(2, share,
+            format(
+                "rounding of the stiffness matrix leaves the lowest elastic frequency uncertain by %.1g of "
+                "it: the mesh is too fine, or a penalty too stiff, for double precision; use larger "
+                "elements, a softer penalty, or supports",
+                share));
     }
 
     void frequencies() {

@@ -193,6 +193,7 @@ void Model::factor_stiffness(Watch watch) {
     factor_ = std::move(result.factor);
     shift_ = result.shift;
     rigid_modes_ = std::move(result.rigid_modes);
+    uncertainty_ = result.uncertainty;
 }
 
 void Model::resolve_contact_stiffness() {

@@ -91,6 +91,8 @@ class Model {
     double shift() const { return shift_; }
     /// M-orthonormal rigid-body modes of the open structure (n_free x count, may have no column).
     const Matrix &rigid_modes() const { return rigid_modes_; }
+    /// What rounding of K makes of the first elastic eigenvalue where there are rigid-body modes, relative.
+    double uncertainty() const { return uncertainty_; }
     /// (K + shift M)^-1 B^T, n_free x Z: computed once, at the build (auto stiffness and every space need
     /// it).
     const Matrix &attachment() const { return attachment_; }
@@ -117,7 +119,7 @@ class Model {
     std::map<int, HarmonicLoad> excitation_;
     vector<Translation> translations_;
     double excitation_on_supports_ = 0;
-    double local_stiffness_ = 0, shift_ = 0;
+    double local_stiffness_ = 0, shift_ = 0, uncertainty_ = 0;
     std::unique_ptr<Factor> factor_;
     Matrix rigid_modes_, attachment_;
     SpaceOptions space_options_;

@@ -118,6 +118,7 @@ class RigidModeSearch {
         FactoredStiffness result;
         result.shift = std::max(1e-2 * flexible, 1e3 * low_.largest_rounding());
         result.factor = factor_shifted(result.shift, 1e-4 * scale_);
+        result.uncertainty = low_.largest_rounding() / flexible;
         if (n_rigid_ == 0) {
             watch_.log(1,
                        format("the stiffness is singular to working precision, though no rigid-body mode was "
@@ -149,10 +150,14 @@ class RigidModeSearch {
         return *middle;
     }
 
+    struct Effort {
+        std::int64_t restarts, attempts;
+    };
     EigenPairs lowest(const Factor &factor, double shift, std::int64_t count,
-                      std::int64_t max_restarts = 300) const {
+                      Effort effort = {300, 3}) const {
         EigsOptions options;
-        options.max_restarts = max_restarts;
+        options.max_restarts = effort.restarts;
+        options.max_attempts = effort.attempts;
         options.cancelled = [this] { return watch_.cancelled("rigid-body modes", 0.4); };
         return lowest_eigenpairs(k_, m_, factor, -shift, std::min(count, k_.cols), options);
     }
@@ -168,31 +173,42 @@ class RigidModeSearch {
     }
 
     // A shift far above the first elastic eigenvalue makes them all look alike, one below the rounding of K
-    // has no factor: down from where a usual mesh has neither trouble.
+    // has no factor: down from where a usual mesh has neither trouble. Next to a factorization the iteration
+    // is dear, so that it gives up soon where a lower shift may do.
     void search() {
         double shift = 1e-10 * scale_;
         std::unique_ptr<Factor> factor = factor_shifted(shift, 1e-4 * scale_);
-        while (!find_low_modes(*factor, shift)) {
-            shift *= 1e-2;
-            try {
-                factor = factor_shifted(shift, shift);
-            } catch (const Error &e) {
-                if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE) throw;
+        while (!find_low_modes(*factor, shift, Effort{10, 1})) {
+            std::unique_ptr<Factor> lower = 1e-2 * shift > 1e-17 * scale_ ? factor_at(1e-2 * shift) : nullptr;
+            if (!lower) {
+                if (find_low_modes(*factor, shift, Effort{40, 3})) return;
                 throw too_fine();
             }
+            shift *= 1e-2;
+            factor = std::move(lower);
+        }
+    }
+
+    // Null: not positive definite.
+    std::unique_ptr<Factor> factor_at(double shift) const {
+        try {
+            return factor_shifted(shift, shift);
+        } catch (const Error &e) {
+            if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE) throw;
+            return nullptr;
         }
     }
 
     // At most six rigid modes per body, but the number of bodies is not known: more are taken until there is
     // a flexible one. False: they do not come apart.
-    bool find_low_modes(const Factor &factor, double shift) {
+    bool find_low_modes(const Factor &factor, double shift, Effort effort) {
         for (std::int64_t count = std::min<std::int64_t>(8, k_.cols);; count = std::min(k_.cols, 2 * count)) {
             watch_.step("rigid-body modes", 0.3);
             try {
-                low_.take(lowest(factor, shift, count, 40), k_, m_);
+                low_.take(lowest(factor, shift, count, effort), k_, m_);
             } catch (const Error &e) {
-                const bool slow = e.status() == PLM_ERR_EIGENSOLVER && e.library_code() == 1;
-                if (!slow || shift < 1e-15 * scale_) throw; // 1: too few converged
+                const bool slow = e.status() == PLM_ERR_EIGENSOLVER && e.library_code() == eigs_too_few;
+                if (!slow) throw;
                 return false;
             }
             n_rigid_ = count_rigid(low_);

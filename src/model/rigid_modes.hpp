@@ -10,6 +10,7 @@ struct FactoredStiffness {
     std::unique_ptr<Factor> factor; // of K + shift M
     double shift = 0;               // 0 when K is positive definite
     Matrix rigid_modes;             // M-orthonormal, n x count
+    double uncertainty = 0;         // of the first elastic eigenvalue by rounding of K, relative
 };
 
 /// `largest_contact` (0 if unknown) sets the scale of sigma when K is zero altogether. `free_dof` translates

@@ -57,12 +57,14 @@ class Interior {
         watch_.step("fixed-interface modes", 0.0);
         EigsOptions options;
         options.cancelled = [this] { return watch_.cancelled("fixed-interface modes", 0.5); };
-        const std::int64_t counted = n_fixed > 0 ? n_fixed : count_below(highest);
+        double limit = highest;
+        const std::int64_t counted = n_fixed > 0 ? n_fixed : count_below(limit);
         std::int64_t wanted = std::min(n_, counted >= 0 ? counted : 20);
         for (;;) {
             if (wanted == 0) return Matrix(n_, 0);
             const EigenPairs pairs = lowest_eigenpairs(k_, m_, *factor_, -shift_, wanted, options);
             const std::int64_t found = static_cast<std::int64_t>(pairs.values.size());
+            if (counted > 0 && n_fixed == 0) require_counted(pairs, counted, limit);
             const bool complete = found < wanted || wanted == n_ || pairs.values.back() > highest * highest;
             if (n_fixed > 0) return pairs.vectors;
             if (counted < 0 && !complete) {
@@ -140,19 +142,39 @@ class Interior {
         return x;
     }
 
-    // By Sylvester's law of inertia; -1 when the solver cannot tell.
-    std::int64_t count_below(double highest) const {
+    // By Sylvester's law of inertia; -1 when the solver cannot tell. `limit` moves a little where it hits a
+    // mode.
+    std::int64_t count_below(double &limit) const {
         if (!tells_inertia(model_.host_solver())) return -1;
-        for (double omega = highest; omega < 1.01 * highest; omega *= 1.003) {
+        for (int attempt = 0; attempt < 4; ++attempt) {
+            if (attempt > 0) limit *= 1.003;
+            watch_.step("count of fixed-interface modes", 0.1); // a factorization, which hears nobody
             try {
-                const SparseMatrix shifted = add(1.0, k_, -omega * omega, m_);
+                const SparseMatrix shifted = add(1.0, k_, -limit * limit, m_);
                 return make_factor(shifted, FactorKind::indefinite, model_.host_solver())
                     ->negative_eigenvalues();
             } catch (const Error &e) {
-                if (e.status() != PLM_ERR_SINGULAR) throw; // the cutoff hit an eigenvalue: move it
+                if (e.status() != PLM_ERR_SINGULAR) throw;
             }
         }
+        watch_.warn(
+            PLM_REASON_UNVERIFIED,
+            format("the number of fixed-interface modes below %.6g Hz could not be verified: K - w^2 M "
+                   "is singular there and just above; compare with another highest frequency",
+                   limit / (2 * M_PI)));
         return -1;
+    }
+
+    static void require_counted(const EigenPairs &pairs, std::int64_t counted, double limit) {
+        constexpr double rounding = 1e-8;
+        const auto below = std::count_if(pairs.values.begin(), pairs.values.end(), [&](double value) {
+            return value <= (1 + rounding) * limit * limit;
+        });
+        if (below < counted)
+            throw Error(PLM_ERR_EIGENSOLVER, format("%lld fixed-interface modes were found below %.6g Hz "
+                                                    "where the Sturm sequence counts %lld",
+                                                    static_cast<long long>(below), limit / (2 * M_PI),
+                                                    static_cast<long long>(counted)));
     }
 
     const Model &model_;
@@ -201,6 +223,33 @@ Matrix transformation(const Model &model, const Partition &p, const CraigBampton
     return t;
 }
 
+constexpr std::int64_t column_block = 64; // between two looks at the host, where both sides are long
+
+void put(const Matrix &columns, std::int64_t first, Matrix &into) {
+    std::copy_n(columns.data(), columns.rows() * columns.cols(), into.data() + first * into.rows());
+}
+
+// T^T A T.
+Matrix projection(const Matrix &t, const SparseMatrix &a, Watch watch) {
+    Matrix out(t.cols(), t.cols());
+    for (std::int64_t first = 0; first < t.cols(); first += column_block) {
+        watch.step("Craig-Bampton", 0.7);
+        const Matrix block = t.columns(first, std::min(column_block, t.cols() - first));
+        put(product('T', 'N', t, multiply(a, block)), first, out);
+    }
+    return out;
+}
+
+// T Y.
+Matrix combined(const Matrix &t, const Matrix &y, Watch watch) {
+    Matrix out(t.rows(), y.cols());
+    for (std::int64_t first = 0; first < y.cols(); first += column_block) {
+        watch.step("Craig-Bampton", 0.9);
+        put(product('N', 'N', t, y.columns(first, std::min(column_block, y.cols() - first))), first, out);
+    }
+    return out;
+}
+
 void symmetrise(Matrix &a) {
     for (std::int64_t j = 0; j < a.cols(); ++j)
         for (std::int64_t i = j + 1; i < a.rows(); ++i) a(i, j) = a(j, i) = 0.5 * (a(i, j) + a(j, i));
@@ -229,8 +278,8 @@ std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Mode
                                                       const CraigBamptonOptions &options, Watch watch) {
     const Partition p = partition(*model);
     const Matrix t = transformation(*model, p, options, watch);
-    Matrix k = product('T', 'N', t, multiply(model->stiffness(), t));
-    Matrix m = product('T', 'N', t, multiply(model->mass(), t));
+    Matrix k = projection(t, model->stiffness(), watch);
+    Matrix m = projection(t, model->mass(), watch);
     symmetrise(k);
     symmetrise(m);
     watch.step("Craig-Bampton", 0.8);
@@ -238,7 +287,7 @@ std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Mode
 
     auto space = std::make_shared<Space>();
     space->model = model;
-    space->vectors = product('N', 'N', t, ritz.vectors);
+    space->vectors = combined(t, ritz.vectors, watch);
     space->lambda = std::move(ritz.lambda);
     space->n_massless = ritz.n_massless;
     clear_rigid_values(model->rigid_modes().cols(), space->lambda);
