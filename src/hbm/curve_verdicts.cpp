@@ -30,6 +30,16 @@ std::int64_t largest_outside(const SweepRange &window, const Branch &branch) {
     return best;
 }
 
+// A right answer to a question that was hardly meant: away from the resonance that the basis is for, and
+// linear.
+bool is_beside_the_point(const SweepRange &window, const Branch &branch) {
+    for (const BranchPoint &p : branch.points()) {
+        const double hz = p.omega / (2 * M_PI);
+        if (p.n_switching > 0 || (hz > window.min_hz && hz < window.max_hz)) return false;
+    }
+    return branch.points().size() > 1 && branch.reduced().n_pairs() > 0;
+}
+
 // How many times as large the motion at a point would have to be for the first pair to switch.
 double factor_to_switching(const Branch &branch, std::int64_t point) {
     const Matrix u = branch.penetration_coefficients(point);
@@ -50,6 +60,14 @@ void check_window(const SweepRange &window, Watch watch, Branch &branch) {
     const std::int64_t worst = largest_outside(window, branch);
     if (worst < 0) return;
     const double residual = branch.full_residual(worst);
+    if (residual <= missed && is_beside_the_point(window, branch))
+        watch.keeping(branch.warnings)
+            .warn(
+                PLM_REASON_OUTSIDE_BASIS,
+                format("the whole curve lies outside the %.6g to %.6g Hz that the basis is made for, and no "
+                       "contact pair opens or closes on it. Are the limits in Hz (rad/s over 2 pi)? Sweep "
+                       "over the window, or name the mode that is meant (\"mode\" of the sampler)",
+                       window.min_hz, window.max_hz));
     if (residual <= missed) return;
     watch.keeping(branch.warnings)
         .warn(
