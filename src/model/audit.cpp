@@ -140,7 +140,7 @@ class Audit {
     // Frequencies carry half of what their squares do; no result is to be wrong by 1 % without a word.
     void rounding() {
         const double share = 0.5 * m_.uncertainty();
-        if (share < 1e-3) return;
+        if (share < 5e-3) return;
         add(2, share,
             format(
                 "rounding of the stiffness matrix leaves the lowest elastic frequency uncertain by %.1g of "

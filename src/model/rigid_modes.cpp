@@ -219,6 +219,7 @@ class RigidModeSearch {
     // Rounding of K may exceed a small shift (penalties): up to `largest` it grows until the factor exists.
     std::unique_ptr<Factor> factor_shifted(double &shift, double largest) const {
         for (;; shift = std::min(100 * shift, largest)) {
+            watch_.step("factorization", 0.2);
             try {
                 return make_factor(add(1.0, k_, shift, m_), FactorKind::positive_definite, host_);
             } catch (const Error &e) {
