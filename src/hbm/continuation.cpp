@@ -1,5 +1,6 @@
 #include "hbm/continuation.hpp"
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace plm {
@@ -9,6 +10,9 @@ struct State {
     vector<double> x;
     double omega = 0;
 };
+
+// Where a zero is looked for in an interval when the test function has no value at the best place.
+constexpr std::array<double, 5> elsewhere = {0.5, 0.75, 0.25, 0.9, 0.1};
 
 double value_of(const vector<double> &tests, std::size_t k) {
     return k < tests.size() ? tests[k] : 0;
@@ -214,6 +218,8 @@ class Continuation {
         if (now_.omega < low_ || now_.omega > high_) return leave_range(before, old_tangent);
         const vector<double> old_tests = tests_;
         evaluate(tests_);
+        for (std::size_t k = 0; k < tests_.size(); ++k) // its sign is that of the last known value
+            if (std::isnan(tests_[k])) tests_[k] = value_of(old_tests, k);
         jumped_ = false;
         locate(before, old_tangent, moved, old_tests);
         if (jumped_ && moved > 20 * options_.min_step) {
@@ -388,15 +394,19 @@ class Continuation {
         const double size = std::min(std::abs(left), std::abs(right));
         double a = 0, b = 1, best = 1e300;
         int last_side = 0;
+        std::size_t unknown = 0; // times in a row that the function had no value (stability at a fold)
         State below = s.before, above = s.after;
         for (int i = 0; i < 60 && b - a > 1e-10; ++i) {
             double t = i % 4 == 3 ? 0.5 * (a + b) : (a * right - b * left) / (right - left);
+            if (unknown > 0) t = a + elsewhere[unknown - 1] * (b - a);
             t = std::min(b - 1e-3 * (b - a), std::max(a + 1e-3 * (b - a), t));
             vector<double> tests;
             double residual = 0;
             if (!move_to(s, t, chord, tests, residual)) break;
             const double value = value_of(tests, k);
-            if (std::isnan(value)) break;
+            if (std::isnan(value) && ++unknown > elsewhere.size()) break;
+            if (std::isnan(value)) continue;
+            unknown = 0;
             if (std::abs(value) < best) {
                 best = std::abs(value);
                 c = {t, now_, kinds_[k], residual};

@@ -30,7 +30,7 @@ class CurveTracer final : public PathOwner {
   public:
     CurveTracer(const HbmOptions &options, Watch watch, Branch &branch)
         : asked_(options), options_(options), watch_(watch), branch_(branch),
-          reduced_(branch.reduced_model()), stability_(reduced_, options, watch),
+          reduced_(branch.reduced_model()), stability_(reduced_, options),
           fewest_(std::max<std::int64_t>(3, highest_excitation(*reduced_))) {}
 
     void run(const CurveStart &start) {

@@ -1,46 +1,98 @@
 #include "hbm/exact_motion.hpp"
+#include "hbm/contact_force.hpp"
+#include "hbm/formulation.hpp"
 #include "transient/period_map.hpp"
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace plm {
 namespace {
 
-constexpr int max_steps = 10;
-constexpr double same_motion = 0.3;  // of the motion's size: farther away it is another one
-constexpr double safe_share = 0.002; // of the multipliers' distance from the unit circle
-constexpr double near_enough = 1e-6; // whatever the multipliers
-constexpr double most_flops = 1e9;   // of one period of the flow: a tenth of a second or two
+constexpr int max_steps = 10, event_steps = 5;
+constexpr double same_motion = 0.3; // of the motion's size: farther away it is another one
+// How exact a motion has to be for its multipliers: near grazing they change with the root of the
+// penetration, a small part of the motion. Shares of their distance from the unit circle, and what is enough
+// wherever they are; in the state, as a share of the motion, and in the instants of the events, as angles.
+constexpr double safe_state = 2e-5, exact_state = 1e-9;
+constexpr double safe_shift = 5e-4, exact_shift = 1e-7;
+// Of one run of the flow, which finds events by itself: below, it costs no more than the point did; above, a
+// curve would take minutes.
+constexpr double cheap = 3e6, affordable = 3e7; // flops
 
 // The fastest motion of the open structure bounds the length of the flow's pieces from above.
-bool affordable(const ExactFlow &flow, std::int64_t periods) {
+double flops_of_run(const ExactFlow &flow, std::int64_t periods) {
     const FlowModel &model = flow.model();
     double fastest = 0;
     for (std::int64_t j = 0; j < model.n_massive(); ++j) fastest = std::max(fastest, model.lambda()[j]);
     const double n = static_cast<double>(model.size()), z = static_cast<double>(model.n_pairs()),
                  pieces = 16 + 0.5 * std::sqrt(fastest) * flow.period() * static_cast<double>(periods);
-    return pieces * 26 * 2 * n * (n + z) < most_flops;
+    return pieces * 26 * 2 * n * (n + z); // 26 terms of the series
 }
 
 // The flag is safe when the multipliers are farther from the unit circle than they are uncertain.
-double margin(const Matrix &monodromy) {
-    double least = 1;
-    for (const std::complex<double> &m : multipliers(monodromy))
-        least = std::min(least, std::abs(std::abs(m) - 1));
-    return least;
+struct Verdict {
+    double margin = 1;
+    std::int64_t n_outside = 0;
+};
+Verdict verdict_of(const Matrix &monodromy) {
+    Verdict v;
+    for (const std::complex<double> &m : multipliers(monodromy)) {
+        v.margin = std::min(v.margin, std::abs(std::abs(m) - 1));
+        v.n_outside += std::abs(m) > 1;
+    }
+    return v;
 }
 
 } // namespace
+
+EventSequence contact_events(const ReducedModel &m, const BranchPoint &point, std::int64_t period_multiple) {
+    const double period = 2 * M_PI / point.omega * static_cast<double>(period_multiple);
+    EventSequence sequence;
+    if (m.n_pairs() == 0) return sequence;
+    SwitchingInstants switching = switching_instants(contact_motion(m, point).u);
+    sequence.closed_first = std::move(switching.closed_first);
+    for (std::int64_t i = 0; i < m.n_pairs(); ++i)
+        for (double t : switching.instants[i]) sequence.events.push_back({t / (2 * M_PI) * period, i});
+    std::sort(sequence.events.begin(), sequence.events.end(),
+              [](const ContactEvent &a, const ContactEvent &b) {
+                  return std::tie(a.time, a.pair) < std::tie(b.time, b.pair);
+              });
+    return sequence;
+}
 
 Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
                                const Matrix &within) {
     const double omega = point.omega / static_cast<double>(periods_);
     const FlowState start = model->state(point.eta_0, point.eta, omega, 0.0);
-    ExactFlow flow(std::move(model), point.omega, point.force_scale, watch_);
-    if (!affordable(flow, periods_)) return {};
+    ExactFlow flow(model, point.omega, point.force_scale);
+    const double flops = flops_of_run(flow, periods_);
     Matrix found;
-    if (!correction_.empty()) found = search(flow, start, moved(flow.model(), start, correction_, 1), within);
+    if (flops > cheap && model->n_massive() == model->size()) found = by_events(*model, point, start, within);
+    if (found.rows() > 0 || flops > (patient_ ? INFINITY : affordable)) return found;
+    if (!correction_.empty()) found = search(flow, start, moved(*model, start, correction_, 1), within);
     return found.rows() > 0 ? found : search(flow, start, start, within);
+}
+
+// With the events of the solution, as long as no other ones come in. On a surface with many pairs some barely
+// touch, and their events find no rest; what does not change from step to step does not hang on them.
+Matrix MotionBeside::by_events(const FlowModel &model, const BranchPoint &point, const FlowState &start,
+                               const Matrix &within) {
+    EventSequence sequence = contact_events(model.reduced(), point, periods_);
+    EventMotion motion(model, point.omega, point.force_scale, periods_, within);
+    const EnergyNorm norm(model, point.omega);
+    Verdict verdict;
+    for (int k = 0; k < event_steps; ++k) {
+        if (!motion.solve(sequence)) return {};
+        if (norm.distance(motion.start(), start) > same_motion * motion.size()) return {};
+        const Verdict now = verdict_of(motion.monodromy());
+        if (motion.is_consistent() && motion.shift() <= std::max(exact_shift, safe_shift * now.margin))
+            return motion.monodromy();
+        if (k > 0 && now.n_outside != verdict.n_outside) return {};
+        verdict = now;
+        sequence = motion.moved(sequence);
+    }
+    return motion.monodromy();
 }
 
 Matrix MotionBeside::search(ExactFlow &flow, const FlowState &start, FlowState now, const Matrix &within) {
@@ -62,7 +114,7 @@ Matrix MotionBeside::newton(ExactFlow &flow, const FlowState &start, FlowState n
         const double step = run.size > 0 ? norm.distance(next, now) / run.size : 0;
         if (!std::isfinite(step) || norm.distance(next, start) > same_motion * run.size) return {};
         now = std::move(next);
-        if (step > near_enough && step > safe_share * margin(matrix)) continue;
+        if (step > exact_state && step > safe_state * verdict_of(matrix).margin) continue;
         keep_correction(model, start, now);
         return matrix;
     }

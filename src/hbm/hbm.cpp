@@ -168,7 +168,7 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
                            frequency_hz, drift_hint(*reduced_).c_str()))
             .argument("frequency_hz")
             .reason(PLM_REASON_START_FAILED);
-    Stability stability(reduced_, options_, watch_);
+    Stability stability(reduced_, options_);
     if (stability.wanted()) result.multipliers = stability.multipliers(result);
     if (stability.wanted() && result.multipliers.empty())
         branch->warnings.add(PLM_REASON_UNVERIFIED, stability.unknown_text(1, 1));

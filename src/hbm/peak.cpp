@@ -36,25 +36,35 @@ class PeakSearch {
         const bool all = corrected(three_[0].s, left) && corrected(three_[2].s, right);
         three_[1] = solved;
         if (all) three_[0] = left, three_[2] = right;
-        double reach = 0.5 * (three_[2].s - three_[0].s);
-        for (int round = 0; round < 12; ++round) {
-            Sample middle;
-            if (!corrected(vertex(), middle)) break;
-            // New triple around the vertex, ten times closer: interpolation error falls with its square.
-            reach = std::max(0.1 * reach, 2e-3 * span_);
-            if (!corrected(middle.s - reach, left) || !corrected(middle.s + reach, right)) break;
-            three_ = {left, middle, right};
-            if (reach <= 2e-3 * span_ && left.amplitude < middle.amplitude &&
-                right.amplitude < middle.amplitude)
-                break;
-        }
+        close_in();
+        const Sample &top = *std::max_element(three_.begin(), three_.end(), [](const auto &a, const auto &b) {
+            return a.amplitude < b.amplitude;
+        });
         Sample best;
-        if (!corrected(vertex(), best) || best.amplitude < three_[1].amplitude * (1 - 1e-9)) best = three_[1];
+        if (!corrected(vertex(), best) || best.amplitude < top.amplitude * (1 - 1e-9)) best = top;
         highest = std::move(best.point);
         return true;
     }
 
   private:
+    // New triples around the vertex, ten times closer as long as the top is inside: the error of a parabola
+    // falls with its square. One that misses the top (far from it the curve is no parabola) goes to its
+    // higher side with wider steps.
+    void close_in() {
+        const double closest = 2e-3 * span_;
+        double reach = 0.05 * span_;
+        for (int round = 0; round < 20; ++round) {
+            Sample left, middle, right;
+            if (!corrected(vertex(), middle) || !corrected(middle.s - reach, left) ||
+                !corrected(middle.s + reach, right))
+                return;
+            three_ = {left, middle, right};
+            const bool inside = left.amplitude < middle.amplitude && right.amplitude < middle.amplitude;
+            if (inside && reach <= closest) return;
+            reach = inside ? std::max(0.1 * reach, closest) : std::min(2 * reach, 0.25 * span_);
+        }
+    }
+
     void load(const Branch &branch, std::int64_t i, Sample &s) {
         s.point = branch.points()[i];
         s.x.resize(system_.size());
@@ -77,7 +87,8 @@ class PeakSearch {
         direction_omega_ /= length * omega_scale_ * omega_scale_;
         origin_ = three_[1];
         for (Sample &s : three_) s.s = position(s.x, s.omega);
-        span_ = three_[2].s - three_[0].s;
+        first_ = three_[0].s, last_ = three_[2].s;
+        span_ = last_ - first_;
     }
 
     double position(const vector<double> &x, double omega) const {
@@ -86,15 +97,18 @@ class PeakSearch {
         return s;
     }
 
-    // Vertex of the parabola through the triple, kept inside it.
+    // Vertex of the parabola through the triple, kept inside it and inside the first one.
     double vertex() const {
         const Sample &a = three_[0], &b = three_[1], &c = three_[2];
         const double left = (b.amplitude - a.amplitude) / (b.s - a.s),
                      right = (c.amplitude - b.amplitude) / (c.s - b.s);
         const double bend = (right - left) / (c.s - a.s);
-        if (!(bend < 0)) return b.s;
-        const double s = 0.5 * (a.s + b.s) - 0.5 * left / bend;
-        return std::min(c.s, std::max(a.s, s));
+        double s = 0.5 * (a.s + b.s) - 0.5 * left / bend;
+        if (!(bend < 0))
+            s = std::max({a.amplitude, b.amplitude, c.amplitude}) == b.amplitude ? b.s
+                : a.amplitude > c.amplitude                                      ? a.s
+                                                                                 : c.s;
+        return std::clamp(s, std::max(a.s, first_), std::min(c.s, last_));
     }
 
     // The curve's point in the hyperplane at s, from the parabola through the triple as first guess.
@@ -136,7 +150,7 @@ class PeakSearch {
     std::array<Sample, 3> three_;
     Sample origin_;
     vector<double> direction_;
-    double direction_omega_ = 0, scale_ = 1, omega_scale_ = 1, span_ = 1;
+    double direction_omega_ = 0, scale_ = 1, omega_scale_ = 1, first_ = 0, last_ = 1, span_ = 1;
 };
 
 // The highest point and its neighbours; a closed curve, whose last point is its first, has no ends. False:

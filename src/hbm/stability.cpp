@@ -54,8 +54,9 @@ vector<char> closing_pairs(const ReducedModel &m, const BranchPoint &point) {
 
 } // namespace
 
-Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, Watch watch)
-    : reduced_(std::move(reduced)), beside_(options.period_multiple, watch),
+Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
+    : reduced_(std::move(reduced)),
+      beside_(options.period_multiple, options.stability != StabilityKind::automatic),
       period_multiple_(options.period_multiple),
       wanted_(options.stability == StabilityKind::floquet || options.stability == StabilityKind::hill ||
               (options.stability == StabilityKind::automatic && reduced_->size() <= automatic_size)),
@@ -101,22 +102,16 @@ Matrix Stability::monodromy_of(const std::shared_ptr<const FlowModel> &flow, con
 std::vector<ContactInterval> contact_intervals(const ReducedModel &m, const BranchPoint &point,
                                                std::int64_t period_multiple) {
     const double period = 2 * M_PI / point.omega * static_cast<double>(period_multiple);
-    const std::int64_t z = m.n_pairs();
-    if (z == 0) return {{period, {}}};
-    const SwitchingInstants switching = switching_instants(contact_motion(m, point).u);
-    std::vector<std::pair<double, std::int64_t>> events;
-    for (std::int64_t i = 0; i < z; ++i)
-        for (double t : switching.instants[i]) events.emplace_back(t, i);
-    std::sort(events.begin(), events.end());
+    const EventSequence sequence = contact_events(m, point, period_multiple);
     std::vector<ContactInterval> intervals;
-    vector<char> closed = switching.closed_first;
+    vector<char> closed = sequence.closed_first;
     double before = 0;
-    for (const auto &[t, pair] : events) {
-        if (t > before) intervals.push_back({(t - before) / (2 * M_PI) * period, closed});
-        closed[pair] = !closed[pair];
-        before = std::max(before, t);
+    for (const ContactEvent &event : sequence.events) {
+        if (event.time > before) intervals.push_back({event.time - before, closed});
+        closed[static_cast<std::size_t>(event.pair)] ^= 1;
+        before = std::max(before, event.time);
     }
-    if (before < 2 * M_PI) intervals.push_back({(2 * M_PI - before) / (2 * M_PI) * period, closed});
+    if (before < period) intervals.push_back({period - before, closed});
     return intervals;
 }
 

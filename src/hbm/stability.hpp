@@ -9,7 +9,7 @@ namespace plm {
 
 class Stability {
   public:
-    Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, Watch watch = Watch());
+    Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
     /// Whether the options and the size of the model ask for multipliers.
     bool wanted() const { return wanted_; }
     /// Of the perturbations over one period of the response, largest first: 2 n, n the coordinates of the

@@ -53,7 +53,8 @@ class Run {
         out_.curve_seconds = curve.seconds();
         Warnings said = out_.basis->report().warnings;
         for (const BranchPtr &b : out_.curves) said.add(b->warnings);
-        if (!said.empty()) out_.note += (out_.note.empty() ? "" : "; ") + said.text();
+        const std::string text = unmeasured_text(said);
+        if (!text.empty()) out_.note += (out_.note.empty() ? "" : "; ") + text;
         double seconds = 0;
         std::int64_t iterations = 0;
         for (const BranchPtr &b : out_.curves)
@@ -127,6 +128,14 @@ class Run {
 };
 
 } // namespace
+
+std::string unmeasured_text(const Warnings &warnings) {
+    Warnings said;
+    for (const Warning &w : warnings.list())
+        if (w.reason != PLM_REASON_BASIS_TOO_SMALL && w.reason != PLM_REASON_HARMONICS_TOO_FEW)
+            said.add(w.reason, w.text);
+    return said.text();
+}
 
 HbmOptions options_at_level(const MethodPlan &method, const MeasurementCase &where, double level) {
     HbmOptions o = method.recipe.hbm;

@@ -24,6 +24,9 @@ struct MeasurementCase {
     KnownSpace space;     // for a method that needs one, or null: each makes its own
 };
 
+/// Without what a study measures itself: how good basis and harmonics of a method are.
+std::string unmeasured_text(const Warnings &warnings);
+
 /// The method's solver at a level, with the study's range where it has none of its own.
 HbmOptions options_at_level(const MethodPlan &method, const MeasurementCase &where, double level);
 

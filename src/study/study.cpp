@@ -187,7 +187,7 @@ class Study {
 
     // A highest point at an end of the curve is compared with another one's resonance.
     static void note_peak(const Peak &peak, std::size_t level, MethodResult &r) {
-        const std::string text = peak.branch->warnings.text();
+        const std::string text = unmeasured_text(peak.branch->warnings);
         if (!text.empty()) r.outcome += format("; level %zu: ", level) + text;
     }
 

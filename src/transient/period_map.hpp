@@ -8,7 +8,8 @@ namespace plm {
 /// |y, v|^2 = sum (lambda + omega^2) y^2 + v^2 (omega^2: for rigid-body motion). What follows is no state.
 class EnergyNorm {
   public:
-    explicit EnergyNorm(const ExactFlow &flow) : model_(flow.model()), omega_(flow.omega()) {}
+    explicit EnergyNorm(const ExactFlow &flow) : EnergyNorm(flow.model(), flow.omega()) {}
+    EnergyNorm(const FlowModel &model, double omega) : model_(model), omega_(omega) {}
     double distance(const FlowState &a, const FlowState &b) const;
 
   private:

@@ -36,3 +36,9 @@ int done(plm_context *ctx, plm_status got) {
     printf("    status %d: %s\n", (int)got, text);
     return 0;
 }
+
+int done_but_for(plm_context *ctx, plm_status got, int32_t reason) {
+    int32_t why = PLM_REASON_NONE;
+    if (got == PLM_WARNING) plm_context_get_error_info(ctx, NULL, &why, NULL, NULL);
+    return (got == PLM_WARNING && why == reason) || done(ctx, got);
+}

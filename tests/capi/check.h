@@ -27,4 +27,7 @@ double larger(double a, double b);
 /* PLM_OK, or the error text printed */
 int done(plm_context *ctx, plm_status got);
 
+/* The same, or PLM_WARNING for this reason alone */
+int done_but_for(plm_context *ctx, plm_status got, int32_t reason);
+
 #endif
