@@ -239,4 +239,20 @@ void warn_of_harmonics(const HbmOptions &options, double error, Branch &branch) 
     if (options.n_harmonics == 0 && error > options.harmonic_tolerance) warn(options, 1, 0, error, branch);
 }
 
+void warn_of_given_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                             std::int64_t dof, Measure measure, std::int64_t harmonic, Branch &one) {
+    // whoever gives a number has a reason; what is far off is none
+    constexpr double far_off = 0.1;
+    BranchPoint point = one.points()[0];
+    const MeasuredHarmonics next = measure_harmonics(reduced, options_at(point, options), point);
+    const double error = harmonic_error_at(*reduced, point, next.change, dof, measure, harmonic);
+    if (error < far_off) return;
+    one.warnings.add(
+        PLM_REASON_HARMONICS_TOO_FEW,
+        format("n_harmonics = %lld is too few for this peak: the next harmonics would change it by %s. Raise "
+               "n_harmonics, or set it to 0, and each point gets as many as it needs",
+               static_cast<long long>(harmonics_of(point, one.period_multiple())),
+               error < 1 ? format("about %.2g of itself", error).c_str() : "more than itself"));
+}
+
 } // namespace plm

@@ -31,8 +31,8 @@ struct MeasuredHarmonics {
     HarmonicContent content;
     HarmonicChange change;
 };
-/// Sets point.harmonic_tail and harmonic_error of a solution, in the harmonics that it was solved with; returns
-/// what the next ones are and what they would change.
+/// Sets point.harmonic_tail and harmonic_error of a solution, in the harmonics that it was solved with;
+/// returns what the next ones are and what they would change.
 MeasuredHarmonics measure_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                                     BranchPoint &point);
 
@@ -55,5 +55,9 @@ void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOpti
 void warn_of_harmonics(const HbmOptions &options, Branch &branch);
 /// The same for one point and the error of what was asked for there.
 void warn_of_harmonics(const HbmOptions &options, double error, Branch &branch);
+/// The same for a branch of one point, a result at one DOF with a number of harmonics that the host has
+/// given.
+void warn_of_given_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                             std::int64_t dof, Measure measure, std::int64_t harmonic, Branch &one);
 
 } // namespace plm

@@ -79,10 +79,9 @@ static peak_of find_peak(const plate *p, plm_basis *basis, int64_t n_harmonics) 
     DONE(plm_hbm_set_string(top.hbm, "bifurcations", "off"));
     /* bases of all sizes are compared here, too small ones among them */
     assert_true(done_but_for(ctx, plm_hbm_sweep(top.hbm, &top.curve), PLM_REASON_BASIS_TOO_SMALL));
-    assert_true(done_but_for(ctx,
-                             plm_hbm_find_peak(top.hbm, top.curve, p->host->output_dof, PLM_HALF_PEAK_TO_PEAK,
-                                               0, &top.hz, &top.amplitude, &top.point),
-                             PLM_REASON_BASIS_TOO_SMALL));
+    assert_true(plm_hbm_find_peak(top.hbm, top.curve, p->host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, &top.hz,
+                                  &top.amplitude,
+                                  &top.point) >= 0); /* where bases are that small, more is said */
     return top;
 }
 

@@ -177,6 +177,8 @@ MISTAKES = [
     ("matrices of different size", lambda: plm.Model(MASS, scipy.sparse.block_diag([STIFFNESS, STIFFNESS]).tocsr()),
      "the stiffness matrix is 84 x 84, but the model has 42 DOFs", "hand over all matrices as 42 x 42"),
     ("no contact pair", no_contact, "no contact pair, so there is no contact area to sample", "use a basis of kind full or craig_bampton"),
+    ("one harmonic", lambda: run(options={"n_harmonics": 1}, contact=2e5), "n_harmonics = 1 is too few for this peak", "Raise n_harmonics"),
+    ("three harmonics", lambda: run(options={"n_harmonics": 3}, contact=2e5), "n_harmonics = 3 is too few for this peak", "Raise n_harmonics"),
     ("built twice", lambda: model().build(), "is built and no longer changes", "make a new one"),
 ]
 
