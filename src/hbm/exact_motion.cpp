@@ -44,6 +44,16 @@ Verdict verdict_of(const Matrix &monodromy) {
     return v;
 }
 
+// Chatter, overflow, a mode too fast for the exponential, a singular system: no answer.
+template <class Search> Matrix found_by(const Search &search) {
+    try {
+        return search();
+    } catch (const Error &e) {
+        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
+        return {};
+    }
+}
+
 } // namespace
 
 EventSequence contact_events(const ReducedModel &m, const BranchPoint &point, std::int64_t period_multiple) {
@@ -68,10 +78,12 @@ Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const Bra
     ExactFlow flow(model, point.omega, point.force_scale);
     const double flops = flops_of_run(flow, periods_);
     Matrix found;
-    if (flops > cheap && model->n_massive() == model->size()) found = by_events(*model, point, start, within);
+    if (flops > cheap && model->n_massive() == model->size())
+        found = found_by([&] { return by_events(*model, point, start, within); });
     if (found.rows() > 0 || flops > (patient_ ? INFINITY : affordable)) return found;
-    if (!correction_.empty()) found = search(flow, start, moved(*model, start, correction_, 1), within);
-    return found.rows() > 0 ? found : search(flow, start, start, within);
+    if (!correction_.empty())
+        found = found_by([&] { return newton(flow, start, moved(*model, start, correction_, 1), within); });
+    return found.rows() > 0 ? found : found_by([&] { return newton(flow, start, start, within); });
 }
 
 // With the events of the solution, as long as no other ones come in. On a surface with many pairs some barely
@@ -93,15 +105,6 @@ Matrix MotionBeside::by_events(const FlowModel &model, const BranchPoint &point,
         sequence = motion.moved(sequence);
     }
     return motion.monodromy();
-}
-
-Matrix MotionBeside::search(ExactFlow &flow, const FlowState &start, FlowState now, const Matrix &within) {
-    try {
-        return newton(flow, start, std::move(now), within);
-    } catch (const Error &e) { // chatter, overflow, a singular I - M: no answer
-        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
-        return {};
-    }
 }
 
 Matrix MotionBeside::newton(ExactFlow &flow, const FlowState &start, FlowState now, const Matrix &within) {

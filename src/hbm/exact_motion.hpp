@@ -25,7 +25,6 @@ class MotionBeside {
   private:
     Matrix by_events(const FlowModel &model, const BranchPoint &point, const FlowState &start,
                      const Matrix &within);
-    Matrix search(ExactFlow &flow, const FlowState &start, FlowState now, const Matrix &within);
     Matrix newton(ExactFlow &flow, const FlowState &start, FlowState now, const Matrix &within);
     void keep_correction(const FlowModel &model, const FlowState &start, const FlowState &found);
 
