@@ -33,10 +33,8 @@ std::int64_t largest_outside(const SweepRange &window, const Branch &branch) {
 // A right answer to a question that was hardly meant: away from the resonance that the basis is for, and
 // linear.
 bool is_beside_the_point(const SweepRange &window, const Branch &branch) {
-    for (const BranchPoint &p : branch.points()) {
-        const double hz = p.omega / (2 * M_PI);
-        if (p.n_switching > 0 || (hz > window.min_hz && hz < window.max_hz)) return false;
-    }
+    for (const BranchPoint &p : branch.points())
+        if (p.n_switching > 0 || is_inside(window, p)) return false;
     return branch.points().size() > 1 && branch.reduced().n_pairs() > 0;
 }
 
@@ -51,6 +49,13 @@ double factor_to_switching(const Branch &branch, std::int64_t point) {
         if (half > 0) least = std::min(least, std::abs(u(0, i)) / half);
     }
     return least;
+}
+
+// Whether what the full residual shows is the basis alone: forces from samples miss by themselves, and of
+// damping by a matrix and by ratios at once it sees the matrix only.
+bool shows_the_basis(const Branch &branch) {
+    const Damping &damping = branch.reduced().model->damping();
+    return !branch.sampled && !branch.is_mode && !(damping.has_matrix && !damping.modal_ratio.empty());
 }
 
 } // namespace
@@ -80,17 +85,6 @@ void check_window(const SweepRange &window, Watch watch, Branch &branch) {
                 window.min_hz, window.max_hz,
                 branch.points()[static_cast<std::size_t>(worst)].omega / (2 * M_PI), residual));
 }
-
-namespace {
-
-// Whether what the full residual shows is the basis alone: forces from samples miss by themselves, and of
-// damping by a matrix and by ratios at once it sees the matrix only.
-bool shows_the_basis(const Branch &branch) {
-    const Damping &damping = branch.reduced().model->damping();
-    return !branch.sampled && !branch.is_mode && !(damping.has_matrix && !damping.modal_ratio.empty());
-}
-
-} // namespace
 
 void check_basis(const SweepRange &window, Watch watch, Branch &branch) {
     if (!branch.reduced().model || branch.points().empty() || !shows_the_basis(branch)) return;

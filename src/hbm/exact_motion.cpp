@@ -10,6 +10,8 @@ namespace plm {
 namespace {
 
 constexpr int max_steps = 10, event_steps = 5;
+constexpr int patience = 3; // steps that may wander; later ones have to contract
+constexpr double contraction = 0.7;
 constexpr double same_motion = 0.3; // of the motion's size: farther away it is another one
 // How exact a motion has to be for its multipliers: near grazing they change with the root of the
 // penetration, a small part of the motion. Shares of their distance from the unit circle, and what is enough
@@ -47,7 +49,10 @@ Verdict verdict_of(const Matrix &monodromy) {
 // Chatter, overflow, a mode too fast for the exponential, a singular system: no answer.
 template <class Search> Matrix found_by(const Search &search) {
     try {
-        return search();
+        Matrix found = search();
+        const bool finite = std::all_of(found.data(), found.data() + found.rows() * found.cols(),
+                                        [](double v) { return std::isfinite(v); });
+        return finite ? std::move(found) : Matrix();
     } catch (const Error &e) {
         if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
         return {};
@@ -71,15 +76,22 @@ EventSequence contact_events(const ReducedModel &m, const BranchPoint &point, st
     return sequence;
 }
 
+// Where no pair switches the solution is exact. Elsewhere the instants of harmonic balance are those of a
+// nearby motion, to whose shifts a stiff contact's multipliers answer with a factor of ten.
 Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
-                               const Matrix &within) {
+                               const EventSequence &sequence, const Matrix &within) {
+    ExactFlow flow(model, point.omega, point.force_scale);
+    if (sequence.events.empty())
+        return found_by([&] {
+            return plm::monodromy(*model,
+                                  {{flow.period() * static_cast<double>(periods_), sequence.closed_first}});
+        });
     const double omega = point.omega / static_cast<double>(periods_);
     const FlowState start = model->state(point.eta_0, point.eta, omega, 0.0);
-    ExactFlow flow(model, point.omega, point.force_scale);
     const double flops = flops_of_run(flow, periods_);
     Matrix found;
     if (flops > cheap && model->n_massive() == model->size())
-        found = found_by([&] { return by_events(*model, point, start, within); });
+        found = found_by([&] { return by_events(flow, start, sequence, within); });
     if (found.rows() > 0 || flops > (patient_ ? INFINITY : affordable)) return found;
     if (!correction_.empty())
         found = found_by([&] { return newton(flow, start, moved(*model, start, correction_, 1), within); });
@@ -88,11 +100,10 @@ Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const Bra
 
 // With the events of the solution, as long as no other ones come in. On a surface with many pairs some barely
 // touch, and their events find no rest; what does not change from step to step does not hang on them.
-Matrix MotionBeside::by_events(const FlowModel &model, const BranchPoint &point, const FlowState &start,
+Matrix MotionBeside::by_events(const ExactFlow &flow, const FlowState &start, EventSequence sequence,
                                const Matrix &within) {
-    EventSequence sequence = contact_events(model.reduced(), point, periods_);
-    EventMotion motion(model, point.omega, point.force_scale, periods_, within);
-    const EnergyNorm norm(model, point.omega);
+    EventMotion motion(flow.model(), flow.omega(), flow.force_scale(), periods_, within);
+    const EnergyNorm norm(flow);
     Verdict verdict;
     for (int k = 0; k < event_steps; ++k) {
         if (!motion.solve(sequence)) return {};
@@ -110,12 +121,15 @@ Matrix MotionBeside::by_events(const FlowModel &model, const BranchPoint &point,
 Matrix MotionBeside::newton(ExactFlow &flow, const FlowState &start, FlowState now, const Matrix &within) {
     const FlowModel &model = flow.model();
     const EnergyNorm norm(flow);
+    double before = INFINITY;
     for (int k = 0; k < max_steps; ++k) {
         const PeriodRun run = run_periods(flow, now, periods_);
         Matrix matrix = plm::monodromy(model, run.intervals);
         FlowState next = moved(model, now, period_step(model, now, run, matrix, within), 1);
         const double step = run.size > 0 ? norm.distance(next, now) / run.size : 0;
         if (!std::isfinite(step) || norm.distance(next, start) > same_motion * run.size) return {};
+        if (k >= patience && step > contraction * before) return {};
+        before = step;
         now = std::move(next);
         if (step > exact_state && step > safe_state * verdict_of(matrix).margin) continue;
         keep_correction(model, start, now);

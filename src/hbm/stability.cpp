@@ -1,7 +1,5 @@
 #include "hbm/stability.hpp"
-#include "hbm/contact_force.hpp"
 #include "hbm/exact_motion.hpp"
-#include "hbm/formulation.hpp"
 #include "hbm/free_motion.hpp"
 #include "hbm/hill.hpp"
 #include "linalg/lapack.hpp"
@@ -44,11 +42,10 @@ Matrix states_beside(const Matrix &free, const FlowModel &flow, bool velocities)
     return states;
 }
 
-vector<char> closing_pairs(const ReducedModel &m, const BranchPoint &point) {
-    const SwitchingInstants switching = switching_instants(contact_motion(m, point).u);
-    vector<char> closing = switching.closed_first;
-    for (std::size_t i = 0; i < closing.size(); ++i)
-        if (!switching.instants[i].empty()) closing[i] = 1;
+// Z flags of the pairs that close at some time.
+vector<char> closing_pairs(const EventSequence &sequence) {
+    vector<char> closing = sequence.closed_first;
+    for (const ContactEvent &event : sequence.events) closing[static_cast<std::size_t>(event.pair)] = 1;
     return closing;
 }
 
@@ -67,8 +64,9 @@ Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptio
 vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) {
     const auto flow = flow_ ? flow_ : std::make_shared<FlowModel>(reduced_, point.omega);
     if (hill_) return hill_multipliers(*flow, point, period_multiple_);
-    const Matrix free = free_motion(*reduced_, closing_pairs(*reduced_, point));
-    const Matrix transition = monodromy_of(flow, point, free);
+    const EventSequence sequence = contact_events(*reduced_, point, period_multiple_);
+    const Matrix free = free_motion(*reduced_, closing_pairs(sequence)),
+                 transition = beside_.monodromy(flow, point, sequence, states_beside(free, *flow, false));
     if (transition.rows() == 0) return {};
     if (free.cols() == 0) return plm::multipliers(transition);
     // A displacement along a free motion stays: multiplier 1. Beside that of its velocity, 1 without damping,
@@ -79,40 +77,6 @@ vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) {
     const auto inside = std::find_if(found.begin(), found.end(), [](auto m) { return std::abs(m) < 1; });
     found.insert(inside, but_positions.rows() - but_positions.cols(), 1.0);
     return found;
-}
-
-// Where no pair switches the solution is exact. Elsewhere the instants of harmonic balance are those of a
-// nearby motion, to whose shifts a stiff contact's multipliers answer with a factor of ten.
-Matrix Stability::monodromy_of(const std::shared_ptr<const FlowModel> &flow, const BranchPoint &point,
-                               const Matrix &free) {
-    const auto intervals = contact_intervals(*reduced_, point, period_multiple_);
-    if (intervals.size() > 1) return beside_.monodromy(flow, point, states_beside(free, *flow, false));
-    Matrix transition;
-    try {
-        transition = monodromy(*flow, intervals);
-    } catch (const Error &e) { // too fast a mode for the exponential: unknown
-        if (e.reason() != PLM_REASON_NOT_FINITE) throw;
-        return {};
-    }
-    for (std::int64_t k = 0; k < transition.rows() * transition.cols(); ++k)
-        if (!std::isfinite(transition.data()[k])) return {};
-    return transition;
-}
-
-std::vector<ContactInterval> contact_intervals(const ReducedModel &m, const BranchPoint &point,
-                                               std::int64_t period_multiple) {
-    const double period = 2 * M_PI / point.omega * static_cast<double>(period_multiple);
-    const EventSequence sequence = contact_events(m, point, period_multiple);
-    std::vector<ContactInterval> intervals;
-    vector<char> closed = sequence.closed_first;
-    double before = 0;
-    for (const ContactEvent &event : sequence.events) {
-        if (event.time > before) intervals.push_back({event.time - before, closed});
-        closed[static_cast<std::size_t>(event.pair)] ^= 1;
-        before = std::max(before, event.time);
-    }
-    if (before < period) intervals.push_back({period - before, closed});
-    return intervals;
 }
 
 std::string Stability::unknown_text(std::int64_t n_unknown, std::int64_t n_points) const {

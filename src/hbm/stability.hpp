@@ -20,19 +20,12 @@ class Stability {
     std::string unknown_text(std::int64_t n_unknown, std::int64_t n_points) const;
 
   private:
-    Matrix monodromy_of(const std::shared_ptr<const FlowModel> &flow, const BranchPoint &point,
-                        const Matrix &free);
-
     std::shared_ptr<const ReducedModel> reduced_;
     MotionBeside beside_;
     std::int64_t period_multiple_;
     bool wanted_, hill_;
     std::shared_ptr<const FlowModel> flow_; // null when it depends on the frequency
 };
-
-/// The contact sets of a point over its period, from the zeros of its penetrations, as the flow takes them.
-std::vector<ContactInterval> contact_intervals(const ReducedModel &reduced, const BranchPoint &point,
-                                               std::int64_t period_multiple);
 
 /// Two functions that change sign at a period doubling (a multiplier at -1) and at a Neimark-Sacker point (a
 /// complex pair on the unit circle). NaN without multipliers.

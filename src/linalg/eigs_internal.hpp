@@ -39,6 +39,8 @@ struct KrylovResult {
     KrylovEnd end;
     EigenPairs pairs; // the converged ones
 };
+/// A start vector: the same in every run, on every machine.
+void pseudo_random(vector<double> &x, std::int64_t seed);
 /// By a Lanczos method of our own: nothing is shared, the host is asked whether to go on.
 KrylovResult run_lanczos(const Pencil &pencil, const KrylovRequest &request);
 /// By ARPACK, whose state is the process's: others wait meanwhile, and nothing of the host may be called. For

@@ -14,15 +14,6 @@ namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// Same start vectors in every run, on every machine.
-void pseudo_random(vector<double> &x, std::uint64_t seed) {
-    std::uint64_t state = 0x9E3779B97F4A7C15u + seed;
-    for (double &value : x) {
-        state = state * 6364136223846793005u + 1442695040888963407u; // Knuth's MMIX generator
-        value = static_cast<double>(state >> 11) * 0x1p-52 - 1;
-    }
-}
-
 /// The factorization A^-1 M V = V T + beta v e^T, with V and v M-orthonormal.
 class Lanczos {
   public:

@@ -32,27 +32,24 @@ struct EventMotion::Steady {
 EventMotion::EventMotion(const FlowModel &model, double omega, double force_scale, std::int64_t periods,
                          const Matrix &within)
     : model_(model), omega_(omega), force_scale_(force_scale),
-      period_(2 * M_PI / omega * static_cast<double>(periods)), within_(within),
-      n_(model.size()) {}
+      period_(2 * M_PI / omega * static_cast<double>(periods)), within_(within), n_(model.size()),
+      set_(model) {}
 
-// diag(lambda) + G_A^T k G_A, and what pre-load, mean excitation and the gaps of A do there; then each
-// harmonic. Null: the system of this set is singular.
+// What pre-load, mean excitation and the gaps of the closed pairs do, then each harmonic. Null: the system of
+// this set is singular.
 const EventMotion::Steady *EventMotion::steady(const vector<char> &closed) {
     for (const auto &[set, response] : known_)
         if (set == closed) return response.get();
-    Matrix stiffness(n_, n_);
+    set_.assign(closed);
     auto found = std::make_shared<Steady>();
     found->mean = model_.preload();
-    for (std::int64_t j = 0; j < n_; ++j) stiffness(j, j) = model_.lambda()[j];
-    for (std::int64_t p = 0; p < model_.n_pairs(); ++p) {
-        if (!closed[static_cast<std::size_t>(p)]) continue;
-        const double k = model_.contact_stiffness()[static_cast<std::size_t>(p)];
-        for (std::int64_t j = 0; j < n_; ++j) {
-            const double row = k * model_.gap()(p, j);
-            found->mean[j] += row * model_.initial_gap()[static_cast<std::size_t>(p)];
-            for (std::int64_t i = 0; i < n_; ++i) stiffness(i, j) += model_.gap()(p, i) * row;
-        }
+    if (model_.n_pairs() > 0) {
+        Matrix still(model_.n_pairs(), 1), force;
+        for (std::int64_t p = 0; p < still.rows(); ++p) still(p, 0) = -model_.initial_gap()[p];
+        set_.add_contact(still, force);
+        gemv('T', -1.0, model_.gap(), force.data(), 1.0, found->mean.data());
     }
+    Matrix stiffness = set_.stiffness();
     for (const auto &[harmonic, load] : model_.excitation()) {
         if (harmonic == 0) {
             for (std::int64_t j = 0; j < n_; ++j) found->mean[j] += force_scale_ * load.real[j];

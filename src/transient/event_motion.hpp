@@ -4,6 +4,7 @@
 // that a wrong instant changes the motion in the second order only: one step of Newton's method moves each
 // event to the zero of its own penetration.
 #pragma once
+#include "transient/contact_set.hpp"
 #include "transient/monodromy.hpp"
 
 namespace plm {
@@ -51,6 +52,7 @@ class EventMotion {
     double omega_, force_scale_, period_;
     const Matrix &within_;
     std::int64_t n_;
+    ContactSet set_;
     std::vector<std::pair<vector<char>, std::shared_ptr<Steady>>> known_;
     std::vector<Piece> pieces_;
     Matrix monodromy_;

@@ -41,6 +41,7 @@ class ExactFlow {
 
     const FlowModel &model() const { return *model_; }
     double omega() const { return omega_; }
+    double force_scale() const { return force_scale_; }
     double period() const { return 2 * M_PI / omega_; }
     const vector<char> &closed() const { return closed_; } // the present contact set
     std::int64_t n_events() const { return n_events_; }    // since construction
