@@ -22,13 +22,13 @@ constexpr double safe_shift = 5e-4, exact_shift = 1e-7;
 // curve would take minutes.
 constexpr double cheap = 3e6, affordable = 3e7; // flops
 
-// The fastest motion of the open structure bounds the length of the flow's pieces from above.
+// The fastest motion with all pairs closed bounds the length of the flow's pieces from above.
 double flops_of_run(const ExactFlow &flow, std::int64_t periods) {
     const FlowModel &model = flow.model();
-    double fastest = 0;
-    for (std::int64_t j = 0; j < model.n_massive(); ++j) fastest = std::max(fastest, model.lambda()[j]);
+    ContactSet closed(model);
+    closed.assign(vector<char>(model.n_pairs(), 1));
     const double n = static_cast<double>(model.size()), z = static_cast<double>(model.n_pairs()),
-                 pieces = 16 + 0.5 * std::sqrt(fastest) * flow.period() * static_cast<double>(periods);
+                 pieces = 16 + 0.5 * closed.rate() * flow.period() * static_cast<double>(periods);
     return pieces * 26 * 2 * n * (n + z); // 26 terms of the series
 }
 
@@ -90,8 +90,7 @@ Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const Bra
     const FlowState start = model->state(point.eta_0, point.eta, omega, 0.0);
     const double flops = flops_of_run(flow, periods_);
     Matrix found;
-    if (flops > cheap && model->n_massive() == model->size())
-        found = found_by([&] { return by_events(flow, start, sequence, within); });
+    if (flops > cheap) found = found_by([&] { return by_events(flow, start, sequence, within); });
     if (found.rows() > 0 || flops > (patient_ ? INFINITY : affordable)) return found;
     if (!correction_.empty())
         found = found_by([&] { return newton(flow, start, moved(*model, start, correction_, 1), within); });

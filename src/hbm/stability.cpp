@@ -83,8 +83,8 @@ std::string Stability::unknown_text(std::int64_t n_unknown, std::int64_t n_point
     const std::string why =
         hill_ ? format("Hill's matrix would be larger than %lld there; set stability to floquet",
                        static_cast<long long>(largest_hill_order))
-              : "no exact motion was found beside them, so that their harmonics do not describe one; take "
-                "more harmonics, or set stability to off";
+              : "no exact motion was found beside them, which their harmonics may not describe well enough; "
+                "take more harmonics, or set stability to off";
     return format("the stability of %lld of %lld points is not known: %s", static_cast<long long>(n_unknown),
                   static_cast<long long>(n_points), why.c_str());
 }

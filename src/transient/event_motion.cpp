@@ -35,40 +35,49 @@ EventMotion::EventMotion(const FlowModel &model, double omega, double force_scal
       period_(2 * M_PI / omega * static_cast<double>(periods)), within_(within), n_(model.size()),
       set_(model) {}
 
+// Of all coordinates, those that only follow included: diag(lambda) + G_A^T k G_A.
+Matrix EventMotion::stiffness_of(const vector<char> &closed) const {
+    Matrix rows = model_.gap(), stiffness(n_, n_);
+    for (std::int64_t p = 0; p < rows.rows(); ++p) {
+        const double root = closed[p] ? std::sqrt(model_.contact_stiffness()[p]) : 0.0;
+        for (std::int64_t j = 0; j < n_; ++j) rows(p, j) *= root;
+    }
+    if (rows.rows() > 0) gemm('T', 'N', 1.0, rows, rows, 0.0, stiffness);
+    for (std::int64_t j = 0; j < n_; ++j) stiffness(j, j) += model_.lambda()[j];
+    return stiffness;
+}
+
+vector<complex> EventMotion::wave(const Matrix &stiffness, double w, const HarmonicLoad &load) const {
+    vector<complex> a(n_ * n_), q(n_);
+    for (std::int64_t j = 0; j < n_; ++j) {
+        for (std::int64_t i = 0; i < n_; ++i)
+            a[i + j * n_] = {stiffness(i, j),
+                             model_.has_diagonal_damping() ? 0.0 : w * model_.damping()(i, j)};
+        a[j + j * n_] += complex(-w * w * model_.mass(j),
+                                 model_.has_diagonal_damping() ? w * model_.damping_diagonal()[j] : 0.0);
+        q[j] = force_scale_ * complex(load.real[j], load.imag[j]);
+    }
+    ComplexLu lu;
+    lu.factor(n_, a);
+    lu.solve(q.data(), 1, n_);
+    return q;
+}
+
 // What pre-load, mean excitation and the gaps of the closed pairs do, then each harmonic. Null: the system of
 // this set is singular.
 const EventMotion::Steady *EventMotion::steady(const vector<char> &closed) {
     for (const auto &[set, response] : known_)
         if (set == closed) return response.get();
-    set_.assign(closed);
+    Matrix stiffness = stiffness_of(closed);
     auto found = std::make_shared<Steady>();
     found->mean = model_.preload();
-    if (model_.n_pairs() > 0) {
-        Matrix still(model_.n_pairs(), 1), force;
-        for (std::int64_t p = 0; p < still.rows(); ++p) still(p, 0) = -model_.initial_gap()[p];
-        set_.add_contact(still, force);
-        gemv('T', -1.0, model_.gap(), force.data(), 1.0, found->mean.data());
-    }
-    Matrix stiffness = set_.stiffness();
+    for (std::int64_t p = 0; p < model_.n_pairs(); ++p)
+        for (std::int64_t j = 0; closed[p] && j < n_; ++j)
+            found->mean[j] += model_.gap()(p, j) * model_.contact_stiffness()[p] * model_.initial_gap()[p];
     for (const auto &[harmonic, load] : model_.excitation()) {
-        if (harmonic == 0) {
-            for (std::int64_t j = 0; j < n_; ++j) found->mean[j] += force_scale_ * load.real[j];
-            continue;
-        }
         const double w = static_cast<double>(harmonic) * omega_;
-        vector<complex> a(n_ * n_), q(n_);
-        for (std::int64_t j = 0; j < n_; ++j) {
-            for (std::int64_t i = 0; i < n_; ++i)
-                a[i + j * n_] = {stiffness(i, j),
-                                 model_.has_diagonal_damping() ? 0.0 : w * model_.damping()(i, j)};
-            a[j + j * n_] +=
-                complex(-w * w, model_.has_diagonal_damping() ? w * model_.damping_diagonal()[j] : 0.0);
-            q[j] = force_scale_ * complex(load.real[j], load.imag[j]);
-        }
-        ComplexLu lu;
-        lu.factor(n_, a);
-        lu.solve(q.data(), 1, n_);
-        found->waves.emplace_back(w, std::move(q));
+        if (harmonic != 0) found->waves.emplace_back(w, wave(stiffness, w, load));
+        for (std::int64_t j = 0; harmonic == 0 && j < n_; ++j) found->mean[j] += force_scale_ * load.real[j];
     }
     RealLu lu;
     lu.factor(stiffness);
@@ -78,44 +87,72 @@ const EventMotion::Steady *EventMotion::steady(const vector<char> &closed) {
     return known_.back().second.get();
 }
 
-vector<double> EventMotion::at(const Steady &steady, double time) const {
-    vector<double> state(2 * n_, 0.0);
-    std::copy(steady.mean.begin(), steady.mean.end(), state.begin());
+EventMotion::Whole EventMotion::at(const Steady &steady, double time) const {
+    Whole whole{steady.mean, vector<double>(n_, 0.0)};
     for (const auto &[w, q] : steady.waves) {
         const complex turn = std::polar(1.0, w * time);
         for (std::int64_t j = 0; j < n_; ++j) {
             const complex now = q[j] * turn;
-            state[j] += now.real();
-            state[n_ + j] -= w * now.imag();
+            whole.y[j] += now.real();
+            whole.v[j] -= w * now.imag();
         }
     }
+    return whole;
+}
+
+vector<double> EventMotion::state_of(const Whole &whole) const {
+    vector<double> state(whole.y.begin(), whole.y.begin() + model_.n_moving());
+    state.insert(state.end(), whole.v.begin(), whole.v.begin() + model_.n_massive());
     return state;
+}
+
+// The free motion dies away, the steady response takes its place: state - before through the propagator, plus
+// after.
+void EventMotion::pass(const Piece &piece, vector<double> &state) const {
+    const vector<double> before = state_of(piece.before), after = state_of(piece.after);
+    for (std::size_t j = 0; j < state.size(); ++j) state[j] -= before[j];
+    state = applied(piece.propagator, state);
+    for (std::size_t j = 0; j < state.size(); ++j) state[j] += after[j];
 }
 
 bool EventMotion::add_piece(const vector<char> &closed, double from, double to, vector<double> &offset) {
     const Steady *response = steady(closed);
     if (!response) return false;
-    Piece piece{plm::monodromy(model_, {{to - from, closed}}), at(*response, from), at(*response, to)};
-    for (std::int64_t j = 0; j < 2 * n_; ++j) offset[j] -= piece.before[j];
-    offset = applied(piece.propagator, offset);
-    for (std::int64_t j = 0; j < 2 * n_; ++j) offset[j] += piece.after[j];
-    monodromy_ = monodromy_.rows() == 0 ? piece.propagator : product('N', 'N', piece.propagator, monodromy_);
-    pieces_.push_back(std::move(piece));
+    pieces_.push_back(
+        {plm::monodromy(model_, {{to - from, closed}}), at(*response, from), at(*response, to)});
+    const Matrix &propagator = pieces_.back().propagator;
+    pass(pieces_.back(), offset);
+    monodromy_ = monodromy_.rows() == 0 ? propagator : product('N', 'N', propagator, monodromy_);
     return true;
 }
 
-void EventMotion::look_at_event(const vector<double> &state, const ContactEvent &event,
-                                const vector<char> &closed) {
-    vector<double> u(model_.n_pairs()), du(model_.n_pairs());
-    gemv('N', 1.0, model_.gap(), state.data(), 0.0, u.data());
-    gemv('N', 1.0, model_.gap(), state.data() + n_, 0.0, du.data());
-    for (std::size_t p = 0; p < u.size(); ++p) {
-        u[p] -= model_.initial_gap()[p];
-        largest_ = std::max(largest_, std::abs(u[p]));
-        if (static_cast<std::int64_t>(p) != event.pair) worst_ = std::max(worst_, closed[p] ? -u[p] : u[p]);
+// Penetrations (first column) and their rates: of the steady response, and of the free motion beside it, in
+// which what has no mass is where the rest and the contact put it.
+Matrix EventMotion::penetrations(const Whole &steady, const vector<double> &state,
+                                 const vector<char> &closed) {
+    const std::int64_t moving = model_.n_moving(), massive = model_.n_massive(), z = model_.n_pairs();
+    const vector<double> at_rest = state_of(steady);
+    vector<double> y(n_, 0.0), v(n_, 0.0);
+    for (std::int64_t j = 0; j < moving; ++j) y[j] = state[j] - at_rest[j];
+    for (std::int64_t j = 0; j < massive; ++j) v[j] = state[moving + j] - at_rest[moving + j];
+    set_.assign(closed);
+    set_.relax(1, 1.0, y.data(), nullptr, v.data());
+    Matrix u(z, 2), force;
+    gemv('N', 1.0, model_.gap(), y.data(), 0.0, u.col(0));
+    gemv('N', 1.0, model_.gap(), v.data(), 0.0, u.col(1));
+    set_.add_contact(u, force);
+    gemv('N', 1.0, model_.gap(), steady.y.data(), 1.0, u.col(0));
+    gemv('N', 1.0, model_.gap(), steady.v.data(), 1.0, u.col(1));
+    for (std::int64_t p = 0; p < z; ++p) u(p, 0) -= model_.initial_gap()[p];
+    return u;
+}
+
+void EventMotion::look_at_event(const Matrix &u, const ContactEvent &event, const vector<char> &closed) {
+    for (std::int64_t p = 0; p < u.rows(); ++p) {
+        largest_ = std::max(largest_, std::abs(u(p, 0)));
+        if (p != event.pair) worst_ = std::max(worst_, closed[p] ? -u(p, 0) : u(p, 0));
     }
-    const std::size_t p = static_cast<std::size_t>(event.pair);
-    shifts_.push_back(-u[p] / du[p]);
+    shifts_.push_back(-u(event.pair, 0) / u(event.pair, 1));
     shift_ = std::max(shift_, std::abs(shifts_.back()) * omega_);
 }
 
@@ -125,29 +162,27 @@ bool EventMotion::solve(const EventSequence &sequence) {
     monodromy_ = Matrix();
     size_ = shift_ = largest_ = worst_ = 0;
     vector<char> closed = sequence.closed_first;
-    vector<double> offset(2 * n_, 0.0);
+    vector<double> offset(model_.state_size(), 0.0);
     double time = 0;
     for (const ContactEvent &event : sequence.events) {
         if (!add_piece(closed, time, event.time, offset)) return false;
-        closed[static_cast<std::size_t>(event.pair)] ^= 1;
+        closed[event.pair] ^= 1;
         time = event.time;
     }
     if (!add_piece(closed, time, period_, offset)) return false;
     const FlowState zero{vector<double>(n_, 0.0), vector<double>(n_, 0.0), 0};
     PeriodRun run;
     run.end = plm::moved(model_, zero, offset, 1);
-    const vector<double> first = period_step(model_, zero, run, monodromy_, within_);
-    if (!is_finite(first)) return false;
-    start_ = plm::moved(model_, zero, first, 1);
-    vector<double> state = first;
+    vector<double> state = period_step(model_, zero, run, monodromy_, within_);
+    if (!is_finite(state)) return false;
+    start_ = plm::moved(model_, zero, state, 1);
     closed = sequence.closed_first;
     const EnergyNorm norm(model_, omega_);
     for (std::size_t k = 0; k < sequence.events.size(); ++k) {
-        for (std::int64_t j = 0; j < 2 * n_; ++j) state[j] -= pieces_[k].before[j];
-        state = applied(pieces_[k].propagator, state);
-        for (std::int64_t j = 0; j < 2 * n_; ++j) state[j] += pieces_[k].after[j];
-        look_at_event(state, sequence.events[k], closed);
-        closed[static_cast<std::size_t>(sequence.events[k].pair)] ^= 1;
+        const ContactEvent &event = sequence.events[k];
+        pass(pieces_[k], state);
+        look_at_event(penetrations(pieces_[k].after, state, closed), event, closed);
+        closed[event.pair] ^= 1;
         size_ = std::max(size_, norm.distance(plm::moved(model_, zero, state, 1), start_));
     }
     consistent_ = worst_ <= wrong_side * largest_;
@@ -162,7 +197,7 @@ EventSequence EventMotion::moved(const EventSequence &sequence) const {
         event.time += std::clamp(shifts_[k], -longest_move * period_, longest_move * period_);
         if (event.time >= 0 && event.time <= period_) continue;
         event.time += event.time < 0 ? period_ : -period_;
-        next.closed_first[static_cast<std::size_t>(event.pair)] ^= 1;
+        next.closed_first[event.pair] ^= 1;
     }
     std::stable_sort(next.events.begin(), next.events.end(),
                      [](const ContactEvent &a, const ContactEvent &b) { return a.time < b.time; });

@@ -21,7 +21,7 @@ struct EventSequence {
 
 class EventMotion {
   public:
-    /// Of a model whose coordinates all have mass. `within`: see period_step().
+    /// within: see period_step().
     EventMotion(const FlowModel &model, double omega, double force_scale, std::int64_t periods,
                 const Matrix &within);
 
@@ -39,14 +39,22 @@ class EventMotion {
 
   private:
     struct Steady; // response of the linear system of one contact set
+    struct Whole { // displacements and velocities of all coordinates
+        vector<double> y, v;
+    };
     struct Piece {
         Matrix propagator;
-        vector<double> before, after; // the steady response at its ends
+        Whole before, after; // the steady response at its ends
     };
+    Matrix stiffness_of(const vector<char> &closed) const;
+    vector<std::complex<double>> wave(const Matrix &stiffness, double w, const HarmonicLoad &load) const;
     const Steady *steady(const vector<char> &closed);
-    vector<double> at(const Steady &steady, double time) const;
+    Whole at(const Steady &steady, double time) const;
+    vector<double> state_of(const Whole &whole) const;
+    void pass(const Piece &piece, vector<double> &state) const;
     bool add_piece(const vector<char> &closed, double from, double to, vector<double> &offset);
-    void look_at_event(const vector<double> &state, const ContactEvent &event, const vector<char> &closed);
+    Matrix penetrations(const Whole &steady, const vector<double> &state, const vector<char> &closed);
+    void look_at_event(const Matrix &u, const ContactEvent &event, const vector<char> &closed);
 
     const FlowModel &model_;
     double omega_, force_scale_, period_;

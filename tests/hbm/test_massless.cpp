@@ -1,5 +1,6 @@
 // DOFs without mass: the structure condensed by hand must answer as the one with them, in harmonic balance
 // and in exact motion, and a mass that goes to zero must lead there.
+#include "hbm/exact_motion.hpp"
 #include "hbm/hbm.hpp"
 #include "hbm/hill.hpp"
 #include "hbm/stability.hpp"
@@ -227,8 +228,22 @@ plm::PeriodicOrbit orbit_of(const plm::ReducedModel &m, const plm::FlowModel &mo
 struct Exact {
     bool converged = false;
     std::size_t n_multipliers = 0;
-    double peak = 0, multiplier = 0, tip = 0, hill = 0;
+    double peak = 0, multiplier = 0, tip = 0, hill = 0, events = 0;
 };
+// The largest multiplier of the motion that the events of a point lead to; NaN: none.
+double multiplier_by_events(const plm::FlowModel &model, const plm::BranchPoint &point) {
+    const plm::Matrix everything;
+    plm::EventMotion motion(model, omega, 1.0, 1, everything);
+    plm::EventSequence sequence = plm::contact_events(model.reduced(), point, 1);
+    for (int k = 0; k < 8; ++k) {
+        if (!motion.solve(sequence)) return NAN;
+        sequence = motion.moved(sequence);
+    }
+    return motion.is_consistent() && !sequence.events.empty()
+               ? std::abs(plm::multipliers(motion.monodromy()).front())
+               : NAN;
+}
+
 Exact exact_motion(const exact::Structure &s, const test::ModelExtras &extras, int n_dofs) {
     const BasisPtr basis = make_basis(s, extras, BasisKind::full);
     const auto model = std::make_shared<const plm::FlowModel>(basis->reduced(), omega);
@@ -248,6 +263,7 @@ Exact exact_motion(const exact::Structure &s, const test::ModelExtras &extras, i
     e.peak = peaks[driven];
     e.tip = peaks[n_dofs - 1];
     e.multiplier = std::abs(orbit.multipliers.front());
+    e.events = multiplier_by_events(*model, fine->points()[0]);
     e.hill = std::abs(plm::hill_multipliers(*model, fine->points()[0], 1).front());
     return e;
 }
@@ -263,6 +279,7 @@ void undamped_followers_move_exactly(void **) {
     assert_true(close_to(got.peak, known.peak, 1e-9));        // to the tolerance of the shooting
     assert_int_equal(got.n_multipliers, 6);
     assert_true(close_to(got.multiplier, known.multiplier, 1e-8));
+    assert_true(close_to(got.events, got.multiplier, 1e-8));
     assert_true(close_to(got.hill, got.multiplier, 1e-4)); // converges with the harmonics' cube
 }
 
@@ -278,6 +295,7 @@ void damped_ones_relax_exactly(void **) {
     assert_true(close_to(got.peak, want.peak(driven), 2e-5));
     assert_true(close_to(got.tip, want.peak(tip), 2e-5));
     assert_int_equal(got.n_multipliers, 7);
+    assert_true(close_to(got.events, got.multiplier, 1e-8));
     assert_true(close_to(got.hill, got.multiplier, 1e-4));
 }
 

@@ -15,6 +15,13 @@ inline std::shared_ptr<const plm::FlowModel> flow_model(const exact::Structure &
     return std::make_shared<plm::FlowModel>(reduce_exactly(s));
 }
 
+/// A chain of four masses with pairs on two of them.
+inline exact::Structure damped_chain() {
+    exact::Structure s = chain(4, 0.03, 3, 0.05, 0.3, 0.02, {1, 3});
+    s.damping[0] += 0.02;
+    return s;
+}
+
 /// Modal state of q, q' given over the DOFs: the vectors are M-orthonormal.
 inline FlowState to_state(const plm::FlowModel &m, const exact::Structure &s, const std::vector<double> &x) {
     FlowState state{plm::vector<double>(s.n), plm::vector<double>(s.n), 0};

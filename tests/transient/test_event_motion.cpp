@@ -7,12 +7,6 @@ using namespace test;
 
 namespace {
 
-exact::Structure structure() {
-    exact::Structure s = chain(4, 0.03, 3, 0.05, 0.3, 0.02, {1, 3});
-    s.damping[0] += 0.02;
-    return s;
-}
-
 plm::PeriodicOrbit orbit_of(plm::ExactFlow &flow) {
     plm::ShootingOptions o;
     o.transient_periods = 60;
@@ -33,13 +27,6 @@ plm::EventSequence events_of(const plm::PeriodicOrbit &orbit, double off) {
     return sequence;
 }
 
-double largest_difference(const Matrix &a, const Matrix &b) {
-    double largest = 0;
-    for (std::int64_t j = 0; j < a.cols(); ++j)
-        for (std::int64_t i = 0; i < a.rows(); ++i) largest = std::max(largest, std::abs(a(i, j) - b(i, j)));
-    return largest;
-}
-
 struct Agreement {
     std::size_t n_events = 0;
     std::vector<double> shift; // of each step
@@ -47,7 +34,7 @@ struct Agreement {
     bool consistent = false;
 };
 Agreement against_shooting(double omega) {
-    const auto model = flow_model(structure());
+    const auto model = flow_model(damped_chain());
     plm::ExactFlow flow(model, omega, 1);
     const plm::PeriodicOrbit orbit = orbit_of(flow);
     plm::EventSequence sequence = events_of(orbit, 1e-3 * flow.period());
@@ -64,7 +51,7 @@ Agreement against_shooting(double omega) {
     for (int j = 0; j < 4; ++j)
         a.state = std::max({a.state, std::abs(motion.start().y[j] - orbit.state.y[j]),
                             std::abs(motion.start().v[j] - orbit.state.v[j])});
-    a.monodromy = largest_difference(motion.monodromy(), plm::monodromy(*model, orbit.contact_history));
+    a.monodromy = max_difference(motion.monodromy(), plm::monodromy(*model, orbit.contact_history));
     a.consistent = motion.is_consistent();
     return a;
 }
@@ -81,7 +68,7 @@ void events_lead_to_the_orbit(void **) {
 }
 
 bool agrees_without_a_pair(double omega) {
-    const auto model = flow_model(structure());
+    const auto model = flow_model(damped_chain());
     plm::ExactFlow flow(model, omega, 1);
     plm::EventSequence sequence = events_of(orbit_of(flow), 0);
     auto &events = sequence.events;

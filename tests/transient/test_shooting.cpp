@@ -6,18 +6,12 @@ using namespace test;
 
 namespace {
 
-exact::Structure structure() {
-    exact::Structure s = chain(4, 0.03, 3, 0.05, 0.3, 0.02, {1, 3});
-    s.damping[0] += 0.02;
-    return s;
-}
-
 struct Agreement {
     double state = 1e300, peak = 1e300, defect = 1e300;
     std::size_t n_multipliers = 0;
 };
 Agreement against_own_orbit(double omega) {
-    const exact::Structure s = structure();
+    const exact::Structure s = damped_chain();
     const auto model = flow_model(s);
     plm::ExactFlow flow(model, omega, 1);
     const exact::Orbit want = exact::periodic_orbit(s, omega, {}, 60, 400);
@@ -55,7 +49,7 @@ struct Growth {
     bool stable = false;
 };
 Growth growth(double omega, int periods) {
-    const auto model = flow_model(structure());
+    const auto model = flow_model(damped_chain());
     plm::ExactFlow flow(model, omega, 1);
     plm::ShootingOptions o;
     o.transient_periods = 60;
