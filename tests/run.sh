@@ -69,7 +69,7 @@ choose() {
     release) # what the shared object carries and hides
         programs='plm plm_static test_capi_run test_host_own_lapack test_host_quiet_blas test_host_ilp64 test_host_fork
                   test_host_limit test_host_starved test_host_unload test_host_plugin_shared test_host_plugin_static'
-        tests='^(capi[.]run|host[.](own_lapack|quiet_blas|ilp64|fork|limit|starved|unload|plugin_exports)|abi[.](object|ledger))$' ;;
+        tests='^(capi[.]run|host[.](own_lapack|quiet_blas|ilp64|fork|limit|starved_[a-z]*|unload|plugin_exports)|abi[.](object|ledger))$' ;;
     esac
 }
 

@@ -8,7 +8,7 @@
 namespace plm {
 namespace {
 
-constexpr double same_solution = 1e-5;       // relative distance of phase-resonant points
+constexpr double same_resonance = 1e-5;      // relative distance of phase-resonant points
 constexpr std::int64_t largest_system = 400; // unknowns of the backbone when harmonics are chosen by point
 constexpr double weakest_resonance = 0.05;   // of the main branch, against its largest response
 
@@ -65,7 +65,7 @@ class Search {
 
     bool is_known(const BranchPoint &p) const {
         return std::any_of(known_.begin(), known_.end(),
-                           [&](const BranchPoint &k) { return solution_distance(k, p) < same_solution; });
+                           [&](const BranchPoint &k) { return solution_distance(k, p) < same_resonance; });
     }
 
     // Resonances of the main branch that no backbone from rest has met.
@@ -99,7 +99,7 @@ class Search {
             Seed seed{points[at[k]], backbone.branch, minimum, maximum};
             if (!resonance_.correct(options_.force_scale, seed.point)) continue;
             if (std::any_of(seeds.begin(), seeds.end(), [&](const Seed &s) {
-                    return solution_distance(s.point, seed.point) < same_solution;
+                    return solution_distance(s.point, seed.point) < same_resonance;
                 }))
                 continue;
             for (std::size_t other : at) {

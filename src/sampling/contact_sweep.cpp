@@ -7,7 +7,6 @@
 namespace plm {
 namespace {
 
-constexpr double never = 1e-9; // |dV| below this share of the largest: the pair does not move
 // Thresholds this close are one: twins of a symmetric mesh, whose eigenvectors and gaps are symmetric to
 // rounding times the condition, not to rounding. A set of one of two twins alone would be noise.
 constexpr double tie = 1e-6;
@@ -22,7 +21,7 @@ vector<Switch> find_switches(const vector<double> &offset, const vector<double> 
     for (double v : dv) largest = std::max(largest, std::abs(v));
     vector<Switch> switches;
     for (std::size_t i = 0; i < dv.size(); ++i)
-        if (largest > 0 && std::abs(dv[i]) >= never * largest)
+        if (largest > 0 && std::abs(dv[i]) >= unmoved * largest)
             switches.push_back(
                 {-offset[i] / dv[i] + 0.0, static_cast<std::int64_t>(i)}); // + 0.0: no negative zero
     std::stable_sort(switches.begin(), switches.end(),

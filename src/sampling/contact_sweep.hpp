@@ -5,8 +5,11 @@
 
 namespace plm {
 
-/// All contact sets from alpha -> -infinity to +infinity. A pair with |dV| < 1e-9 max |dV| never switches:
-/// its offset says whether it is closed. Thresholds that differ by less than 1e-9 of their size are one
+/// What moves a pair by less than this share of the largest gap motion does not move it.
+constexpr double unmoved = 1e-9;
+
+/// All contact sets from alpha -> -infinity to +infinity. A pair that dV leaves unmoved never switches: its
+/// offset says whether it is closed. Thresholds that differ by less than 1e-6 of their size are one
 /// (symmetric meshes).
 ContactSweep sweep_contact(const vector<double> &offset, bool offset_is_rest,
                            const vector<double> &mode_penetration);

@@ -1,4 +1,5 @@
 #include "sampling/reference_system.hpp"
+#include "sampling/contact_sweep.hpp"
 #include "sampling/mode_match.hpp"
 #include <algorithm>
 #include <cmath>
@@ -6,8 +7,6 @@
 namespace plm {
 namespace {
 
-// Below this share of the largest gap motion a rigid-body mode does not move the contact.
-constexpr double never = 1e-9;
 // How much better the sliding system has to be: nearly equal ones are a matter of rounding.
 constexpr double clearly = 1.1;
 
@@ -23,7 +22,7 @@ bool contact_holds_a_part(const Space &space) {
             largest = std::max(largest, size);
             if (space.lambda[j] == 0) rigid = std::max(rigid, size);
         }
-    return rigid > never * largest;
+    return rigid > unmoved * largest;
 }
 
 // Share of the closed pairs' motion that presses, and of the open pairs' that parts; the lesser of the two.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double longest_step = 2.0; // rate x duration of a piece: about 26 terms, of which none exceeds 2
 constexpr double truncation = 1e-17;
-constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+constexpr double gap_noise = 16 * std::numeric_limits<double>::epsilon();
 constexpr std::int64_t watch_interval = 64; // pieces
 constexpr double no_progress = 1e-12;       // share of a piece
 constexpr int side_corrections = 8; // one is usual; more when pairs that rest at zero act on each other
@@ -236,7 +236,7 @@ bool ExactFlow::correct_sides(const FlowState &state, double duration) {
     const double reach = norm2(n, state.y.data()) + duration * norm2(n, state.v.data());
     bool changed = false;
     for (std::int64_t i = 0; i < model_->n_pairs(); ++i) {
-        noise_[i] = rounding * (std::abs(model_->initial_gap()[i]) + row_norm_[i] * reach);
+        noise_[i] = gap_noise * (std::abs(model_->initial_gap()[i]) + row_norm_[i] * reach);
         sides_[i] = side_of(i, noise_[i]);
         if (sides_[i].power < 0 || sides_[i].closed == (closed_[i] != 0)) continue;
         closed_[i] = sides_[i].closed;

@@ -1,8 +1,8 @@
 /* Process-wide failing malloc: the k-th allocation of a whole run fails, whoever asks for it (libplm,
  * CHOLMOD, FFTW, the BLAS, the language's runtimes), alone or with all that follow. The library must say
  * PLM_ERR_MEMORY, or have got on without; the same context then does the run with the results it has always
- * had. Nothing may crash, end the process, or hang. Arguments: every STEP-th allocation only, from FIRST on.
- */
+ * had. Nothing may crash, end the process, or hang. Arguments: every STEP-th allocation only, from FIRST on,
+ * 'alone' or 'followed' by all others; otherwise the two take turns. */
 #define _GNU_SOURCE
 #include "check_host.h"
 #include "whole_run.h"
@@ -122,13 +122,13 @@ static long run_once(void) {
 
 int main(int argc, char **argv) {
     const long step = argc > 1 ? atol(argv[1]) : 1, first = argc > 2 ? atol(argv[2]) : 1;
+    const char *kind = argc > 3 ? argv[3] : "";
     const long total = run_once();
     long k, tried = 0;
     setvbuf(stdout, NULL, _IONBF, 0); /* or children would print it again */
     EXPECT(total > 100 && step > 0);
-    for (k = first; step > 0 && k <= total; k += step, ++tried) try_one(k, tried % 2 != 0);
-    if (step == 1)
-        for (k = first; k <= total; ++k) try_one(k, 1);
+    for (k = first; step > 0 && k <= total; k += step, ++tried)
+        try_one(k, *kind ? strcmp(kind, "followed") == 0 : tried % 2 != 0);
     printf("%ld of %ld allocations failed in turn\n", tried, total);
     return wrong();
 }

@@ -1,18 +1,21 @@
-"""Runs programs and compares what they print: compare.py REFERENCE -- PROGRAM [ARGUMENT...]
+"""Runs a program and compares what it prints with a file: compare.py REFERENCE -- PROGRAM [ARGUMENT...]
 
-Headings must be equal and numbers equal to the last digit, however a language writes them (1.0E+00 is 1). The first
-program is the reference.
+Headings must be equal and numbers equal to the last digit, however a language writes them (1.0E+00 is 1).
 """
 import struct
 import subprocess
 import sys
 
 
+def lines_of(text):
+    return [line.strip() for line in text.splitlines() if line.strip()]
+
+
 def output(command):
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
     if done.returncode:
         sys.exit(f"{command[0]} returned {done.returncode}")
-    return [line.strip() for line in done.stdout.splitlines() if line.strip()]
+    return lines_of(done.stdout)
 
 
 def value(line):
@@ -25,7 +28,9 @@ def value(line):
 
 def main():
     cut = sys.argv.index("--")
-    wanted, found = output(sys.argv[1:cut]), output(sys.argv[cut + 1:])
+    with open(sys.argv[1], encoding="utf-8") as file:
+        wanted = lines_of(file.read())
+    found = output(sys.argv[cut + 1:])
     heading = "the first line"
     for number, (a, b) in enumerate(zip(wanted, found), 1):
         if value(a) != value(b):
