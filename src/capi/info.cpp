@@ -2,7 +2,9 @@
 #include "capi/barrier.hpp"
 #include "capi/keys.hpp"
 #include "linalg/dft.hpp"
+#include "linalg/make_factor.hpp"
 #include "study/study.hpp"
+#include "transient/make_transient.hpp"
 #include "transient/transient.hpp"
 
 #ifndef PLM_VERSION_MAJOR // the build system passes the project's version

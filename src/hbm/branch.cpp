@@ -9,13 +9,6 @@
 
 namespace plm {
 
-std::int64_t stability_of(const BranchPoint &point) {
-    if (point.multipliers.empty()) return -1;
-    for (const std::complex<double> &m : point.multipliers)
-        if (std::abs(m) > 1 + 1e-9) return 0;
-    return 1;
-}
-
 std::string end_text(std::int32_t reason, bool sampled) {
     if (sampled && (reason == PLM_REASON_STEP_MINIMUM || reason == PLM_REASON_CONTACT_CHATTER ||
                     reason == PLM_REASON_TURNED_BACK))
@@ -55,38 +48,6 @@ std::string end_text(std::int32_t reason, bool sampled) {
     default:
         return format("ended for reason %d", reason);
     }
-}
-
-void set_harmonics(Matrix &eta, std::int64_t n) {
-    if (eta.cols() == 2 * n) return;
-    Matrix changed(eta.rows(), 2 * n);
-    const std::int64_t kept = std::min(eta.cols(), 2 * n) * eta.rows();
-    std::copy(eta.data(), eta.data() + kept, changed.data());
-    eta = std::move(changed);
-}
-
-namespace {
-
-// Column pairs after the first `mean` columns, cosine and sine of harmonic k, become those of multiple x k.
-Matrix spread_harmonics(const Matrix &from, std::int64_t mean, std::int64_t multiple) {
-    const std::int64_t rows = from.rows(), h = (from.cols() - mean) / 2;
-    Matrix to(rows, mean + 2 * multiple * h);
-    std::copy(from.data(), from.col(mean), to.data());
-    for (std::int64_t k = 1; k <= h; ++k)
-        std::copy(from.col(mean + 2 * k - 2), from.col(mean + 2 * k), to.col(mean + 2 * multiple * k - 2));
-    return to;
-}
-
-} // namespace
-
-BranchPoint on_longer_period(const BranchPoint &point, std::int64_t multiple) {
-    if (multiple == 1) return point;
-    BranchPoint longer = point;
-    longer.n_harmonics = multiple * point.n_harmonics;
-    longer.eta = spread_harmonics(point.eta, 0, multiple);
-    if (point.contact_stiffness) longer.contact_motion = spread_harmonics(point.contact_motion, 1, multiple);
-    longer.multipliers.clear(); // those of the longer period are powers
-    return longer;
 }
 
 namespace {

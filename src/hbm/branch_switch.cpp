@@ -2,6 +2,8 @@
 // null vector that does not belong to the curve at hand; a small step along it, corrected across it, is a
 // first point of the other one.
 #include "hbm/curve.hpp"
+#include "hbm/hbm.hpp"
+#include "hbm/make_system.hpp"
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,6 @@
 #include "hbm/curve.hpp"
 #include "hbm/formulation.hpp"
+#include "hbm/make_system.hpp"
 #include "hbm/stability.hpp"
 #include "hbm/start.hpp"
 #include <algorithm>

@@ -1,8 +1,10 @@
 // One response curve from a first point on: the continuation with the number of harmonics and the unknowns
 // chosen again wherever the response asks for it, and with the stability of its points.
 #pragma once
+#include "hbm/branch.hpp"
 #include "hbm/continuation.hpp"
 #include "hbm/harmonic_choice.hpp"
+#include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
 
 namespace plm {

@@ -1,6 +1,7 @@
 #include "hbm/error_estimate.hpp"
 #include "hbm/curve.hpp"
 #include "hbm/formulation.hpp"
+#include "hbm/make_system.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,5 +1,6 @@
 #include "hbm/fold_tracking.hpp"
 #include "hbm/curve.hpp"
+#include "hbm/make_system.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include <algorithm>
 #include <cmath>

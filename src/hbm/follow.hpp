@@ -1,6 +1,7 @@
 // From a known solution to another frequency along its branch, and what is said where that fails.
 #pragma once
 #include "hbm/branch.hpp"
+#include "hbm/options.hpp"
 #include "hbm/start.hpp"
 
 namespace plm {

@@ -4,7 +4,9 @@
 // It does not stiffen with k_n and has the rigid limit 1/k_n = 0, where a penalty on few harmonics only
 // follows its own ripples.
 #pragma once
-#include "hbm/hbm.hpp"
+#include "hbm/branch_point.hpp"
+#include "hbm/options.hpp"
+#include "reduction/reduced_model.hpp"
 
 namespace plm {
 

@@ -5,6 +5,7 @@
 // closed are eliminated harmonic by harmonic, exactly, and come back the moment they move.
 #include "hbm/formulation.hpp"
 #include "hbm/free_motion.hpp"
+#include "hbm/make_system.hpp"
 #include "hbm/pair_elimination.hpp"
 #include "hbm/receptance.hpp"
 #include "hbm/system.hpp"

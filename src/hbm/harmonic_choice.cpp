@@ -1,4 +1,5 @@
 #include "hbm/harmonic_choice.hpp"
+#include "hbm/make_system.hpp"
 #include "hbm/start.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,8 @@
 // How many harmonics: to begin with, at one point, after a point; and what is said where they are too few.
 #pragma once
+#include "hbm/branch.hpp"
 #include "hbm/harmonic_tail.hpp"
+#include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
 
 namespace plm {

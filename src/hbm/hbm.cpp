@@ -3,6 +3,7 @@
 #include "hbm/curve_verdicts.hpp"
 #include "hbm/follow.hpp"
 #include "hbm/free_motion.hpp"
+#include "hbm/make_system.hpp"
 #include "hbm/stability.hpp"
 #include "hbm/start.hpp"
 #include "hbm/wider_range.hpp"

@@ -1,6 +1,7 @@
 // The searches of Hbm: checks, and the options they run with.
 #include "hbm/curve.hpp"
 #include "hbm/fold_tracking.hpp"
+#include "hbm/hbm.hpp"
 #include "hbm/isolated.hpp"
 #include "hbm/marching_search.hpp"
 #include "hbm/nonlinear_mode.hpp"

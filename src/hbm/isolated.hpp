@@ -2,6 +2,8 @@
 // not monotonic in amplitude, entered there and traced as closed curves; the range of forces in which each
 // exists from the folds tracked over the force.
 #pragma once
+#include "hbm/branch.hpp"
+#include "hbm/options.hpp"
 #include "hbm/phase_resonance.hpp"
 
 namespace plm {

@@ -1,5 +1,6 @@
 #include "hbm/marching_search.hpp"
 #include "hbm/curve.hpp"
+#include "hbm/make_system.hpp"
 #include "hbm/start.hpp"
 #include "model/rest.hpp"
 #include "transient/shooting.hpp"

@@ -1,6 +1,7 @@
 #include "hbm/nonlinear_mode.hpp"
 #include "hbm/continuation.hpp"
 #include "hbm/harmonic_tail.hpp"
+#include "hbm/make_system.hpp"
 #include "hbm/modes_at_rest.hpp"
 #include "hbm/start.hpp"
 #include "model/rest.hpp"

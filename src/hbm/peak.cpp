@@ -3,6 +3,7 @@
 #include "hbm/curve.hpp"
 #include "hbm/curve_verdicts.hpp"
 #include "hbm/hbm.hpp"
+#include "hbm/make_system.hpp"
 #include "hbm/newton.hpp"
 #include <algorithm>
 #include <array>

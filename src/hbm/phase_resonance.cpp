@@ -1,5 +1,6 @@
 #include "hbm/phase_resonance.hpp"
 #include "hbm/continuation.hpp"
+#include "hbm/make_system.hpp"
 #include "hbm/modes_at_rest.hpp"
 #include "hbm/start.hpp"
 #include <algorithm>

@@ -5,6 +5,8 @@
 // branch exists.
 #pragma once
 #include "hbm/augmented_system.hpp"
+#include "hbm/branch.hpp"
+#include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
 
 namespace plm {

@@ -2,7 +2,7 @@
 // their passage of the unit circle means.
 #pragma once
 #include "hbm/exact_motion.hpp"
-#include "hbm/hbm.hpp"
+#include "hbm/options.hpp"
 #include "transient/monodromy.hpp"
 
 namespace plm {

@@ -1,6 +1,8 @@
 // First solutions: from the structure at rest to a converged periodic response at one frequency.
 #pragma once
 #include "hbm/continuation.hpp"
+#include "hbm/options.hpp"
+#include "reduction/reduced_model.hpp"
 
 namespace plm {
 

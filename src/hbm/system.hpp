@@ -3,9 +3,9 @@
 // the receptances of the open structure (gap_system.cpp). Which is cheaper depends on the number of
 // coordinates and of moving pairs.
 #pragma once
-#include "hbm/branch.hpp"
+#include "hbm/branch_point.hpp"
 #include "hbm/contact_force.hpp"
-#include "hbm/hbm.hpp"
+#include "linalg/error.hpp"
 
 namespace plm {
 
@@ -75,18 +75,5 @@ class HbmSystem {
     }
     ContactIndicator indicator_;
 };
-
-/// The form options.unknowns asks for, automatic: the smaller one when all pairs move. options.n_harmonics >
-/// 0 counts per period of the excitation; with options.period_multiple the system repeats after that many
-/// periods.
-std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduced,
-                                       const HbmOptions &options);
-/// Reduced coordinates (true) or contact gaps when all pairs move.
-bool prefers_modal(const ReducedModel &reduced, const HbmOptions &options);
-std::unique_ptr<HbmSystem> make_modal_system(std::shared_ptr<const ReducedModel> reduced,
-                                             const HbmOptions &options);
-std::unique_ptr<HbmSystem> make_gap_system(std::shared_ptr<const ReducedModel> reduced,
-                                           const HbmOptions &options);
-std::unique_ptr<ContactForce> make_contact_force(const HbmOptions &options, std::int64_t n_pairs);
 
 } // namespace plm

@@ -2,7 +2,6 @@
 // that keep XERBLA, which prints and stops the process, out of reach. Each character argument has its length
 // passed behind the list, as gfortran expects it.
 #pragma once
-#include "dense.hpp"
 #include "error.hpp"
 #include <climits>
 #include <cmath>

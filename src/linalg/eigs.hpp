@@ -1,24 +1,9 @@
 // Lowest eigenpairs of a sparse symmetric pencil by Lanczos methods in shift-invert mode.
 #pragma once
+#include "eigen_pairs.hpp"
 #include "factor.hpp"
-#include <functional>
 
 namespace plm {
-
-struct EigenPairs {
-    vector<double> values; // ascending
-    Matrix vectors;        // M-orthonormal columns
-};
-
-/// library_code of the error (PLM_ERR_EIGENSOLVER) where some did not converge within the allowed restarts.
-constexpr std::int64_t eigs_too_few = -1;
-
-struct EigsOptions {
-    double tolerance = 0; // relative accuracy of the Ritz values; 0 = machine precision
-    std::int64_t max_restarts = 300;
-    std::int64_t max_attempts = 3;   // each with twice the vectors, where the one before did not converge
-    std::function<bool()> cancelled; // polled before each operation; true stops (PLM_CANCELLED)
-};
 
 /// The n_wanted eigenpairs of K x = lambda M x that lie closest above `shift`, where `factor` is of K - shift
 /// M and no eigenvalue lies below `shift` (positive definite factor). K and M symmetric, M positive

@@ -1,6 +1,7 @@
 // Private to linalg: the two ways in which lowest_eigenpairs (eigs.cpp) solves a pencil.
 #pragma once
-#include "eigs.hpp"
+#include "eigen_pairs.hpp"
+#include "factor.hpp"
 
 namespace plm {
 

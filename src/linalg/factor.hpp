@@ -3,7 +3,6 @@
 #pragma once
 #include "sparse.hpp"
 #include <memory>
-#include <string>
 
 namespace plm {
 
@@ -43,13 +42,13 @@ struct HostSolver {
     int (*inertia)(void *handle, std::int64_t *negative, void *user) = nullptr;
 };
 
-/// Factors the symmetric matrix `a` (both triangles stored). `host` may be null. Throws plm::Error.
-std::unique_ptr<Factor> make_factor(const SparseMatrix &a, FactorKind kind, const HostSolver *host = nullptr);
 /// False: a factorization for the sake of its negative_eigenvalues() would be made in vain.
 inline bool tells_inertia(const HostSolver *host) {
     return !host || host->inertia;
 }
-/// "CHOLMOD 3.0.14" or "Eigen 3.4.0": what make_factor uses without a host solver.
-std::string factor_backend();
+
+/// The two ways in which a factorization breaks down; `column` is the DOF in the order of the caller.
+[[noreturn]] void throw_not_positive_definite(std::int64_t column);
+[[noreturn]] void throw_singular(std::int64_t column);
 
 } // namespace plm

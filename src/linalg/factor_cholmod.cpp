@@ -1,6 +1,7 @@
 // CHOLMOD with 64-bit indices behind the seam of factor.hpp.
 #include "blas_lapack.hpp"
 #include "factor_builtin.hpp"
+#include "make_factor.hpp"
 #include "memory_count.hpp"
 #include <algorithm>
 #include <cholmod.h>

@@ -4,6 +4,7 @@
 #define EIGEN_DONT_PARALLELIZE
 #include "blas_lapack.hpp"
 #include "factor_builtin.hpp"
+#include "make_factor.hpp"
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <limits>

@@ -4,6 +4,7 @@
 // enough.
 #include "linalg/eigs.hpp"
 #include "linalg/lapack.hpp"
+#include "linalg/make_factor.hpp"
 #include "model/massless.hpp"
 #include "model/space.hpp"
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include "model/linear_contact.hpp"
+#include "linalg/error.hpp"
 #include "linalg/lapack.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,18 @@
 // The linear systems that contact leaves behind when every pair is replaced by a spring along its normal: a
 // contact set (k_n or nothing), or the equivalent linear stiffnesses of linearisation methods.
 #pragma once
-#include "model/space.hpp"
+#include "linalg/dense.hpp"
 
 namespace plm {
+
+/// Of a linear system in a space's coordinates: eigenvalues (rad^2/s^2) ascending, vectors m x count
+/// mass-normalised; those below a limit, or all; then the directions without mass, too, of unit stiffness in
+/// the coupled system: together they are its flexibility, sum of v v^T / value and of w w^T.
+struct SpaceModes {
+    vector<double> values;
+    Matrix vectors;
+    Matrix massless; // m x n_massless, when all are asked for
+};
 
 /// Modes of diag(lambda) + G^T diag(spring) G, ascending, mass-normalised; those below `upper` (rad^2/s^2),
 /// or all when upper is infinite. lambda: m, >= 0, exactly 0 for rigid-body motion, ascending but for the

@@ -1,6 +1,7 @@
 #include "model/rigid_modes.hpp"
 #include "linalg/eigs.hpp"
 #include "linalg/lapack.hpp"
+#include "linalg/make_factor.hpp"
 #include "model/rigid_factor.hpp"
 #include <algorithm>
 #include <cmath>

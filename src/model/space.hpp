@@ -6,6 +6,7 @@
 // count (massless.hpp). They are coordinates like the others, with a stiffness and their damping, but no
 // mass.
 #pragma once
+#include "model/linear_contact.hpp"
 #include "model/model.hpp"
 
 namespace plm {
@@ -37,15 +38,8 @@ struct Space {
 /// Fills lambda-independent projections (gap, damping, loads) of a space whose vectors and lambda are set.
 void project_onto(Space &space);
 
-/// Modes of the linear system in which pairs with closed[i] != 0 are coupled by k_n, in the space's
-/// coordinates: eigenvalues (rad^2/s^2) ascending, vectors m x count mass-normalised. Those below `upper`
-/// (rad^2/s^2), or all when upper is infinite; then the directions without mass, too, of unit stiffness in
-/// the coupled system: together they are its flexibility, sum of v v^T / value and of w w^T.
-struct SpaceModes {
-    vector<double> values;
-    Matrix vectors;
-    Matrix massless; // m x n_massless, when all are asked for
-};
+/// Modes of the linear system in which pairs with closed[i] != 0 are coupled by k_n,
+/// those below `upper` (rad^2/s^2), or all when upper is infinite.
 SpaceModes modes_of_contact_set(const Space &space, const vector<char> &closed, double upper);
 
 /// The contact space: exact open modes up to cutoff_factor x highest_frequency, and contact attachment

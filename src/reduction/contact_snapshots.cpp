@@ -2,6 +2,7 @@
 #include "linalg/lapack.hpp"
 #include "linalg/work.hpp"
 #include "model/linear_contact.hpp"
+#include "model/rest.hpp"
 #include "sampling/dominant_mode.hpp"
 #include <algorithm>
 #include <cmath>

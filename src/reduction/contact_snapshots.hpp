@@ -2,6 +2,7 @@
 // the structure.
 #pragma once
 #include "reduction/mode_selection.hpp"
+#include "sampling/sampler.hpp"
 
 namespace plm {
 

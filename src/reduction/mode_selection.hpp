@@ -1,9 +1,20 @@
 // Which modes of each contact sample enter the reduction matrix (paper, 2.3.4).
 #pragma once
-#include "reduction/basis.hpp"
+#include "linalg/monitor.hpp"
+#include "reduction/basis_options.hpp"
 #include "reduction/conditioning.hpp"
+#include "sampling/contact_sweep.hpp"
 
 namespace plm {
+
+/// What became of one sample's modes.
+struct SampleSelection {
+    vector<double> frequency_hz; // all its modes computed
+    vector<char> kept;           // selected by the rule
+    std::int64_t matched = -1;   // index of the mode with the highest MAC with the dominant mode
+    double matched_mac = 0;
+    bool matched_kept = false;
+};
 
 /// The rule by which modes are kept, resolved from options and window.
 struct SelectionRule {

@@ -2,7 +2,8 @@
 // nonlinear vibration analysis of structures with intermittent contact"): the reduced model has contact
 // equations at some of the pairs only, chosen before any response is known.
 #pragma once
-#include "reduction/basis.hpp"
+#include "reduction/basis_options.hpp"
+#include "reduction/reduced_model.hpp"
 
 namespace plm {
 

@@ -1,117 +1,11 @@
 #include "reduction/reduced_model.hpp"
 #include "model/massless.hpp"
-#include "reduction/projection.hpp"
-#include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace plm {
-namespace {
-
-vector<double> project_vector(const Matrix &y, const vector<double> &f) {
-    if (f.empty()) return {};
-    vector<double> reduced(y.cols(), 0.0);
-    gemv('T', 1.0, y, f.data(), 0.0, reduced.data());
-    return reduced;
-}
-
-// Off-diagonal entries that are rounding errors against the diagonal do not count.
-bool is_diagonal(const Matrix &c) {
-    for (std::int64_t j = 0; j < c.cols(); ++j)
-        for (std::int64_t i = 0; i < c.rows(); ++i)
-            if (i != j && std::abs(c(i, j)) > 1e-14 * std::sqrt(std::abs(c(i, i) * c(j, j)))) return false;
-    return true;
-}
-
-void set_damping(Matrix c, ReducedModel &reduced) {
-    if (!is_diagonal(c)) {
-        reduced.damping = std::move(c);
-        return;
-    }
-    reduced.damping_diagonal.resize(c.cols());
-    for (std::int64_t j = 0; j < c.cols(); ++j) reduced.damping_diagonal[j] = c(j, j);
-}
-
-void project_damping(const Space &space, const Coordinates &dynamic, ReducedModel &reduced) {
-    const Damping &damping = space.model->damping();
-    if (!space.damping.empty()) {
-        set_damping(product('T', 'N', dynamic.y, product('N', 'N', space.damping, dynamic.y)), reduced);
-    } else if (damping.modal_ratio.empty()) { // Rayleigh: diagonal wherever m and k are
-        for (std::int64_t j = 0; j < reduced.size(); ++j)
-            reduced.damping_diagonal.push_back(damping.alpha * reduced.mass(j) +
-                                               damping.beta * reduced.lambda[j]);
-    } else {
-        Matrix cy = dynamic.y;
-        for (std::int64_t j = 0; j < cy.cols(); ++j)
-            for (std::int64_t i = 0; i < cy.rows(); ++i) cy(i, j) *= space.damping_diagonal[i];
-        Matrix c = product('T', 'N', dynamic.y, cy); // a ratio of critical damping is nothing without mass
-        for (std::int64_t j = 0; j < c.cols(); ++j)
-            for (std::int64_t i = 0; i < c.rows(); ++i)
-                if (reduced.mass(i) * reduced.mass(j) == 0) c(i, j) = 0;
-        set_damping(std::move(c), reduced);
-    }
-}
-
-// What does not depend on the basis, and the static members repeated from the dynamic ones.
-void finish(const Space &space, ReducedModel &reduced) {
-    reduced.model = space.model;
-    reduced.structural = space.model->damping().structural;
-    reduced.contact_stiffness = space.model->contact_stiffness();
-    reduced.initial_gap = space.model->initial_gap();
-    if (reduced.same_static) {
-        reduced.lambda_0 = reduced.lambda;
-        reduced.n_massless_0 = reduced.n_massless;
-        reduced.gap_0 = reduced.gap;
-    }
-    reduced.preload_0.resize(reduced.lambda_0.size(), 0.0);
-}
-
-} // namespace
 
 Matrix static_coordinates_of(const ReducedModel &m, const Matrix &motions) {
     return coordinates_of(motions, m.static_vectors(), m.lambda_0, m.n_massless_0, m.model->mass(),
                           m.model->stiffness());
-}
-
-std::shared_ptr<const ReducedModel> project(const Space &space, const Coordinates &dynamic,
-                                            const StaticBasis &statics) {
-    auto reduced = std::make_shared<ReducedModel>();
-    const Matrix &y_0 = statics.same ? dynamic.y : statics.coordinates.y;
-    reduced->lambda = dynamic.lambda;
-    reduced->n_massless = dynamic.n_massless;
-    reduced->gap = product('N', 'N', space.gap, dynamic.y);
-    reduced->vectors = product('N', 'N', space.vectors, dynamic.y);
-    project_damping(space, dynamic, *reduced);
-    reduced->same_static = statics.same;
-    if (!statics.same) {
-        reduced->lambda_0 = statics.coordinates.lambda;
-        reduced->n_massless_0 = statics.coordinates.n_massless;
-        reduced->gap_0 = product('N', 'N', space.gap, y_0);
-        reduced->vectors_0 = product('N', 'N', space.vectors, y_0);
-    }
-    reduced->preload_0 = project_vector(y_0, space.preload);
-    for (const auto &[harmonic, load] : space.excitation) {
-        const Matrix &y = harmonic == 0 ? y_0 : dynamic.y;
-        reduced->excitation[harmonic] = {project_vector(y, load.real), project_vector(y, load.imag)};
-    }
-    finish(space, *reduced);
-    return reduced;
-}
-
-std::shared_ptr<const ReducedModel> project_whole(const Space &space) {
-    auto reduced = std::make_shared<ReducedModel>();
-    reduced->lambda = space.lambda;
-    reduced->n_massless = space.n_massless;
-    reduced->gap = space.gap;
-    reduced->vectors = space.vectors;
-    if (space.damping.empty())
-        reduced->damping_diagonal = space.damping_diagonal;
-    else
-        set_damping(space.damping, *reduced);
-    reduced->preload_0 = space.preload;
-    reduced->excitation = space.excitation;
-    finish(space, *reduced);
-    return reduced;
 }
 
 } // namespace plm

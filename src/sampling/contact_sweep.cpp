@@ -1,4 +1,5 @@
 #include "sampling/contact_sweep.hpp"
+#include "model/contact_law.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,9 +1,29 @@
 // The evolution of the contact area along dX = offset + alpha dV (paper, eq. (5)) and the choice of a few
 // samples.
 #pragma once
-#include "sampling/sampler.hpp"
+#include "linalg/memory.hpp"
+#include <cstdint>
+#include <vector>
 
 namespace plm {
+
+/// The sweep dX = dX_0 + alpha dV of one dominant mode: Z + 1 contact sets at most.
+struct ContactSweep {
+    vector<double> offset;                       // dX_PS (rest penetration) or dX_0 (static offset), per pair
+    bool offset_is_rest = false;                 // which of the two
+    vector<double> thresholds;                   // the alphas where a pair switches, ascending, ties merged
+    std::vector<vector<std::int64_t>> switching; // pairs that switch at each threshold
+    std::vector<vector<char>> samples; // thresholds.size() + 1 contact sets, from alpha_min to alpha_max
+    vector<double> alpha;              // a representative alpha inside each interval
+};
+
+struct SelectedSample {
+    vector<char> closed;
+    std::int64_t dominant = 0;    // which dominant mode's sweep
+    std::int64_t sweep_index = 0; // position in that sweep
+    bool complement = false;
+    std::int64_t n_closed = 0;
+};
 
 /// What moves a pair by less than this share of the largest gap motion does not move it.
 constexpr double unmoved = 1e-9;

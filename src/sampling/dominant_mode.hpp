@@ -1,8 +1,20 @@
 // The mode of the open or sliding linear system that is taken to carry the contact kinematics (paper, 2.3.2).
 #pragma once
-#include "sampling/sampler.hpp"
+#include "linalg/monitor.hpp"
+#include "model/space.hpp"
+#include "sampling/sampler_options.hpp"
 
 namespace plm {
+
+/// A linear mode that is taken to carry the contact kinematics.
+struct DominantMode {
+    LinearSystem system = LinearSystem::open;
+    std::int64_t mode = 0; // 1-based in its system
+    double frequency_hz = 0;
+    double participation = 0;        // |phi . F_1| / ... share of the drive-point response, in [0, 1]
+    vector<double> coordinates;      // in the space
+    vector<double> mode_penetration; // dV = B phi, per pair
+};
 
 /// Which mode is wanted: by number, else nearest to a frequency, else the one that responds most.
 struct ModeRequest {

@@ -1,8 +1,28 @@
 // The frequency range where the dominant mode governs the response (paper, 2.3.2).
 #pragma once
-#include "sampling/sampler.hpp"
+#include "model/rest.hpp"
+#include "sampling/contact_sweep.hpp"
+#include "sampling/dominant_mode.hpp"
+#include <string>
 
 namespace plm {
+
+struct MacRow {                  // one compared linear system
+    std::string system;          // "system 1", "system 2", "rest"
+    vector<double> frequency_hz; // its lowest modes
+    vector<double> mac;          // mass-weighted MAC with the dominant mode
+    std::int64_t best = 0;
+};
+
+struct FrequencyWindow {
+    double blf_hz = 0;           // paper, eq. (6)
+    double f1_hz = 0, f2_hz = 0; // of the two half-cycle systems
+    double rest_hz = 0;          // of the system closed as at rest (case B), 0 in case A
+    bool preload_case = false;   // case B of the paper
+    double min_hz = 0, max_hz = 0;
+    std::vector<MacRow> mac;
+    std::string why; // one sentence
+};
 
 /// Bilinear frequency of two half periods (paper, eq. (6); Shaw and Holmes 1983).
 double bilinear_frequency(double f1_hz, double f2_hz);

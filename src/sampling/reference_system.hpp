@@ -1,5 +1,6 @@
 // Which linear system the dominant mode is taken from when the host leaves it to the library.
 #pragma once
+#include "model/rest.hpp"
 #include "sampling/dominant_mode.hpp"
 
 namespace plm {

@@ -1,5 +1,7 @@
 #include "sampling/sampler_options.hpp"
+#include "linalg/error.hpp"
 #include <cmath>
+#include <string>
 
 namespace plm {
 namespace {

@@ -1,8 +1,30 @@
-// Every rule about the sampler's options in one place.
+// What a sampler is asked for, and every rule about it in one place.
 #pragma once
-#include "sampling/sampler.hpp"
+#include <cstdint>
+#include <vector>
 
 namespace plm {
+
+enum class LinearSystem { automatic = -1, open = 0, sliding = 1 };
+
+struct SamplerOptions {
+    LinearSystem system = LinearSystem::automatic; // automatic: see reference_system()
+    std::int64_t mode = 0;                         // 1, 2, ...; 0: by frequency or proposed
+    double mode_frequency_hz = 0;                // > 0: the mode nearest to it; 0: proposed by participation
+    double search_min_hz = 0, search_max_hz = 0; // proposal: range searched (0, 0: the 20 lowest modes)
+    std::int64_t n_samples = 4;
+    bool complements = true;
+    bool include_ends = true;        // equally spaced over the sweep with its two ends
+    bool include_rest = true;        // with pre-load: the contact set at rest is among the samples
+    double window_half_width = 0.05; // of the estimated resonance frequency
+    double window_min_hz = 0, window_max_hz = 0; // > 0: the caller's window instead
+    std::int64_t n_harmonics = 5;                // the space must be accurate up to n_harmonics x window
+    struct Extra {
+        LinearSystem system;
+        std::int64_t mode;
+    };
+    std::vector<Extra> extra; // further dominant modes
+};
 
 /// Throws PLM_ERR_ARGUMENT with the option's key as argument.
 void check_options(const SamplerOptions &options);

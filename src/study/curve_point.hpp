@@ -1,5 +1,6 @@
 // Points of a response curve on its own equations again: between two points, or with more harmonics.
 #pragma once
+#include "hbm/options.hpp"
 #include "hbm/system.hpp"
 
 namespace plm {

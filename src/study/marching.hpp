@@ -1,6 +1,8 @@
 // A response curve by marching in time: the steady state at each of some frequencies, from the one before.
 #pragma once
-#include "study/study.hpp"
+#include "study/plane_curve.hpp"
+#include "study/recipe.hpp"
+#include "transient/transient.hpp"
 
 namespace plm {
 

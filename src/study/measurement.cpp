@@ -2,6 +2,7 @@
 #include "hbm/refinement.hpp"
 #include "hbm/responses.hpp"
 #include "sampling/dominant_mode.hpp"
+#include "transient/make_transient.hpp"
 #include <algorithm>
 #include <chrono>
 

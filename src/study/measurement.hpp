@@ -1,6 +1,9 @@
 // One run of a method, timed: its basis from the options, and its curve at every force level.
 #pragma once
+#include "hbm/options.hpp"
 #include "study/marching.hpp"
+#include "study/plan.hpp"
+#include "study/result.hpp"
 
 namespace plm {
 

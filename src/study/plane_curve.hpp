@@ -7,6 +7,10 @@
 
 namespace plm {
 
+struct PlaneSamples {
+    vector<double> hz, amplitude;
+};
+
 /// The motion that a study looks at.
 struct Output {
     std::int64_t dof = 0; // base 0

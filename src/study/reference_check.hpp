@@ -1,5 +1,6 @@
 // How converged the reference of a study is itself.
 #pragma once
+#include "hbm/options.hpp"
 #include "study/plane_curve.hpp"
 
 namespace plm {

@@ -1,7 +1,7 @@
 // A study's result as text: the table for people (Markdown) and for programs (CSV), and the curves. The
 // decimal sign is a point whatever the host's locale is.
 #pragma once
-#include "study/study.hpp"
+#include "study/result.hpp"
 
 namespace plm {
 

@@ -1,4 +1,5 @@
 #include "transient/newmark.hpp"
+#include "linalg/make_factor.hpp"
 #include "linalg/scale.hpp"
 #include "model/rest.hpp"
 #include "transient/settling.hpp"

@@ -1,5 +1,4 @@
-#include "transient/full_motion.hpp"
-#include "transient/reduced_motion.hpp"
+#include "transient/transient.hpp"
 #include <cmath>
 
 namespace plm {
@@ -17,16 +16,6 @@ double excitation_omega(const TransientOptions &options) {
                                    "point of a branch")
             .argument("frequency_hz");
     return 2 * M_PI * options.frequency_hz;
-}
-
-std::unique_ptr<Transient> make_transient(std::shared_ptr<const Model> model,
-                                          std::shared_ptr<const ReducedModel> reduced) {
-    if (reduced) return std::make_unique<ReducedMotion>(std::move(reduced));
-    return std::make_unique<FullMotion>(std::move(model));
-}
-
-bool transient_is_built() {
-    return true;
 }
 
 } // namespace plm

@@ -1,7 +1,6 @@
 // Motion in time as a host asks for it: a state, runs of whole periods of the excitation with some DOFs
 // observed, and the periodic motion nearby. Two engines: the exact flow of a reduced model and Newmark's
-// method for the full one. This header needs neither, so that a build may leave both out
-// (PLM_WITH_TRANSIENT).
+// method for the full one.
 #pragma once
 #include "linalg/monitor.hpp"
 #include "reduction/reduced_model.hpp"
@@ -89,10 +88,5 @@ class Transient {
   private:
     double time_ = 0, phase_ = 0;
 };
-
-/// reduced null: the full model. PLM_ERR_NOT_BUILT when left out of the build.
-std::unique_ptr<Transient> make_transient(std::shared_ptr<const Model> model,
-                                          std::shared_ptr<const ReducedModel> reduced);
-bool transient_is_built();
 
 } // namespace plm

@@ -63,7 +63,7 @@ refused("abi.ledger", "another version for a function", "plm_hbm_sweep: introduc
 refused("abi.constants", "a constant with another value", "PLM_TRUNCATED: was 2, is 7", python, tests / "abi/constants.py",
         tests / "abi/baseline/plm/plm.h", changed(header, "PLM_TRUNCATED 2", "PLM_TRUNCATED 7"))
 shutil.copytree(source / "src/capi", folder / "capi")
-changed(source / "src/capi/context.cpp", r'return call<Context>\("plm_context_set_log"', r"check(ctx); \g<0>", "capi/context.cpp")
+changed(source / "src/capi/context_calls.cpp", r'return call<Context>\("plm_context_set_log"', r"check(ctx); \g<0>", "capi/context_calls.cpp")
 refused("abi.barrier", "work in front of the exception barrier", "plm_context_set_log works outside the barrier", python,
         tests / "abi/barrier.py", header, folder / "capi")
 changed(header, r"^(typedef int32_t plm_status;)", r"\1 // a comment of C99", "c99/plm/plm.h")
@@ -132,6 +132,16 @@ if doxyfile.exists() and shutil.which("doxygen"):
     text = doxyfile.read_text(encoding="utf-8") + f"\nINPUT = {grown}\nOUTPUT_DIRECTORY = {folder}\n"
     (folder / "Doxyfile").write_text(text, encoding="utf-8")
     refused("docs.reference", "a function without an example", "plm_model_forget", "doxygen", folder / "Doxyfile")
+
+# ---- the house
+rooms = folder / "rooms"
+shutil.copytree(source / "src", rooms)
+with (rooms / "linalg/dense.hpp").open("a", encoding="utf-8") as file:
+    file.write('#include "model/space.hpp"\n')
+refused("house.includes", "a room that looks upwards", "dense.hpp:[0-9]+: linalg must not include model/space", python,
+        tests / "house/includes.py", rooms)
+refused("house.includes", "parts that include one another", "linalg/dense .*model/space .*include one another", python,
+        tests / "house/includes.py", rooms)
 
 # ---- hosts
 if shutil.which("valgrind"):

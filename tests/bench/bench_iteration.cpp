@@ -1,6 +1,8 @@
 // Cost of one Newton iteration in reduced coordinates (residual, Jacobian, factorization, one solution):
 // medians over many runs for 90 pairs and 5 harmonics, with the flops that the loop needs. Not a test: prints
 // Markdown.
+#include "hbm/make_system.hpp"
+#include "hbm/options.hpp"
 #include "hbm/start.hpp"
 #include "hbm/system.hpp"
 #include <algorithm>

@@ -3,6 +3,7 @@
 #pragma once
 #include "capi/handles.hpp"
 #include "hbm/hbm.hpp"
+#include "reduction/basis.hpp"
 extern "C" {
 #include "scene_model.h"
 }

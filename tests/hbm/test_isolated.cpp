@@ -1,6 +1,7 @@
 // Isolated branches of a small pre-loaded structure: found without a hint, closed, the range of forces
 // against plain sweeps, stable points against the exact flow, folds tracked against folds located.
 #include "hbm/fold_tracking.hpp"
+#include "hbm/hbm.hpp"
 #include "hbm/isolated.hpp"
 #include "hbm/marching_search.hpp"
 #include "hbm/trig_polynomial.hpp"

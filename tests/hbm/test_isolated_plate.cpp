@@ -7,6 +7,7 @@
 #include "transient/shooting.hpp"
 extern "C" {
 #include "cracked_plate.h"
+#include "hbm/hbm.hpp"
 #include "scene_model.h"
 }
 #include <algorithm>

@@ -2,7 +2,9 @@
 // reported.
 #include "hbm/error_estimate.hpp"
 #include "hbm/motion_measures.hpp"
+#include "hbm/options.hpp"
 #include "host_case.hpp"
+#include "reduction/basis.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 

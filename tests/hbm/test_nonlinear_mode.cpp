@@ -1,5 +1,6 @@
 // Nonlinear modes against closed forms of the bilinear oscillator: frequency, energy, contact time, damping.
 #include "hbm/nonlinear_mode.hpp"
+#include "hbm/options.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"

@@ -1,6 +1,8 @@
 // A point keeps the number of harmonics it was solved with, whatever the options say when it is used again.
 #include "hbm/curve.hpp"
+#include "hbm/hbm.hpp"
 #include "hbm/isolated.hpp"
+#include "hbm/make_system.hpp"
 #include "hbm/system.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/small_models.hpp"

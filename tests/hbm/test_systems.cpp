@@ -1,6 +1,8 @@
 // The two forms of the harmonic-balance equations: derivatives, agreement with each other, linear limits.
+#include "hbm/make_system.hpp"
 #include "hbm/modal_factor.hpp"
 #include "hbm/nonlinear_mode.hpp"
+#include "hbm/options.hpp"
 #include "hbm/phase_resonance.hpp"
 #include "hbm/start.hpp"
 #include "hbm/system.hpp"

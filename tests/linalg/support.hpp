@@ -11,7 +11,7 @@ extern "C" {
 }
 #undef fail // cmocka's macro breaks std::ios, whichever header brings that in
 #include "linalg/error.hpp"
-#include "linalg/factor.hpp"
+#include "linalg/make_factor.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

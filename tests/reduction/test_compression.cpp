@@ -8,6 +8,8 @@
 #include "support/test.hpp"
 extern "C" {
 #include "cracked_plate.h"
+#include "hbm/hbm.hpp"
+#include "reduction/basis.hpp"
 #include "scene_model.h"
 }
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Craig-Bampton against dense eigenproblems: exact with all fixed-interface modes, an upper bound with few.
 #include "reduction/basis.hpp"
+#include "reduction/craig_bampton.hpp"
 #include "sampling/small_models.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"

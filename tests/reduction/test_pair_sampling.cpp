@@ -1,5 +1,6 @@
 // Node sampling: which pairs are carried, against determinants and explicit Guyan reduction, and what becomes
 // of the others.
+#include "reduction/basis.hpp"
 #include "reduction/pair_sampling.hpp"
 #include "sampling/small_models.hpp"
 #include "support/test.hpp"

@@ -1,4 +1,4 @@
-#include "hbm/system.hpp"
+#include "hbm/make_system.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/wrapped_system.hpp"
 #include <algorithm>

@@ -1,5 +1,5 @@
-// In place of transient.cpp and its engines when PLM_WITH_TRANSIENT is OFF.
-#include "transient/transient.hpp"
+// In place of make_transient.cpp and its engines when PLM_WITH_TRANSIENT is OFF.
+#include "transient/make_transient.hpp"
 
 namespace plm {
 

@@ -1,0 +1,35 @@
+// What the harmonic-balance solver is asked for.
+#pragma once
+#include <cstdint>
+
+namespace plm {
+
+enum class AftKind { event, sampled };
+enum class UnknownSpace { automatic, modal, gaps };
+enum class FormulationKind { automatic, penalty, compliance };
+enum class StabilityKind { off, automatic, floquet, hill };
+
+struct HbmOptions {
+    std::int64_t n_harmonics = 0;     // 0: as many as each point needs
+    std::int64_t max_harmonics = 60;  // n_harmonics = 0 only
+    double harmonic_tolerance = 5e-4; // n_harmonics = 0: allowed harmonic_error of a point
+    bool tail_correction = false;     // adds the next harmonics that follow from the exact force
+    std::int64_t period_multiple = 1; // response period over excitation period
+    AftKind aft = AftKind::event;
+    std::int64_t time_samples = 256;                          // sampled AFT only
+    UnknownSpace unknowns = UnknownSpace::automatic;          // reduced coordinates or contact gaps, by cost
+    FormulationKind formulation = FormulationKind::automatic; // of the contact law: by its stiffness
+    double frequency_min_hz = 0, frequency_max_hz = 0;        // 0: the basis' window
+    bool upward = false;              // direction of a sweep; downwards starts are safer
+    double force_scale = 1;           // scales the excitation, not the pre-load
+    double tolerance = 1e-9;          // of the Newton correction, relative to the solution
+    std::int64_t max_iterations = 30; // Newton iterations per point
+    std::int64_t max_points = 2000;   // of a sweep
+    double initial_step = 0;          // arc length relative to the curve's scale; 0: automatic
+    double min_step = 1e-7,
+           max_step = 0.15; // arc length, where 1 = the window's width or the response's scale
+    StabilityKind stability = StabilityKind::automatic; // Floquet multipliers of each point
+    bool bifurcations = true;                           // locate folds, branch points, ...
+};
+
+} // namespace plm
