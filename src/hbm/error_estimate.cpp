@@ -136,7 +136,7 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
                     "the point is a motion without excitation, whose error is not estimated")
             .argument("point")
             .index(point);
-    HbmOptions o = options_at(p, options_);
+    HbmOptions o = options_at(p, branch_.period_multiple(), options_);
     ErrorEstimate e;
     double amplitude = branch_.amplitude(point, dof, measure, harmonic), hz = p.omega / (2 * M_PI);
     const auto settle = [&](Correction &c, double ErrorParts::*part) {
@@ -163,7 +163,7 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
 
 BranchPoint ErrorEstimator::corrected(std::int64_t point) const {
     const BranchPoint &p = branch_.points().at(static_cast<std::size_t>(point));
-    Correction c(full_, options_at(p, options_), p, *branch_.reduced_model());
+    Correction c(full_, options_at(p, branch_.period_multiple(), options_), p, *branch_.reduced_model());
     const BranchPoint as_computed = c.point();
     return c.settle(c.step(true)) ? c.point() : as_computed;
 }

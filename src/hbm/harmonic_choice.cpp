@@ -70,9 +70,10 @@ std::int64_t harmonics_of(const BranchPoint &point, std::int64_t period_multiple
     return std::max<std::int64_t>(1, point.n_harmonics / period_multiple);
 }
 
-HbmOptions options_at(const BranchPoint &point, const HbmOptions &options) {
+HbmOptions options_at(const BranchPoint &point, std::int64_t period_multiple, const HbmOptions &options) {
     HbmOptions o = options;
-    o.n_harmonics = harmonics_of(point, options.period_multiple);
+    o.period_multiple = period_multiple;
+    o.n_harmonics = harmonics_of(point, period_multiple);
     o.force_scale = point.force_scale;
     if (!point.contact_stiffness) {
         o.formulation = FormulationKind::penalty;
@@ -86,7 +87,7 @@ HbmOptions options_at(const BranchPoint &point, const HbmOptions &options) {
 
 MeasuredHarmonics measure_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                                     BranchPoint &point) {
-    const auto system = make_system(reduced, options_at(point, options));
+    const auto system = make_system(reduced, options_at(point, options.period_multiple, options));
     vector<double> x(system->size()), residual(system->size());
     system->from_point(point, x.data());
     system->residual(x.data(), point.omega, residual.data());
@@ -245,7 +246,7 @@ void warn_of_given_harmonics(std::shared_ptr<const ReducedModel> reduced, const 
     // whoever gives a number has a reason; what is far off is none
     constexpr double far_off = 0.1;
     BranchPoint point = one.points()[0];
-    const MeasuredHarmonics next = measure_harmonics(reduced, options_at(point, options), point);
+    const MeasuredHarmonics next = measure_harmonics(reduced, options_at(point, one.period_multiple(), options), point);
     const double error = harmonic_error_at(*reduced, point, next.change, dof, measure, harmonic);
     if (error < far_off) return;
     one.warnings.add(

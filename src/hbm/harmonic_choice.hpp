@@ -25,9 +25,9 @@ std::int64_t next_harmonics(const HbmOptions &limits, std::int64_t fewest, std::
 /// Harmonics of a point per period of the excitation: what HbmOptions::n_harmonics counts.
 std::int64_t harmonics_of(const BranchPoint &point, std::int64_t period_multiple);
 
-/// `options` with the harmonics, the force and the form of the contact law by which a point of a branch was
-/// solved, whatever the options say now.
-HbmOptions options_at(const BranchPoint &point, const HbmOptions &options);
+/// `options` with the period, the harmonics, the force and the form of the contact law by which a point of a
+/// branch was solved, whatever the options say now.
+HbmOptions options_at(const BranchPoint &point, std::int64_t period_multiple, const HbmOptions &options);
 
 struct MeasuredHarmonics {
     HarmonicContent content;

@@ -13,7 +13,9 @@ namespace plm {
 IsolatedSearch Hbm::find_isolated(const Branch &main, double force_max) const {
     if (main.reduced_model() != reduced_)
         throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("main_branch");
-    HbmOptions options = options_; // the curve may have gone on past the window to its peak
+    HbmOptions options = options_;
+    options.period_multiple = main.period_multiple();
+    // the curve may have gone on past the window to its peak
     for (const BranchPoint &p : main.points()) {
         options.frequency_min_hz = std::min(options.frequency_min_hz, p.omega / (2 * M_PI));
         options.frequency_max_hz = std::max(options.frequency_max_hz, p.omega / (2 * M_PI));

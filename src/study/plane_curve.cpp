@@ -53,7 +53,7 @@ class Step {
 
   private:
     static HbmOptions options_of(const BranchPoint &a, const BranchPoint &b, const HbmOptions &options) {
-        return options_at(a.n_harmonics >= b.n_harmonics ? a : b, options);
+        return options_at(a.n_harmonics >= b.n_harmonics ? a : b, options.period_multiple, options);
     }
 
     void set_chord(const CurvePoint &a, const CurvePoint &b) {

@@ -14,10 +14,8 @@ constexpr std::int64_t beside = 3; // points on either side of the highest one
 
 HarmonicCheck check_harmonics(const Branch &branch, const Peak &peak, const HbmOptions &options,
                               const Output &output, Watch watch) {
-    HbmOptions own = options;
-    own.period_multiple = branch.period_multiple();
     const BranchPoint &summit = peak.branch->points()[0];
-    HbmOptions finer = options_at(summit, own);
+    HbmOptions finer = options_at(summit, branch.period_multiple(), options);
     finer.n_harmonics *= 2;
     const auto system = make_system(branch.reduced_model(), finer);
     const std::int64_t n = static_cast<std::int64_t>(branch.points().size()),

@@ -268,6 +268,15 @@ static void a_doubled_response_repeats_after_two_periods(void **state) {
     }
     printf("    mirrored: off by %.1e of %.1e\n", worst, hypot(c[0][1], c[0][2]));
     assert_true(worst < 1e-5 * hypot(c[0][1], c[0][2]));
+    /* a peak is judged on the period of its curve, whatever the solver's own is now */
+    for (k = 1; k <= 3; ++k) {
+        plm_branch *top = NULL;
+        char warning[200] = "?";
+        assert_true(done(ctx, plm_hbm_set_int(hbm, "period_multiple", k)));
+        assert_true(done(ctx, plm_hbm_find_peak(hbm, doubled[0], 0, PLM_PEAK, 0, &now, &later, &top)));
+        assert_int_equal(plm_branch_get_string(top, "warning", sizeof warning, warning, NULL), PLM_OK);
+        assert_string_equal(warning, "");
+    }
 }
 
 /* never in contact: exp((-c / 2 +- i omega_d) T) */
