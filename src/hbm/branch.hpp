@@ -3,6 +3,7 @@
 #pragma once
 #include "hbm/branch_point.hpp"
 #include "linalg/warnings.hpp"
+#include "paths/newton.hpp"
 #include "reduction/reduced_model.hpp"
 #include <string>
 
@@ -46,10 +47,12 @@ class Branch {
 
     // how it ended and what it cost
     std::int32_t end_reason = PLM_REASON_NONE; // PLM_REASON_...
-    std::int64_t newton_iterations = 0, failed_steps = 0, factorizations = 0;
-    double seconds = 0, newton_seconds = 0; // of the whole run; of its Newton iterations alone
+    NewtonWork newton_work;
+    std::int64_t failed_steps = 0;
+    double seconds = 0; // of the whole run
     double seconds_per_iteration() const {
-        return newton_iterations > 0 ? newton_seconds / static_cast<double>(newton_iterations) : 0;
+        return newton_work.iterations > 0 ? newton_work.seconds / static_cast<double>(newton_work.iterations)
+                                          : 0;
     }
     std::string space_used; // "modal", "gaps" or "both"
     bool sampled = false;   // contact forces from time samples

@@ -18,6 +18,15 @@ void set_harmonics(Matrix &eta, std::int64_t n) {
     eta = std::move(changed);
 }
 
+BranchPoint between(const BranchPoint &a, const BranchPoint &b, double t) {
+    BranchPoint p = a;
+    for (std::size_t j = 0; j < p.eta_0.size(); ++j) p.eta_0[j] += t * (b.eta_0[j] - a.eta_0[j]);
+    for (std::int64_t j = 0; j < p.eta.rows() * p.eta.cols(); ++j)
+        p.eta.data()[j] += t * (b.eta.data()[j] - a.eta.data()[j]);
+    p.omega += t * (b.omega - a.omega);
+    return p;
+}
+
 namespace {
 
 // Column pairs after the first `mean` columns, cosine and sine of harmonic k, become those of multiple x k.

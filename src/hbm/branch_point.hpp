@@ -36,6 +36,9 @@ std::int64_t stability_of(const BranchPoint &point);
 /// The same coefficients with n harmonics: padded with zeros or cut.
 void set_harmonics(Matrix &eta, std::int64_t n);
 
+/// The motion a + t (b - a), at that frequency; all else is a's.
+BranchPoint between(const BranchPoint &a, const BranchPoint &b, double t);
+
 /// The same motion on a period `multiple` times as long: harmonic h becomes multiple x h.
 BranchPoint on_longer_period(const BranchPoint &point, std::int64_t multiple);
 

@@ -1,6 +1,7 @@
 // From a located branch point or period doubling to the curve that crosses or leaves there: the tangent has a
 // null vector that does not belong to the curve at hand; a small step along it, corrected across it, is a
 // first point of the other one.
+#include "hbm/branch_path.hpp"
 #include "hbm/curve.hpp"
 #include "hbm/hbm.hpp"
 #include "hbm/make_system.hpp"
@@ -33,95 +34,60 @@ class Switch {
   public:
     Switch(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, const BranchPoint &origin,
            const BranchPoint &along, bool mirrored)
-        : options_(options), width_(2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz)),
-          mirrored_(mirrored) {
+        : options_(options), mirrored_(mirrored) {
         options_.n_harmonics = harmonics_of(origin, options.period_multiple);
         options_.unknowns = prefers_modal(*reduced, options) ? UnknownSpace::modal : UnknownSpace::gaps;
         system_ = make_system(std::move(reduced), options_);
-        x_ = coordinates(origin);
-        omega_ = origin.omega;
-        const std::int64_t s = system_->static_size();
-        scale_ = norm2(system_->size() - s, x_.data() + s);
-        if (scale_ == 0) scale_ = 1;
+        at_ = {unknowns_of(*system_, origin), origin.omega};
+        const double size = size_of(*system_, at_.x);
+        metric_ = {size > 0 ? size : 1, 2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz)};
         set_direction(along);
     }
 
     // A first point of the other curve and one a little further on.
     bool find(CurveStart &start) {
         for (double step : {1e-2, 3e-2, 1e-1, 3e-3, 1e-3}) {
-            vector<double> x;
-            double omega = 0;
-            if (!corrected(step, x, omega, start.point)) continue;
+            if (!corrected(step, start.point)) continue;
             BranchPoint further;
-            if (!corrected(1.5 * step, x, omega, further)) continue;
+            if (!corrected(1.5 * step, further)) continue;
             start.towards = {further};
             return true;
         }
         return false;
     }
 
-    std::int64_t iterations() const { return iterations_; }
-    double seconds() const { return seconds_; } // of the iterations
+    const NewtonWork &work() const { return work_; }
 
   private:
-    vector<double> coordinates(const BranchPoint &point) {
-        vector<double> x(system_->size());
-        system_->from_point(point, x.data());
-        return x;
-    }
-
-    // The null vector less its share of the curve at hand, of length 1 in the metric of the continuation.
+    // The null vector less its share of the curve at hand, of length 1.
     void set_direction(const BranchPoint &along) {
-        direction_ = null_vector(*system_, x_, omega_);
-        vector<double> tangent = coordinates(along);
-        for (std::size_t i = 0; i < tangent.size(); ++i) tangent[i] = (tangent[i] - x_[i]) / scale_;
-        const double tangent_omega = (along.omega - omega_) / width_;
-        const std::int64_t n = system_->size();
-        const double length = dot(n, tangent.data(), tangent.data()) + tangent_omega * tangent_omega;
-        const double share = length > 0 ? dot(n, tangent.data(), direction_.data()) / length : 0;
-        for (std::int64_t i = 0; i < n; ++i) direction_[i] -= share * tangent[i];
-        direction_omega_ = -share * tangent_omega;
-        const double size = std::hypot(norm2(n, direction_.data()), direction_omega_) * (mirrored_ ? -1 : 1);
-        for (double &d : direction_) d *= scale_ / size; // in units of x and omega from here on
-        direction_omega_ *= width_ / size;
+        direction_ = {null_vector(*system_, at_.x, at_.parameter), 0};
+        const PathState tangent = difference({unknowns_of(*system_, along), along.omega}, at_);
+        const double square = metric_.product(tangent, tangent);
+        if (square > 0) add(-metric_.product(tangent, direction_) / square, tangent, direction_);
+        scale_by((mirrored_ ? -1 : 1) / metric_.length(direction_), direction_);
     }
 
-    bool corrected(double step, vector<double> &x, double &omega, BranchPoint &point) {
-        const std::int64_t n = system_->size();
-        x = x_;
-        for (std::int64_t i = 0; i < n; ++i) x[i] += step * direction_[i];
-        omega = omega_ + step * direction_omega_;
-        vector<double> weight(direction_);
-        for (double &w : weight) w /= scale_ * scale_;
-        const SideCondition side{&weight, direction_omega_ / (width_ * width_)};
-        NewtonLimits limits;
-        limits.tolerance = options_.tolerance;
-        limits.max_iterations = options_.max_iterations;
+    bool corrected(double step, BranchPoint &point) {
+        PathState to = at_;
+        add(step, direction_, to);
+        NewtonLimits limits = newton_limits(options_);
         limits.min_damping = 1e-2;
-        limits.omega_scale = width_;
-        const NewtonOutcome out = newton(*system_, side, limits, x, omega);
-        iterations_ += out.iterations;
-        seconds_ += out.seconds;
-        if (!out.converged || std::abs(omega - omega_) > 0.2 * width_) return false;
-        double moved = 0;
-        for (std::int64_t i = 0; i < n; ++i) moved = std::hypot(moved, (x[i] - x_[i]) / scale_);
-        if (moved > 10 * step) return false; // another solution, far away
-        point = BranchPoint();
-        point.residual = out.residual;
-        point.iterations = out.iterations;
-        point.force_scale = options_.force_scale;
-        system_->to_point(x.data(), omega, point);
-        point.n_switching = system_->indicator().n_switching;
+        const NewtonOutcome out = newton_across(*system_, metric_, direction_, limits, to);
+        work_ += out;
+        const PathState moved = difference(to, at_);
+        if (!out.converged || std::abs(moved.parameter) > 0.2 * metric_.width) return false;
+        if (metric_.length({moved.x, 0}) > 10 * step) return false; // another solution, far away
+        point = solved_point(*system_, to, out.residual, out.iterations);
         return true;
     }
 
     HbmOptions options_;
-    double width_, scale_ = 1, omega_ = 0, direction_omega_ = 0;
     bool mirrored_;
     std::unique_ptr<HbmSystem> system_;
-    vector<double> x_, direction_;
-    std::int64_t iterations_ = 0;
-    double seconds_ = 0;
+    Metric metric_;
+    PathState at_, direction_;
+    NewtonWork work_;
 };
 
 } // namespace
@@ -154,8 +120,7 @@ std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &branch, std::int6
             .argument("point")
             .reason(PLM_REASON_START_FAILED);
     auto found = std::make_shared<Branch>(reduced_, options.force_scale, options.period_multiple);
-    found->newton_iterations = other.iterations();
-    found->newton_seconds = other.seconds();
+    found->newton_work = other.work();
     trace_curve(options, start, watch_, *found);
     finish(*found, begin);
     return found;

@@ -1,4 +1,5 @@
 #include "hbm/curve.hpp"
+#include "hbm/branch_path.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/stability.hpp"
@@ -11,21 +12,6 @@ namespace {
 
 constexpr std::int64_t patience = 5;            // points between changes to something cheaper
 constexpr std::int64_t most_failed_growths = 3; // in a row, from points that say nothing
-
-PathOptions path_options(const HbmOptions &o) {
-    PathOptions p;
-    p.low = 2 * M_PI * o.frequency_min_hz;
-    p.high = 2 * M_PI * o.frequency_max_hz;
-    p.upward = o.upward;
-    p.tolerance = o.tolerance;
-    p.max_iterations = o.max_iterations;
-    p.max_points = o.max_points;
-    p.initial_step = o.initial_step;
-    p.min_step = o.min_step;
-    p.max_step = o.max_step;
-    p.locate = o.bifurcations;
-    return p;
-}
 
 class CurveTracer final : public PathOwner {
   public:
@@ -45,7 +31,12 @@ class CurveTracer final : public PathOwner {
         branch_.sampled = options_.aft == AftKind::sampled;
         system_ = make_system(reduced_, options_);
         try {
-            follow(path_options(options_), first(start));
+            PathOptions limits = path_options(options_, 2 * M_PI * options_.frequency_min_hz,
+                                              2 * M_PI * options_.frequency_max_hz);
+            limits.upward = options_.upward;
+            limits.initial_step = options_.initial_step;
+            limits.locate = options_.bifurcations;
+            follow(limits, first(start));
         } catch (const Error &e) { // stopped in the middle of a point: those found so far stay valid
             if (e.status() != PLM_CANCELLED || n_points() == 0) throw;
             branch_.end_reason = PLM_REASON_CANCELLED;
@@ -55,14 +46,8 @@ class CurveTracer final : public PathOwner {
     }
 
     void record(const PathPoint &p) override {
-        BranchPoint point;
-        point.residual = p.residual;
-        point.iterations = p.iterations;
-        point.arclength = base_arclength_ + p.arclength;
-        point.bifurcation = p.bifurcation;
-        point.force_scale = options_.force_scale;
-        system_->to_point(p.x.data(), p.parameter, point);
-        point.n_switching = system_->indicator().n_switching;
+        BranchPoint point = solved_point(*system_, p);
+        point.arclength += base_arclength_;
         if (stability_.wanted()) point.multipliers = multipliers(p.x, p.parameter);
         look_at_harmonics(p.x, point);
         moved_most_ = std::max(moved_most_, point.n_switching);
@@ -74,9 +59,7 @@ class CurveTracer final : public PathOwner {
     bool rescue(double omega, vector<double> &x) override {
         try {
             const StartOutcome out = find_start(*system_, *reduced_, options_, omega, true, watch_, x);
-            branch_.newton_iterations += out.iterations;
-            branch_.newton_seconds += out.seconds;
-            branch_.factorizations += out.factorizations;
+            branch_.newton_work += out;
             return out.converged;
         } catch (const Error &e) { // the branch found so far stays valid
             if (e.status() != PLM_CANCELLED) throw;
@@ -149,33 +132,22 @@ class CurveTracer final : public PathOwner {
     std::int64_t n_points() const { return static_cast<std::int64_t>(branch_.points().size()); }
 
     void count(const PathOutcome &out) {
-        branch_.end_reason = out.end_reason;
-        branch_.newton_iterations += out.newton_iterations;
-        branch_.newton_seconds += out.newton_seconds;
-        branch_.factorizations += out.factorizations;
-        branch_.failed_steps += out.failed_steps;
+        take_outcome(out, branch_);
         base_arclength_ += out.arclength;
     }
 
     PathStart first(const CurveStart &start) {
         PathStart path = leaving(start.point, start.towards.empty() ? start.point : start.towards[0]);
-        if (start.towards.empty()) path.direction_x.clear();
-        if (start.away) turn_round(path);
+        if (start.towards.empty()) path.direction.x.clear();
+        if (start.away) scale_by(-1, path.direction);
         path.residual = start.point.residual;
         return path;
-    }
-
-    vector<double> coordinates(const BranchPoint &point) {
-        vector<double> x(system_->size());
-        system_->from_point(point, x.data());
-        return x;
     }
 
     // The multipliers of the last point asked for are kept: tests and records come in turn.
     const vector<std::complex<double>> &multipliers(const vector<double> &x, double omega) {
         if (omega != known_omega_ || x != known_x_) {
             BranchPoint point;
-            point.force_scale = options_.force_scale;
             system_->to_point(x.data(), omega, point);
             known_multipliers_ = stability_.multipliers(point);
             known_x_ = x;
@@ -305,33 +277,30 @@ class CurveTracer final : public PathOwner {
     // determinant: those of the structure alone have a positive one. Other unknowns may.)
     bool keeps_direction(std::int64_t n, double orientation, const PathStart &path) {
         if (n == 1) return true; // into the range
-        const std::int64_t size = system_->size();
-        const double scale = norm2(size, path.x.data()), width = window_width();
-        vector<double> tangent(size);
-        system_->residual(path.x.data(), path.parameter, tangent.data());
+        const Metric metric = metric_at(path.at);
+        PathState tangent{vector<double>(system_->size()), -1};
+        system_->residual(path.at.x.data(), path.at.parameter, tangent.x.data());
         system_->linearize();
-        ++branch_.factorizations;
-        system_->omega_derivative(tangent.data());
-        system_->solve(tangent.data(), 1); // minus the tangent, for a unit of frequency
-        const auto product = [&](const vector<double> &a, double a_omega, const vector<double> &b,
-                                 double b_omega) {
-            return dot(size, a.data(), b.data()) / (scale * scale) + a_omega * b_omega / (width * width);
-        };
-        const vector<double> &d = path.direction_x;
-        const double along = -product(tangent, -1, d, path.direction_parameter),
-                     length = std::sqrt(product(tangent, -1, tangent, -1) *
-                                        product(d, path.direction_parameter, d, path.direction_parameter));
-        if (!(std::abs(along) > 0.8 * length)) return false;
+        ++branch_.newton_work.factorizations;
+        system_->parameter_derivative(tangent.x.data());
+        system_->solve(tangent.x.data(), 1); // minus the tangent, for a unit of frequency
+        const double along = -metric.cosine(tangent, path.direction);
+        if (!(std::abs(along) > 0.8)) return false;
         return wants_modal_ != modal_ ||
                system_->determinant_sign() * (along < 0 ? -1.0 : 1.0) * orientation > 0;
+    }
+
+    Metric metric_at(const PathState &at) const {
+        const double size = norm2(system_->size(), at.x.data());
+        return {size > 0 ? size : 1, window_width()};
     }
 
     bool go_on_from_point(std::int64_t n, PathStart &path) {
         const BranchPoint &at = branch_.points()[static_cast<std::size_t>(n - 1)];
         path = leaving(at, n > 1 ? branch_.points()[static_cast<std::size_t>(n - 2)] : at);
         path.record = false;
-        turn_round(path); // on, not back
-        if (n == 1) path.direction_parameter = options_.upward ? 1 : -1;
+        scale_by(-1, path.direction); // on, not back
+        if (n == 1) path.direction.parameter = options_.upward ? 1 : -1;
         return correct(path);
     }
 
@@ -340,7 +309,7 @@ class CurveTracer final : public PathOwner {
             branch_.points()[static_cast<std::size_t>(n - 1)].multipliers;
         if (!stability_.wanted() || before.empty()) return true;
         const vector<double> a = bifurcation_tests(before),
-                             b = bifurcation_tests(multipliers(path.x, path.parameter));
+                             b = bifurcation_tests(multipliers(path.at.x, path.at.parameter));
         for (std::size_t k = 0; k < a.size(); ++k)
             if (a[k] * b[k] < 0) return false;
         return true;
@@ -351,58 +320,37 @@ class CurveTracer final : public PathOwner {
         if (n_points() < 2) return;
         PathStart origin = leaving(branch_.points()[0], branch_.points()[1]);
         if (!correct(origin)) origin = leaving(branch_.points()[0], branch_.points()[1]);
-        path.end_x = origin.x;
-        path.end_parameter = origin.parameter;
-        path.end_direction_x = origin.direction_x;
-        path.end_direction_parameter = origin.direction_parameter;
+        path.end = origin.at;
+        path.end_direction = origin.direction;
     }
 
     // At `point`, in the direction of `next`.
     PathStart leaving(const BranchPoint &point, const BranchPoint &next) {
         PathStart path;
-        path.x = coordinates(point);
-        path.parameter = point.omega;
-        path.direction_x = coordinates(next);
-        for (std::size_t i = 0; i < path.x.size(); ++i) path.direction_x[i] -= path.x[i];
-        path.direction_parameter = next.omega - point.omega;
+        path.at = {unknowns_of(*system_, point), point.omega};
+        path.direction = difference({unknowns_of(*system_, next), next.omega}, path.at);
         return path;
-    }
-
-    static void turn_round(PathStart &path) {
-        for (double &d : path.direction_x) d = -d;
-        path.direction_parameter *= -1;
     }
 
     PathStart resume(const PathOutcome &out) const {
         PathStart path;
-        path.x = out.x;
-        path.parameter = out.parameter;
-        path.direction_x = out.direction_x;
-        path.direction_parameter = out.direction_parameter;
+        path.at = out.at;
+        path.direction = out.direction;
         path.scale = out.scale;
         path.record = false;
         return path;
     }
 
     bool correct(PathStart &path) {
-        const double scale = norm2(system_->size(), path.x.data()), width = window_width();
-        vector<double> weight(path.direction_x);
-        for (double &w : weight) w /= scale > 0 ? scale * scale : 1;
-        const SideCondition side{&weight, path.direction_parameter / (width * width)};
-        NewtonLimits limits;
-        limits.tolerance = options_.tolerance;
-        limits.max_iterations = options_.max_iterations;
+        const Metric metric = metric_at(path.at);
+        NewtonLimits limits = newton_limits(options_);
         limits.min_damping = 0.01;
-        limits.omega_scale = width;
-        const vector<double> guess = path.x;
-        const double omega = path.parameter;
-        const NewtonOutcome out = newton(*system_, side, limits, path.x, path.parameter);
-        branch_.newton_iterations += out.iterations;
-        branch_.newton_seconds += out.seconds;
-        branch_.factorizations += out.factorizations;
-        double change = 0;
-        for (std::size_t i = 0; i < guess.size(); ++i) change = std::hypot(change, path.x[i] - guess[i]);
-        return out.converged && change < 0.3 * scale && std::abs(path.parameter - omega) < 0.1 * width;
+        const PathState guess = path.at;
+        const NewtonOutcome out = newton_across(*system_, metric, path.direction, limits, path.at);
+        branch_.newton_work += out;
+        const PathState moved = difference(path.at, guess);
+        return out.converged && metric.length({moved.x, 0}) < 0.3 &&
+               std::abs(moved.parameter) < 0.1 * metric.width;
     }
 
     const HbmOptions asked_;

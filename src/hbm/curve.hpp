@@ -2,7 +2,7 @@
 // chosen again wherever the response asks for it, and with the stability of its points.
 #pragma once
 #include "hbm/branch.hpp"
-#include "hbm/continuation.hpp"
+#include "paths/continuation.hpp"
 #include "hbm/harmonic_choice.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"

@@ -53,7 +53,7 @@ class Correction {
         system_->residual(x_.data(), omega_, change.data());
         if (with_new_tangent) {
             along_.resize(n);
-            system_->omega_derivative(along_.data());
+            system_->parameter_derivative(along_.data());
             system_->linearize();
             system_->solve(along_.data(), 1);
             for (double &v : along_) v = -v;

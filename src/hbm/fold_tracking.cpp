@@ -1,4 +1,5 @@
 #include "hbm/fold_tracking.hpp"
+#include "hbm/branch_path.hpp"
 #include "hbm/curve.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/trig_polynomial.hpp"
@@ -63,7 +64,7 @@ void FoldSystem::linearize() {
     gradient_ = contact_gradient(w, v_);
     gradient_.push_back(-dot(n, w.data(), frequency_derivative(v_).data()) / unit_);
     frequency_.assign(n + 1, 0.0);
-    inner_.omega_derivative(frequency_.data());
+    inner_.parameter_derivative(frequency_.data());
     for (std::int64_t i = 0; i < n; ++i) frequency_[i] /= -unit_;
     linear_.solve(frequency_.data(), 1);
     determinant_ = null_[n] * (dot(n, gradient_.data(), frequency_.data()) + gradient_[n]) -
@@ -97,7 +98,7 @@ int FoldSystem::determinant_sign() const {
 vector<double> FoldSystem::frequency_derivative(const vector<double> &v) {
     vector<double> change(inner_.size());
     inner_.residual(v.data(), omega_of(y_.data()), scratch_.data());
-    inner_.omega_derivative(change.data());
+    inner_.parameter_derivative(change.data());
     inner_.residual(y_.data(), omega_of(y_.data()), scratch_.data());
     return change;
 }
@@ -146,7 +147,7 @@ vector<double> FoldSystem::contact_gradient(const vector<double> &w, const vecto
     return gradient;
 }
 
-void FoldSystem::omega_derivative(double *r) { // J does not depend on the force
+void FoldSystem::parameter_derivative(double *r) { // J does not depend on the force
     inner_.force_derivative(r);
     r[inner_.size()] = 0;
 }
@@ -179,8 +180,7 @@ class FoldPath final : public PathOwner {
         o.aft = AftKind::event;
         o.n_harmonics = harmonics_of(about, o.period_multiple);
         inner_ = make_system(reduced, o);
-        vector<double> x(inner_->size());
-        inner_->from_point(about, x.data());
+        const vector<double> x = unknowns_of(*inner_, about);
         const std::int64_t s = inner_->static_size();
         scale_ = norm2(inner_->size() - s, x.data() + s);
         // a change of omega by a twentieth counts as much as one of the response by itself
@@ -189,13 +189,8 @@ class FoldPath final : public PathOwner {
     }
 
     bool correct(double force, BranchPoint &point) {
-        vector<double> y(system_->size());
-        system_->from_point(point, y.data());
-        NewtonLimits limits;
-        limits.tolerance = options_.hbm.tolerance;
-        limits.max_iterations = options_.hbm.max_iterations;
-        double parameter = force;
-        const NewtonOutcome out = newton(*system_, SideCondition(), limits, y, parameter);
+        vector<double> y = unknowns_of(*system_, point);
+        const NewtonOutcome out = newton_at(*system_, newton_limits(options_.hbm), y, force);
         if (!out.converged) return false;
         point.residual = out.residual;
         point.iterations = out.iterations;
@@ -204,43 +199,22 @@ class FoldPath final : public PathOwner {
     }
 
     std::shared_ptr<Branch> follow(const BranchPoint &start) {
-        PathOptions range;
-        range.low = options_.force_min;
-        range.high = options_.force_max;
+        PathOptions range = path_options(options_.hbm, options_.force_min, options_.force_max);
         range.upward = options_.upward;
-        range.tolerance = options_.hbm.tolerance;
-        range.max_iterations = options_.hbm.max_iterations;
-        range.max_points = options_.hbm.max_points;
-        range.min_step = options_.hbm.min_step;
-        range.max_step = options_.hbm.max_step;
         range.initial_step = 0.05 * range.max_step; // an extremum may be close
         range.locate = true;
         PathStart from;
-        from.x.resize(system_->size());
-        system_->from_point(start, from.x.data());
-        from.parameter = start.force_scale;
+        from.at = {unknowns_of(*system_, start), start.force_scale};
         from.residual = start.residual;
         from.scale = scale_;
-        const PathOutcome out = follow_path(*system_, range, from, *this);
-        branch_->end_reason = out.end_reason;
-        branch_->newton_iterations = out.newton_iterations;
-        branch_->newton_seconds = out.newton_seconds;
-        branch_->factorizations = out.factorizations;
-        branch_->failed_steps = out.failed_steps;
+        take_outcome(follow_path(*system_, range, from, *this), *branch_);
         branch_->space_used = "modal";
         return branch_;
     }
 
     void record(const PathPoint &p) override {
-        BranchPoint point;
-        point.arclength = p.arclength;
-        point.residual = p.residual;
-        point.iterations = p.iterations;
-        point.bifurcation = p.bifurcation;
-        system_->to_point(p.x.data(), p.parameter, point);
-        point.n_switching = system_->indicator().n_switching;
         turned_ = turned_ || p.bifurcation == PLM_BIFURCATION_FOLD;
-        branch_->append(std::move(point));
+        branch_->append(solved_point(*system_, p));
     }
     bool cancelled(double fraction) override {
         watch_.step("folds", fraction);
@@ -282,28 +256,6 @@ bool ends_well(const Branch &b) {
     return b.end_reason == PLM_REASON_RANGE_END || b.end_reason == PLM_REASON_LOOP_CLOSED;
 }
 
-// Both begin at the same point.
-std::shared_ptr<Branch> joined(const Branch &below, const Branch &above) {
-    const auto whole =
-        std::make_shared<Branch>(above.reduced_model(), above.force_scale(), above.period_multiple());
-    const double length = below.points().back().arclength;
-    for (auto p = below.points().rbegin(); p != below.points().rend() - 1; ++p) {
-        BranchPoint point = *p;
-        point.arclength = length - point.arclength;
-        whole->append(std::move(point));
-    }
-    for (BranchPoint point : above.points()) {
-        point.arclength += length;
-        whole->append(std::move(point));
-    }
-    whole->end_reason = ends_well(below) ? above.end_reason : below.end_reason;
-    whole->newton_iterations = below.newton_iterations + above.newton_iterations;
-    whole->factorizations = below.factorizations + above.factorizations;
-    whole->failed_steps = below.failed_steps + above.failed_steps;
-    whole->space_used = above.space_used;
-    return whole;
-}
-
 } // namespace
 
 std::shared_ptr<Branch> follow_folds_both_ways(std::shared_ptr<const ReducedModel> reduced,
@@ -315,7 +267,10 @@ std::shared_ptr<Branch> follow_folds_both_ways(std::shared_ptr<const ReducedMode
     options.upward = true;
     options.hbm.max_points = std::max<std::int64_t>(1, options.hbm.max_points - used + 1);
     const auto above = follow_folds(std::move(reduced), options, fold, watch);
-    return above ? joined(*below, *above) : below;
+    if (!above) return below;
+    const auto whole = joined(*below, *above);
+    if (!ends_well(*below)) whole->end_reason = below->end_reason;
+    return whole;
 }
 
 } // namespace plm

@@ -24,7 +24,7 @@ class FoldSystem final : public WrappedSystem {
     void linearize() override;
     void solve(double *b, std::int64_t n) override;
     int determinant_sign() const override;
-    void omega_derivative(double *r) override;
+    void parameter_derivative(double *r) override;
     void linear_response(const vector<double> &share, double force, double *y) override;
     void to_point(const double *y, double force, BranchPoint &point) override;
     void from_point(const BranchPoint &point, double *y) override;

@@ -18,12 +18,6 @@ double distance(const vector<double> &a, const vector<double> &b, std::size_t fi
     return sum;
 }
 
-double size_of(const HbmSystem &system, const vector<double> &x) {
-    const std::int64_t s = system.static_size();
-    const double dynamic = norm2(system.size() - s, x.data() + s);
-    return dynamic > 0 ? dynamic : norm2(system.size(), x.data());
-}
-
 class Follower {
   public:
     Follower(HbmSystem &system, const HbmOptions &options, double from, double to, Watch watch)
@@ -48,7 +42,7 @@ class Follower {
         system_.residual(x.data(), from_, tangent.data());
         system_.linearize();
         ++out_.factorizations;
-        system_.omega_derivative(tangent.data());
+        system_.parameter_derivative(tangent.data());
         system_.solve(tangent.data(), 1);
         for (std::size_t i = 0; i < x.size(); ++i) ahead[i] -= (to_ - from_) * tangent[i];
         const vector<double> predicted = ahead;
@@ -68,15 +62,10 @@ class Follower {
         path.max_iterations = options_.max_iterations;
         path.max_points = 1000;
         QuietOwner quiet(watch_);
-        PathStart start;
-        start.x = x;
-        start.parameter = from_;
-        const PathOutcome out = follow_path(system_, path, start, quiet);
-        out_.iterations += out.newton_iterations;
-        out_.factorizations += out.factorizations;
-        out_.seconds += out.newton_seconds;
-        if (out.end_reason != PLM_REASON_RANGE_END || out.parameter != to_) return false;
-        x = out.x;
+        const PathOutcome out = follow_path(system_, path, {{x, from_}}, quiet);
+        out_ += out.work;
+        if (out.end_reason != PLM_REASON_RANGE_END || out.at.parameter != to_) return false;
+        x = out.at.x;
         return correct(to_, x);
     }
 

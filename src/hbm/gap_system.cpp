@@ -113,6 +113,7 @@ class GapSystem final : public HbmSystem {
     }
 
     double residual_scale() const override { return norm2(size(), u_.data()); }
+    // nothing else holds the structure against the mean of the loads
     bool in_balance() const override { return !hold_.carried_away(); }
 
     void residual(const double *x, double omega, double *r) override {
@@ -155,7 +156,7 @@ class GapSystem final : public HbmSystem {
     // The eliminated parts do not change the sign: complex for h >= 1, positive definite for h = 0.
     int determinant_sign() const override { return n_moving() == 0 ? 1 : lu_.determinant_sign(); }
 
-    void omega_derivative(double *r) override {
+    void parameter_derivative(double *r) override {
         std::fill(r, r + size(), 0.0);
         vector<Complex> v(r_);
         for (std::int64_t h = 1; h <= h_; ++h) { // d/d omega of -B D f = B D (dD^-1) D f
@@ -181,6 +182,7 @@ class GapSystem final : public HbmSystem {
         vector<double> scratch(size());
         residual(x, omega, scratch.data());
         point.omega = omega;
+        point.force_scale = force_scale_;
         point.eta_0 = eta_0_;
         point.n_harmonics = h_;
         point.eta.reset(r_, 2 * h_);

@@ -60,7 +60,7 @@ vector<double> across_curve(HbmSystem &system, const double *x, double omega, co
     const std::int64_t n = system.size();
     vector<double> change(n), along(n);
     system.contact_force_change(force_change, change.data());
-    system.omega_derivative(along.data());
+    system.parameter_derivative(along.data());
     system.solve(change.data(), 1);
     system.solve(along.data(), 1);
     // lengths are measured by the solution and the frequency themselves; the tangent is (-along, 1)

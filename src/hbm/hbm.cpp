@@ -1,4 +1,5 @@
 #include "hbm/hbm.hpp"
+#include "hbm/branch_path.hpp"
 #include "hbm/curve.hpp"
 #include "hbm/curve_verdicts.hpp"
 #include "hbm/follow.hpp"
@@ -56,8 +57,8 @@ std::shared_ptr<Branch> Hbm::new_branch() const {
 void Hbm::finish(Branch &branch, Clock::time_point begin) const {
     branch.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     watch_.log(1, format("%zu points, %lld Newton iterations, %lld factorizations, %lld failed steps, %.3g s",
-                         branch.points().size(), static_cast<long long>(branch.newton_iterations),
-                         static_cast<long long>(branch.factorizations),
+                         branch.points().size(), static_cast<long long>(branch.newton_work.iterations),
+                         static_cast<long long>(branch.newton_work.factorizations),
                          static_cast<long long>(branch.failed_steps), branch.seconds));
 }
 
@@ -67,7 +68,7 @@ bool Hbm::solve_with(const HbmOptions &options, double omega, const BranchPoint 
     vector<double> x(system->size(), 0.0);
     StartOutcome out;
     if (guess) {
-        system->from_point(*guess, x.data());
+        x = unknowns_of(*system, *guess);
         out = follow_to(*system, options, guess->omega, omega, watch_, x);
     }
     if (!out.converged) {
@@ -75,16 +76,9 @@ bool Hbm::solve_with(const HbmOptions &options, double omega, const BranchPoint 
         out.add(find_start(*system, *reduced_, options, omega, guess != nullptr, watch_, x));
         if (guess && out.converged) warn_of_other_branch(*system, guessed, x, *guess, omega, branch);
     }
-    branch.newton_iterations += out.iterations;
-    branch.newton_seconds += out.seconds;
-    branch.factorizations += out.factorizations;
+    branch.newton_work += out;
     if (!out.converged) return false;
-    point = BranchPoint();
-    point.residual = out.residual;
-    point.iterations = out.iterations;
-    point.force_scale = options_.force_scale;
-    system->to_point(x.data(), omega, point);
-    point.n_switching = system->indicator().n_switching;
+    point = solved_point(*system, {x, omega}, out.residual, out.iterations);
     return true;
 }
 

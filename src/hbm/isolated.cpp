@@ -1,4 +1,5 @@
 #include "hbm/isolated.hpp"
+#include "hbm/branch_path.hpp"
 #include "hbm/curve.hpp"
 #include "hbm/fold_tracking.hpp"
 #include <algorithm>
@@ -202,12 +203,7 @@ class Search {
         for (double share : {2e-3, 5e-3, 1e-2}) {
             const double force = points[last].force_scale * (upward ? 1 + share : 1 - share),
                          t = (force - near.force_scale) / run;
-            BranchPoint guess = near;
-            for (std::size_t j = 0; j < guess.eta_0.size(); ++j)
-                guess.eta_0[j] += t * (near.eta_0[j] - far.eta_0[j]);
-            for (std::int64_t j = 0; j < guess.eta.rows() * guess.eta.cols(); ++j)
-                guess.eta.data()[j] += t * (near.eta.data()[j] - far.eta.data()[j]);
-            guess.omega += t * (near.omega - far.omega);
+            BranchPoint guess = between(near, far, -t);
             if (!correct_fold(reduced_, options_, force, guess)) continue;
             if (solution_distance(guess, near) > 5 * std::abs(t) * apart) continue;
             guess.force_scale = force;
@@ -241,23 +237,7 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
     Branch before(reduced, o.force_scale, o.period_multiple);
     trace_curve(o, {start, {}}, watch, before);
     require_uncancelled(before);
-    const auto whole = std::make_shared<Branch>(reduced, o.force_scale, o.period_multiple);
-    const double length = before.points().back().arclength;
-    for (std::size_t i = before.points().size(); i-- > 1;) {
-        BranchPoint p = before.points()[i];
-        p.arclength = length - p.arclength;
-        whole->append(std::move(p));
-    }
-    for (BranchPoint p : after->points()) {
-        p.arclength += length;
-        whole->append(std::move(p));
-    }
-    whole->end_reason = after->end_reason;
-    whole->newton_iterations = after->newton_iterations + before.newton_iterations;
-    whole->newton_seconds = after->newton_seconds + before.newton_seconds;
-    whole->factorizations = after->factorizations + before.factorizations;
-    whole->failed_steps = after->failed_steps + before.failed_steps;
-    whole->space_used = after->space_used;
+    const auto whole = joined(before, *after);
     warn_of_harmonics(options, *whole);
     return whole;
 }

@@ -32,8 +32,8 @@ class SubharmonicSystem final : public WrappedSystem {
     void residual(const double *x, double omega, double *r) override {
         inner_.residual(x, omega / multiple_, r);
     }
-    void omega_derivative(double *r) override {
-        inner_.omega_derivative(r);
+    void parameter_derivative(double *r) override {
+        inner_.parameter_derivative(r);
         for (std::int64_t i = 0; i < size(); ++i) r[i] /= multiple_;
     }
     void linear_response(const vector<double> &share, double omega, double *x) override {

@@ -1,4 +1,5 @@
 #include "hbm/marching_search.hpp"
+#include "hbm/branch_path.hpp"
 #include "hbm/curve.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/start.hpp"
@@ -159,18 +160,12 @@ class Marching {
     }
 
     bool correct(BranchPoint &point) {
-        vector<double> x(system_->size());
-        system_->from_point(point, x.data());
-        NewtonLimits limits;
-        limits.tolerance = hbm_.tolerance;
-        limits.max_iterations = hbm_.max_iterations;
-        double omega = limits.omega_scale = point.omega;
-        const NewtonOutcome out = newton(*system_, SideCondition(), limits, x, omega);
+        vector<double> x = unknowns_of(*system_, point);
+        NewtonLimits limits = newton_limits(hbm_);
+        limits.parameter_scale = point.omega;
+        const NewtonOutcome out = newton_at(*system_, limits, x, point.omega);
         if (!out.converged) return false;
-        point.residual = out.residual;
-        point.iterations = out.iterations;
-        system_->to_point(x.data(), omega, point);
-        point.n_switching = system_->indicator().n_switching;
+        point = solved_point(*system_, {x, point.omega}, out.residual, out.iterations);
         return true;
     }
 
@@ -181,12 +176,7 @@ class Marching {
             for (std::size_t i = 1; i < points.size(); ++i) {
                 const double left = points[i - 1].omega - point.omega, right = points[i].omega - point.omega;
                 if (left * right > 0 || left == right) continue;
-                BranchPoint guess = points[i - 1];
-                const double t = left / (left - right);
-                for (std::size_t j = 0; j < guess.eta_0.size(); ++j)
-                    guess.eta_0[j] += t * (points[i].eta_0[j] - guess.eta_0[j]);
-                for (std::int64_t j = 0; j < guess.eta.rows() * guess.eta.cols(); ++j)
-                    guess.eta.data()[j] += t * (points[i].eta.data()[j] - guess.eta.data()[j]);
+                BranchPoint guess = between(points[i - 1], points[i], left / (left - right));
                 guess.omega = point.omega;
                 if (correct(guess) && solution_distance(guess, point) < same_solution) return true;
             }

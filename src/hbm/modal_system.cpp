@@ -27,6 +27,7 @@ class ModalSystem final : public HbmSystem {
     std::int64_t static_size() const override { return r0_; }
 
     void set_force_scale(double scale) override {
+        force_scale_ = scale;
         for (std::int64_t j = 0; j < size(); ++j) load_[j] = scale * excitation_[j];
         for (std::int64_t j = 0; j < r0_; ++j) load_[j] += m_->preload_0[j];
     }
@@ -97,7 +98,7 @@ class ModalSystem final : public HbmSystem {
 
     void set_self_excitation(double xi) override { jacobian_.set_self_excitation(xi); }
 
-    void omega_derivative(double *r) override {
+    void parameter_derivative(double *r) override {
         std::fill(r, r + size(), 0.0);
         for (std::int64_t h = 1; h <= h_; ++h) {
             const double *a = x_.data() + cosine_at(h), *b = a + r_;
@@ -128,6 +129,7 @@ class ModalSystem final : public HbmSystem {
 
     void to_point(const double *x, double omega, BranchPoint &point) override {
         point.omega = omega;
+        point.force_scale = force_scale_;
         point.eta_0.assign(x, x + r0_);
         point.n_harmonics = h_;
         point.eta.reset(r_, 2 * h_);
@@ -187,7 +189,7 @@ class ModalSystem final : public HbmSystem {
     vector<double> stiffness_, gap_, excitation_, load_;
     Matrix u_, contact_;
     vector<double> x_;
-    double omega_ = 0;
+    double omega_ = 0, force_scale_ = 1;
     ModalJacobian jacobian_;
     Border no_border_;
     ModalFactor factor_;

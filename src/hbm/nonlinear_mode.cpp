@@ -1,5 +1,5 @@
 #include "hbm/nonlinear_mode.hpp"
-#include "hbm/continuation.hpp"
+#include "hbm/branch_path.hpp"
 #include "hbm/harmonic_tail.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/modes_at_rest.hpp"
@@ -56,7 +56,7 @@ double NonlinearModeSystem::residual_scale() const {
 void NonlinearModeSystem::fill(Border &border) {
     const std::int64_t n = inner_.size(), s = static_size();
     double *by_omega = border.columns.col(0);
-    inner_.omega_derivative(by_omega);
+    inner_.parameter_derivative(by_omega);
     for (std::int64_t i = 0; i < n; ++i) by_omega[i] *= omega_reference_;
     add_self_excitation(x_.data(), 2 * omega() * omega(), border.columns.col(1));
     const double scale = omega_reference_ * omega_reference_ / amplitude_;
@@ -77,7 +77,7 @@ void NonlinearModeSystem::solve(double *b, std::int64_t columns) {
 }
 
 // At a solution: the unknowns scaled by the amplitude change with it, x' = x_dynamic.
-void NonlinearModeSystem::omega_derivative(double *r) {
+void NonlinearModeSystem::parameter_derivative(double *r) {
     const std::int64_t n = inner_.size(), s = static_size();
     vector<double> x(x_);
     std::fill(x.begin(), x.begin() + s, 0.0);
@@ -134,12 +134,8 @@ class ModePath final : public PathOwner {
     void record(const PathPoint &p) override {
         if (reached_) return; // the step that passed the end
         reached_ = p.bifurcation == reached;
-        BranchPoint point;
-        point.arclength = p.arclength;
-        point.residual = p.residual;
-        point.iterations = p.iterations;
-        system_->to_point(p.x.data(), p.parameter, point);
-        point.n_switching = system_->indicator().n_switching;
+        BranchPoint point = solved_point(*system_, p);
+        point.bifurcation = PLM_BIFURCATION_NONE;
         point.harmonic_tail = harmonic_content(*m_, point, 1).tail;
         largest_tail_ = std::max(largest_tail_, point.harmonic_tail);
         result_.amplitude.push_back(std::exp(p.parameter));
@@ -196,14 +192,9 @@ class ModePath final : public PathOwner {
         const PathStart from = start();
         result_.branch = std::make_shared<Branch>(m_, 0.0);
         result_.branch->is_mode = true;
-        PathOptions range;
-        range.low = std::log(options_.amplitude_min);
-        range.high = std::log(options_.amplitude_max);
+        PathOptions range =
+            path_options(options_.hbm, std::log(options_.amplitude_min), std::log(options_.amplitude_max));
         range.upward = true;
-        range.tolerance = options_.hbm.tolerance;
-        range.max_iterations = options_.hbm.max_iterations;
-        range.max_points = options_.hbm.max_points;
-        range.min_step = options_.hbm.min_step;
         range.max_step = std::min(0.05, options_.hbm.max_step);
         range.locate = true;
         PathOutcome out;
@@ -214,11 +205,8 @@ class ModePath final : public PathOwner {
             out.end_reason = PLM_REASON_CANCELLED;
         }
         Branch &branch = *result_.branch;
-        branch.end_reason = out.end_reason == PLM_REASON_NONE ? PLM_REASON_RANGE_END : out.end_reason;
-        branch.newton_iterations = out.newton_iterations;
-        branch.newton_seconds = out.newton_seconds;
-        branch.factorizations = out.factorizations;
-        branch.failed_steps = out.failed_steps;
+        take_outcome(out, branch);
+        if (branch.end_reason == PLM_REASON_NONE) branch.end_reason = PLM_REASON_RANGE_END;
         branch.space_used = "modal";
         return std::move(result_);
     }
@@ -309,13 +297,10 @@ class ModePath final : public PathOwner {
         BranchPoint guess;
         inner_->to_point(x.data(), omega_, guess);
         PathStart from;
-        from.x.resize(system_->size());
-        system_->from_point(guess, from.x.data());
-        from.parameter = std::log(options_.amplitude_min);
-        NewtonLimits limits;
-        limits.tolerance = options_.hbm.tolerance;
-        limits.max_iterations = std::max<std::int64_t>(100, options_.hbm.max_iterations);
-        const NewtonOutcome out = newton(*system_, SideCondition(), limits, from.x, from.parameter);
+        from.at = {unknowns_of(*system_, guess), std::log(options_.amplitude_min)};
+        NewtonLimits limits = newton_limits(options_.hbm);
+        limits.max_iterations = std::max<std::int64_t>(100, limits.max_iterations);
+        const NewtonOutcome out = newton_at(*system_, limits, from.at.x, from.at.parameter);
         if (!out.converged)
             throw Error(
                 PLM_ERR_CONVERGENCE,

@@ -18,7 +18,7 @@ class NonlinearModeSystem final : public AugmentedSystem {
     NonlinearModeSystem(HbmSystem &inner, const ReducedModel &reduced, vector<double> shape,
                         double omega_reference, double largest_amplitude);
     void residual(const double *y, double log_amplitude, double *r) override;
-    void omega_derivative(double *r) override;
+    void parameter_derivative(double *r) override;
     double residual_scale() const override;
     void solve(double *b, std::int64_t n) override;
     void to_point(const double *y, double log_amplitude, BranchPoint &point) override;

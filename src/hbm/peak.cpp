@@ -1,10 +1,10 @@
 // The highest point of a curve, found on the curve itself: points on hyperplanes across the chord through the
 // three highest ones, by successive parabolic interpolation.
+#include "hbm/branch_path.hpp"
 #include "hbm/curve.hpp"
 #include "hbm/curve_verdicts.hpp"
 #include "hbm/hbm.hpp"
 #include "hbm/make_system.hpp"
-#include "hbm/newton.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -14,8 +14,8 @@ namespace {
 
 struct Sample {
     double s = 0; // position along the chord
-    vector<double> x;
-    double omega = 0, amplitude = 0;
+    PathState at;
+    double amplitude = 0;
     BranchPoint point;
 };
 
@@ -68,34 +68,19 @@ class PeakSearch {
 
     void load(const Branch &branch, std::int64_t i, Sample &s) {
         s.point = branch.points()[i];
-        s.x.resize(system_.size());
-        system_.from_point(s.point, s.x.data());
-        s.omega = s.point.omega;
+        s.at = {unknowns_of(system_, s.point), s.point.omega};
         s.amplitude = branch.amplitude(i, dof_, measure_, harmonic_);
     }
 
     void set_chord() {
-        const std::int64_t n = system_.size();
-        scale_ = norm2(n, three_[1].x.data());
-        if (scale_ == 0) scale_ = 1;
-        direction_.resize(n);
-        for (std::int64_t i = 0; i < n; ++i) direction_[i] = three_[2].x[i] - three_[0].x[i];
-        direction_omega_ = three_[2].omega - three_[0].omega;
-        omega_scale_ = 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz);
-        const double length =
-            std::hypot(norm2(n, direction_.data()) / scale_, direction_omega_ / omega_scale_);
-        for (double &d : direction_) d /= length * scale_ * scale_; // weights of the hyperplanes
-        direction_omega_ /= length * omega_scale_ * omega_scale_;
-        origin_ = three_[1];
-        for (Sample &s : three_) s.s = position(s.x, s.omega);
+        const double size = norm2(system_.size(), three_[1].at.x.data());
+        metric_ = {size > 0 ? size : 1, 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz)};
+        chord_ = difference(three_[2].at, three_[0].at);
+        scale_by(1 / metric_.length(chord_), chord_);
+        origin_ = three_[1].at;
+        for (Sample &s : three_) s.s = metric_.product(chord_, difference(s.at, origin_));
         first_ = three_[0].s, last_ = three_[2].s;
         span_ = last_ - first_;
-    }
-
-    double position(const vector<double> &x, double omega) const {
-        double s = direction_omega_ * (omega - origin_.omega);
-        for (std::size_t i = 0; i < x.size(); ++i) s += direction_[i] * (x[i] - origin_.x[i]);
-        return s;
     }
 
     // Vertex of the parabola through the triple, kept inside it and inside the first one.
@@ -119,22 +104,16 @@ class PeakSearch {
         const double la = (s - b.s) * (s - c.s) / ((a.s - b.s) * (a.s - c.s)),
                      lb = (s - a.s) * (s - c.s) / ((b.s - a.s) * (b.s - c.s)),
                      lc = (s - a.s) * (s - b.s) / ((c.s - a.s) * (c.s - b.s));
-        out.x.resize(b.x.size());
-        for (std::size_t i = 0; i < out.x.size(); ++i) out.x[i] = la * a.x[i] + lb * b.x[i] + lc * c.x[i];
-        out.omega = la * a.omega + lb * b.omega + lc * c.omega;
-        SideCondition side{&direction_, direction_omega_};
-        NewtonLimits limits;
-        limits.tolerance = 1e-3 * options_.tolerance; // the vertex is found from small differences
-        limits.max_iterations = options_.max_iterations;
-        limits.omega_scale = omega_scale_;
-        const NewtonOutcome newton_out = newton(system_, side, limits, out.x, out.omega);
-        if (!newton_out.converged) return false;
+        out.at = a.at;
+        scale_by(la, out.at);
+        add(lb, b.at, out.at);
+        add(lc, c.at, out.at);
+        NewtonLimits limits = newton_limits(options_);
+        limits.tolerance *= 1e-3; // the vertex is found from small differences
+        const NewtonOutcome found = newton_across(system_, metric_, chord_, limits, out.at);
+        if (!found.converged) return false;
         out.s = s;
-        out.point.residual = newton_out.residual;
-        out.point.iterations = newton_out.iterations;
-        system_.to_point(out.x.data(), out.omega, out.point);
-        out.point.n_switching = system_.indicator().n_switching;
-        out.point.force_scale = options_.force_scale;
+        out.point = solved_point(system_, out.at, found.residual, found.iterations);
         Branch one(reduced_, options_.force_scale, options_.period_multiple);
         one.append(out.point);
         out.amplitude = one.amplitude(0, dof_, measure_, harmonic_);
@@ -149,9 +128,9 @@ class PeakSearch {
     std::int64_t harmonic_;
     Watch watch_;
     std::array<Sample, 3> three_;
-    Sample origin_;
-    vector<double> direction_;
-    double direction_omega_ = 0, scale_ = 1, omega_scale_ = 1, first_ = 0, last_ = 1, span_ = 1;
+    Metric metric_;
+    PathState origin_, chord_; // the latter of length 1
+    double first_ = 0, last_ = 1, span_ = 1;
 };
 
 // The highest point and its neighbours; a closed curve, whose last point is its first, has no ends. False:

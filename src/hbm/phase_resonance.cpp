@@ -1,5 +1,5 @@
 #include "hbm/phase_resonance.hpp"
-#include "hbm/continuation.hpp"
+#include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/modes_at_rest.hpp"
 #include "hbm/start.hpp"
@@ -75,7 +75,7 @@ void PhaseResonantSystem::residual(const double *y, double force, double *r) {
     r[inner_.size()] = dot(inner_.size(), phase_.data(), y);
 }
 
-void PhaseResonantSystem::omega_derivative(double *r) {
+void PhaseResonantSystem::parameter_derivative(double *r) {
     inner_.force_derivative(r);
     r[inner_.size()] = 0;
 }
@@ -97,7 +97,7 @@ void PhaseResonantSystem::from_point(const BranchPoint &point, double *y) {
 }
 
 void PhaseResonantSystem::fill(Border &border) {
-    inner_.omega_derivative(border.columns.data());
+    inner_.parameter_derivative(border.columns.data());
     for (std::int64_t i = 0; i < inner_.size(); ++i) border.columns(i, 0) /= unit_;
     std::copy(phase_.begin(), phase_.end(), border.rows.data());
 }
@@ -109,8 +109,7 @@ struct PhaseResonance::Followed final : public PathOwner {
         : m(*of.reduced_), options(of.options_.hbm), watch(of.watch_) {
         low = 2 * M_PI * options.frequency_min_hz, high = 2 * M_PI * options.frequency_max_hz;
         inner = make_system(of.reduced_, options);
-        vector<double> x(inner->size());
-        inner->from_point(about, x.data());
+        const vector<double> x = unknowns_of(*inner, about);
         // a change of omega over the whole range counts as much as the response at the force asked for
         const double response = norm2(inner->size() - m.static_size(), x.data() + m.static_size());
         scale = about.force_scale > 0 ? response * options.force_scale / about.force_scale : response;
@@ -121,13 +120,8 @@ struct PhaseResonance::Followed final : public PathOwner {
 
     void record(const PathPoint &p) override {
         if (p.bifurcation == crossing) result.crossings.push_back(result.branch->points().size());
-        BranchPoint point;
-        point.arclength = p.arclength;
-        point.residual = p.residual;
-        point.iterations = p.iterations;
-        point.bifurcation = p.bifurcation == crossing ? PLM_BIFURCATION_NONE : p.bifurcation;
-        system->to_point(p.x.data(), p.parameter, point);
-        point.n_switching = system->indicator().n_switching;
+        BranchPoint point = solved_point(*system, p);
+        if (p.bifurcation == crossing) point.bifurcation = PLM_BIFURCATION_NONE;
         omega = point.omega;
         result.branch->append(std::move(point));
     }
@@ -161,20 +155,11 @@ PhaseResonance::PhaseResonance(std::shared_ptr<const ReducedModel> reduced, cons
 
 bool PhaseResonance::correct(double force, BranchPoint &point) const {
     const Followed path(*this, point);
-    vector<double> y(path.system->size());
-    path.system->from_point(point, y.data());
-    NewtonLimits limits;
-    limits.tolerance = options_.hbm.tolerance;
-    limits.max_iterations = options_.hbm.max_iterations;
-    double parameter = force;
-    const NewtonOutcome out = newton(*path.system, SideCondition(), limits, y, parameter);
+    vector<double> y = unknowns_of(*path.system, point);
+    const NewtonOutcome out = newton_at(*path.system, newton_limits(options_.hbm), y, force);
     if (!out.converged) return false;
-    BranchPoint found;
-    path.system->to_point(y.data(), force, found);
+    BranchPoint found = solved_point(*path.system, {y, force}, out.residual, out.iterations);
     if (!(found.omega > 0)) return false;
-    found.residual = out.residual;
-    found.iterations = out.iterations;
-    found.n_switching = path.system->indicator().n_switching;
     point = std::move(found);
     return true;
 }
@@ -183,60 +168,32 @@ Backbone PhaseResonance::follow(const BranchPoint &start, bool upward) const {
     Followed path(*this, start);
     path.result.branch =
         std::make_shared<Branch>(reduced_, options_.hbm.force_scale, options_.hbm.period_multiple);
-    PathOptions range;
-    range.low =
-        upward ? 0.5 * std::min(start.force_scale, options_.hbm.force_scale) : 1e-3 * start.force_scale;
-    range.high = options_.force_max;
+    PathOptions range = path_options(options_.hbm,
+                                     upward ? 0.5 * std::min(start.force_scale, options_.hbm.force_scale)
+                                            : 1e-3 * start.force_scale,
+                                     options_.force_max);
     range.upward = upward;
-    range.tolerance = options_.hbm.tolerance;
-    range.max_iterations = options_.hbm.max_iterations;
-    range.max_points = options_.hbm.max_points;
-    range.min_step = options_.hbm.min_step;
     range.max_step = std::min(0.05, options_.hbm.max_step); // extrema of the force come in close pairs
     range.locate = true;
     PathStart from;
-    from.x.resize(path.system->size());
-    path.system->from_point(start, from.x.data());
-    from.parameter = start.force_scale;
+    from.at = {unknowns_of(*path.system, start), start.force_scale};
     from.scale = path.scale;
-    const PathOutcome out = follow_path(*path.system, range, from, path);
     Branch &branch = *path.result.branch;
-    branch.end_reason = out.end_reason == PLM_REASON_NONE ? PLM_REASON_RANGE_END : out.end_reason;
-    branch.newton_iterations = out.newton_iterations;
-    branch.newton_seconds = out.newton_seconds;
-    branch.factorizations = out.factorizations;
-    branch.failed_steps = out.failed_steps;
+    take_outcome(follow_path(*path.system, range, from, path), branch);
+    if (branch.end_reason == PLM_REASON_NONE) branch.end_reason = PLM_REASON_RANGE_END;
     branch.space_used = "modal";
     return path.result;
 }
 
 Backbone PhaseResonance::through(const BranchPoint &point) const {
     const Backbone down = follow(point, false), up = follow(point, true);
-    Backbone all = up;
-    all.branch = std::make_shared<Branch>(reduced_, options_.hbm.force_scale, options_.hbm.period_multiple);
-    all.branch->end_reason = up.branch->end_reason;
-    all.crossings.clear();
-    const auto &below = down.branch->points();
-    for (std::size_t i = below.size(); i-- > 1;) {
-        BranchPoint p = below[i];
-        p.arclength = below.back().arclength - p.arclength;
-        all.branch->append(std::move(p));
-    }
+    Backbone all{joined(*down.branch, *up.branch), {}};
+    const std::size_t joint = down.branch->points().size() - 1;
     for (std::size_t i : down.crossings)
-        if (i > 0) all.crossings.push_back(below.size() - 1 - i);
+        if (i > 0) all.crossings.push_back(joint - i);
     std::sort(all.crossings.begin(), all.crossings.end());
-    const std::size_t joint = all.branch->points().size();
-    for (BranchPoint p : up.branch->points()) {
-        p.arclength += below.back().arclength;
-        all.branch->append(std::move(p));
-    }
     if (point.force_scale == options_.hbm.force_scale) all.crossings.push_back(joint);
     for (std::size_t i : up.crossings) all.crossings.push_back(joint + i);
-    all.branch->newton_iterations = down.branch->newton_iterations + up.branch->newton_iterations;
-    all.branch->newton_seconds = down.branch->newton_seconds + up.branch->newton_seconds;
-    all.branch->factorizations = down.branch->factorizations + up.branch->factorizations;
-    all.branch->failed_steps = down.branch->failed_steps + up.branch->failed_steps;
-    all.branch->space_used = up.branch->space_used;
     return all;
 }
 
@@ -259,7 +216,6 @@ std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
             continue;
         system->linear_response(share, omega, x.data());
         BranchPoint point;
-        point.force_scale = options_.hbm.force_scale;
         system->to_point(x.data(), omega, point);
         double force = 0;
         if (!linear_range(share, point, force)) continue;
@@ -313,12 +269,7 @@ std::vector<BranchPoint> PhaseResonance::on_curve(const Branch &curve) const {
                      right = phase_of(*reduced_, points[i], multiple);
         if (!(left * right <= 0) || left == right) continue;
         const double t = left / (left - right);
-        BranchPoint p = points[i - 1];
-        const BranchPoint &q = points[i];
-        for (std::size_t j = 0; j < p.eta_0.size(); ++j) p.eta_0[j] += t * (q.eta_0[j] - p.eta_0[j]);
-        for (std::int64_t j = 0; j < p.eta.rows() * p.eta.cols(); ++j)
-            p.eta.data()[j] += t * (q.eta.data()[j] - p.eta.data()[j]);
-        p.omega += t * (q.omega - p.omega);
+        BranchPoint p = between(points[i - 1], points[i], t);
         if (!correct(curve.force_scale(), p)) continue;
         found.push_back(std::move(p));
     }

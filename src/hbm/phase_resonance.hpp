@@ -24,7 +24,7 @@ class PhaseResonantSystem final : public AugmentedSystem {
     PhaseResonantSystem(HbmSystem &inner, const ReducedModel &reduced, std::int64_t period_multiple,
                         double omega_reference, double unit);
     void residual(const double *y, double force, double *r) override;
-    void omega_derivative(double *r) override;
+    void parameter_derivative(double *r) override;
     void linear_response(const vector<double> &share, double force, double *y) override;
     void to_point(const double *y, double force, BranchPoint &point) override;
     void from_point(const BranchPoint &point, double *y) override;

@@ -1,5 +1,5 @@
 #include "hbm/start.hpp"
-#include "hbm/continuation.hpp"
+#include "hbm/branch_path.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/wrapped_system.hpp"
 #include "model/rest.hpp"
@@ -26,7 +26,7 @@ class StartPath final : public WrappedSystem {
         }
         inner_.residual(x, omega_, r);
     }
-    void omega_derivative(double *r) override {
+    void parameter_derivative(double *r) override {
         if (kind_ == Kind::force) {
             inner_.force_derivative(r);
         } else if (kind_ == Kind::gap) {
@@ -154,7 +154,7 @@ class Starter {
     bool follow(StartPath &path) {
         PathOptions range = path_options(0, 1);
         range.upward = true;
-        return arrived(follow_path(path, range, {x_}, quiet_), 1.0);
+        return arrived(follow_path(path, range, {{x_, 0}}, quiet_), 1.0);
     }
 
     // From well above the resonances, where the response is nearly linear, down to the frequency asked for.
@@ -164,20 +164,18 @@ class Starter {
             system_.linear_response(share_, far * omega_, x_.data());
             NewtonLimits limits;
             limits.max_iterations = options_.max_iterations;
-            limits.omega_scale = omega_;
-            double omega = far * omega_;
-            if (!newton(system_, SideCondition(), limits, x_, omega).converged) continue;
-            if (arrived(follow_path(system_, path, {x_, omega}, quiet_), omega_) && attempt()) return true;
+            limits.parameter_scale = omega_;
+            if (!newton_at(system_, limits, x_, far * omega_).converged) continue;
+            if (arrived(follow_path(system_, path, {{x_, far * omega_}}, quiet_), omega_) && attempt())
+                return true;
         }
         return false;
     }
 
     bool arrived(const PathOutcome &out, double parameter) {
-        out_.iterations += out.newton_iterations;
-        out_.seconds += out.newton_seconds;
-        out_.factorizations += out.factorizations;
-        if (out.end_reason != PLM_REASON_RANGE_END || out.parameter != parameter) return false;
-        x_ = out.x;
+        out_ += out.work;
+        if (out.end_reason != PLM_REASON_RANGE_END || out.at.parameter != parameter) return false;
+        x_ = out.at.x;
         return true;
     }
 
@@ -209,9 +207,7 @@ vector<double> share_at_rest(const ReducedModel &m) {
 }
 
 void StartOutcome::add(const StartOutcome &next) {
-    iterations += next.iterations;
-    factorizations += next.factorizations;
-    seconds += next.seconds;
+    *this += next;
     residual = next.residual;
     converged = next.converged;
 }
@@ -219,20 +215,12 @@ void StartOutcome::add(const StartOutcome &next) {
 StartOutcome correct_at(HbmSystem &system, const HbmOptions &options, double omega, Watch watch,
                         vector<double> &x) {
     watch.step("start", 0.0);
-    NewtonLimits limits;
-    limits.tolerance = options.tolerance;
-    limits.max_iterations = options.max_iterations;
-    limits.omega_scale = omega;
+    NewtonLimits limits = newton_limits(options);
+    limits.parameter_scale = omega;
     vector<double> solution = x;
-    const NewtonOutcome found = newton(system, SideCondition(), limits, solution, omega);
+    const NewtonOutcome found = newton_at(system, limits, solution, omega);
     if (found.converged) x = solution;
-    StartOutcome out;
-    out.converged = found.converged;
-    out.iterations = found.iterations;
-    out.factorizations = found.factorizations;
-    out.seconds = found.seconds;
-    out.residual = found.residual;
-    return out;
+    return {found, found.converged, found.residual};
 }
 
 StartOutcome find_start(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options,

@@ -1,7 +1,9 @@
 // First solutions: from the structure at rest to a converged periodic response at one frequency.
 #pragma once
-#include "hbm/continuation.hpp"
 #include "hbm/options.hpp"
+#include "hbm/system.hpp"
+#include "linalg/monitor.hpp"
+#include "paths/continuation.hpp"
 #include "reduction/reduced_model.hpp"
 
 namespace plm {
@@ -9,10 +11,9 @@ namespace plm {
 /// Share of the period each pair is closed at rest: 1, 0, or 1/2 for pairs that neither touch nor gap.
 vector<double> share_at_rest(const ReducedModel &reduced);
 
-struct StartOutcome {
+struct StartOutcome : NewtonWork {
     bool converged = false;
-    std::int64_t iterations = 0, factorizations = 0;
-    double seconds = 0, residual = 0; // seconds: of the iterations
+    double residual = 0;
     /// What came next: its work is added, its outcome counts.
     void add(const StartOutcome &next);
 };

@@ -1,29 +1,19 @@
-// The harmonic-balance equations R(x, omega) = 0 as Newton and the continuation see them. Two forms, exact
-// for the same reduced model: unknown reduced coordinates (modal_system.cpp), or unknown contact gaps through
-// the receptances of the open structure (gap_system.cpp). Which is cheaper depends on the number of
-// coordinates and of moving pairs.
+// The harmonic-balance equations R(x, omega) = 0. Two forms, exact for the same reduced model: unknown
+// reduced coordinates (modal_system.cpp), or unknown contact gaps through the receptances of the open
+// structure (gap_system.cpp). Which is cheaper depends on the number of coordinates and of moving pairs.
 #pragma once
 #include "hbm/branch_point.hpp"
 #include "hbm/contact_force.hpp"
 #include "linalg/error.hpp"
+#include "paths/residual.hpp"
 
 namespace plm {
 
 struct Border; // modal_factor.hpp
 class ModalFactor;
 
-class HbmSystem {
+class HbmSystem : public Residual {
   public:
-    virtual ~HbmSystem() = default;
-    virtual std::int64_t size() const = 0;
-    /// The first static_size() unknowns are the mean values (h = 0).
-    virtual std::int64_t static_size() const = 0;
-    /// r = R(x, omega); remembers the contact indicator of x for linearize().
-    virtual void residual(const double *x, double omega, double *r) = 0;
-    /// Factors dR/dx at the x and omega of the last residual() (or linear_response()).
-    virtual void linearize() = 0;
-    /// Overwrites n right-hand sides (leading dimension size()) by (dR/dx)^-1 b.
-    virtual void solve(double *b, std::int64_t n) = 0;
     /// Factors dR/dx at the last residual() with rows and columns beside it: what systems with more equations
     /// are built from. This and the next two: reduced coordinates only.
     virtual void factor_bordered(const Border &, ModalFactor &) { throw_not_modal(); }
@@ -31,18 +21,10 @@ class HbmSystem {
     virtual void jacobian_product(const double * /*v*/, double * /*r*/) { throw_not_modal(); }
     /// Adds the force 2 xi omega M q' from the next residual() on (nonlinear modes).
     virtual void set_self_excitation(double /*xi*/) { throw_not_modal(); }
-    /// Sign of det(dR/dx) at the last linearize(), up to a factor constant along a path.
-    virtual int determinant_sign() const = 0;
-    /// dR/domega at the x and omega of the last residual().
-    virtual void omega_derivative(double *r) = 0;
     /// Solution x of the linear equations with every pair coupled by share[i] k_n at all times.
     virtual void linear_response(const vector<double> &share, double omega, double *x) = 0;
-    /// Norm of the force side of the equations: a residual is small or large against it.
-    virtual double residual_scale() const = 0;
-    /// False: nothing holds the structure against the mean of the loads where residual() was last evaluated;
-    /// there is no solution there, whatever rounding leaves of the residual.
-    virtual bool in_balance() const { return true; }
 
+    /// Motion, frequency, force scale and contact motion of a point; leaves the rest.
     virtual void to_point(const double *x, double omega, BranchPoint &point) = 0;
     virtual void from_point(const BranchPoint &point, double *x) = 0;
 
@@ -68,6 +50,7 @@ class HbmSystem {
     virtual void gap_derivative(double *r) = 0;
 
     virtual const ContactIndicator &indicator() const { return indicator_; }
+    std::int64_t piece() const override { return indicator().n_switching; }
 
   protected:
     [[noreturn]] static void throw_not_modal() {

@@ -100,9 +100,7 @@ class Widening {
     }
 
     void add_cost(const Branch &piece) {
-        branch_.newton_iterations += piece.newton_iterations;
-        branch_.newton_seconds += piece.newton_seconds;
-        branch_.factorizations += piece.factorizations;
+        branch_.newton_work += piece.newton_work;
         branch_.failed_steps += piece.failed_steps;
         branch_.warnings.add(piece.warnings);
         if (piece.space_used != branch_.space_used) branch_.space_used = "both";

@@ -56,11 +56,9 @@ class Run {
         for (const BranchPtr &b : out_.curves) said.add(b->warnings);
         const std::string text = unmeasured_text(said);
         if (!text.empty()) out_.note += (out_.note.empty() ? "" : "; ") + text;
-        double seconds = 0;
-        std::int64_t iterations = 0;
-        for (const BranchPtr &b : out_.curves)
-            seconds += b->newton_seconds, iterations += b->newton_iterations;
-        out_.iteration_seconds = seconds / static_cast<double>(std::max<std::int64_t>(1, iterations));
+        NewtonWork work;
+        for (const BranchPtr &b : out_.curves) work += b->newton_work;
+        out_.iteration_seconds = work.seconds / static_cast<double>(std::max<std::int64_t>(1, work.iterations));
     }
 
     void build_basis() {

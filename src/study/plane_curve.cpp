@@ -18,9 +18,7 @@ constexpr double difference_step = 1e-5; // of the slope of the amplitude, in ar
 constexpr double smooth_gain = 16, first_gain = 0.25, least_gain = 1;
 
 struct Node {
-    CurvePoint point;
-    vector<double> direction; // unit tangent in the metric of the piece, with direction_omega
-    double direction_omega = 0;
+    PathState point, direction; // the latter: unit tangent in the metric of the piece
     PlanePoint at, tangent;
 };
 
@@ -33,11 +31,10 @@ class Step {
           options_(options_of(branch.points()[first], branch.points()[first + 1], options)),
           system_(make_system(branch.reduced_model(), options_)),
           ends_{load(*system_, branch.points()[first]), load(*system_, branch.points()[first + 1])},
-          metric_(ends_[1], options_) {
+          metric_(curve_metric(ends_[1], options_)) {
         if (branch.points()[first].n_harmonics != branch.points()[first + 1].n_harmonics) {
             set_chord(ends_[0], ends_[1]);
-            for (CurvePoint &end : ends_)
-                correct_across(*system_, metric_, options_, chord_, chord_omega_, end);
+            for (PathState &end : ends_) correct_across(*system_, metric_, options_, chord_, end);
         }
     }
 
@@ -56,17 +53,14 @@ class Step {
         return options_at(a.n_harmonics >= b.n_harmonics ? a : b, options.period_multiple, options);
     }
 
-    void set_chord(const CurvePoint &a, const CurvePoint &b) {
-        chord_ = b.x;
-        for (std::size_t i = 0; i < chord_.size(); ++i) chord_[i] -= a.x[i];
-        chord_omega_ = b.omega - a.omega;
-        chord_length_ = std::sqrt(metric_.product(chord_, chord_omega_, chord_, chord_omega_));
+    void set_chord(const PathState &a, const PathState &b) {
+        chord_ = difference(b, a);
+        chord_length_ = metric_.length(chord_);
     }
 
-    double amplitude(const vector<double> &x, double omega) {
+    double amplitude(const PathState &at) {
         BranchPoint point;
-        point.force_scale = options_.force_scale;
-        system_->to_point(x.data(), omega, point);
+        system_->to_point(at.x.data(), at.parameter, point);
         if (options_.tail_correction)
             point.eta.append(
                 harmonic_content(branch_.reduced(), point, options_.period_multiple).tail_response);
@@ -75,41 +69,32 @@ class Step {
         return one.amplitude(0, output_.dof, output_.measure, output_.harmonic);
     }
 
-    PlanePoint in_plane(double omega, double amplitude) const {
-        return {omega / (2 * M_PI) / scale_.frequency_hz, amplitude / scale_.amplitude};
+    PlanePoint in_plane(const PathState &at) {
+        return {at.parameter / (2 * M_PI) / scale_.frequency_hz, amplitude(at) / scale_.amplitude};
     }
 
-    // Tangent (dx, domega) from the linearised equations, turned along the chord.
+    // Tangent from the linearised equations, of length 1, along the chord.
     void set_direction(Node &n) {
-        vector<double> along(n.point.x.size());
-        system_->residual(n.point.x.data(), n.point.omega, along.data());
-        system_->omega_derivative(along.data());
+        PathState along{vector<double>(n.point.x.size()), -1};
+        system_->residual(n.point.x.data(), n.point.parameter, along.x.data());
+        system_->parameter_derivative(along.x.data());
         system_->linearize();
-        system_->solve(along.data(), 1);
-        for (double &v : along) v = -v;
-        double length = std::sqrt(metric_.product(along, 1, along, 1));
-        if (metric_.product(along, 1, chord_, chord_omega_) < 0) length = -length;
-        n.direction_omega = 1 / length;
-        for (double &v : along) v /= length;
-        n.direction = std::move(along);
-        if (std::isfinite(length)) return;
-        n.direction = chord_; // exactly at a fold
-        for (double &v : n.direction) v /= chord_length_;
-        n.direction_omega = chord_omega_ / chord_length_;
+        system_->solve(along.x.data(), 1);
+        const double length = metric_.length(along) * (metric_.product(along, chord_) < 0 ? -1 : 1);
+        n.direction = std::isfinite(length) ? along : chord_; // exactly at a fold: the chord
+        scale_by(1 / (std::isfinite(length) ? length : chord_length_), n.direction);
     }
 
-    Node node(const CurvePoint &point) {
+    Node node(const PathState &point) {
         Node n;
         n.point = point;
         set_direction(n);
-        n.at = in_plane(point.omega, amplitude(point.x, point.omega));
+        n.at = in_plane(point);
         PlanePoint side[2];
         for (int k = 0; k < 2; ++k) {
-            const double step = (k == 0 ? -1 : 1) * difference_step;
-            vector<double> x(point.x);
-            for (std::size_t i = 0; i < x.size(); ++i) x[i] += step * n.direction[i];
-            const double omega = point.omega + step * n.direction_omega;
-            side[k] = in_plane(omega, amplitude(x, omega));
+            PathState beside = point;
+            add((k == 0 ? -1 : 1) * difference_step, n.direction, beside);
+            side[k] = in_plane(beside);
         }
         const double x = side[1].x - side[0].x, y = side[1].y - side[0].y, length = std::hypot(x, y);
         if (length > 0) n.tangent = {x / length, y / length};
@@ -118,29 +103,24 @@ class Step {
 
     // A node of the piece before, in the metric and along the chord of this one.
     Node turned(Node n) const {
-        double length =
-            std::sqrt(metric_.product(n.direction, n.direction_omega, n.direction, n.direction_omega));
-        if (metric_.product(n.direction, n.direction_omega, chord_, chord_omega_) < 0) {
+        double length = metric_.length(n.direction);
+        if (metric_.product(n.direction, chord_) < 0) {
             length = -length;
             n.tangent = {-n.tangent.x, -n.tangent.y};
         }
-        for (double &v : n.direction) v /= length;
-        n.direction_omega /= length;
+        scale_by(1 / length, n.direction);
         return n;
     }
 
     // The curve's point across the middle of the chord, from the cubic through both ends.
-    bool middle(const Node &a, const Node &b, CurvePoint &m) {
+    bool middle(const Node &a, const Node &b, PathState &m) {
         set_chord(a.point, b.point);
         if (!(chord_length_ > 1e-13)) return false;
         m = a.point;
-        for (std::size_t i = 0; i < m.x.size(); ++i)
-            m.x[i] =
-                0.5 * (a.point.x[i] + b.point.x[i]) + chord_length_ / 8 * (a.direction[i] - b.direction[i]);
-        m.omega = 0.5 * (a.point.omega + b.point.omega) +
-                  chord_length_ / 8 * (a.direction_omega - b.direction_omega);
+        add(0.5, chord_, m);
+        add(chord_length_ / 8, difference(a.direction, b.direction), m);
         const bool factored = true; // at the node made last
-        return correct_across(*system_, metric_, options_, chord_, chord_omega_, m, factored);
+        return correct_across(*system_, metric_, options_, chord_, m, factored);
     }
 
     // By the distance of the curve's middle, and by how its direction differs there.
@@ -159,7 +139,7 @@ class Step {
     void halve(const Node &a, const Node &b, int depth, double miss_before, double tolerance,
                PlaneCurve &curve) {
         const PlanePiece piece{a.at, b.at, a.tangent, b.tangent};
-        CurvePoint point;
+        PathState point;
         if (!middle(a, b, point)) {
             ++curve.unresolved;
             curve.pieces.push_back(piece);
@@ -182,10 +162,10 @@ class Step {
     const PlaneScale &scale_;
     HbmOptions options_;
     std::unique_ptr<HbmSystem> system_;
-    CurvePoint ends_[2];
-    CurveMetric metric_;
-    vector<double> chord_;
-    double chord_omega_ = 0, chord_length_ = 0;
+    PathState ends_[2];
+    Metric metric_;
+    PathState chord_;
+    double chord_length_ = 0;
 };
 
 } // namespace

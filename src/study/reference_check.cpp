@@ -28,16 +28,11 @@ HarmonicCheck check_harmonics(const Branch &branch, const Peak &peak, const HbmO
             return load(*system,
                         branch.points()[static_cast<std::size_t>(std::clamp<std::int64_t>(k, 0, n - 1))]);
         };
-        CurvePoint point = at(i);
-        const CurvePoint before = at(i - 1), after = at(i + 1);
-        vector<double> direction(after.x);
-        for (std::size_t k = 0; k < direction.size(); ++k) direction[k] -= before.x[k];
-        if (!correct_across(*system, CurveMetric(point, finer), finer, direction, after.omega - before.omega,
-                            point))
-            continue;
+        PathState point = at(i);
+        const PathState direction = difference(at(i + 1), at(i - 1));
+        if (!correct_across(*system, curve_metric(point, finer), finer, direction, point)) continue;
         BranchPoint corrected;
-        corrected.force_scale = finer.force_scale;
-        system->to_point(point.x.data(), point.omega, corrected);
+        system->to_point(point.x.data(), point.parameter, corrected);
         around->append(std::move(corrected));
     }
     if (around->points().size() < 3)

@@ -224,7 +224,7 @@ class Study {
         r.curves = m.curves;
         for (const auto &branch : m.curves) {
             r.n_points += static_cast<std::int64_t>(branch->points().size());
-            r.newton_iterations += branch->newton_iterations;
+            r.newton_iterations += branch->newton_work.iterations;
             r.failed_steps += branch->failed_steps;
         }
         for (const MarchedCurve &curve : m.marched) {

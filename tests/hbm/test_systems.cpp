@@ -80,7 +80,7 @@ double omega_derivative_error(HbmSystem &system, const plm::vector<double> &x, d
     system.residual(x.data(), omega + step, up.data());
     system.residual(x.data(), omega - step, down.data());
     system.residual(x.data(), omega, r.data());
-    system.omega_derivative(derivative.data());
+    system.parameter_derivative(derivative.data());
     double size = 0, worst = 0;
     for (std::int64_t i = 0; i < n; ++i) size = std::max(size, std::abs(derivative[i]));
     for (std::int64_t i = 0; i < n; ++i)

@@ -1,5 +1,5 @@
 // The continuation at corners, on curves that are known: one unknown x, the parameter p = phi(x).
-#include "hbm/continuation.hpp"
+#include "paths/continuation.hpp"
 #include "support/test.hpp"
 #include <functional>
 
@@ -8,38 +8,25 @@ namespace {
 using plm::vector;
 
 // R = p - phi(x).
-class KnownCurve : public plm::HbmSystem {
+class KnownCurve : public plm::Residual {
   public:
     using Function = std::function<double(double)>;
     KnownCurve(Function phi, Function slope) : phi_(std::move(phi)), slope_(std::move(slope)) {}
     std::int64_t size() const override { return 1; }
-    std::int64_t static_size() const override { return 0; }
     void residual(const double *x, double p, double *r) override { r[0] = p - phi_(x_ = x[0]); }
     void linearize() override { tangent_ = -slope_(x_); }
     void solve(double *b, std::int64_t n) override {
         for (std::int64_t i = 0; i < n; ++i) b[i] /= tangent_;
     }
     int determinant_sign() const override { return tangent_ < 0 ? -1 : 1; }
-    void omega_derivative(double *r) override { r[0] = 1; }
-    void linear_response(const vector<double> &, double p, double *x) override { x[0] = p; }
+    void parameter_derivative(double *r) override { r[0] = 1; }
     double residual_scale() const override { return 1; }
-    void to_point(const double *, double, plm::BranchPoint &) override {}
-    void from_point(const plm::BranchPoint &, double *) override {}
-    void set_force_scale(double) override {}
-    void force_derivative(double *) override {}
-    void set_stiffness_factor(double) override {}
-    void contact_force_change(const plm::Matrix &, double *) override {}
-    const plm::Matrix &contact_force() const override { return none_; }
-    void contact_motion_change(const double *, plm::Matrix &) override {}
-    void set_extra_gap(double) override {}
-    void gap_derivative(double *) override {}
 
   protected:
     double x_ = 0, tangent_ = 1;
 
   private:
     Function phi_, slope_;
-    plm::Matrix none_;
 };
 
 class Owner final : public plm::PathOwner {
@@ -60,7 +47,7 @@ struct Followed {
     plm::PathOutcome out;
     Owner owner;
 };
-Followed follow(KnownCurve &curve, plm::PathStart start = {{0}}) {
+Followed follow(KnownCurve &curve, plm::PathStart start = {{{0}, 0}}) {
     plm::PathOptions options;
     options.low = 0;
     options.high = 1;
@@ -99,8 +86,8 @@ void a_corner_beyond_a_right_angle_is_followed(void **) {
     KnownCurve curve(corner, corner_slope);
     const Followed f = follow(curve);
     assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
-    assert_true(near(f.out.x[0], 2.0 / 3, 1e-9));
-    assert_true(f.out.direction_parameter < 0);
+    assert_true(near(f.out.at.x[0], 2.0 / 3, 1e-9));
+    assert_true(f.out.direction.parameter < 0);
 }
 
 void a_corner_at_which_the_parameter_turns_is_a_fold(void **) {
@@ -114,7 +101,7 @@ void a_grazing_corner_is_passed_whatever_the_smallest_step(void **) {
     KnownCurve curve(grazing, grazing_slope);
     const Followed f = follow(curve);
     assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
-    assert_true(near(f.out.x[0], grazing_end(), 1e-9)); // the tolerance of Newton's correction
+    assert_true(near(f.out.at.x[0], grazing_end(), 1e-9)); // the tolerance of Newton's correction
     assert_true(f.owner.n_points < 150);
 }
 
@@ -122,18 +109,15 @@ void a_grazing_corner_is_passed_whatever_the_smallest_step(void **) {
 void a_path_that_comes_to_its_beginning_from_behind_has_turned_back(void **) {
     KnownCurve curve(corner, corner_slope);
     plm::PathStart start;
-    start.x = {0};
-    start.end_x = {0.4};
-    start.end_parameter = 0.4;
-    start.end_direction_x = {-1};
-    start.end_direction_parameter = -1;
+    start.at.x = {0};
+    start.end = {{0.4}, 0.4};
+    start.end_direction = {{-1}, -1};
     const Followed f = follow(curve, start);
     assert_int_equal(f.out.end_reason, PLM_REASON_TURNED_BACK);
-    assert_true(f.out.x[0] >= 0.4 && f.out.x[0] < 0.5);
-    start.end_direction_x = {1};
-    start.end_direction_parameter = 1;
+    assert_true(f.out.at.x[0] >= 0.4 && f.out.at.x[0] < 0.5);
+    start.end_direction = {{1}, 1};
     assert_int_equal(follow(curve, start).out.end_reason, PLM_REASON_LOOP_CLOSED);
-    start.end_x = {0.48}; // beside the curve: neither
+    start.end.x = {0.48}; // beside the curve: neither
     assert_int_equal(follow(curve, start).out.end_reason, PLM_REASON_RANGE_END);
 }
 

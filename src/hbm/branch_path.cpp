@@ -1,0 +1,72 @@
+#include "hbm/branch_path.hpp"
+
+namespace plm {
+
+NewtonLimits newton_limits(const HbmOptions &options) {
+    NewtonLimits limits;
+    limits.tolerance = options.tolerance;
+    limits.max_iterations = options.max_iterations;
+    return limits;
+}
+
+PathOptions path_options(const HbmOptions &options, double low, double high) {
+    PathOptions p;
+    p.low = low;
+    p.high = high;
+    p.tolerance = options.tolerance;
+    p.max_iterations = options.max_iterations;
+    p.max_points = options.max_points;
+    p.min_step = options.min_step;
+    p.max_step = options.max_step;
+    return p;
+}
+
+vector<double> unknowns_of(HbmSystem &system, const BranchPoint &point) {
+    vector<double> x(system.size());
+    system.from_point(point, x.data());
+    return x;
+}
+
+BranchPoint solved_point(HbmSystem &system, const PathState &at, double residual, std::int64_t iterations) {
+    return solved_point(system, {at.x, at.parameter, 0, residual, iterations, PLM_BIFURCATION_NONE});
+}
+
+BranchPoint solved_point(HbmSystem &system, const PathPoint &p) {
+    BranchPoint point;
+    system.to_point(p.x.data(), p.parameter, point);
+    point.arclength = p.arclength;
+    point.residual = p.residual;
+    point.iterations = p.iterations;
+    point.bifurcation = p.bifurcation;
+    point.n_switching = system.indicator().n_switching;
+    return point;
+}
+
+void take_outcome(const PathOutcome &outcome, Branch &branch) {
+    branch.end_reason = outcome.end_reason;
+    branch.newton_work += outcome.work;
+    branch.failed_steps += outcome.failed_steps;
+}
+
+std::shared_ptr<Branch> joined(const Branch &before, const Branch &after) {
+    auto whole =
+        std::make_shared<Branch>(after.reduced_model(), after.force_scale(), after.period_multiple());
+    const double length = before.points().back().arclength;
+    for (auto p = before.points().rbegin(); p != before.points().rend() - 1; ++p) {
+        BranchPoint point = *p;
+        point.arclength = length - point.arclength;
+        whole->append(std::move(point));
+    }
+    for (BranchPoint point : after.points()) {
+        point.arclength += length;
+        whole->append(std::move(point));
+    }
+    whole->end_reason = after.end_reason;
+    whole->newton_work = before.newton_work;
+    whole->newton_work += after.newton_work;
+    whole->failed_steps = before.failed_steps + after.failed_steps;
+    whole->space_used = after.space_used;
+    return whole;
+}
+
+} // namespace plm

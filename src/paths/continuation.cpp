@@ -1,0 +1,323 @@
+#include "paths/continuation.hpp"
+#include "paths/special_points.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+constexpr double target_angle = 0.25;  // rad between neighbouring tangents
+constexpr double same_solution = 1e-6; // distance of two solutions that were computed twice
+
+class Continuation {
+  public:
+    Continuation(Residual &system, const PathOptions &options, PathOwner &owner)
+        : walker_(system, options, owner), options_(options), owner_(owner) {}
+
+    PathOutcome run(const PathStart &start) {
+        begin(start);
+        step_ = options_.initial_step > 0 ? options_.initial_step : 0.2 * options_.max_step;
+        while (out_.end_reason == PLM_REASON_NONE && !interrupted_) {
+            if (n_recorded_ >= options_.max_points) {
+                end(PLM_REASON_POINT_LIMIT);
+            } else if (owner_.cancelled(progress())) {
+                end(PLM_REASON_CANCELLED);
+            } else {
+                advance();
+            }
+        }
+        out_.at = walker_.now();
+        out_.direction = walker_.tangent();
+        out_.orientation = orientation_;
+        out_.scale = walker_.metric().scale;
+        out_.arclength = arclength_;
+        out_.step = step_;
+        out_.n_points = n_recorded_;
+        out_.work = walker_.work;
+        return out_;
+    }
+
+  private:
+    void begin(const PathStart &start) {
+        walker_.move(start.at);
+        from_start_ = start.end.x.empty();
+        target_ = from_start_ ? start.at : start.end;
+        walker_.grow_scale(start.scale);
+        walker_.linearize_here();
+        walker_.make_tangent(start.direction.x.empty() ? nullptr : &start.direction);
+        target_tangent_ = from_start_ ? walker_.tangent() : start.end_direction;
+        orientation_ = walker_.orientation();
+        tests_ = walker_.tests();
+        if (start.record) record(start.residual, 0, PLM_BIFURCATION_NONE);
+    }
+
+    void end(std::int32_t reason) { out_.end_reason = reason; }
+
+    double progress() const {
+        const double p = walker_.now().parameter;
+        const double done = (options_.upward ? p - options_.low : options_.high - p) / walker_.metric().width;
+        return std::min(1.0, std::max(0.0, done));
+    }
+
+    // The tangent, bent by how it turned over the last step (which is dropped after a failure).
+    PathState predict(double step) const {
+        PathState p = walker_.now();
+        add(step, walker_.tangent(), p);
+        if (last_step_ > 0 && !plain_predictor_)
+            add(0.5 * step * step / last_step_, difference(walker_.tangent(), last_tangent_), p);
+        return p;
+    }
+
+    // Whether a correction came out about where the step went.
+    static bool is_near(const NewtonOutcome &out, double moved, double step) {
+        return out.converged && moved <= 2 * step && moved >= 0.3 * step;
+    }
+
+    void advance() {
+        PathState next = predict(step_);
+        const NewtonOutcome out = walker_.correct(next, walker_.tangent(), 0.2, walker_.is_factored());
+        const double moved = out.converged ? walker_.metric().distance(next, walker_.now()) : 0;
+        if (!is_near(out, moved, step_)) return retry(out.reason);
+        const PathState before = walker_.now(), old_tangent = walker_.tangent();
+        walker_.move(std::move(next));
+        walker_.set_factored(true);
+        if (!out.factored_here) walker_.linearize_here();
+        walker_.make_tangent(&old_tangent);
+        const double cosine = walker_.cosine_with_tangent(old_tangent),
+                     angle = std::acos(std::min(1.0, std::max(-1.0, cosine)));
+        if (angle > PathWalker::sharp_angle && step_ > 20 * options_.min_step) { // a corner: closer first
+            walker_.move(before);
+            walker_.set_tangent(old_tangent);
+            return retry(PLM_REASON_STEP_MINIMUM);
+        }
+        // The steps cannot resolve this corner (contact that begins with a grazing touch bends the path like
+        // the square root of the way): beyond a right angle the nearer of the two directions leads back.
+        if (angle > PathWalker::sharp_angle) walker_.orient(orientation_);
+        if (!accept(out, moved, old_tangent, before)) return retry(PLM_REASON_STEP_MINIMUM);
+        orientation_ = walker_.orientation();
+        double factor = std::min(1.6, std::max(0.35, target_angle / std::max(angle, 1e-6)));
+        if (out.iterations > 6) factor = std::min(factor, 0.6);
+        step_ = std::min(options_.max_step, std::max(options_.min_step, step_ * factor));
+    }
+
+    // False: the step crossed to another curve, see find_special_points(); the path is back before it.
+    bool accept(const NewtonOutcome &out, double moved, const PathState &old_tangent,
+                const PathState &before) {
+        last_step_ = moved;
+        last_tangent_ = old_tangent;
+        plain_predictor_ = false;
+        rescued_ = false;
+        const double p = walker_.now().parameter;
+        if (p < options_.low || p > options_.high) return leave_range(before, old_tangent);
+        const vector<double> old_tests = tests_;
+        tests_ = walker_.tests();
+        for (std::size_t k = 0; k < std::min(tests_.size(), old_tests.size()); ++k)
+            if (std::isnan(tests_[k])) tests_[k] = old_tests[k]; // its sign is that of the last known value
+        if (locate(before, old_tangent, moved, old_tests) && moved > 20 * options_.min_step) {
+            tests_ = old_tests;
+            last_step_ = 0;
+            walker_.restore(before, old_tangent);
+            return false;
+        }
+        arclength_ += moved;
+        if (passes_start(before, moved)) {
+            if (walker_.cosine_with_tangent(target_tangent_) > 0) {
+                close_loop();
+                return true;
+            }
+            if (is_start(before)) {
+                end(PLM_REASON_TURNED_BACK);
+                return true;
+            }
+        }
+        record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
+        if (walker_.grow_scale()) last_step_ = 0; // the metric changed: one plain predictor
+        interrupted_ = owner_.interrupt();
+        return true;
+    }
+
+    // The step from `before` passed the point where the path began.
+    bool passes_start(const PathState &before, double moved) const {
+        if (from_start_ && n_recorded_ < 6) return false;
+        const PathState chord = difference(walker_.now(), before), back = difference(target_, before);
+        const double along = walker_.metric().product(chord, back) / (moved * moved);
+        if (!(along > 0 && along <= 1)) return false;
+        const double distance = walker_.metric().length(back);
+        return std::sqrt(std::max(0.0, distance * distance - along * along * moved * moved)) < 0.2 * moved;
+    }
+
+    // Whether the solution on the present step at the parameter of the start is the start itself.
+    bool is_start(const PathState &before) {
+        const PathState chord = difference(walker_.now(), before);
+        const double part =
+            chord.parameter != 0 ? (target_.parameter - before.parameter) / chord.parameter : 1;
+        PathState at = before;
+        add(part, chord, at);
+        at.parameter = target_.parameter;
+        const bool same = walker_.correct_at_parameter(at).converged &&
+                          walker_.metric().distance(at, target_) < same_solution;
+        walker_.linearize_here();
+        return same;
+    }
+
+    void close_loop() {
+        walker_.move(target_);
+        walker_.linearize_here();
+        record(0.0, 0, PLM_BIFURCATION_NONE);
+        end(PLM_REASON_LOOP_CLOSED);
+    }
+
+    // Records what lies between `before` and the present point, in order, and comes back to the latter. True:
+    // the step seems to have crossed to another curve.
+    bool locate(const PathState &before, const PathState &old_tangent, double moved,
+                const vector<double> &old_tests) {
+        const PathState after = walker_.now(), new_tangent = walker_.tangent();
+        const SpecialPoints special =
+            find_special_points(walker_, options_, {before, after, old_tangent, new_tangent, moved},
+                                orientation_, old_tests, tests_);
+        const double base = arclength_;
+        for (const SpecialPoint &point : special.found) {
+            walker_.restore(point.at, new_tangent);
+            arclength_ = base + point.position * moved;
+            record(point.residual, 0, point.kind);
+        }
+        arclength_ = base;
+        if (!special.found.empty() || walker_.now().parameter != after.parameter ||
+            walker_.now().x != after.x)
+            walker_.restore(after, new_tangent);
+        return special.jumped;
+    }
+
+    // The last point lies on the boundary of the range. False: it was not found; the path is back before.
+    bool leave_range(const PathState &before, const PathState &old_tangent) {
+        PathState last = walker_.now();
+        const double edge = last.parameter < options_.low ? options_.low : options_.high;
+        const double part = (edge - before.parameter) / (last.parameter - before.parameter);
+        for (std::size_t i = 0; i < last.x.size(); ++i)
+            last.x[i] = before.x[i] + part * (last.x[i] - before.x[i]);
+        last.parameter = edge;
+        const NewtonOutcome out = walker_.correct_at_parameter(last);
+        const double moved = walker_.metric().distance(last, before);
+        if (!out.converged || moved > 4 * options_.max_step) {
+            last_step_ = 0;
+            walker_.restore(before, old_tangent);
+            return false;
+        }
+        walker_.move(std::move(last));
+        end(PLM_REASON_RANGE_END);
+        // a path that begins on the boundary and leaves at once has its last point already
+        if (moved < options_.min_step) return true;
+        if (target_.parameter == edge && n_recorded_ > 1 &&
+            walker_.metric().distance(walker_.now(), target_) < same_solution)
+            end(PLM_REASON_TURNED_BACK);
+        walker_.linearize_here();
+        walker_.make_tangent(&old_tangent);
+        const vector<double> old_tests = tests_;
+        tests_ = walker_.tests();
+        locate(before, old_tangent, moved, old_tests);
+        arclength_ += moved;
+        record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
+        return true;
+    }
+
+    // A smaller step with a new factorization; then the other predictor; then a fresh start a little further
+    // on.
+    void retry(std::int32_t reason) {
+        ++out_.failed_steps;
+        walker_.set_factored(false);
+        plain_predictor_ = out_.failed_steps % 2 == 0;
+        step_ *= 0.4;
+        if (step_ >= options_.min_step) return;
+        if (turn_corner()) return;
+        if (!rescued_ && rescue()) {
+            step_ = 0.05 * options_.max_step;
+            return;
+        }
+        end(reason == PLM_REASON_NONE ? PLM_REASON_STEP_MINIMUM : reason);
+    }
+
+    // Contact that begins with a grazing touch adds stiffness like the square root of the way: the path turns
+    // within any step by an angle that may exceed a right one, and the plane across the step then misses it.
+    // Its direction beyond is that of the tangent matrix a step ahead, on the side that the orientation says.
+    bool turn_corner() {
+        const PathState before = walker_.now(), old_tangent = walker_.tangent();
+        for (double length = 10 * options_.min_step; length < 0.01 * options_.max_step; length *= 10) {
+            last_step_ = 0;
+            const PathState ahead = predict(length);
+            walker_.linearize_at(ahead);
+            walker_.make_tangent(nullptr);
+            walker_.orient(orientation_);
+            const PathState direction = walker_.tangent();
+            walker_.set_tangent(old_tangent);
+            const double cosine = walker_.cosine_with_tangent(direction);
+            if (cosine > std::cos(PathWalker::sharp_angle)) continue;
+            PathState next = ahead; // so that Newton's method begins on the other side of the corner
+            add(length * (1 - cosine), direction, next);
+            const NewtonOutcome out = walker_.correct(next, direction, 0.2, false);
+            const double moved = out.converged ? walker_.metric().distance(next, before) : 0;
+            if (!is_near(out, moved, length)) continue;
+            walker_.move(std::move(next));
+            walker_.linearize_here();
+            walker_.make_tangent(nullptr);
+            walker_.orient(orientation_);
+            if (walker_.cosine_with_tangent(direction) > 0.5 && accept(out, moved, old_tangent, before)) {
+                last_step_ = 0;
+                walker_.set_factored(false);
+                step_ = length;
+                return true;
+            }
+            walker_.move(before);
+            walker_.set_tangent(old_tangent);
+        }
+        return false;
+    }
+
+    // A solution just beyond, found by the owner's own means; accepted only if it stays close.
+    bool rescue() {
+        rescued_ = true;
+        const double side = walker_.tangent().parameter < 0 ? -1 : 1;
+        for (double ahead : {1e-4, 1e-3}) {
+            PathState next = walker_.now();
+            next.parameter += side * ahead * walker_.metric().width;
+            const bool found = owner_.rescue(next.parameter, next.x);
+            const double moved = walker_.metric().distance(next, walker_.now());
+            if (!found || moved > options_.max_step) continue;
+            const PathState old_tangent = walker_.tangent();
+            arclength_ += moved;
+            walker_.move(std::move(next));
+            walker_.linearize_here();
+            walker_.make_tangent(&old_tangent);
+            orientation_ = walker_.orientation();
+            last_step_ = 0;
+            tests_ = walker_.tests();
+            record(0.0, 0, PLM_BIFURCATION_NONE);
+            return true;
+        }
+        return false;
+    }
+
+    void record(double residual, std::int64_t iterations, std::int32_t bifurcation) {
+        ++n_recorded_;
+        const PathState &now = walker_.now();
+        owner_.record({now.x, now.parameter, arclength_, residual, iterations, bifurcation});
+    }
+
+    PathWalker walker_;
+    const PathOptions &options_;
+    PathOwner &owner_;
+    PathState target_, target_tangent_, last_tangent_;
+    double arclength_ = 0, last_step_ = 0, step_ = 0, orientation_ = 1;
+    bool plain_predictor_ = false, rescued_ = false, interrupted_ = false, from_start_ = true;
+    vector<double> tests_; // at the present point
+    std::int64_t n_recorded_ = 0;
+    PathOutcome out_;
+};
+
+} // namespace
+
+PathOutcome follow_path(Residual &system, const PathOptions &options, const PathStart &start,
+                        PathOwner &owner) {
+    return Continuation(system, options, owner).run(start);
+}
+
+} // namespace plm

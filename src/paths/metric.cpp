@@ -1,0 +1,46 @@
+#include "paths/metric.hpp"
+#include "linalg/dense.hpp"
+#include <cmath>
+
+namespace plm {
+
+PathState difference(const PathState &a, const PathState &b) {
+    PathState d = a;
+    add(-1, b, d);
+    return d;
+}
+
+void add(double factor, const PathState &b, PathState &a) {
+    for (std::size_t i = 0; i < a.x.size(); ++i) a.x[i] += factor * b.x[i];
+    a.parameter += factor * b.parameter;
+}
+
+void scale_by(double factor, PathState &a) {
+    for (double &v : a.x) v *= factor;
+    a.parameter *= factor;
+}
+
+double Metric::product(const PathState &a, const PathState &b) const {
+    return dot(static_cast<std::int64_t>(a.x.size()), a.x.data(), b.x.data()) / (scale * scale) +
+           a.parameter * b.parameter / (width * width);
+}
+
+double Metric::length(const PathState &a) const {
+    return std::sqrt(product(a, a));
+}
+
+double Metric::distance(const PathState &a, const PathState &b) const {
+    return length(difference(a, b));
+}
+
+double Metric::cosine(const PathState &a, const PathState &b) const {
+    return product(a, b) / std::sqrt(product(a, a) * product(b, b));
+}
+
+double size_of(const Residual &system, const vector<double> &x) {
+    const std::int64_t s = system.static_size();
+    const double moving = norm2(system.size() - s, x.data() + s);
+    return moving > 0 ? moving : norm2(system.size(), x.data());
+}
+
+} // namespace plm

@@ -1,0 +1,32 @@
+// Lengths and angles along a path of solutions (x, p).
+#pragma once
+#include "linalg/memory.hpp"
+#include "paths/residual.hpp"
+
+namespace plm {
+
+/// A point of a path, or a direction.
+struct PathState {
+    vector<double> x = {};
+    double parameter = 0;
+};
+
+PathState difference(const PathState &a, const PathState &b);
+/// a + factor b
+void add(double factor, const PathState &b, PathState &a);
+void scale_by(double factor, PathState &a);
+
+/// A length of 1 is `scale` of the unknowns or `width` of the parameter.
+struct Metric {
+    double scale = 1, width = 1;
+    double product(const PathState &a, const PathState &b) const;
+    double length(const PathState &a) const;
+    double distance(const PathState &a, const PathState &b) const;
+    /// Of two directions.
+    double cosine(const PathState &a, const PathState &b) const;
+};
+
+/// The size of a solution: of the unknowns behind static_size(), or of all where those vanish.
+double size_of(const Residual &system, const vector<double> &x);
+
+} // namespace plm

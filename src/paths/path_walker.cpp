@@ -1,0 +1,107 @@
+#include "paths/path_walker.hpp"
+#include "linalg/dense.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+
+PathWalker::PathWalker(Residual &system, const PathOptions &options, PathOwner &owner)
+    : system_(system), options_(options), owner_(owner),
+      n_(system.size()), metric_{0, options.high - options.low}, scratch_(n_) {
+    kinds_ = {PLM_BIFURCATION_FOLD, PLM_BIFURCATION_BRANCH_POINT};
+    for (std::int32_t kind : owner.test_kinds()) kinds_.push_back(kind);
+}
+
+bool PathWalker::grow_scale(double least) {
+    const double before = metric_.scale;
+    const std::int64_t s = system_.static_size();
+    metric_.scale = std::max({before, least, norm2(n_ - s, now_.x.data() + s)});
+    if (metric_.scale == 0) metric_.scale = norm2(n_, now_.x.data());
+    if (metric_.scale == 0) metric_.scale = 1; // nothing moves and nothing rests: any measure will do
+    return metric_.scale != before;
+}
+
+void PathWalker::linearize_at(const PathState &at) {
+    system_.residual(at.x.data(), at.parameter, scratch_.data());
+    system_.linearize();
+    ++work.factorizations;
+    factored_ = false;
+}
+
+void PathWalker::linearize_here() {
+    linearize_at(now_);
+    factored_ = true;
+}
+
+void PathWalker::make_tangent(const PathState *previous) {
+    PathState t{vector<double>(n_), -1};
+    system_.parameter_derivative(t.x.data());
+    system_.solve(t.x.data(), 1);
+    double sign = options_.upward ? -1 : 1;
+    if (previous) sign = metric_.product(t, *previous) > 0 ? 1 : -1;
+    scale_by(sign / metric_.length(t), t);
+    tangent_ = std::move(t);
+}
+
+double PathWalker::orientation() const {
+    return system_.determinant_sign() * (tangent_.parameter < 0 ? -1.0 : 1.0);
+}
+
+void PathWalker::orient(double wanted) {
+    if (orientation() * wanted <= 0) scale_by(-1, tangent_);
+}
+
+void PathWalker::restore(const PathState &at, const PathState &tangent) {
+    now_ = at;
+    linearize_here();
+    tangent_ = tangent;
+}
+
+NewtonOutcome PathWalker::correct(PathState &at, const PathState &direction, double min_damping,
+                                  bool factored) {
+    NewtonLimits limits;
+    limits.tolerance = options_.tolerance;
+    limits.max_iterations = std::min<std::int64_t>(options_.max_iterations, 12);
+    limits.min_damping = min_damping;
+    limits.factored = factored;
+    const NewtonOutcome out = newton_across(system_, metric_, direction, limits, at);
+    work += out;
+    return out;
+}
+
+NewtonOutcome PathWalker::correct_at_parameter(PathState &at) {
+    NewtonLimits limits;
+    limits.tolerance = options_.tolerance;
+    limits.max_iterations = options_.max_iterations;
+    limits.parameter_scale = metric_.width;
+    const NewtonOutcome out = newton_at(system_, limits, at.x, at.parameter);
+    work += out;
+    return out;
+}
+
+vector<double> PathWalker::tests() {
+    if (!options_.locate) return {};
+    vector<double> owners;
+    owner_.test(now_.x, now_.parameter, owners);
+    vector<double> all = {tangent_.parameter * metric_.width, branch_test()};
+    all.insert(all.end(), owners.begin(), owners.end());
+    return all;
+}
+
+// sign(det) of the tangent bordered by the path's direction, over the size of its solution for a fixed
+// right-hand side: passes through zero like the smallest singular value.
+double PathWalker::branch_test() {
+    vector<double> a(n_), border(n_);
+    for (std::int64_t i = 0; i < n_; ++i)
+        a[i] = 0.5 + std::fmod(0.754877666 * static_cast<double>(i + 1), 1.0);
+    system_.solve(a.data(), 1);
+    system_.parameter_derivative(border.data());
+    system_.solve(border.data(), 1);
+    const double along =
+        tangent_.parameter * dot(n_, tangent_.x.data(), a.data()) / (metric_.scale * metric_.scale);
+    for (std::int64_t i = 0; i < n_; ++i) a[i] += along * border[i];
+    const double size = norm2(n_, a.data());
+    return size > 0 && std::isfinite(size) ? orientation() / size : 0;
+}
+
+} // namespace plm

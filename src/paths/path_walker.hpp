@@ -1,0 +1,68 @@
+// Where a path is: the present point with the system linearised there, its tangent and its test functions,
+// and how to get from beside the path onto it.
+#pragma once
+#include "paths/newton.hpp"
+#include "paths/path.hpp"
+#include <vector>
+
+namespace plm {
+
+class PathWalker {
+  public:
+    /// Neighbouring tangents farther apart (rad) do not belong to one smooth piece of a path.
+    static constexpr double sharp_angle = 0.6;
+
+    PathWalker(Residual &system, const PathOptions &options, PathOwner &owner);
+
+    const PathState &now() const { return now_; }
+    const PathState &tangent() const { return tangent_; }
+    const Metric &metric() const { return metric_; }
+    double cosine_with_tangent(const PathState &direction) const {
+        return metric_.product(tangent_, direction);
+    }
+    std::int32_t kind(std::size_t test) const { return kinds_[test]; }
+    std::size_t n_tests() const { return kinds_.size(); }
+    bool is_factored() const { return factored_; }
+    NewtonWork work;
+
+    /// Goes to a point without asking whether it is a solution.
+    void move(PathState to) { now_ = std::move(to); }
+    void set_tangent(const PathState &tangent) { tangent_ = tangent; }
+    /// The metric follows the largest response met, so that the flanks cost few points. True: it changed.
+    bool grow_scale(double least = 0);
+    void linearize_here();
+    /// The system is (or is no longer) factored near the present point.
+    void set_factored(bool factored) { factored_ = factored; }
+    /// Factors the system at another point.
+    void linearize_at(const PathState &at);
+    /// Unit tangent from the present factorization; oriented along `previous`, or into the range at the
+    /// start.
+    void make_tangent(const PathState *previous);
+    /// sign(det) of the tangent bordered by the path's direction: along a path it changes at branch points
+    /// only, where the path goes straight on, but not at a corner, however sharp.
+    double orientation() const;
+    /// The tangent on the side with this orientation.
+    void orient(double wanted);
+    void restore(const PathState &at, const PathState &tangent);
+    /// Back to the path in the plane across `direction` through the first guess.
+    NewtonOutcome correct(PathState &at, const PathState &direction, double min_damping, bool factored);
+    NewtonOutcome correct_at_parameter(PathState &at);
+    /// Test functions at the present point: the tangent's share of p (fold), the smallest stretch of the
+    /// bordered tangent (branch point), the owner's. None where nothing is located.
+    vector<double> tests();
+
+  private:
+    double branch_test();
+
+    Residual &system_;
+    const PathOptions &options_;
+    PathOwner &owner_;
+    std::int64_t n_;
+    Metric metric_;
+    PathState now_, tangent_;
+    bool factored_ = false;
+    std::vector<std::int32_t> kinds_; // of the test functions
+    vector<double> scratch_;
+};
+
+} // namespace plm
