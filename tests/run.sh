@@ -57,7 +57,7 @@ choose() {
     [ -n "$fuzz_longer" ] || return 0
     case $1 in
     asan) # the rooms and hosts; the other languages call the same C API
-        for room in linalg paths model sampling reduction transient hbm study capi host; do
+        for room in linalg paths model sampling reduction orbits hbm searches study capi host; do
             programs="$programs tests/$room/all"
             tests="$tests|$room"
         done

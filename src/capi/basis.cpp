@@ -1,8 +1,8 @@
 #include "capi/arguments.hpp"
 #include "capi/barrier.hpp"
 #include "capi/handles.hpp"
-#include "hbm/responses.hpp"
 #include "linalg/scale.hpp"
+#include "searches/responses.hpp"
 
 namespace plm::capi {
 

@@ -7,6 +7,7 @@
 #include "hbm/trig_polynomial.hpp"
 #include "linalg/scale.hpp"
 #include "linalg/work.hpp"
+#include "searches/periodicity.hpp"
 #include <algorithm>
 
 namespace plm::capi {
@@ -171,7 +172,7 @@ plm_status plm_branch_get_periodicity_defect(plm_branch *branch, std::int64_t po
     return call<BranchHandle>("plm_branch_get_periodicity_defect", branch, [&](BranchHandle &b) {
         require_point(*b.core, point);
         require_pointer(defect, "defect");
-        const double found = b.core->periodicity_defect(point);
+        const double found = plm::periodicity_defect(*b.core, point);
         plm::require_finite_result(&found, 1, "defect");
         *defect = found;
         return PLM_OK;

@@ -2,14 +2,14 @@
 // object.
 #pragma once
 #include "capi/context.hpp"
-#include "hbm/hbm.hpp"
-#include "hbm/isolated.hpp"
 #include "model/audit.hpp"
 #include "model/rest.hpp"
+#include "orbits/transient.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/sampler.hpp"
+#include "searches/hbm.hpp"
+#include "searches/isolated.hpp"
 #include "study/study.hpp"
-#include "transient/transient.hpp"
 #include <optional>
 
 namespace plm::capi {

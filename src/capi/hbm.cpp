@@ -3,9 +3,9 @@
 #include "capi/branch_end.hpp"
 #include "capi/branch_input.hpp"
 #include "capi/hbm_input.hpp"
-#include "hbm/error_estimate.hpp"
-#include "hbm/refinement.hpp"
 #include "linalg/scale.hpp"
+#include "searches/error_estimate.hpp"
+#include "searches/refinement.hpp"
 
 namespace plm::capi {
 

@@ -3,9 +3,9 @@
 #include "capi/keys.hpp"
 #include "linalg/dft.hpp"
 #include "linalg/make_factor.hpp"
+#include "orbits/make_transient.hpp"
+#include "orbits/transient.hpp"
 #include "study/study.hpp"
-#include "transient/make_transient.hpp"
-#include "transient/transient.hpp"
 
 #ifndef PLM_VERSION_MAJOR // the build system passes the project's version
 #define PLM_VERSION_MAJOR 0
@@ -97,11 +97,12 @@ plm_status plm_version(std::int32_t *major, std::int32_t *minor, std::int32_t *p
 plm_status plm_build_info(std::int64_t capacity, char *buffer, std::int64_t *needed) {
     return call_free([&] {
         return put_text(
-            format("libplm %d.%d.%d; factorization: %s; eigensolver: ARPACK and Lanczos; Fourier transform: %s; "
-                   "components: model, sampler, basis, hbm%s%s",
-                   PLM_VERSION_MAJOR, PLM_VERSION_MINOR, PLM_VERSION_PATCH, factor_backend().c_str(),
-                   dft_backend().c_str(), transient_is_built() ? ", transient" : "",
-                   study_is_built() ? ", study" : ""),
+            format(
+                "libplm %d.%d.%d; factorization: %s; eigensolver: ARPACK and Lanczos; Fourier transform: %s; "
+                "components: model, sampler, basis, hbm%s%s",
+                PLM_VERSION_MAJOR, PLM_VERSION_MINOR, PLM_VERSION_PATCH, factor_backend().c_str(),
+                dft_backend().c_str(), transient_is_built() ? ", transient" : "",
+                study_is_built() ? ", study" : ""),
             capacity, buffer, needed);
     });
 }

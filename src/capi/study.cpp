@@ -2,7 +2,7 @@
 #include "capi/barrier.hpp"
 #include "capi/keys.hpp"
 #include "capi/study_results.hpp"
-#include "transient/make_transient.hpp"
+#include "orbits/make_transient.hpp"
 
 namespace plm::capi {
 namespace {

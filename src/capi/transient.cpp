@@ -4,7 +4,7 @@
 #include "capi/model_input.hpp"
 #include "capi/transient_results.hpp"
 #include "linalg/scale.hpp"
-#include "transient/make_transient.hpp"
+#include "orbits/make_transient.hpp"
 #include <algorithm>
 
 namespace plm::capi {

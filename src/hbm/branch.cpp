@@ -3,7 +3,6 @@
 #include "hbm/formulation.hpp"
 #include "hbm/trig_polynomial.hpp"
 #include "linalg/scale.hpp"
-#include "transient/shooting.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -178,14 +177,6 @@ vector<double> Branch::field(std::int64_t point, double fraction) const {
 
 Matrix Branch::penetration_coefficients(std::int64_t point) const {
     return whole_penetration_of(*reduced_, points_[point], n_harmonics_).transposed();
-}
-
-double Branch::periodicity_defect(std::int64_t point) const {
-    const BranchPoint &p = points_[point];
-    const auto model = std::make_shared<const FlowModel>(reduced_, p.omega);
-    ExactFlow flow(model, p.omega, p.force_scale);
-    const double response_omega = p.omega / static_cast<double>(period_multiple_);
-    return plm::periodicity_defect(flow, model->state(p.eta_0, p.eta, response_omega, 0.0), period_multiple_);
 }
 
 vector<double> Branch::closed_share(std::int64_t point) const {

@@ -73,10 +73,6 @@ class Branch {
     /// Relative residual of the full-order harmonic-balance equations; see plm_branch_get_full_residual.
     double full_residual(std::int64_t point) const;
 
-    /// The state at the beginning of the period, one period on by the exact flow: periodicity_defect() of the
-    /// transient room.
-    double periodicity_defect(std::int64_t point) const;
-
   private:
     std::shared_ptr<const ReducedModel> reduced_;
     std::int64_t n_harmonics_ = 0;

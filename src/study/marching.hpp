@@ -1,8 +1,8 @@
 // A response curve by marching in time: the steady state at each of some frequencies, from the one before.
 #pragma once
+#include "orbits/transient.hpp"
 #include "study/plane_curve.hpp"
 #include "study/recipe.hpp"
-#include "transient/transient.hpp"
 
 namespace plm {
 

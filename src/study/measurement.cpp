@@ -1,8 +1,8 @@
 #include "study/measurement.hpp"
-#include "hbm/refinement.hpp"
-#include "hbm/responses.hpp"
+#include "orbits/make_transient.hpp"
 #include "sampling/dominant_mode.hpp"
-#include "transient/make_transient.hpp"
+#include "searches/refinement.hpp"
+#include "searches/responses.hpp"
 #include <algorithm>
 #include <chrono>
 
@@ -58,7 +58,8 @@ class Run {
         if (!text.empty()) out_.note += (out_.note.empty() ? "" : "; ") + text;
         NewtonWork work;
         for (const BranchPtr &b : out_.curves) work += b->newton_work;
-        out_.iteration_seconds = work.seconds / static_cast<double>(std::max<std::int64_t>(1, work.iterations));
+        out_.iteration_seconds =
+            work.seconds / static_cast<double>(std::max<std::int64_t>(1, work.iterations));
     }
 
     void build_basis() {

@@ -1,8 +1,8 @@
 // What a study is asked for: the methods, each a way to a response curve.
 #pragma once
+#include "orbits/transient.hpp"
 #include "study/plane_curve.hpp"
 #include "study/recipe.hpp"
-#include "transient/transient.hpp"
 
 namespace plm {
 

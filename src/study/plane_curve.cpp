@@ -1,7 +1,7 @@
 #include "study/plane_curve.hpp"
-#include "hbm/curve.hpp"
 #include "hbm/harmonic_tail.hpp"
 #include "hbm/make_system.hpp"
+#include "searches/curve.hpp"
 #include "study/curve_point.hpp"
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // points. Further points are computed on the curve until the pieces follow it to a tolerance, whatever the
 // steps of the sweep were: chords would be 1e-3 off.
 #pragma once
-#include "hbm/hbm.hpp"
+#include "searches/hbm.hpp"
 #include "study/curve_distance.hpp"
 
 namespace plm {

@@ -1,8 +1,8 @@
 // What a method of a study is made from: the options of sampler, basis and solver, copied, so that everything
 // can be made anew and timed.
 #pragma once
-#include "hbm/hbm.hpp"
 #include "reduction/basis.hpp"
+#include "searches/hbm.hpp"
 #include <optional>
 
 namespace plm {

@@ -1,6 +1,6 @@
 #include "study/reference_check.hpp"
-#include "hbm/curve.hpp"
 #include "hbm/make_system.hpp"
+#include "searches/curve.hpp"
 #include "study/curve_point.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "study/study.hpp"
-#include "hbm/error_estimate.hpp"
 #include "linalg/memory_count.hpp"
+#include "searches/error_estimate.hpp"
 #include "study/measurement.hpp"
 #include "study/pareto.hpp"
 #include "study/reference_check.hpp"

@@ -3,8 +3,8 @@
 // Markdown.
 #include "hbm/make_system.hpp"
 #include "hbm/options.hpp"
-#include "hbm/start.hpp"
 #include "hbm/system.hpp"
+#include "searches/start.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>

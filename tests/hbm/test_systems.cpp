@@ -1,11 +1,11 @@
 // The two forms of the harmonic-balance equations: derivatives, agreement with each other, linear limits.
 #include "hbm/make_system.hpp"
 #include "hbm/modal_factor.hpp"
-#include "hbm/nonlinear_mode.hpp"
 #include "hbm/options.hpp"
-#include "hbm/phase_resonance.hpp"
-#include "hbm/start.hpp"
 #include "hbm/system.hpp"
+#include "searches/nonlinear_mode.hpp"
+#include "searches/phase_resonance.hpp"
+#include "searches/start.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"
 #include <algorithm>

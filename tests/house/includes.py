@@ -9,7 +9,8 @@ import sys
 
 # Each room may include those named, and what those may.
 MAY_INCLUDE = {"linalg": [], "paths": ["linalg"], "model": ["linalg"], "sampling": ["model"], "reduction": ["sampling"],
-               "transient": ["reduction"], "hbm": ["transient", "paths"], "study": ["hbm"], "capi": ["study"]}
+               "orbits": ["reduction"], "hbm": ["reduction", "paths"], "searches": ["hbm", "orbits"], "study": ["searches"],
+               "capi": ["study"]}
 
 
 def below(room):

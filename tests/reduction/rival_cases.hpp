@@ -1,12 +1,12 @@
 // What the tests of the rival bases share: small chains with piecewise-linear springs, bases of given
 // columns, and the resonance on them.
 #pragma once
-#include "hbm/hbm.hpp"
 #include "reduction/basis.hpp"
 #include "reduction/conditioning.hpp"
 #include "reduction/mode_selection.hpp"
 #include "reduction/projection.hpp"
 #include "sampling/small_models.hpp"
+#include "searches/hbm.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"
 #include <algorithm>

@@ -1,15 +1,16 @@
 // Bases of kind "pod": what they keep of the parent (curve, orthonormality, damping, rest under pre-load),
 // their size, and how good eight columns are for the cracked plate.
 #include "capi/handles.hpp"
-#include "hbm/error_estimate.hpp"
-#include "hbm/responses.hpp"
 #include "linalg/lapack.hpp"
+#include "reduction/basis.hpp"
 #include "sampling/small_models.hpp"
+#include "searches/error_estimate.hpp"
+#include "searches/hbm.hpp"
+#include "searches/periodicity.hpp"
+#include "searches/responses.hpp"
 #include "support/test.hpp"
 extern "C" {
 #include "cracked_plate.h"
-#include "hbm/hbm.hpp"
-#include "reduction/basis.hpp"
 #include "scene_model.h"
 }
 #include <algorithm>
@@ -333,7 +334,7 @@ InTime in_time(bool with_preload, DampingKind damping, double tolerance) {
         const BranchPtr point = plm::Hbm(b.reduced(), b.window_min_hz(), b.window_max_hz(), o, plm::Watch())
                                     .solve(hz, nullptr, 0);
         for (const auto &mu : point->points()[0].multipliers) largest[k] = std::max(largest[k], std::abs(mu));
-        defect[k] = point->periodicity_defect(0);
+        defect[k] = plm::periodicity_defect(*point, 0);
     }
     t.multipliers = largest[0] > 0 ? std::abs(largest[1] / largest[0] - 1) : 1;
     t.defect = std::abs(defect[1] - defect[0]);

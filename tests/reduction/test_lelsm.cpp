@@ -1,9 +1,9 @@
 // LELSM (Butcher and Lu 2007) and its updated form with Ritz vectors (AL-Shudeifat and Butcher 2010):
 // what the papers state of them, on chains with piecewise-linear springs.
-#include "hbm/hbm.hpp"
 #include "reduction/lelsm.hpp"
 #include "reduction/updated_lelsm.hpp"
 #include "rival_cases.hpp"
+#include "searches/hbm.hpp"
 
 using namespace rival;
 using plm::BasisKind;

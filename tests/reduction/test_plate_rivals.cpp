@@ -1,15 +1,15 @@
 // Bilinear modes (Saito and Epureanu 2011) and discontinuity vectors (Segalman 2007) on the cracked plate:
 // what the papers state of them.
 #include "capi/handles.hpp"
-#include "hbm/responses.hpp"
 #include "linalg/lapack.hpp"
+#include "reduction/basis.hpp"
 #include "reduction/bilinear_modes.hpp"
 #include "reduction/discontinuity.hpp"
 #include "rival_cases.hpp"
+#include "searches/hbm.hpp"
+#include "searches/responses.hpp"
 extern "C" {
 #include "cracked_plate.h"
-#include "hbm/hbm.hpp"
-#include "reduction/basis.hpp"
 #include "scene_model.h"
 }
 

@@ -1,6 +1,6 @@
 // Curves in the plane of frequency and amplitude: between the points of a sweep they are as exact as at them.
 #include "capi/handles.hpp"
-#include "hbm/hbm.hpp"
+#include "searches/hbm.hpp"
 #include "study/plane_curve.hpp"
 #include "support/test.hpp"
 extern "C" {

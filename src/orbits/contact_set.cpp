@@ -1,0 +1,146 @@
+#include "orbits/contact_set.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+
+namespace {
+
+// Rows and columns [0, n) or, for the last ones, [n, size).
+Matrix square_block(const Matrix &a, std::int64_t first, std::int64_t end) {
+    Matrix b(end - first, end - first);
+    for (std::int64_t j = first; j < end; ++j)
+        for (std::int64_t i = first; i < end; ++i) b(i - first, j - first) = a(i, j);
+    return b;
+}
+
+} // namespace
+
+ContactSet::ContactSet(const FlowModel &model)
+    : model_(model), moving_(model.n_moving()), massive_(model.n_massive()), stiffness_(moving_, moving_) {
+    if (model_.has_diagonal_damping()) {
+        for (std::int64_t j = 0; j < massive_; ++j)
+            damping_bound_ = std::max(damping_bound_, std::abs(model_.damping_diagonal()[j]));
+    } else {
+        damping_bound_ = spectral_bound(square_block(model_.damping(), 0, massive_));
+    }
+}
+
+// |S|_2 <= |S^2|_F^(1/2), at most n^(1/4) too large; scaled, so that nothing overflows.
+double ContactSet::spectral_bound(const Matrix &s) {
+    double largest = 0;
+    for (std::int64_t k = 0; k < s.rows() * s.cols(); ++k) largest = std::max(largest, std::abs(s.data()[k]));
+    if (!(largest > 0)) return 0;
+    square_.reset(s.rows(), s.cols());
+    gemm('T', 'N', 1 / largest, s, s, 0.0, square_);
+    return std::sqrt(largest * norm2(square_.rows() * square_.cols(), square_.data()));
+}
+
+void ContactSet::assign(const vector<char> &closed) {
+    if (assigned_ && closed == closed_) return;
+    closed_ = closed;
+    assigned_ = true;
+    active_.clear();
+    for (std::size_t i = 0; i < closed.size(); ++i)
+        if (closed[i]) active_.push_back(static_cast<std::int64_t>(i));
+    const std::int64_t n_closed = static_cast<std::int64_t>(active_.size());
+    rows_.reset(n_closed, moving_);
+    for (std::int64_t j = 0; j < moving_; ++j)
+        for (std::int64_t row = 0; row < n_closed; ++row) rows_(row, j) = model_.gap()(active_[row], j);
+    stiffness_.reset(moving_, moving_);
+    if (n_closed > 0) add_springs();
+    for (std::int64_t j = 0; j < moving_; ++j) stiffness_(j, j) += model_.lambda()[j];
+    relaxing_ = stiffness_.columns(massive_, moving_ - massive_);
+    find_rate();
+}
+
+// G_A^T S G_A, symmetric to the last bit where S is diagonal.
+void ContactSet::add_springs() {
+    const std::int64_t n_closed = rows_.rows();
+    const vector<double> &k = model_.contact_stiffness();
+    if (model_.flexibility().empty()) {
+        for (std::int64_t j = 0; j < moving_; ++j)
+            for (std::int64_t row = 0; row < n_closed; ++row) rows_(row, j) *= std::sqrt(k[active_[row]]);
+        gemm('T', 'N', 1.0, rows_, rows_, 0.0, stiffness_);
+        return;
+    }
+    Matrix t(n_closed, n_closed);
+    for (std::int64_t j = 0; j < n_closed; ++j)
+        for (std::int64_t i = 0; i < n_closed; ++i)
+            t(i, j) = model_.flexibility()(active_[i], active_[j]) + (i == j ? 1 / k[active_[i]] : 0.0);
+    if (!cholesky_.factor(t))
+        throw Error(PLM_ERR_SINGULAR,
+                    "the flexibility of the closed pairs is not positive definite; look for "
+                    "gap rows of very different size")
+            .reason(PLM_REASON_SINGULAR);
+    Matrix force = rows_;
+    cholesky_.solve(force.data(), moving_, n_closed);
+    gemm('T', 'N', 1.0, rows_, force, 0.0, stiffness_);
+    for (std::int64_t j = 0; j < moving_; ++j)
+        for (std::int64_t i = j + 1; i < moving_; ++i)
+            stiffness_(i, j) = stiffness_(j, i) = 0.5 * (stiffness_(i, j) + stiffness_(j, i));
+}
+
+// What relaxes adds the fastest of its time constants, and what couples it with the rest, which is no faster
+// than both together.
+void ContactSet::find_rate() {
+    if (moving_ == massive_) {
+        rate_ = std::sqrt(spectral_bound(stiffness_)) + damping_bound_;
+        return;
+    }
+    Matrix relaxing = square_block(stiffness_, massive_, moving_);
+    for (std::int64_t j = 0; j < relaxing.cols(); ++j)
+        for (std::int64_t i = 0; i < relaxing.rows(); ++i)
+            relaxing(i, j) /= std::sqrt(own_damping(massive_ + i) * own_damping(massive_ + j));
+    const double oscillating = std::sqrt(spectral_bound(square_block(stiffness_, 0, massive_)));
+    rate_ = 2 * (oscillating + damping_bound_ + spectral_bound(relaxing));
+}
+
+double ContactSet::own_damping(std::int64_t j) const {
+    return model_.has_diagonal_damping() ? model_.damping_diagonal()[j] : model_.damping()(j, j);
+}
+
+void ContactSet::add_contact(Matrix &u, Matrix &force) const {
+    force.reset(u.rows(), u.cols());
+    if (active_.empty()) return;
+    const std::int64_t n = static_cast<std::int64_t>(active_.size());
+    const vector<double> &k = model_.contact_stiffness();
+    if (model_.flexibility().empty()) {
+        for (std::int64_t c = 0; c < u.cols(); ++c)
+            for (std::int64_t i : active_) force(i, c) = k[i] * u(i, c);
+        return;
+    }
+    Matrix closed(n, u.cols());
+    for (std::int64_t c = 0; c < u.cols(); ++c)
+        for (std::int64_t a = 0; a < n; ++a) closed(a, c) = u(active_[a], c);
+    cholesky_.solve(closed.data(), u.cols(), n);
+    for (std::int64_t c = 0; c < u.cols(); ++c)
+        for (std::int64_t a = 0; a < n; ++a) force(active_[a], c) = closed(a, c);
+    gemm('N', 'N', -1.0, model_.flexibility(), force, 1.0, u);
+    for (std::int64_t c = 0; c < u.cols(); ++c)
+        for (std::int64_t i : active_) u(i, c) = force(i, c) / k[i];
+}
+
+// c k y_k = dt (f - K y)_(k-1) - k C y_k of what has mass.
+void ContactSet::relax(std::int64_t k, double dt, const double *before, const double *force,
+                       double *next) const {
+    const double step = dt / static_cast<double>(k);
+    for (std::int64_t j = massive_; j < moving_; ++j) {
+        double f = force ? force[j] : 0.0;
+        f = step * (f - dot(moving_, relaxing_.col(j - massive_), before));
+        if (!model_.has_diagonal_damping()) f -= dot(massive_, model_.damping().col(j), next);
+        next[j] = f / own_damping(j);
+    }
+}
+
+std::int64_t taylor_terms(double x, double tolerance) {
+    double term = 1;
+    for (std::int64_t m = 1; m < 200; ++m) {
+        const double k = static_cast<double>(m);
+        term *= x / k; // x^m / m!
+        if (x < k + 1 && term <= tolerance * (1 - x / (k + 1))) return std::max<std::int64_t>(m, 4);
+    }
+    return 200;
+}
+
+} // namespace plm

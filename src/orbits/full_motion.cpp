@@ -1,0 +1,127 @@
+#include "orbits/full_motion.hpp"
+#include "orbits/flow_model.hpp"
+#include <chrono>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+// Histories of the observed DOFs, and how often a pair has opened or closed.
+class RunObserver final : public NewmarkObserver {
+  public:
+    RunObserver(const Model &model, const FullState &start, const vector<std::int64_t> &observed)
+        : closed_(model.n_pairs()) {
+        for (std::int64_t dof : observed) rows_.push_back(model.free_index(dof));
+        vector<double> u(model.n_pairs());
+        multiply(model.gap_matrix(), start.q.data(), u.data());
+        for (std::size_t i = 0; i < u.size(); ++i)
+            closed_[i] = ContactLaw::closed(u[i] - model.initial_gap()[i]);
+    }
+    void step(const NewmarkStep &step) override {
+        ++n_steps_;
+        for (std::size_t i = 0; i < closed_.size(); ++i) {
+            const char closed = step.force[i] > 0;
+            n_events_ += closed != closed_[i];
+            closed_[i] = closed;
+        }
+        for (std::int64_t row : rows_) values_.push_back(row < 0 ? 0.0 : step.q[row]);
+    }
+    std::int64_t n_events() const { return n_events_; }
+    std::int64_t n_steps() const { return n_steps_; }
+    vector<double> &values() { return values_; }
+
+  private:
+    vector<std::int64_t> rows_;
+    vector<char> closed_;
+    vector<double> values_;
+    std::int64_t n_events_ = 0, n_steps_ = 0;
+};
+
+NewmarkOptions newmark_options(const TransientOptions &o) {
+    NewmarkOptions n;
+    n.force_scale = o.force_scale;
+    n.alpha = o.hht_alpha;
+    n.steps_per_period = o.steps_per_period;
+    n.max_periods = o.periods;
+    n.settled = o.settled;
+    n.period_multiple = o.period_multiple;
+    return n;
+}
+
+} // namespace
+
+NewmarkResult FullMotion::march(const NewmarkOptions &options, double omega, const FullState &start,
+                                NewmarkObserver &observer, Watch watch) const {
+    try {
+        return Newmark(model_, omega, options, watch).run(start, &observer);
+    } catch (const Error &e) { // stopped before the first step
+        if (e.status() != PLM_CANCELLED) throw;
+        NewmarkResult nothing;
+        nothing.state = start;
+        nothing.cancelled = true;
+        return nothing;
+    }
+}
+
+const FullState &FullMotion::present() {
+    if (state_.q.empty()) state_ = rest_state(model_);
+    return state_;
+}
+
+void FullMotion::set_state(const double *q, const double *v) {
+    FullState state{vector<double>(size(), 0.0), vector<double>(size(), 0.0), 0};
+    if (q) model_->restrict_to_free(q, state.q.data());
+    if (v) model_->restrict_to_free(v, state.v.data());
+    state_ = std::move(state);
+    restart_clock();
+}
+
+void FullMotion::start_at(const HarmonicMotion &m) {
+    if (m.reduced->model != model_)
+        throw Error(PLM_ERR_ARGUMENT, "the branch is of another model; take one of this model")
+            .argument("branch");
+    const FlowModel recovery(m.reduced, m.omega);
+    const FlowState state =
+        recovery.state(m.eta_0, m.eta, m.omega / static_cast<double>(m.period_multiple), 0.0);
+    const vector<double> q = recovery.field(state.y), v = recovery.field(state.v);
+    set_state(q.data(), v.data());
+}
+
+void FullMotion::get_state(double *q, double *v) {
+    const FullState &state = present();
+    if (q) model_->expand(state.q.data(), q);
+    if (v) model_->expand(state.v.data(), v);
+}
+
+TransientRun FullMotion::run(const TransientOptions &options, const vector<std::int64_t> &observed,
+                             Watch watch) {
+    const auto begin = std::chrono::steady_clock::now();
+    const double omega = excitation_omega(options), period = 2 * M_PI / omega;
+    FullState start = present();
+    start.time = phase() * period;
+    RunObserver observer(*model_, start, observed);
+    NewmarkResult found = march(newmark_options(options), omega, start, observer, watch);
+    TransientRun run;
+    run.cancelled = found.cancelled, run.settled = found.settled;
+    run.periods = found.periods, run.change = found.change;
+    run.n_events = observer.n_events(), run.contact_iterations = found.contact_iterations;
+    run.observed = observed;
+    run.values = std::move(observer.values());
+    const double interval = period / static_cast<double>(options.steps_per_period);
+    for (std::int64_t k = 1; k <= observer.n_steps() && !observed.empty(); ++k)
+        run.time.push_back(time() + static_cast<double>(k) * interval);
+    const std::int64_t left = observer.n_steps() - found.periods * options.steps_per_period;
+    run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    advance_clock(found.periods, static_cast<double>(left) * interval, period);
+    state_ = std::move(found.state);
+    return run;
+}
+
+PeriodicMotion FullMotion::find_periodic(const TransientOptions &, Watch) {
+    throw Error(PLM_ERR_ARGUMENT,
+                "the periodic motion is found for reduced models only; create the transient "
+                "with a basis, of kind full for the unreduced structure")
+        .argument("transient");
+}
+
+} // namespace plm

@@ -1,0 +1,129 @@
+// From a located branch point or period doubling to the curve that crosses or leaves there: the tangent has a
+// null vector that does not belong to the curve at hand; a small step along it, corrected across it, is a
+// first point of the other one.
+#include "hbm/branch_path.hpp"
+#include "hbm/make_system.hpp"
+#include "searches/curve.hpp"
+#include "searches/hbm.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+// Null vector of the tangent at x by inverse iteration, of Euclidean length 1.
+vector<double> null_vector(HbmSystem &system, const vector<double> &x, double omega) {
+    const std::int64_t n = system.size();
+    vector<double> v(n), r(n);
+    system.residual(x.data(), omega, r.data());
+    system.linearize();
+    for (std::int64_t i = 0; i < n; ++i)
+        v[i] = 0.5 + std::fmod(0.754877666 * static_cast<double>(i + 1), 1.0);
+    for (int k = 0; k < 4; ++k) {
+        system.solve(v.data(), 1);
+        const double size = norm2(n, v.data());
+        if (!(size > 0) || !std::isfinite(size))
+            throw Error(PLM_ERR_CONVERGENCE, "the tangent's null vector was not found at this point")
+                .reason(PLM_REASON_SINGULAR_TANGENT);
+        for (double &c : v) c /= size;
+    }
+    return v;
+}
+
+class Switch {
+  public:
+    Switch(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, const BranchPoint &origin,
+           const BranchPoint &along, bool mirrored)
+        : options_(options), mirrored_(mirrored) {
+        options_.n_harmonics = harmonics_of(origin, options.period_multiple);
+        options_.unknowns = prefers_modal(*reduced, options) ? UnknownSpace::modal : UnknownSpace::gaps;
+        system_ = make_system(std::move(reduced), options_);
+        at_ = {unknowns_of(*system_, origin), origin.omega};
+        const double size = size_of(*system_, at_.x);
+        metric_ = {size > 0 ? size : 1, 2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz)};
+        set_direction(along);
+    }
+
+    // A first point of the other curve and one a little further on.
+    bool find(CurveStart &start) {
+        for (double step : {1e-2, 3e-2, 1e-1, 3e-3, 1e-3}) {
+            if (!corrected(step, start.point)) continue;
+            BranchPoint further;
+            if (!corrected(1.5 * step, further)) continue;
+            start.towards = {further};
+            return true;
+        }
+        return false;
+    }
+
+    const NewtonWork &work() const { return work_; }
+
+  private:
+    // The null vector less its share of the curve at hand, of length 1.
+    void set_direction(const BranchPoint &along) {
+        direction_ = {null_vector(*system_, at_.x, at_.parameter), 0};
+        const PathState tangent = difference({unknowns_of(*system_, along), along.omega}, at_);
+        const double square = metric_.product(tangent, tangent);
+        if (square > 0) add(-metric_.product(tangent, direction_) / square, tangent, direction_);
+        scale_by((mirrored_ ? -1 : 1) / metric_.length(direction_), direction_);
+    }
+
+    bool corrected(double step, BranchPoint &point) {
+        PathState to = at_;
+        add(step, direction_, to);
+        NewtonLimits limits = newton_limits(options_);
+        limits.min_damping = 1e-2;
+        const NewtonOutcome out = newton_across(*system_, metric_, direction_, limits, to);
+        work_ += out;
+        const PathState moved = difference(to, at_);
+        if (!out.converged || std::abs(moved.parameter) > 0.2 * metric_.width) return false;
+        if (metric_.length({moved.x, 0}) > 10 * step) return false; // another solution, far away
+        point = solved_point(*system_, to, out.residual, out.iterations);
+        return true;
+    }
+
+    HbmOptions options_;
+    bool mirrored_;
+    std::unique_ptr<HbmSystem> system_;
+    Metric metric_;
+    PathState at_, direction_;
+    NewtonWork work_;
+};
+
+} // namespace
+
+std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &branch, std::int64_t point,
+                                                 bool mirrored) const {
+    const Clock::time_point begin = Clock::now();
+    if (branch.reduced_model() != reduced_)
+        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("branch");
+    const BranchPoint &origin = branch.points().at(static_cast<std::size_t>(point));
+    if (origin.bifurcation != PLM_BIFURCATION_BRANCH_POINT &&
+        origin.bifurcation != PLM_BIFURCATION_PERIOD_DOUBLING)
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("point %lld is neither a branch point nor a period doubling; see the "
+                           "branch's \"bifurcation\"",
+                           static_cast<long long>(point)))
+            .argument("point")
+            .index(point);
+    const std::int64_t factor = origin.bifurcation == PLM_BIFURCATION_PERIOD_DOUBLING ? 2 : 1;
+    HbmOptions options = options_;
+    options.period_multiple = factor * branch.period_multiple();
+    options.force_scale = origin.force_scale;
+    const std::size_t neighbour = static_cast<std::size_t>(point > 0 ? point - 1 : point + 1);
+    const BranchPoint &along = branch.points().size() > 1 ? branch.points()[neighbour] : origin;
+    Switch other(reduced_, options, on_longer_period(origin, factor), on_longer_period(along, factor),
+                 mirrored);
+    CurveStart start;
+    if (!other.find(start))
+        throw Error(PLM_ERR_CONVERGENCE, "no point of another curve was found beside this one")
+            .argument("point")
+            .reason(PLM_REASON_START_FAILED);
+    auto found = std::make_shared<Branch>(reduced_, options.force_scale, options.period_multiple);
+    found->newton_work = other.work();
+    trace_curve(options, start, watch_, *found);
+    finish(*found, begin);
+    return found;
+}
+
+} // namespace plm

@@ -1,0 +1,124 @@
+#include "searches/curve_verdicts.hpp"
+#include "hbm/trig_polynomial.hpp"
+#include "searches/wider_range.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plm {
+namespace {
+
+// No result of this library is to be wrong by more without a word.
+constexpr double missed = 0.01;
+// A host that goes up from small forces begins within two decades of where contact changes.
+constexpr double far_from_switching = 100;
+
+bool is_inside(const SweepRange &window, const BranchPoint &p) {
+    const double hz = p.omega / (2 * M_PI);
+    return hz > window.min_hz * (1 - 1e-6) && hz < window.max_hz * (1 + 1e-6);
+}
+
+// The point outside the window where the response is largest; -1: all lie inside.
+std::int64_t largest_outside(const SweepRange &window, const Branch &branch) {
+    std::int64_t best = -1;
+    double most = -1;
+    for (std::size_t i = 0; i < branch.points().size(); ++i) {
+        if (is_inside(window, branch.points()[i])) continue;
+        const double size = response_size(branch, static_cast<std::int64_t>(i));
+        if (size > most) most = size, best = static_cast<std::int64_t>(i);
+    }
+    return best;
+}
+
+// A right answer to a question that was hardly meant: away from the resonance that the basis is for, and
+// linear.
+bool is_beside_the_point(const SweepRange &window, const Branch &branch) {
+    for (const BranchPoint &p : branch.points())
+        if (p.n_switching > 0 || is_inside(window, p)) return false;
+    return branch.points().size() > 1 && branch.reduced().n_pairs() > 0;
+}
+
+// How many times as large the motion at a point would have to be for the first pair to switch.
+double factor_to_switching(const Branch &branch, std::int64_t point) {
+    const Matrix u = branch.penetration_coefficients(point);
+    const std::int64_t n = u.rows() / 2;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::int64_t i = 0; i < u.cols(); ++i) {
+        const TrigRange range = trig_range(u.col(i), n);
+        const double half = 0.5 * (range.maximum - range.minimum);
+        if (half > 0) least = std::min(least, std::abs(u(0, i)) / half);
+    }
+    return least;
+}
+
+// Whether what the full residual shows is the basis alone: forces from samples miss by themselves, and of
+// damping by a matrix and by ratios at once it sees the matrix only.
+bool shows_the_basis(const Branch &branch) {
+    const Damping &damping = branch.reduced().model->damping();
+    return !branch.sampled && !branch.is_mode && !(damping.has_matrix && !damping.modal_ratio.empty());
+}
+
+} // namespace
+
+void check_window(const SweepRange &window, Watch watch, Branch &branch) {
+    if (!(window.max_hz > 0) || !branch.reduced().model) return;
+    const std::int64_t worst = largest_outside(window, branch);
+    if (worst < 0) return;
+    const double residual = branch.full_residual(worst);
+    if (residual <= missed && is_beside_the_point(window, branch))
+        watch.keeping(branch.warnings)
+            .warn(
+                PLM_REASON_OUTSIDE_BASIS,
+                format("the whole curve lies outside the %.6g to %.6g Hz that the basis is made for, and no "
+                       "contact pair opens or closes on it. Are the limits in Hz (rad/s over 2 pi)? Sweep "
+                       "over the window, or name the mode that is meant (\"mode\" of the sampler)",
+                       window.min_hz, window.max_hz));
+    if (residual <= missed) return;
+    watch.keeping(branch.warnings)
+        .warn(
+            PLM_REASON_OUTSIDE_BASIS,
+            format(
+                "the basis is made for %.6g to %.6g Hz; at %.6g Hz the response misses the equations of the "
+                "whole structure by %.2g of its size (full residual). Build a basis for these frequencies: "
+                "frequency_min_hz and frequency_max_hz of the basis, or window_min_hz and window_max_hz of "
+                "the sampler",
+                window.min_hz, window.max_hz,
+                branch.points()[static_cast<std::size_t>(worst)].omega / (2 * M_PI), residual));
+}
+
+void check_basis(const SweepRange &window, Watch watch, Branch &branch) {
+    if (!branch.reduced().model || branch.points().empty() || !shows_the_basis(branch)) return;
+    const std::int64_t top = largest_response(branch);
+    const BranchPoint &p = branch.points()[static_cast<std::size_t>(top)];
+    if (window.max_hz > 0 && !is_inside(window, p)) return; // check_window() speaks of that
+    const double residual = branch.full_residual(top);
+    if (residual <= missed) return;
+    watch.keeping(branch.warnings)
+        .warn(PLM_REASON_BASIS_TOO_SMALL,
+              format("the basis (%lld coordinates) is too small: at %.6g Hz the response misses the "
+                     "equations of the whole structure by %.2g of its size (full residual), and amplitudes "
+                     "are in doubt by as much (plm_hbm_estimate_error). %s",
+                     static_cast<long long>(branch.reduced().size()), p.omega / (2 * M_PI), residual,
+                     branch.reduced().all_pairs
+                         ? "Carry more pairs (n_pairs_carried), or raise below_factor of the basis"
+                         : "Raise below_factor or n_harmonics of the basis, or take kind \"full\""));
+}
+
+void check_switching(Watch watch, Branch &branch) {
+    if (branch.reduced().n_pairs() == 0) return;
+    for (const BranchPoint &p : branch.points())
+        if (p.n_switching > 0) return;
+    const std::int64_t top = largest_response(branch);
+    if (!(response_size(branch, top) > 0)) return; // nothing is excited
+    const double factor = factor_to_switching(branch, top);
+    if (factor < far_from_switching) return;
+    watch.keeping(branch.warnings)
+        .warn(
+            PLM_REASON_NO_SWITCHING,
+            format("no contact pair opens or closes on this curve, nor would one unless the motion were %.2g "
+                   "times as large: this is a linear response. Check the units of gaps, pre-load and "
+                   "excitation, and the direction of the pairs",
+                   factor));
+}
+
+} // namespace plm

@@ -1,0 +1,171 @@
+#include "searches/error_estimate.hpp"
+#include "hbm/formulation.hpp"
+#include "hbm/make_system.hpp"
+#include "searches/curve.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plm {
+namespace {
+
+// The unknowns of `to` for a point of `from`: in compliance form they depend on the structure's own
+// stiffness, not on the penetration alone, so both that and the contact forces are carried over.
+Matrix gaps_of(const BranchPoint &p, const ReducedModel &from, const ReducedModel &to, HbmOptions o) {
+    const ContactMotion motion = whole_contact_motion(from, p);
+    const Formulation law = make_formulation(to, o);
+    o.n_harmonics = motion.u.cols() / 2;
+    Matrix x = whole_penetration_of(from, p, o.n_harmonics);
+    if (!law.compliant) return x;
+    ContactIndicator closed;
+    Matrix force(x.rows(), x.cols());
+    make_contact_force(o, x.rows())->indicator(motion.u, closed);
+    apply_indicator(closed, *motion.stiffness, motion.u, force);
+    for (std::int64_t k = 0; k < x.cols(); ++k)
+        for (std::int64_t i = 0; i < x.rows(); ++i) x(i, k) += law.slack[i] * force(i, k);
+    return x;
+}
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double contracts = 0.5;    // second step over first with one tangent: else it does not hold so far
+constexpr double settled = 0.05;     // last step over first, with tangents renewed
+constexpr double negligible = 1e-10; // relative step that asks for no more
+constexpr double diverged = 1.0;     // relative step that has left the neighbourhood of the point
+constexpr int most_steps = 8;
+
+// One point in the gaps of the unreduced structure, corrected step by step across the curve.
+class Correction {
+  public:
+    /// start: in the coordinates of `from`.
+    Correction(std::shared_ptr<const ReducedModel> full, const HbmOptions &options, const BranchPoint &start,
+               const ReducedModel &from)
+        : full_(std::move(full)), system_(make_system(full_, options)), x_(system_->size()),
+          omega_(start.omega), period_multiple_(options.period_multiple) {
+        const Matrix gaps = gaps_of(start, from, *full_, options);
+        const std::int64_t known = std::min(gaps.rows() * gaps.cols(), system_->size());
+        std::copy(gaps.data(), gaps.data() + known, x_.begin());
+    }
+
+    // Newton's step from here; the tangent of the first one is kept. Its length, relative.
+    double step(bool with_new_tangent) {
+        const std::int64_t n = system_->size();
+        vector<double> change(n);
+        system_->residual(x_.data(), omega_, change.data());
+        if (with_new_tangent) {
+            along_.resize(n);
+            system_->parameter_derivative(along_.data());
+            system_->linearize();
+            system_->solve(along_.data(), 1);
+            for (double &v : along_) v = -v;
+        }
+        system_->solve(change.data(), 1);
+        const double scale = norm2(n, x_.data()), per_length = scale > 0 ? 1 / (scale * scale) : 1;
+        // across the tangent (along, 1), lengths measured by the solution and the frequency themselves
+        const double shift = per_length * dot(n, along_.data(), change.data()) /
+                             (per_length * dot(n, along_.data(), along_.data()) + 1 / (omega_ * omega_));
+        double moved = 0;
+        for (std::int64_t i = 0; i < n; ++i) {
+            const double d = shift * along_[i] - change[i];
+            x_[i] += d;
+            moved += per_length * d * d;
+        }
+        const double length = std::hypot(std::sqrt(moved), shift / omega_);
+        omega_ += shift;
+        if (!std::isfinite(omega_) || !std::isfinite(norm2(n, x_.data())))
+            throw Error(PLM_ERR_CONVERGENCE,
+                        "the tangent of the unreduced structure is singular at this point")
+                .argument("point")
+                .reason(PLM_REASON_SINGULAR_TANGENT);
+        return length;
+    }
+
+    // The second step, and more with tangents renewed where the first one's does not hold as far as the first
+    // step (`length`) went. False: they do not contract, the point is worth nothing.
+    bool settle(double length) {
+        double last = length, now = step(false);
+        if (now <= contracts * last + negligible) return true;
+        for (int k = 0; k < most_steps; ++k) {
+            last = now;
+            now = step(true);
+            if (!(now < diverged)) return false;
+            if (now <= settled * length + negligible) return true;
+        }
+        return false;
+    }
+
+    double amplitude(std::int64_t dof, Measure measure, std::int64_t harmonic) {
+        Branch alone(full_, 0.0, period_multiple_);
+        alone.append(point());
+        return alone.amplitude(0, dof, measure, harmonic);
+    }
+    BranchPoint point() {
+        BranchPoint p;
+        system_->to_point(x_.data(), omega_, p);
+        return p;
+    }
+    double frequency_hz() const { return omega_ / (2 * M_PI); }
+
+  private:
+    std::shared_ptr<const ReducedModel> full_;
+    std::unique_ptr<HbmSystem> system_;
+    vector<double> x_, along_;
+    double omega_;
+    std::int64_t period_multiple_;
+};
+
+std::int64_t finer(std::int64_t harmonics) {
+    return 2 * harmonics + 2;
+}
+
+} // namespace
+
+ErrorEstimator::ErrorEstimator(std::shared_ptr<const ReducedModel> full, const Branch &branch,
+                               const HbmOptions &options)
+    : branch_(branch), full_(std::move(full)), options_(options) {
+    options_.unknowns = UnknownSpace::gaps;
+    options_.period_multiple = branch.period_multiple();
+    if (full_->n_pairs() == 0)
+        throw Error(PLM_ERR_STATE, "errors are estimated in the contact gaps: the model needs contact pairs");
+}
+
+ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Measure measure,
+                                       std::int64_t harmonic, bool with_harmonics) const {
+    const BranchPoint &p = branch_.points().at(static_cast<std::size_t>(point));
+    if (p.force_scale == 0 && norm2(p.eta.rows() * p.eta.cols(), p.eta.data()) > 0)
+        throw Error(PLM_ERR_ARGUMENT,
+                    "the point is a motion without excitation, whose error is not estimated")
+            .argument("point")
+            .index(point);
+    HbmOptions o = options_at(p, branch_.period_multiple(), options_);
+    ErrorEstimate e;
+    double amplitude = branch_.amplitude(point, dof, measure, harmonic), hz = p.omega / (2 * M_PI);
+    const auto settle = [&](Correction &c, double ErrorParts::*part) {
+        const double a = c.amplitude(dof, measure, harmonic), f = c.frequency_hz();
+        e.amplitude.*part = a - amplitude;
+        e.frequency_hz.*part = f - hz;
+        amplitude = a, hz = f;
+    };
+    Correction c(full_, o, p, *branch_.reduced_model());
+    const double length = c.step(true);
+    settle(c, &ErrorParts::basis);
+    e.known = c.settle(length);
+    settle(c, &ErrorParts::contact);
+    if (e.known && with_harmonics) {
+        o.n_harmonics = finer(o.n_harmonics);
+        Correction more(full_, o, c.point(), *full_);
+        const double further = more.step(true);
+        settle(more, &ErrorParts::harmonics);
+        if (!more.settle(further)) e.amplitude.harmonics = e.frequency_hz.harmonics = unknown;
+    }
+    if (!e.known) e.amplitude = e.frequency_hz = {unknown, unknown, unknown};
+    return e;
+}
+
+BranchPoint ErrorEstimator::corrected(std::int64_t point) const {
+    const BranchPoint &p = branch_.points().at(static_cast<std::size_t>(point));
+    Correction c(full_, options_at(p, branch_.period_multiple(), options_), p, *branch_.reduced_model());
+    const BranchPoint as_computed = c.point();
+    return c.settle(c.step(true)) ? c.point() : as_computed;
+}
+
+} // namespace plm

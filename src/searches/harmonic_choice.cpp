@@ -1,0 +1,261 @@
+#include "searches/harmonic_choice.hpp"
+#include "hbm/make_system.hpp"
+#include "searches/start.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+constexpr std::int64_t first_harmonics = 5;
+
+// Allowed share of the next harmonics in the motion of the gaps, as a multiple of harmonic_tolerance: local
+// motions of the surfaces that hardly act back on the structure may be left coarse, but not unresolved.
+constexpr double tail_allowance = 20;
+
+bool loaded(const HarmonicLoad &load) {
+    const auto acts = [](double f) { return f != 0; };
+    return std::any_of(load.real.begin(), load.real.end(), acts) ||
+           std::any_of(load.imag.begin(), load.imag.end(), acts);
+}
+
+void require_excitation(const ReducedModel &m, const HbmOptions &o) {
+    const bool automatic = o.n_harmonics == 0;
+    const std::int64_t most = automatic ? o.max_harmonics : o.n_harmonics, needed = highest_excitation(m);
+    if (needed <= most) return;
+    const char *name = automatic ? "max_harmonics" : "n_harmonics";
+    throw Error(
+        PLM_ERR_ARGUMENT,
+        format("the excitation has a harmonic %lld, which %s = %lld would leave out; set %s to %lld or "
+               "more, or take that load out of the excitation",
+               static_cast<long long>(needed), name, static_cast<long long>(most), name,
+               static_cast<long long>(needed)))
+        .argument(name);
+}
+
+} // namespace
+
+std::int64_t highest_excitation(const ReducedModel &m) {
+    int highest = 1;
+    for (const auto &[harmonic, load] : m.excitation)
+        if (loaded(load)) highest = std::max(highest, harmonic);
+    return highest;
+}
+
+std::int64_t few_harmonics(const ReducedModel &reduced) {
+    return std::max(first_harmonics, highest_excitation(reduced));
+}
+
+HbmOptions with_first_harmonics(const ReducedModel &reduced, const HbmOptions &options) {
+    require_excitation(reduced, options);
+    HbmOptions first = options;
+    if (first.n_harmonics == 0) first.n_harmonics = std::min(options.max_harmonics, few_harmonics(reduced));
+    return first;
+}
+
+std::int64_t next_harmonics(const HbmOptions &limits, std::int64_t fewest, std::int64_t now,
+                            const HarmonicContent &content, double error) {
+    const std::int64_t most = std::max(limits.max_harmonics, now);
+    const double over = std::max(error, content.tail / tail_allowance) / limits.harmonic_tolerance;
+    if (over > 30) return std::min(most, 2 * now);
+    if (over > 1) return std::min(most, std::max(now + 2, (7 * now + 4) / 5));
+    // without the upper two fifths the tail would grow from `tail` to `tail + top`, and its effect with it
+    const double grows = content.tail > 0 ? 1 + content.top / content.tail : 1;
+    if (over * grows < 0.3 && content.tail + content.top < 0.3 * tail_allowance * limits.harmonic_tolerance)
+        return std::max(fewest, now - (2 * now) / 5);
+    return now;
+}
+
+std::int64_t harmonics_of(const BranchPoint &point, std::int64_t period_multiple) {
+    return std::max<std::int64_t>(1, point.n_harmonics / period_multiple);
+}
+
+HbmOptions options_at(const BranchPoint &point, std::int64_t period_multiple, const HbmOptions &options) {
+    HbmOptions o = options;
+    o.period_multiple = period_multiple;
+    o.n_harmonics = harmonics_of(point, period_multiple);
+    o.force_scale = point.force_scale;
+    if (!point.contact_stiffness) {
+        o.formulation = FormulationKind::penalty;
+        return o;
+    }
+    if (o.formulation == FormulationKind::penalty) o.formulation = FormulationKind::automatic;
+    if (o.unknowns == UnknownSpace::modal)
+        o.unknowns = UnknownSpace::gaps; // all that the compliance form has
+    return o;
+}
+
+MeasuredHarmonics measure_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                                    BranchPoint &point) {
+    const auto system = make_system(reduced, options_at(point, options.period_multiple, options));
+    vector<double> x(system->size()), residual(system->size());
+    system->from_point(point, x.data());
+    system->residual(x.data(), point.omega, residual.data());
+    system->linearize();
+    MeasuredHarmonics out;
+    out.content = harmonic_content(*reduced, point, options.period_multiple);
+    out.change = harmonic_change(*reduced, point, options.period_multiple, out.content, *system, x.data());
+    point.harmonic_tail = out.content.tail;
+    point.harmonic_error = harmonic_error(*reduced, point, out.change);
+    return out;
+}
+
+// --- more harmonics at one frequency
+
+namespace {
+
+// The point with options.n_harmonics harmonics: from itself (warm), or by all means of a first solution.
+bool solved_with(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, bool warm,
+                 Watch watch, BranchPoint &point) {
+    const auto system = make_system(reduced, options);
+    vector<double> x(system->size());
+    system->from_point(point, x.data());
+    const StartOutcome out = warm ? correct_at(*system, options, point.omega, watch, x)
+                                  : find_start(*system, *reduced, options, point.omega, false, watch, x);
+    if (!out.converged) return false;
+    point.iterations += out.iterations;
+    point.residual = out.residual;
+    system->to_point(x.data(), point.omega, point);
+    point.n_switching = system->indicator().n_switching;
+    return true;
+}
+
+} // namespace
+
+bool climb_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                     std::int64_t wanted, BranchPoint &point, Watch watch) {
+    HbmOptions now = options;
+    std::int64_t reached = harmonics_of(point, options.period_multiple),
+                 stride = std::max<std::int64_t>(1, reached);
+    for (int failures = 0; reached < wanted && failures < 5;) {
+        now.n_harmonics = std::min(wanted, reached + stride);
+        if (solved_with(reduced, now, true, watch, point)) {
+            reached = now.n_harmonics;
+            stride = std::max(stride, reached / 2);
+        } else {
+            ++failures;
+            stride = std::max<std::int64_t>(1, stride / 3);
+        }
+    }
+    return reached >= wanted;
+}
+
+namespace {
+
+// Of the points found on the way to more harmonics the first one whose error is not much larger than the
+// least: where the tolerance cannot be reached (hard impacts, a basis that carries no high harmonics), many
+// harmonics cost time and may be further from the solution than few.
+const BranchPoint &most_useful(const std::vector<BranchPoint> &tried) {
+    const auto less = [](const BranchPoint &a, const BranchPoint &b) {
+        return a.harmonic_error < b.harmonic_error;
+    };
+    const double least = std::min_element(tried.begin(), tried.end(), less)->harmonic_error;
+    return *std::find_if(tried.begin(), tried.end(),
+                         [&](const BranchPoint &p) { return p.harmonic_error <= 2 * least; });
+}
+
+} // namespace
+
+void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                      BranchPoint &point, Watch watch) {
+    HbmOptions now = options;
+    std::vector<BranchPoint> tried;
+    for (;;) {
+        now.n_harmonics = harmonics_of(point, options.period_multiple);
+        const MeasuredHarmonics measured = measure_harmonics(reduced, now, point);
+        std::int64_t more = now.n_harmonics;
+        if (options.n_harmonics == 0)
+            more = next_harmonics(options, more, more, measured.content, point.harmonic_error);
+        tried.push_back(point);
+        if (more <= now.n_harmonics) break;
+        climb_harmonics(reduced, options, more, point, watch);
+        if (harmonics_of(point, options.period_multiple) > now.n_harmonics) continue;
+        // nothing near: where the point says little anyhow, from the beginning
+        now.n_harmonics = more;
+        if (point.harmonic_error < worthless_error || !solved_with(reduced, now, false, watch, point)) break;
+    }
+    if (options.n_harmonics == 0 && !(point.harmonic_error <= options.harmonic_tolerance))
+        point = most_useful(tried);
+    if (options.tail_correction)
+        point.eta.append(harmonic_content(*reduced, point, options.period_multiple).tail_response);
+}
+
+// --- what is said
+
+namespace {
+
+// ", where DOF 12 moves most (1.2e-3)": what an engineer looks the point up by.
+std::string most_moved(const Branch &branch, const BranchPoint &p) {
+    const ReducedModel &m = branch.reduced();
+    if (!m.model || p.eta.cols() < 2) return {};
+    const Matrix q = product('N', 'N', m.vectors, p.eta.columns(0, 2));
+    double most = 0;
+    std::int64_t row = 0;
+    for (std::int64_t i = 0; i < q.rows(); ++i) {
+        const double size = std::hypot(q(i, 0), q(i, 1));
+        if (size > most) most = size, row = i;
+    }
+    return format(", where DOF %lld moves most, by %.4g",
+                  static_cast<long long>(m.model->free_dof()[static_cast<std::size_t>(row)]), most);
+}
+
+std::string remedy(const HbmOptions &o, const BranchPoint &p) {
+    const char *others =
+        "make the basis for more harmonics (n_harmonics of sampler and basis) or the contact "
+        "softer, and compare with the exact motion (plm_transient_find_periodic)";
+    if (harmonics_of(p, o.period_multiple) >= o.max_harmonics)
+        return format("raise max_harmonics (%lld) or, if that is accurate enough, harmonic_tolerance; "
+                      "otherwise ",
+                      static_cast<long long>(o.max_harmonics)) +
+               others;
+    return std::string("more harmonics lead to no solution near it, or to none that is better; ") + others;
+}
+
+void warn(const HbmOptions &o, std::int64_t over, std::int64_t worst, double error, Branch &branch) {
+    const auto &points = branch.points();
+    const BranchPoint &p = points[static_cast<std::size_t>(worst)];
+    branch.warnings.add(
+        PLM_REASON_HARMONICS_TOO_FEW,
+        format("harmonic_tolerance (%.2g) was not reached at %lld of %lld points; the largest error is "
+               "estimated as %.2g at point %lld (%.6g Hz, %lld harmonics%s): %s",
+               o.harmonic_tolerance, static_cast<long long>(over), static_cast<long long>(points.size()),
+               error, static_cast<long long>(worst), p.omega / (2 * M_PI),
+               static_cast<long long>(p.n_harmonics), most_moved(branch, p).c_str(), remedy(o, p).c_str()));
+}
+
+} // namespace
+
+void warn_of_harmonics(const HbmOptions &options, Branch &branch) {
+    if (options.n_harmonics != 0) return;
+    const auto &points = branch.points();
+    std::int64_t over = 0, worst = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i].harmonic_error > points[static_cast<std::size_t>(worst)].harmonic_error)
+            worst = static_cast<std::int64_t>(i);
+        over += points[i].harmonic_error > options.harmonic_tolerance;
+    }
+    if (over > 0) warn(options, over, worst, points[static_cast<std::size_t>(worst)].harmonic_error, branch);
+}
+
+void warn_of_harmonics(const HbmOptions &options, double error, Branch &branch) {
+    if (options.n_harmonics == 0 && error > options.harmonic_tolerance) warn(options, 1, 0, error, branch);
+}
+
+void warn_of_given_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                             std::int64_t dof, Measure measure, std::int64_t harmonic, Branch &one) {
+    // whoever gives a number has a reason; what is far off is none
+    constexpr double far_off = 0.1;
+    BranchPoint point = one.points()[0];
+    const MeasuredHarmonics next =
+        measure_harmonics(reduced, options_at(point, one.period_multiple(), options), point);
+    const double error = harmonic_error_at(*reduced, point, next.change, dof, measure, harmonic);
+    if (error < far_off) return;
+    one.warnings.add(
+        PLM_REASON_HARMONICS_TOO_FEW,
+        format("n_harmonics = %lld is too few for this peak: the next harmonics would change it by %s. Raise "
+               "n_harmonics, or set it to 0, and each point gets as many as it needs",
+               static_cast<long long>(harmonics_of(point, one.period_multiple())),
+               error < 1 ? format("about %.2g of itself", error).c_str() : "more than itself"));
+}
+
+} // namespace plm

@@ -1,0 +1,179 @@
+#include "searches/hbm.hpp"
+#include "hbm/branch_path.hpp"
+#include "hbm/free_motion.hpp"
+#include "hbm/make_system.hpp"
+#include "linalg/scale.hpp"
+#include "searches/curve.hpp"
+#include "searches/curve_verdicts.hpp"
+#include "searches/follow.hpp"
+#include "searches/stability.hpp"
+#include "searches/start.hpp"
+#include "searches/wider_range.hpp"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+void check(const HbmOptions &o) {
+    const auto refuse = [](const char *name, const std::string &text) {
+        throw Error(PLM_ERR_ARGUMENT, text).argument(name);
+    };
+    if (o.n_harmonics < 0) refuse("n_harmonics", "n_harmonics must be positive, or 0 for automatic");
+    if (o.unknowns == UnknownSpace::modal && o.formulation == FormulationKind::compliance)
+        refuse("formulation",
+               "the compliance formulation has the contact gaps as unknowns; set unknowns to gaps or auto");
+    if (o.period_multiple < 1) refuse("period_multiple", "period_multiple must be at least 1");
+    if (!(o.frequency_min_hz > 0 && o.frequency_max_hz > o.frequency_min_hz))
+        refuse("frequency_min_hz",
+               format("the frequency range [%g, %g] Hz is empty or not positive; set "
+                      "frequency_min_hz < frequency_max_hz, or use a basis that has a window",
+                      o.frequency_min_hz, o.frequency_max_hz));
+    if (!(o.min_step > 0 && o.max_step > o.min_step))
+        refuse("min_step", "steps need 0 < min_step < max_step");
+}
+
+} // namespace
+
+Hbm::Hbm(std::shared_ptr<const ReducedModel> reduced, const SweepRange &window, const HbmOptions &options,
+         Watch watch)
+    : reduced_(std::move(reduced)), options_(options), window_(window), watch_(watch) {
+    const bool fixed_min = options_.frequency_min_hz > 0, fixed_max = options_.frequency_max_hz > 0;
+    if (!fixed_min) options_.frequency_min_hz = window.min_hz;
+    if (!fixed_max) options_.frequency_max_hz = window.max_hz;
+    reach_ = {options_.frequency_min_hz, options_.frequency_max_hz,
+              fixed_min ? options_.frequency_min_hz : window.least_hz,
+              fixed_max ? options_.frequency_max_hz : window.most_hz};
+    check(options_);
+}
+
+Hbm::~Hbm() = default;
+
+std::shared_ptr<Branch> Hbm::new_branch() const {
+    return std::make_shared<Branch>(reduced_, options_.force_scale, options_.period_multiple);
+}
+
+void Hbm::finish(Branch &branch, Clock::time_point begin) const {
+    branch.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    watch_.log(1, format("%zu points, %lld Newton iterations, %lld factorizations, %lld failed steps, %.3g s",
+                         branch.points().size(), static_cast<long long>(branch.newton_work.iterations),
+                         static_cast<long long>(branch.newton_work.factorizations),
+                         static_cast<long long>(branch.failed_steps), branch.seconds));
+}
+
+bool Hbm::solve_with(const HbmOptions &options, double omega, const BranchPoint *guess, Branch &branch,
+                     BranchPoint &point) const {
+    const auto system = make_system(reduced_, options);
+    vector<double> x(system->size(), 0.0);
+    StartOutcome out;
+    if (guess) {
+        x = unknowns_of(*system, *guess);
+        out = follow_to(*system, options, guess->omega, omega, watch_, x);
+    }
+    if (!out.converged) {
+        const vector<double> guessed = x;
+        out.add(find_start(*system, *reduced_, options, omega, guess != nullptr, watch_, x));
+        if (guess && out.converged) warn_of_other_branch(*system, guessed, x, *guess, omega, branch);
+    }
+    branch.newton_work += out;
+    if (!out.converged) return false;
+    point = solved_point(*system, {x, omega}, out.residual, out.iterations);
+    return true;
+}
+
+bool Hbm::solve_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const {
+    HbmOptions wanted = with_first_harmonics(*reduced_, options_);
+    if (guess && options_.n_harmonics == 0) // a start with its harmonics cut would be another motion
+        wanted.n_harmonics =
+            std::min(options_.max_harmonics,
+                     std::max(wanted.n_harmonics, harmonics_of(*guess, options_.period_multiple)));
+    HbmOptions few = options_;
+    few.n_harmonics = std::min(wanted.n_harmonics, few_harmonics(*reduced_));
+    const bool climbs = !guess && wanted.n_harmonics > 2 * few.n_harmonics;
+    bool found = climbs && solve_with(few, omega, nullptr, branch, point) &&
+                 climb_harmonics(reduced_, options_, wanted.n_harmonics, point, watch_);
+    found = found || solve_with(wanted, omega, guess, branch, point);
+    if (found) settle_harmonics(reduced_, options_, point, watch_);
+    return found;
+}
+
+std::shared_ptr<const Branch> Hbm::sweep() const {
+    const Clock::time_point begin = Clock::now();
+    const auto branch = new_branch();
+    const double low = 2 * M_PI * options_.frequency_min_hz, high = 2 * M_PI * options_.frequency_max_hz;
+    const double from = options_.upward ? low : high, into = options_.upward ? high - low : low - high;
+    // A start inside a super-harmonic region may fail, or find no solution that more harmonics confirm: the
+    // range is entered a little further on then, if that is better.
+    CurveStart start;
+    bool found = false;
+    for (int attempt = 0; attempt < 5; ++attempt) {
+        watch_.step("sweep", 0.0);
+        BranchPoint point;
+        if (!solve_at(from + 0.02 * attempt * into, nullptr, *branch, point)) continue;
+        if (!found || point.harmonic_error < start.point.harmonic_error) start.point = point;
+        found = true;
+        if (options_.n_harmonics != 0 || start.point.harmonic_error < worthless_error) break;
+    }
+    if (!found)
+        throw Error(
+            PLM_ERR_CONVERGENCE,
+            format("no periodic response was found at the start of the sweep (%.6g Hz and four neighbours); "
+                   "start from the other end (direction) or with a smaller force_scale%s",
+                   from / (2 * M_PI), drift_hint(*reduced_).c_str()))
+            .reason(PLM_REASON_START_FAILED);
+    trace_curve(options_, start, watch_, *branch);
+    bring_peak_inside(options_, reach_, watch_, *branch);
+    check_window(window_, watch_, *branch);
+    check_basis(window_, watch_, *branch);
+    check_switching(watch_, *branch);
+    finish(*branch, begin);
+    return branch;
+}
+
+BranchPoint Hbm::first_guess(const Branch &start, std::int64_t point) const {
+    if (start.reduced_model() != reduced_)
+        throw Error(PLM_ERR_ARGUMENT, "the start belongs to another basis").argument("start");
+    const std::int64_t multiple = options_.period_multiple / start.period_multiple();
+    if (multiple * start.period_multiple() != options_.period_multiple)
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("the start repeats after %lld excitation periods, which period_multiple = %lld is "
+                           "not a multiple of",
+                           static_cast<long long>(start.period_multiple()),
+                           static_cast<long long>(options_.period_multiple)))
+            .argument("start");
+    return on_longer_period(start.points().at(static_cast<std::size_t>(point)), multiple);
+}
+
+std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *start, std::int64_t point) const {
+    const Clock::time_point begin = Clock::now();
+    if (!(frequency_hz >= smallest_scale && frequency_hz <= largest_scale))
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("frequency_hz is %g; it must be positive, and squares must neither vanish nor "
+                           "overflow (%g to %g)",
+                           frequency_hz, smallest_scale, largest_scale))
+            .argument("frequency_hz");
+    const auto branch = new_branch();
+    BranchPoint guess, result;
+    if (start) guess = first_guess(*start, point);
+    if (!solve_at(2 * M_PI * frequency_hz, start ? &guess : nullptr, *branch, result))
+        throw Error(PLM_ERR_CONVERGENCE,
+                    format("no periodic response was found at %.6g Hz; give a neighbouring point "
+                           "as start or use a sweep%s",
+                           frequency_hz, drift_hint(*reduced_).c_str()))
+            .argument("frequency_hz")
+            .reason(PLM_REASON_START_FAILED);
+    Stability stability(reduced_, options_);
+    if (stability.wanted()) result.multipliers = stability.multipliers(result);
+    if (stability.wanted() && result.multipliers.empty())
+        branch->warnings.add(PLM_REASON_UNVERIFIED, stability.unknown_text(1, 1));
+    branch->append(std::move(result));
+    warn_of_harmonics(options_, *branch);
+    branch->end_reason = PLM_REASON_RANGE_END;
+    branch->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
+    check_window(window_, watch_, *branch);
+    finish(*branch, begin);
+    return branch;
+}
+
+} // namespace plm

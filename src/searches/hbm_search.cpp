@@ -1,0 +1,81 @@
+// The searches of Hbm: checks, and the options they run with.
+#include "searches/curve.hpp"
+#include "searches/fold_tracking.hpp"
+#include "searches/hbm.hpp"
+#include "searches/isolated.hpp"
+#include "searches/marching_search.hpp"
+#include "searches/nonlinear_mode.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+
+IsolatedSearch Hbm::find_isolated(const Branch &main, double force_max) const {
+    if (main.reduced_model() != reduced_)
+        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("main_branch");
+    HbmOptions options = options_;
+    options.period_multiple = main.period_multiple();
+    // the curve may have gone on past the window to its peak
+    for (const BranchPoint &p : main.points()) {
+        options.frequency_min_hz = std::min(options.frequency_min_hz, p.omega / (2 * M_PI));
+        options.frequency_max_hz = std::max(options.frequency_max_hz, p.omega / (2 * M_PI));
+    }
+    return plm::find_isolated(reduced_, options, main, force_max, watch_);
+}
+
+std::vector<Backbone> Hbm::find_backbones(double force_max) const {
+    BackboneOptions options;
+    options.hbm = with_first_harmonics(*reduced_, options_);
+    options.force_max = force_max;
+    return PhaseResonance(reduced_, options, watch_).backbones();
+}
+
+std::shared_ptr<const Branch> Hbm::track_fold(const Branch &branch, std::int64_t point, double force_min,
+                                              double force_max) const {
+    const BranchPoint &fold = branch.points().at(static_cast<std::size_t>(point));
+    if (branch.reduced_model() != reduced_)
+        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("branch");
+    if (fold.bifurcation != PLM_BIFURCATION_FOLD)
+        throw Error(PLM_ERR_ARGUMENT, format("point %lld is no fold; see the branch's \"bifurcation\"",
+                                             static_cast<long long>(point)))
+            .argument("point")
+            .index(point);
+    if (!(fold.force_scale >= force_min && fold.force_scale <= force_max))
+        throw Error(PLM_ERR_ARGUMENT, format("the fold's force scale %g is outside the range [%g, %g]",
+                                             fold.force_scale, force_min, force_max))
+            .argument(fold.force_scale < force_min ? "force_min" : "force_max");
+    FoldOptions options;
+    options.hbm = options_;
+    options.hbm.period_multiple = branch.period_multiple();
+    options.force_min = force_min;
+    options.force_max = force_max;
+    const auto folds = follow_folds_both_ways(reduced_, options, fold, watch_);
+    if (!folds)
+        throw Error(PLM_ERR_CONVERGENCE, "the fold could not be corrected at its own force")
+            .argument("point")
+            .reason(PLM_REASON_START_FAILED);
+    return folds;
+}
+
+std::vector<std::shared_ptr<Branch>>
+Hbm::find_by_marching(const std::vector<std::shared_ptr<const Branch>> &known, std::int64_t n_frequencies,
+                      std::int64_t n_states) const {
+    MarchingOptions options;
+    options.hbm = options_;
+    options.n_frequencies = n_frequencies;
+    options.scales = {0};
+    for (std::int64_t i = 0; i < n_states; ++i) options.scales.push_back(std::exp2(static_cast<double>(i)));
+    return search_by_marching(reduced_, options, known, watch_).branches;
+}
+
+std::shared_ptr<const Branch> Hbm::find_nonlinear_mode(std::int64_t mode, std::int64_t dof,
+                                                       double amplitude_max) const {
+    NonlinearModeOptions options;
+    options.hbm = options_;
+    options.mode = mode;
+    options.dof = dof;
+    options.dof_amplitude_max = amplitude_max;
+    return follow_nonlinear_mode(reduced_, options, watch_).branch;
+}
+
+} // namespace plm

@@ -1,0 +1,250 @@
+#include "searches/isolated.hpp"
+#include "hbm/branch_path.hpp"
+#include "searches/curve.hpp"
+#include "searches/fold_tracking.hpp"
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+constexpr double same_resonance = 1e-5;      // relative distance of phase-resonant points
+constexpr std::int64_t largest_system = 400; // unknowns of the backbone when harmonics are chosen by point
+constexpr double weakest_resonance = 0.05;   // of the main branch, against its largest response
+
+// A crossing of the backbone with the force, and the extrema of the force (points of the backbone) between it
+// and its neighbours: a loop exists from the minimum above its lower crossing to the maximum below it.
+struct Seed {
+    BranchPoint point;
+    std::shared_ptr<const Branch> backbone;
+    std::ptrdiff_t minimum = -1, maximum = -1;
+    double reach = 0; // relative distance to the next crossing: the size of the loop
+};
+
+class Search {
+  public:
+    Search(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, const Branch &main,
+           double force_max, Watch watch)
+        : reduced_(std::move(reduced)), options_(options), main_(main), watch_(watch),
+          force_max_(force_max > 0 ? force_max : 8 * options.force_scale),
+          resonance_(reduced_, backbone_options(), watch) {}
+
+    IsolatedSearch run() {
+        const auto begin = std::chrono::steady_clock::now();
+        if (!(options_.force_scale > 0)) return std::move(out_); // nothing moves
+        known_ = resonance_.on_curve(main_);
+        out_.backbones = resonance_.backbones();
+        add_backbones_of_main();
+        std::vector<Seed> seeds;
+        for (const Backbone &backbone : out_.backbones) collect(backbone, seeds);
+        // from the largest response down: the top of a loop is its safest entry
+        std::sort(seeds.begin(), seeds.end(),
+                  [this](const Seed &a, const Seed &b) { return size_of(a.point) > size_of(b.point); });
+        for (const Seed &seed : seeds)
+            if (!is_known(seed.point)) trace(seed);
+        out_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        return std::move(out_);
+    }
+
+  private:
+    BackboneOptions backbone_options() const {
+        BackboneOptions o;
+        o.hbm = options_;
+        o.force_max = force_max_;
+        const std::int64_t first = with_first_harmonics(*reduced_, options_).n_harmonics;
+        if (options_.n_harmonics > 0) return o;
+        const std::int64_t room = largest_system / (2 * std::max<std::int64_t>(1, reduced_->size()));
+        std::int64_t most = 0;
+        for (const BranchPoint &p : main_.points())
+            most = std::max(most, p.n_harmonics / options_.period_multiple);
+        o.hbm.n_harmonics = std::max(first, std::min(room, most));
+        return o;
+    }
+
+    double size_of(const BranchPoint &p) const { return norm2(p.eta.rows() * p.eta.cols(), p.eta.data()); }
+
+    bool is_known(const BranchPoint &p) const {
+        return std::any_of(known_.begin(), known_.end(),
+                           [&](const BranchPoint &k) { return solution_distance(k, p) < same_resonance; });
+    }
+
+    // Resonances of the main branch that no backbone from rest has met.
+    void add_backbones_of_main() {
+        double largest = 0;
+        for (const BranchPoint &p : main_.points()) largest = std::max(largest, size_of(p));
+        for (const BranchPoint &p : known_) {
+            if (size_of(p) < weakest_resonance * largest || met(p)) continue;
+            out_.backbones.push_back(resonance_.through(p));
+        }
+    }
+
+    bool met(const BranchPoint &p) const {
+        for (const Backbone &b : out_.backbones)
+            for (std::size_t i : b.crossings)
+                if (solution_distance(b.branch->points()[i], p) < 1e-3) return true;
+        return false;
+    }
+
+    void collect(const Backbone &backbone, std::vector<Seed> &seeds) const {
+        const auto &points = backbone.branch->points();
+        const auto &at = backbone.crossings;
+        std::ptrdiff_t minimum = -1, maximum = -1;
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            if (k > 0) {
+                const std::ptrdiff_t i = extremum(points, at[k - 1], at[k]);
+                const bool over = i >= 0 && points[i].force_scale > options_.force_scale;
+                (over ? maximum : minimum) = i;
+                if (over && k + 1 < at.size()) minimum = extremum(points, at[k], at[k + 1]);
+            }
+            Seed seed{points[at[k]], backbone.branch, minimum, maximum};
+            if (!resonance_.correct(options_.force_scale, seed.point)) continue;
+            if (std::any_of(seeds.begin(), seeds.end(), [&](const Seed &s) {
+                    return solution_distance(s.point, seed.point) < same_resonance;
+                }))
+                continue;
+            for (std::size_t other : at) {
+                const double d = solution_distance(points[other], points[at[k]]);
+                if (other != at[k] && (seed.reach == 0 || d < seed.reach)) seed.reach = d;
+            }
+            seeds.push_back(std::move(seed));
+        }
+    }
+
+    // The point furthest from the force asked for between two crossings.
+    std::ptrdiff_t extremum(const std::vector<BranchPoint> &points, std::size_t from, std::size_t to) const {
+        std::ptrdiff_t best = -1;
+        double most = 0;
+        for (std::size_t i = from + 1; i < to; ++i) {
+            const double d = std::abs(points[i].force_scale - options_.force_scale);
+            if (d > most) most = d, best = static_cast<std::ptrdiff_t>(i);
+        }
+        return best;
+    }
+
+    void trace(const Seed &seed) {
+        HbmOptions options = options_;
+        if (seed.reach > 0)
+            options.max_step = std::max(10 * options.min_step, std::min(options.max_step, 0.3 * seed.reach));
+        options.initial_step = 0.1 * options.max_step;
+        BranchPoint start = seed.point;
+        settle_harmonics(reduced_, options, start, watch_);
+        IsolatedBranch found;
+        found.branch = trace_through(reduced_, options, start, watch_);
+        found.closed = found.branch->end_reason == PLM_REASON_LOOP_CLOSED;
+        const std::vector<BranchPoint> met = resonance_.on_curve(*found.branch);
+        for (const BranchPoint &p : met)
+            if (p.omega != seed.point.omega && is_known(p)) return; // the main branch, or one found already
+        known_.push_back(seed.point);
+        known_.insert(known_.end(), met.begin(), met.end());
+        find_range(seed, found);
+        out_.branches.push_back(std::move(found));
+    }
+
+    // Births and mergers are extrema of the force along the curve of folds, next to those of the backbone.
+    void find_range(const Seed &seed, IsolatedBranch &found) const {
+        const bool birth = find_end(seed, seed.minimum, false, found, found.birth_force),
+                   merge = find_end(seed, seed.maximum, true, found, found.merge_force);
+        found.tracked = birth && merge;
+    }
+
+    // From the fold nearest to the backbone's extremum; the others when that leads elsewhere.
+    bool find_end(const Seed &seed, std::ptrdiff_t at, bool upward, const IsolatedBranch &found,
+                  double &force) const {
+        force = NAN;
+        if (at < 0) return false;
+        const BranchPoint &extremum = seed.backbone->points()[at];
+        force = extremum.force_scale;
+        std::vector<BranchPoint> folds;
+        for (const BranchPoint &p : found.branch->points())
+            if (p.bifurcation == PLM_BIFURCATION_FOLD) folds.push_back(p);
+        std::sort(folds.begin(), folds.end(), [&](const BranchPoint &a, const BranchPoint &b) {
+            return std::abs(a.omega - extremum.omega) < std::abs(b.omega - extremum.omega);
+        });
+        for (const BranchPoint &fold : folds) {
+            const double turn = first_turn(fold, upward, extremum.force_scale);
+            if (!(std::abs(turn / extremum.force_scale - 1) < 0.3)) continue;
+            force = turn;
+            return true;
+        }
+        return false;
+    }
+
+    // Where the folds turn back in the force for good. Near grazing contact the curve of folds has a small
+    // swallowtail, or a corner that no step passes; beyond it the folds go on.
+    double first_turn(const BranchPoint &fold, bool upward, double estimate) const {
+        FoldOptions o;
+        o.hbm = options_;
+        o.force_min = upward ? 0.5 * options_.force_scale : 0.5 * estimate;
+        o.force_max = upward ? 2 * estimate : 2 * options_.force_scale;
+        o.upward = upward;
+        o.stop_at_turn = true;
+        double turn = NAN;
+        BranchPoint from = fold;
+        for (int leaps = 0; leaps < 8; ++leaps) {
+            const auto folds = follow_folds(reduced_, o, from, watch_);
+            if (!folds || folds->end_reason == PLM_REASON_RANGE_END) break;
+            const auto &points = folds->points();
+            std::size_t last = 0;
+            while (last + 1 < points.size() && points[last].bifurcation != PLM_BIFURCATION_FOLD) ++last;
+            if (points[last].bifurcation == PLM_BIFURCATION_FOLD) turn = points[last].force_scale;
+            if (!leap(points, last, upward, from)) break;
+        }
+        return turn;
+    }
+
+    // A fold a little beyond points[last], on the line through two points before it.
+    bool leap(const std::vector<BranchPoint> &points, std::size_t last, bool upward,
+              BranchPoint &beyond) const {
+        if (last < 2) return false;
+        const BranchPoint &near = points[last - 1], &far = points[last - 2];
+        const double run = near.force_scale - far.force_scale, apart = solution_distance(near, far);
+        if (run == 0) return false;
+        for (double share : {2e-3, 5e-3, 1e-2}) {
+            const double force = points[last].force_scale * (upward ? 1 + share : 1 - share),
+                         t = (force - near.force_scale) / run;
+            BranchPoint guess = between(near, far, -t);
+            if (!correct_fold(reduced_, options_, force, guess)) continue;
+            if (solution_distance(guess, near) > 5 * std::abs(t) * apart) continue;
+            guess.force_scale = force;
+            beyond = guess;
+            return true;
+        }
+        return false;
+    }
+
+    std::shared_ptr<const ReducedModel> reduced_;
+    HbmOptions options_;
+    const Branch &main_;
+    Watch watch_;
+    double force_max_;
+    PhaseResonance resonance_;
+    std::vector<BranchPoint> known_; // phase-resonant points of the branches known
+    IsolatedSearch out_;
+};
+
+} // namespace
+
+std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                                      const BranchPoint &start, Watch watch) {
+    HbmOptions o = options;
+    o.upward = true;
+    const auto after = std::make_shared<Branch>(reduced, o.force_scale, o.period_multiple);
+    trace_curve(o, {start, {}}, watch, *after);
+    require_uncancelled(*after);
+    if (after->end_reason == PLM_REASON_LOOP_CLOSED) return after;
+    o.upward = false;
+    Branch before(reduced, o.force_scale, o.period_multiple);
+    trace_curve(o, {start, {}}, watch, before);
+    require_uncancelled(before);
+    const auto whole = joined(before, *after);
+    warn_of_harmonics(options, *whole);
+    return whole;
+}
+
+IsolatedSearch find_isolated(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                             const Branch &main, double force_max, Watch watch) {
+    return Search(std::move(reduced), options, main, force_max, watch).run();
+}
+
+} // namespace plm

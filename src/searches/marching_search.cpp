@@ -1,0 +1,208 @@
+#include "searches/marching_search.hpp"
+#include "hbm/branch_path.hpp"
+#include "hbm/make_system.hpp"
+#include "model/rest.hpp"
+#include "orbits/shooting.hpp"
+#include "searches/curve.hpp"
+#include "searches/start.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+constexpr double same_solution = 1e-4; // relative distance at one frequency
+
+// The motion at equidistant instants of one run.
+class Samples final : public FlowRecorder {
+  public:
+    Samples(double begin, double duration, std::int64_t count, std::int64_t n)
+        : begin_(begin), step_(duration / static_cast<double>(count)), values_(n, count) {}
+    void record(const FlowPiece &piece) override {
+        const double noise = 1e-12 * step_;
+        for (; next_ < values_.cols(); ++next_) {
+            const double t = begin_ + step_ * static_cast<double>(next_) - piece.start;
+            if (t > piece.duration + noise) return;
+            const double s = std::min(1.0, std::max(0.0, t / piece.duration));
+            double *out = values_.col(next_);
+            for (std::int64_t k = piece.coefficient.cols(); k-- > 0;)
+                for (std::int64_t j = 0; j < values_.rows(); ++j)
+                    out[j] = out[j] * s + piece.coefficient(j, k);
+        }
+    }
+    const Matrix &values() const { return values_; }
+
+  private:
+    double begin_, step_;
+    Matrix values_;
+    std::int64_t next_ = 0;
+};
+
+class Marching {
+  public:
+    Marching(std::shared_ptr<const ReducedModel> reduced, const MarchingOptions &options,
+             const std::vector<std::shared_ptr<const Branch>> &known, Watch watch)
+        : reduced_(std::move(reduced)), options_(options), known_(known), watch_(watch),
+          hbm_(with_first_harmonics(*reduced_, options.hbm)) {
+        hbm_.unknowns = UnknownSpace::modal;
+        hbm_.period_multiple = 1;
+        system_ = make_system(reduced_, hbm_);
+    }
+
+    MarchingSearch run() {
+        find_largest();
+        const double low = 2 * M_PI * hbm_.frequency_min_hz, high = 2 * M_PI * hbm_.frequency_max_hz;
+        for (std::int64_t i = 0; i < options_.n_frequencies; ++i) {
+            const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(options_.n_frequencies);
+            for (double scale : options_.scales) {
+                watch_.step("search by marching", share);
+                if (scale != 0 && largest_.eta.empty()) continue;
+                try_start(low + share * (high - low), scale);
+            }
+        }
+        return std::move(out_);
+    }
+
+  private:
+    void find_largest() {
+        double most = 0;
+        for (const auto &branch : known_)
+            for (const BranchPoint &p : branch->points()) {
+                const double size = norm2(p.eta.rows() * p.eta.cols(), p.eta.data());
+                if (size > most) most = size, largest_ = p;
+            }
+        rest_.assign(reduced_->static_size(), 0.0);
+        const ReducedModel &m = *reduced_;
+        const vector<double> share = share_at_rest(m);
+        if (std::find(share.begin(), share.end(), 1.0) == share.end()) return;
+        rest_ =
+            solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap}).coordinates;
+    }
+
+    void try_start(double omega, double scale) {
+        ++out_.n_starts;
+        const auto model = std::make_shared<const FlowModel>(reduced_, omega);
+        ExactFlow flow(model, omega, hbm_.force_scale, watch_);
+        FlowState start;
+        const vector<double> rest = model->from_static_coordinates(rest_);
+        start.y = rest;
+        start.v.assign(rest.size(), 0.0);
+        if (scale != 0) {
+            const FlowState moving = model->state(largest_.eta_0, largest_.eta, omega, 0.0);
+            for (std::size_t j = 0; j < rest.size(); ++j) {
+                start.y[j] += scale * (moving.y[j] - rest[j]);
+                start.v[j] = scale * moving.v[j];
+            }
+        }
+        ShootingOptions shooting;
+        shooting.transient_periods = options_.transient_periods;
+        shooting.tolerance = 1e-8;
+        PeriodicOrbit orbit;
+        try {
+            orbit = periodic_orbit(flow, start, shooting);
+        } catch (const Error &e) { // chattering from a violent start: nothing found here
+            if (e.status() != PLM_ERR_CONVERGENCE) throw;
+            return;
+        }
+        if (!orbit.converged) return;
+        ++out_.n_periodic;
+        BranchPoint point = in_harmonics(flow, orbit);
+        if (!correct(point)) return;
+        if (is_known(point)) {
+            ++out_.n_known;
+            return;
+        }
+        settle_harmonics(reduced_, options_.hbm, point, watch_);
+        out_.branches.push_back(trace_through(reduced_, options_.hbm, point, watch_));
+        known_.push_back(out_.branches.back());
+    }
+
+    // Fourier coefficients of the orbit, dynamic part in the coordinates of h >= 1.
+    BranchPoint in_harmonics(ExactFlow &flow, const PeriodicOrbit &orbit) {
+        const std::int64_t h = hbm_.n_harmonics, count = std::max<std::int64_t>(128, 8 * h),
+                           n = flow.model().size(), r = reduced_->size();
+        Samples samples(orbit.state.time, flow.period(), count, n);
+        FlowState state = orbit.state;
+        flow.advance(state, state.time + flow.period(), &samples);
+        Matrix weights(count, 2 * h + 1);
+        for (std::int64_t t = 0; t < count; ++t) {
+            const double angle = flow.omega() * orbit.state.time +
+                                 2 * M_PI * static_cast<double>(t) / static_cast<double>(count);
+            weights(t, 0) = 1.0 / static_cast<double>(count);
+            for (std::int64_t k = 1; k <= h; ++k) {
+                weights(t, 2 * k - 1) =
+                    2 * std::cos(static_cast<double>(k) * angle) / static_cast<double>(count);
+                weights(t, 2 * k) = 2 * std::sin(static_cast<double>(k) * angle) / static_cast<double>(count);
+            }
+        }
+        const Matrix coefficient = product('N', 'N', samples.values(), weights); // n x (2h + 1)
+        BranchPoint point;
+        point.omega = flow.omega();
+        point.force_scale = hbm_.force_scale;
+        point.n_harmonics = h;
+        point.eta_0 =
+            flow.model().in_static_coordinates(vector<double>(coefficient.col(0), coefficient.col(0) + n));
+        point.eta = least_squares(to_flow(flow.model(), r), coefficient.columns(1, 2 * h));
+        return point;
+    }
+
+    // T: n x r, from what the flow makes of unit coordinates.
+    static Matrix to_flow(const FlowModel &model, std::int64_t r) {
+        Matrix t(model.size(), r);
+        const vector<double> zero(model.size(), 0.0);
+        for (std::int64_t j = 0; j < r; ++j) {
+            Matrix unit(r, 2);
+            unit(j, 0) = 1;
+            const vector<double> y = model.state(zero, unit, 1.0, 0.0).y;
+            std::copy(y.begin(), y.end(), t.col(j));
+        }
+        return t;
+    }
+
+    bool correct(BranchPoint &point) {
+        vector<double> x = unknowns_of(*system_, point);
+        NewtonLimits limits = newton_limits(hbm_);
+        limits.parameter_scale = point.omega;
+        const NewtonOutcome out = newton_at(*system_, limits, x, point.omega);
+        if (!out.converged) return false;
+        point = solved_point(*system_, {x, point.omega}, out.residual, out.iterations);
+        return true;
+    }
+
+    // The known branches at the same frequency, corrected with the same harmonics.
+    bool is_known(const BranchPoint &point) {
+        for (const auto &branch : known_) {
+            const auto &points = branch->points();
+            for (std::size_t i = 1; i < points.size(); ++i) {
+                const double left = points[i - 1].omega - point.omega, right = points[i].omega - point.omega;
+                if (left * right > 0 || left == right) continue;
+                BranchPoint guess = between(points[i - 1], points[i], left / (left - right));
+                guess.omega = point.omega;
+                if (correct(guess) && solution_distance(guess, point) < same_solution) return true;
+            }
+        }
+        return false;
+    }
+
+    std::shared_ptr<const ReducedModel> reduced_;
+    MarchingOptions options_;
+    std::vector<std::shared_ptr<const Branch>> known_;
+    Watch watch_;
+    HbmOptions hbm_;
+    std::unique_ptr<HbmSystem> system_;
+    BranchPoint largest_;
+    vector<double> rest_;
+    MarchingSearch out_;
+};
+
+} // namespace
+
+MarchingSearch search_by_marching(std::shared_ptr<const ReducedModel> reduced, const MarchingOptions &options,
+                                  const std::vector<std::shared_ptr<const Branch>> &known, Watch watch) {
+    if (options.hbm.period_multiple != 1)
+        throw Error(PLM_ERR_ARGUMENT, "the search by marching needs period_multiple = 1")
+            .argument("period_multiple");
+    return Marching(std::move(reduced), options, known, watch).run();
+}
+
+} // namespace plm

@@ -1,0 +1,332 @@
+#include "searches/nonlinear_mode.hpp"
+#include "hbm/branch_path.hpp"
+#include "hbm/harmonic_tail.hpp"
+#include "hbm/make_system.hpp"
+#include "hbm/modes_at_rest.hpp"
+#include "model/rest.hpp"
+#include "searches/start.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+
+NonlinearModeSystem::NonlinearModeSystem(HbmSystem &inner, const ReducedModel &m, vector<double> shape,
+                                         double omega_reference, double largest_amplitude)
+    : AugmentedSystem(inner, 2), r_(m.size()), n_with_mass_(m.size() - m.n_massless),
+      shape_(std::move(shape)), omega_reference_(omega_reference), largest_(largest_amplitude),
+      y_(inner.size() + 2), x_(inner.size()) {
+    for (std::int64_t j = 0; j < r_; ++j) shape_[j] *= m.mass(j);
+}
+
+void NonlinearModeSystem::unscale(const double *y, double amplitude, double *x) const {
+    for (std::int64_t i = 0; i < inner_.size(); ++i) x[i] = (i < static_size() ? largest_ : amplitude) * y[i];
+}
+
+// r += -2 xi omega M q' with factor = 2 xi omega^2.
+void NonlinearModeSystem::add_self_excitation(const double *x, double factor, double *r) const {
+    const std::int64_t s = static_size(), harmonics = (inner_.size() - s) / (2 * r_);
+    for (std::int64_t h = 1; h <= harmonics; ++h) {
+        const std::int64_t a = s + 2 * (h - 1) * r_, b = a + r_;
+        for (std::int64_t j = 0; j < n_with_mass_; ++j) {
+            r[a + j] -= factor * static_cast<double>(h) * x[b + j];
+            r[b + j] += factor * static_cast<double>(h) * x[a + j];
+        }
+    }
+}
+
+void NonlinearModeSystem::residual(const double *y, double log_amplitude, double *r) {
+    const std::int64_t n = inner_.size(), s = static_size();
+    y_.assign(y, y + n + 2);
+    amplitude_ = std::exp(log_amplitude);
+    unscale(y, amplitude_, x_.data());
+    inner_.set_force_scale(0);
+    inner_.set_self_excitation(y[n + 1]);
+    inner_.residual(x_.data(), omega(), r);
+    for (std::int64_t i = 0; i < n; ++i) r[i] /= i < s ? largest_ : amplitude_;
+    const double scale = omega_reference_ * omega_reference_; // like the other equations
+    r[n] = scale * dot(r_, shape_.data(), y + s + r_);
+    r[n + 1] = scale * (dot(r_, shape_.data(), y + s) - 1);
+}
+
+double NonlinearModeSystem::residual_scale() const {
+    return omega_reference_ * omega_reference_;
+}
+
+// The equations of the unknowns not scaled; solve() scales.
+void NonlinearModeSystem::fill(Border &border) {
+    const std::int64_t n = inner_.size(), s = static_size();
+    double *by_omega = border.columns.col(0);
+    inner_.parameter_derivative(by_omega);
+    for (std::int64_t i = 0; i < n; ++i) by_omega[i] *= omega_reference_;
+    add_self_excitation(x_.data(), 2 * omega() * omega(), border.columns.col(1));
+    const double scale = omega_reference_ * omega_reference_ / amplitude_;
+    for (std::int64_t j = 0; j < r_; ++j) {
+        border.rows(s + r_ + j, 0) = scale * shape_[j];
+        border.rows(s + j, 1) = scale * shape_[j];
+    }
+    factored_amplitude_ = amplitude_;
+}
+
+void NonlinearModeSystem::solve(double *b, std::int64_t columns) {
+    const std::int64_t n = inner_.size(), s = static_size();
+    for (std::int64_t k = 0; k < columns; ++k)
+        for (std::int64_t i = 0; i < n; ++i) b[i + k * size()] *= i < s ? largest_ : factored_amplitude_;
+    AugmentedSystem::solve(b, columns);
+    for (std::int64_t k = 0; k < columns; ++k)
+        for (std::int64_t i = 0; i < n; ++i) b[i + k * size()] /= i < s ? largest_ : factored_amplitude_;
+}
+
+// At a solution: the unknowns scaled by the amplitude change with it, x' = x_dynamic.
+void NonlinearModeSystem::parameter_derivative(double *r) {
+    const std::int64_t n = inner_.size(), s = static_size();
+    vector<double> x(x_);
+    std::fill(x.begin(), x.begin() + s, 0.0);
+    inner_.jacobian_product(x.data(), r);
+    for (std::int64_t i = 0; i < n; ++i) r[i] /= i < s ? largest_ : amplitude_;
+    r[n] = r[n + 1] = 0; // the normalisation is that of the scaled unknowns
+}
+
+void NonlinearModeSystem::to_point(const double *y, double log_amplitude, BranchPoint &point) {
+    vector<double> x(inner_.size());
+    unscale(y, std::exp(log_amplitude), x.data());
+    inner_.to_point(x.data(), omega_reference_ * (1 + y[inner_.size()]), point);
+    point.force_scale = 0;
+    point.damping_ratio = y[inner_.size() + 1];
+}
+
+void NonlinearModeSystem::from_point(const BranchPoint &point, double *y) {
+    const std::int64_t n = inner_.size(), s = static_size();
+    inner_.from_point(point, y);
+    const double amplitude = dot(r_, shape_.data(), y + s);
+    for (std::int64_t i = 0; i < n; ++i) y[i] /= i < s ? largest_ : amplitude;
+    y[n] = point.omega / omega_reference_ - 1;
+    y[n + 1] = point.damping_ratio;
+}
+
+// --- the path over the amplitude
+
+namespace {
+
+class ModePath final : public PathOwner {
+  public:
+    ModePath(std::shared_ptr<const ReducedModel> reduced, const NonlinearModeOptions &options, Watch watch)
+        : m_(std::move(reduced)), options_(options), watch_(watch), share_(share_at_rest(*m_)) {
+        HbmOptions &o = options_.hbm;
+        o.unknowns = UnknownSpace::modal;
+        o.period_multiple = 1;
+        o.force_scale = 0;
+    }
+
+    NonlinearMode run() {
+        find_mode();
+        const std::int64_t asked = options_.hbm.n_harmonics;
+        if (asked > 0) return follow(asked);
+        for (std::int64_t h = std::min<std::int64_t>(7, options_.hbm.max_harmonics);;
+             h = std::min(2 * h, options_.hbm.max_harmonics)) {
+            NonlinearMode found = follow(h);
+            if (largest_tail_ <= options_.hbm.harmonic_tolerance) return found;
+            if (h < options_.hbm.max_harmonics) continue;
+            warn_of_tail(*found.branch);
+            return found;
+        }
+    }
+
+    void record(const PathPoint &p) override {
+        if (reached_) return; // the step that passed the end
+        reached_ = p.bifurcation == reached;
+        BranchPoint point = solved_point(*system_, p);
+        point.bifurcation = PLM_BIFURCATION_NONE;
+        point.harmonic_tail = harmonic_content(*m_, point, 1).tail;
+        largest_tail_ = std::max(largest_tail_, point.harmonic_tail);
+        result_.amplitude.push_back(std::exp(p.parameter));
+        result_.measures.push_back(measure_motion(*m_, point));
+        result_.branch->append(std::move(point));
+    }
+    bool cancelled(double fraction) override { return watch_.cancelled("nonlinear mode", fraction); }
+    bool rescue(double, vector<double> &) override { return false; }
+    // The path ends at the located point at which the DOF moves as asked.
+    vector<std::int32_t> test_kinds() const override {
+        return ends_by_dof() ? vector<std::int32_t>{reached} : vector<std::int32_t>();
+    }
+    void test(const vector<double> &y, double log_amplitude, vector<double> &values) override {
+        if (!ends_by_dof()) return;
+        BranchPoint point;
+        system_->to_point(y.data(), log_amplitude, point);
+        Branch alone(m_, 0.0);
+        alone.append(std::move(point));
+        values = {alone.amplitude(0, options_.dof, Measure::harmonic, 1) / options_.dof_amplitude_max - 1};
+    }
+    bool interrupt() override { return reached_; }
+
+  private:
+    static constexpr std::int32_t reached = -1; // kind of the test function, as bifurcations have theirs
+
+    void warn_of_tail(Branch &branch) const {
+        const auto &points = branch.points();
+        std::size_t over = 0, worst = 0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (points[i].harmonic_tail > points[worst].harmonic_tail) worst = i;
+            over += points[i].harmonic_tail > options_.hbm.harmonic_tolerance;
+        }
+        watch_.keeping(branch.warnings)
+            .warn(PLM_REASON_HARMONICS_TOO_FEW,
+                  format("harmonic_tolerance (%.2g) was not reached at %zu of %zu points of the nonlinear "
+                         "mode: at point %zu (%.6g Hz) the next harmonics have a share of %.2g in the "
+                         "motion of the gaps. Raise max_harmonics (%lld) or, if that is accurate enough, "
+                         "harmonic_tolerance; or end at a smaller amplitude (amplitude_max)",
+                         options_.hbm.harmonic_tolerance, over, points.size(), worst,
+                         points[worst].omega / (2 * M_PI), points[worst].harmonic_tail,
+                         static_cast<long long>(options_.hbm.max_harmonics)));
+    }
+
+    bool ends_by_dof() const { return options_.dof >= 0 && options_.dof_amplitude_max > 0; }
+
+    NonlinearMode follow(std::int64_t n_harmonics) {
+        options_.hbm.n_harmonics = n_harmonics;
+        inner_ = make_system(m_, options_.hbm);
+        result_ = NonlinearMode();
+        largest_tail_ = 0;
+        reached_ = false;
+        find_amplitudes();
+        system_ = std::make_unique<NonlinearModeSystem>(*inner_, *m_, shape_, omega_, options_.amplitude_max);
+        const PathStart from = start();
+        result_.branch = std::make_shared<Branch>(m_, 0.0);
+        result_.branch->is_mode = true;
+        PathOptions range =
+            path_options(options_.hbm, std::log(options_.amplitude_min), std::log(options_.amplitude_max));
+        range.upward = true;
+        range.max_step = std::min(0.05, options_.hbm.max_step);
+        range.locate = true;
+        PathOutcome out;
+        try {
+            out = follow_path(*system_, range, from, *this);
+        } catch (const Error &e) { // stopped in the middle of a point: those found so far stay valid
+            if (e.status() != PLM_CANCELLED || result_.branch->points().empty()) throw;
+            out.end_reason = PLM_REASON_CANCELLED;
+        }
+        Branch &branch = *result_.branch;
+        take_outcome(out, branch);
+        if (branch.end_reason == PLM_REASON_NONE) branch.end_reason = PLM_REASON_RANGE_END;
+        branch.space_used = "modal";
+        return std::move(result_);
+    }
+
+    // The mode about rest with the number asked for, or the nearest to the frequency asked for.
+    void find_mode() {
+        const SpaceModes modes = modes_at_rest(*m_, share_);
+        const std::int64_t best = choose_mode(modes.values);
+        omega_ = std::sqrt(modes.values[best]);
+        shape_.assign(modes.vectors.col(best), modes.vectors.col(best) + m_->size());
+    }
+
+    std::int64_t choose_mode(const vector<double> &squares) const {
+        std::int64_t elastic = 0, best = -1;
+        for (std::size_t j = 0; j < squares.size(); ++j) {
+            if (!(squares[j] > 0)) continue; // rigid-body motion
+            const std::int64_t column = static_cast<std::int64_t>(j);
+            if (++elastic == options_.mode) return column;
+            const auto away = [&](std::int64_t i) {
+                return std::abs(std::sqrt(squares[i]) - 2 * M_PI * options_.frequency_hz);
+            };
+            if (options_.mode == 0 && (best < 0 || away(column) < away(best))) best = column;
+        }
+        if (best < 0)
+            throw Error(PLM_ERR_ARGUMENT,
+                        format("the basis has %lld elastic modes about the structure at rest",
+                               static_cast<long long>(elastic)))
+                .argument("mode");
+        return best;
+    }
+
+    // Amplitude of the mode at which the first pair changes its state; 0: none does, or at any amplitude.
+    double first_change() const {
+        vector<double> x(inner_->size());
+        inner_->linear_response(share_, omega_, x.data());
+        const ReducedModel &m = *m_;
+        double first = 0;
+        for (std::int64_t i = 0; i < m.n_pairs(); ++i) {
+            double rest = -m.initial_gap[i], swing = 0;
+            for (std::int64_t j = 0; j < m.static_size(); ++j) rest += m.gap_0(i, j) * x[j];
+            for (std::int64_t j = 0; j < m.size(); ++j) swing += m.gap(i, j) * shape_[j];
+            if (swing != 0 && share_[i] != 0.5 && (first == 0 || std::abs(rest / swing) < first))
+                first = std::abs(rest / swing);
+        }
+        return first;
+    }
+
+    void find_amplitudes() {
+        if (options_.amplitude_min > 0 && options_.amplitude_max > options_.amplitude_min) return;
+        const double first = first_change(), asked = asked_amplitude();
+        if (first == 0 && asked == 0)
+            throw Error(
+                PLM_ERR_ARGUMENT,
+                "no pair changes its state at a certain amplitude (neither pre-load nor gap): say up to "
+                "which amplitude to go")
+                .argument("amplitude_max");
+        double low = first > 0 ? 0.5 * first : 0.01 * asked;
+        if (asked > 0) low = std::min(low, 0.1 * asked);
+        options_.amplitude_min = low;
+        options_.amplitude_max =
+            asked > 0 ? 1000 * std::max(asked, first) : 100 * first; // interrupt() ends it
+    }
+
+    // The amplitude of the mode that moves the DOF as asked; 0: not asked.
+    double asked_amplitude() const {
+        if (options_.dof < 0 || !(options_.dof_amplitude_max > 0)) return 0;
+        const std::int64_t row = m_->model->free_index(options_.dof);
+        double swing = 0;
+        for (std::int64_t j = 0; j < m_->size() && row >= 0; ++j) swing += m_->vectors(row, j) * shape_[j];
+        double most = 0;
+        for (std::int64_t i = 0; i < m_->vectors.rows(); ++i) {
+            double v = 0;
+            for (std::int64_t j = 0; j < m_->size(); ++j) v += m_->vectors(i, j) * shape_[j];
+            most = std::max(most, std::abs(v));
+        }
+        if (!(std::abs(swing) > 1e-6 * most))
+            throw Error(PLM_ERR_ARGUMENT, "this mode does not move the DOF; name one that it moves")
+                .argument("dof");
+        return options_.dof_amplitude_max / std::abs(swing);
+    }
+
+    PathStart start() {
+        vector<double> x(inner_->size());
+        inner_->linear_response(share_, omega_, x.data());
+        std::fill(x.begin() + m_->static_size(), x.end(), 0.0);
+        for (std::int64_t j = 0; j < m_->size(); ++j)
+            x[m_->static_size() + j] = options_.amplitude_min * shape_[j];
+        BranchPoint guess;
+        inner_->to_point(x.data(), omega_, guess);
+        PathStart from;
+        from.at = {unknowns_of(*system_, guess), std::log(options_.amplitude_min)};
+        NewtonLimits limits = newton_limits(options_.hbm);
+        limits.max_iterations = std::max<std::int64_t>(100, limits.max_iterations);
+        const NewtonOutcome out = newton_at(*system_, limits, from.at.x, from.at.parameter);
+        if (!out.converged)
+            throw Error(
+                PLM_ERR_CONVERGENCE,
+                format("no periodic motion was found at the smallest amplitude, %g", options_.amplitude_min))
+                .reason(PLM_REASON_START_FAILED);
+        from.residual = out.residual;
+        return from;
+    }
+
+    std::shared_ptr<const ReducedModel> m_;
+    NonlinearModeOptions options_;
+    Watch watch_;
+    vector<double> share_, shape_;
+    double omega_ = 0;
+    std::unique_ptr<HbmSystem> inner_;
+    std::unique_ptr<NonlinearModeSystem> system_;
+    NonlinearMode result_;
+    double largest_tail_ = 0;
+    bool reached_ = false;
+};
+
+} // namespace
+
+NonlinearMode follow_nonlinear_mode(std::shared_ptr<const ReducedModel> reduced,
+                                    const NonlinearModeOptions &options, Watch watch) {
+    return ModePath(std::move(reduced), options, watch).run();
+}
+
+} // namespace plm

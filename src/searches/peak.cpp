@@ -1,0 +1,213 @@
+// The highest point of a curve, found on the curve itself: points on hyperplanes across the chord through the
+// three highest ones, by successive parabolic interpolation.
+#include "hbm/branch_path.hpp"
+#include "hbm/make_system.hpp"
+#include "searches/curve.hpp"
+#include "searches/curve_verdicts.hpp"
+#include "searches/hbm.hpp"
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+struct Sample {
+    double s = 0; // position along the chord
+    PathState at;
+    double amplitude = 0;
+    BranchPoint point;
+};
+
+class PeakSearch {
+  public:
+    PeakSearch(HbmSystem &system, const HbmOptions &options, std::shared_ptr<const ReducedModel> reduced,
+               std::int64_t dof, Measure measure, std::int64_t harmonic, Watch watch)
+        : system_(system), options_(options), reduced_(std::move(reduced)), dof_(dof), measure_(measure),
+          harmonic_(harmonic), watch_(watch) {}
+
+    /// False: the highest point of the curve is no solution with this system's harmonics, nor near one.
+    bool run(const Branch &branch, const std::array<std::int64_t, 3> &around, BranchPoint &highest) {
+        for (int k = 0; k < 3; ++k) load(branch, around[k], three_[k]);
+        set_chord();
+        // the curve's points may have other numbers of harmonics; a parabola through both kinds has no
+        // meaning
+        Sample solved, left, right;
+        if (!corrected(three_[1].s, solved)) return false;
+        const bool all = corrected(three_[0].s, left) && corrected(three_[2].s, right);
+        three_[1] = solved;
+        if (all) three_[0] = left, three_[2] = right;
+        close_in();
+        const Sample &top = *std::max_element(three_.begin(), three_.end(), [](const auto &a, const auto &b) {
+            return a.amplitude < b.amplitude;
+        });
+        Sample best;
+        if (!corrected(vertex(), best) || best.amplitude < top.amplitude * (1 - 1e-9)) best = top;
+        highest = std::move(best.point);
+        return true;
+    }
+
+  private:
+    // New triples around the vertex, ten times closer as long as the top is inside: the error of a parabola
+    // falls with its square. One that misses the top (far from it the curve is no parabola) goes to its
+    // higher side with wider steps.
+    void close_in() {
+        const double closest = 2e-3 * span_;
+        double reach = 0.05 * span_;
+        for (int round = 0; round < 20; ++round) {
+            Sample left, middle, right;
+            if (!corrected(vertex(), middle) || !corrected(middle.s - reach, left) ||
+                !corrected(middle.s + reach, right))
+                return;
+            three_ = {left, middle, right};
+            const bool inside = left.amplitude < middle.amplitude && right.amplitude < middle.amplitude;
+            if (inside && reach <= closest) return;
+            reach = inside ? std::max(0.1 * reach, closest) : std::min(2 * reach, 0.25 * span_);
+        }
+    }
+
+    void load(const Branch &branch, std::int64_t i, Sample &s) {
+        s.point = branch.points()[i];
+        s.at = {unknowns_of(system_, s.point), s.point.omega};
+        s.amplitude = branch.amplitude(i, dof_, measure_, harmonic_);
+    }
+
+    void set_chord() {
+        const double size = norm2(system_.size(), three_[1].at.x.data());
+        metric_ = {size > 0 ? size : 1, 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz)};
+        chord_ = difference(three_[2].at, three_[0].at);
+        scale_by(1 / metric_.length(chord_), chord_);
+        origin_ = three_[1].at;
+        for (Sample &s : three_) s.s = metric_.product(chord_, difference(s.at, origin_));
+        first_ = three_[0].s, last_ = three_[2].s;
+        span_ = last_ - first_;
+    }
+
+    // Vertex of the parabola through the triple, kept inside it and inside the first one.
+    double vertex() const {
+        const Sample &a = three_[0], &b = three_[1], &c = three_[2];
+        const double left = (b.amplitude - a.amplitude) / (b.s - a.s),
+                     right = (c.amplitude - b.amplitude) / (c.s - b.s);
+        const double bend = (right - left) / (c.s - a.s);
+        double s = 0.5 * (a.s + b.s) - 0.5 * left / bend;
+        if (!(bend < 0))
+            s = std::max({a.amplitude, b.amplitude, c.amplitude}) == b.amplitude ? b.s
+                : a.amplitude > c.amplitude                                      ? a.s
+                                                                                 : c.s;
+        return std::clamp(s, std::max(a.s, first_), std::min(c.s, last_));
+    }
+
+    // The curve's point in the hyperplane at s, from the parabola through the triple as first guess.
+    bool corrected(double s, Sample &out) {
+        watch_.step("peak", 0.5);
+        const Sample &a = three_[0], &b = three_[1], &c = three_[2];
+        const double la = (s - b.s) * (s - c.s) / ((a.s - b.s) * (a.s - c.s)),
+                     lb = (s - a.s) * (s - c.s) / ((b.s - a.s) * (b.s - c.s)),
+                     lc = (s - a.s) * (s - b.s) / ((c.s - a.s) * (c.s - b.s));
+        out.at = a.at;
+        scale_by(la, out.at);
+        add(lb, b.at, out.at);
+        add(lc, c.at, out.at);
+        NewtonLimits limits = newton_limits(options_);
+        limits.tolerance *= 1e-3; // the vertex is found from small differences
+        const NewtonOutcome found = newton_across(system_, metric_, chord_, limits, out.at);
+        if (!found.converged) return false;
+        out.s = s;
+        out.point = solved_point(system_, out.at, found.residual, found.iterations);
+        Branch one(reduced_, options_.force_scale, options_.period_multiple);
+        one.append(out.point);
+        out.amplitude = one.amplitude(0, dof_, measure_, harmonic_);
+        return true;
+    }
+
+    HbmSystem &system_;
+    const HbmOptions &options_;
+    std::shared_ptr<const ReducedModel> reduced_;
+    std::int64_t dof_;
+    Measure measure_;
+    std::int64_t harmonic_;
+    Watch watch_;
+    std::array<Sample, 3> three_;
+    Metric metric_;
+    PathState origin_, chord_; // the latter of length 1
+    double first_ = 0, last_ = 1, span_ = 1;
+};
+
+// The highest point and its neighbours; a closed curve, whose last point is its first, has no ends. False:
+// the highest point stands at an end.
+bool neighbours(const Branch &branch, std::int64_t top, std::array<std::int64_t, 3> &around) {
+    const std::int64_t n = static_cast<std::int64_t>(branch.points().size());
+    const bool inner = top > 0 && top < n - 1;
+    around =
+        inner ? std::array<std::int64_t, 3>{top - 1, top, top + 1} : std::array<std::int64_t, 3>{n - 2, 0, 1};
+    return inner || (branch.end_reason == PLM_REASON_LOOP_CLOSED && n > 3);
+}
+
+std::string why_no_peak(const Branch &branch, std::int64_t top, double amplitude) {
+    const std::int64_t n = static_cast<std::int64_t>(branch.points().size());
+    const double hz = branch.points()[static_cast<std::size_t>(top)].omega / (2 * M_PI);
+    if (amplitude == 0) return "this DOF does not move on the curve (in this measure): it has no peak";
+    if (n == 1) return format("the curve is a single point, %.6g Hz: its amplitude is no peak", hz);
+    if (top > 0 && branch.end_reason != PLM_REASON_RANGE_END)
+        return format(
+            "the highest point, %.6g Hz, is where the curve ended early (%s): no peak is known to be "
+            "there",
+            hz, end_text(branch.end_reason).c_str());
+    return format(
+        "the highest point stands at an end of the curve, %.6g Hz: the peak lies beyond it. Follow the "
+        "curve over a wider range (frequency_min_hz, frequency_max_hz)",
+        hz);
+}
+
+} // namespace
+
+Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
+    if (branch.reduced_model() != reduced_)
+        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("branch");
+    const std::int64_t top = branch.highest_point(dof, measure, harmonic);
+    const double highest = branch.amplitude(top, dof, measure, harmonic);
+    std::array<std::int64_t, 3> around;
+    const bool is_peak = neighbours(branch, top, around) && highest != 0;
+    Peak peak;
+    auto one = std::make_shared<Branch>(reduced_, branch.force_scale(), branch.period_multiple());
+    one->end_reason = PLM_REASON_RANGE_END;
+    BranchPoint point = branch.points()[top];
+    double error = point.harmonic_error; // in what is asked for, where harmonics are chosen
+    if (!is_peak)                        // it stays where it is
+        watch_.keeping(one->warnings).warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, highest));
+    if (is_peak) {
+        HbmOptions options = options_;
+        options.force_scale = point.force_scale;
+        options.period_multiple = branch.period_multiple();
+        options.n_harmonics = harmonics_of(point, options.period_multiple);
+        // Where harmonics are chosen, an order better than on the curve: one point is cheap, and its
+        // amplitude is what people quote.
+        const bool automatic = options_.n_harmonics == 0;
+        const double wanted = 0.1 * options_.harmonic_tolerance;
+        const auto error_here = [&] { // at the DOF, which need not be that of the motion as a whole
+            const MeasuredHarmonics next = measure_harmonics(reduced_, options, point);
+            return harmonic_error_at(*reduced_, point, next.change, dof, measure, harmonic);
+        };
+        if (automatic) error = error_here();
+        do {
+            if (error > wanted)
+                options.n_harmonics =
+                    std::max(options.n_harmonics, std::min(options_.max_harmonics, 2 * options.n_harmonics));
+            const auto system = make_system(reduced_, options);
+            PeakSearch(*system, options, reduced_, dof, measure, harmonic, watch_).run(branch, around, point);
+            if (automatic) error = error_here();
+        } while (error > wanted && options.n_harmonics < options_.max_harmonics);
+    }
+    one->append(std::move(point));
+    warn_of_harmonics(options_, error, *one);
+    if (is_peak && options_.n_harmonics != 0)
+        warn_of_given_harmonics(reduced_, options_, dof, measure, harmonic, *one);
+    check_basis(window_, watch_, *one);
+    one->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
+    peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
+    peak.amplitude = one->amplitude(0, dof, measure, harmonic);
+    peak.branch = one;
+    return peak;
+}
+
+} // namespace plm

@@ -1,0 +1,279 @@
+#include "searches/phase_resonance.hpp"
+#include "hbm/branch_path.hpp"
+#include "hbm/make_system.hpp"
+#include "hbm/modes_at_rest.hpp"
+#include "searches/start.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+constexpr std::int32_t crossing = -1; // kind of the test function force - force_scale
+
+// The lowest dynamic harmonic with a load; null: nothing is driven.
+const std::pair<const int, HarmonicLoad> *driven_harmonic(const ReducedModel &m) {
+    const auto loaded = [](const vector<double> &f) {
+        return std::any_of(f.begin(), f.end(), [](double v) { return v != 0; });
+    };
+    for (const auto &entry : m.excitation)
+        if (entry.first > 0 && (loaded(entry.second.real) || loaded(entry.second.imag))) return &entry;
+    return nullptr;
+}
+
+} // namespace
+
+double phase_of(const ReducedModel &m, const BranchPoint &point, std::int64_t period_multiple) {
+    const auto *driven = driven_harmonic(m);
+    if (!driven) return 0;
+    const std::int64_t h = driven->first * period_multiple;
+    if (2 * h > point.eta.cols()) return 0;
+    // q = a - i b and F = F_r + i F_i: Re(F^H q) = F_r . a - F_i . b
+    return dot(m.size(), driven->second.real.data(), point.eta.col(2 * h - 2)) -
+           dot(m.size(), driven->second.imag.data(), point.eta.col(2 * h - 1));
+}
+
+double solution_distance(const BranchPoint &a, const BranchPoint &b) {
+    Matrix x = a.eta, y = b.eta;
+    const std::int64_t n = std::max(x.cols(), y.cols()) / 2, size = x.rows() * 2 * n;
+    set_harmonics(x, n);
+    set_harmonics(y, n);
+    const double scale = std::max(norm2(size, x.data()), norm2(size, y.data()));
+    double change = 0;
+    for (std::int64_t i = 0; i < size; ++i) change = std::hypot(change, x.data()[i] - y.data()[i]);
+    return std::hypot(scale > 0 ? change / scale : 0.0, a.omega / b.omega - 1);
+}
+
+// --- the system
+
+PhaseResonantSystem::PhaseResonantSystem(HbmSystem &inner, const ReducedModel &m,
+                                         std::int64_t period_multiple, double omega_reference, double unit)
+    : AugmentedSystem(inner, 1), omega_reference_(omega_reference), unit_(unit), phase_(inner.size(), 0.0) {
+    const auto *driven = driven_harmonic(m);
+    if (!driven) return;
+    const std::int64_t r = m.size(), at = m.static_size() + 2 * (driven->first * period_multiple - 1) * r;
+    if (at + 2 * r > inner.size())
+        throw Error(
+            PLM_ERR_ARGUMENT,
+            format("phase resonance is that of harmonic %d of the excitation, which n_harmonics leaves "
+                   "out; set n_harmonics to %d or more",
+                   driven->first, driven->first))
+            .argument("n_harmonics");
+    const double force =
+        std::hypot(norm2(r, driven->second.real.data()), norm2(r, driven->second.imag.data()));
+    const double scale =
+        omega_reference * omega_reference / (force > 0 ? force : 1); // like the other equations
+    for (std::int64_t j = 0; j < r; ++j) {
+        phase_[at + j] = scale * driven->second.real[j];
+        phase_[at + r + j] = -scale * driven->second.imag[j];
+    }
+}
+
+void PhaseResonantSystem::residual(const double *y, double force, double *r) {
+    inner_.set_force_scale(force);
+    inner_.residual(y, omega_of(y), r);
+    r[inner_.size()] = dot(inner_.size(), phase_.data(), y);
+}
+
+void PhaseResonantSystem::parameter_derivative(double *r) {
+    inner_.force_derivative(r);
+    r[inner_.size()] = 0;
+}
+
+void PhaseResonantSystem::linear_response(const vector<double> &share, double force, double *y) {
+    inner_.set_force_scale(force);
+    inner_.linear_response(share, omega_reference_, y);
+    y[inner_.size()] = 0;
+}
+
+void PhaseResonantSystem::to_point(const double *y, double force, BranchPoint &point) {
+    inner_.to_point(y, omega_of(y), point);
+    point.force_scale = force;
+}
+
+void PhaseResonantSystem::from_point(const BranchPoint &point, double *y) {
+    inner_.from_point(point, y);
+    y[inner_.size()] = (point.omega - omega_reference_) * unit_;
+}
+
+void PhaseResonantSystem::fill(Border &border) {
+    inner_.parameter_derivative(border.columns.data());
+    for (std::int64_t i = 0; i < inner_.size(); ++i) border.columns(i, 0) /= unit_;
+    std::copy(phase_.begin(), phase_.end(), border.rows.data());
+}
+
+// --- a path of phase-resonant points
+
+struct PhaseResonance::Followed final : public PathOwner {
+    Followed(const PhaseResonance &of, const BranchPoint &about)
+        : m(*of.reduced_), options(of.options_.hbm), watch(of.watch_) {
+        low = 2 * M_PI * options.frequency_min_hz, high = 2 * M_PI * options.frequency_max_hz;
+        inner = make_system(of.reduced_, options);
+        const vector<double> x = unknowns_of(*inner, about);
+        // a change of omega over the whole range counts as much as the response at the force asked for
+        const double response = norm2(inner->size() - m.static_size(), x.data() + m.static_size());
+        scale = about.force_scale > 0 ? response * options.force_scale / about.force_scale : response;
+        if (!(scale > 0)) scale = 1;
+        system = std::make_unique<PhaseResonantSystem>(*inner, m, options.period_multiple, about.omega,
+                                                       scale / (high - low));
+    }
+
+    void record(const PathPoint &p) override {
+        if (p.bifurcation == crossing) result.crossings.push_back(result.branch->points().size());
+        BranchPoint point = solved_point(*system, p);
+        if (p.bifurcation == crossing) point.bifurcation = PLM_BIFURCATION_NONE;
+        omega = point.omega;
+        result.branch->append(std::move(point));
+    }
+    bool cancelled(double fraction) override {
+        watch.step("isolated branches", fraction);
+        return false;
+    }
+    bool rescue(double, vector<double> &) override { return false; }
+    void test(const vector<double> &, double force, vector<double> &values) override {
+        values = {force - options.force_scale};
+    }
+    vector<std::int32_t> test_kinds() const override { return {crossing}; }
+    bool interrupt() override { return omega < low || omega > high; }
+
+    const ReducedModel &m;
+    HbmOptions options;
+    Watch watch;
+    double low, high, scale = 0, omega = 0;
+    std::unique_ptr<HbmSystem> inner;
+    std::unique_ptr<PhaseResonantSystem> system;
+    Backbone result;
+};
+
+PhaseResonance::PhaseResonance(std::shared_ptr<const ReducedModel> reduced, const BackboneOptions &options,
+                               Watch watch)
+    : reduced_(std::move(reduced)), options_(options), watch_(watch) {
+    options_.hbm.unknowns =
+        UnknownSpace::modal; // the phase is a function of all coordinates, not of the gaps
+    if (options_.force_max <= 0) options_.force_max = 8 * options_.hbm.force_scale;
+}
+
+bool PhaseResonance::correct(double force, BranchPoint &point) const {
+    const Followed path(*this, point);
+    vector<double> y = unknowns_of(*path.system, point);
+    const NewtonOutcome out = newton_at(*path.system, newton_limits(options_.hbm), y, force);
+    if (!out.converged) return false;
+    BranchPoint found = solved_point(*path.system, {y, force}, out.residual, out.iterations);
+    if (!(found.omega > 0)) return false;
+    point = std::move(found);
+    return true;
+}
+
+Backbone PhaseResonance::follow(const BranchPoint &start, bool upward) const {
+    Followed path(*this, start);
+    path.result.branch =
+        std::make_shared<Branch>(reduced_, options_.hbm.force_scale, options_.hbm.period_multiple);
+    PathOptions range = path_options(options_.hbm,
+                                     upward ? 0.5 * std::min(start.force_scale, options_.hbm.force_scale)
+                                            : 1e-3 * start.force_scale,
+                                     options_.force_max);
+    range.upward = upward;
+    range.max_step = std::min(0.05, options_.hbm.max_step); // extrema of the force come in close pairs
+    range.locate = true;
+    PathStart from;
+    from.at = {unknowns_of(*path.system, start), start.force_scale};
+    from.scale = path.scale;
+    Branch &branch = *path.result.branch;
+    take_outcome(follow_path(*path.system, range, from, path), branch);
+    if (branch.end_reason == PLM_REASON_NONE) branch.end_reason = PLM_REASON_RANGE_END;
+    branch.space_used = "modal";
+    return path.result;
+}
+
+Backbone PhaseResonance::through(const BranchPoint &point) const {
+    const Backbone down = follow(point, false), up = follow(point, true);
+    Backbone all{joined(*down.branch, *up.branch), {}};
+    const std::size_t joint = down.branch->points().size() - 1;
+    for (std::size_t i : down.crossings)
+        if (i > 0) all.crossings.push_back(joint - i);
+    std::sort(all.crossings.begin(), all.crossings.end());
+    if (point.force_scale == options_.hbm.force_scale) all.crossings.push_back(joint);
+    for (std::size_t i : up.crossings) all.crossings.push_back(joint + i);
+    return all;
+}
+
+// --- where backbones begin
+
+// Linear responses about rest at the undamped frequencies inside the range, strongest first.
+std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
+    const ReducedModel &m = *reduced_;
+    const vector<double> share = share_at_rest(m);
+    const auto *driven = driven_harmonic(m);
+    if (!driven || driven->first > options_.hbm.n_harmonics) return {};
+    const vector<double> lambda = modes_at_rest(m, share).values;
+    const auto system = make_system(reduced_, options_.hbm);
+    std::vector<BranchPoint> points;
+    vector<double> x(system->size());
+    for (double l : lambda) {
+        const double omega = std::sqrt(std::max(0.0, l)) / driven->first;
+        if (omega < 2 * M_PI * options_.hbm.frequency_min_hz ||
+            omega > 2 * M_PI * options_.hbm.frequency_max_hz)
+            continue;
+        system->linear_response(share, omega, x.data());
+        BranchPoint point;
+        system->to_point(x.data(), omega, point);
+        double force = 0;
+        if (!linear_range(share, point, force)) continue;
+        for (std::int64_t i = 0; i < point.eta.cols() * m.size(); ++i)
+            point.eta.data()[i] *= force / point.force_scale;
+        point.force_scale = force;
+        points.push_back(std::move(point));
+    }
+    return points;
+}
+
+// A force at which no pair changes its state yet. False when there is none: pairs that touch without
+// pressure.
+bool PhaseResonance::linear_range(const vector<double> &share, const BranchPoint &point,
+                                  double &force) const {
+    const ReducedModel &m = *reduced_;
+    const double asked = options_.hbm.force_scale;
+    double largest = 1e300;
+    vector<double> rest(m.n_pairs());
+    for (std::int64_t i = 0; i < m.n_pairs(); ++i) rest[i] = -m.initial_gap[i];
+    if (m.n_pairs() > 0) gemv('N', 1.0, m.gap_0, point.eta_0.data(), 1.0, rest.data());
+    const Matrix u = product('N', 'N', m.gap, point.eta);
+    double most = 0;
+    for (std::int64_t i = 0; i < m.n_pairs(); ++i) {
+        double swing = 0;
+        for (std::int64_t c = 0; c < u.cols(); ++c) swing = std::hypot(swing, u(i, c));
+        if (swing > 0) largest = std::min(largest, share[i] == 0.5 ? 0.0 : asked * std::abs(rest[i]) / swing);
+        most = std::max(most, swing);
+    }
+    force = std::min(0.5 * largest, 0.1 * asked);
+    return force > 1e-9 * asked;
+}
+
+std::vector<Backbone> PhaseResonance::backbones() const {
+    std::vector<Backbone> all;
+    for (BranchPoint start : linear_resonances()) {
+        const double omega = start.omega;
+        if (!correct(start.force_scale, start) || std::abs(start.omega / omega - 1) > 0.02) continue;
+        all.push_back(follow(start, true));
+    }
+    return all;
+}
+
+// Between two points of the curve at which the phase changes its sign, Newton's method from the chord.
+std::vector<BranchPoint> PhaseResonance::on_curve(const Branch &curve) const {
+    std::vector<BranchPoint> found;
+    const auto &points = curve.points();
+    const std::int64_t multiple = options_.hbm.period_multiple;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double left = phase_of(*reduced_, points[i - 1], multiple),
+                     right = phase_of(*reduced_, points[i], multiple);
+        if (!(left * right <= 0) || left == right) continue;
+        const double t = left / (left - right);
+        BranchPoint p = between(points[i - 1], points[i], t);
+        if (!correct(curve.force_scale(), p)) continue;
+        found.push_back(std::move(p));
+    }
+    return found;
+}
+
+} // namespace plm

@@ -1,0 +1,114 @@
+#include "searches/refinement.hpp"
+#include "searches/error_estimate.hpp"
+#include "searches/responses.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plm {
+namespace {
+
+constexpr std::int64_t looked_at = 16; // points of a curve whose error is estimated, besides its highest
+constexpr std::int64_t corrected = 60; // points whose corrected motions make the next basis
+constexpr double compression = 0.2;    // of the tolerance, at first
+
+class Refiner {
+  public:
+    Refiner(std::shared_ptr<const Basis> start, const RefinementOptions &options, Watch watch)
+        : start_(std::move(start)), options_(options), watch_(watch), full_(unreduced_basis(start_, watch)),
+          pod_tolerance_(compression * options.tolerance) {}
+
+    Refinement run() {
+        Refinement best;
+        std::shared_ptr<const Basis> basis = start_;
+        for (std::int64_t round = 1;; ++round) {
+            const auto branch = sweep(*basis);
+            const double error = largest_error(*branch);
+            watch_.log(1, format("refinement %lld: %lld columns, estimated error %.2e",
+                                 static_cast<long long>(round),
+                                 static_cast<long long>(basis->reduced()->size()), error));
+            const bool compressed = basis->options().kind == BasisKind::pod;
+            // the first basis is never the answer: the point is to have a small one
+            if (compressed && (!best.basis || error < best.error))
+                best = {basis, branch, error, round, false};
+            if (compressed && error <= options_.tolerance) {
+                best.met = true;
+                return best;
+            }
+            best.rounds = round;
+            if (round >= options_.max_rounds) return best;
+            if (compressed) pod_tolerance_ *= 0.3;
+            basis = compress(*branch);
+        }
+    }
+
+  private:
+    std::shared_ptr<const Branch> sweep(const Basis &basis) const {
+        auto branch = Hbm(basis.reduced(), start_->sweep_range(), options_.hbm, watch_).sweep();
+        require_uncancelled(*branch);
+        return branch;
+    }
+
+    // Points spread over the curve by their number, which its curvature sets.
+    static vector<std::int64_t> spread(std::int64_t points, std::int64_t wanted) {
+        const std::int64_t n = std::min(points, wanted);
+        vector<std::int64_t> at;
+        for (std::int64_t k = 0; k < n; ++k) at.push_back(n > 1 ? k * (points - 1) / (n - 1) : 0);
+        return at;
+    }
+
+    double largest_error(const Branch &branch) const {
+        const std::int64_t top = branch.highest_point(options_.dof, options_.measure, options_.harmonic);
+        const double peak =
+            std::abs(branch.amplitude(top, options_.dof, options_.measure, options_.harmonic));
+        if (!(peak > 0))
+            throw Error(PLM_ERR_ARGUMENT, "the DOF does not move on the curve; name one that does")
+                .argument("dof");
+        vector<std::int64_t> at = spread(static_cast<std::int64_t>(branch.points().size()), looked_at);
+        at.push_back(top);
+        const ErrorEstimator estimator(full_->reduced(), branch, options_.hbm);
+        double worst = 0;
+        for (std::int64_t i : at) {
+            watch_.step("refinement", 0.5);
+            const ErrorEstimate e =
+                estimator.estimate(i, options_.dof, options_.measure, options_.harmonic, false);
+            if (!e.known) return std::numeric_limits<double>::infinity(); // larger than can be told
+            const double hz = branch.points()[i].omega / (2 * M_PI);
+            worst = std::max({worst, std::abs(e.amplitude.basis + e.amplitude.contact) / peak,
+                              std::abs(e.frequency_hz.basis + e.frequency_hz.contact) / hz});
+        }
+        return worst;
+    }
+
+    std::shared_ptr<const Basis> compress(const Branch &branch) const {
+        const ErrorEstimator estimator(full_->reduced(), branch, options_.hbm);
+        const auto motions =
+            std::make_shared<Branch>(full_->reduced(), options_.hbm.force_scale, branch.period_multiple());
+        for (std::int64_t i : spread(static_cast<std::int64_t>(branch.points().size()), corrected)) {
+            watch_.step("refinement", 0.7);
+            motions->append(estimator.corrected(i));
+        }
+        const Responses responses = responses_of({motions});
+        BasisOptions o = start_->options();
+        o.kind = BasisKind::pod;
+        o.pod_size = 0;
+        o.n_pairs_carried = 0; // what node sampling leaves out is part of the error to be met
+        o.pod_tolerance = pod_tolerance_;
+        return std::make_shared<const Basis>(start_->model(), start_->sampler(), full_, o, watch_,
+                                             &responses);
+    }
+
+    std::shared_ptr<const Basis> start_;
+    RefinementOptions options_;
+    Watch watch_;
+    std::shared_ptr<const Basis> full_;
+    double pod_tolerance_;
+};
+
+} // namespace
+
+Refinement refine(std::shared_ptr<const Basis> start, const RefinementOptions &options, Watch watch) {
+    return Refiner(std::move(start), options, watch).run();
+}
+
+} // namespace plm

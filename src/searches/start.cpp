@@ -1,0 +1,231 @@
+#include "searches/start.hpp"
+#include "hbm/branch_path.hpp"
+#include "hbm/formulation.hpp"
+#include "hbm/wrapped_system.hpp"
+#include "model/rest.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+// Another parameter in the place of the frequency: the force, p = 0 at rest; the gap, p = 0 with contact out
+// of reach; the logarithm of the contact stiffness, p = 0 with soft contact. p = 1 is the problem asked for.
+class StartPath final : public WrappedSystem {
+  public:
+    enum class Kind { force, gap, stiffness };
+    StartPath(HbmSystem &inner, Kind kind, double omega, double full)
+        : WrappedSystem(inner), kind_(kind), omega_(omega), full_(full) {}
+    void residual(const double *x, double p, double *r) override {
+        if (kind_ == Kind::force) {
+            inner_.set_force_scale(p * full_);
+        } else if (kind_ == Kind::gap) {
+            inner_.set_extra_gap((1 - p) * full_);
+        } else {
+            inner_.set_stiffness_factor(std::exp((1 - p) * full_));
+        }
+        inner_.residual(x, omega_, r);
+    }
+    void parameter_derivative(double *r) override {
+        if (kind_ == Kind::force) {
+            inner_.force_derivative(r);
+        } else if (kind_ == Kind::gap) {
+            inner_.gap_derivative(r);
+        } else {
+            inner_.stiffness_derivative(r);
+        }
+        const double factor = kind_ == Kind::force ? full_ : -full_;
+        for (std::int64_t i = 0; i < size(); ++i) r[i] *= factor;
+    }
+    void linear_response(const vector<double> &share, double, double *x) override {
+        inner_.linear_response(share, omega_, x);
+    }
+    void to_point(const double *x, double, BranchPoint &point) override { inner_.to_point(x, omega_, point); }
+
+  private:
+    Kind kind_;
+    double omega_, full_;
+};
+
+class Starter {
+  public:
+    Starter(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options, double omega,
+            Watch watch, vector<double> &x)
+        : watch_(watch), quiet_(watch), system_(system), reduced_(reduced), options_(options), omega_(omega),
+          share_(share_at_rest(reduced)), x_(x) {
+        x_.resize(system.size());
+        for (double share : share_) loaded_ = loaded_ || share == 1;
+    }
+
+    StartOutcome run(bool have_guess) {
+        if (have_guess && attempt()) return out_;
+        for (const vector<double> &share :
+             {share_, vector<double>(share_.size(), 0.0), vector<double>(share_.size(), 1.0)})
+            if (from_linear(share)) return out_;
+        if (loaded_ ? force_path() : gap_path()) return out_;
+        if (stiffness_path()) return out_;
+        frequency_path();
+        return out_;
+    }
+
+  private:
+    bool attempt() {
+        out_.add(correct_at(system_, options_, omega_, watch_, x_));
+        return out_.converged;
+    }
+
+    bool from_linear(const vector<double> &share) { return from_linear_guess(share) && attempt(); }
+
+    bool from_linear_guess(const vector<double> &share) {
+        try {
+            system_.linear_response(share, omega_, x_.data());
+        } catch (
+            const Error &e) { // a share without a static solution, e.g. open contact and rigid-body modes
+            if (e.status() != PLM_ERR_SINGULAR) throw;
+            return false;
+        }
+        return true;
+    }
+
+    PathOptions path_options(double low, double high) const {
+        PathOptions path;
+        path.low = low;
+        path.high = high;
+        path.tolerance = std::max(options_.tolerance, 1e-6); // on the way only
+        path.max_points = 1000;
+        return path;
+    }
+
+    // From rest (unique) along the force, through folds, to the force asked for.
+    bool force_path() {
+        system_.set_force_scale(0);
+        system_.linear_response(share_, omega_, x_.data());
+        StartPath path(system_, StartPath::Kind::force, omega_, options_.force_scale);
+        const bool found = follow(path);
+        system_.set_force_scale(options_.force_scale);
+        return found && attempt();
+    }
+
+    // Without pre-load the force changes nothing but the size; from the linear response with contact out of
+    // reach the gap is closed instead.
+    bool gap_path() {
+        const vector<double> open(share_.size(), 0.0);
+        if (!from_linear_guess(open)) return false;
+        BranchPoint point;
+        system_.to_point(x_.data(), omega_,
+                         point); // what the unknowns are differs; the gaps follow from the point
+        double reach = 0;
+        const Matrix dynamic = product('N', 'N', reduced_.gap, point.eta);
+        for (std::int64_t i = 0; i < dynamic.rows(); ++i) {
+            double sum = 0;
+            for (std::int64_t c = 0; c < dynamic.cols(); ++c) sum += std::abs(dynamic(i, c));
+            reach = std::max(reach, sum);
+        }
+        system_.set_extra_gap(1.01 * reach);
+        system_.linear_response(open, omega_, x_.data());
+        StartPath path(system_, StartPath::Kind::gap, omega_, 1.01 * reach);
+        const bool found = follow(path);
+        system_.set_extra_gap(0);
+        return found && attempt();
+    }
+
+    // Soft contact has a solution near the linear ones; it is stiffened from there, through folds.
+    bool stiffness_path() {
+        const double local = local_stiffness(reduced_);
+        double stiffest = 0;
+        for (double k : reduced_.contact_stiffness) stiffest = std::max(stiffest, k);
+        for (double soft : {1.0, 0.1}) {
+            const double factor = soft * local / stiffest;
+            if (!(factor > 0 && factor < 0.5)) continue;
+            system_.set_stiffness_factor(factor);
+            bool found = false;
+            for (const vector<double> &share :
+                 {share_, vector<double>(share_.size(), 0.0), vector<double>(share_.size(), 1.0)})
+                found = found || from_linear(share);
+            out_.converged = false;
+            StartPath path(system_, StartPath::Kind::stiffness, omega_, std::log(factor));
+            found = found && follow(path);
+            system_.set_stiffness_factor(1);
+            if (found && attempt()) return true;
+        }
+        return false;
+    }
+
+    bool follow(StartPath &path) {
+        PathOptions range = path_options(0, 1);
+        range.upward = true;
+        return arrived(follow_path(path, range, {{x_, 0}}, quiet_), 1.0);
+    }
+
+    // From well above the resonances, where the response is nearly linear, down to the frequency asked for.
+    bool frequency_path() {
+        for (double far : {1.5, 3.0, 10.0}) {
+            const PathOptions path = path_options(omega_, far * omega_);
+            system_.linear_response(share_, far * omega_, x_.data());
+            NewtonLimits limits;
+            limits.max_iterations = options_.max_iterations;
+            limits.parameter_scale = omega_;
+            if (!newton_at(system_, limits, x_, far * omega_).converged) continue;
+            if (arrived(follow_path(system_, path, {{x_, far * omega_}}, quiet_), omega_) && attempt())
+                return true;
+        }
+        return false;
+    }
+
+    bool arrived(const PathOutcome &out, double parameter) {
+        out_ += out.work;
+        if (out.end_reason != PLM_REASON_RANGE_END || out.at.parameter != parameter) return false;
+        x_ = out.at.x;
+        return true;
+    }
+
+    Watch watch_;
+    QuietOwner quiet_;
+    HbmSystem &system_;
+    const ReducedModel &reduced_;
+    const HbmOptions &options_;
+    double omega_;
+    vector<double> share_;
+    bool loaded_ = false; // some pair is closed at rest
+    vector<double> &x_;
+    StartOutcome out_;
+};
+
+} // namespace
+
+vector<double> share_at_rest(const ReducedModel &m) {
+    vector<double> u(m.n_pairs());
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] = -m.initial_gap[i];
+    const bool loaded =
+        std::any_of(m.preload_0.begin(), m.preload_0.end(), [](double f) { return f != 0; }) ||
+        std::any_of(u.begin(), u.end(), [](double v) { return v > 0; });
+    if (loaded)
+        u = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap}).penetration;
+    vector<double> share(u.size());
+    for (std::size_t i = 0; i < u.size(); ++i) share[i] = u[i] > 0 ? 1.0 : u[i] < 0 ? 0.0 : 0.5;
+    return share;
+}
+
+void StartOutcome::add(const StartOutcome &next) {
+    *this += next;
+    residual = next.residual;
+    converged = next.converged;
+}
+
+StartOutcome correct_at(HbmSystem &system, const HbmOptions &options, double omega, Watch watch,
+                        vector<double> &x) {
+    watch.step("start", 0.0);
+    NewtonLimits limits = newton_limits(options);
+    limits.parameter_scale = omega;
+    vector<double> solution = x;
+    const NewtonOutcome found = newton_at(system, limits, solution, omega);
+    if (found.converged) x = solution;
+    return {found, found.converged, found.residual};
+}
+
+StartOutcome find_start(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options,
+                        double omega, bool have_guess, Watch watch, vector<double> &x) {
+    return Starter(system, reduced, options, omega, watch, x).run(have_guess);
+}
+
+} // namespace plm

@@ -1,0 +1,153 @@
+#include "searches/wider_range.hpp"
+#include "searches/curve.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+// Rigid-body motion beside the contact falls with the square of the frequency, and would draw the search
+// down.
+vector<char> held_coordinates(const ReducedModel &m, double omega) {
+    double largest = 0;
+    for (std::int64_t k = 0; k < m.gap.rows() * m.gap.cols(); ++k)
+        largest = std::max(largest, std::abs(m.gap.data()[k]));
+    vector<char> held(m.size());
+    for (std::int64_t j = 0; j < m.size(); ++j) {
+        double moved = 0;
+        for (std::int64_t i = 0; i < m.n_pairs(); ++i) moved = std::max(moved, std::abs(m.gap(i, j)));
+        held[j] = m.lambda[j] > 1e-6 * omega * omega || moved > 1e-9 * largest;
+    }
+    return held;
+}
+
+enum class End { none, first, last };
+
+// Of the largest response: where the curve ends higher, its top is so near that single DOFs may have theirs
+// beyond.
+constexpr double still_high = 0.9;
+
+class Widening {
+  public:
+    Widening(const HbmOptions &options, const SweepRange &range, Watch watch, Branch &branch)
+        : options_(options), range_(range), watch_(watch), branch_(branch),
+          part_(0.5 * (options.frequency_max_hz - options.frequency_min_hz)),
+          asked_min_(options.frequency_min_hz), asked_max_(options.frequency_max_hz) {}
+
+    void run() {
+        for (;;) {
+            const End at = where_highest();
+            if (at == End::none) return leave_room();
+            if (is_fixed(at)) return;
+            if (!move_range(is_low(at)) || !go_on(at)) return warn(at);
+            if (branch_.end_reason != PLM_REASON_RANGE_END) return;
+        }
+    }
+
+  private:
+    const std::vector<BranchPoint> &points() const { return branch_.points(); }
+    double hz(End at) const {
+        return (at == End::first ? points().front() : points().back()).omega / (2 * M_PI);
+    }
+    bool is_low(End at) const { return 2 * hz(at) < options_.frequency_min_hz + options_.frequency_max_hz; }
+
+    // Both ends may lie at one frequency: a curve that comes back through its folds.
+    End where_highest() const {
+        const std::int64_t top = largest_response(branch_), n = static_cast<std::int64_t>(points().size());
+        if (n < 2 || (top > 0 && top < n - 1) || !(response_size(branch_, top) > 0)) return End::none;
+        return top == 0 ? End::first : End::last;
+    }
+
+    // The peak of the response as a whole is inside, those of single DOFs stand beside it.
+    void leave_room() {
+        const double most = response_size(branch_, largest_response(branch_));
+        for (End at : {End::first, End::last}) {
+            const std::int64_t i = at == End::first ? 0 : static_cast<std::int64_t>(points().size()) - 1;
+            if (!(response_size(branch_, i) > still_high * most) || is_fixed(at)) continue;
+            if (!move_range(is_low(at)) || !go_on(at) || branch_.end_reason != PLM_REASON_RANGE_END) return;
+        }
+    }
+
+    bool is_fixed(End at) const {
+        return is_low(at) ? range_.least_hz >= asked_min_ : range_.most_hz <= asked_max_;
+    }
+
+    bool move_range(bool low) {
+        const double before = options_.frequency_max_hz - options_.frequency_min_hz;
+        if (low)
+            options_.frequency_min_hz = std::max(range_.least_hz, options_.frequency_min_hz - part_);
+        else
+            options_.frequency_max_hz = std::min(range_.most_hz, options_.frequency_max_hz + part_);
+        return options_.frequency_max_hz - options_.frequency_min_hz > before * (1 + 1e-9);
+    }
+
+    bool go_on(End at) {
+        const std::size_t n = points().size();
+        const CurveStart start = at == End::first ? CurveStart{points()[0], {points()[1]}, true}
+                                                  : CurveStart{points()[n - 1], {points()[n - 2]}, true};
+        HbmOptions rest = options_;
+        rest.max_points -= static_cast<std::int64_t>(n) - 1; // the start is recorded once more
+        Branch piece(branch_.reduced_model(), branch_.force_scale(), branch_.period_multiple());
+        trace_curve(rest, start, watch_, piece);
+        add_cost(piece);
+        if (at == End::first)
+            branch_.prepend(piece);
+        else
+            branch_.continue_with(piece);
+        if (at == End::last || piece.end_reason != PLM_REASON_RANGE_END)
+            branch_.end_reason = piece.end_reason;
+        return piece.points().size() > 1;
+    }
+
+    void add_cost(const Branch &piece) {
+        branch_.newton_work += piece.newton_work;
+        branch_.failed_steps += piece.failed_steps;
+        branch_.warnings.add(piece.warnings);
+        if (piece.space_used != branch_.space_used) branch_.space_used = "both";
+    }
+
+    void warn(End at) {
+        const bool low = is_low(at);
+        watch_.keeping(branch_.warnings)
+            .warn(PLM_REASON_NO_PEAK,
+                  format("the response is largest at the %s end of the curve, %.6g Hz, though the range was "
+                         "moved there from %.6g Hz: the resonance lies elsewhere or does not stand out. Set "
+                         "frequency_min_hz and frequency_max_hz of the hbm, or name the dominant mode of the "
+                         "sampler (mode, mode_frequency_hz)",
+                         low ? "lower" : "upper", hz(at), low ? asked_min_ : asked_max_));
+    }
+
+    HbmOptions options_; // with the range as it is now
+    const SweepRange range_;
+    Watch watch_;
+    Branch &branch_;
+    const double part_, asked_min_, asked_max_;
+};
+
+} // namespace
+
+double response_size(const Branch &branch, std::int64_t point) {
+    const BranchPoint &p = branch.points()[static_cast<std::size_t>(point)];
+    const vector<char> held = held_coordinates(branch.reduced(), p.omega);
+    double sum = 0;
+    for (std::int64_t c = 0; c < p.eta.cols(); ++c)
+        for (std::int64_t j = 0; j < p.eta.rows(); ++j)
+            if (held[j]) sum += p.eta(j, c) * p.eta(j, c);
+    return std::sqrt(sum);
+}
+
+std::int64_t largest_response(const Branch &branch) {
+    std::int64_t best = 0;
+    double most = -1;
+    for (std::size_t i = 0; i < branch.points().size(); ++i) {
+        const double size = response_size(branch, static_cast<std::int64_t>(i));
+        if (size > most) most = size, best = static_cast<std::int64_t>(i);
+    }
+    return best;
+}
+
+void bring_peak_inside(const HbmOptions &options, const SweepRange &range, Watch watch, Branch &branch) {
+    if (branch.end_reason == PLM_REASON_RANGE_END) Widening(options, range, watch, branch).run();
+}
+
+} // namespace plm

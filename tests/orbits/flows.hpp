@@ -1,0 +1,70 @@
+// What the transient tests share: flows of small structures, and the tests' own linear algebra on states.
+#pragma once
+#include "orbits/shooting.hpp"
+#include "sampling/small_models.hpp"
+#include "support/small_reduced.hpp"
+#include "support/test.hpp"
+#include <algorithm>
+
+namespace test {
+
+using plm::FlowState;
+using plm::Matrix;
+
+inline std::shared_ptr<const plm::FlowModel> flow_model(const exact::Structure &s) {
+    return std::make_shared<plm::FlowModel>(reduce_exactly(s));
+}
+
+/// A chain of four masses with pairs on two of them.
+inline exact::Structure damped_chain() {
+    exact::Structure s = chain(4, 0.03, 3, 0.05, 0.3, 0.02, {1, 3});
+    s.damping[0] += 0.02;
+    return s;
+}
+
+/// Modal state of q, q' given over the DOFs: the vectors are M-orthonormal.
+inline FlowState to_state(const plm::FlowModel &m, const exact::Structure &s, const std::vector<double> &x) {
+    FlowState state{plm::vector<double>(s.n), plm::vector<double>(s.n), 0};
+    for (int j = 0; j < s.n; ++j)
+        for (int i = 0; i < s.n; ++i) {
+            state.y[j] += m.reduced().vectors(i, j) * s.mass[i] * x[i];
+            state.v[j] += m.reduced().vectors(i, j) * s.mass[i] * x[s.n + i];
+        }
+    return state;
+}
+
+/// q and q' over the DOFs.
+inline std::vector<double> to_dofs(const plm::FlowModel &m, const FlowState &state) {
+    const plm::vector<double> q = m.field(state.y), v = m.field(state.v);
+    std::vector<double> x(q.begin(), q.end());
+    x.insert(x.end(), v.begin(), v.end());
+    return x;
+}
+
+inline double max_difference(const std::vector<double> &a, const std::vector<double> &b) {
+    double d = a.size() == b.size() ? 0 : 1e300;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) d = std::max(d, std::abs(a[i] - b[i]));
+    return d;
+}
+
+inline double max_difference(const Matrix &a, const Matrix &b) {
+    double d = a.rows() == b.rows() && a.cols() == b.cols() ? 0 : 1e300;
+    for (std::int64_t k = 0; k < a.rows() * a.cols(); ++k)
+        d = std::max(d, std::abs(a.data()[k] - b.data()[k]));
+    return d;
+}
+
+/// Energy of motion, springs and contact.
+inline double energy(const plm::FlowModel &m, const FlowState &x) {
+    double e = 0;
+    for (std::int64_t j = 0; j < m.size(); ++j)
+        e += 0.5 * x.v[j] * x.v[j] + 0.5 * m.lambda()[j] * x.y[j] * x.y[j] - m.preload()[j] * x.y[j];
+    for (std::int64_t i = 0; i < m.n_pairs(); ++i) {
+        double u = -m.initial_gap()[i];
+        for (std::int64_t j = 0; j < m.size(); ++j) u += m.gap()(i, j) * x.y[j];
+        e += plm::ContactLaw::energy(m.contact_stiffness()[i], u);
+    }
+    return e;
+}
+
+} // namespace test

@@ -1,0 +1,358 @@
+// Isolated branches of a small pre-loaded structure: found without a hint, closed, the range of forces
+// against plain sweeps, stable points against the exact flow, folds tracked against folds located.
+#include "hbm/trig_polynomial.hpp"
+#include "searches/fold_tracking.hpp"
+#include "searches/hbm.hpp"
+#include "searches/isolated.hpp"
+#include "searches/marching_search.hpp"
+#include "support/small_reduced.hpp"
+#include "support/test.hpp"
+#include <algorithm>
+#include <cmath>
+
+using plm::Branch;
+using plm::BranchPoint;
+using Model = std::shared_ptr<plm::ReducedModel>;
+
+namespace {
+
+// A pre-loaded oscillator that opens at large amplitude (w = 1.27, falling) carries a second mass whose mode,
+// 3.2 times as fast, is in 3:1 resonance with it on the way: the force needed falls with the amplitude there.
+exact::Structure carrier(double second_mass, double ratio) {
+    exact::Structure s;
+    const double k = ratio * ratio * second_mass;
+    s.n = 2, s.z = 1;
+    s.mass = {1, second_mass};
+    s.stiffness = {1 + k, -k, -k, k};
+    s.damping = s.stiffness;
+    for (double &c : s.damping) c *= 0.004;
+    s.gap_rows = {1, 0};
+    s.contact_stiffness = {1};
+    s.gap = {0};
+    s.force = {1, 0};
+    s.preload = {0.5, 0};
+    return s;
+}
+Model with_isola() {
+    return test::reduce_exactly(carrier(0.2, 3.2));
+}
+Model without_isola() {
+    return test::reduce_exactly(carrier(0.05, 3.0));
+}
+
+plm::HbmOptions options(double force, int harmonics = 9) {
+    plm::HbmOptions o;
+    o.n_harmonics = harmonics;
+    o.frequency_min_hz = 0.9 / (2 * M_PI);
+    o.frequency_max_hz = 1.6 / (2 * M_PI);
+    o.force_scale = force;
+    o.tolerance = 1e-11;
+    return o;
+}
+
+std::shared_ptr<const Branch> sweep(const Model &m, const plm::HbmOptions &o) {
+    return plm::Hbm(m, 0, 0, o, plm::Watch()).sweep();
+}
+
+plm::IsolatedSearch search(const Model &m, const plm::HbmOptions &o) {
+    return plm::find_isolated(m, o, *sweep(m, o), 0, plm::Watch());
+}
+
+double peak_of(const plm::ReducedModel &m, const BranchPoint &p, int dof) {
+    const auto q = test::displacement(m, p.eta_0, p.eta, dof);
+    const plm::TrigRange range = plm::trig_range(q.data(), p.eta.cols() / 2);
+    return std::max(std::abs(range.maximum), std::abs(range.minimum));
+}
+
+double highest(const plm::ReducedModel &m, const Branch &b) {
+    double best = 0;
+    for (const BranchPoint &p : b.points()) best = std::max(best, peak_of(m, p, 0));
+    return best;
+}
+
+std::vector<BranchPoint> folds_of(const Branch &b) {
+    std::vector<BranchPoint> folds;
+    for (const BranchPoint &p : b.points())
+        if (p.bifurcation == PLM_BIFURCATION_FOLD) folds.push_back(p);
+    std::sort(folds.begin(), folds.end(),
+              [](const BranchPoint &a, const BranchPoint &b) { return a.omega < b.omega; });
+    return folds;
+}
+
+// --- backbone
+
+// Two modes with stiffness-proportional damping: Re(F' D F) = 0 in closed form, by bisection.
+double phase_resonance_of(const plm::ReducedModel &m, double low, double high) {
+    const auto phase = [&](double w) {
+        double sum = 0;
+        for (int j = 0; j < m.size(); ++j) {
+            const double f = m.excitation.at(1).real[j], d = m.lambda[j] - w * w,
+                         c = w * m.damping_diagonal[j];
+            sum += f * f * d / (d * d + c * c);
+        }
+        return sum;
+    };
+    for (int i = 0; i < 200; ++i) {
+        const double middle = 0.5 * (low + high);
+        (phase(middle) > 0 ? low : high) = middle;
+    }
+    return low;
+}
+struct LinearBackbone {
+    std::size_t count = 0, points = 0;
+    double frequency_error = 0, amplitude_error = 0;
+};
+LinearBackbone linear_backbone() {
+    exact::Structure s = carrier(0.2, 1.6);
+    s.gap = {1e9};
+    s.preload = {0, 0};
+    for (double &c : s.damping) c *= 10;
+    const Model m = test::reduce_exactly(s);
+    plm::BackboneOptions o;
+    o.hbm = options(0.5);
+    o.hbm.frequency_min_hz = 0.5 / (2 * M_PI);
+    o.hbm.frequency_max_hz = 1.2 / (2 * M_PI);
+    const auto backbones = plm::PhaseResonance(m, o, plm::Watch()).backbones();
+    LinearBackbone out;
+    out.count = backbones.size();
+    if (backbones.empty()) return out;
+    const double w = phase_resonance_of(*m, 0.5, 1.2);
+    const auto &points = backbones[0].branch->points();
+    out.points = points.size();
+    const double ratio = peak_of(*m, points[0], 0) / points[0].force_scale;
+    for (const BranchPoint &p : points) {
+        out.frequency_error = std::max(out.frequency_error, std::abs(p.omega / w - 1));
+        out.amplitude_error =
+            std::max(out.amplitude_error, std::abs(peak_of(*m, p, 0) / p.force_scale / ratio - 1));
+    }
+    return out;
+}
+void linear_backbone_is_a_straight_line_at_the_phase_resonance(void **) {
+    const LinearBackbone b = linear_backbone();
+    std::printf("    %zu points, errors %.1e in frequency, %.1e in proportionality\n", b.points,
+                b.frequency_error, b.amplitude_error);
+    assert_int_equal(b.count, 1);
+    assert_true(b.points > 3);
+    assert_true(below(b.frequency_error, 1e-10));
+    assert_true(below(b.amplitude_error, 1e-9));
+}
+
+// --- isola
+
+struct Found {
+    std::size_t count = 0, points = 0, folds = 0;
+    bool closed = false, tracked = false, ends_on_start = false;
+    double main = 0, top = 0, birth = 0, merge = 0, seconds = 0;
+};
+Found find(const Model &m, const plm::HbmOptions &o) {
+    const auto main = sweep(m, o);
+    const auto all = plm::find_isolated(m, o, *main, 0, plm::Watch());
+    Found f;
+    f.count = all.branches.size();
+    f.main = highest(*m, *main);
+    f.seconds = all.seconds;
+    if (f.count == 0) return f;
+    const plm::IsolatedBranch &i = all.branches[0];
+    f.points = i.branch->points().size();
+    f.closed = i.closed;
+    f.tracked = i.tracked;
+    f.folds = folds_of(*i.branch).size();
+    f.top = highest(*m, *i.branch);
+    f.birth = i.birth_force;
+    f.merge = i.merge_force;
+    f.ends_on_start = i.branch->points().front().omega == i.branch->points().back().omega;
+    return f;
+}
+void isola_is_found_without_a_hint(void **) {
+    const Found f = find(with_isola(), options(0.006));
+    std::printf(
+        "    main peak %.4f, isola %.4f (%zu points, %zu folds), exists for %.6f < F < %.6f, %.3f s\n",
+        f.main, f.top, f.points, f.folds, f.birth, f.merge, f.seconds);
+    assert_int_equal(f.count, 1);
+    assert_true(f.closed && f.ends_on_start && f.tracked);
+    assert_int_equal(f.folds, 2);
+    assert_true(f.top > 1.5 * f.main);
+}
+
+void automatic_harmonics_find_it_too(void **) {
+    const Found f = find(with_isola(), options(0.006, 0));
+    assert_int_equal(f.count, 1);
+    assert_true(f.closed && f.tracked);
+}
+
+// Births by searches on both sides, merging by plain sweeps alone: the main peak jumps to the isola's height.
+struct Range {
+    Found at;
+    std::size_t before_birth = 9, after_birth = 9;
+    double before_merge = 0, after_merge = 0;
+};
+Range check_range() {
+    const Model m = with_isola();
+    Range r;
+    r.at = find(m, options(0.006));
+    r.before_birth = search(m, options(r.at.birth * (1 - 1e-3))).branches.size();
+    r.after_birth = search(m, options(r.at.birth * (1 + 1e-3))).branches.size();
+    r.before_merge = highest(*m, *sweep(m, options(r.at.merge * (1 - 1e-3))));
+    r.after_merge = highest(*m, *sweep(m, options(r.at.merge * (1 + 1e-3))));
+    return r;
+}
+void range_of_forces_agrees_with_plain_sweeps(void **) {
+    const Range r = check_range();
+    std::printf("    around the birth %zu and %zu loops; main peak around the merger %.4f and %.4f\n",
+                r.before_birth, r.after_birth, r.before_merge, r.after_merge);
+    assert_int_equal(r.before_birth, 0);
+    assert_int_equal(r.after_birth, 1);
+    assert_true(r.after_merge > 2 * r.before_merge);
+}
+
+std::size_t isolas(const Model &m, const plm::HbmOptions &o) {
+    return search(m, o).branches.size();
+}
+void scenes_without_isola_yield_none(void **) {
+    assert_int_equal(isolas(without_isola(), options(0.01)), 0);
+    assert_int_equal(isolas(with_isola(), options(0.0095)), 0); // merged
+    assert_int_equal(isolas(with_isola(), options(0.0035)), 0); // not born yet
+    const Model homogeneous = test::reduce_exactly(test::bilinear_oscillator(0.01, 3, 0, 1, 0));
+    assert_int_equal(isolas(homogeneous, options(0.1)), 0);
+    const Model stop = test::reduce_exactly(test::bilinear_oscillator(0.01, 3, 1.0, 1, 0)); // folds, no isola
+    assert_int_equal(isolas(stop, options(0.1)), 0);
+    const Model unloaded =
+        test::reduce_exactly(test::bilinear_oscillator(0.01, 3, 1.0, 0, 0)); // no excitation
+    assert_int_equal(isolas(unloaded, options(0.1)), 0);
+    assert_int_equal(isolas(with_isola(), options(0.0)), 0);
+}
+
+// Every stable point of the loop (a few of them) is a periodic orbit of the exact flow.
+struct Orbits {
+    int checked = 0, unconverged = 0;
+    double worst = 0;
+};
+Orbits orbits_on_isola() {
+    const exact::Structure s = carrier(0.2, 3.2);
+    const Model m = test::reduce_exactly(s);
+    const double force = 0.006;
+    exact::Structure driven = s;
+    driven.force[0] *= force;
+    const auto all = search(m, options(force, 25));
+    Orbits out;
+    if (all.branches.empty()) return out;
+    int stable = 0;
+    for (const BranchPoint &p : all.branches[0].branch->points()) {
+        if (plm::stability_of(p) != 1 || stable++ % 4 != 0) continue;
+        std::vector<double> state(4);
+        for (int dof = 0; dof < 2; ++dof) {
+            const auto q = test::displacement(*m, p.eta_0, p.eta, dof);
+            const plm::TrigValue v = plm::evaluate_trig(q.data(), p.eta.cols() / 2, 0.0);
+            state[dof] = v.value;
+            state[2 + dof] = p.omega * v.slope;
+        }
+        const exact::Orbit orbit = exact::periodic_orbit(driven, p.omega, state, 0, 400);
+        ++out.checked;
+        out.unconverged += !orbit.converged;
+        out.worst = std::max(out.worst, std::abs(peak_of(*m, p, 0) / orbit.peak(0) - 1));
+    }
+    return out;
+}
+void stable_points_are_orbits_of_the_exact_flow(void **) {
+    const Orbits o = orbits_on_isola();
+    std::printf("    %d stable points, worst amplitude error %.1e\n", o.checked, o.worst);
+    assert_true(o.checked >= 3);
+    assert_int_equal(o.unconverged, 0);
+    assert_true(below(o.worst, 1e-3));
+}
+
+// --- second way: marching
+
+struct Marched {
+    std::size_t branches = 0, again = 9, without = 9;
+    bool closed = false;
+    double top = 0, top_of_search = 0;
+    std::int64_t starts = 0, periodic = 0, known = 0;
+};
+Marched march() {
+    const Model m = with_isola();
+    plm::MarchingOptions o;
+    o.hbm = options(0.006);
+    o.hbm.frequency_min_hz = 1.1 / (2 * M_PI); // round the isola: 12 frequencies
+    o.hbm.frequency_max_hz = 1.25 / (2 * M_PI);
+    const auto main = sweep(m, options(0.006));
+    const auto all = plm::search_by_marching(m, o, {main}, plm::Watch());
+    Marched out;
+    out.starts = all.n_starts, out.periodic = all.n_periodic, out.known = all.n_known;
+    out.branches = all.branches.size();
+    if (out.branches != 1) return out;
+    out.closed = all.branches[0]->end_reason == PLM_REASON_LOOP_CLOSED;
+    out.top = highest(*m, *all.branches[0]);
+    out.top_of_search = find(m, options(0.006)).top;
+    out.again = plm::search_by_marching(m, o, {main, all.branches[0]}, plm::Watch()).branches.size();
+    return out;
+}
+void marching_comes_upon_the_same_isola(void **) {
+    const Marched f = march();
+    std::printf("    %d starts, %d periodic, %d on known branches; top %.4f\n", static_cast<int>(f.starts),
+                static_cast<int>(f.periodic), static_cast<int>(f.known), f.top);
+    assert_int_equal(f.branches, 1);
+    assert_true(f.closed);
+    assert_true(close_to(f.top, f.top_of_search, 1e-2)); // discrete points of two loops
+    assert_int_equal(f.again, 0);
+}
+
+// --- fold tracking
+
+struct Tracked {
+    bool started = false, corrected = true;
+    double at_second_force = 1, turn = 0, birth = 0;
+};
+Tracked track() {
+    const Model m = with_isola();
+    const auto first = search(m, options(0.006)), second = search(m, options(0.007));
+    Tracked t;
+    if (first.branches.empty() || second.branches.empty()) return t;
+    t.birth = first.branches[0].birth_force;
+    const auto from = folds_of(*first.branches[0].branch), to = folds_of(*second.branches[0].branch);
+    plm::FoldOptions o;
+    o.hbm = options(0.006);
+    o.force_min = 0.002;
+    o.force_max = 0.007;
+    o.upward = true;
+    t.at_second_force = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) { // left and right fold, to the end of the range
+        const auto folds = plm::follow_folds(m, o, from[i], plm::Watch());
+        if (!folds) return t;
+        t.at_second_force =
+            std::max(t.at_second_force, std::abs(folds->points().back().omega / to.at(i).omega - 1));
+        BranchPoint jump = from[i];
+        t.corrected =
+            t.corrected && plm::correct_fold(m, o.hbm, 0.00605, jump) && jump.force_scale == 0.00605;
+    }
+    t.started = true;
+    o.upward = false;
+    o.stop_at_turn = true;
+    const auto down = plm::follow_folds(m, o, from[0], plm::Watch());
+    for (const BranchPoint &p : folds_of(*down)) t.turn = p.force_scale;
+    return t;
+}
+void tracked_folds_are_those_of_the_curves(void **) {
+    const Tracked t = track();
+    std::printf("    folds at a second force: relative difference %.1e; turning point %.9f, birth %.9f\n",
+                t.at_second_force, t.turn, t.birth);
+    assert_true(t.started && t.corrected);
+    assert_true(below(t.at_second_force, 1e-6));
+    assert_true(close_to(t.turn, t.birth, 1e-7));
+}
+
+} // namespace
+
+int main() {
+    const CMUnitTest tests[] = {
+        cmocka_unit_test(linear_backbone_is_a_straight_line_at_the_phase_resonance),
+        cmocka_unit_test(isola_is_found_without_a_hint),
+        cmocka_unit_test(automatic_harmonics_find_it_too),
+        cmocka_unit_test(range_of_forces_agrees_with_plain_sweeps),
+        cmocka_unit_test(scenes_without_isola_yield_none),
+        cmocka_unit_test(stable_points_are_orbits_of_the_exact_flow),
+        cmocka_unit_test(marching_comes_upon_the_same_isola),
+        cmocka_unit_test(tracked_folds_are_those_of_the_curves),
+    };
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
