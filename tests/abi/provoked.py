@@ -91,13 +91,40 @@ refused("install.symbols", "an export that is not plm_", "^helper|T helper", "sh
 refused("capi.every_function", "a function no test calls", "plm_model_forget", python, tests / "capi/every_function.py", grown,
         tests)
 layered = folder / "layered"  # the sources of the layers beside the header that grew
-shutil.copytree(source / "fortran", layered / "fortran")
-shutil.copytree(source / "include", layered / "include")
+for part in ("api", "fortran", "include", "bindings/python/plm"):
+    shutil.copytree(source / part, layered / part)
+for part in ("src/capi/api.txt", "tests/abi/symbols.txt", "CMakeLists.txt"):
+    (layered / part).parent.mkdir(parents=True, exist_ok=True)
+    shutil.copy(source / part, layered / part)
 shutil.copy(grown, layered / "include/plm/plm.h")
-refused("parity.functions_cpp", "a function plm.hpp lacks", "plm_model_forget", "sh", tests / "parity/functions.sh", cxx,
+refused("parity.functions_cpp", "a function plm.hpp lacks", "plm_model_forget", python, tests / "parity/functions.py", cxx,
         layered / "include")
-refused("fortran.generated", "bind(C) interfaces that lag behind", "not what the header asks for: plm_c.f90", python,
-        layered / "fortran/generate.py", "--check")
+generated = [python, layered / "api/generate.py", "--check"]
+refused("abi.generated", "files that lag behind the header", "not what plm.h and api.txt ask for: fortran/plm_c.f90, .*symbols.txt",
+        *generated)
+described = source / "src/capi/api.txt"
+
+
+def refused_description(what, said, old, new):
+    """The description, changed, beside the header as it is."""
+    shutil.copy(changed(described, old, new), layered / "src/capi/api.txt")
+    refused("abi.generated", what, said, *generated)
+
+
+changed(header, FIRST, NEW.replace("*model", "*model, double *what") + r"\1", "layered/include/plm/plm.h")
+refused("abi.generated", "a pointer that nobody described", r"plm_model_forget: double \* what is not described", *generated)
+shutil.copy(header, layered / "include/plm/plm.h")
+refused_description("a description of no function", r"api.txt:\d+: plm.h has no function plm_model_forget",
+                    "^plm_model_fix_dofs:", "plm_model_forget:")
+refused_description("a description of no argument", r"plm_model_fix_dofs_i32 has no argument 'dofs'",
+                    "^plm_model_fix_dofs: dof", "plm_model_fix_dofs: dofs")
+refused_description("a size in terms of nothing", r"q\[m\]: 'm' is neither an argument nor one of the dimensions",
+                    r"^plm_branch_get_field: q\[n\]", "plm_branch_get_field: q[m]")
+refused_description("a function described twice", "plm_model_fix_dofs is described a second time",
+                    "^plm_model_fix_dofs: .*", r"\g<0>\n\g<0>")
+refused_description("a line that cannot be read", "'dof of n' cannot be read", r"^plm_model_fix_dofs: dof\[n\]",
+                    "plm_model_fix_dofs: dof of n")
+shutil.copy(grown, layered / "include/plm/plm.h")
 refused("fortran.covers_the_header", "a function the layers lack", "module plm: plm_model_forget", python,
         tests / "fortran/covers_the_header.py", layered)
 refused("fortran.constants", "another value in plmf.inc", "PLMTRU is 7, PLM_TRUNCATED is 2", python,

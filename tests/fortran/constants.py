@@ -1,7 +1,11 @@
 #!/usr/bin/env python3
 """constants.py PLM_H PLMF_INC: plmf.inc has every constant of plm.h that a FORTRAN 77 host needs, with its value."""
+import pathlib
 import re
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "api"))
+import plm_header  # noqa: E402
 
 # The six letters that stand for a C name. A constant of plm.h that is neither here nor below stops the test.
 SIX = {
@@ -31,9 +35,8 @@ NOT_NEEDED = {
     "TYPE_INT": "ITYPE of PLMKIN, 1 to 5", "TYPE_DOUBLE": "", "TYPE_STRING": "", "TYPE_ARRAY": "", "TYPE_INT_ARRAY": "",
 }
 
-header = re.sub(r"/\*.*?\*/", " ", open(sys.argv[1], encoding="utf-8").read(), flags=re.S)
 include = open(sys.argv[2], encoding="utf-8").read()
-wanted = {name: float(value) for name, value in re.findall(r"^#define PLM_(\w+)[ \t]+\(?(-?[\d.]+)\)?[ \t]*$", header, re.M)}
+wanted = {name[len("PLM_"):]: float(value) for name, value in plm_header.read(sys.argv[1]).constants.items()}
 found = {name: float(value.replace("D", "E"))
          for name, value in re.findall(r"^      PARAMETER \((PLM\w+) = (-?[\d.D]+)\)$", include, re.M)}
 declared = set(re.findall(r"PLM\w+", " ".join(re.findall(r"^      (?:INTEGER(?:\*8)?|DOUBLE PRECISION) (.*)$", include, re.M))))

@@ -5,9 +5,12 @@ import pathlib
 import re
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "api"))
+import plm_header  # noqa: E402
+
 root = pathlib.Path(sys.argv[1])
 fortran = root / "fortran"
-functions = set(re.findall(r"PLM_API\s+plm_status\s+(plm_\w+)", (root / "include/plm/plm.h").read_text()))
+functions = {f.name for f in plm_header.read(root / "include/plm/plm.h").functions}
 # the host's own memory and solver are C pointers by nature: called through the module plm_c
 C_ONLY = {"plm_context_create_with_allocator", "plm_context_set_solver",
           "plm_context_set_inertia"}
