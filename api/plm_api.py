@@ -2,12 +2,12 @@
 
     api = plm_api.read()        functions, callbacks, handles, constants; every pointer with its intent and its size
 
-Stops with a sentence where a pointer is not described, and where the description names what does not exist."""
-import pathlib
+Stops with a sentence where something is not described, and where the description names what does not exist."""
 import re
 from dataclasses import dataclass
 
 import plm_header
+from description import Description
 from plm_header import PATH as HEADER
 from plm_header import ROOT
 
@@ -16,56 +16,12 @@ NUMBERS = ("int32_t", "int64_t", "double", "plm_status")
 
 
 @dataclass
-class Described:
-    """What the description says of one argument."""
-    name: str
-    size: str
-    optional: bool
-    is_inout: bool
-
-
-class Description:
-    """api.txt as it stands, not yet compared with the header."""
-
-    def __init__(self, path):
-        self.place = pathlib.Path(path).name
-        self.dimensions = []
-        self.everywhere = {}
-        self.functions = {}  # name: {argument: Described}
-        self.lines = {}  # name: where it stands, for messages
-        for number, line in enumerate(pathlib.Path(path).read_text(encoding="utf-8").splitlines(), 1):
-            if line.strip() and not line.startswith("#"):
-                self.read_line(line, f"{self.place}:{number}")
-
-    def read_line(self, line, where):
-        name, _, rest = (part.strip() for part in line.partition(":"))
-        if name == "dimensions":
-            self.dimensions += [word.strip() for word in rest.split(",")]
-        elif name == "everywhere":
-            self.everywhere.update(self.read_arguments(rest, where))
-        elif name in self.functions:
-            raise SystemExit(f"{where}: {name} is described a second time")
-        else:
-            self.functions[name] = self.read_arguments(rest, where)
-            self.lines[name] = where
-
-    def read_arguments(self, text, where):
-        """{name: Described} of "a[n + 1], inout x?"."""
-        found = {}
-        for part in filter(None, re.split(r",\s*", text)):
-            match = re.fullmatch(r"(inout )?(\w+)(?:\[(.+)\])?(\?)?", part)
-            if not match:
-                raise SystemExit(f"{where}: '{part}' cannot be read; an argument is described like name, name[size] or name?")
-            found[match[2]] = Described(match[2], match[3] or "", bool(match[4]), bool(match[1]))
-        return found
-
-
-@dataclass
 class Api:
     functions: list
     callbacks: list
     handles: list
     constants: dict
+    description: Description
 
     def is_handle(self, argument):
         return argument.base in self.handles
@@ -73,10 +29,21 @@ class Api:
     def is_callback(self, argument):
         return argument.base in {callback.name for callback in self.callbacks}
 
+    def entry(self, function):
+        """What the description says of a function."""
+        return self.description.functions[described_as(function.name, self.description)]
 
-def without_width(name):
-    """plm_x of plm_x_i32 and plm_x_i64, which are described once."""
-    return re.sub(r"_i(32|64)$", "", name)
+    def left_out_of(self, layer):
+        """{function: reason}"""
+        return {function.name: self.entry(function).left_out[layer] for function in self.functions
+                if layer in self.entry(function).left_out}
+
+
+def described_as(name, description):
+    """plm_x of plm_x_i32 and plm_x_i64; plm_X_set_int of plm_model_set_int where that has no description of its own."""
+    name = re.sub(r"_i(32|64)$", "", name)
+    shared = re.sub(r"^plm_[a-z]+_", "plm_X_", name)
+    return shared if name not in description.functions and shared in description.functions else name
 
 
 def needs_description(argument):
@@ -86,44 +53,82 @@ def needs_description(argument):
     return argument.base == "char" and not argument.is_const or argument.stars == 2 and argument.is_const
 
 
-def apply(function, own, description):
+def apply(function, description):
     """Completes the arguments of a function by what its own line and the names used everywhere say."""
-    where = description.lines.get(without_width(function.name), description.place)
+    entry = description.functions.get(described_as(function.name, description))
+    own = entry.arguments if entry else {}
     for name in own.keys() - {argument.name for argument in function.arguments}:
-        raise SystemExit(f"{where}: {function.name} has no argument '{name}'")
+        raise SystemExit(f"{entry.where}: {function.name} has no argument '{name}'")
     for argument in function.arguments:
         said = own.get(argument.name)
         if not said and needs_description(argument):
             said = description.everywhere.get(argument.name)
             if not said:
                 raise SystemExit(f"{function.name}: {argument.type} {argument.name} is not described: one value, or an array "
-                                 f"of which size? Say it in {description.place}")
+                                 f"of which size? Say it in {description.file}")
         if argument.stars and not argument.is_const and (argument.stars == 2 or needs_description(argument)):
             argument.intent = "inout" if function.name.endswith("_destroy") or said and said.is_inout else "out"
+        argument.is_position = argument.stars == 0 and argument.name in description.positions
         if said:
-            argument.size, argument.optional = said.size, said.optional
-            check_size(function, argument, description.dimensions, where)
+            argument.size, argument.optional, argument.is_position = said.size, said.optional, said.is_position
+            check_size(function, argument, description)
 
 
-def check_size(function, argument, dimensions, where):
-    known = {other.name for other in function.arguments} | set(dimensions) | {"or"}
+def check_size(function, argument, description):
+    known = {other.name for other in function.arguments} | set(description.dimensions) | {"or"}
     for word in re.findall(r"[A-Za-z_]\w*", argument.size):
         if word not in known:
-            raise SystemExit(f"{where}: {function.name}: {argument.name}[{argument.size}]: '{word}' is neither an argument nor "
-                             "one of the dimensions")
+            raise SystemExit(f"{description.file}: {function.name}: {argument.name}[{argument.size}]: '{word}' is neither an "
+                             "argument nor one of the dimensions")
     if argument.size and not argument.stars:
-        raise SystemExit(f"{where}: {function.name}: {argument.name} is no pointer, so it is no array")
+        raise SystemExit(f"{description.file}: {function.name}: {argument.name} is no pointer, so it is no array")
+
+
+def check_names(declared, said):
+    """The description speaks of what there is, and of all there is."""
+    functions = declared.functions + declared.callbacks
+    needed = {described_as(function.name, said) for function in declared.functions}
+    known = needed | {callback.name for callback in declared.callbacks}
+    for name in said.functions:
+        if name not in known:
+            raise SystemExit(f"{said.functions[name].where}: plm.h has no function {name}")
+    for name in sorted(needed - said.functions.keys()):
+        raise SystemExit(f"{name} is not described: write its line in {said.file}, with a FORTRAN 77 subroutine")
+    arguments = {argument.name for function in functions for argument in function.arguments}
+    for name in [*said.everywhere, *said.positions]:
+        if name not in arguments:
+            raise SystemExit(f"{said.file}: no function has an argument '{name}'")
+    named = {name: entry for section in said.sections for name, _, entry in section.constants}
+    for name in sorted(named.keys() - declared.constants.keys()):
+        raise SystemExit(f"{named[name].where}: plm.h has no constant {name}")
+    for name in sorted(declared.constants.keys() - named.keys()):
+        raise SystemExit(f"{name} is not described: give it six letters in {said.file}")
+
+
+def six_letters(said):
+    """(name, its six letters or "", entry) of every function and every constant."""
+    for name, entry in said.functions.items():
+        if not name.endswith("_fn"):
+            for six in [subroutine.name for subroutine in entry.subroutines] or [""]:
+                yield name, six, entry
+    for section in said.sections:
+        yield from section.constants
+
+
+def check_layers(said):
+    """What has no six letters of its own has a reason to have none."""
+    used = {}
+    for name, six, entry in six_letters(said):
+        if bool(six) == ("FORTRAN 77" in entry.left_out):
+            raise SystemExit(f"{entry.where}: {name} needs six letters, or a reason: not in FORTRAN 77: ...")
+        if six and used.setdefault(six, name) != name:
+            raise SystemExit(f"{entry.where}: {six} is {used[six]} already")
 
 
 def read(header=HEADER, description=DESCRIPTION):
     declared, said = plm_header.read(header), Description(description)
-    functions = declared.functions + declared.callbacks
-    names = {without_width(function.name) for function in functions}
-    for name in said.functions:
-        if name not in names:
-            raise SystemExit(f"{said.lines[name]}: plm.h has no function {name}")
-    for function in functions:
-        apply(function, said.functions.get(without_width(function.name), {}), said)
-    for name in said.everywhere.keys() - {argument.name for function in functions for argument in function.arguments}:
-        raise SystemExit(f"{said.place}: everywhere: no function has an argument '{name}'")
-    return Api(declared.functions, declared.callbacks, declared.handles, declared.constants)
+    for function in declared.functions + declared.callbacks:
+        apply(function, said)
+    check_names(declared, said)
+    check_layers(said)
+    return Api(declared.functions, declared.callbacks, declared.handles, declared.constants, said)

@@ -90,49 +90,57 @@ refused("install.symbols", "an export that is not plm_", "^helper|T helper", "sh
 # ---- every function, in every layer
 refused("capi.every_function", "a function no test calls", "plm_model_forget", python, tests / "capi/every_function.py", grown,
         tests)
-layered = folder / "layered"  # the sources of the layers beside the header that grew
+layered = folder / "layered"  # the layers beside a header or a description in which something is wrong
 for part in ("api", "fortran", "include", "bindings/python/plm"):
     shutil.copytree(source / part, layered / part)
-for part in ("src/capi/api.txt", "tests/abi/symbols.txt", "CMakeLists.txt"):
+for part in ("tests/abi/symbols.txt", "CMakeLists.txt"):
     (layered / part).parent.mkdir(parents=True, exist_ok=True)
     shutil.copy(source / part, layered / part)
-shutil.copy(grown, layered / "include/plm/plm.h")
+
+
+def lay(new_header, old=None, new=None):
+    """This header, and the description with one change, into the copy of the layers."""
+    shutil.copy(new_header, layered / "include/plm/plm.h")
+    changed(source / "src/capi/api.txt", old or "^", new or "", "layered/src/capi/api.txt")
+
+
+def refused_by_generator(what, said, new_header, old=None, new=None):
+    lay(new_header, old, new)
+    refused("abi.generated", what, said, python, layered / "api/generate.py", "--check")
+
+
+DESCRIBED = ("^plm_model_build$", r"plm_model_forget\n    PLMMFO (HANDLE)\n        forget it\n\g<0>")
+lay(grown, *DESCRIBED)
 refused("parity.functions_cpp", "a function plm.hpp lacks", "plm_model_forget", python, tests / "parity/functions.py", cxx,
         layered / "include")
-generated = [python, layered / "api/generate.py", "--check"]
-refused("abi.generated", "files that lag behind the header", "not what plm.h and api.txt ask for: fortran/plm_c.f90, .*symbols.txt",
-        *generated)
-described = source / "src/capi/api.txt"
-
-
-def refused_description(what, said, old, new):
-    """The description, changed, beside the header as it is."""
-    shutil.copy(changed(described, old, new), layered / "src/capi/api.txt")
-    refused("abi.generated", what, said, *generated)
-
-
-changed(header, FIRST, NEW.replace("*model", "*model, double *what") + r"\1", "layered/include/plm/plm.h")
-refused("abi.generated", "a pointer that nobody described", r"plm_model_forget: double \* what is not described", *generated)
-shutil.copy(header, layered / "include/plm/plm.h")
-refused_description("a description of no function", r"api.txt:\d+: plm.h has no function plm_model_forget",
-                    "^plm_model_fix_dofs:", "plm_model_forget:")
-refused_description("a description of no argument", r"plm_model_fix_dofs_i32 has no argument 'dofs'",
-                    "^plm_model_fix_dofs: dof", "plm_model_fix_dofs: dofs")
-refused_description("a size in terms of nothing", r"q\[m\]: 'm' is neither an argument nor one of the dimensions",
-                    r"^plm_branch_get_field: q\[n\]", "plm_branch_get_field: q[m]")
-refused_description("a function described twice", "plm_model_fix_dofs is described a second time",
-                    "^plm_model_fix_dofs: .*", r"\g<0>\n\g<0>")
-refused_description("a line that cannot be read", "'dof of n' cannot be read", r"^plm_model_fix_dofs: dof\[n\]",
-                    "plm_model_fix_dofs: dof of n")
-shutil.copy(grown, layered / "include/plm/plm.h")
-refused("fortran.covers_the_header", "a function the layers lack", "module plm: plm_model_forget", python,
+refused("fortran.covers_the_header", "a function the module lacks", "module plm: plm_model_forget", python,
         tests / "fortran/covers_the_header.py", layered)
-refused("fortran.constants", "another value in plmf.inc", "PLMTRU is 7, PLM_TRUNCATED is 2", python,
-        tests / "fortran/constants.py", header, changed(source / "fortran/plmf.inc", r"PLMTRU = 2", "PLMTRU = 7"))
-refused("fortran.constants", "a constant plmf.inc lacks", "PLM_OFTEN has no six letters", python,
-        tests / "fortran/constants.py", changed(header, r"^#define PLM_TRUNCATED 2", r"#define PLM_OFTEN 2\n\g<0>"),
-        source / "fortran/plmf.inc")
-layer = [source / "fortran" / name for name in ("plm_f77.f90", "plm_f77_keys.f90")]
+refused_by_generator("files that lag behind", "not what plm.h and api.txt ask for: fortran/plm_c.f90, .*plmf.inc, .*symbols.txt",
+                     grown, *DESCRIBED)
+refused_by_generator("a function that nobody described", "plm_model_forget is not described: write its line in api.txt", grown)
+refused_by_generator("a pointer that nobody described", r"plm_model_forget: double \* what is not described",
+                     changed(header, FIRST, NEW.replace("*model", "*model, double *what") + r"\1"), *DESCRIBED)
+refused_by_generator("a description of no function", r"api.txt:\d+: plm.h has no function plm_model_forget", header, *DESCRIBED)
+refused_by_generator("a description of no argument", r"plm_model_fix_dofs_i32 has no argument 'dofs'", header,
+                     "^plm_model_fix_dofs: dof", "plm_model_fix_dofs: dofs")
+refused_by_generator("a size in terms of nothing", r"q\[m\]: 'm' is neither an argument nor one of the dimensions", header,
+                     r"^plm_branch_get_field: q\[n\]", "plm_branch_get_field: q[m]")
+refused_by_generator("a function described twice", "plm_model_fix_dofs is described a second time", header,
+                     "^plm_model_fix_dofs: .*", r"\g<0>\n\g<0>")
+refused_by_generator("a line that cannot be read", "'dof of n' cannot be read", header, r"^plm_model_fix_dofs: dof\[n\]",
+                     "plm_model_fix_dofs: dof of n")
+refused_by_generator("a constant that nobody described", "PLM_OFTEN is not described: give it six letters",
+                     changed(header, "^#define PLM_TRUNCATED 2", r"#define PLM_OFTEN 2\n\g<0>"))
+refused_by_generator("six letters for two functions", "PLMMBU is plm_model_fix_dofs already", header, "PLMMFX", "PLMMBU")
+refused_by_generator("a function without six letters", "plm_hbm_sweep needs six letters, or a reason", header,
+                     "^    PLMHSW .*\n.*\n", "")
+refused_by_generator("a subroutine that lacks an argument", "PLMHSW has 1 arguments, plm_hbm_sweep needs 2: hbm, branch", header,
+                     r"PLMHSW \(HANDLE, BRANCH\)", "PLMHSW (HANDLE)")
+refused_by_generator("a name of two types", r"PLMHSW: COUNT is INTEGER\*8 here and INTEGER elsewhere", header,
+                     r"PLMHSW \(HANDLE, BRANCH\)", "PLMHSW (HANDLE, COUNT)")
+refused_by_generator("a subroutine that must be by hand", r"no rule passes int32_t \* ?closed from FORTRAN 77", header,
+                     "^(    PLMRCT .*) by hand", r"\1")
+layer = [source / "fortran" / name for name in ("plm_f77.f90", "plm_f77_calls.f90", "plm_f77_keys.f90")]
 refused("fortran.include_file", "a handle named like an INTEGER", r"PLMHSO: ISTART is INTEGER by the rule .*INTEGER\*8 in", python,
         tests / "fortran/include_file.py", changed(source / "fortran/plmf.inc", "FREQ, START, IPOINT", "FREQ, ISTART, IPOINT"), *layer)
 refused("docs.every_function_has_an_example", "a function without an example", "plm_model_forget: no example", python,

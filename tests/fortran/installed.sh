@@ -14,7 +14,7 @@ mods=$(dirname "$(find "$prefix" -name plm.mod)")
 libs="$(pkg-config --libs plm) -Wl,-rpath,$libdir"
 
 "$fc" -std=legacy -fdefault-integer-8 -I"$fortran" "$source/examples/fortran77/chain.f" -c -o chain77.o
-for file in plm_c plm_f77 plm_f77_keys; do
+for file in plm_c plm_f77 plm_f77_calls plm_f77_keys; do
     "$fc" -fdefault-integer-8 -c "$fortran/$file.f90" -o "f77_$file.o"
 done
 # shellcheck disable=SC2086
