@@ -9,6 +9,7 @@ import sys
 import fortran77
 import fortran77_include
 import fortran_c
+import fortran_twins
 import plm_api
 import python_table
 import symbol_ledger
@@ -24,6 +25,7 @@ WRITERS = {"fortran/plm_c.f90": fortran_c.written,
 def main():
     api = plm_api.read()
     made = {path: write(api) for path, write in WRITERS.items()}
+    made.update({f"fortran/{file}": fortran_twins.written(file) for file in fortran_twins.FILES})
     stale = [path for path, text in made.items()
              if not (plm_api.ROOT / path).exists() or (plm_api.ROOT / path).read_text(encoding="utf-8") != text]
     if "--check" in sys.argv[1:]:

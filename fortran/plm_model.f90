@@ -83,25 +83,6 @@ contains
             size(value, kind=int64), col_ptr, row, value), stat, errmsg)
     end subroutine set_csc_int32
 
-    subroutine set_csc_int64(self, which, part, col_ptr, row, value, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(plm_status), intent(in) :: which, part
-        integer(int64), intent(in), contiguous :: col_ptr(:), row(:)
-        real(real64), intent(in), contiguous :: value(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        if (size(row) /= size(value) .or. size(col_ptr) < 1) then
-            call refuse('set_csc: the lengths of the arrays do not fit', stat, errmsg)
-            return
-        end if
-        if (self%n_dof > 0 .and. size(col_ptr) /= self%n_dof + 1) then
-            call refuse('set_csc: col_ptr must have n_dof + 1 entries', stat, errmsg)
-            return
-        end if
-        call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_CSC, part, 1_c_int32_t, PLM_COPY, &
-            size(value, kind=int64), col_ptr, row, value), stat, errmsg)
-    end subroutine set_csc_int64
-
     ! compressed rows: row_ptr(n_dof + 1), column(nnz)
     subroutine set_csr_int32(self, which, part, row_ptr, column, value, stat, errmsg)
         class(plm_model), intent(inout) :: self
@@ -122,25 +103,6 @@ contains
             size(value, kind=int64), row_ptr, column, value), stat, errmsg)
     end subroutine set_csr_int32
 
-    subroutine set_csr_int64(self, which, part, row_ptr, column, value, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(plm_status), intent(in) :: which, part
-        integer(int64), intent(in), contiguous :: row_ptr(:), column(:)
-        real(real64), intent(in), contiguous :: value(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        if (size(column) /= size(value) .or. size(row_ptr) < 1) then
-            call refuse('set_csr: the lengths of the arrays do not fit', stat, errmsg)
-            return
-        end if
-        if (self%n_dof > 0 .and. size(row_ptr) /= self%n_dof + 1) then
-            call refuse('set_csr: row_ptr must have n_dof + 1 entries', stat, errmsg)
-            return
-        end if
-        call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_CSR, part, 1_c_int32_t, PLM_COPY, &
-            size(value, kind=int64), row_ptr, column, value), stat, errmsg)
-    end subroutine set_csr_int64
-
     ! Entries in any order; those of the same place are summed.
     subroutine set_triplets_int32(self, which, part, row, column, value, stat, errmsg)
         class(plm_model), intent(inout) :: self
@@ -156,21 +118,6 @@ contains
         call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_TRIPLETS, part, 1_c_int32_t, PLM_COPY, &
             size(value, kind=int64), row, column, value), stat, errmsg)
     end subroutine set_triplets_int32
-
-    subroutine set_triplets_int64(self, which, part, row, column, value, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(plm_status), intent(in) :: which, part
-        integer(int64), intent(in), contiguous :: row(:), column(:)
-        real(real64), intent(in), contiguous :: value(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        if (size(row) /= size(value) .or. size(column) /= size(value)) then
-            call refuse('set_triplets: the lengths of the arrays do not fit', stat, errmsg)
-            return
-        end if
-        call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_TRIPLETS, part, 1_c_int32_t, PLM_COPY, &
-            size(value, kind=int64), row, column, value), stat, errmsg)
-    end subroutine set_triplets_int64
 
     ! C = alpha M + beta K
     subroutine set_rayleigh_damping(self, alpha, beta, stat, errmsg)
@@ -208,15 +155,6 @@ contains
             stat, errmsg)
     end subroutine fix_dofs_int32
 
-    subroutine fix_dofs_int64(self, dof, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(int64), intent(in), contiguous :: dof(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_fix_dofs(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), &
-            stat, errmsg)
-    end subroutine fix_dofs_int64
-
     ! dof_a, dof_b, normal: 3 x n, 0 for no such DOF; the normal points out of the body of a; stiffness(n): k_n or
     ! PLM_AUTO_STIFFNESS; gap(n): initial distance, absent: 0
     subroutine add_node_pairs_int32(self, dof_a, dof_b, normal, stiffness, gap, stat, errmsg)
@@ -245,32 +183,6 @@ contains
         end if
     end subroutine add_node_pairs_int32
 
-    subroutine add_node_pairs_int64(self, dof_a, dof_b, normal, stiffness, gap, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(int64), intent(in), contiguous :: dof_a(:, :), dof_b(:, :)
-        real(real64), intent(in), contiguous :: normal(:, :), stiffness(:)
-        real(real64), intent(in), contiguous, optional :: gap(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        if (any( &
-            [shape(dof_a), shape(dof_b), shape(normal)] /= &
-            [3, size(stiffness), 3, size(stiffness), 3, size(stiffness)])) then
-            call refuse('add_node_pairs: the shapes of the arrays do not fit', stat, errmsg)
-            return
-        end if
-        if (present(gap)) then
-            if (size(gap) /= size(stiffness)) then
-                call refuse('add_node_pairs: gap has the wrong length', stat, errmsg)
-                return
-            end if
-            call finish(self%context, plm_model_add_node_pairs_i64(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
-                dof_a, dof_b, normal, stiffness, gap), stat, errmsg)
-        else
-            call finish(self%context, plm_model_add_node_pairs_i64(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
-                dof_a, dof_b, normal, stiffness), stat, errmsg)
-        end if
-    end subroutine add_node_pairs_int64
-
     ! The normal points into the ground.
     subroutine add_ground_contacts_int32(self, dof, normal, stiffness, gap, stat, errmsg)
         class(plm_model), intent(inout) :: self
@@ -295,30 +207,6 @@ contains
                 size(stiffness, kind=int64), dof, normal, stiffness), stat, errmsg)
         end if
     end subroutine add_ground_contacts_int32
-
-    subroutine add_ground_contacts_int64(self, dof, normal, stiffness, gap, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(int64), intent(in), contiguous :: dof(:, :)
-        real(real64), intent(in), contiguous :: normal(:, :), stiffness(:)
-        real(real64), intent(in), contiguous, optional :: gap(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        if (any([shape(dof), shape(normal)] /= [3, size(stiffness), 3, size(stiffness)])) then
-            call refuse('add_ground_contacts: the shapes of the arrays do not fit', stat, errmsg)
-            return
-        end if
-        if (present(gap)) then
-            if (size(gap) /= size(stiffness)) then
-                call refuse('add_ground_contacts: gap has the wrong length', stat, errmsg)
-                return
-            end if
-            call finish(self%context, plm_model_add_ground_contacts_i64(self%handle, 1_c_int32_t, &
-                size(stiffness, kind=int64), dof, normal, stiffness, gap), stat, errmsg)
-        else
-            call finish(self%context, plm_model_add_ground_contacts_i64(self%handle, 1_c_int32_t, &
-                size(stiffness, kind=int64), dof, normal, stiffness), stat, errmsg)
-        end if
-    end subroutine add_ground_contacts_int64
 
     ! Rows of the gap matrix: u = sum of coefficient x q(dof) - gap, u > 0 closed.
     subroutine add_gap_rows_int32(self, row_ptr, dof, coefficient, stiffness, gap, stat, errmsg)
@@ -348,34 +236,6 @@ contains
                 row_ptr, dof, coefficient, stiffness), stat, errmsg)
         end if
     end subroutine add_gap_rows_int32
-
-    subroutine add_gap_rows_int64(self, row_ptr, dof, coefficient, stiffness, gap, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(int64), intent(in), contiguous :: row_ptr(:), dof(:)
-        real(real64), intent(in), contiguous :: coefficient(:), stiffness(:)
-        real(real64), intent(in), contiguous, optional :: gap(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        if (size(row_ptr) /= size(stiffness) + 1 .or. size(dof) /= size(coefficient)) then
-            call refuse('add_gap_rows: the shapes of the arrays do not fit', stat, errmsg)
-            return
-        end if
-        if (present(gap)) then
-            if (size(gap) /= size(stiffness)) then
-                call refuse('add_gap_rows: gap has the wrong length', stat, errmsg)
-            return
-        end if
-        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
-            call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
-                return
-            end if
-            call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
-                row_ptr, dof, coefficient, stiffness, gap), stat, errmsg)
-        else
-            call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
-                row_ptr, dof, coefficient, stiffness), stat, errmsg)
-        end if
-    end subroutine add_gap_rows_int64
 
     ! absent: none
     subroutine set_preload(self, force, stat, errmsg)
@@ -493,5 +353,8 @@ contains
         severity = int(level)
         text = f_text(buffer)
     end subroutine finding
+
+    ! the procedures *_int64, twins of those above
+    include 'plm_model_int64.inc'
 
 end module plm_models

@@ -67,15 +67,6 @@ contains
             errmsg)
     end subroutine observe_int32
 
-    subroutine observe_int64(self, dof, stat, errmsg)
-        class(plm_transient), intent(inout) :: self
-        integer(int64), intent(in), contiguous :: dof(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_transient_observe(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), stat, &
-            errmsg)
-    end subroutine observe_int64
-
     ! q(n_dof), v(n_dof): displacement and velocity at the beginning of a period; absent: zero
     subroutine set_state(self, q, v, stat, errmsg)
         class(plm_transient), intent(inout) :: self
@@ -181,5 +172,8 @@ contains
         if (status >= 0) value = cmplx(re, im, real64)
         call finish(self%context, status, stat, errmsg)
     end subroutine multipliers
+
+    ! the procedures *_int64, twins of those above
+    include 'plm_motion_int64.inc'
 
 end module plm_motions

@@ -12,7 +12,7 @@ root = pathlib.Path(sys.argv[1])
 api = plm_api.read(root / "include/plm/plm.h", root / "src/capi/api.txt")
 functions, left_out = {function.name for function in api.functions}, set(api.left_out_of("module plm"))
 
-text = "\n".join(path.read_text() for path in (root / "fortran").glob("plm*.f90")
+text = "\n".join(path.read_text() for path in (root / "fortran").glob("plm_*")
                  if path.stem != "plm_c" and not path.stem.startswith("plm_f77"))
 called = set(re.findall(r"\b(plm_\w+)\s*\(", text))
 called |= set(re.findall(r"\bcall \w+\(self, (plm_\w+),", text))  # handed to a procedure that calls it
