@@ -220,13 +220,13 @@ contains
             call refuse('add_gap_rows: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
+        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
+            call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
+            return
+        end if
         if (present(gap)) then
             if (size(gap) /= size(stiffness)) then
                 call refuse('add_gap_rows: gap has the wrong length', stat, errmsg)
-            return
-        end if
-        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
-            call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
                 return
             end if
             call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
