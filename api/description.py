@@ -32,6 +32,7 @@ class Entry:
     arguments: dict = field(default_factory=dict)  # name: Described
     subroutines: list = field(default_factory=list)
     left_out: dict = field(default_factory=dict)  # layer: reason
+    by_rule: list = field(default_factory=list)  # layers whose method is generated
 
 
 @dataclass
@@ -108,14 +109,17 @@ class Description:
         return found
 
     def read_indented(self, line):
-        """A subroutine, what is said of it, or a layer that leaves the function out."""
+        """A subroutine, what is said of it, a layer that leaves the function out, or layers that have it by rule."""
         subroutine = re.fullmatch(r" {4}(PLM\w{3}) \(([\w, ]*)\)( by hand)?", line)
         left_out = re.fullmatch(rf" {{4}}not in ({'|'.join(LAYERS)}): (.+)", line)
+        by_rule = re.fullmatch(r" {4}by rule in (.+)", line)
         if subroutine:
             arguments = [name.strip() for name in subroutine[2].split(",")]
             self.entry.subroutines.append(Subroutine(subroutine[1], arguments, bool(subroutine[3])))
         elif left_out:
             self.entry.left_out[left_out[1]] = left_out[2]
+        elif by_rule and set(by_rule[1].split(", ")) <= set(LAYERS):
+            self.entry.by_rule = by_rule[1].split(", ")
         elif line.startswith(" " * 8) and self.entry.subroutines:
             last = self.entry.subroutines[-1]
             last.text = f"{last.text} {line.strip()}".strip()

@@ -9,16 +9,20 @@ import sys
 import fortran77
 import fortran77_include
 import fortran_c
+import fortran_methods
 import fortran_twins
 import plm_api
+import python_methods
 import python_table
 import symbol_ledger
 
 WRITERS = {"fortran/plm_c.f90": fortran_c.written,
+           "fortran/plm_methods.f90": fortran_methods.written,
            "fortran/plm_f77_calls.f90": fortran77.written_calls,
            "fortran/plm_f77_keys.f90": fortran77.written_keys,
            "fortran/plmf.inc": fortran77_include.written,
            "bindings/python/plm/_functions.py": python_table.written,
+           "bindings/python/plm/_methods.py": python_methods.written,
            symbol_ledger.PATH: symbol_ledger.written}
 
 

@@ -38,6 +38,10 @@ class Api:
         return {function.name: self.entry(function).left_out[layer] for function in self.functions
                 if layer in self.entry(function).left_out}
 
+    def by_rule_in(self, layer):
+        """The functions whose method is generated."""
+        return [function for function in self.functions if layer in self.entry(function).by_rule]
+
 
 def described_as(name, description):
     """plm_x of plm_x_i32 and plm_x_i64; plm_X_set_int of plm_model_set_int where that has no description of its own."""
@@ -116,7 +120,10 @@ def six_letters(said):
 
 
 def check_layers(said):
-    """What has no six letters of its own has a reason to have none."""
+    """What has no six letters of its own has a reason to have none; only handles have methods."""
+    for name, entry in said.functions.items():
+        if entry.by_rule and name.split("_")[1] not in said.letters:
+            raise SystemExit(f"{entry.where}: {name} is no function of a handle with letters, so it is no method by rule")
     used = {}
     for name, six, entry in six_letters(said):
         if bool(six) == ("FORTRAN 77" in entry.left_out):

@@ -27,6 +27,7 @@ class Function:
     name: str
     returns: str
     arguments: list
+    comment: str = ""  # that stands right above it
 
     @property
     def noun(self):
@@ -55,11 +56,18 @@ def read_arguments(text):
     return [read_argument(part) for part in text.split(",")]
 
 
+def read_comments(text):
+    """{function: the words of the comment right above it}"""
+    return {name: " ".join(re.sub(r"^ \*", "", comment, flags=re.M).split()) for comment, name in
+            re.findall(r"^/\*((?:(?!\*/).)*)\*/\nPLM_API\s+\w+\s+(plm_\w+)", text, re.S | re.M)}
+
+
 def read(path=PATH):
     """Everything the header declares, in its order."""
     text = pathlib.Path(path).read_text(encoding="utf-8")
+    comments = read_comments(text)
     text = re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
-    functions = [Function(name, returns, read_arguments(arguments)) for returns, name, arguments in
+    functions = [Function(name, returns, read_arguments(arguments), comments.get(name, "")) for returns, name, arguments in
                  re.findall(r"PLM_API\s+(\w+)\s+(plm_\w+)\s*\(([^;]*?)\)\s*;", text)]
     callbacks = [Function(name, " ".join(returns.split()), read_arguments(arguments)) for returns, name, arguments in
                  re.findall(r"typedef\s+(\w+\s*\*?)\s*\(\*(plm_\w+)\)\s*\(([^;]*?)\)\s*;", text)]

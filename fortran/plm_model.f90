@@ -1,18 +1,18 @@
 ! plm_model.f90: the finite-element model: matrices, supports, contact pairs, loads. DOFs count from 1.
 module plm_models
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_char, c_int32_t
+    use, intrinsic :: iso_c_binding, only: c_char, c_int32_t
     use, intrinsic :: iso_fortran_env, only: int32, int64, real64
     use plm_constants
     use plm_c
     use plm_errors, only: finish, refuse, f_text
     use plm_contexts, only: plm_context
-    use plm_keyed_handles, only: plm_settable
+    use plm_methods, only: plm_model_methods
     implicit none
     private
     public :: plm_model
 
     ! Integer arrays may be of either kind. Everything is copied: no argument needs to outlive its call.
-    type, extends(plm_settable) :: plm_model
+    type, extends(plm_model_methods) :: plm_model
         integer, private :: n_dof = 0 ! as given to create
     contains
         procedure :: create
@@ -26,9 +26,7 @@ module plm_models
         generic :: set_csc => set_csc_int32, set_csc_int64
         generic :: set_csr => set_csr_int32, set_csr_int64
         generic :: set_triplets => set_triplets_int32, set_triplets_int64
-        procedure :: set_rayleigh_damping
         procedure :: set_modal_damping
-        procedure :: set_structural_damping
         generic :: fix_dofs => fix_dofs_int32, fix_dofs_int64
         generic :: add_node_pairs => add_node_pairs_int32, add_node_pairs_int64
         generic :: add_ground_contacts => add_ground_contacts_int32, add_ground_contacts_int64
@@ -38,7 +36,6 @@ module plm_models
         procedure :: build
         procedure :: solve_rest
         procedure :: modes
-        procedure :: audit
         procedure :: finding
     end type plm_model
 
@@ -119,15 +116,6 @@ contains
             size(value, kind=int64), row, column, value), stat, errmsg)
     end subroutine set_triplets_int32
 
-    ! C = alpha M + beta K
-    subroutine set_rayleigh_damping(self, alpha, beta, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        real(real64), intent(in) :: alpha, beta
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_set_rayleigh_damping(self%handle, alpha, beta), stat, errmsg)
-    end subroutine set_rayleigh_damping
-
     ! Fractions of critical damping of the open modes; the last one holds for the rest. An empty array removes it.
     subroutine set_modal_damping(self, ratio, stat, errmsg)
         class(plm_model), intent(inout) :: self
@@ -137,14 +125,6 @@ contains
         call finish(self%context, plm_model_set_modal_damping(self%handle, size(ratio, kind=int64), ratio), &
             stat, errmsg)
     end subroutine set_modal_damping
-
-    subroutine set_structural_damping(self, eta, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        real(real64), intent(in) :: eta
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_set_structural_damping(self%handle, eta), stat, errmsg)
-    end subroutine set_structural_damping
 
     subroutine fix_dofs_int32(self, dof, stat, errmsg)
         class(plm_model), intent(inout) :: self
@@ -322,17 +302,6 @@ contains
         end if
         call finish(self%context, status, stat, errmsg)
     end subroutine modes
-
-    subroutine audit(self, count, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer, intent(out) :: count
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        integer(int64) :: found
-        found = 0
-        call finish(self%context, plm_model_audit(self%handle, found), stat, errmsg)
-        count = int(found)
-    end subroutine audit
 
     ! Number i of the audit, from 1. severity: 0 a fact, 1 worth a look, 2 probably wrong.
     subroutine finding(self, i, severity, value, text, stat, errmsg)

@@ -5,14 +5,14 @@ module plm_reductions
     use plm_constants
     use plm_c
     use plm_errors, only: finish, refuse
-    use plm_keyed_handles, only: plm_settable
+    use plm_methods, only: plm_sampler_methods, plm_basis_methods
     use plm_models, only: plm_model
     use plm_branches, only: plm_branch, get_handles
     implicit none
     private
     public :: plm_sampler, plm_basis
 
-    type, extends(plm_settable) :: plm_sampler
+    type, extends(plm_sampler_methods) :: plm_sampler
     contains
         procedure :: create => sampler_create
         procedure :: destroy => sampler_destroy
@@ -20,7 +20,7 @@ module plm_reductions
         procedure :: run
     end type plm_sampler
 
-    type, extends(plm_settable) :: plm_basis
+    type, extends(plm_basis_methods) :: plm_basis
     contains
         procedure :: create => basis_create
         procedure :: destroy => basis_destroy

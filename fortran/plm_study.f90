@@ -6,7 +6,7 @@ module plm_studies
     use plm_constants
     use plm_c
     use plm_errors, only: finish, c_text, f_text
-    use plm_keyed_handles, only: plm_settable
+    use plm_methods, only: plm_study_methods
     use plm_models, only: plm_model
     use plm_branches, only: plm_branch, measure_of, harmonic_of
     use plm_responses, only: plm_hbm
@@ -16,12 +16,11 @@ module plm_studies
     public :: plm_study
 
     ! Results by get are arrays with one entry per method: 'curve_error_l2', 'setup_seconds', 'basis_size', 'pareto' ...
-    type, extends(plm_settable) :: plm_study
+    type, extends(plm_study_methods) :: plm_study
     contains
         procedure :: create
         procedure :: destroy
         procedure :: set_output
-        procedure :: set_force_levels
         procedure :: set_reference
         procedure :: add_response
         procedure :: add_compressed
@@ -66,15 +65,6 @@ contains
         call finish(self%context, plm_study_set_output(self%handle, int(dof, int64) - 1, measure_of(measure), &
             harmonic_of(harmonic)), stat, errmsg)
     end subroutine set_output
-
-    ! Factors, > 0, on the 'force_scale' of every method.
-    subroutine set_force_levels(self, scale, stat, errmsg)
-        class(plm_study), intent(inout) :: self
-        real(real64), intent(in), contiguous :: scale(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_study_set_force_levels(self%handle, size(scale, kind=int64), scale), stat, errmsg)
-    end subroutine set_force_levels
 
     ! What all methods are compared with; absent: the unreduced structure.
     subroutine set_reference(self, hbm, stat, errmsg)

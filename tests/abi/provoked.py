@@ -140,6 +140,16 @@ refused_by_generator("a name of two types", r"PLMHSW: COUNT is INTEGER\*8 here a
                      r"PLMHSW \(HANDLE, BRANCH\)", "PLMHSW (HANDLE, COUNT)")
 refused_by_generator("a subroutine that must be by hand", r"no rule passes int32_t \* ?closed from FORTRAN 77", header,
                      "^(    PLMRCT .*) by hand", r"\1")
+refused_by_generator("a procedure of the module that is not by rule", r"plm_branch_get_energy: no rule for double \* ?energy in the",
+                     header, "^plm_branch_get_energy: .*", r"\g<0>\n    by rule in module plm")
+refused_by_generator("a method of Python that is not by rule", r"plm_branch_get_field: no rule for double \* ?q in Python",
+                     header, "^(plm_branch_get_field: .*\n    by rule in )module plm", r"\1Python")
+refused_by_generator("a method of what is no handle", "plm_version is no function of a handle with letters", header,
+                     "^plm_version: .*", r"\g<0>\n    by rule in Python")
+lay(header)
+changed(source / "fortran/plm_model.f90", r"plm_model_fix_dofs\(", "plm_model_fix_dofs_i32(", "layered/fortran/plm_model.f90")
+refused("abi.generated", "twins that lag behind", "not what plm.h and api.txt ask for: fortran/plm_model_int64.inc", python,
+        layered / "api/generate.py", "--check")
 layer = [source / "fortran" / name for name in ("plm_f77.f90", "plm_f77_calls.f90", "plm_f77_keys.f90")]
 refused("fortran.include_file", "a handle named like an INTEGER", r"PLMHSO: ISTART is INTEGER by the rule .*INTEGER\*8 in", python,
         tests / "fortran/include_file.py", changed(source / "fortran/plmf.inc", "FREQ, START, IPOINT", "FREQ, ISTART, IPOINT"), *layer)

@@ -27,7 +27,7 @@ mkdir -p cached compiled
 "$fc" -Jcached -I"$mods" "$@" -L"$libdir" -lplm_fortran $libs -o chain_cached
 ./chain_cached | grep peak_hz
 ordered=
-for file in c errors context keys model branch reduction response motion study facts; do ordered="$ordered $fortran/plm_$file.f90"; done
+for file in c errors context keys methods model branch reduction response motion study facts; do ordered="$ordered $fortran/plm_$file.f90"; done
 # shellcheck disable=SC2086
 "$fc" -Jcompiled $ordered "$fortran/plm.f90" "$@" $libs -o chain_compiled
 ./chain_compiled | grep peak_hz

@@ -25,11 +25,13 @@ def record():
 
 def main():
     called = record()
-    left_out = plm_api.read().left_out_of("Python")  # on purpose, api.txt tells why
+    api = plm_api.read()
+    left_out = api.left_out_of("Python")  # on purpose, api.txt tells why
     suite = unittest.defaultTestLoader.loadTestsFromNames(
         ["test_run", "test_refusals", "test_callbacks", "test_search", "test_transient", "test_study"])
     passed = unittest.TextTestRunner(verbosity=0).run(suite).wasSuccessful()
-    missing = sorted(set(_c.FUNCTIONS) - called - left_out.keys())
+    by_rule = {function.name for function in api.by_rule_in("Python")}  # the rule is tested where it is called
+    missing = sorted(set(_c.FUNCTIONS) - called - left_out.keys() - by_rule)
     for name in missing:
         print(f"never called: {name}")
     print(f"{len(_c.FUNCTIONS)} functions, {len(called)} called, {len(left_out)} left out on purpose")

@@ -5,10 +5,11 @@ import numpy
 
 from . import _c
 from ._handle import Handle, address, branch_array, reals
+from ._methods import BasisMethods, SamplerMethods
 from ._model import SYSTEMS, choice
 
 
-class Sampler(Handle, noun="sampler", kind=_c.KIND_SAMPLER):
+class Sampler(SamplerMethods, Handle, noun="sampler", kind=_c.KIND_SAMPLER):
     """The evolution of the contact area: dominant mode, sweep, samples, frequency window.
 
     Sampler(model, **options), e.g. Sampler(model, system="open", mode=1, n_samples=4).run()
@@ -44,7 +45,7 @@ class Sampler(Handle, noun="sampler", kind=_c.KIND_SAMPLER):
                 f"window {self.window_low_hz:.6g} .. {self.window_high_hz:.6g} Hz")
 
 
-class Basis(Handle, noun="basis", kind=_c.KIND_BASIS):
+class Basis(BasisMethods, Handle, noun="basis", kind=_c.KIND_BASIS):
     """Reduction matrices P (h >= 1) and P_0 (h = 0).
 
     Basis(model, sampler=None, parent=None, responses=None, **options), e.g. Basis(model, sampler).build(), and of curves

@@ -7,6 +7,7 @@ import numpy
 
 from . import _c
 from ._handle import Handle, address, reals
+from ._methods import StudyMethods
 from ._model import choice
 from ._response import MEASURES, Branch
 
@@ -19,7 +20,7 @@ class StudyPoints(NamedTuple):
     amplitude: numpy.ndarray
 
 
-class Study(Handle, noun="study", kind=_c.KIND_STUDY):
+class Study(StudyMethods, Handle, noun="study", kind=_c.KIND_STUDY):
     """Methods, each a way to the same response curve, run and timed beside a reference and compared with it.
 
     Study(model, **options), e.g.
