@@ -34,6 +34,12 @@ class Function:
         """The kind of handle it belongs to by its name, "model" of plm_model_build."""
         return self.name.split("_")[1]
 
+    @property
+    def told_sizes(self):
+        """{argument that is the size of an array: that array}"""
+        names = {argument.name for argument in self.arguments}
+        return {argument.size: argument.name for argument in self.arguments if argument.size in names}
+
 
 @dataclass
 class Header:

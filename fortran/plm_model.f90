@@ -26,7 +26,6 @@ module plm_models
         generic :: set_csc => set_csc_int32, set_csc_int64
         generic :: set_csr => set_csr_int32, set_csr_int64
         generic :: set_triplets => set_triplets_int32, set_triplets_int64
-        procedure :: set_modal_damping
         generic :: fix_dofs => fix_dofs_int32, fix_dofs_int64
         generic :: add_node_pairs => add_node_pairs_int32, add_node_pairs_int64
         generic :: add_ground_contacts => add_ground_contacts_int32, add_ground_contacts_int64
@@ -115,16 +114,6 @@ contains
         call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_TRIPLETS, part, 1_c_int32_t, PLM_COPY, &
             size(value, kind=int64), row, column, value), stat, errmsg)
     end subroutine set_triplets_int32
-
-    ! Fractions of critical damping of the open modes; the last one holds for the rest. An empty array removes it.
-    subroutine set_modal_damping(self, ratio, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        real(real64), intent(in), contiguous :: ratio(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_set_modal_damping(self%handle, size(ratio, kind=int64), ratio), &
-            stat, errmsg)
-    end subroutine set_modal_damping
 
     subroutine fix_dofs_int32(self, dof, stat, errmsg)
         class(plm_model), intent(inout) :: self

@@ -1,7 +1,7 @@
 ! plm_study.f90: error against run time of several ways to one response curve. DOFs, methods and force levels count from
 ! 1; method 0 is the reference.
 module plm_studies
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_char
+    use, intrinsic :: iso_c_binding, only: c_char
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_constants
     use plm_c
@@ -21,7 +21,6 @@ module plm_studies
         procedure :: create
         procedure :: destroy
         procedure :: set_output
-        procedure :: set_reference
         procedure :: add_response
         procedure :: add_compressed
         procedure :: add_refined
@@ -65,18 +64,6 @@ contains
         call finish(self%context, plm_study_set_output(self%handle, int(dof, int64) - 1, measure_of(measure), &
             harmonic_of(harmonic)), stat, errmsg)
     end subroutine set_output
-
-    ! What all methods are compared with; absent: the unreduced structure.
-    subroutine set_reference(self, hbm, stat, errmsg)
-        class(plm_study), intent(inout) :: self
-        type(plm_hbm), intent(in), optional :: hbm
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        type(c_ptr) :: handle
-        handle = c_null_ptr
-        if (present(hbm)) handle = hbm%handle
-        call finish(self%context, plm_study_set_reference(self%handle, handle), stat, errmsg)
-    end subroutine set_reference
 
     ! The curve of hbm by the options that it, its basis and its sampler hold now; index: of the method, here and below.
     subroutine add_response(self, name, hbm, index, stat, errmsg)

@@ -92,11 +92,6 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
                    address(a), address(b), address(value))
         self._borrowed[which] = (a, b, value)
 
-    def set_modal_damping(self, ratio):
-        """Fraction of critical damping per mode of the open system; modes beyond: the last one. []: none."""
-        ratio = reals(numpy.atleast_1d(ratio), numpy.atleast_1d(ratio).shape, "ratio")
-        self._call("set_modal_damping", ratio.size, address(ratio))
-
     def fix_dofs(self, dof):
         """DOFs held at zero: numbers, or a mask of n_dof."""
         dof = numpy.asarray(dof)

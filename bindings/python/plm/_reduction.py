@@ -77,15 +77,6 @@ class Basis(BasisMethods, Handle, noun="basis", kind=_c.KIND_BASIS):
         """The model it was made of."""
         return self._model
 
-    def set_sampler(self, sampler):
-        """The samples that kinds "plm" and "snapshots" are made from; it must have run before the build."""
-        self._call("set_sampler", sampler._h)
-
-    def set_parent(self, parent):
-        """A first reduction under this one: a built basis of kind "craig_bampton" or "full", for kind "pod" the one (of any
-        kind) that the responses were computed on; None for none."""
-        self._call("set_parent", parent._h if parent is not None else None)
-
     def set_responses(self, branches):
         """For kind "pod": the curves, computed on the parent, whose motions span the basis; () forgets them. They are read
         here."""
