@@ -4,8 +4,12 @@
 Its sections "/* ---- Title ---- */" become groups, one page per handle; a comment belongs to the declarations right below
 it; what has none is one of the functions that every handle has, and gets their text. Every function gets its example from
 docs/examples."""
+import pathlib
 import re
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "src/capi/api"))
+import plm_header  # noqa: E402
 
 GENERIC = [
     (r"_create$", "Makes a {noun}; destroy it by plm_{noun}_destroy, or let the context do it."),
@@ -16,6 +20,7 @@ GENERIC = [
     (r"^plm_version$", "The version of the library that runs."),
     (r"^plm_key_count$", "How many keys a kind of handle has."),
 ]
+HANDLES = plm_header.read(sys.argv[1]).handles
 NAMES = {"Options and results by key": "keys"}
 
 
@@ -25,7 +30,7 @@ def example(declaration):
     if not name:
         return ""
     noun = name.group(1).split("_")[1]
-    file = noun if noun in ("context", "model", "sampler", "basis", "hbm", "branch", "transient", "study") else "library"
+    file = noun if f"plm_{noun}" in HANDLES else "library"
     return f"\n * \\par Example\n * \\snippet {file}.c {name.group(1)}\n"
 
 

@@ -5,23 +5,20 @@ module plm_branches
     use plm_constants
     use plm_c
     use plm_errors, only: finish
-    use plm_keyed_handles, only: plm_readable
+    use plm_methods, only: plm_branch_methods
     implicit none
     private
     public :: plm_branch, measure_of, harmonic_of, get_handles
 
-    type, extends(plm_readable) :: plm_branch
+    type, extends(plm_branch_methods) :: plm_branch
     contains
         procedure :: destroy => branch_destroy
         procedure :: amplitude
         procedure :: coefficients
-        procedure :: field
         procedure :: contact
         procedure :: closed_share
         procedure :: energy
         procedure :: multipliers
-        procedure :: periodicity_defect
-        procedure :: full_residual
     end type plm_branch
 
 contains
@@ -86,18 +83,6 @@ contains
         if (status >= 0) call move_alloc(found, value)
         call finish(self%context, status, stat, errmsg)
     end subroutine coefficients
-
-    ! q(n_dof) at the time time_fraction x period
-    subroutine field(self, point, time_fraction, q, stat, errmsg)
-        class(plm_branch), intent(in) :: self
-        integer, intent(in) :: point
-        real(real64), intent(in) :: time_fraction
-        real(real64), intent(inout), contiguous :: q(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_branch_get_field(self%handle, int(point, int64) - 1, time_fraction, &
-            size(q, kind=int64), q), stat, errmsg)
-    end subroutine field
 
     ! At n_times equidistant times from 0, each n_pairs x n_times.
     subroutine contact(self, point, n_times, penetration, force, closed, stat, errmsg)
@@ -170,27 +155,6 @@ contains
         if (status >= 0) value = cmplx(re, im, real64)
         call finish(self%context, status, stat, errmsg)
     end subroutine multipliers
-
-    ! how nearly the point is a periodic motion of the reduced model in time
-    subroutine periodicity_defect(self, point, defect, stat, errmsg)
-        class(plm_branch), intent(in) :: self
-        integer, intent(in) :: point
-        real(real64), intent(inout) :: defect
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_branch_get_periodicity_defect(self%handle, int(point, int64) - 1, defect), stat, &
-            errmsg)
-    end subroutine periodicity_defect
-
-    subroutine full_residual(self, point, relative_residual, stat, errmsg)
-        class(plm_branch), intent(in) :: self
-        integer, intent(in) :: point
-        real(real64), intent(inout) :: relative_residual
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_branch_get_full_residual(self%handle, int(point, int64) - 1, relative_residual), &
-            stat, errmsg)
-    end subroutine full_residual
 
     ! n is 0 on failure
     function size_by_key(self, key, n) result(status)

@@ -1,18 +1,18 @@
 ! plm_model.f90: the finite-element model: matrices, supports, contact pairs, loads. DOFs count from 1.
 module plm_models
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_char, c_int32_t
+    use, intrinsic :: iso_c_binding, only: c_char, c_int32_t
     use, intrinsic :: iso_fortran_env, only: int32, int64, real64
     use plm_constants
     use plm_c
     use plm_errors, only: finish, refuse, f_text
     use plm_contexts, only: plm_context
-    use plm_keyed_handles, only: plm_settable
+    use plm_methods, only: plm_model_methods
     implicit none
     private
     public :: plm_model
 
     ! Integer arrays may be of either kind. Everything is copied: no argument needs to outlive its call.
-    type, extends(plm_settable) :: plm_model
+    type, extends(plm_model_methods) :: plm_model
         integer, private :: n_dof = 0 ! as given to create
     contains
         procedure :: create
@@ -26,9 +26,6 @@ module plm_models
         generic :: set_csc => set_csc_int32, set_csc_int64
         generic :: set_csr => set_csr_int32, set_csr_int64
         generic :: set_triplets => set_triplets_int32, set_triplets_int64
-        procedure :: set_rayleigh_damping
-        procedure :: set_modal_damping
-        procedure :: set_structural_damping
         generic :: fix_dofs => fix_dofs_int32, fix_dofs_int64
         generic :: add_node_pairs => add_node_pairs_int32, add_node_pairs_int64
         generic :: add_ground_contacts => add_ground_contacts_int32, add_ground_contacts_int64
@@ -38,7 +35,6 @@ module plm_models
         procedure :: build
         procedure :: solve_rest
         procedure :: modes
-        procedure :: audit
         procedure :: finding
     end type plm_model
 
@@ -83,25 +79,6 @@ contains
             size(value, kind=int64), col_ptr, row, value), stat, errmsg)
     end subroutine set_csc_int32
 
-    subroutine set_csc_int64(self, which, part, col_ptr, row, value, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(plm_status), intent(in) :: which, part
-        integer(int64), intent(in), contiguous :: col_ptr(:), row(:)
-        real(real64), intent(in), contiguous :: value(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        if (size(row) /= size(value) .or. size(col_ptr) < 1) then
-            call refuse('set_csc: the lengths of the arrays do not fit', stat, errmsg)
-            return
-        end if
-        if (self%n_dof > 0 .and. size(col_ptr) /= self%n_dof + 1) then
-            call refuse('set_csc: col_ptr must have n_dof + 1 entries', stat, errmsg)
-            return
-        end if
-        call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_CSC, part, 1_c_int32_t, PLM_COPY, &
-            size(value, kind=int64), col_ptr, row, value), stat, errmsg)
-    end subroutine set_csc_int64
-
     ! compressed rows: row_ptr(n_dof + 1), column(nnz)
     subroutine set_csr_int32(self, which, part, row_ptr, column, value, stat, errmsg)
         class(plm_model), intent(inout) :: self
@@ -122,25 +99,6 @@ contains
             size(value, kind=int64), row_ptr, column, value), stat, errmsg)
     end subroutine set_csr_int32
 
-    subroutine set_csr_int64(self, which, part, row_ptr, column, value, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(plm_status), intent(in) :: which, part
-        integer(int64), intent(in), contiguous :: row_ptr(:), column(:)
-        real(real64), intent(in), contiguous :: value(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        if (size(column) /= size(value) .or. size(row_ptr) < 1) then
-            call refuse('set_csr: the lengths of the arrays do not fit', stat, errmsg)
-            return
-        end if
-        if (self%n_dof > 0 .and. size(row_ptr) /= self%n_dof + 1) then
-            call refuse('set_csr: row_ptr must have n_dof + 1 entries', stat, errmsg)
-            return
-        end if
-        call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_CSR, part, 1_c_int32_t, PLM_COPY, &
-            size(value, kind=int64), row_ptr, column, value), stat, errmsg)
-    end subroutine set_csr_int64
-
     ! Entries in any order; those of the same place are summed.
     subroutine set_triplets_int32(self, which, part, row, column, value, stat, errmsg)
         class(plm_model), intent(inout) :: self
@@ -157,48 +115,6 @@ contains
             size(value, kind=int64), row, column, value), stat, errmsg)
     end subroutine set_triplets_int32
 
-    subroutine set_triplets_int64(self, which, part, row, column, value, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(plm_status), intent(in) :: which, part
-        integer(int64), intent(in), contiguous :: row(:), column(:)
-        real(real64), intent(in), contiguous :: value(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        if (size(row) /= size(value) .or. size(column) /= size(value)) then
-            call refuse('set_triplets: the lengths of the arrays do not fit', stat, errmsg)
-            return
-        end if
-        call finish(self%context, plm_model_set_matrix(self%handle, which, PLM_TRIPLETS, part, 1_c_int32_t, PLM_COPY, &
-            size(value, kind=int64), row, column, value), stat, errmsg)
-    end subroutine set_triplets_int64
-
-    ! C = alpha M + beta K
-    subroutine set_rayleigh_damping(self, alpha, beta, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        real(real64), intent(in) :: alpha, beta
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_set_rayleigh_damping(self%handle, alpha, beta), stat, errmsg)
-    end subroutine set_rayleigh_damping
-
-    ! Fractions of critical damping of the open modes; the last one holds for the rest. An empty array removes it.
-    subroutine set_modal_damping(self, ratio, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        real(real64), intent(in), contiguous :: ratio(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_set_modal_damping(self%handle, size(ratio, kind=int64), ratio), &
-            stat, errmsg)
-    end subroutine set_modal_damping
-
-    subroutine set_structural_damping(self, eta, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        real(real64), intent(in) :: eta
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_set_structural_damping(self%handle, eta), stat, errmsg)
-    end subroutine set_structural_damping
-
     subroutine fix_dofs_int32(self, dof, stat, errmsg)
         class(plm_model), intent(inout) :: self
         integer(int32), intent(in), contiguous :: dof(:)
@@ -207,15 +123,6 @@ contains
         call finish(self%context, plm_model_fix_dofs(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), &
             stat, errmsg)
     end subroutine fix_dofs_int32
-
-    subroutine fix_dofs_int64(self, dof, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(int64), intent(in), contiguous :: dof(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_fix_dofs(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), &
-            stat, errmsg)
-    end subroutine fix_dofs_int64
 
     ! dof_a, dof_b, normal: 3 x n, 0 for no such DOF; the normal points out of the body of a; stiffness(n): k_n or
     ! PLM_AUTO_STIFFNESS; gap(n): initial distance, absent: 0
@@ -245,32 +152,6 @@ contains
         end if
     end subroutine add_node_pairs_int32
 
-    subroutine add_node_pairs_int64(self, dof_a, dof_b, normal, stiffness, gap, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(int64), intent(in), contiguous :: dof_a(:, :), dof_b(:, :)
-        real(real64), intent(in), contiguous :: normal(:, :), stiffness(:)
-        real(real64), intent(in), contiguous, optional :: gap(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        if (any( &
-            [shape(dof_a), shape(dof_b), shape(normal)] /= &
-            [3, size(stiffness), 3, size(stiffness), 3, size(stiffness)])) then
-            call refuse('add_node_pairs: the shapes of the arrays do not fit', stat, errmsg)
-            return
-        end if
-        if (present(gap)) then
-            if (size(gap) /= size(stiffness)) then
-                call refuse('add_node_pairs: gap has the wrong length', stat, errmsg)
-                return
-            end if
-            call finish(self%context, plm_model_add_node_pairs_i64(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
-                dof_a, dof_b, normal, stiffness, gap), stat, errmsg)
-        else
-            call finish(self%context, plm_model_add_node_pairs_i64(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
-                dof_a, dof_b, normal, stiffness), stat, errmsg)
-        end if
-    end subroutine add_node_pairs_int64
-
     ! The normal points into the ground.
     subroutine add_ground_contacts_int32(self, dof, normal, stiffness, gap, stat, errmsg)
         class(plm_model), intent(inout) :: self
@@ -296,30 +177,6 @@ contains
         end if
     end subroutine add_ground_contacts_int32
 
-    subroutine add_ground_contacts_int64(self, dof, normal, stiffness, gap, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(int64), intent(in), contiguous :: dof(:, :)
-        real(real64), intent(in), contiguous :: normal(:, :), stiffness(:)
-        real(real64), intent(in), contiguous, optional :: gap(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        if (any([shape(dof), shape(normal)] /= [3, size(stiffness), 3, size(stiffness)])) then
-            call refuse('add_ground_contacts: the shapes of the arrays do not fit', stat, errmsg)
-            return
-        end if
-        if (present(gap)) then
-            if (size(gap) /= size(stiffness)) then
-                call refuse('add_ground_contacts: gap has the wrong length', stat, errmsg)
-                return
-            end if
-            call finish(self%context, plm_model_add_ground_contacts_i64(self%handle, 1_c_int32_t, &
-                size(stiffness, kind=int64), dof, normal, stiffness, gap), stat, errmsg)
-        else
-            call finish(self%context, plm_model_add_ground_contacts_i64(self%handle, 1_c_int32_t, &
-                size(stiffness, kind=int64), dof, normal, stiffness), stat, errmsg)
-        end if
-    end subroutine add_ground_contacts_int64
-
     ! Rows of the gap matrix: u = sum of coefficient x q(dof) - gap, u > 0 closed.
     subroutine add_gap_rows_int32(self, row_ptr, dof, coefficient, stiffness, gap, stat, errmsg)
         class(plm_model), intent(inout) :: self
@@ -332,13 +189,13 @@ contains
             call refuse('add_gap_rows: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
+        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
+            call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
+            return
+        end if
         if (present(gap)) then
             if (size(gap) /= size(stiffness)) then
                 call refuse('add_gap_rows: gap has the wrong length', stat, errmsg)
-            return
-        end if
-        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
-            call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
                 return
             end if
             call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
@@ -348,34 +205,6 @@ contains
                 row_ptr, dof, coefficient, stiffness), stat, errmsg)
         end if
     end subroutine add_gap_rows_int32
-
-    subroutine add_gap_rows_int64(self, row_ptr, dof, coefficient, stiffness, gap, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer(int64), intent(in), contiguous :: row_ptr(:), dof(:)
-        real(real64), intent(in), contiguous :: coefficient(:), stiffness(:)
-        real(real64), intent(in), contiguous, optional :: gap(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        if (size(row_ptr) /= size(stiffness) + 1 .or. size(dof) /= size(coefficient)) then
-            call refuse('add_gap_rows: the shapes of the arrays do not fit', stat, errmsg)
-            return
-        end if
-        if (present(gap)) then
-            if (size(gap) /= size(stiffness)) then
-                call refuse('add_gap_rows: gap has the wrong length', stat, errmsg)
-            return
-        end if
-        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
-            call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
-                return
-            end if
-            call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
-                row_ptr, dof, coefficient, stiffness, gap), stat, errmsg)
-        else
-            call finish(self%context, plm_model_add_gap_rows(self%handle, 1_c_int32_t, size(stiffness, kind=int64), &
-                row_ptr, dof, coefficient, stiffness), stat, errmsg)
-        end if
-    end subroutine add_gap_rows_int64
 
     ! absent: none
     subroutine set_preload(self, force, stat, errmsg)
@@ -463,17 +292,6 @@ contains
         call finish(self%context, status, stat, errmsg)
     end subroutine modes
 
-    subroutine audit(self, count, stat, errmsg)
-        class(plm_model), intent(inout) :: self
-        integer, intent(out) :: count
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        integer(int64) :: found
-        found = 0
-        call finish(self%context, plm_model_audit(self%handle, found), stat, errmsg)
-        count = int(found)
-    end subroutine audit
-
     ! Number i of the audit, from 1. severity: 0 a fact, 1 worth a look, 2 probably wrong.
     subroutine finding(self, i, severity, value, text, stat, errmsg)
         class(plm_model), intent(inout) :: self
@@ -493,5 +311,8 @@ contains
         severity = int(level)
         text = f_text(buffer)
     end subroutine finding
+
+    ! the procedures *_int64, twins of those above
+    include 'plm_model_int64.inc'
 
 end module plm_models

@@ -5,16 +5,15 @@ module plm_motions
     use plm_constants
     use plm_c
     use plm_errors, only: finish, refuse
-    use plm_keyed_handles, only: plm_settable
+    use plm_methods, only: plm_transient_methods
     use plm_models, only: plm_model
     use plm_reductions, only: plm_basis
-    use plm_branches, only: plm_branch
     implicit none
     private
     public :: plm_transient
 
     ! The excitation is set by the options 'frequency_hz' and 'force_scale', the length of a run by 'periods'.
-    type, extends(plm_settable) :: plm_transient
+    type, extends(plm_transient_methods) :: plm_transient
         integer(int64), private :: n_dof = 0 ! of the model
     contains
         procedure :: create
@@ -22,7 +21,6 @@ module plm_motions
         procedure, private :: observe_int32, observe_int64
         generic :: observe => observe_int32, observe_int64
         procedure :: set_state
-        procedure :: start_at
         procedure :: run
         procedure :: find_periodic
         procedure :: state
@@ -67,15 +65,6 @@ contains
             errmsg)
     end subroutine observe_int32
 
-    subroutine observe_int64(self, dof, stat, errmsg)
-        class(plm_transient), intent(inout) :: self
-        integer(int64), intent(in), contiguous :: dof(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_transient_observe(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), stat, &
-            errmsg)
-    end subroutine observe_int64
-
     ! q(n_dof), v(n_dof): displacement and velocity at the beginning of a period; absent: zero
     subroutine set_state(self, q, v, stat, errmsg)
         class(plm_transient), intent(inout) :: self
@@ -103,16 +92,6 @@ contains
             call finish(self%context, plm_transient_set_state(self%handle, n), stat, errmsg)
         end if
     end subroutine set_state
-
-    ! The state, 'frequency_hz' and 'force_scale' of a point of a response curve.
-    subroutine start_at(self, branch, point, stat, errmsg)
-        class(plm_transient), intent(inout) :: self
-        type(plm_branch), intent(in) :: branch
-        integer, intent(in) :: point
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_transient_start_at(self%handle, branch%handle, int(point, int64) - 1), stat, errmsg)
-    end subroutine start_at
 
     ! stat PLM_CANCELLED: what was marched until then is kept.
     subroutine run(self, stat, errmsg)
@@ -181,5 +160,8 @@ contains
         if (status >= 0) value = cmplx(re, im, real64)
         call finish(self%context, status, stat, errmsg)
     end subroutine multipliers
+
+    ! the procedures *_int64, twins of those above
+    include 'plm_motion_int64.inc'
 
 end module plm_motions

@@ -1,18 +1,18 @@
 ! plm_reduction.f90: the sampler of contact sets, and the bases made from it.
 module plm_reductions
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_int32_t
+    use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_constants
     use plm_c
-    use plm_errors, only: finish, refuse
-    use plm_keyed_handles, only: plm_settable
+    use plm_errors, only: finish
+    use plm_methods, only: plm_sampler_methods, plm_basis_methods
     use plm_models, only: plm_model
     use plm_branches, only: plm_branch, get_handles
     implicit none
     private
     public :: plm_sampler, plm_basis
 
-    type, extends(plm_settable) :: plm_sampler
+    type, extends(plm_sampler_methods) :: plm_sampler
     contains
         procedure :: create => sampler_create
         procedure :: destroy => sampler_destroy
@@ -20,12 +20,10 @@ module plm_reductions
         procedure :: run
     end type plm_sampler
 
-    type, extends(plm_settable) :: plm_basis
+    type, extends(plm_basis_methods) :: plm_basis
     contains
         procedure :: create => basis_create
         procedure :: destroy => basis_destroy
-        procedure :: set_sampler
-        procedure :: set_parent
         procedure :: set_responses
         procedure :: build
         procedure :: vectors
@@ -84,27 +82,6 @@ contains
         character(len=*), intent(inout), optional :: errmsg
         call finish(self%context, plm_basis_destroy(self%handle), stat, errmsg)
     end subroutine basis_destroy
-
-    subroutine set_sampler(self, sampler, stat, errmsg)
-        class(plm_basis), intent(inout) :: self
-        type(plm_sampler), intent(in) :: sampler
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_basis_set_sampler(self%handle, sampler%handle), stat, errmsg)
-    end subroutine set_sampler
-
-    ! parent: a built basis of kind craig_bampton or full, for kind pod the one (of any kind) that the responses were
-    ! computed on; absent: none
-    subroutine set_parent(self, parent, stat, errmsg)
-        class(plm_basis), intent(inout) :: self
-        type(plm_basis), intent(in), optional :: parent
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        type(c_ptr) :: handle
-        handle = c_null_ptr
-        if (present(parent)) handle = parent%handle
-        call finish(self%context, plm_basis_set_parent(self%handle, handle), stat, errmsg)
-    end subroutine set_parent
 
     ! For kind pod: curves computed on the parent, whose motions span the basis; absent: none. They are read here and may
     ! be destroyed afterwards.

@@ -5,14 +5,14 @@ module plm_responses
     use plm_constants
     use plm_c
     use plm_errors, only: finish
-    use plm_keyed_handles, only: plm_settable
+    use plm_methods, only: plm_hbm_methods
     use plm_branches, only: plm_branch, measure_of, harmonic_of, get_handles
     use plm_reductions, only: plm_basis
     implicit none
     private
     public :: plm_hbm
 
-    type, extends(plm_settable) :: plm_hbm
+    type, extends(plm_hbm_methods) :: plm_hbm
     contains
         procedure :: create
         procedure :: destroy

@@ -1,12 +1,12 @@
 ! plm_study.f90: error against run time of several ways to one response curve. DOFs, methods and force levels count from
 ! 1; method 0 is the reference.
 module plm_studies
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_char
+    use, intrinsic :: iso_c_binding, only: c_char
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_constants
     use plm_c
     use plm_errors, only: finish, c_text, f_text
-    use plm_keyed_handles, only: plm_settable
+    use plm_methods, only: plm_study_methods
     use plm_models, only: plm_model
     use plm_branches, only: plm_branch, measure_of, harmonic_of
     use plm_responses, only: plm_hbm
@@ -16,13 +16,11 @@ module plm_studies
     public :: plm_study
 
     ! Results by get are arrays with one entry per method: 'curve_error_l2', 'setup_seconds', 'basis_size', 'pareto' ...
-    type, extends(plm_settable) :: plm_study
+    type, extends(plm_study_methods) :: plm_study
     contains
         procedure :: create
         procedure :: destroy
         procedure :: set_output
-        procedure :: set_force_levels
-        procedure :: set_reference
         procedure :: add_response
         procedure :: add_compressed
         procedure :: add_refined
@@ -66,27 +64,6 @@ contains
         call finish(self%context, plm_study_set_output(self%handle, int(dof, int64) - 1, measure_of(measure), &
             harmonic_of(harmonic)), stat, errmsg)
     end subroutine set_output
-
-    ! Factors, > 0, on the 'force_scale' of every method.
-    subroutine set_force_levels(self, scale, stat, errmsg)
-        class(plm_study), intent(inout) :: self
-        real(real64), intent(in), contiguous :: scale(:)
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_study_set_force_levels(self%handle, size(scale, kind=int64), scale), stat, errmsg)
-    end subroutine set_force_levels
-
-    ! What all methods are compared with; absent: the unreduced structure.
-    subroutine set_reference(self, hbm, stat, errmsg)
-        class(plm_study), intent(inout) :: self
-        type(plm_hbm), intent(in), optional :: hbm
-        integer, intent(out), optional :: stat
-        character(len=*), intent(inout), optional :: errmsg
-        type(c_ptr) :: handle
-        handle = c_null_ptr
-        if (present(hbm)) handle = hbm%handle
-        call finish(self%context, plm_study_set_reference(self%handle, handle), stat, errmsg)
-    end subroutine set_reference
 
     ! The curve of hbm by the options that it, its basis and its sampler hold now; index: of the method, here and below.
     subroutine add_response(self, name, hbm, index, stat, errmsg)

@@ -3,8 +3,9 @@ C     its left end, that runs against stops; the response curve of the
 C     last mass, and what happens at its peak. kg, N, m, s.
 C
 C     Fixed form, COMMON blocks, arrays dimensioned by PARAMETER. Build
-C     it with the three files of libplm compiled by the same flags:
-C       gfortran -c plm_c.f90 plm_f77.f90 plm_f77_keys.f90
+C     it with the four files of libplm compiled by the same flags:
+C       gfortran -c plm_c.f90 plm_f77.f90 plm_f77_calls.f90
+C         plm_f77_keys.f90
 C       gfortran -std=legacy -I<folder of plmf.inc> chain.f *.o -lplm
 C
       PROGRAM CHAIN

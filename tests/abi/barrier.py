@@ -5,10 +5,12 @@ The body of an exported function may check arguments by `if (...) return <status
 call<>, call_free or destroy<> (or of a local function that is), or hold the environment and catch everything itself."""
 import glob
 import os
+import pathlib
 import re
 import sys
 
-from plm_header import functions
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "src/capi/api"))
+import plm_header  # noqa: E402
 
 BARRIER = r"(?:capi::|plm::capi::)?(?:call<[\w:]+>|call_free|destroy<[\w:]+>)\("
 
@@ -79,7 +81,7 @@ for path in sorted(glob.glob(os.path.join(sys.argv[2], "*.cpp"))):
     exported, bad = unguarded(expanded(cleaned(open(path, encoding="utf-8").read())))
     defined |= exported
     failures += [f"{os.path.basename(path)}: {name} works outside the barrier" for name in sorted(bad)]
-declared = {f.name for f in functions(sys.argv[1])}
+declared = {f.name for f in plm_header.read(sys.argv[1]).functions}
 failures += [f"{name}: declared, its definition was not found" for name in sorted(declared - defined)]
 failures += [f"{name}: defined, not declared" for name in sorted(defined - declared)]
 print("\n".join(failures) or f"{len(defined)} exported bodies, each inside the barrier")

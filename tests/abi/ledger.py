@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """ledger.py NM LIBPLM_SO LIBPLM_A PLM_H SYMBOLS_TXT: what the shared object exports, what the archive offers, what the
 header declares and what the ledger lists are the same names; the version node of each is the ledger's version."""
+import pathlib
 import re
 import subprocess
 import sys
 
-from plm_header import functions
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "src/capi/api"))
+import plm_header  # noqa: E402
 
 nm, shared, archive, header, ledger_path = sys.argv[1:]
 failures = []
@@ -34,7 +36,7 @@ for line in subprocess.run([nm, "-D", "--defined-only", shared], check=True, cap
 members = subprocess.run([nm, "-g", "--defined-only", archive], check=True, capture_output=True, text=True).stdout
 offered = set(re.findall(r" T (plm_\w+)$", members, re.M))
 
-declared = [f.name for f in functions(header)]
+declared = [f.name for f in plm_header.read(header).functions]
 if len(declared) != len(set(declared)):
     failures.append("the header declares a function twice")
 expect_equal(set(exported), set(ledger), "the shared object", "the ledger")

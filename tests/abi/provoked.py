@@ -90,22 +90,67 @@ refused("install.symbols", "an export that is not plm_", "^helper|T helper", "sh
 # ---- every function, in every layer
 refused("capi.every_function", "a function no test calls", "plm_model_forget", python, tests / "capi/every_function.py", grown,
         tests)
-layered = folder / "layered"  # the sources of the layers beside the header that grew
-shutil.copytree(source / "fortran", layered / "fortran")
-shutil.copytree(source / "include", layered / "include")
-shutil.copy(grown, layered / "include/plm/plm.h")
-refused("parity.functions_cpp", "a function plm.hpp lacks", "plm_model_forget", "sh", tests / "parity/functions.sh", cxx,
+layered = folder / "layered"  # the layers beside a header or a description in which something is wrong
+for part in ("src/capi/api", "fortran", "include", "bindings/python/plm"):
+    shutil.copytree(source / part, layered / part)
+for part in ("tests/abi/symbols.txt", "CMakeLists.txt"):
+    (layered / part).parent.mkdir(parents=True, exist_ok=True)
+    shutil.copy(source / part, layered / part)
+
+
+def lay(new_header, old=None, new=None):
+    """This header, and the description with one change, into the copy of the layers."""
+    shutil.copy(new_header, layered / "include/plm/plm.h")
+    changed(source / "src/capi/api.txt", old or "^", new or "", "layered/src/capi/api.txt")
+
+
+def refused_by_generator(what, said, new_header, old=None, new=None):
+    lay(new_header, old, new)
+    refused("abi.generated", what, said, python, layered / "src/capi/api/generate.py", "--check")
+
+
+DESCRIBED = ("^plm_model_build$", r"plm_model_forget\n    PLMMFO (HANDLE)\n        forget it\n\g<0>")
+lay(grown, *DESCRIBED)
+refused("parity.functions_cpp", "a function plm.hpp lacks", "plm_model_forget", python, tests / "parity/functions.py", cxx,
         layered / "include")
-refused("fortran.generated", "bind(C) interfaces that lag behind", "not what the header asks for: plm_c.f90", python,
-        layered / "fortran/generate.py", "--check")
-refused("fortran.covers_the_header", "a function the layers lack", "module plm: plm_model_forget", python,
+refused("fortran.covers_the_header", "a function the module lacks", "module plm: plm_model_forget", python,
         tests / "fortran/covers_the_header.py", layered)
-refused("fortran.constants", "another value in plmf.inc", "PLMTRU is 7, PLM_TRUNCATED is 2", python,
-        tests / "fortran/constants.py", header, changed(source / "fortran/plmf.inc", r"PLMTRU = 2", "PLMTRU = 7"))
-refused("fortran.constants", "a constant plmf.inc lacks", "PLM_OFTEN has no six letters", python,
-        tests / "fortran/constants.py", changed(header, r"^#define PLM_TRUNCATED 2", r"#define PLM_OFTEN 2\n\g<0>"),
-        source / "fortran/plmf.inc")
-layer = [source / "fortran" / name for name in ("plm_f77.f90", "plm_f77_keys.f90")]
+refused_by_generator("files that lag behind", "not what plm.h and api.txt ask for: fortran/plm_c.f90, .*plmf.inc, .*symbols.txt",
+                     grown, *DESCRIBED)
+refused_by_generator("a function that nobody described", "plm_model_forget is not described: write its line in api.txt", grown)
+refused_by_generator("a pointer that nobody described", r"plm_model_forget: double \* what is not described",
+                     changed(header, FIRST, NEW.replace("*model", "*model, double *what") + r"\1"), *DESCRIBED)
+refused_by_generator("a description of no function", r"api.txt:\d+: plm.h has no function plm_model_forget", header, *DESCRIBED)
+refused_by_generator("a description of no argument", r"plm_model_fix_dofs_i32 has no argument 'dofs'", header,
+                     "^plm_model_fix_dofs: dof", "plm_model_fix_dofs: dofs")
+refused_by_generator("a size in terms of nothing", r"q\[m\]: 'm' is neither an argument nor one of the dimensions", header,
+                     r"^plm_branch_get_field: q\[n\]", "plm_branch_get_field: q[m]")
+refused_by_generator("a function described twice", "plm_model_fix_dofs is described a second time", header,
+                     "^plm_model_fix_dofs: .*", r"\g<0>\n\g<0>")
+refused_by_generator("a line that cannot be read", "'dof of n' cannot be read", header, r"^plm_model_fix_dofs: dof\[n\]",
+                     "plm_model_fix_dofs: dof of n")
+refused_by_generator("a constant that nobody described", "PLM_OFTEN is not described: give it six letters",
+                     changed(header, "^#define PLM_TRUNCATED 2", r"#define PLM_OFTEN 2\n\g<0>"))
+refused_by_generator("six letters for two functions", "PLMMBU is plm_model_fix_dofs already", header, "PLMMFX", "PLMMBU")
+refused_by_generator("a function without six letters", "plm_hbm_sweep needs six letters, or a reason", header,
+                     "^    PLMHSW .*\n.*\n", "")
+refused_by_generator("a subroutine that lacks an argument", "PLMHSW has 1 arguments, plm_hbm_sweep needs 2: hbm, branch", header,
+                     r"PLMHSW \(HANDLE, BRANCH\)", "PLMHSW (HANDLE)")
+refused_by_generator("a name of two types", r"PLMHSW: COUNT is INTEGER\*8 here and INTEGER elsewhere", header,
+                     r"PLMHSW \(HANDLE, BRANCH\)", "PLMHSW (HANDLE, COUNT)")
+refused_by_generator("a subroutine that must be by hand", r"no rule passes int32_t \* ?closed from FORTRAN 77", header,
+                     "^(    PLMRCT .*) by hand", r"\1")
+refused_by_generator("a procedure of the module that is not by rule", r"plm_branch_get_energy: no rule for double \* ?energy in the",
+                     header, "^plm_branch_get_energy: .*", r"\g<0>\n    by rule in module plm")
+refused_by_generator("a method of Python that is not by rule", r"plm_branch_get_field: no rule for double \* ?q in Python",
+                     header, "^(plm_branch_get_field: .*\n    by rule in )module plm", r"\1Python")
+refused_by_generator("a method of what is no handle", "plm_version is no function of a handle with letters", header,
+                     "^plm_version: .*", r"\g<0>\n    by rule in Python")
+lay(header)
+changed(source / "fortran/plm_model.f90", r"plm_model_fix_dofs\(", "plm_model_fix_dofs_i32(", "layered/fortran/plm_model.f90")
+refused("abi.generated", "twins that lag behind", "not what plm.h and api.txt ask for: fortran/plm_model_int64.inc", python,
+        layered / "src/capi/api/generate.py", "--check")
+layer = [source / "fortran" / name for name in ("plm_f77.f90", "plm_f77_calls.f90", "plm_f77_keys.f90")]
 refused("fortran.include_file", "a handle named like an INTEGER", r"PLMHSO: ISTART is INTEGER by the rule .*INTEGER\*8 in", python,
         tests / "fortran/include_file.py", changed(source / "fortran/plmf.inc", "FREQ, START, IPOINT", "FREQ, ISTART, IPOINT"), *layer)
 refused("docs.every_function_has_an_example", "a function without an example", "plm_model_forget: no example", python,

@@ -3,8 +3,10 @@ import pathlib
 import re
 import sys
 
-header = pathlib.Path(sys.argv[1]).read_text()
-declared = re.findall(r"PLM_API\s+plm_status\s+(plm_\w+)\s*\(", header)
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "src/capi/api"))
+import plm_header  # noqa: E402
+
+declared = [f.name for f in plm_header.read(sys.argv[1]).functions]
 code = "".join(p.read_text() for p in pathlib.Path(sys.argv[2]).rglob("*") if p.suffix in (".c", ".cpp", ".h", ".hpp"))
 code = re.sub(r"/\*.*?\*/|//[^\n]*", "", code, flags=re.S)
 called = set(re.findall(r"\b(plm_\w+)\s*\(", code))

@@ -5,10 +5,13 @@ import pathlib
 import re
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "src/capi/api"))
+import plm_header  # noqa: E402
+
 root = pathlib.Path(sys.argv[1])
 header = pathlib.Path(sys.argv[2]) if len(sys.argv) > 2 else root / "include/plm/plm.h"
 folder = root / "docs/examples"
-functions = re.findall(r"^PLM_API\s+plm_status\s+(plm_\w+)\s*\(", header.read_text(encoding="utf-8"), re.M)
+functions = [f.name for f in plm_header.read(header).functions]
 
 shown = {}  # function: (file, the lines between its marks)
 failures = []

@@ -14,7 +14,7 @@ mods=$(dirname "$(find "$prefix" -name plm.mod)")
 libs="$(pkg-config --libs plm) -Wl,-rpath,$libdir"
 
 "$fc" -std=legacy -fdefault-integer-8 -I"$fortran" "$source/examples/fortran77/chain.f" -c -o chain77.o
-for file in plm_c plm_f77 plm_f77_keys; do
+for file in plm_c plm_f77 plm_f77_calls plm_f77_keys; do
     "$fc" -fdefault-integer-8 -c "$fortran/$file.f90" -o "f77_$file.o"
 done
 # shellcheck disable=SC2086
@@ -27,7 +27,7 @@ mkdir -p cached compiled
 "$fc" -Jcached -I"$mods" "$@" -L"$libdir" -lplm_fortran $libs -o chain_cached
 ./chain_cached | grep peak_hz
 ordered=
-for file in c errors context keys model branch reduction response motion study facts; do ordered="$ordered $fortran/plm_$file.f90"; done
+for file in c errors context keys methods model branch reduction response motion study facts; do ordered="$ordered $fortran/plm_$file.f90"; done
 # shellcheck disable=SC2086
 "$fc" -Jcompiled $ordered "$fortran/plm.f90" "$@" $libs -o chain_compiled
 ./chain_compiled | grep peak_hz

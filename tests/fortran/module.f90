@@ -81,6 +81,8 @@ contains
         call model%add_ground_contacts(reshape([1, 0, 0], [3, 1]), reshape([1.0_real64, 0.0_real64], [2, 1]), &
             [1.0_real64], stat=stat, errmsg=text)
         call check(stat == PLM_ERR_ARGUMENT .and. index(text, 'shapes') > 0, 'shapes that do not fit: '//trim(text))
+        call model%add_gap_rows([1, 3], [1], [1.0_real64], [1.0_real64], stat=stat, errmsg=text)
+        call check(stat == PLM_ERR_ARGUMENT .and. index(text, 'row_ptr ends') > 0, 'a row beyond its entries: '//trim(text))
         call model%fix_dofs([7], stat, text)
         call check(stat == PLM_ERR_ARGUMENT .or. stat == PLM_ERR_MATRIX, 'DOF 7 of 6: '//trim(text))
         call never%build(stat, text)

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """calls.py PLM_H OUT_C: a table of every function of the header as a call on a handle, all other arguments zero or NULL."""
-import os
+import pathlib
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "abi"))
-from plm_header import functions  # noqa: E402
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "src/capi/api"))
+import plm_header  # noqa: E402
 
-KINDS = ["context", "model", "sampler", "basis", "hbm", "branch", "transient", "study"]
-HANDLES = {f"plm_{kind} *": kind for kind in KINDS}
+header = plm_header.read(sys.argv[1])
+HANDLES = {f"{handle} *": handle[len("plm_"):] for handle in header.handles}
 
 
 def nothing(type_):
@@ -17,8 +17,8 @@ def nothing(type_):
 with open(sys.argv[2], "w", encoding="utf-8") as out:
     out.write('/* made by tests/host/calls.py from plm.h */\n#include "calls.h"\n#include <stddef.h>\n\n')
     table = []
-    for f in functions(sys.argv[1]):
-        types = [t for t, _ in f.arguments]
+    for f in header.functions:
+        types = [a.type for a in f.arguments]
         rest = ", ".join(nothing(t) for t in types[1:])
         rest = f", {rest}" if rest else ""
         if types[0] in HANDLES:

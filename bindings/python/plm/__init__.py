@@ -21,7 +21,7 @@ Options and results are attributes; help(plm.Sampler) lists those of a sampler. 
 """
 import importlib
 
-from . import _c
+from . import _functions
 from ._context import Context, build_info, default_context, status_text, version
 from ._errors import PlmCancelled, PlmError, PlmKeyError, PlmWarning
 from ._handle import Key, keys
@@ -36,8 +36,8 @@ __all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Transient",
            "Energy", "ErrorEstimate", "ErrorParts", "Refined", "Contact", "MotionState", "StudyPoints", "Finding", "Key",
            "PlmError", "PlmKeyError", "PlmCancelled", "PlmWarning", "build_info", "default_context", "keys", "plot", "status_text", "version"]
 
-_constants = [name for name in vars(_c) if name.isupper() and isinstance(getattr(_c, name), (int, float))]
-globals().update({name: getattr(_c, name) for name in _constants})  # plm.ERR_KEY, plm.REASON_SINGULAR, ...
+_constants = [name for name, value in vars(_functions).items() if name.isupper() and isinstance(value, (int, float))]
+globals().update({name: getattr(_functions, name) for name in _constants})  # plm.ERR_KEY, plm.REASON_SINGULAR, ...
 __all__ += _constants
 
 

@@ -247,6 +247,11 @@ def reals(values, shape, name):
     return numpy.ascontiguousarray(array)
 
 
+def list_of_reals(values, name):
+    """A contiguous array of doubles, as many as there are; a number is one."""
+    return numpy.ascontiguousarray(numpy.atleast_1d(real_parts(values, name)))
+
+
 def integers(values, name):
     """A contiguous array of int32 or int64, without a copy where it is one already."""
     array = numpy.asarray(values)

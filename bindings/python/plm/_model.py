@@ -8,6 +8,7 @@ import scipy.sparse
 from . import _c
 from ._context import default_context
 from ._handle import Handle, address, alike, integers, real_parts, reals
+from ._methods import ModelMethods
 
 SYSTEMS = {"open": _c.SYSTEM_OPEN, "sliding": _c.SYSTEM_SLIDING, "rest": _c.SYSTEM_REST, "given": _c.SYSTEM_GIVEN}
 MATRICES = {_c.MASS: "mass", _c.STIFFNESS: "stiffness", _c.DAMPING: "damping"}
@@ -32,7 +33,7 @@ class Finding(NamedTuple):
     text: str
 
 
-class Model(Handle, noun="model", kind=_c.KIND_MODEL):
+class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
     """M q'' + C q' + K q = F(t) - B' N, N = max(k_n u, 0), u = B q - gap.
 
     Model(mass, stiffness, damping=None, n_dof=None, part="full", context=None, **options)
@@ -90,19 +91,6 @@ class Model(Handle, noun="model", kind=_c.KIND_MODEL):
         self._call("set_matrix" + width, which, storage, choice(part, PARTS, "part"), 0, _c.BORROW, nnz,
                    address(a), address(b), address(value))
         self._borrowed[which] = (a, b, value)
-
-    def set_rayleigh_damping(self, alpha, beta):
-        """C = alpha M + beta K; alpha in 1/s, beta in s."""
-        self._call("set_rayleigh_damping", alpha, beta)
-
-    def set_modal_damping(self, ratio):
-        """Fraction of critical damping per mode of the open system; modes beyond: the last one. []: none."""
-        ratio = reals(numpy.atleast_1d(ratio), numpy.atleast_1d(ratio).shape, "ratio")
-        self._call("set_modal_damping", ratio.size, address(ratio))
-
-    def set_structural_damping(self, eta):
-        """Loss factor: K (1 + i eta)."""
-        self._call("set_structural_damping", eta)
 
     def fix_dofs(self, dof):
         """DOFs held at zero: numbers, or a mask of n_dof."""

@@ -6,6 +6,7 @@ import numpy
 
 from . import _c
 from ._handle import Handle, address, alike, integers, reals
+from ._methods import TransientMethods
 
 
 class MotionState(NamedTuple):
@@ -14,7 +15,7 @@ class MotionState(NamedTuple):
     v: numpy.ndarray
 
 
-class Transient(Handle, noun="transient", kind=_c.KIND_TRANSIENT):
+class Transient(TransientMethods, Handle, noun="transient", kind=_c.KIND_TRANSIENT):
     """Motion in time of a reduced model, by its exact piecewise-linear flow, or of the full model, by implicit steps.
 
     Transient(basis, **options) or Transient(model, **options), e.g. Transient(basis, frequency_hz=12, periods=100).run()
@@ -46,10 +47,6 @@ class Transient(Handle, noun="transient", kind=_c.KIND_TRANSIENT):
         n = self._model.n_dof
         q, v = reals(q, (n,), "q"), reals(v, (n,), "v")
         self._call("set_state", n, address(q), address(v))
-
-    def start_at(self, branch, point):
-        """The state, frequency_hz and force_scale of a point of a response curve."""
-        self._work("start_at", branch._h, branch._from_end(point))
 
     def run(self, progress=None):
         """Marches `periods` periods of the excitation, less when `settled` stops it earlier; a next run goes on from there.

@@ -5,10 +5,11 @@ import numpy
 
 from . import _c
 from ._handle import Handle, address, branch_array, reals
+from ._methods import BasisMethods, SamplerMethods
 from ._model import SYSTEMS, choice
 
 
-class Sampler(Handle, noun="sampler", kind=_c.KIND_SAMPLER):
+class Sampler(SamplerMethods, Handle, noun="sampler", kind=_c.KIND_SAMPLER):
     """The evolution of the contact area: dominant mode, sweep, samples, frequency window.
 
     Sampler(model, **options), e.g. Sampler(model, system="open", mode=1, n_samples=4).run()
@@ -44,7 +45,7 @@ class Sampler(Handle, noun="sampler", kind=_c.KIND_SAMPLER):
                 f"window {self.window_low_hz:.6g} .. {self.window_high_hz:.6g} Hz")
 
 
-class Basis(Handle, noun="basis", kind=_c.KIND_BASIS):
+class Basis(BasisMethods, Handle, noun="basis", kind=_c.KIND_BASIS):
     """Reduction matrices P (h >= 1) and P_0 (h = 0).
 
     Basis(model, sampler=None, parent=None, responses=None, **options), e.g. Basis(model, sampler).build(), and of curves
@@ -75,15 +76,6 @@ class Basis(Handle, noun="basis", kind=_c.KIND_BASIS):
     def model(self):
         """The model it was made of."""
         return self._model
-
-    def set_sampler(self, sampler):
-        """The samples that kinds "plm" and "snapshots" are made from; it must have run before the build."""
-        self._call("set_sampler", sampler._h)
-
-    def set_parent(self, parent):
-        """A first reduction under this one: a built basis of kind "craig_bampton" or "full", for kind "pod" the one (of any
-        kind) that the responses were computed on; None for none."""
-        self._call("set_parent", parent._h if parent is not None else None)
 
     def set_responses(self, branches):
         """For kind "pod": the curves, computed on the parent, whose motions span the basis; () forgets them. They are read

@@ -7,6 +7,7 @@ import numpy
 from . import _c
 from ._context import status_text
 from ._handle import Handle, address, branch_array
+from ._methods import BranchMethods, HbmMethods
 from ._model import choice
 from ._reduction import Basis
 
@@ -73,7 +74,7 @@ class Contact(NamedTuple):
     closed: numpy.ndarray
 
 
-class Hbm(Handle, noun="hbm", kind=_c.KIND_HBM):
+class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
     """Harmonic balance with continuation.
 
     Hbm(basis, **options), e.g. Hbm(basis, n_harmonics=7).sweep()
@@ -186,7 +187,7 @@ class Hbm(Handle, noun="hbm", kind=_c.KIND_HBM):
         return branch
 
 
-class Branch(Handle, noun="branch", kind=_c.KIND_BRANCH):
+class Branch(BranchMethods, Handle, noun="branch", kind=_c.KIND_BRANCH):
     """Points of a response curve, read-only; made by Hbm."""
 
     def __init__(self, hbm):
@@ -265,18 +266,6 @@ class Branch(Handle, noun="branch", kind=_c.KIND_BRANCH):
         """Floquet multipliers over one period, complex, largest modulus first; empty where they were not computed (option
         stability)."""
         return self._get_complex("get_multipliers", self._from_end(point))
-
-    def periodicity_defect(self, point):
-        """How nearly the point is a periodic motion of the reduced model: |state after a period - state|, relative."""
-        value = ctypes.c_double()
-        self._work("get_periodicity_defect", self._from_end(point), ctypes.byref(value))
-        return value.value
-
-    def full_residual(self, point):
-        """How well the recovered field satisfies the unreduced equations: relative residual."""
-        value = ctypes.c_double()
-        self._work("get_full_residual", self._from_end(point), ctypes.byref(value))
-        return value.value
 
     def _from_end(self, point):
         """-1 is the last point."""

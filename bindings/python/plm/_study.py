@@ -6,7 +6,8 @@ from typing import NamedTuple
 import numpy
 
 from . import _c
-from ._handle import Handle, address, reals
+from ._handle import Handle, address
+from ._methods import StudyMethods
 from ._model import choice
 from ._response import MEASURES, Branch
 
@@ -19,7 +20,7 @@ class StudyPoints(NamedTuple):
     amplitude: numpy.ndarray
 
 
-class Study(Handle, noun="study", kind=_c.KIND_STUDY):
+class Study(StudyMethods, Handle, noun="study", kind=_c.KIND_STUDY):
     """Methods, each a way to the same response curve, run and timed beside a reference and compared with it.
 
     Study(model, **options), e.g.
@@ -59,15 +60,6 @@ class Study(Handle, noun="study", kind=_c.KIND_STUDY):
     def set_output(self, dof, measure="half_peak_to_peak", harmonic=0):
         """The amplitude looked at, as in Branch.amplitude. Must be set."""
         self._call("set_output", dof, choice(measure, MEASURES, "measure"), harmonic)
-
-    def set_force_levels(self, scale):
-        """Factors on the force_scale of every method, one or several. Errors are the worst of them, times the sum."""
-        scale = numpy.atleast_1d(scale)
-        self._call("set_force_levels", scale.size, address(reals(scale, scale.shape, "scale")))
-
-    def set_reference(self, hbm=None):
-        """What all methods are compared with; None: the unreduced structure, with the other options of the first method."""
-        self._call("set_reference", hbm._h if hbm is not None else None)
 
     def add_response(self, name, hbm):
         """A method: the curve of hbm by the options that it, its basis and its sampler hold now. Returns its index."""
