@@ -17,8 +17,9 @@ readelf -lW "$library" | awk '$1 == "LOAD" && /RWE/ {exit 1}' || fail "a segment
 nm -D --defined-only "$library" | grep -E ' [uVvWBDR] ' && fail "exports data or weak symbols"
 printf '%s\n' "$dynamic" | grep -qE 'BIND_NOW|FLAGS.* NOW' || fail "lazy binding: link with -z now"
 readelf -lW "$library" | grep -q GNU_RELRO || fail "no GNU_RELRO segment: link with -z relro"
-if [ -n "$hardened" ]; then # linalg/error.cpp formats text
-    imported=$(nm -A --undefined-only "$hardened" 2>/dev/null | grep ':error.cpp.o:')
+if [ -n "$hardened" ]; then # linalg/error.cpp formats text, by itself or in a unit with others (PLM_UNITY)
+    imported=$(nm -A --undefined-only "$hardened" 2>/dev/null | grep -E ':(error[.]cpp|unity_[0-9]+_cxx[.]cxx)[.]o:') ||
+        fail "linalg/error.cpp is not in the archive"
     printf '%s\n' "$imported" | grep -q __stack_chk_fail || fail "compiled without -fstack-protector-strong"
     printf '%s\n' "$imported" | grep -q __vsnprintf_chk || fail "compiled without _FORTIFY_SOURCE"
 fi
