@@ -2,8 +2,8 @@
 // floating-point environment, refuses re-entry, and sets the context's allocator.
 #pragma once
 #include "capi/context.hpp"
-#include "linalg/blas_host.hpp"
 #include "capi/outcome.hpp"
+#include "linalg/blas_host.hpp"
 #include "linalg/work.hpp"
 
 namespace plm::capi {

@@ -32,7 +32,6 @@ class Continuation {
         out_.scale = walker_.metric().scale;
         out_.arclength = arclength_;
         out_.step = step_;
-        out_.n_points = n_recorded_;
         out_.work = walker_.work;
         return out_;
     }

@@ -25,7 +25,7 @@ struct PathOutcome {
     PathState direction;                       // unit tangent there, in the direction travelled
     double orientation = 1;                    // sign of det(dR/dx) times that of direction.parameter
     double scale = 0, arclength = 0, step = 0;
-    std::int64_t failed_steps = 0, n_points = 0;
+    std::int64_t failed_steps = 0;
     NewtonWork work;
 };
 

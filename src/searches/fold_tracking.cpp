@@ -10,8 +10,8 @@ namespace plm {
 
 FoldSystem::FoldSystem(HbmSystem &inner, std::shared_ptr<const ReducedModel> reduced,
                        const BranchPoint &about, double unit)
-    : WrappedSystem(inner), reduced_(std::move(reduced)), omega_reference_(about.omega), unit_(unit),
-      y_(inner.size() + 1), scratch_(inner.size()) {
+    : FreeFrequency(about.omega, unit, inner), reduced_(std::move(reduced)), y_(inner.size() + 1),
+      scratch_(inner.size()) {
     choose_borders(about);
 }
 
@@ -62,10 +62,10 @@ void FoldSystem::linearize() {
     w[n] = 1;
     linear_.solve_transposed(w.data(), 1);
     gradient_ = contact_gradient(w, v_);
-    gradient_.push_back(-dot(n, w.data(), frequency_derivative(v_).data()) / unit_);
+    gradient_.push_back(-dot(n, w.data(), frequency_derivative(v_).data()) / unit());
     frequency_.assign(n + 1, 0.0);
     inner_.parameter_derivative(frequency_.data());
-    for (std::int64_t i = 0; i < n; ++i) frequency_[i] /= -unit_;
+    for (std::int64_t i = 0; i < n; ++i) frequency_[i] /= -unit();
     linear_.solve(frequency_.data(), 1);
     determinant_ = null_[n] * (dot(n, gradient_.data(), frequency_.data()) + gradient_[n]) -
                    frequency_[n] * dot(n, gradient_.data(), null_.data());
@@ -145,27 +145,6 @@ vector<double> FoldSystem::contact_gradient(const vector<double> &w, const vecto
     for (std::int64_t c = 0; c < columns; ++c)
         gemv('T', -1.0, m.gap, change.col(c + 1), 0.0, gradient.data() + m.static_size() + c * r);
     return gradient;
-}
-
-void FoldSystem::parameter_derivative(double *r) { // J does not depend on the force
-    inner_.force_derivative(r);
-    r[inner_.size()] = 0;
-}
-
-void FoldSystem::linear_response(const vector<double> &share, double force, double *y) {
-    inner_.set_force_scale(force);
-    inner_.linear_response(share, omega_reference_, y);
-    y[inner_.size()] = 0;
-}
-
-void FoldSystem::to_point(const double *y, double force, BranchPoint &point) {
-    inner_.to_point(y, omega_of(y), point);
-    point.force_scale = force;
-}
-
-void FoldSystem::from_point(const BranchPoint &point, double *y) {
-    inner_.from_point(point, y);
-    y[inner_.size()] = (point.omega - omega_reference_) * unit_;
 }
 
 namespace {

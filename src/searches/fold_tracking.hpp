@@ -2,35 +2,28 @@
 // branch is born or joins another one: these are the ends of the range of forces in which the branch exists.
 #pragma once
 #include "hbm/branch.hpp"
+#include "hbm/free_frequency.hpp"
 #include "hbm/modal_factor.hpp"
 #include "hbm/options.hpp"
-#include "hbm/wrapped_system.hpp"
 #include "linalg/monitor.hpp"
 
 namespace plm {
 
-/// y = (x, (omega - omega_reference) unit), parameter: the force scale. Equations R = 0 and g = 0, with g
-/// from the bordered system M [v; g] = [0; 1], M = [J b; c^T 0], which is regular at a fold (Griewank and
-/// Reddien 1984; minimally augmented). Its derivative is -w^T (dJ) v: of the contact only the switching
-/// instants contribute. One factorization, of M, serves g, its derivative and Newton's corrections. `inner`
-/// has modal unknowns and the event-exact force.
-class FoldSystem final : public WrappedSystem {
+/// Equations R = 0 and g = 0, with g from the bordered system M [v; g] = [0; 1], M = [J b; c^T 0], which is
+/// regular at a fold (Griewank and Reddien 1984; minimally augmented). Its derivative is -w^T (dJ) v: of the
+/// contact only the switching instants contribute. One factorization, of M, serves g, its derivative and
+/// Newton's corrections. `inner` has modal unknowns and the event-exact force.
+class FoldSystem final : public FreeFrequency<WrappedSystem> {
   public:
     /// `about`: near a fold; b and c are taken from the null vectors there.
     FoldSystem(HbmSystem &inner, std::shared_ptr<const ReducedModel> reduced, const BranchPoint &about,
                double unit);
-    std::int64_t size() const override { return inner_.size() + 1; }
     void residual(const double *y, double force, double *r) override;
     void linearize() override;
     void solve(double *b, std::int64_t n) override;
     int determinant_sign() const override;
-    void parameter_derivative(double *r) override;
-    void linear_response(const vector<double> &share, double force, double *y) override;
-    void to_point(const double *y, double force, BranchPoint &point) override;
-    void from_point(const BranchPoint &point, double *y) override;
 
   private:
-    double omega_of(const double *y) const { return omega_reference_ + y[inner_.size()] / unit_; }
     void factor_matrix();
     void choose_borders(const BranchPoint &about);
     vector<double> frequency_derivative(const vector<double> &v);
@@ -38,7 +31,6 @@ class FoldSystem final : public WrappedSystem {
     Matrix gap_motion(const vector<double> &x, double factor) const;
 
     std::shared_ptr<const ReducedModel> reduced_;
-    double omega_reference_, unit_;
     Border border_; // b and c
     // at the last residual()
     vector<double> y_, v_; // v_: (v, g)

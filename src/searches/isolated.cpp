@@ -238,6 +238,9 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
     trace_curve(o, {start, {}}, watch, before);
     require_uncancelled(before);
     const auto whole = joined(before, *after);
+    for (const Warnings *said : {&before.warnings, &after->warnings})
+        for (const Warning &w : said->list()) // of harmonics the whole has its own
+            if (w.reason != PLM_REASON_HARMONICS_TOO_FEW) whole->warnings.add(w.reason, w.text);
     warn_of_harmonics(options, *whole);
     return whole;
 }

@@ -172,6 +172,7 @@ class Marching {
     // The known branches at the same frequency, corrected with the same harmonics.
     bool is_known(const BranchPoint &point) {
         for (const auto &branch : known_) {
+            if (branch->period_multiple() != 1) continue; // another motion, with other harmonics
             const auto &points = branch->points();
             for (std::size_t i = 1; i < points.size(); ++i) {
                 const double left = points[i - 1].omega - point.omega, right = points[i].omega - point.omega;

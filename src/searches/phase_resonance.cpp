@@ -48,7 +48,7 @@ double solution_distance(const BranchPoint &a, const BranchPoint &b) {
 
 PhaseResonantSystem::PhaseResonantSystem(HbmSystem &inner, const ReducedModel &m,
                                          std::int64_t period_multiple, double omega_reference, double unit)
-    : AugmentedSystem(inner, 1), omega_reference_(omega_reference), unit_(unit), phase_(inner.size(), 0.0) {
+    : FreeFrequency(omega_reference, unit, inner, 1), phase_(inner.size(), 0.0) {
     const auto *driven = driven_harmonic(m);
     if (!driven) return;
     const std::int64_t r = m.size(), at = m.static_size() + 2 * (driven->first * period_multiple - 1) * r;
@@ -75,30 +75,9 @@ void PhaseResonantSystem::residual(const double *y, double force, double *r) {
     r[inner_.size()] = dot(inner_.size(), phase_.data(), y);
 }
 
-void PhaseResonantSystem::parameter_derivative(double *r) {
-    inner_.force_derivative(r);
-    r[inner_.size()] = 0;
-}
-
-void PhaseResonantSystem::linear_response(const vector<double> &share, double force, double *y) {
-    inner_.set_force_scale(force);
-    inner_.linear_response(share, omega_reference_, y);
-    y[inner_.size()] = 0;
-}
-
-void PhaseResonantSystem::to_point(const double *y, double force, BranchPoint &point) {
-    inner_.to_point(y, omega_of(y), point);
-    point.force_scale = force;
-}
-
-void PhaseResonantSystem::from_point(const BranchPoint &point, double *y) {
-    inner_.from_point(point, y);
-    y[inner_.size()] = (point.omega - omega_reference_) * unit_;
-}
-
 void PhaseResonantSystem::fill(Border &border) {
     inner_.parameter_derivative(border.columns.data());
-    for (std::int64_t i = 0; i < inner_.size(); ++i) border.columns(i, 0) /= unit_;
+    for (std::int64_t i = 0; i < inner_.size(); ++i) border.columns(i, 0) /= unit();
     std::copy(phase_.begin(), phase_.end(), border.rows.data());
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 #include "hbm/augmented_system.hpp"
 #include "hbm/branch.hpp"
+#include "hbm/free_frequency.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
 
@@ -18,23 +19,17 @@ double phase_of(const ReducedModel &reduced, const BranchPoint &point, std::int6
 /// |x - x'| over the dynamic part and |omega - omega'|, both relative; small for the same solution.
 double solution_distance(const BranchPoint &a, const BranchPoint &b);
 
-/// y = (x, (omega - omega_reference) unit), parameter: the force scale. `inner` has modal unknowns.
-class PhaseResonantSystem final : public AugmentedSystem {
+/// `inner` has modal unknowns.
+class PhaseResonantSystem final : public FreeFrequency<AugmentedSystem> {
   public:
     PhaseResonantSystem(HbmSystem &inner, const ReducedModel &reduced, std::int64_t period_multiple,
                         double omega_reference, double unit);
     void residual(const double *y, double force, double *r) override;
-    void parameter_derivative(double *r) override;
-    void linear_response(const vector<double> &share, double force, double *y) override;
-    void to_point(const double *y, double force, BranchPoint &point) override;
-    void from_point(const BranchPoint &point, double *y) override;
 
   protected:
     void fill(Border &border) override;
 
   private:
-    double omega_of(const double *y) const { return omega_reference_ + y[inner_.size()] / unit_; }
-    double omega_reference_, unit_;
     vector<double> phase_; // the last equation is phase_ . x = 0
 };
 
