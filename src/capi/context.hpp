@@ -1,10 +1,10 @@
 // The context: callbacks, allocator, solver of the host, and the last error.
 #pragma once
 #include "capi/registry.hpp"
-#include "linalg/factor.hpp"
 #include "linalg/memory.hpp"
 #include "linalg/monitor.hpp"
 #include "linalg/work.hpp"
+#include "structure/solver/factor.hpp"
 #include <atomic>
 #include <cfenv>
 #include <thread>

@@ -2,13 +2,13 @@
 // object.
 #pragma once
 #include "capi/context.hpp"
-#include "model/audit.hpp"
-#include "model/rest.hpp"
 #include "orbits/transient.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/sampler.hpp"
 #include "searches/hbm.hpp"
 #include "searches/isolated.hpp"
+#include "space/audit.hpp"
+#include "space/rest.hpp"
 #include "study/study.hpp"
 #include <optional>
 

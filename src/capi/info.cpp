@@ -2,9 +2,9 @@
 #include "capi/barrier.hpp"
 #include "capi/keys.hpp"
 #include "linalg/dft.hpp"
-#include "linalg/make_factor.hpp"
 #include "orbits/make_transient.hpp"
 #include "orbits/transient.hpp"
+#include "structure/solver/make_factor.hpp"
 #include "study/study.hpp"
 
 #ifndef PLM_VERSION_MAJOR // the build system passes the project's version

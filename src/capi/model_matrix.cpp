@@ -3,7 +3,7 @@
 #include "capi/barrier.hpp"
 #include "capi/model_input.hpp"
 #include "linalg/scale.hpp"
-#include "model/matrix_input.hpp"
+#include "structure/matrix_input.hpp"
 #include <algorithm>
 
 namespace plm::capi {

@@ -1,7 +1,7 @@
 #include "hbm/branch.hpp"
-#include "hbm/contact_force.hpp"
+#include "contact/contact_force.hpp"
+#include "contact/trig_polynomial.hpp"
 #include "hbm/formulation.hpp"
-#include "hbm/trig_polynomial.hpp"
 #include "linalg/scale.hpp"
 #include <algorithm>
 #include <cmath>

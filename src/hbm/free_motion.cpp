@@ -1,6 +1,6 @@
 #include "hbm/free_motion.hpp"
 #include "linalg/lapack.hpp"
-#include "model/rest.hpp"
+#include "space/rest.hpp"
 #include <algorithm>
 #include <cmath>
 

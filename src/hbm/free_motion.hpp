@@ -2,7 +2,7 @@
 // beside stops that its motion does not reach. It changes no gap that closes, so that periodic motion under
 // balanced loads leaves its mean position open: zero here.
 #pragma once
-#include "hbm/contact_force.hpp"
+#include "contact/contact_force.hpp"
 #include "reduction/reduced_model.hpp"
 
 namespace plm {

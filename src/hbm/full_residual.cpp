@@ -1,7 +1,7 @@
 // How well a reduced solution satisfies the equations of the whole structure (paper, eq. (4)), harmonic by
 // harmonic.
+#include "contact/contact_force.hpp"
 #include "hbm/branch.hpp"
-#include "hbm/contact_force.hpp"
 #include "hbm/formulation.hpp"
 #include "linalg/work.hpp"
 #include <cmath>

@@ -18,13 +18,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-Matrix select_rows(const Matrix &a, const vector<std::int64_t> &rows) {
-    Matrix s(static_cast<std::int64_t>(rows.size()), a.cols());
-    for (std::int64_t j = 0; j < a.cols(); ++j)
-        for (std::int64_t i = 0; i < s.rows(); ++i) s(i, j) = a(rows[i], j);
-    return s;
-}
-
 // Coefficient of harmonic h of item i as c - i s, in an array whose coefficient columns are `stride` long.
 Complex read(const double *v, std::int64_t stride, std::int64_t h, std::int64_t i) {
     return h == 0 ? Complex(v[i]) : Complex(v[(2 * h - 1) * stride + i], -v[2 * h * stride + i]);

@@ -1,5 +1,5 @@
 #include "hbm/harmonic_tail.hpp"
-#include "hbm/contact_force.hpp"
+#include "contact/contact_force.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/receptance.hpp"
 #include <algorithm>

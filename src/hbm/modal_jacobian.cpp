@@ -19,13 +19,6 @@ Matrix row_products(const Matrix &left, const Matrix &right, bool symmetric) {
     return products;
 }
 
-Matrix select_rows(const Matrix &a, const vector<std::int64_t> &rows) {
-    Matrix s(static_cast<std::int64_t>(rows.size()), a.cols());
-    for (std::int64_t j = 0; j < a.cols(); ++j)
-        for (std::int64_t i = 0; i < s.rows(); ++i) s(i, j) = a(rows[i], j);
-    return s;
-}
-
 } // namespace
 
 void gaps_of_coordinates(const Matrix &gap_0, const Matrix &gap, const double *x, Matrix &u) {

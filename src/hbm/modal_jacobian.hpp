@@ -2,7 +2,7 @@
 // x = [eta_0 (r_0); a_1; b_1; ...; a_H; b_H (r each)]: D couples cosine and sine of one harmonic, G holds the
 // gap rows of every harmonic, T couples the harmonics of one pair.
 #pragma once
-#include "hbm/contact_force.hpp"
+#include "contact/contact_force.hpp"
 #include "hbm/free_motion.hpp"
 #include "reduction/reduced_model.hpp"
 #include <complex>

@@ -1,5 +1,5 @@
 #include "hbm/modes_at_rest.hpp"
-#include "model/linear_contact.hpp"
+#include "space/linear_contact.hpp"
 #include <limits>
 
 namespace plm {

@@ -1,7 +1,7 @@
 #include "hbm/motion_measures.hpp"
-#include "hbm/contact_force.hpp"
+#include "contact/contact_force.hpp"
 #include "hbm/formulation.hpp"
-#include "model/rest.hpp"
+#include "space/rest.hpp"
 #include <algorithm>
 
 namespace plm {

@@ -2,8 +2,8 @@
 // reduced coordinates (modal_system.cpp), or unknown contact gaps through the receptances of the open
 // structure (gap_system.cpp). Which is cheaper depends on the number of coordinates and of moving pairs.
 #pragma once
+#include "contact/contact_force.hpp"
 #include "hbm/branch_point.hpp"
-#include "hbm/contact_force.hpp"
 #include "linalg/error.hpp"
 #include "paths/residual.hpp"
 

@@ -55,6 +55,13 @@ bool is_transpose(char op) {
 
 } // namespace
 
+Matrix select_rows(const Matrix &a, const vector<std::int64_t> &rows) {
+    Matrix s(static_cast<std::int64_t>(rows.size()), a.cols());
+    for (std::int64_t j = 0; j < a.cols(); ++j)
+        for (std::int64_t i = 0; i < s.rows(); ++i) s(i, j) = a(rows[i], j);
+    return s;
+}
+
 void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c) {
     const bool ta = is_transpose(op_a), tb = is_transpose(op_b);
     const std::int64_t inner = ta ? a.rows() : a.cols();

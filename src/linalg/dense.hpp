@@ -48,6 +48,8 @@ class Matrix {
     vector<double> data_;
 };
 
+/// A(rows, :)
+Matrix select_rows(const Matrix &a, const vector<std::int64_t> &rows);
 /// C = alpha op(A) op(B) + beta C; op is 'N' or 'T'. Shapes are checked (PLM_ERR_INTERNAL on mismatch).
 void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c);
 /// op(A) op(B) as a new matrix.

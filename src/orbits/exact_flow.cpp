@@ -1,7 +1,7 @@
 #include "orbits/exact_flow.hpp"
+#include "contact/contact_step.hpp"
 #include "linalg/scale.hpp"
 #include "linalg/work.hpp"
-#include "orbits/contact_step.hpp"
 #include "orbits/polynomial.hpp"
 #include <algorithm>
 #include <cmath>

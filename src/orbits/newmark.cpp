@@ -1,8 +1,8 @@
 #include "orbits/newmark.hpp"
-#include "linalg/make_factor.hpp"
 #include "linalg/scale.hpp"
-#include "model/rest.hpp"
 #include "orbits/settling.hpp"
+#include "space/rest.hpp"
+#include "structure/solver/make_factor.hpp"
 #include <algorithm>
 #include <cmath>
 

@@ -3,9 +3,9 @@
 // of the step's matrix for the open structure serves all steps; contact enters through its flexibility
 // (contact_step.hpp), whatever pairs are closed.
 #pragma once
+#include "contact/contact_step.hpp"
 #include "linalg/monitor.hpp"
-#include "model/model.hpp"
-#include "orbits/contact_step.hpp"
+#include "space/model.hpp"
 
 namespace plm {
 

@@ -1,8 +1,8 @@
 #include "orbits/reduced_motion.hpp"
-#include "model/rest.hpp"
 #include "orbits/instant_recorder.hpp"
 #include "orbits/settling.hpp"
 #include "orbits/shooting.hpp"
+#include "space/rest.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -1,6 +1,5 @@
 #include "reduction/basis.hpp"
 #include "linalg/lapack.hpp"
-#include "model/massless.hpp"
 #include "reduction/conditioning.hpp"
 #include "reduction/contact_snapshots.hpp"
 #include "reduction/craig_bampton.hpp"
@@ -9,6 +8,7 @@
 #include "reduction/projection.hpp"
 #include "reduction/rivals.hpp"
 #include "reduction/static_basis.hpp"
+#include "space/massless.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>

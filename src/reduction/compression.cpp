@@ -1,7 +1,7 @@
 #include "reduction/compression.hpp"
 #include "linalg/lapack.hpp"
-#include "model/massless.hpp"
 #include "reduction/projection.hpp"
+#include "space/massless.hpp"
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "reduction/conditioning.hpp"
 #include "linalg/lapack.hpp"
-#include "model/massless.hpp"
+#include "space/massless.hpp"
 #include <algorithm>
 #include <cmath>
 #include <utility>

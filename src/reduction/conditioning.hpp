@@ -1,6 +1,6 @@
 // From collected, possibly repeated modes to well-conditioned reduced coordinates (paper, 2.3.3).
 #pragma once
-#include "model/space.hpp"
+#include "space/space.hpp"
 
 namespace plm {
 

@@ -1,9 +1,9 @@
 #include "reduction/contact_snapshots.hpp"
 #include "linalg/lapack.hpp"
 #include "linalg/work.hpp"
-#include "model/linear_contact.hpp"
-#include "model/rest.hpp"
 #include "sampling/dominant_mode.hpp"
+#include "space/linear_contact.hpp"
+#include "space/rest.hpp"
 #include <algorithm>
 #include <cmath>
 #include <utility>

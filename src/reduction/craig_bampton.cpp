@@ -1,10 +1,10 @@
 // Craig & Bampton (1968): the contact DOFs are retained, the interior is represented by constraint modes and
 // by fixed-interface modes.
 #include "reduction/craig_bampton.hpp"
-#include "linalg/eigs.hpp"
 #include "linalg/lapack.hpp"
-#include "linalg/make_factor.hpp"
-#include "model/massless.hpp"
+#include "space/massless.hpp"
+#include "structure/eigs.hpp"
+#include "structure/solver/make_factor.hpp"
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,7 +1,7 @@
 // Craig-Bampton: a space of fixed-interface modes and constraint modes.
 #pragma once
 #include "linalg/monitor.hpp"
-#include "model/space.hpp"
+#include "space/space.hpp"
 
 namespace plm {
 

@@ -1,9 +1,9 @@
 #include "reduction/discontinuity.hpp"
 #include "linalg/lapack.hpp"
-#include "model/rest.hpp"
 #include "reduction/residual_responses.hpp"
 #include "sampling/dominant_mode.hpp"
 #include "sampling/mode_match.hpp"
+#include "space/rest.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,8 +1,8 @@
 #include "reduction/equivalent_motion.hpp"
-#include "model/describing_function.hpp"
-#include "model/linear_contact.hpp"
-#include "model/rest.hpp"
+#include "contact/describing_function.hpp"
 #include "sampling/mode_match.hpp"
+#include "space/linear_contact.hpp"
+#include "space/rest.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>

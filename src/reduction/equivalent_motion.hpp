@@ -2,7 +2,7 @@
 // balance with a mean and one harmonic, on one mode, by fixed-point iteration (as the updated or iterated
 // LELSM modes of AL-Shudeifat and Butcher 2010).
 #pragma once
-#include "model/space.hpp"
+#include "space/space.hpp"
 
 namespace plm {
 

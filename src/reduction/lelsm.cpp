@@ -1,8 +1,8 @@
 #include "reduction/lelsm.hpp"
-#include "model/linear_contact.hpp"
 #include "sampling/dominant_mode.hpp"
 #include "sampling/frequency_window.hpp"
 #include "sampling/mode_match.hpp"
+#include "space/linear_contact.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>

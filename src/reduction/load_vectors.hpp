@@ -1,6 +1,6 @@
 // Static responses to the excitation: what no low mode carries of the deformation around a loaded DOF.
 #pragma once
-#include "model/space.hpp"
+#include "space/space.hpp"
 
 namespace plm {
 

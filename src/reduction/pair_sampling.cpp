@@ -58,13 +58,6 @@ std::int64_t nearest(const Matrix &rows, std::int64_t i, const vector<std::int64
     return best;
 }
 
-Matrix rows_of(const Matrix &a, const vector<std::int64_t> &rows) {
-    Matrix chosen(static_cast<std::int64_t>(rows.size()), a.cols());
-    for (std::int64_t j = 0; j < a.cols(); ++j)
-        for (std::int64_t i = 0; i < chosen.rows(); ++i) chosen(i, j) = a(rows[i], j);
-    return chosen;
-}
-
 // The structure as its pairs see it, rigid-body motion softly held.
 vector<std::int64_t> master_pairs(const Space &space, double omega, std::int64_t n) {
     const double shift = space.lambda.empty() || space.lambda[0] > 0 ? 0 : 1e-2 * omega * omega;
@@ -89,8 +82,8 @@ std::shared_ptr<const ReducedModel> carry(const ReducedModel &whole, const vecto
     all->initial_gap = whole.initial_gap;
     reduced->all_pairs = all;
     reduced->carried = carried;
-    reduced->gap = rows_of(whole.gap, carried);
-    reduced->gap_0 = rows_of(whole.gap_0, carried);
+    reduced->gap = select_rows(whole.gap, carried);
+    reduced->gap_0 = select_rows(whole.gap_0, carried);
     reduced->contact_stiffness.assign(carried.size(), 0.0);
     reduced->initial_gap.resize(carried.size());
     for (std::size_t c = 0; c < carried.size(); ++c) reduced->initial_gap[c] = whole.initial_gap[carried[c]];

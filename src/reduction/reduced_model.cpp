@@ -1,5 +1,5 @@
 #include "reduction/reduced_model.hpp"
-#include "model/massless.hpp"
+#include "space/massless.hpp"
 
 namespace plm {
 

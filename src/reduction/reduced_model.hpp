@@ -2,7 +2,7 @@
 // h >= 1 and P_0 for h = 0. All that harmonic balance sees of the structure. m = 1, or 0 for the directions
 // that follow statically (massless.hpp).
 #pragma once
-#include "model/space.hpp"
+#include "space/space.hpp"
 
 namespace plm {
 

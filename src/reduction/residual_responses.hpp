@@ -2,7 +2,7 @@
 // Kept modes and residual responses span the same as kept modes and static responses (MacNeal 1971: residual
 // flexibility), and are far from parallel.
 #pragma once
-#include "model/space.hpp"
+#include "space/space.hpp"
 
 namespace plm {
 

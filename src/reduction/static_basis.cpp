@@ -1,5 +1,5 @@
 #include "reduction/static_basis.hpp"
-#include "model/massless.hpp"
+#include "space/massless.hpp"
 #include <algorithm>
 
 namespace plm {

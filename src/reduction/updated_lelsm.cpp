@@ -1,8 +1,8 @@
 #include "reduction/updated_lelsm.hpp"
-#include "model/describing_function.hpp"
-#include "model/linear_contact.hpp"
+#include "contact/describing_function.hpp"
 #include "reduction/residual_responses.hpp"
 #include "sampling/mode_match.hpp"
+#include "space/linear_contact.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>

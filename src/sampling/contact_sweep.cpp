@@ -1,5 +1,5 @@
 #include "sampling/contact_sweep.hpp"
-#include "model/contact_law.hpp"
+#include "contact/contact_law.hpp"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,8 +1,8 @@
 // The mode of the open or sliding linear system that is taken to carry the contact kinematics (paper, 2.3.2).
 #pragma once
 #include "linalg/monitor.hpp"
-#include "model/space.hpp"
 #include "sampling/sampler_options.hpp"
+#include "space/space.hpp"
 
 namespace plm {
 

@@ -1,8 +1,8 @@
 // The frequency range where the dominant mode governs the response (paper, 2.3.2).
 #pragma once
-#include "model/rest.hpp"
 #include "sampling/contact_sweep.hpp"
 #include "sampling/dominant_mode.hpp"
+#include "space/rest.hpp"
 #include <string>
 
 namespace plm {

@@ -1,7 +1,7 @@
 // Which mode of one linear system resembles a given shape: the mass-weighted modal assurance criterion (MAC).
 // In the coordinates of a Space it is the squared cosine of the coordinates that have mass.
 #pragma once
-#include "model/space.hpp"
+#include "space/space.hpp"
 
 namespace plm {
 

@@ -1,7 +1,7 @@
 // Which linear system the dominant mode is taken from when the host leaves it to the library.
 #pragma once
-#include "model/rest.hpp"
 #include "sampling/dominant_mode.hpp"
+#include "space/rest.hpp"
 
 namespace plm {
 

@@ -1,8 +1,8 @@
 // The mean opening that vibration brings about where neither pre-load nor gap sets one (paper, 2.3.1; Zucca
 // and Epureanu 2014): the penetration dX_0 under static contact forces proportional to |dV|.
 #pragma once
-#include "model/space.hpp"
 #include "sampling/sampler_options.hpp"
+#include "space/space.hpp"
 
 namespace plm {
 

@@ -1,5 +1,5 @@
 #include "searches/curve_verdicts.hpp"
-#include "hbm/trig_polynomial.hpp"
+#include "contact/trig_polynomial.hpp"
 #include "searches/wider_range.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "searches/exact_motion.hpp"
-#include "hbm/contact_force.hpp"
+#include "contact/contact_force.hpp"
 #include "hbm/formulation.hpp"
 #include "orbits/period_map.hpp"
 #include <algorithm>

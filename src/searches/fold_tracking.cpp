@@ -1,7 +1,7 @@
 #include "searches/fold_tracking.hpp"
+#include "contact/trig_polynomial.hpp"
 #include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
-#include "hbm/trig_polynomial.hpp"
 #include "searches/curve.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #include "searches/hill.hpp"
-#include "hbm/contact_force.hpp"
+#include "contact/contact_force.hpp"
 #include "hbm/formulation.hpp"
 #include "linalg/lapack.hpp"
 #include <algorithm>

@@ -1,10 +1,10 @@
 #include "searches/marching_search.hpp"
 #include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
-#include "model/rest.hpp"
 #include "orbits/shooting.hpp"
 #include "searches/curve.hpp"
 #include "searches/start.hpp"
+#include "space/rest.hpp"
 #include <algorithm>
 #include <cmath>
 

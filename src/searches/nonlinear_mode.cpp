@@ -3,8 +3,8 @@
 #include "hbm/harmonic_tail.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/modes_at_rest.hpp"
-#include "model/rest.hpp"
 #include "searches/start.hpp"
+#include "space/rest.hpp"
 #include <algorithm>
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #include "hbm/branch_path.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/wrapped_system.hpp"
-#include "model/rest.hpp"
+#include "space/rest.hpp"
 #include <algorithm>
 #include <cmath>
 

@@ -182,10 +182,10 @@ if doxyfile.exists() and shutil.which("doxygen"):
 rooms = folder / "rooms"
 shutil.copytree(source / "src", rooms)
 with (rooms / "linalg/dense.hpp").open("a", encoding="utf-8") as file:
-    file.write('#include "model/space.hpp"\n')
-refused("house.includes", "a room that looks upwards", "dense.hpp:[0-9]+: linalg must not include model/space", python,
+    file.write('#include "space/space.hpp"\n')
+refused("house.includes", "a room that looks upwards", "dense.hpp:[0-9]+: linalg must not include space/space", python,
         tests / "house/includes.py", rooms)
-refused("house.includes", "parts that include one another", "linalg/dense .*model/space .*include one another", python,
+refused("house.includes", "parts that include one another", "linalg/dense .*space/space .*include one another", python,
         tests / "house/includes.py", rooms)
 
 # ---- hosts

@@ -1,7 +1,7 @@
 // The compliance formulation: the same answers as the penalty in the limit of many harmonics, and the rigid
 // limit, where the penalty stops at the first touch.
+#include "contact/trig_polynomial.hpp"
 #include "hbm/formulation.hpp"
-#include "hbm/trig_polynomial.hpp"
 #include "searches/hbm.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"

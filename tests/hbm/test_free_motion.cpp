@@ -1,6 +1,6 @@
 // Structures whose rigid-body motion neither supports nor contact hold, against the same ones held: a pair of
 // masses in free flight moves relative to each other like one of the reduced mass on a support.
-#include "hbm/trig_polynomial.hpp"
+#include "contact/trig_polynomial.hpp"
 #include "searches/hbm.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"

@@ -8,7 +8,8 @@ import re
 import sys
 
 # Each room may include those named, and what those may.
-MAY_INCLUDE = {"linalg": [], "paths": ["linalg"], "model": ["linalg"], "sampling": ["model"], "reduction": ["sampling"],
+MAY_INCLUDE = {"linalg": [], "paths": ["linalg"], "structure": ["linalg"], "contact": ["linalg"],
+               "space": ["structure", "contact"], "sampling": ["space"], "reduction": ["sampling"],
                "orbits": ["reduction"], "hbm": ["reduction", "paths"], "searches": ["hbm", "orbits"], "study": ["searches"],
                "capi": ["study"]}
 

@@ -117,7 +117,7 @@ void complex_lu_solves_and_refuses_singular_matrices(void **) {
 }
 
 void cholesky_solves_or_says_no(void **) {
-    const Matrix k = plm::to_dense(membrane(5, 4)), x = random_matrix(20, 2, 4);
+    const Matrix k = random_definite_dense(20, 3), x = random_matrix(20, 2, 4);
     Matrix b = plm::product('N', 'N', k, x), work = k, negative = k;
     negative(13, 13) = -1;
     plm::DenseCholesky cholesky;

@@ -1,7 +1,7 @@
 // One set of coordinates for what harmonic balance keeps in two: against the same quantities over the DOFs.
 #include "flows.hpp"
-#include "model/rest.hpp"
 #include "reduction/projection.hpp"
+#include "space/rest.hpp"
 
 using namespace test;
 

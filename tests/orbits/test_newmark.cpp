@@ -1,9 +1,9 @@
 // Time integration of full models: against the exact flow of the same structure, by its order, its damping
 // and its energy, and on a finite-element scene against the flow of its reduced model.
 #include "flows.hpp"
-#include "model/matrix_input.hpp"
 #include "orbits/newmark.hpp"
 #include "reduction/basis.hpp"
+#include "structure/matrix_input.hpp"
 #include <limits>
 extern "C" {
 #include "scene.h"

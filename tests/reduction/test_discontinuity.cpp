@@ -1,8 +1,8 @@
 // Discontinuity vectors (Segalman 2007) against dense solutions over all DOFs of two chains in contact.
-#include "model/linear_contact.hpp"
-#include "model/rest.hpp"
 #include "reduction/discontinuity.hpp"
 #include "rival_cases.hpp"
+#include "space/linear_contact.hpp"
+#include "space/rest.hpp"
 
 using namespace rival;
 using plm::Matrix;

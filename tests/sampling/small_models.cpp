@@ -1,5 +1,5 @@
 #include "small_models.hpp"
-#include "model/matrix_input.hpp"
+#include "structure/matrix_input.hpp"
 
 namespace test {
 namespace {

@@ -1,7 +1,7 @@
 // Small structures as models, and the dense eigenproblems that say what is true of them.
 #pragma once
 #include "linalg/lapack.hpp"
-#include "model/model.hpp"
+#include "space/model.hpp"
 #include "support/exact_flow.hpp"
 #include <functional>
 #include <string>

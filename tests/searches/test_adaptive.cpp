@@ -1,6 +1,6 @@
 // What the solver leaves out by itself: harmonics by point, pairs that do not move (unknowns by cost). Each
 // can be switched off, and the answer then agrees.
-#include "hbm/trig_polynomial.hpp"
+#include "contact/trig_polynomial.hpp"
 #include "searches/curve.hpp"
 #include "searches/hbm.hpp"
 #include "support/small_reduced.hpp"

@@ -1,7 +1,7 @@
 // Folds, period doublings, branch points and Neimark-Sacker points of small oscillators against the exact
 // piecewise-linear flow, whose code is independent of the library; the curves that leave there; loops that
 // close.
-#include "hbm/trig_polynomial.hpp"
+#include "contact/trig_polynomial.hpp"
 #include "searches/hbm.hpp"
 #include "searches/stability.hpp"
 #include "support/small_reduced.hpp"

@@ -1,6 +1,6 @@
 // Harmonic balance at the edges of its range: nothing to do, nothing to damp, nothing to hold, many
 // harmonics, odd units.
-#include "hbm/trig_polynomial.hpp"
+#include "contact/trig_polynomial.hpp"
 #include "searches/hbm.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"

@@ -1,6 +1,6 @@
 // Isolated branches of a small pre-loaded structure: found without a hint, closed, the range of forces
 // against plain sweeps, stable points against the exact flow, folds tracked against folds located.
-#include "hbm/trig_polynomial.hpp"
+#include "contact/trig_polynomial.hpp"
 #include "searches/fold_tracking.hpp"
 #include "searches/hbm.hpp"
 #include "searches/isolated.hpp"

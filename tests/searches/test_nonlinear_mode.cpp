@@ -1,6 +1,6 @@
 // Nonlinear modes against closed forms of the bilinear oscillator: frequency, energy, contact time, damping.
+#include "contact/trig_polynomial.hpp"
 #include "hbm/options.hpp"
-#include "hbm/trig_polynomial.hpp"
 #include "searches/nonlinear_mode.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"

@@ -1,6 +1,6 @@
 // Response curves against independent truths: closed forms and exact periodic orbits of the piecewise-linear
 // flow.
-#include "hbm/trig_polynomial.hpp"
+#include "contact/trig_polynomial.hpp"
 #include "searches/hbm.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"

@@ -1,0 +1,68 @@
+#include "contact/contact_force.hpp"
+#include "linalg/work.hpp"
+#include <cstdlib>
+
+namespace plm {
+namespace {
+
+double cosine(const double *s, std::int64_t k) {
+    k = std::abs(k);
+    return k == 0 ? s[0] : s[2 * k - 1];
+}
+double sine(const double *s, std::int64_t k) {
+    if (k == 0) return 0;
+    return k > 0 ? s[2 * k] : -s[-2 * k];
+}
+
+} // namespace
+
+// Rows and columns: 0 mean, 2h-1 cosine, 2h sine. From 2 <s cos m cos n> = <s cos(m-n)> + <s cos(m+n)> and
+// its kin.
+double indicator_entry(const double *s, std::int64_t row, std::int64_t column) {
+    const std::int64_t m = (row + 1) / 2, n = (column + 1) / 2;
+    const bool row_sine = row > 0 && row % 2 == 0, column_sine = column > 0 && column % 2 == 0;
+    if (m == 0) return column_sine ? sine(s, n) : cosine(s, n);
+    if (n == 0) return row_sine ? 2 * sine(s, m) : 2 * cosine(s, m);
+    if (!row_sine && !column_sine) return cosine(s, m - n) + cosine(s, m + n);
+    if (!row_sine) return sine(s, n + m) + sine(s, n - m);
+    if (!column_sine) return sine(s, m + n) + sine(s, m - n);
+    return cosine(s, m - n) - cosine(s, m + n);
+}
+
+void constant_indicator(const vector<double> &share, std::int64_t n_harmonics, ContactIndicator &out) {
+    const std::int64_t z = static_cast<std::int64_t>(share.size());
+    out.averages.reset(4 * n_harmonics + 1, z);
+    out.state.assign(z, PairState::open);
+    out.n_switching = 0;
+    for (std::int64_t i = 0; i < z; ++i) {
+        out.averages(0, i) = share[i];
+        if (share[i] == 0) continue;
+        out.state[i] = share[i] == 1 ? PairState::closed : PairState::switching;
+        out.n_switching += share[i] != 1;
+    }
+}
+
+void apply_indicator(const ContactIndicator &s, const vector<double> &stiffness, const Matrix &u,
+                     Matrix &force) {
+    const std::int64_t z = u.rows(), n = u.cols();
+    force.reset(z, n);
+    vector<double> x(n);
+    for (std::int64_t i = 0; i < z; ++i) {
+        if (s.state[i] == PairState::open) continue;
+        const double k = stiffness[i];
+        if (s.state[i] == PairState::closed) {
+            for (std::int64_t c = 0; c < n; ++c) force(i, c) = k * u(i, c);
+            continue;
+        }
+        const double *average = s.averages.col(i);
+        for (std::int64_t c = 0; c < n; ++c) x[c] = u(i, c);
+        for (std::int64_t r = 0; r < n; ++r) {
+            double f = 0;
+            for (std::int64_t c = 0; c < n; ++c) f += indicator_entry(average, r, c) * x[c];
+            force(i, r) = k * f;
+        }
+        worked(12.0 * static_cast<double>(n * n));
+    }
+}
+
+} // namespace plm

@@ -1,0 +1,54 @@
+// Contact force and its derivative in the frequency domain (AFT; paper, 2.2). With s(t) = [u(t) > 0] the
+// indicator of a pair and J(s) the matrix of its Fourier averages, force coefficients = k_n J(s) u and
+// derivative = k_n J(s): one set of 4H + 1 numbers per pair serves both, for the event-exact and for the
+// sampled AFT.
+#pragma once
+#include "contact/contact_law.hpp"
+#include "linalg/dft.hpp"
+#include <memory>
+
+namespace plm {
+
+enum class PairState : char { open, closed, switching };
+
+/// Averages over the period of s, s cos t, s sin t, ..., s cos 2Ht, s sin 2Ht: (4H + 1) x Z, and who
+/// switches.
+struct ContactIndicator {
+    Matrix averages;
+    vector<PairState> state;
+    std::int64_t n_switching = 0;
+};
+
+class ContactForce {
+  public:
+    virtual ~ContactForce() = default;
+    /// u: Z x (2H + 1) coefficients of the penetration, column c is coefficient c.
+    virtual void indicator(const Matrix &u, ContactIndicator &out) = 0;
+};
+
+/// Switching instants are zeros of the trigonometric polynomial u: found, not sampled; averages in closed
+/// form.
+std::unique_ptr<ContactForce> make_event_force(std::int64_t n_harmonics, std::int64_t n_pairs);
+/// The classical AFT on `time_samples` (>= 4H + 1) equidistant instants.
+std::unique_ptr<ContactForce> make_sampled_force(std::int64_t n_harmonics, std::int64_t time_samples,
+                                                 std::int64_t n_pairs);
+
+/// When each pair opens and closes in a period: instants in radian, ascending, all zeros of its penetration.
+struct SwitchingInstants {
+    vector<char> closed_first; // state at t = 0
+    std::vector<vector<double>> instants;
+};
+/// u: Z x (2H + 1) coefficients.
+SwitchingInstants switching_instants(const Matrix &u);
+
+/// Averages for a constant indicator: share[i] in [0, 1] per pair.
+void constant_indicator(const vector<double> &share, std::int64_t n_harmonics, ContactIndicator &out);
+
+/// Entry (row, column) of J(s) from one pair's averages.
+double indicator_entry(const double *averages, std::int64_t row, std::int64_t column);
+
+/// force = k J(s) u for every pair; u and force are Z x (2H + 1).
+void apply_indicator(const ContactIndicator &s, const vector<double> &stiffness, const Matrix &u,
+                     Matrix &force);
+
+} // namespace plm

@@ -1,0 +1,355 @@
+#include "space/audit.hpp"
+#include "linalg/lapack.hpp"
+#include "structure/eigs.hpp"
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace plm {
+namespace {
+
+using Int = long long; // for printf
+
+class Audit {
+  public:
+    explicit Audit(const Model &model) : m_(model) {}
+
+    std::vector<Finding> run(bool quick) {
+        mass();
+        massless_dofs();
+        rigid_modes();
+        conditioning();
+        rounding();
+        if (!quick) frequencies();
+        damping();
+        loads();
+        if (m_.n_pairs() == 0) {
+            add(0, 0, "no contact pair: the model is linear");
+            return findings_;
+        }
+        gaps();
+        opened_by_preload();
+        rotations();
+        repeated_rows();
+        row_balance();
+        contact_stiffness();
+        return findings_;
+    }
+
+  private:
+    void add(int severity, double value, std::string text) {
+        findings_.push_back({severity, value, std::move(text)});
+    }
+
+    // Only what the matrices tell: how many DOFs a node has is not known otherwise.
+    void mass() {
+        if (m_.translations().empty()) {
+            add(0, trace(m_.mass()),
+                format("which DOFs are translations cannot be told from K (it holds supports already, or the "
+                       "DOFs "
+                       "are not numbered node by node); the diagonal of the mass matrix sums up to %g",
+                       trace(m_.mass())));
+            return;
+        }
+        double smallest = INFINITY, largest = 0;
+        for (const Translation &t : m_.translations()) {
+            smallest = std::min(smallest, t.mass), largest = std::max(largest, t.mass);
+            add(t.mass > 0 ? 0 : 2, t.mass,
+                format("mass %g of the whole structure in the translation of DOFs %lld, %lld, %lld, ... "
+                       "(%lld per "
+                       "node)%s",
+                       t.mass, Int(t.first), Int(t.first + t.step), Int(t.first + 2 * t.step), Int(t.step),
+                       t.mass > 0 ? "" : ": check the assembly of the mass matrix"));
+        }
+        // lumped and consistent masses are the same in all directions
+        if (smallest > 0 && smallest < 0.99 * largest)
+            add(1, smallest / largest,
+                format("the mass differs between the translations, %g to %g: is the mass matrix complete in "
+                       "every "
+                       "direction?",
+                       smallest, largest));
+    }
+
+    void massless_dofs() {
+        std::int64_t count = m_.n_free();
+        for (std::int64_t j = 0; j < m_.mass().cols; ++j)
+            for (std::int64_t p = m_.mass().ptr[j]; p < m_.mass().ptr[j + 1]; ++p)
+                if (m_.mass().idx[p] == j && m_.mass().val[p] > 0) --count;
+        if (count > 0)
+            add(1, static_cast<double>(count),
+                format("%lld free DOFs have no mass; they follow quasi-statically. Give them their (rotary) "
+                       "inertia if "
+                       "their own motion matters",
+                       Int(count)));
+    }
+
+    void rigid_modes() {
+        const std::int64_t n = m_.rigid_modes().cols();
+        if (n == 0) {
+            add(0, 0, "no rigid-body mode: the structure is held while its contacts are open");
+            return;
+        }
+        const std::int64_t loose = n - held_by_contact();
+        const std::string fact =
+            format("%lld rigid-body modes while the contacts are open%s", Int(n),
+                   n > 6 ? " (several loose bodies, or parts that are not connected)" : "");
+        if (loose > 0)
+            add(1, static_cast<double>(n),
+                format("%s, and %lld of them whatever contact closes: is a support missing? Fix DOFs by "
+                       "plm_model_fix_dofs; where free flight is meant, its mean position is taken as zero",
+                       fact.c_str(), Int(loose)));
+        else if (!m_.has_preload())
+            add(1, static_cast<double>(n),
+                fact + ", and no pre-load presses the contacts together that could hold them: give the "
+                       "pre-load by "
+                       "plm_model_set_preload, or fix DOFs by plm_model_fix_dofs");
+        else
+            add(n > 6 ? 1 : 0, static_cast<double>(n), fact + "; closed contacts can hold them");
+    }
+
+    // Rank of the gaps' answer to rigid motion: B R, each row over what its terms are before they cancel.
+    std::int64_t held_by_contact() const {
+        const Matrix &rigid = m_.rigid_modes();
+        if (m_.n_pairs() == 0) return 0;
+        Matrix size = rigid;
+        for (std::int64_t j = 0; j < size.cols(); ++j)
+            for (std::int64_t i = 0; i < size.rows(); ++i) size(i, j) = std::abs(size(i, j));
+        SparseMatrix rows = m_.gap_matrix();
+        Matrix answer = multiply(rows, rigid);
+        for (double &v : rows.val) v = std::abs(v);
+        const Matrix terms = multiply(rows, size);
+        for (std::int64_t i = 0; i < answer.rows(); ++i) {
+            double scale = 0;
+            for (std::int64_t j = 0; j < answer.cols(); ++j) scale = std::max(scale, terms(i, j));
+            for (std::int64_t j = 0; j < answer.cols(); ++j)
+                answer(i, j) = scale > 0 ? answer(i, j) / scale : 0;
+        }
+        constexpr double cancelled = 1e-6; // rigid modes of rounded matrices
+        const vector<double> values = thin_svd(answer).values;
+        return std::count_if(values.begin(), values.end(), [](double v) { return v > cancelled; });
+    }
+
+    void conditioning() {
+        const double condition = m_.factor().reciprocal_condition();
+        add(condition < 1e-12 ? 1 : 0, condition,
+            format("reciprocal condition of the factored %s, estimated from its pivots: %.1e%s",
+                   m_.shift() > 0 ? "K + sigma M" : "stiffness", condition,
+                   condition < 1e-12 ? "; very stiff or very thin elements, or penalty terms?" : ""));
+    }
+
+    // Frequencies carry half of what their squares do; no result is to be wrong by 1 % without a word.
+    void rounding() {
+        const double share = 0.5 * m_.uncertainty();
+        if (share < 5e-3) return;
+        add(2, share,
+            format(
+                "rounding of the stiffness matrix leaves the lowest elastic frequency uncertain by %.1g of "
+                "it: the mesh is too fine, or a penalty too stiff, for double precision; use larger "
+                "elements, a softer penalty, or supports",
+                share));
+    }
+
+    void frequencies() {
+        const std::int64_t rigid = m_.rigid_modes().cols();
+        if (rigid >= m_.n_free()) return;
+        const EigenPairs pairs =
+            lowest_eigenpairs(m_.stiffness(), m_.mass(), m_.factor(), -m_.shift(), rigid + 1);
+        if (static_cast<std::int64_t>(pairs.values.size()) <= rigid) return;
+        const double hz = std::sqrt(std::max(0.0, pairs.values[rigid])) / (2 * M_PI);
+        const bool odd = !(hz >= 1e-3 && hz <= 1e7);
+        add(odd ? 2 : 0, hz,
+            format("lowest elastic frequency of the open structure: %.6g Hz%s", hz,
+                   odd ? "; outside 1e-3..1e7 Hz: do the units of mass and stiffness belong "
+                         "together (mm-N-t or m-N-kg)?"
+                       : ""));
+    }
+
+    void damping() {
+        const Damping &d = m_.damping();
+        const bool modal =
+            std::any_of(d.modal_ratio.begin(), d.modal_ratio.end(), [](double z) { return z > 0; });
+        if (d.alpha == 0 && d.beta == 0 && d.structural == 0 && !modal && !d.has_matrix)
+            add(1, 0,
+                "no damping: the response at resonance is unbounded, and a curve may end there; give some by "
+                "plm_model_set_modal_damping, _rayleigh_damping or _structural_damping");
+    }
+
+    void loads() {
+        double preload = m_.has_preload() ? norm2(m_.n_free(), m_.preload().data()) : 0;
+        add(0, preload,
+            m_.has_preload() ? format("static pre-load, norm %g", preload) : "no static pre-load");
+        double dynamic = 0;
+        for (const auto &[harmonic, load] : m_.excitation()) {
+            if (harmonic == 0) continue;
+            dynamic = std::hypot(dynamic, norm2(m_.n_free(), load.real.data()));
+            dynamic = std::hypot(dynamic, norm2(m_.n_free(), load.imag.data()));
+        }
+        if (dynamic > 0)
+            add(0, dynamic, format("harmonic excitation, norm %g", dynamic));
+        else
+            add(1, 0,
+                format("no harmonic excitation on the free DOFs: the response is zero; %s",
+                       m_.excitation_on_supports() > 0
+                           ? "the one there is acts on fixed DOFs only: move it to DOFs "
+                             "that are free"
+                           : "give one by plm_model_set_excitation, harmonic 1"));
+    }
+
+    void gaps() {
+        const vector<double> &g = m_.initial_gap();
+        const double low = *std::min_element(g.begin(), g.end()),
+                     high = *std::max_element(g.begin(), g.end());
+        const auto interfering = std::count_if(g.begin(), g.end(), [](double v) { return v < 0; });
+        add(0, high,
+            format("initial gaps from %g to %g over %lld pairs; %s", low, high, Int(m_.n_pairs()),
+                   closing_motion().c_str()));
+        if (interfering > 0)
+            add(1, static_cast<double>(interfering),
+                format("%lld pairs start with interference (gap < 0), down to %g; if they should be open, "
+                       "the sign of the gap or the normal is reversed",
+                       Int(interfering), low));
+    }
+
+    // A reversed sign shows here at a glance.
+    std::string closing_motion() const {
+        const SparseMatrix rows = transpose(m_.gap_matrix());
+        std::int64_t strongest = rows.ptr[0];
+        for (std::int64_t p = rows.ptr[0]; p < rows.ptr[1]; ++p)
+            if (std::abs(rows.val[p]) > std::abs(rows.val[strongest])) strongest = p;
+        return format("motion of DOF %lld in its %s direction closes pair 0",
+                      Int(m_.free_dof()[rows.idx[strongest]]),
+                      rows.val[strongest] > 0 ? "positive" : "negative");
+    }
+
+    // The linear answer of the open structure to the pre-load; B K^-1 f from the attachment vectors that are
+    // there.
+    void opened_by_preload() {
+        if (!m_.has_preload() || m_.rigid_modes().cols() > 0) return;
+        vector<double> u(m_.n_pairs(), 0.0);
+        gemv('T', 1.0, m_.attachment(), m_.preload().data(), 0.0, u.data());
+        for (std::int64_t i = 0; i < m_.n_pairs(); ++i) u[i] -= m_.initial_gap()[i];
+        const double closest = *std::max_element(u.begin(), u.end());
+        if (closest >= 0) return;
+        add(1, closest,
+            format("under the pre-load all %lld pairs are open, the closest by %g: if it should press them "
+                   "together, "
+                   "its sign, the normals (out of body a towards b) or the gaps are wrong",
+                   Int(m_.n_pairs()), -closest));
+    }
+
+    // Where translations are known, a gap row of other DOFs alone measures an angle.
+    void rotations() {
+        const vector<Translation> &known = m_.translations();
+        if (known.empty() || known.front().step < 2) return;
+        const SparseMatrix rows = transpose(m_.gap_matrix());
+        std::int64_t turned = 0, one = -1;
+        for (std::int64_t i = 0; i < rows.cols; ++i) {
+            const bool moves = std::any_of(
+                rows.idx.data() + rows.ptr[i], rows.idx.data() + rows.ptr[i + 1], [&](std::int64_t k) {
+                    return std::any_of(known.begin(), known.end(),
+                                       [&](const Translation &t) { return t.holds(m_.free_dof()[k]); });
+                });
+            if (!moves && turned++ == 0) one = i;
+        }
+        if (turned > 0)
+            add(1, static_cast<double>(turned),
+                format("%lld pairs (the first: pair %lld, DOF %lld) touch no DOF of a translation: do they "
+                       "use a "
+                       "rotation, or numbers that are off by one? Translations are DOFs %lld, %lld, ... "
+                       "counted from 0",
+                       Int(turned), Int(one), Int(m_.free_dof()[rows.idx[rows.ptr[one]]]),
+                       Int(known.front().first), Int(known.front().first + known.front().step)));
+    }
+
+    // Rows as (DOF, coefficient) lists; equal ones share a key.
+    void repeated_rows() {
+        const SparseMatrix rows = transpose(m_.gap_matrix());
+        std::map<std::vector<std::pair<std::int64_t, double>>, std::int64_t> first;
+        std::int64_t repeated = 0, one = 0, other = 0;
+        for (std::int64_t i = 0; i < rows.cols; ++i) {
+            std::vector<std::pair<std::int64_t, double>> row;
+            for (std::int64_t p = rows.ptr[i]; p < rows.ptr[i + 1]; ++p)
+                row.emplace_back(rows.idx[p], rows.val[p]);
+            const auto [place, fresh] = first.emplace(std::move(row), i);
+            if (fresh) continue;
+            if (repeated++ == 0) one = place->second, other = i;
+        }
+        if (repeated > 0)
+            add(2, static_cast<double>(repeated),
+                format("%lld gap rows repeat an earlier one (the first: pair %lld repeats pair %lld): the "
+                       "contact stiffness counts twice there; add each pair once",
+                       Int(repeated), Int(other), Int(one)));
+    }
+
+    // A pair of nodes moved together keeps its gap: the coefficients of a row cancel, unless a side is ground
+    // or fixed.
+    void row_balance() {
+        const SparseMatrix rows = transpose(m_.gap_matrix());
+        std::int64_t unbalanced = 0, scaled = 0;
+        for (std::int64_t i = 0; i < rows.cols; ++i) {
+            double sum = 0, positive = 0, negative = 0;
+            for (std::int64_t p = rows.ptr[i]; p < rows.ptr[i + 1]; ++p) {
+                sum += rows.val[p];
+                (rows.val[p] > 0 ? positive : negative) += rows.val[p] * rows.val[p];
+            }
+            const double side = std::sqrt(std::max(positive, negative));
+            const bool two_sided = positive > 0 && negative > 0 && rows.ptr[i + 1] - rows.ptr[i] == 2;
+            unbalanced += two_sided && std::abs(sum) > 1e-6 * side;
+            scaled += side > 1.5 || side < 0.3;
+        }
+        if (unbalanced > 0)
+            add(1, static_cast<double>(unbalanced),
+                format("%lld two-DOF gap rows do not sum to zero: moving both nodes together changes the "
+                       "gap. Give "
+                       "both sides the same normal, with opposite signs",
+                       Int(unbalanced)));
+        if (scaled > 0)
+            add(1, static_cast<double>(scaled),
+                format("%lld gap rows are far from unit length: k_n and the gap are "
+                       "then not per unit of distance. Divide each row by its length (a DOF given twice adds "
+                       "up)",
+                       Int(scaled)));
+    }
+
+    void contact_stiffness() {
+        const vector<double> &k = m_.contact_stiffness();
+        const auto [low, high] = std::minmax_element(k.begin(), k.end());
+        const double local = m_.local_stiffness();
+        if (!(local > 0)) {
+            add(1, 0,
+                "the bodies are rigid at the contact: no local stiffness to compare k_n with; choose it by "
+                "the "
+                "penetration you allow, largest contact force over k_n");
+            return;
+        }
+        const double ratio = *high / local;
+        const std::string fact =
+            format("contact stiffness %g to %g, that is %.3g to %.3g of the local stiffness %g", *low, *high,
+                   *low / local, ratio, local);
+        if (ratio > 1000)
+            add(1, ratio,
+                fact + (ratio > 1e6 ? "; are k_n and K in the same units? Above 1000" : "; above 1000") +
+                    ", curves of few harmonics grow small loops and are slow: 1 to 50 is a good choice "
+                    "(PLM_AUTO_STIFFNESS: 10)");
+        else if (*low / local < 0.1)
+            add(1, *low / local,
+                fact + "; below 0.1 the contact is soft and bodies interpenetrate: 1 to 50 is a good choice");
+        else
+            add(0, ratio, fact);
+    }
+
+    const Model &m_;
+    std::vector<Finding> findings_;
+};
+
+} // namespace
+
+std::vector<Finding> audit(const Model &model) {
+    return Audit(model).run(false);
+}
+
+std::vector<Finding> quick_audit(const Model &model) {
+    return Audit(model).run(true);
+}
+
+} // namespace plm

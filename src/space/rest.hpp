@@ -1,0 +1,40 @@
+// Static equilibrium under pre-load with unilateral contact: the minimum of a convex, piecewise quadratic
+// energy.
+#pragma once
+#include "space/space.hpp"
+
+namespace plm {
+
+/// The static problem in coordinates where K is diagonal: find the minimum of
+/// eta' diag(lambda) eta / 2 - load' eta + sum_i k_i max(u_i, 0)^2 / 2 with u = gap eta - initial_gap.
+struct StaticProblem {
+    const vector<double> &lambda;                          // m, zeros: rigid-body coordinates
+    const Matrix &gap;                                     // Z x m
+    const vector<double> &load;                            // m
+    const vector<double> &contact_stiffness, &initial_gap; // Z
+};
+
+struct StaticState {
+    vector<double> coordinates; // eta, m
+    vector<double> penetration; // u, Z
+    std::int64_t iterations = 0;
+};
+/// Throws PLM_ERR_CONVERGENCE with PLM_REASON_NO_EQUILIBRIUM when the load drives an unsupported rigid-body
+/// motion.
+StaticState solve_static(const StaticProblem &problem);
+
+/// PLM_ERR_CONVERGENCE with PLM_REASON_NO_EQUILIBRIUM: the load ("pre-load") has nothing to rest on.
+Error no_equilibrium(const char *load);
+
+/// The structure at rest under the pre-load.
+struct RestState {
+    vector<double> coordinates;  // in the space: q_rest = V coordinates
+    vector<double> displacement; // free DOFs
+    vector<double> penetration;  // u = B q - g, per pair
+    vector<double> force;        // N per pair
+    vector<char> closed;
+    std::int64_t iterations = 0;
+};
+RestState solve_rest(const Space &space);
+
+} // namespace plm

@@ -1,0 +1,210 @@
+// Lowest eigenpairs: choice of the method, repair of what an iterative method may miss, and verification.
+#include "structure/eigs.hpp"
+#include "linalg/blas_lapack.hpp"
+#include "structure/eigs_internal.hpp"
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace plm {
+
+namespace {
+
+Pencil make_pencil(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
+                   const EigsOptions &options) {
+    require(k.rows == k.cols && m.rows == m.cols && k.cols == m.cols, "lowest_eigenpairs: shapes");
+    require(std::isfinite(shift), "lowest_eigenpairs: shift");
+    require_finite(m.val.data(), m.nnz(), "eigensolver, M");
+    require_finite(k.val.data(), k.nnz(), "eigensolver, K");
+    Pencil pencil{k, m, factor, shift, options, {}};
+    for (std::int64_t j = 0; j < m.cols; ++j)
+        for (std::int64_t p = m.ptr[j]; p < m.ptr[j + 1]; ++p)
+            if (m.idx[p] == j && m.val[p] > 0) pencil.massive.push_back(j);
+    return pencil;
+}
+
+void sort_and_cut(EigenPairs &pairs, std::int64_t count) {
+    const std::int64_t total = pairs.vectors.cols();
+    vector<std::int64_t> order(total);
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::int64_t a, std::int64_t b) { return pairs.values[a] < pairs.values[b]; });
+    order.resize(std::min(count, total));
+    EigenPairs sorted{{}, Matrix(pairs.vectors.rows(), static_cast<std::int64_t>(order.size()))};
+    for (std::int64_t from : order) {
+        std::copy_n(pairs.vectors.col(from), pairs.vectors.rows(),
+                    sorted.vectors.col(static_cast<std::int64_t>(sorted.values.size())));
+        sorted.values.push_back(pairs.values[from]);
+    }
+    pairs = std::move(sorted);
+}
+
+/// Makes the columns of X M-orthonormal by the Cholesky factor of their Gram matrix (close to the identity,
+/// so that one pass suffices) and returns M X.
+Matrix orthonormalize(const SparseMatrix &m, Matrix &x) {
+    Matrix mx = multiply_transposed(m, x);
+    Matrix gram = product('T', 'N', x, mx);
+    const blas_int n = to_blas(x.rows()), count = to_blas(x.cols());
+    if (n == 0 || count == 0) return mx;
+    require_finite(gram.data(), gram.rows() * gram.cols(), "eigensolver, Gram matrix");
+    blas_int info = 0;
+    dpotrf_("L", &count, gram.data(), &count, &info, 1);
+    if (info != 0)
+        throw Error(PLM_ERR_EIGENSOLVER, "the eigenvectors found are linearly dependent").library_code(info);
+    const double one = 1;
+    for (Matrix *block : {&x, &mx})
+        dtrsm_("R", "L", "T", "N", &n, &count, &one, gram.data(), &count, block->data(), &n, 1, 1, 1, 1);
+    return mx;
+}
+
+bool needs_dense(const Pencil &pencil, std::int64_t n_wanted) {
+    const std::int64_t rank = pencil.rank();
+    return rank <= 64 || n_wanted > rank - 2 || (rank <= 1000 && 3 * n_wanted > rank);
+}
+
+/// M may have a lower rank than its diagonal tells. Then the Lanczos process breaks down, or fills up with
+/// theta ~ 0, and the direct way is the better one as long as it is affordable.
+constexpr std::int64_t dense_limit = 2000;
+
+EigenPairs finite_ones(const Pencil &pencil, EigenPairs pairs, std::int64_t n_wanted) {
+    sort_and_cut(pairs, n_wanted);
+    vector<double> theta;
+    for (double value : pairs.values) theta.push_back(1 / (value - pencil.shift));
+    const double zero = 1e-13 * *std::max_element(theta.begin(), theta.end());
+    const auto count = std::count_if(theta.begin(), theta.end(), [zero](double t) { return t > zero; });
+    if (count == n_wanted) return pairs;
+    if (pencil.rank() <= dense_limit) return dense_eigenpairs(pencil, n_wanted);
+    for (std::int64_t j = 0; j < n_wanted; ++j) // the noise goes to the end of the order, and off
+        if (!(theta[j] > zero)) pairs.values[j] = std::numeric_limits<double>::infinity();
+    sort_and_cut(pairs, count);
+    return pairs;
+}
+
+/// ARPACK holds its lock for the whole problem, so that it gets those of an instant only: some 0.1 s, most
+/// far less (about five solutions per Lanczos vector at 1e9 operations a second).
+bool suits_arpack(const Pencil &pencil, const KrylovRequest &request) {
+    const auto vectors = static_cast<double>(request.n_lanczos), n = static_cast<double>(pencil.size());
+    const auto nonzeros = static_cast<double>(pencil.factor.factor_nonzeros()); // negative: not known
+    return !pencil.factor.calls_host() && nonzeros >= 0 &&
+           5 * vectors * (4 * nonzeros + 4 * n * vectors) < 1e8;
+}
+
+/// ARPACK within few restarts where it suits; else, and where it did not converge, the Lanczos method of our
+/// own.
+KrylovResult run(const Pencil &pencil, const KrylovRequest &request) {
+    if (suits_arpack(pencil, request)) {
+        pencil.poll();
+        KrylovRequest quick = request;
+        quick.max_restarts = std::min<std::int64_t>(request.max_restarts, 20);
+        KrylovResult result = run_arpack(pencil, quick);
+        if (result.end == KrylovEnd::converged) return result;
+    }
+    return run_lanczos(pencil, request);
+}
+
+const char *meaning(KrylovEnd end) {
+    return end == KrylovEnd::too_few
+               ? "the others did not converge within the allowed restarts"
+               : "the mass matrix has too low a rank for more; ask for fewer, or check the masses";
+}
+
+EigenPairs search(const Pencil &pencil, std::int64_t n_wanted) {
+    KrylovRequest request{n_wanted, std::max(2 * n_wanted + 1, n_wanted + 20), pencil.options.tolerance,
+                          pencil.options.max_restarts, 1};
+    KrylovResult result{};
+    for (int attempt = 0; attempt < pencil.options.max_attempts; ++attempt, request.n_lanczos *= 2) {
+        request.n_lanczos = std::min(request.n_lanczos, pencil.rank());
+        result = run(pencil, request);
+        if (result.end == KrylovEnd::converged) return finite_ones(pencil, std::move(result.pairs), n_wanted);
+        if (result.end == KrylovEnd::exhausted) break;
+    }
+    if (result.end == KrylovEnd::exhausted && pencil.rank() <= dense_limit)
+        return dense_eigenpairs(pencil, n_wanted);
+    throw Error(PLM_ERR_EIGENSOLVER, format("%lld of %lld eigenpairs were found: %s",
+                                            static_cast<long long>(result.pairs.values.size()),
+                                            static_cast<long long>(n_wanted), meaning(result.end)))
+        .library_code(result.end == KrylovEnd::too_few ? eigs_too_few : 0);
+}
+
+/// The best pair M-orthogonal to those known, or none if the search does not converge.
+EigenPairs best_of_the_rest(const Pencil &pencil, const Matrix &known, const Matrix &m_known,
+                            double tolerance, std::int64_t n_lanczos, std::int64_t max_restarts) {
+    KrylovRequest request{1, std::min(n_lanczos, pencil.rank() - known.cols()), tolerance, max_restarts, 2};
+    request.known = &known;
+    request.m_known = &m_known;
+    KrylovResult result = run(pencil, request);
+    if (result.end != KrylovEnd::converged) return {};
+    return std::move(result.pairs);
+}
+
+/// Nothing real lies below the shift: a negative distance is rounding noise around theta = 0.
+bool lies_below(const EigenPairs &rest, double shift, double distance) {
+    return !rest.values.empty() && rest.values[0] > shift && rest.values[0] - shift < distance;
+}
+
+/// A Lanczos process from one vector sees further copies of a multiple eigenvalue by its rounding errors
+/// only, so that it may end without one. A short search in the M-complement of what was found shows a missing
+/// one as an eigenvalue below the largest kept; it is then computed and put in, until nothing is missing.
+/// Returns M X.
+Matrix add_missed(const Pencil &pencil, EigenPairs &pairs) {
+    Matrix m_vectors = orthonormalize(pencil.m, pairs.vectors);
+    const auto wanted = static_cast<std::int64_t>(pairs.values.size());
+    constexpr double glance = 1e-2;
+    for (std::int64_t round = 0; round < wanted && pencil.rank() - wanted >= 3; ++round) {
+        const double largest = pairs.values.back() - pencil.shift;
+        EigenPairs rest = best_of_the_rest(pencil, pairs.vectors, m_vectors, glance, 16, 10);
+        if (!lies_below(rest, pencil.shift, (1 + 2 * glance) * largest)) break;
+        rest = best_of_the_rest(pencil, pairs.vectors, m_vectors, pencil.options.tolerance, 40,
+                                pencil.options.max_restarts);
+        if (!lies_below(rest, pencil.shift, (1 - 1e-9) * largest)) break;
+        pairs.values.push_back(rest.values[0]);
+        pairs.vectors.append(rest.vectors);
+        sort_and_cut(pairs, wanted);
+        m_vectors = orthonormalize(pencil.m, pairs.vectors);
+    }
+    return m_vectors;
+}
+
+/// Largest residual |K x - lambda M x| over the size of its terms, less what rounding of K x explains.
+void verify(const Pencil &pencil, const EigenPairs &pairs, const Matrix &mx) {
+    const std::int64_t n = pencil.size();
+    const Matrix kx = multiply_transposed(pencil.k, pairs.vectors);
+    const double rounding = 1e-11 * norm_inf(pencil.k),
+                 relative = std::max(1e-6, 100 * pencil.options.tolerance);
+    vector<double> r(n);
+    for (std::int64_t j = 0; j < kx.cols(); ++j) {
+        const double lambda = pairs.values[j];
+        for (std::int64_t i = 0; i < n; ++i) r[i] = kx(i, j) - lambda * mx(i, j);
+        const double terms = norm2(n, kx.col(j)) +
+                             (std::fabs(lambda) + std::fabs(lambda - pencil.shift)) * norm2(n, mx.col(j));
+        const double allowed = relative * terms + rounding * norm2(n, pairs.vectors.col(j));
+        const double residual = norm2(n, r.data());
+        if (!(residual <= allowed))
+            throw Error(PLM_ERR_EIGENSOLVER,
+                        format("eigenpair %lld (eigenvalue %g) has a relative residual of %g",
+                               static_cast<long long>(j), lambda, residual / terms))
+                .index(j);
+    }
+}
+
+} // namespace
+
+EigenPairs lowest_eigenpairs(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
+                             std::int64_t n_wanted, const EigsOptions &options) {
+    require(n_wanted >= 0, "lowest_eigenpairs: number wanted");
+    const Pencil pencil = make_pencil(k, m, factor, shift, options);
+    if (n_wanted == 0 || pencil.rank() == 0) return {{}, Matrix(pencil.size(), 0)};
+    if (needs_dense(pencil, n_wanted)) {
+        EigenPairs pairs = dense_eigenpairs(pencil, n_wanted);
+        sort_and_cut(pairs, n_wanted);
+        verify(pencil, pairs, orthonormalize(m, pairs.vectors));
+        return pairs;
+    }
+    EigenPairs pairs = search(pencil, n_wanted);
+    sort_and_cut(pairs, n_wanted);
+    const Matrix mx = add_missed(pencil, pairs);
+    verify(pencil, pairs, mx);
+    return pairs;
+}
+
+} // namespace plm

@@ -1,0 +1,51 @@
+// Private to linalg: the two ways in which lowest_eigenpairs (eigs.cpp) solves a pencil.
+#pragma once
+#include "structure/eigen_pairs.hpp"
+#include "structure/solver/factor.hpp"
+
+namespace plm {
+
+/// K x = lambda M x with the factor of A = K - shift M, and what all the steps need to know about it.
+struct Pencil {
+    const SparseMatrix &k, &m;
+    const Factor &factor;
+    double shift;
+    const EigsOptions &options;
+    vector<std::int64_t>
+        massive; // DOFs with a positive diagonal entry in M: the others carry no finite eigenvalue
+    std::int64_t size() const { return k.cols; }
+    /// Upper bound of the number of finite eigenvalues.
+    std::int64_t rank() const { return static_cast<std::int64_t>(massive.size()); }
+    void poll() const; // throws PLM_CANCELLED
+};
+
+/// All finite eigenpairs by a dense eigenproblem of order rank(); the lowest n_wanted are returned. Vectors
+/// have unit M-norm.
+EigenPairs dense_eigenpairs(const Pencil &pencil, std::int64_t n_wanted);
+
+struct KrylovRequest {
+    std::int64_t n_wanted, n_lanczos; // pairs, and the largest dimension of the space: more than n_wanted
+    double tolerance;                 // of theta, relative; 0: machine precision
+    std::int64_t max_restarts;
+    std::int64_t seed; // of the start vector
+    /// Columns (M-orthonormal) and M times them that the search is kept away from; null for none.
+    const Matrix *known = nullptr, *m_known = nullptr;
+};
+enum class KrylovEnd {
+    converged,
+    too_few,  // converged within the restarts
+    exhausted // the space closed in itself with fewer dimensions than pairs wanted: M has too low a rank
+};
+struct KrylovResult {
+    KrylovEnd end;
+    EigenPairs pairs; // the converged ones
+};
+/// A start vector: the same in every run, on every machine.
+void pseudo_random(vector<double> &x, std::int64_t seed);
+/// By a Lanczos method of our own: nothing is shared, the host is asked whether to go on.
+KrylovResult run_lanczos(const Pencil &pencil, const KrylovRequest &request);
+/// By ARPACK, whose state is the process's: others wait meanwhile, and nothing of the host may be called. For
+/// problems of an instant with a factorization of ours.
+KrylovResult run_arpack(const Pencil &pencil, const KrylovRequest &request);
+
+} // namespace plm

@@ -1,0 +1,54 @@
+// Sparse symmetric factorization behind one seam: CHOLMOD by default, Eigen's LDLT in the permissive build,
+// or the host's own through callbacks. Nothing above this header knows which one serves.
+#pragma once
+#include "structure/sparse.hpp"
+#include <memory>
+
+namespace plm {
+
+/// A factorization of one symmetric matrix; read-only after construction, except for its workspace.
+class Factor {
+  public:
+    virtual ~Factor() = default;
+    /// X = A^-1 X in place; X is n x nrhs column-major with leading dimension ldx.
+    virtual void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const = 0;
+    /// Number of negative eigenvalues of A (Sylvester's law of inertia), or -1 when the solver cannot tell.
+    virtual std::int64_t negative_eigenvalues() const = 0;
+    /// Rough reciprocal condition number from the factor's diagonal; 1 when the solver cannot tell.
+    virtual double reciprocal_condition() const = 0;
+    virtual std::int64_t factor_nonzeros() const = 0; // -1 when unknown
+    virtual bool calls_host() const { return false; } // solve() does
+    void solve(Matrix &x) const { solve(x.data(), x.cols(), x.rows()); }
+};
+
+enum class FactorKind {
+    positive_definite, // L L^T, supernodal; PLM_ERR_NOT_POSITIVE_DEFINITE with index() = column otherwise
+    indefinite         // L D L^T without pivoting (shifted K - sigma M): inertia, no definiteness demanded;
+                       // PLM_ERR_SINGULAR with index() = column at a zero pivot
+};
+
+/// The host's own solver: status 0 is success, anything else fails with that code (PLM_ERR_CALLBACK). The
+/// arrays given to `factor` are valid during that call only; `release` is called once for each success of
+/// `factor`.
+struct HostSolver {
+    // factor: column pointers n + 1, rows, values of the lower triangle (base 0, sorted). *handle is the
+    // host's.
+    int (*factor)(std::int64_t n, const std::int64_t *ptr, const std::int64_t *row, const double *val,
+                  int positive_definite, void **handle, void *user) = nullptr;
+    int (*solve)(void *handle, std::int64_t nrhs, double *x, std::int64_t ldx, void *user) = nullptr;
+    void (*release)(void *handle, void *user) = nullptr;
+    void *user = nullptr;
+    // the number of negative eigenvalues, or -1: cannot tell; null: never can
+    int (*inertia)(void *handle, std::int64_t *negative, void *user) = nullptr;
+};
+
+/// False: a factorization for the sake of its negative_eigenvalues() would be made in vain.
+inline bool tells_inertia(const HostSolver *host) {
+    return !host || host->inertia;
+}
+
+/// The two ways in which a factorization breaks down; `column` is the DOF in the order of the caller.
+[[noreturn]] void throw_not_positive_definite(std::int64_t column);
+[[noreturn]] void throw_singular(std::int64_t column);
+
+} // namespace plm

@@ -1,0 +1,91 @@
+// Sparse matrix times vector and times a block of columns.
+#include "linalg/blas_lapack.hpp"
+#include "structure/sparse.hpp"
+#include <algorithm>
+
+namespace plm {
+namespace {
+
+/// Columns served by one pass over the matrix: their rows are packed side by side, so that each stored entry
+/// is read once for all of them and one cache line of X (or Y) serves it.
+constexpr std::int64_t panel = 8;
+
+void pack(const double *x, std::int64_t ld, std::int64_t rows, std::int64_t width, double *packed) {
+    for (std::int64_t i = 0; i < rows; ++i)
+        for (std::int64_t c = 0; c < panel; ++c) packed[i * panel + c] = c < width ? x[i + c * ld] : 0;
+}
+
+void unpack(const double *packed, std::int64_t rows, std::int64_t width, double *y, std::int64_t ld) {
+    for (std::int64_t c = 0; c < width; ++c)
+        for (std::int64_t i = 0; i < rows; ++i) y[i + c * ld] = packed[i * panel + c];
+}
+
+} // namespace
+
+void multiply(const SparseMatrix &a, const double *x, double *y) {
+    std::fill_n(y, a.rows, 0.0);
+    for (std::int64_t j = 0; j < a.cols; ++j) {
+        const double factor = x[j];
+        for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p) y[a.idx[p]] += a.val[p] * factor;
+    }
+}
+
+void multiply_transposed(const SparseMatrix &a, const double *x, double *y) {
+    const std::int64_t *idx = a.idx.data();
+    const double *val = a.val.data();
+    for (std::int64_t j = 0; j < a.cols; ++j) {
+        const std::int64_t begin = a.ptr[j], end = a.ptr[j + 1];
+        double even = 0, odd = 0; // two chains hide the latency of the addition
+        std::int64_t p = begin;
+        for (; p + 1 < end; p += 2) {
+            even += val[p] * x[idx[p]];
+            odd += val[p + 1] * x[idx[p + 1]];
+        }
+        if (p < end) even += val[p] * x[idx[p]];
+        y[j] = even + odd;
+    }
+}
+
+Matrix multiply(const SparseMatrix &a, const Matrix &x) {
+    require(a.cols == x.rows(), "sparse multiply: shapes differ");
+    Matrix y(a.rows, x.cols());
+    if (x.cols() == 1) return multiply(a, x.data(), y.data()), y;
+    vector<double> packed(a.rows * panel);
+    for (std::int64_t first = 0; first < x.cols(); first += panel) {
+        const std::int64_t width = std::min(panel, x.cols() - first);
+        std::fill(packed.begin(), packed.end(), 0.0);
+        for (std::int64_t j = 0; j < a.cols; ++j) {
+            if (a.ptr[j] == a.ptr[j + 1]) continue; // most columns of a gap matrix are empty
+            double row[panel] = {};
+            for (std::int64_t c = 0; c < width; ++c) row[c] = x(j, first + c);
+            for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p) {
+                double *target = packed.data() + a.idx[p] * panel;
+                for (std::int64_t c = 0; c < panel; ++c) target[c] += a.val[p] * row[c];
+            }
+        }
+        unpack(packed.data(), a.rows, width, y.col(first), a.rows);
+    }
+    return y;
+}
+
+Matrix multiply_transposed(const SparseMatrix &a, const Matrix &x) {
+    require(a.rows == x.rows(), "sparse multiply: shapes differ");
+    Matrix y(a.cols, x.cols());
+    if (x.cols() == 1) return multiply_transposed(a, x.data(), y.data()), y;
+    vector<double> packed(a.rows * panel);
+    for (std::int64_t first = 0; first < x.cols(); first += panel) {
+        const std::int64_t width = std::min(panel, x.cols() - first);
+        pack(x.col(first), a.rows, a.rows, width, packed.data());
+        for (std::int64_t j = 0; j < a.cols; ++j) {
+            double sum[panel] = {};
+            for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p) {
+                const double *source = packed.data() + a.idx[p] * panel;
+                for (std::int64_t c = 0; c < panel; ++c) sum[c] += a.val[p] * source[c];
+            }
+            for (std::int64_t c = 0; c < width; ++c) y(j, first + c) = sum[c];
+        }
+    }
+    return y;
+}
+
+} // namespace plm

@@ -1,0 +1,117 @@
+// The model on its free DOFs: what is kept, what is refused, and the contact stiffness chosen.
+#include "support/caught.hpp"
+#include "support/spring_models.hpp"
+#include "support/test.hpp"
+
+using plm::Model;
+using plm::ModelInput;
+
+namespace {
+
+// Two masses, k1 to ground, k2 between, one pair of mass 2 against ground.
+ModelInput two_masses(double stiffness = PLM_AUTO_STIFFNESS) {
+    ModelInput in = test::input({{2, 0}, {0, 3}}, {{100 + 50, -50}, {-50, 50}});
+    test::add_pair(in, {0, 1}, stiffness, 0.25);
+    return in;
+}
+
+Caught refused(const ModelInput &in) {
+    return caught([&] { test::build(in); });
+}
+
+void auto_stiffness_of_one_spring(void **) {
+    ModelInput in = test::input({{2}}, {{100}});
+    test::add_pair(in, {1}, PLM_AUTO_STIFFNESS);
+    const auto m = test::build(in);
+    assert_true(close_to(m->local_stiffness(), 100, 1e-13));
+    assert_true(close_to(m->contact_stiffness()[0], 1000, 1e-13));
+    assert_true(m->shift() == 0);
+}
+
+void auto_stiffness_of_two_springs_in_series(void **) {
+    const auto m = test::build(two_masses());
+    const double series = 1 / (1.0 / 100 + 1.0 / 50);
+    assert_true(close_to(m->local_stiffness(), series, 1e-12));
+    assert_true(close_to(m->contact_stiffness()[0], 10 * series, 1e-12));
+    assert_true(m->initial_gap()[0] == 0.25);
+    assert_true(close_to(m->attachment()(0, 0), 1.0 / 100, 1e-12));
+    assert_true(test::build(two_masses(7))->contact_stiffness()[0] == 7);
+}
+
+void fixed_dofs_vanish(void **) {
+    ModelInput in = test::input(test::diagonal(3, 1), test::free_chain(3, 10));
+    in.fixed = {0};
+    test::add_pair(in, {1, 0, -1}, 5);
+    in.preload = {100, 0, 3};
+    in.excitation[1].real = {1, 2, 3};
+    const auto m = test::build(in);
+    assert_int_equal(m->n_free(), 2);
+    assert_int_equal(m->free_index(0), -1);
+    assert_int_equal(m->free_index(2), 1);
+    assert_true(m->preload()[1] == 3 && m->preload().size() == 2);
+    assert_true(m->excitation().at(1).real[0] == 2 && m->excitation().at(1).imag.size() == 2);
+    assert_int_equal(m->gap_matrix().nnz(), 1);
+    const double free[] = {7, 8};
+    double all[3], back[2];
+    m->expand(free, all);
+    m->restrict_to_free(all, back);
+    assert_true(all[0] == 0 && all[1] == 7 && all[2] == 8 && back[0] == 7 && back[1] == 8);
+}
+
+void no_pair_is_a_linear_model(void **) {
+    const auto m = test::build(test::input({{2}}, {{100}}));
+    assert_int_equal(m->n_pairs(), 0);
+    assert_true(m->local_stiffness() == 0);
+    assert_int_equal(m->attachment().cols(), 0);
+}
+
+void zero_preload_is_none(void **) {
+    ModelInput in = two_masses();
+    in.preload = {0, 0};
+    assert_false(test::build(in)->has_preload());
+}
+
+void wholes_that_make_no_sense_are_refused(void **) {
+    ModelInput in = two_masses();
+    in.fixed = {1, 0, 1};
+    assert_true(refused(in).says("all DOFs are fixed"));
+
+    in = two_masses(), in.fixed = {1};
+    Caught c = refused(in);
+    assert_int_equal(c.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(c.index, 0);
+    assert_true(c.says("contact pair 0") && c.says("fixed DOFs only") && c.argument == "pair");
+
+    in = two_masses(), in.mass = nullptr;
+    assert_int_equal(refused(in).status, PLM_ERR_STATE);
+    in = two_masses(), in.stiffness = nullptr;
+    assert_true(refused(in).says("PLM_STIFFNESS"));
+
+    in = two_masses(), in.preload = {1, 2, 3};
+    c = refused(in);
+    assert_int_equal(c.status, PLM_ERR_ARGUMENT);
+    assert_true(c.argument == "preload" && c.says("3 entries"));
+
+    in = two_masses(), in.mass = test::matrix({{1}});
+    assert_true(refused(in).argument == "mass");
+    in = two_masses(), in.mass = test::matrix({{1, 0}, {0, -1}});
+    c = refused(in);
+    assert_int_equal(c.status, PLM_ERR_MATRIX);
+    assert_int_equal(c.index, 1);
+    in = two_masses(), in.mass = test::matrix({{0, 0}, {0, 0}});
+    assert_true(refused(in).says("no free DOF has mass"));
+}
+
+} // namespace
+
+int main() {
+    const CMUnitTest tests[] = {
+        cmocka_unit_test(auto_stiffness_of_one_spring),
+        cmocka_unit_test(auto_stiffness_of_two_springs_in_series),
+        cmocka_unit_test(fixed_dofs_vanish),
+        cmocka_unit_test(no_pair_is_a_linear_model),
+        cmocka_unit_test(zero_preload_is_none),
+        cmocka_unit_test(wholes_that_make_no_sense_are_refused),
+    };
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

@@ -1,0 +1,214 @@
+// Sparse factorizations, built in and the host's.
+#include "linalg/lapack.hpp"
+#include "matrices.hpp"
+#include "structure/solver/make_factor.hpp"
+
+using namespace test;
+using plm::FactorKind;
+
+namespace {
+
+/// |A X - B| / |B| after a solve with a padded leading dimension.
+double solve_residual(const SparseMatrix &a, FactorKind kind, std::int64_t nrhs,
+                      const plm::HostSolver *host = nullptr) {
+    const std::int64_t n = a.cols, ld = n + 3;
+    const Matrix b = random_matrix(n, nrhs, 1);
+    Matrix padded(ld, nrhs), x(n, nrhs);
+    for (std::int64_t j = 0; j < nrhs; ++j) std::copy_n(b.col(j), n, padded.col(j));
+    const auto factor = plm::make_factor(a, kind, host);
+    factor->solve(padded.data(), nrhs, ld);
+    for (std::int64_t j = 0; j < nrhs; ++j) std::copy_n(padded.col(j), n, x.col(j));
+    for (std::int64_t j = 0; j < nrhs; ++j)
+        if (padded(n, j) != 0 || padded(n + 2, j) != 0) return INFINITY; // wrote into the padding
+    return max_difference(plm::multiply(a, x), b);
+}
+
+void solves_leave_a_residual_of_rounding(void **) {
+    const SparseMatrix a = membrane(30, 20), b = random_definite(300, 2);
+    for (std::int64_t nrhs : {0, 1, 2, 9, 33, 70})
+        for (FactorKind kind : {FactorKind::positive_definite, FactorKind::indefinite}) {
+            assert_true(solve_residual(a, kind, nrhs) < 1e-12);
+            assert_true(solve_residual(b, kind, nrhs) < 1e-12);
+        }
+    const SparseMatrix shifted = plm::add(1, a, -1.2345, diagonal(vector<double>(600, 1.0)));
+    assert_true(solve_residual(shifted, FactorKind::indefinite, 3) < 1e-9);
+}
+
+void one_factor_serves_blocks_and_single_solves_alike(void **) {
+    const auto factor = plm::make_factor(membrane(15, 15), FactorKind::positive_definite);
+    const Matrix b = random_matrix(225, 40, 3);
+    Matrix block = b;
+    factor->solve(block);
+    double largest = 0;
+    for (std::int64_t j : {0, 31, 32, 39}) {
+        Matrix x = b.columns(j, 1);
+        factor->solve(x);
+        largest = std::max(largest, max_difference(x, block.columns(j, 1)));
+    }
+    assert_true(largest < 1e-13);
+    assert_true(factor->factor_nonzeros() > 225);
+}
+
+void inertia_counts_the_eigenvalues_below_the_shift(void **) {
+    const SparseMatrix k = membrane(9, 7);
+    const auto e = plm::symmetric_eigen(plm::to_dense(k));
+    for (double shift : {-0.5, 0.3, 1.01, 2.2, 3.7, 5.3, 9.0}) {
+        const SparseMatrix a = plm::add(1, k, -shift, diagonal(vector<double>(63, 1.0)));
+        const auto expected = std::lower_bound(e.values.begin(), e.values.end(), shift) - e.values.begin();
+        assert_int_equal(plm::make_factor(a, FactorKind::indefinite)->negative_eigenvalues(), expected);
+    }
+    assert_int_equal(plm::make_factor(k, FactorKind::positive_definite)->negative_eigenvalues(), 0);
+}
+
+void the_index_of_a_bad_pivot_is_the_callers(void **) {
+    // One negative (zero) entry decoupled from the rest: whatever the ordering, only it can fail.
+    for (std::int64_t bad : {0, 17, 199}) {
+        SparseMatrix k = membrane(20, 10);
+        for (std::int64_t j = 0; j < k.cols; ++j)
+            for (std::int64_t p = k.ptr[j]; p < k.ptr[j + 1]; ++p)
+                if (j == bad || k.idx[p] == bad) k.val[p] = k.idx[p] == j ? -1 : 0;
+        const auto negative = outcome_of([&] { plm::make_factor(k, FactorKind::positive_definite); });
+        assert_int_equal(negative.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+        assert_int_equal(negative.reason, PLM_REASON_NOT_POSITIVE_DEFINITE);
+        assert_int_equal(negative.index, bad);
+        assert_int_equal(plm::make_factor(k, FactorKind::indefinite)->negative_eigenvalues(), 1);
+        for (std::int64_t p = k.ptr[bad]; p < k.ptr[bad + 1]; ++p) k.val[p] = 0;
+        const auto zero = outcome_of([&] { plm::make_factor(k, FactorKind::indefinite); });
+        assert_int_equal(zero.status, PLM_ERR_SINGULAR);
+        assert_int_equal(zero.reason, PLM_REASON_SINGULAR);
+        assert_int_equal(zero.index, bad);
+        const auto semi = outcome_of([&] { plm::make_factor(k, FactorKind::positive_definite); });
+        assert_int_equal(semi.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+        assert_int_equal(semi.index, bad);
+    }
+}
+
+void a_nearly_singular_matrix_shows_in_the_condition(void **) {
+    vector<double> d(50, 1.0);
+    d[20] = 1e-13;
+    const auto bad = plm::make_factor(diagonal(d), FactorKind::positive_definite);
+    const auto good = plm::make_factor(membrane(10, 5), FactorKind::positive_definite);
+    assert_true(bad->reciprocal_condition() < 1e-12);
+    assert_true(good->reciprocal_condition() > 1e-2);
+}
+
+void nan_is_refused_with_its_column(void **) {
+    SparseMatrix k = membrane(5, 5);
+    k.val[k.ptr[7]] = std::nan("");
+    const auto o = outcome_of([&] { plm::make_factor(k, FactorKind::positive_definite); });
+    assert_int_equal(o.status, PLM_ERR_MATRIX);
+    assert_int_equal(o.index, 7);
+}
+
+/// METIS would fail this: it re-seeds rand() (and takes over SIGTERM while it runs).
+void the_hosts_random_numbers_are_left_alone(void **) {
+    const SparseMatrix k = membrane(100, 100);
+    std::srand(7);
+    std::rand();
+    const int expected = std::rand();
+    std::srand(7);
+    std::rand();
+    plm::make_factor(k, plm::FactorKind::positive_definite);
+    assert_int_equal(std::rand(), expected);
+}
+
+void an_empty_matrix_is_no_problem(void **) {
+    const SparseMatrix none = plm::from_triplets(0, 0, {}, {}, {});
+    const auto o =
+        outcome_of([&] { plm::make_factor(none, FactorKind::positive_definite)->solve(nullptr, 1, 1); });
+    assert_int_equal(o.status, PLM_OK);
+}
+
+// --- a host solver: dense LU of the triangle it is given
+
+struct Host {
+    int factored = 0, solved = 0, released = 0, definite = -1;
+    int fail_factor = 0, fail_solve = 0;
+    bool lower = true, poison = false;
+    plm::RealLu lu;
+};
+
+int host_factor(std::int64_t n, const std::int64_t *ptr, const std::int64_t *row, const double *val,
+                int definite, void **handle, void *user) {
+    auto &h = *static_cast<Host *>(user);
+    h.definite = definite;
+    if (h.fail_factor) return h.fail_factor;
+    Matrix a(n, n);
+    for (std::int64_t j = 0; j < n; ++j)
+        for (std::int64_t p = ptr[j]; p < ptr[j + 1]; ++p) {
+            h.lower = h.lower && row[p] >= j;
+            a(row[p], j) = a(j, row[p]) = val[p];
+        }
+    h.lu.factor(a);
+    ++h.factored;
+    *handle = user;
+    return 0;
+}
+int host_solve(void *handle, std::int64_t nrhs, double *x, std::int64_t ldx, void *) {
+    auto &h = *static_cast<Host *>(handle);
+    if (h.fail_solve) return h.fail_solve;
+    h.lu.solve(x, nrhs, ldx);
+    if (h.poison) x[0] = std::nan("");
+    ++h.solved;
+    return 0;
+}
+void host_release(void *handle, void *) {
+    ++static_cast<Host *>(handle)->released;
+}
+plm::HostSolver solver(Host &h) {
+    return {host_factor, host_solve, host_release, &h};
+}
+
+void the_hosts_solver_is_used_and_released(void **) {
+    Host h;
+    const auto s = solver(h);
+    const double residual = solve_residual(membrane(6, 5), FactorKind::positive_definite, 4, &s);
+    assert_true(residual < 1e-13);
+    assert_true(h.lower);
+    assert_int_equal(h.definite, 1);
+    assert_int_equal(h.factored, 1);
+    assert_int_equal(h.solved, 1);
+    assert_int_equal(h.released, 1);
+}
+
+void the_hosts_failures_are_reported_with_their_code(void **) {
+    const SparseMatrix k = membrane(6, 5);
+    Host h;
+    const auto s = solver(h);
+    h.fail_factor = 42;
+    const auto factor = outcome_of([&] { plm::make_factor(k, FactorKind::indefinite, &s); });
+    assert_int_equal(factor.status, PLM_ERR_CALLBACK);
+    assert_int_equal(factor.code, 42);
+    assert_int_equal(h.released, 0);
+    h.fail_factor = 0;
+    h.fail_solve = -7;
+    const auto solve = outcome_of([&] { solve_residual(k, FactorKind::indefinite, 1, &s); });
+    assert_int_equal(solve.status, PLM_ERR_CALLBACK);
+    assert_int_equal(solve.code, -7);
+    h.fail_solve = 0;
+    h.poison = true;
+    const auto nan = outcome_of([&] { solve_residual(k, FactorKind::indefinite, 1, &s); });
+    assert_int_equal(nan.status, PLM_ERR_CALLBACK);
+    assert_int_equal(h.released, h.factored);
+    const plm::HostSolver incomplete;
+    const auto none = outcome_of([&] { plm::make_factor(k, FactorKind::indefinite, &incomplete); });
+    assert_int_equal(none.status, PLM_ERR_ARGUMENT);
+}
+
+} // namespace
+
+int main() {
+    const CMUnitTest tests[] = {
+        cmocka_unit_test(solves_leave_a_residual_of_rounding),
+        cmocka_unit_test(one_factor_serves_blocks_and_single_solves_alike),
+        cmocka_unit_test(inertia_counts_the_eigenvalues_below_the_shift),
+        cmocka_unit_test(the_index_of_a_bad_pivot_is_the_callers),
+        cmocka_unit_test(a_nearly_singular_matrix_shows_in_the_condition),
+        cmocka_unit_test(nan_is_refused_with_its_column),
+        cmocka_unit_test(the_hosts_random_numbers_are_left_alone),
+        cmocka_unit_test(an_empty_matrix_is_no_problem),
+        cmocka_unit_test(the_hosts_solver_is_used_and_released),
+        cmocka_unit_test(the_hosts_failures_are_reported_with_their_code),
+    };
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}

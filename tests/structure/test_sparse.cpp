@@ -1,0 +1,91 @@
+// Sparse matrices against their dense images.
+#include "matrices.hpp"
+
+using namespace test;
+
+namespace {
+
+SparseMatrix random_sparse(std::int64_t rows, std::int64_t cols, int entries, std::uint64_t seed) {
+    Random random(seed);
+    vector<std::int64_t> i, j;
+    vector<double> v;
+    for (int e = 0; e < entries; ++e) {
+        i.push_back(static_cast<std::int64_t>((random() + 1) / 2 * static_cast<double>(rows)));
+        j.push_back(static_cast<std::int64_t>((random() + 1) / 2 * static_cast<double>(cols)));
+        v.push_back(random());
+    }
+    return plm::from_triplets(rows, cols, i, j, v);
+}
+
+bool well_formed(const SparseMatrix &a) {
+    if (static_cast<std::int64_t>(a.ptr.size()) != a.cols + 1 || a.ptr.back() != a.nnz()) return false;
+    for (std::int64_t j = 0; j < a.cols; ++j)
+        for (std::int64_t p = a.ptr[j] + 1; p < a.ptr[j + 1]; ++p)
+            if (a.idx[p - 1] >= a.idx[p]) return false;
+    return true;
+}
+
+void triplets_are_sorted_and_duplicates_summed(void **) {
+    const SparseMatrix a = plm::from_triplets(3, 2, {2, 0, 2, 1}, {0, 0, 0, 1}, {1, 2, 3, 4});
+    assert_int_equal(a.nnz(), 3);
+    assert_true(well_formed(a));
+    const Matrix d = plm::to_dense(a);
+    assert_true(d(0, 0) == 2 && d(2, 0) == 4 && d(1, 1) == 4);
+    const auto o = outcome_of([] { plm::from_triplets(3, 2, {0, 3}, {0, 0}, {1, 1}); });
+    assert_int_equal(o.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(o.index, 1);
+}
+
+void transpose_and_sum_match_dense(void **) {
+    const SparseMatrix a = random_sparse(30, 20, 100, 1), b = random_sparse(30, 20, 100, 2);
+    const SparseMatrix t = plm::transpose(a), s = plm::add(2, a, -3, b);
+    assert_true(well_formed(t) && well_formed(s));
+    assert_true(max_difference(plm::to_dense(t), plm::to_dense(a).transposed()) == 0);
+    Matrix expected = plm::to_dense(a);
+    const Matrix db = plm::to_dense(b);
+    for (int i = 0; i < 600; ++i) expected.data()[i] = 2 * expected.data()[i] - 3 * db.data()[i];
+    assert_true(max_difference(plm::to_dense(s), expected) < 1e-15);
+}
+
+void submatrix_drops_and_permutes(void **) {
+    const SparseMatrix a = random_sparse(6, 5, 25, 3);
+    const vector<std::int64_t> rows = {3, -1, 0, 2, -1, 1}, cols = {-1, 2, 0, -1, 1};
+    const SparseMatrix s = plm::submatrix(a, rows, 4, cols, 3);
+    assert_true(well_formed(s));
+    const Matrix d = plm::to_dense(s), full = plm::to_dense(a);
+    for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 5; ++j)
+            if (rows[i] >= 0 && cols[j] >= 0) assert_true(d(rows[i], cols[j]) == full(i, j));
+}
+
+void block_products_match_dense_for_any_number_of_columns(void **) {
+    const SparseMatrix a = random_sparse(40, 25, 150, 4);
+    const Matrix d = plm::to_dense(a);
+    for (std::int64_t n : {0, 1, 2, 7, 8, 9, 20}) {
+        const Matrix x = random_matrix(25, n, 5), y = random_matrix(40, n, 6);
+        assert_true(max_difference(plm::multiply(a, x), plm::product('N', 'N', d, x)) < 1e-13);
+        assert_true(max_difference(plm::multiply_transposed(a, y), plm::product('T', 'N', d, y)) < 1e-13);
+    }
+    const auto o = outcome_of([&] { plm::multiply(a, Matrix(3, 3)); });
+    assert_int_equal(o.status, PLM_ERR_INTERNAL);
+}
+
+void norm_and_trace_match_their_definitions(void **) {
+    const SparseMatrix a = plm::from_triplets(2, 2, {0, 0, 1}, {0, 1, 1}, {1, -5, 3});
+    assert_true(plm::norm_inf(a) == 6);
+    assert_true(plm::trace(a) == 4);
+    assert_true(plm::norm_inf(plm::from_triplets(0, 0, {}, {}, {})) == 0);
+}
+
+} // namespace
+
+int main() {
+    const CMUnitTest tests[] = {
+        cmocka_unit_test(triplets_are_sorted_and_duplicates_summed),
+        cmocka_unit_test(transpose_and_sum_match_dense),
+        cmocka_unit_test(submatrix_drops_and_permutes),
+        cmocka_unit_test(block_products_match_dense_for_any_number_of_columns),
+        cmocka_unit_test(norm_and_trace_match_their_definitions),
+    };
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
