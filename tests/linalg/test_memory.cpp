@@ -104,7 +104,7 @@ void every_failing_allocation_is_bad_alloc_and_leaks_nothing(void **) {
     }
     assert_int_equal(wrong_status, 0);
     assert_int_equal(leaks, 0);
-    assert_in_range(rounds, 20, 500);
+    assert_in_range(rounds, 10, 500);
 }
 
 void repeated_lu_of_one_size_allocates_nothing(void **) {
