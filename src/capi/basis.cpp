@@ -103,13 +103,14 @@ plm_status plm_basis_get_vectors(plm_basis *basis, std::int32_t is_static, std::
         const plm::Basis &core = *built(b);
         const plm::Model &model = *core.model();
         require_range(is_static, 0, 1, "is_static");
-        const plm::Matrix &p = is_static ? core.reduced()->static_vectors() : core.reduced()->vectors;
+        const plm::Field &p = is_static ? core.reduced()->static_vectors() : core.reduced()->vectors;
         require_range(first, 0, p.cols(), "first");
         require_range(n, 0, p.cols() - first, "n");
         require_range(ld, model.n_dof(), INT64_MAX / 64, "ld");
         if (n > 0) require_pointer(vector, "vector");
-        plm::require_finite_result(p.data() + first * p.rows(), n * p.rows(), "vector");
-        for (std::int64_t j = 0; j < n; ++j) model.expand(p.col(first + j), vector + j * ld);
+        const plm::Field some = p.columns(first, n);
+        plm::require_finite_result(some, "vector");
+        for (std::int64_t j = 0; j < n; ++j) model.expand(some, j, vector + j * ld);
         return PLM_OK;
     });
 }
@@ -124,9 +125,8 @@ plm_status plm_basis_get_residual(plm_basis *basis, std::int32_t is_static, std:
         require_range(n, model.n_dof(), model.n_dof(), "n");
         require_finite_array(q, n, "q");
         require_pointer(r, "r");
-        plm::vector<double> free(static_cast<std::size_t>(model.n_free()));
-        model.restrict_to_free(q, free.data());
-        const double found = plm::projection_residual(core, is_static != 0, use_mass != 0, free.data());
+        const double found =
+            plm::projection_residual(core, is_static != 0, use_mass != 0, model.restricted(q));
         plm::require_finite_result(&found, 1, "r");
         *r = found;
         return PLM_OK;

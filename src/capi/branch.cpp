@@ -95,12 +95,12 @@ plm_status plm_branch_get_field(plm_branch *branch, std::int64_t point, double t
     return call<BranchHandle>("plm_branch_get_field", branch, [&](BranchHandle &b) {
         require_point(*b.core, point);
         require_finite(time_fraction, "time_fraction");
-        const std::int64_t n_dof = b.core->reduced().model->n_dof();
-        require_range(n, n_dof, n_dof, "n");
+        const plm::Model &model = *b.core->reduced().model;
+        require_range(n, model.n_dof(), model.n_dof(), "n");
         require_pointer(q, "q");
-        const plm::vector<double> field = b.core->field(point, time_fraction);
-        plm::require_finite_result(field.data(), n, "q");
-        copy_out(field, q);
+        const plm::Field field = b.core->field(point, time_fraction);
+        plm::require_finite_result(field, "q");
+        model.expand(field, 0, q);
         return PLM_OK;
     });
 }

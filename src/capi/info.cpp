@@ -100,7 +100,7 @@ plm_status plm_build_info(std::int64_t capacity, char *buffer, std::int64_t *nee
             format(
                 "libplm %d.%d.%d; factorization: %s; eigensolver: ARPACK and Lanczos; Fourier transform: %s; "
                 "components: model, sampler, basis, hbm%s%s",
-                PLM_VERSION_MAJOR, PLM_VERSION_MINOR, PLM_VERSION_PATCH, factor_backend().c_str(),
+                PLM_VERSION_MAJOR, PLM_VERSION_MINOR, PLM_VERSION_PATCH, factor_backends().c_str(),
                 dft_backend().c_str(), transient_is_built() ? ", transient" : "",
                 study_is_built() ? ", study" : ""),
             capacity, buffer, needed);

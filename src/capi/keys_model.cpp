@@ -14,10 +14,7 @@ const RestState &rest(const H &h) {
 }
 
 vector<double> rest_displacement(const H &h) {
-    const RestState &r = rest(h);
-    vector<double> all(static_cast<std::size_t>(h.core->n_dof()));
-    h.core->expand(r.displacement.data(), all.data());
-    return all;
+    return h.core->expanded(rest(h).displacement);
 }
 
 vector<std::int64_t> as_ints(const vector<char> &flags) {
@@ -48,6 +45,9 @@ const std::vector<Key> &model_keys() {
         int_option<&O::max_blocks>("max_blocks", 1, 20, "most blocks of contact attachment vectors"),
         int_option<&O::verify_counts>("verify_counts", 0, 1,
                                       "1: the number of modes is verified by a Sturm count"),
+        choice_option<&O::solver>("solver", "auto,cholmod,eigen,host",
+                                  "who factors sparse matrices; auto: the host's solver where the context has "
+                                  "one, else cholmod where it was built, else eigen"),
 
         result<H>("n_dof", "DOFs of the model",
                   [](const H &h) { return h.core ? h.core->n_dof() : h.input.n_dof; }),
@@ -60,7 +60,7 @@ const std::vector<Key> &model_keys() {
         warning_text<H>([](const H &h) -> const Warnings & { return built_warnings(h); }),
         warning_reasons<H>([](const H &h) -> const Warnings & { return built_warnings(h); }),
         result<H>("n_rigid_modes", "rigid-body modes of the open structure",
-                  [](const H &h) { return built(h)->rigid_modes().cols(); }),
+                  [](const H &h) { return built(h)->n_rigid(); }),
         result<H>("shift", "sigma of the factored K + sigma M (rad^2/time^2); 0 when K is positive definite",
                   [](const H &h) { return built(h)->shift(); }),
         result<H>("local_stiffness", "1 / median contact flexibility (force/length); 0 without pairs",

@@ -16,7 +16,7 @@ const std::shared_ptr<const Model> &built(const ModelHandle &h) {
 
 const RestState &solved_rest(ModelHandle &h) {
     built(h);
-    if (!h.rest) h.rest = std::make_shared<const RestState>(solve_rest(contact_space(h, 0, 8)));
+    if (!h.rest) h.rest = rest_of(contact_space(h, 0, 8));
     return *h.rest;
 }
 
@@ -73,8 +73,8 @@ void put_modes(const ModelHandle &m, const LowestModes &found, std::int64_t n, d
     const Model &model = *m.core;
     require_finite_result(found.modes.values.data(), n, "frequency_hz");
     if (shape) {
-        const Matrix free = product('N', 'N', found.space->vectors, found.modes.vectors.columns(0, n));
-        for (std::int64_t j = 0; j < n; ++j) model.expand(free.col(j), shape + j * model.n_dof());
+        const Field free = combine(found.space->vectors, found.modes.vectors.columns(0, n));
+        for (std::int64_t j = 0; j < n; ++j) model.expand(free, j, shape + j * model.n_dof());
     }
     for (std::int64_t j = 0; j < n; ++j)
         frequency_hz[j] =

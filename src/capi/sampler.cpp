@@ -46,7 +46,7 @@ plm_status plm_sampler_run(plm_sampler *sampler) {
         s.core =
             std::make_shared<const plm::Sampler>(model, s.sampler_options, s.owner->watch(), s.model->space);
         s.model->space = s.core->space(); // the next sampler of this model starts from it
-        if (!s.model->rest) s.model->rest = std::make_shared<const plm::RestState>(s.core->rest());
+        if (!s.model->rest) s.model->rest = plm::rest_of(*s.core->space());
         return Outcome(s.core->warnings());
     });
 }

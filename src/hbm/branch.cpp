@@ -123,10 +123,10 @@ vector<double> Branch::coefficients(std::int64_t point, std::int64_t dof) const 
     vector<double> c(2 * n_harmonics_ + 1, 0.0);
     const std::int64_t row = reduced_->model->free_index(dof);
     if (row < 0) return c;
-    const Matrix &v = reduced_->vectors, &v0 = reduced_->static_vectors();
-    for (std::int64_t j = 0; j < v0.cols(); ++j) c[0] += v0(row, j) * p.eta_0[j];
+    const vector<double> v = reduced_->vectors.row(row), v0 = reduced_->static_vectors().row(row);
+    for (std::size_t j = 0; j < v0.size(); ++j) c[0] += v0[j] * p.eta_0[j];
     for (std::int64_t k = 0; k < 2 * n_harmonics_; ++k)
-        for (std::int64_t j = 0; j < v.cols(); ++j) c[k + 1] += v(row, j) * p.eta(j, k);
+        for (std::int64_t j = 0; j < reduced_->size(); ++j) c[k + 1] += v[j] * p.eta(j, k);
     return c;
 }
 
@@ -160,19 +160,18 @@ std::int64_t Branch::highest_point(std::int64_t dof, Measure measure, std::int64
     return top;
 }
 
-vector<double> Branch::field(std::int64_t point, double fraction) const {
+Field Branch::field(std::int64_t point, double fraction) const {
     const BranchPoint &p = points_[point];
-    vector<double> eta(reduced_->size(), 0.0), free(reduced_->model->n_free()), all(reduced_->model->n_dof());
+    vector<double> eta(reduced_->size(), 0.0);
     for (std::int64_t h = 1; h <= n_harmonics_; ++h) {
         const double angle = 2 * M_PI * fraction * static_cast<double>(h), c = std::cos(angle),
                      s = std::sin(angle);
         for (std::int64_t j = 0; j < reduced_->size(); ++j)
             eta[j] += c * p.eta(j, 2 * h - 2) + s * p.eta(j, 2 * h - 1);
     }
-    gemv('N', 1.0, reduced_->static_vectors(), p.eta_0.data(), 0.0, free.data());
-    gemv('N', 1.0, reduced_->vectors, eta.data(), 1.0, free.data());
-    reduced_->model->expand(free.data(), all.data());
-    return all;
+    Field q = combine(reduced_->static_vectors(), p.eta_0);
+    add_combination(1.0, reduced_->vectors, eta, q);
+    return q;
 }
 
 Matrix Branch::penetration_coefficients(std::int64_t point) const {

@@ -64,8 +64,8 @@ class Branch {
     double amplitude(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic) const;
     /// The point where the amplitude is largest; 0 on an empty branch.
     std::int64_t highest_point(std::int64_t dof, Measure measure, std::int64_t harmonic) const;
-    /// q over all n_dof at t = fraction x period.
-    vector<double> field(std::int64_t point, double fraction) const;
+    /// q on the free DOFs at t = fraction x period, one column.
+    Field field(std::int64_t point, double fraction) const;
     /// Penetration coefficients (2H + 1) x Z of all pairs of the model, the gap included in a0.
     Matrix penetration_coefficients(std::int64_t point) const;
     /// Share of the period during which each pair of the model is closed, from the exact switching instants.

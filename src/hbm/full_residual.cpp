@@ -17,54 +17,38 @@ class FullResidual {
           omega_(point.omega / static_cast<double>(period_multiple)) {}
 
     // contact: Z x (2H + 1) force coefficients. Adds |R|^2 in the K^-1 norm and |q|^2 in the K norm.
-    void add(std::int64_t h, const Matrix &contact, double &residual, double &energy) const {
-        const std::int64_t n = model_.n_free();
-        const Matrix q = h == 0 ? static_field() : dynamic_field(h);
-        const Matrix kq = multiply(model_.stiffness(), q);
-        Matrix r = kq;
+    void add_harmonic(std::int64_t h, const Matrix &contact, double &residual, double &energy) const {
+        const Field q = h == 0 ? combine(reduced_.static_vectors(), point_.eta_0)
+                               : combine(reduced_.vectors, point_.eta.columns(2 * h - 2, 2));
+        const Field kq = model_.stiffness_times(q);
+        Field r = kq;
         if (h > 0) add_dynamics(h, q, kq, r);
         add_forces(h, contact, r);
-        Matrix solved = r;
-        model_.factor().solve(solved);
-        for (std::int64_t c = 0; c < q.cols(); ++c) {
-            residual += dot(n, r.col(c), solved.col(c));
-            energy += dot(n, q.col(c), kq.col(c));
-        }
+        Field solved = r;
+        model_.solve(solved);
+        for (double v : column_products(r, solved)) residual += v;
+        for (double v : column_products(q, kq)) energy += v;
     }
 
   private:
-    Matrix static_field() const {
-        Matrix q(model_.n_free(), 1);
-        gemv('N', 1.0, reduced_.static_vectors(), point_.eta_0.data(), 0.0, q.data());
-        return q;
-    }
-
-    Matrix dynamic_field(std::int64_t h) const {
-        return product('N', 'N', reduced_.vectors, point_.eta.columns(2 * h - 2, 2));
-    }
-
     // -(h w)^2 M q and the damping, which couples cosine and sine.
-    void add_dynamics(std::int64_t h, const Matrix &q, const Matrix &kq, Matrix &r) const {
+    void add_dynamics(std::int64_t h, const Field &q, const Field &kq, Field &r) const {
         const double w = static_cast<double>(h) * omega_;
         const Damping &damping = model_.damping();
-        const Matrix mq = multiply(model_.mass(), q);
-        Matrix loss = mq; // C q w + eta K q
-        for (std::int64_t k = 0; k < loss.rows() * 2; ++k)
-            loss.data()[k] =
-                w * damping.alpha * mq.data()[k] + (w * damping.beta + damping.structural) * kq.data()[k];
-        if (damping.has_matrix) {
-            const Matrix cq = multiply(model_.damping_matrix(), q);
-            for (std::int64_t k = 0; k < loss.rows() * 2; ++k) loss.data()[k] += w * cq.data()[k];
-        }
+        const Field mq = model_.mass_times(q);
+        Field loss(q.rows(), q.cols()); // C q w + eta K q
+        add(w * damping.alpha, mq, loss);
+        add(w * damping.beta + damping.structural, kq, loss);
+        if (damping.has_matrix) add(w, model_.damping_times(q), loss);
         if (!damping.modal_ratio.empty()) add_modal_damping(h, w, loss);
-        for (std::int64_t i = 0; i < r.rows(); ++i) {
-            r(i, 0) += -w * w * mq(i, 0) + loss(i, 1);
-            r(i, 1) += -w * w * mq(i, 1) - loss(i, 0);
-        }
+        Matrix turned(2, 2); // the loss of the sine acts on the cosine, and the reverse
+        turned(1, 0) = 1, turned(0, 1) = -1;
+        add(-w * w, mq, r);
+        add_combination(1.0, loss, turned, r);
     }
 
     // Modal damping lives on the modes that the basis contains: C q = M P c eta there.
-    void add_modal_damping(std::int64_t h, double w, Matrix &loss) const {
+    void add_modal_damping(std::int64_t h, double w, Field &loss) const {
         const Damping &damping = model_.damping();
         Matrix eta = point_.eta.columns(2 * h - 2, 2), ceta(reduced_.size(), 2);
         if (reduced_.damping.empty()) {
@@ -79,25 +63,22 @@ class FullResidual {
                 ceta(j, c) -=
                     (damping.alpha * reduced_.mass(j) + damping.beta * reduced_.lambda[j]) * eta(j, c);
         if (damping.has_matrix) return; // its projection is inside c already and cannot be told apart
-        const Matrix extra = multiply(model_.mass(), product('N', 'N', reduced_.vectors, ceta));
-        for (std::int64_t k = 0; k < loss.rows() * 2; ++k) loss.data()[k] += w * extra.data()[k];
+        add(w, model_.mass_times(combine(reduced_.vectors, ceta)), loss);
     }
 
-    void add_forces(std::int64_t h, const Matrix &contact, Matrix &r) const {
-        vector<double> f(model_.n_free());
-        for (std::int64_t c = 0; c < r.cols() && contact.rows() > 0; ++c) {
-            multiply_transposed(model_.gap_matrix(), contact.col(h == 0 ? 0 : 2 * h - 1 + c), f.data());
-            for (std::int64_t i = 0; i < r.rows(); ++i) r(i, c) += f[i];
-        }
-        if (h == 0 && model_.has_preload())
-            for (std::int64_t i = 0; i < r.rows(); ++i) r(i, 0) -= model_.preload()[i];
+    void add_forces(std::int64_t h, const Matrix &contact, Field &r) const {
+        if (contact.rows() > 0)
+            add(1.0, model_.gap_rows().forces(contact.columns(h == 0 ? 0 : 2 * h - 1, r.cols())), r);
+        if (h == 0 && model_.has_preload()) add(-1.0, model_.preload(), r);
         if (h % period_multiple_ != 0) return;
         const auto found = model_.excitation().find(static_cast<int>(h / period_multiple_));
         if (found == model_.excitation().end()) return;
-        for (std::int64_t i = 0; i < r.rows(); ++i) {
-            r(i, 0) -= point_.force_scale * found->second.real[i];
-            if (h > 0 && !found->second.imag.empty()) r(i, 1) += point_.force_scale * found->second.imag[i];
+        Field force = found->second.real; // Re(F exp(i h w t)): the sine has -Im F
+        if (h > 0) {
+            force.append(found->second.imag);
+            force.scale({1.0, -1.0});
         }
+        add(-point_.force_scale, force, r);
     }
 
     const ReducedModel &reduced_;
@@ -121,7 +102,7 @@ double Branch::full_residual(std::int64_t point) const {
     for (std::int64_t h = 0; h <= last; ++h) {
         worked(1e4 *
                static_cast<double>(reduced_->model->n_free())); // of a factorization's back-substitution
-        full.add(h, contact, residual, energy);
+        full.add_harmonic(h, contact, residual, energy);
     }
     return energy > 0 ? std::sqrt(std::max(0.0, residual) / energy) : std::sqrt(std::max(0.0, residual));
 }

@@ -133,20 +133,8 @@ double norm_of_row(const Matrix &a, std::int64_t row) {
 // Rows of P at the DOFs that the pairs of the equations hold.
 Matrix contact_rows(const ReducedModel &m) {
     if (!m.model || m.vectors.rows() != m.model->n_free()) return Matrix();
-    const SparseMatrix &b = m.model->gap_matrix();
-    vector<char> carried(b.rows, m.all_pairs ? 0 : 1), held(b.cols, 0);
-    for (std::int64_t i : m.carried) carried[i] = 1;
-    for (std::int64_t j = 0; j < b.cols; ++j)
-        for (std::int64_t k = b.ptr[j]; k < b.ptr[j + 1]; ++k)
-            if (b.val[k] != 0 && carried[b.idx[k]]) held[j] = 1;
-    Matrix rows(std::count(held.begin(), held.end(), 1), m.size());
-    std::int64_t row = 0;
-    for (std::int64_t j = 0; j < b.cols; ++j) {
-        if (!held[j]) continue;
-        for (std::int64_t c = 0; c < m.size(); ++c) rows(row, c) = m.vectors(j, c);
-        ++row;
-    }
-    return rows;
+    const GapRows &gap = m.model->gap_rows();
+    return m.vectors.rows_at(m.all_pairs ? gap.dofs_of(m.carried) : gap.dofs());
 }
 
 double largest_at_contact(const ReducedModel &m, const Matrix &motion, const Matrix &change) {
@@ -177,10 +165,11 @@ double harmonic_error_at(const ReducedModel &m, const BranchPoint &point, const 
     const std::int64_t row = m.model->free_index(dof);
     if (row < 0) return 0;
     const bool one = measure == Measure::harmonic && harmonic > 0;
+    const vector<double> p = m.vectors.row(row);
     const auto size = [&](const Matrix &eta, std::int64_t n) {
         vector<double> motion(2 * n);
         for (std::int64_t c = one ? 2 * harmonic - 2 : 0; c < 2 * (one ? std::min(harmonic, n) : n); ++c)
-            for (std::int64_t j = 0; j < m.size(); ++j) motion[c] += m.vectors(row, j) * eta(j, c);
+            for (std::int64_t j = 0; j < m.size(); ++j) motion[c] += p[j] * eta(j, c);
         return norm2(2 * n, motion.data());
     };
     const double motion = size(point.eta, point.n_harmonics),

@@ -65,9 +65,7 @@ void FlowModel::project_loads() {
         excitation_ = reduced_->excitation;
         return;
     }
-    for (const auto &[harmonic, load] : reduced_->model->excitation())
-        excitation_[harmonic] = {transposed_product(reduced_->vectors_0, load.real),
-                                 transposed_product(reduced_->vectors_0, load.imag)};
+    excitation_ = projected(reduced_->vectors_0, reduced_->model->excitation());
 }
 
 void FlowModel::project_damping() {
@@ -84,7 +82,7 @@ void FlowModel::project_damping() {
         return;
     }
     if (damping.modal_ratio.empty()) {
-        damping_ = product('T', 'N', m.vectors_0, multiply(m.model->damping_matrix(), m.vectors_0));
+        damping_ = gram(m.vectors_0, m.model->damping_times(m.vectors_0));
         for (std::int64_t j = 0; j < size(); ++j)
             damping_(j, j) += damping.alpha * m.mass_0(j) + damping.beta * lambda_[j];
         return;
@@ -232,7 +230,7 @@ FlowState FlowModel::state(const vector<double> &eta_0, const Matrix &eta, doubl
 }
 
 vector<double> FlowModel::dof_row(std::int64_t dof) const {
-    const Matrix &vectors = reduced_->static_vectors();
+    const Field &vectors = reduced_->static_vectors();
     const std::int64_t n_dof = reduced_->model ? reduced_->model->n_dof() : vectors.rows();
     if (dof < 0 || dof >= n_dof)
         throw Error(PLM_ERR_ARGUMENT, format("DOF %lld is not one of 0 .. %lld", static_cast<long long>(dof),
@@ -240,20 +238,12 @@ vector<double> FlowModel::dof_row(std::int64_t dof) const {
             .argument("dof")
             .index(dof);
     const std::int64_t row = reduced_->model ? reduced_->model->free_index(dof) : dof;
-    vector<double> values(size(), 0.0);
-    if (row < 0) return values;
-    for (std::int64_t j = 0; j < size(); ++j) values[j] = vectors(row, j);
-    return from_static_coordinates(values);
+    if (row < 0) return vector<double>(size(), 0.0);
+    return from_static_coordinates(vectors.row(row));
 }
 
-vector<double> FlowModel::field(const vector<double> &y) const {
-    const Matrix &vectors = reduced_->static_vectors();
-    vector<double> free(vectors.rows(), 0.0);
-    gemv('N', 1.0, vectors, in_static_coordinates(y).data(), 0.0, free.data());
-    if (!reduced_->model) return free;
-    vector<double> all(reduced_->model->n_dof());
-    reduced_->model->expand(free.data(), all.data());
-    return all;
+Field FlowModel::field(const vector<double> &y) const {
+    return combine(reduced_->static_vectors(), in_static_coordinates(y));
 }
 
 } // namespace plm

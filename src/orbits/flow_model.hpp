@@ -54,8 +54,8 @@ class FlowModel {
     /// Row of P_0 of a DOF of the full model (n; zeros when it is fixed): q_dof = row . y. A reduced model
     /// without a model has the rows of its vectors as DOFs.
     vector<double> dof_row(std::int64_t dof) const;
-    /// q over all DOFs of the model (n_dof).
-    vector<double> field(const vector<double> &y) const;
+    /// q on the free DOFs of the model, one column.
+    Field field(const vector<double> &y) const;
     /// y in the coordinates of P_0, and back.
     vector<double> in_static_coordinates(const vector<double> &y) const;
     vector<double> from_static_coordinates(const vector<double> &y) const;

@@ -13,7 +13,7 @@ class RunObserver final : public NewmarkObserver {
         : closed_(model.n_pairs()) {
         for (std::int64_t dof : observed) rows_.push_back(model.free_index(dof));
         vector<double> u(model.n_pairs());
-        multiply(model.gap_matrix(), start.q.data(), u.data());
+        model.gap_rows().of(start.q, u);
         for (std::size_t i = 0; i < u.size(); ++i)
             closed_[i] = ContactLaw::closed(u[i] - model.initial_gap()[i]);
     }
@@ -24,7 +24,7 @@ class RunObserver final : public NewmarkObserver {
             n_events_ += closed != closed_[i];
             closed_[i] = closed;
         }
-        for (std::int64_t row : rows_) values_.push_back(row < 0 ? 0.0 : step.q[row]);
+        for (std::int64_t row : rows_) values_.push_back(row < 0 ? 0.0 : step.q.at(row, 0));
     }
     std::int64_t n_events() const { return n_events_; }
     std::int64_t n_steps() const { return n_steps_; }
@@ -69,9 +69,8 @@ const FullState &FullMotion::present() {
 }
 
 void FullMotion::set_state(const double *q, const double *v) {
-    FullState state{vector<double>(size(), 0.0), vector<double>(size(), 0.0), 0};
-    if (q) model_->restrict_to_free(q, state.q.data());
-    if (v) model_->restrict_to_free(v, state.v.data());
+    FullState state{q ? model_->restricted(q) : Field(size(), 1), v ? model_->restricted(v) : Field(size(), 1),
+                    0};
     state_ = std::move(state);
     restart_clock();
 }
@@ -83,14 +82,14 @@ void FullMotion::start_at(const HarmonicMotion &m) {
     const FlowModel recovery(m.reduced, m.omega);
     const FlowState state =
         recovery.state(m.eta_0, m.eta, m.omega / static_cast<double>(m.period_multiple), 0.0);
-    const vector<double> q = recovery.field(state.y), v = recovery.field(state.v);
-    set_state(q.data(), v.data());
+    state_ = {recovery.field(state.y), recovery.field(state.v), 0};
+    restart_clock();
 }
 
 void FullMotion::get_state(double *q, double *v) {
     const FullState &state = present();
-    if (q) model_->expand(state.q.data(), q);
-    if (v) model_->expand(state.v.data(), v);
+    if (q) model_->expand(state.q, 0, q);
+    if (v) model_->expand(state.v, 0, v);
 }
 
 TransientRun FullMotion::run(const TransientOptions &options, const vector<std::int64_t> &observed,

@@ -2,7 +2,6 @@
 #include "linalg/scale.hpp"
 #include "orbits/settling.hpp"
 #include "space/rest.hpp"
-#include "structure/solver/make_factor.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +14,9 @@ void refuse(const char *name, const std::string &text) {
     throw Error(PLM_ERR_ARGUMENT, text).argument(name);
 }
 
-void check(const Model &model, double omega, const NewmarkOptions &o) {
+std::shared_ptr<const Model> checked(std::shared_ptr<const Model> given, double omega,
+                                     const NewmarkOptions &o) {
+    const Model &model = *given;
     if (!(omega > 0 && std::isfinite(omega))) refuse("omega", "the frequency must be positive and finite");
     if (!std::isfinite(o.force_scale)) refuse("force_scale", "the force scale is not finite");
     if (!(o.alpha >= 0 && o.alpha <= 1.0 / 3)) refuse("alpha", "alpha must lie between 0 and 1/3");
@@ -28,167 +29,160 @@ void check(const Model &model, double omega, const NewmarkOptions &o) {
             refuse("modal_ratio",
                    "time integration of the full model takes Rayleigh damping, an explicit C or "
                    "structural damping; modal damping has no sparse form");
+    return given;
 }
 
-bool same_size(const vector<double> &x, std::int64_t n) {
-    return static_cast<std::int64_t>(x.size()) == n;
-}
-
-bool all_finite(const vector<double> &x) {
-    return std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); });
+bool fits(const Field &x, const Model &model) {
+    return x.rows() == model.n_free() && x.cols() == 1 && std::isfinite(column_norms(x)[0]);
 }
 
 // The mass matrix, or where DOFs have no mass, with so much stiffness that they follow within `time`.
-std::unique_ptr<Factor> mass_factor(const Model &model, double time) {
-    const SparseMatrix &mass = model.mass();
-    vector<char> has_mass(mass.cols, 0);
-    for (std::int64_t j = 0; j < mass.cols; ++j)
-        for (std::int64_t p = mass.ptr[j]; p < mass.ptr[j + 1]; ++p)
-            if (mass.idx[p] == j && mass.val[p] > 0) has_mass[j] = 1;
-    if (std::all_of(has_mass.begin(), has_mass.end(), [](char b) { return b != 0; })) {
+Combination mass_factor(const Model &model, double time) {
+    Combination mass(model, {1, 0, 0});
+    if (model.n_massless_dofs() == 0) {
         try {
-            return make_factor(mass, FactorKind::positive_definite, model.host_solver());
+            mass.factor();
+            return mass;
         } catch (const Error &e) { // singular all the same
             if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE) throw;
         }
     }
-    return make_factor(add(1.0, mass, time * time, model.stiffness()), FactorKind::positive_definite,
-                       model.host_solver());
+    Combination stiffened(model, {1, time * time, 0});
+    stiffened.factor();
+    return stiffened;
+}
+
+MatrixWeights damping_of(const Model &model, double omega) {
+    const Damping &d = model.damping();
+    return {d.alpha, d.beta + d.structural / omega, d.has_matrix ? 1.0 : 0.0};
+}
+
+// S = M / (beta dt^2) + (1 - alpha) (gamma / (beta dt) C + K).
+MatrixWeights step_of(const Model &model, double omega, const NewmarkOptions &o) {
+    const NewmarkRule r(o, omega);
+    const MatrixWeights c = damping_of(model, omega);
+    const double by_damping = r.now * r.gamma / (r.beta * r.dt);
+    return {1 / (r.beta * r.dt * r.dt) + by_damping * c.mass, r.now + by_damping * c.stiffness,
+            by_damping * c.damping};
 }
 
 } // namespace
 
+NewmarkRule::NewmarkRule(const NewmarkOptions &o, double omega)
+    : dt(2 * M_PI / omega / static_cast<double>(o.steps_per_period)),
+      beta(0.25 * (1 + o.alpha) * (1 + o.alpha)), gamma(0.5 + o.alpha), now(1 - o.alpha) {}
+
 Newmark::Newmark(std::shared_ptr<const Model> model, double omega, const NewmarkOptions &options, Watch watch)
-    : model_(std::move(model)), omega_(omega), options_(options), watch_(watch) {
-    check(*model_, omega, options);
-    now_ = 1 - options.alpha;
-    beta_ = 0.25 * (1 + options.alpha) * (1 + options.alpha);
-    gamma_ = 0.5 + options.alpha;
-    dt_ = 2 * M_PI / omega / static_cast<double>(options.steps_per_period);
-    assemble_damping();
-    factor_step();
-}
-
-void Newmark::assemble_damping() {
-    const Damping &d = model_->damping();
-    const double beta = d.beta + d.structural / omega_;
-    if (d.alpha != 0 || beta != 0) damping_ = add(d.alpha, model_->mass(), beta, model_->stiffness());
-    if (!d.has_matrix) return;
-    damping_ =
-        damping_.rows > 0 ? add(1.0, damping_, 1.0, model_->damping_matrix()) : model_->damping_matrix();
-}
-
-// S = M / (beta dt^2) + (1 - alpha) (gamma / (beta dt) C + K) and its flexibility at the contact.
-void Newmark::factor_step() {
+    : model_(checked(std::move(model), omega, options)), omega_(omega), rule_(options, omega),
+      options_(options), watch_(watch), damping_(*model_, damping_of(*model_, omega)),
+      step_(*model_, step_of(*model_, omega, options)) {
     watch_.step("time integration", 0.0);
-    SparseMatrix s = add(1 / (beta_ * dt_ * dt_), model_->mass(), now_, model_->stiffness());
-    if (damping_.rows > 0) s = add(1.0, s, now_ * gamma_ / (beta_ * dt_), damping_);
-    factor_ = make_factor(s, FactorKind::positive_definite, model_->host_solver());
-    response_ = to_dense(transpose(model_->gap_matrix()));
+    step_.factor();
+    find_flexibility();
+}
+
+// Of S at the contact.
+void Newmark::find_flexibility() {
+    response_ = model_->gap_rows().columns();
     Matrix flexibility;
     if (model_->n_pairs() > 0) {
-        factor_->solve(response_);
-        flexibility = multiply(model_->gap_matrix(), response_);
+        step_.solve(response_);
+        flexibility = model_->gap_rows().of(response_);
         for (std::int64_t j = 0; j < flexibility.cols(); ++j)
             for (std::int64_t i = 0; i <= j; ++i)
-                flexibility(i, j) = flexibility(j, i) = 0.5 * now_ * (flexibility(i, j) + flexibility(j, i));
+                flexibility(i, j) = flexibility(j, i) =
+                    0.5 * rule_.now * (flexibility(i, j) + flexibility(j, i));
     }
     contact_ = std::make_unique<ContactStep>(std::move(flexibility), model_->contact_stiffness());
 }
 
 FullState rest_state(const std::shared_ptr<const Model> &model, Watch watch) {
     const std::int64_t n = model->n_free();
-    FullState state{vector<double>(n, 0.0), vector<double>(n, 0.0), 0};
+    FullState state{Field(n, 1), Field(n, 1), 0};
     const bool interference =
         std::any_of(model->initial_gap().begin(), model->initial_gap().end(), [](double g) { return g < 0; });
     if (model->has_preload() || interference)
-        state.q = solve_rest(*make_contact_space(model, 0.0, 1, watch)).displacement;
+        state.q = rest_of(*make_contact_space(model, 0.0, 1, watch))->displacement;
     return state;
 }
 
 // Pre-load and Re(F_h exp(i h w t)).
-void Newmark::excitation(double time, vector<double> &f) const {
-    std::fill(f.begin(), f.end(), 0.0);
-    if (model_->has_preload()) f = model_->preload();
+void Newmark::excitation(double time, Field &f) const {
+    f.clear();
+    if (model_->has_preload()) add(1.0, model_->preload(), f);
     for (const auto &[harmonic, load] : model_->excitation()) {
         const double phase = static_cast<double>(harmonic) * omega_ * time;
-        const double c = options_.force_scale * std::cos(phase), s = options_.force_scale * std::sin(phase);
-        for (std::size_t i = 0; i < f.size(); ++i) f[i] += c * load.real[i];
-        if (harmonic == 0) continue;
-        for (std::size_t i = 0; i < f.size(); ++i) f[i] -= s * load.imag[i];
+        add(options_.force_scale * std::cos(phase), load.real, f);
+        if (harmonic > 0) add(-options_.force_scale * std::sin(phase), load.imag, f);
     }
+}
+
+// f -= K q + C v.
+void Newmark::subtract_internal_forces(const Field &q, const Field &v, Field &f) {
+    model_->stiffness_times(q, work_);
+    add(-1.0, work_, f);
+    if (damping_.is_zero()) return;
+    damping_.apply(v, work_);
+    add(-1.0, work_, f);
 }
 
 // Forces and acceleration that go with the first state.
 void Newmark::start(const FullState &state) {
     const std::int64_t n = model_->n_free(), z = model_->n_pairs();
-    if (!same_size(state.q, n) || !same_size(state.v, n) || !all_finite(state.q) || !all_finite(state.v) ||
-        !std::isfinite(state.time))
+    if (!fits(state.q, *model_) || !fits(state.v, *model_) || !std::isfinite(state.time))
         refuse("start", format("the first state needs %lld finite displacements and velocities (free DOFs)",
                                static_cast<long long>(n)));
     state_ = state;
-    for (vector<double> *x : {&a_, &rest_force_, &q_, &v_, &load_, &work_}) x->assign(n, 0.0);
-    u_free_.assign(z, 0.0);
+    for (Field *x : {&a_, &rest_force_, &q_, &v_, &load_, &work_}) *x = Field(n, 1);
     contact_force_.assign(z, 0.0);
-    multiply(model_->gap_matrix(), state_.q.data(), u_free_.data());
+    const Matrix u = model_->gap_rows().of(state_.q);
+    u_free_.assign(u.data(), u.data() + z);
+    Matrix force(z, 1);
     for (std::int64_t i = 0; i < z; ++i)
-        contact_force_[i] =
+        force(i, 0) = contact_force_[i] =
             ContactLaw::force(model_->contact_stiffness()[i], u_free_[i] - model_->initial_gap()[i]);
     excitation(state_.time, rest_force_);
-    multiply(model_->stiffness(), state_.q.data(), work_.data());
-    for (std::int64_t i = 0; i < n; ++i) rest_force_[i] -= work_[i];
-    if (damping_.rows > 0) multiply(damping_, state_.v.data(), work_.data());
-    for (std::int64_t i = 0; i < n && damping_.rows > 0; ++i) rest_force_[i] -= work_[i];
-    multiply_transposed(model_->gap_matrix(), contact_force_.data(), work_.data());
-    for (std::int64_t i = 0; i < n; ++i) rest_force_[i] -= work_[i];
+    subtract_internal_forces(state_.q, state_.v, rest_force_);
+    add(-1.0, model_->gap_rows().forces(force), rest_force_);
     a_ = rest_force_;
-    mass_factor(*model_, massless_share * dt_)->solve(a_.data(), 1, n);
+    mass_factor(*model_, massless_share * rule_.dt).solve(a_);
 }
 
 // With the predictors q~, v~ and q = q~ + d: S d + (1 - alpha) B^T N = (1 - alpha) (F - K q~ - C v~) + alpha
 // r, r the force that accelerates at the beginning of the step; then a = d / (beta dt^2).
 void Newmark::step(double time) {
-    const std::int64_t n = model_->n_free(), z = model_->n_pairs();
-    for (std::int64_t i = 0; i < n; ++i) {
-        q_[i] = state_.q[i] + dt_ * (state_.v[i] + dt_ * (0.5 - beta_) * a_[i]);
-        v_[i] = state_.v[i] + dt_ * (1 - gamma_) * a_[i];
-    }
+    const std::int64_t z = model_->n_pairs();
+    const double dt = rule_.dt, beta = rule_.beta, gamma = rule_.gamma, alpha = options_.alpha;
+    set_sum({{1, state_.q}, {dt, state_.v}, {dt * dt * (0.5 - beta), a_}}, q_);
+    set_sum({{1, state_.v}, {dt * (1 - gamma), a_}}, v_);
     excitation(time, load_);
-    multiply(model_->stiffness(), q_.data(), work_.data());
-    for (std::int64_t i = 0; i < n; ++i) load_[i] -= work_[i];
-    if (damping_.rows > 0) multiply(damping_, v_.data(), work_.data());
-    for (std::int64_t i = 0; i < n && damping_.rows > 0; ++i) load_[i] -= work_[i];
-    for (std::int64_t i = 0; i < n; ++i) load_[i] = now_ * load_[i] + options_.alpha * rest_force_[i];
-    factor_->solve(load_.data(), 1, n); // d of the open structure
+    subtract_internal_forces(q_, v_, load_);
+    set_sum({{rule_.now, load_}, {alpha, rest_force_}}, load_);
+    step_.solve(load_); // d of the open structure
     if (z > 0) {
-        for (std::int64_t i = 0; i < n; ++i) work_[i] = q_[i] + load_[i];
-        multiply(model_->gap_matrix(), work_.data(), u_free_.data());
+        set_sum({{1, q_}, {1, load_}}, work_);
+        model_->gap_rows().of(work_, u_free_);
         for (std::int64_t i = 0; i < z; ++i) u_free_[i] -= model_->initial_gap()[i];
         contact_->solve(u_free_, contact_force_);
-        gemv('N', -now_, response_, contact_force_.data(), 1.0, load_.data());
+        add_combination(-rule_.now, response_, contact_force_, load_);
     }
-    const double to_velocity = gamma_ / (beta_ * dt_), to_acceleration = 1 / (beta_ * dt_ * dt_);
-    for (std::int64_t i = 0; i < n; ++i) {
-        state_.q[i] = q_[i] + load_[i];
-        state_.v[i] = v_[i] + to_velocity * load_[i];
-        a_[i] = to_acceleration * load_[i];
-    }
+    set_sum({{1, q_}, {1, load_}}, state_.q);
+    set_sum({{1, v_}, {gamma / (beta * dt), load_}}, state_.v);
+    set_sum({{1 / (beta * dt * dt), load_}}, a_);
     state_.time = time;
-    if (options_.alpha == 0) return;
-    multiply(model_->mass(), a_.data(), work_.data()); // M a = (1 - alpha) r + alpha r_before
-    for (std::int64_t i = 0; i < n; ++i) rest_force_[i] = (work_[i] - options_.alpha * rest_force_[i]) / now_;
+    if (alpha == 0) return;
+    model_->mass_times(a_, work_); // M a = (1 - alpha) r + alpha r_before
+    set_sum({{1 / rule_.now, work_}, {-alpha / rule_.now, rest_force_}}, rest_force_);
 }
 
 // omega^2 |dq|_M^2 + |dv|_M^2, the root of it.
 double Newmark::distance(const FullState &a, const FullState &b) {
-    const std::int64_t n = model_->n_free();
-    double sum = 0;
-    for (std::int64_t i = 0; i < n; ++i) q_[i] = a.q[i] - b.q[i];
-    multiply(model_->mass(), q_.data(), work_.data());
-    sum += omega_ * omega_ * dot(n, q_.data(), work_.data());
-    for (std::int64_t i = 0; i < n; ++i) q_[i] = a.v[i] - b.v[i];
-    multiply(model_->mass(), q_.data(), work_.data());
-    sum += dot(n, q_.data(), work_.data());
+    const auto energy = [&](const Field &x, const Field &y) {
+        set_sum({{1, x}, {-1, y}}, q_);
+        model_->mass_times(q_, work_);
+        return column_products(q_, work_)[0];
+    };
+    const double sum = omega_ * omega_ * energy(a.q, b.q) + energy(a.v, b.v);
     return std::sqrt(std::max(sum, 0.0));
 }
 
@@ -206,7 +200,7 @@ NewmarkResult Newmark::run(const FullState &first, NewmarkObserver *observer) {
             result.cancelled = true;
             break;
         }
-        step(first.time + static_cast<double>(done) * dt_);
+        step(first.time + static_cast<double>(done) * rule_.dt);
         if (observer)
             observer->step({state_.time, state_.q, state_.v, a_, contact_force_, contact_->penetration()});
         const std::int64_t k = done - result.periods * steps;
@@ -214,8 +208,8 @@ NewmarkResult Newmark::run(const FullState &first, NewmarkObserver *observer) {
         if (quarter && settling.quarter(distance(state_, before))) before = state_;
         if (k == steps) ++result.periods;
     }
-    require_finite_result(state_.q.data(), model_->n_free(), "displacements of the time integration");
-    require_finite_result(state_.v.data(), model_->n_free(), "velocities of the time integration");
+    require_finite_result(state_.q, "displacements of the time integration");
+    require_finite_result(state_.v, "velocities of the time integration");
     result.change = settling.change();
     result.settled = settling.settled();
     result.state = state_;
@@ -238,7 +232,7 @@ DofRecorder::DofRecorder(std::shared_ptr<const Model> model, const vector<std::i
 
 void DofRecorder::step(const NewmarkStep &step) {
     times_.push_back(step.time);
-    for (std::int64_t row : rows_) values_.push_back(row < 0 ? 0.0 : step.q[row]);
+    for (std::int64_t row : rows_) values_.push_back(row < 0 ? 0.0 : step.q.at(row, 0));
 }
 
 } // namespace plm

@@ -6,6 +6,7 @@
 #include "contact/contact_step.hpp"
 #include "linalg/monitor.hpp"
 #include "space/model.hpp"
+#include "structure/combination.hpp"
 
 namespace plm {
 
@@ -18,16 +19,22 @@ struct NewmarkOptions {
     std::int64_t period_multiple = 1; // periods of the excitation over which it is compared
 };
 
+/// The numbers of Newmark's rule.
+struct NewmarkRule {
+    NewmarkRule(const NewmarkOptions &options, double omega);
+    double dt, beta, gamma, now; // now = 1 - alpha: weight of the forces at the end of a step
+};
+
 /// State over the free DOFs of the model, and time (s).
 struct FullState {
-    vector<double> q, v;
+    Field q, v; // one column each
     double time = 0;
 };
 
 /// What an observer sees after each step; valid during the call only.
 struct NewmarkStep {
     double time;
-    const vector<double> &q, &v, &a; // free DOFs
+    const Field &q, &v, &a;          // free DOFs
     const vector<double> &force;     // N per pair
     const vector<double> &penetration;
 };
@@ -63,24 +70,25 @@ class Newmark {
     NewmarkResult run(NewmarkObserver *observer = nullptr) { return run(rest(), observer); }
 
   private:
-    void assemble_damping();
-    void factor_step();
-    void excitation(double time, vector<double> &f) const;
+    void find_flexibility();
+    void excitation(double time, Field &f) const;
+    void subtract_internal_forces(const Field &q, const Field &v, Field &f);
     void start(const FullState &state);
     void step(double time);
     double distance(const FullState &a, const FullState &b);
 
     std::shared_ptr<const Model> model_;
-    double omega_, dt_, beta_, gamma_, now_; // now_ = 1 - alpha: weight of the forces at the end of a step
+    double omega_;
+    NewmarkRule rule_;
     NewmarkOptions options_;
     Watch watch_;
-    SparseMatrix damping_; // 0 x 0 without damping
-    std::unique_ptr<Factor> factor_;
-    Matrix response_; // S^-1 B^T, n_free x Z
+    Combination damping_, step_; // C, and S of a step
+    Field response_;             // S^-1 B^T, n_free x Z
     std::unique_ptr<ContactStep> contact_;
     // state and work of a run
     FullState state_;
-    vector<double> a_, rest_force_, q_, v_, load_, work_, u_free_, contact_force_;
+    Field a_, rest_force_, q_, v_, load_, work_;
+    vector<double> u_free_, contact_force_;
 };
 
 /// Displacements of chosen DOFs (base 0 of all DOFs) at every step.

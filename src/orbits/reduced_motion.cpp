@@ -130,11 +130,9 @@ const FlowState &ReducedMotion::present() {
 void ReducedMotion::set_state(const double *q, const double *v) {
     const Model &model = *reduced_->model;
     FlowState state{vector<double>(size(), 0.0), vector<double>(size(), 0.0), 0};
-    Matrix free(model.n_free(), 1);
     const auto project = [&](const double *all, vector<double> &coordinates) {
         if (!all) return;
-        model.restrict_to_free(all, free.data());
-        const Matrix c = static_coordinates_of(*reduced_, free);
+        const Matrix c = static_coordinates_of(*reduced_, model.restricted(all));
         coordinates = flow_model_->from_static_coordinates(vector<double>(c.data(), c.data() + size()));
     };
     project(q, state.y);
@@ -155,9 +153,8 @@ void ReducedMotion::start_at(const HarmonicMotion &m) {
 
 void ReducedMotion::get_state(double *q, double *v) {
     const FlowState &state = present();
-    const vector<double> displacement = flow_model_->field(state.y), velocity = flow_model_->field(state.v);
-    if (q) std::copy(displacement.begin(), displacement.end(), q);
-    if (v) std::copy(velocity.begin(), velocity.end(), v);
+    if (q) reduced_->model->expand(flow_model_->field(state.y), 0, q);
+    if (v) reduced_->model->expand(flow_model_->field(state.v), 0, v);
 }
 
 Matrix ReducedMotion::dof_rows(const vector<std::int64_t> &dofs) const {

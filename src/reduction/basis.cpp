@@ -87,11 +87,8 @@ std::vector<vector<double>> dominant_coordinates(const Sampler &sampler, const S
             result.push_back(d.coordinates);
             continue;
         }
-        const Model &model = *space.model;
-        Matrix shape(model.n_free(), 1);
-        gemv('N', 1.0, source.vectors, d.coordinates.data(), 0.0, shape.data());
-        const Matrix c = coordinates_of(shape, space.vectors, space.lambda, space.n_massless, model.mass(),
-                                        model.stiffness());
+        const Matrix c = coordinates_of(*space.model, combine(source.vectors, d.coordinates), space.vectors,
+                                        space.lambda, space.n_massless);
         result.emplace_back(c.data(), c.data() + space.size());
     }
     return result;
@@ -102,36 +99,14 @@ struct Reduction {
     BasisReport report;
 };
 
-double relative_size(const vector<double> &part, const vector<double> &whole) {
-    const double size = norm2(static_cast<std::int64_t>(whole.size()), whole.data());
-    return size > 0 ? norm2(static_cast<std::int64_t>(part.size()), part.data()) / size : 0;
-}
-
-// |q - P eta| / |q| in the L2 norm over the free DOFs, eta by least squares (paper, eq. (12), (13)).
-double euclidean_residual(const Matrix &p, const vector<double> &q) {
-    if (p.rows() <= p.cols()) return 0; // P spans everything
-    Matrix b(p.rows(), 1);
-    std::copy(q.begin(), q.end(), b.data());
-    const Matrix eta = least_squares(p, b);
-    vector<double> rest(q);
-    gemv('N', -1.0, p, eta.data(), 1.0, rest.data());
-    return relative_size(rest, q);
-}
-
-// The same in the M-norm, where P is orthonormal.
-double mass_residual(const Matrix &p, const SparseMatrix &mass, const vector<double> &q) {
-    const std::int64_t n = p.rows();
-    vector<double> rest(q), momentum(n), eta(p.cols());
-    multiply(mass, q.data(), momentum.data());
-    const double size = dot(n, q.data(), momentum.data());
+// |q - P eta|_M / |q|_M (paper, eq. (12), (13)); P is M-orthonormal.
+double mass_residual(const Model &model, const Field &p, const Field &q) {
+    const double size = column_products(q, model.mass_times(q))[0];
     if (!(size > 0)) return 0;
-    for (int pass = 0; pass < 2; ++pass) {
-        multiply(mass, rest.data(), momentum.data());
-        gemv('T', 1.0, p, momentum.data(), 0.0, eta.data());
-        gemv('N', -1.0, p, eta.data(), 1.0, rest.data());
-    }
-    multiply(mass, rest.data(), momentum.data());
-    return std::sqrt(std::max(0.0, dot(n, rest.data(), momentum.data())) / size);
+    Field remainder = q;
+    for (int pass = 0; pass < 2; ++pass)
+        add_combination(-1.0, p, gram(p, model.mass_times(remainder)), remainder);
+    return std::sqrt(std::max(0.0, column_products(remainder, model.mass_times(remainder))[0]) / size);
 }
 
 // The columns of the kind before conditioning; the report tells how they came about. sampler: null where the
@@ -157,7 +132,7 @@ CollectedModes collect(const Space &space, const Sampler *sampler, const RestSta
 
 Reduction reduce_to_vectors(const Space &space, const Sampler *sampler, const SelectionRule &rule,
                             const BasisOptions &o, Watch watch) {
-    const RestState rest = sampler && &space == sampler->space().get() ? sampler->rest() : solve_rest(space);
+    const RestState &rest = *rest_of(space);
     Reduction r;
     CollectedModes collected = collect(space, sampler, rest, rule, o, r.report, watch);
     Matrix columns = std::move(collected.columns);
@@ -178,7 +153,7 @@ Reduction reduce_to_vectors(const Space &space, const Sampler *sampler, const Se
     r.reduced = project(space, conditioned.coordinates, statics);
     watch.step("basis", 0.9);
     if (norm2(space.size(), rest.coordinates.data()) > 0) {
-        r.report.preload_residual = euclidean_residual(r.reduced->vectors, rest.displacement);
+        r.report.preload_residual = euclidean_remainder(r.reduced->vectors, rest.displacement);
         r.report.preload_residual_mass = relative_remainder(conditioned.coordinates, rest.coordinates);
     }
     return r;
@@ -289,10 +264,9 @@ std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> 
                                          std::move(known));
 }
 
-double projection_residual(const Basis &basis, bool is_static, bool use_mass, const double *q_free) {
-    const Matrix &p = is_static ? basis.reduced()->static_vectors() : basis.reduced()->vectors;
-    const vector<double> q(q_free, q_free + p.rows());
-    return use_mass ? mass_residual(p, basis.model()->mass(), q) : euclidean_residual(p, q);
+double projection_residual(const Basis &basis, bool is_static, bool use_mass, const Field &q) {
+    const Field &p = is_static ? basis.reduced()->static_vectors() : basis.reduced()->vectors;
+    return use_mass ? mass_residual(*basis.model(), p, q) : euclidean_remainder(p, q);
 }
 
 } // namespace plm

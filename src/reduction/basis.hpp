@@ -64,6 +64,6 @@ std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> 
                                              std::shared_ptr<const Space> known = nullptr);
 
 /// r of paper eq. (12) for any vector over the free DOFs, against P (or P_0).
-double projection_residual(const Basis &basis, bool is_static, bool use_mass, const double *q_free);
+double projection_residual(const Basis &basis, bool is_static, bool use_mass, const Field &q);
 
 } // namespace plm

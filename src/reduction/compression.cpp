@@ -94,7 +94,7 @@ void reduce_statics(const ReducedModel &from, Matrix y, const Matrix &beside, Re
         to.lambda_0 = c.lambda;
         to.n_massless_0 = c.n_massless;
         to.gap_0 = product('N', 'N', from.whole_gap_0(), c.y);
-        to.vectors_0 = product('N', 'N', from.static_vectors(), c.y);
+        to.vectors_0 = combine(from.static_vectors(), c.y);
         y = c.y;
     }
     const auto projected = [&](const vector<double> &f) {

@@ -14,7 +14,7 @@ namespace {
 
 vector<char> reference_contact(const Space &space) {
     if (is_homogeneous(*space.model)) return contact_set(LinearSystem::sliding, space.n_pairs());
-    return solve_rest(space).closed;
+    return rest_of(space)->closed;
 }
 
 // B K_ref^-1 B^T without rigid-body motion, negated: the softest patterns first.

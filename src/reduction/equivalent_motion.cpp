@@ -19,7 +19,7 @@ constexpr double settled_change = 1e-6; // of the largest share, which is tiny w
 class MeanEquilibrium {
   public:
     explicit MeanEquilibrium(const Space &space)
-        : space_(space), pivot_(space.lambda), load_(space.preload), mean_(solve_rest(space).coordinates) {
+        : space_(space), pivot_(space.lambda), load_(space.preload), mean_(rest_of(space)->coordinates) {
         // Rigid-body motion that nothing holds drifts until contact is lost; a tiny stiffness lets it end.
         double flexible = 1;
         for (auto l = pivot_.rbegin(); l != pivot_.rend() && *l > 0; ++l) flexible = *l;

@@ -73,14 +73,14 @@ std::shared_ptr<const ReducedModel> project(const Space &space, const Coordinate
     reduced->lambda = dynamic.lambda;
     reduced->n_massless = dynamic.n_massless;
     reduced->gap = product('N', 'N', space.gap, dynamic.y);
-    reduced->vectors = product('N', 'N', space.vectors, dynamic.y);
+    reduced->vectors = combine(space.vectors, dynamic.y);
     project_damping(space, dynamic, *reduced);
     reduced->same_static = statics.same;
     if (!statics.same) {
         reduced->lambda_0 = statics.coordinates.lambda;
         reduced->n_massless_0 = statics.coordinates.n_massless;
         reduced->gap_0 = product('N', 'N', space.gap, y_0);
-        reduced->vectors_0 = product('N', 'N', space.vectors, y_0);
+        reduced->vectors_0 = combine(space.vectors, y_0);
     }
     reduced->preload_0 = project_vector(y_0, space.preload);
     for (const auto &[harmonic, load] : space.excitation) {

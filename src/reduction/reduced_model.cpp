@@ -3,9 +3,8 @@
 
 namespace plm {
 
-Matrix static_coordinates_of(const ReducedModel &m, const Matrix &motions) {
-    return coordinates_of(motions, m.static_vectors(), m.lambda_0, m.n_massless_0, m.model->mass(),
-                          m.model->stiffness());
+Matrix static_coordinates_of(const ReducedModel &m, const Field &motions) {
+    return coordinates_of(*m.model, motions, m.static_vectors(), m.lambda_0, m.n_massless_0);
 }
 
 } // namespace plm

@@ -28,7 +28,7 @@ struct ReducedModel {
     Matrix gap_0; // B P_0: Z x r_0
     // loads
     vector<double> preload_0;               // P_0^T F_preload, r_0 (zeros without pre-load)
-    std::map<int, HarmonicLoad> excitation; // h >= 1: r; h = 0: r_0
+    HarmonicLoads excitation; // h >= 1: r; h = 0: r_0
     // contact
     vector<double> contact_stiffness, initial_gap;
     // Node sampling: all of the above about contact is of the pairs in `carried` only, their stiffness
@@ -36,8 +36,8 @@ struct ReducedModel {
     vector<std::int64_t> carried;
     std::shared_ptr<const AllPairs> all_pairs;
     // recovery: q = P eta
-    Matrix vectors;   // n_free x r
-    Matrix vectors_0; // n_free x r_0, empty when same_static
+    Field vectors;   // n_free x r
+    Field vectors_0; // n_free x r_0, empty when same_static
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }
     std::int64_t static_size() const { return static_cast<std::int64_t>(lambda_0.size()); }
@@ -54,10 +54,10 @@ struct ReducedModel {
         return all_pairs ? all_pairs->initial_gap : initial_gap;
     }
     std::int64_t n_whole_pairs() const { return whole_gap().rows(); }
-    const Matrix &static_vectors() const { return same_static ? vectors : vectors_0; }
+    const Field &static_vectors() const { return same_static ? vectors : vectors_0; }
 };
 
 /// P_0 coordinates of motions q over the free DOFs (n_free x k).
-Matrix static_coordinates_of(const ReducedModel &reduced, const Matrix &motions);
+Matrix static_coordinates_of(const ReducedModel &reduced, const Field &motions);
 
 } // namespace plm

@@ -13,7 +13,7 @@ vector<char> contact_set(LinearSystem system, std::int64_t n_pairs) {
 
 bool is_homogeneous(const Model &model) {
     const auto zero = [](double v) { return v == 0; };
-    return std::all_of(model.preload().begin(), model.preload().end(), zero) &&
+    return !model.has_preload() &&
            std::all_of(model.initial_gap().begin(), model.initial_gap().end(), zero);
 }
 

@@ -93,12 +93,12 @@ Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &optio
         warnings_ = Warnings(); // those of the last round stand
         watch = host.keeping(warnings_);
         space_ = make_contact_space(model, highest, least_modes(options), watch, space_);
-        rest_ = solve_rest(*space_);
-        dominant_ = find_dominant_modes(*space_, rest_, homogeneous, options, watch);
+        rest_ = rest_of(*space_);
+        dominant_ = find_dominant_modes(*space_, *rest_, homogeneous, options, watch);
         sweeps_.clear();
         for (const DominantMode &d : dominant_)
-            sweeps_.push_back(sweep_of(*space_, rest_, homogeneous, d, watch));
-        window_ = find_window(*space_, dominant_.front(), sweeps_.front(), rest_, options, watch);
+            sweeps_.push_back(sweep_of(*space_, *rest_, homogeneous, d, watch));
+        window_ = find_window(*space_, dominant_.front(), sweeps_.front(), *rest_, options, watch);
         const double needed =
             2 * M_PI * space_margin * static_cast<double>(options.n_harmonics) * window_.max_hz;
         if (space_->highest_frequency >= needed) break;

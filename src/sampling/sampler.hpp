@@ -14,7 +14,7 @@ class Sampler {
 
     const SamplerOptions &options() const { return options_; }
     const std::shared_ptr<const Space> &space() const { return space_; }
-    const RestState &rest() const { return rest_; }
+    const RestState &rest() const { return *rest_; }
     const std::vector<DominantMode> &dominant() const { return dominant_; } // first: the main one
     const std::vector<ContactSweep> &sweeps() const { return sweeps_; }     // one per dominant mode
     const std::vector<SelectedSample> &samples() const {
@@ -26,7 +26,7 @@ class Sampler {
   private:
     SamplerOptions options_;
     std::shared_ptr<const Space> space_;
-    RestState rest_;
+    std::shared_ptr<const RestState> rest_;
     std::vector<DominantMode> dominant_;
     std::vector<ContactSweep> sweeps_;
     std::vector<SelectedSample> samples_;

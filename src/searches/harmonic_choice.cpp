@@ -188,15 +188,9 @@ namespace {
 std::string most_moved(const Branch &branch, const BranchPoint &p) {
     const ReducedModel &m = branch.reduced();
     if (!m.model || p.eta.cols() < 2) return {};
-    const Matrix q = product('N', 'N', m.vectors, p.eta.columns(0, 2));
-    double most = 0;
-    std::int64_t row = 0;
-    for (std::int64_t i = 0; i < q.rows(); ++i) {
-        const double size = std::hypot(q(i, 0), q(i, 1));
-        if (size > most) most = size, row = i;
-    }
-    return format(", where DOF %lld moves most, by %.4g",
-                  static_cast<long long>(m.model->free_dof()[static_cast<std::size_t>(row)]), most);
+    const LargestEntry most = largest_entry(combine(m.vectors, p.eta.columns(0, 2)));
+    return format(", where DOF %lld moves most, by %.4g", static_cast<long long>(m.model->dof(most.row)),
+                  most.size);
 }
 
 std::string remedy(const HbmOptions &o, const BranchPoint &p) {

@@ -274,14 +274,8 @@ class ModePath final : public PathOwner {
     double asked_amplitude() const {
         if (options_.dof < 0 || !(options_.dof_amplitude_max > 0)) return 0;
         const std::int64_t row = m_->model->free_index(options_.dof);
-        double swing = 0;
-        for (std::int64_t j = 0; j < m_->size() && row >= 0; ++j) swing += m_->vectors(row, j) * shape_[j];
-        double most = 0;
-        for (std::int64_t i = 0; i < m_->vectors.rows(); ++i) {
-            double v = 0;
-            for (std::int64_t j = 0; j < m_->size(); ++j) v += m_->vectors(i, j) * shape_[j];
-            most = std::max(most, std::abs(v));
-        }
+        const Field mode = combine(m_->vectors, shape_);
+        const double swing = row < 0 ? 0 : mode.at(row, 0), most = largest_entry(mode).size;
         if (!(std::abs(swing) > 1e-6 * most))
             throw Error(PLM_ERR_ARGUMENT, "this mode does not move the DOF; name one that it moves")
                 .argument("dof");

@@ -1,6 +1,5 @@
 #include "space/audit.hpp"
 #include "linalg/lapack.hpp"
-#include "structure/eigs.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -44,11 +43,11 @@ class Audit {
     // Only what the matrices tell: how many DOFs a node has is not known otherwise.
     void mass() {
         if (m_.translations().empty()) {
-            add(0, trace(m_.mass()),
+            add(0, m_.trace_of_mass(),
                 format("which DOFs are translations cannot be told from K (it holds supports already, or the "
                        "DOFs "
                        "are not numbered node by node); the diagonal of the mass matrix sums up to %g",
-                       trace(m_.mass())));
+                       m_.trace_of_mass()));
             return;
         }
         double smallest = INFINITY, largest = 0;
@@ -71,10 +70,7 @@ class Audit {
     }
 
     void massless_dofs() {
-        std::int64_t count = m_.n_free();
-        for (std::int64_t j = 0; j < m_.mass().cols; ++j)
-            for (std::int64_t p = m_.mass().ptr[j]; p < m_.mass().ptr[j + 1]; ++p)
-                if (m_.mass().idx[p] == j && m_.mass().val[p] > 0) --count;
+        const std::int64_t count = m_.n_massless_dofs();
         if (count > 0)
             add(1, static_cast<double>(count),
                 format("%lld free DOFs have no mass; they follow quasi-statically. Give them their (rotary) "
@@ -84,7 +80,7 @@ class Audit {
     }
 
     void rigid_modes() {
-        const std::int64_t n = m_.rigid_modes().cols();
+        const std::int64_t n = m_.n_rigid();
         if (n == 0) {
             add(0, 0, "no rigid-body mode: the structure is held while its contacts are open");
             return;
@@ -109,15 +105,9 @@ class Audit {
 
     // Rank of the gaps' answer to rigid motion: B R, each row over what its terms are before they cancel.
     std::int64_t held_by_contact() const {
-        const Matrix &rigid = m_.rigid_modes();
         if (m_.n_pairs() == 0) return 0;
-        Matrix size = rigid;
-        for (std::int64_t j = 0; j < size.cols(); ++j)
-            for (std::int64_t i = 0; i < size.rows(); ++i) size(i, j) = std::abs(size(i, j));
-        SparseMatrix rows = m_.gap_matrix();
-        Matrix answer = multiply(rows, rigid);
-        for (double &v : rows.val) v = std::abs(v);
-        const Matrix terms = multiply(rows, size);
+        Matrix answer = m_.gap_rows().of(m_.rigid_modes());
+        const Matrix terms = m_.gap_rows().terms_of(m_.rigid_modes());
         for (std::int64_t i = 0; i < answer.rows(); ++i) {
             double scale = 0;
             for (std::int64_t j = 0; j < answer.cols(); ++j) scale = std::max(scale, terms(i, j));
@@ -130,7 +120,7 @@ class Audit {
     }
 
     void conditioning() {
-        const double condition = m_.factor().reciprocal_condition();
+        const double condition = m_.reciprocal_condition();
         add(condition < 1e-12 ? 1 : 0, condition,
             format("reciprocal condition of the factored %s, estimated from its pivots: %.1e%s",
                    m_.shift() > 0 ? "K + sigma M" : "stiffness", condition,
@@ -150,10 +140,9 @@ class Audit {
     }
 
     void frequencies() {
-        const std::int64_t rigid = m_.rigid_modes().cols();
+        const std::int64_t rigid = m_.n_rigid();
         if (rigid >= m_.n_free()) return;
-        const EigenPairs pairs =
-            lowest_eigenpairs(m_.stiffness(), m_.mass(), m_.factor(), -m_.shift(), rigid + 1);
+        const StructureModes pairs = m_.lowest_modes(rigid + 1);
         if (static_cast<std::int64_t>(pairs.values.size()) <= rigid) return;
         const double hz = std::sqrt(std::max(0.0, pairs.values[rigid])) / (2 * M_PI);
         const bool odd = !(hz >= 1e-3 && hz <= 1e7);
@@ -175,14 +164,13 @@ class Audit {
     }
 
     void loads() {
-        double preload = m_.has_preload() ? norm2(m_.n_free(), m_.preload().data()) : 0;
+        double preload = m_.has_preload() ? column_norms(m_.preload())[0] : 0;
         add(0, preload,
             m_.has_preload() ? format("static pre-load, norm %g", preload) : "no static pre-load");
         double dynamic = 0;
         for (const auto &[harmonic, load] : m_.excitation()) {
             if (harmonic == 0) continue;
-            dynamic = std::hypot(dynamic, norm2(m_.n_free(), load.real.data()));
-            dynamic = std::hypot(dynamic, norm2(m_.n_free(), load.imag.data()));
+            dynamic = std::hypot(dynamic, column_norms(load.real)[0], column_norms(load.imag)[0]);
         }
         if (dynamic > 0)
             add(0, dynamic, format("harmonic excitation, norm %g", dynamic));
@@ -212,21 +200,19 @@ class Audit {
 
     // A reversed sign shows here at a glance.
     std::string closing_motion() const {
-        const SparseMatrix rows = transpose(m_.gap_matrix());
-        std::int64_t strongest = rows.ptr[0];
-        for (std::int64_t p = rows.ptr[0]; p < rows.ptr[1]; ++p)
-            if (std::abs(rows.val[p]) > std::abs(rows.val[strongest])) strongest = p;
-        return format("motion of DOF %lld in its %s direction closes pair 0",
-                      Int(m_.free_dof()[rows.idx[strongest]]),
-                      rows.val[strongest] > 0 ? "positive" : "negative");
+        const auto row = m_.gap_rows().rows().front();
+        GapRows::Term strongest = row.front();
+        for (const GapRows::Term &t : row)
+            if (std::abs(t.coefficient) > std::abs(strongest.coefficient)) strongest = t;
+        return format("motion of DOF %lld in its %s direction closes pair 0", Int(m_.dof(strongest.dof)),
+                      strongest.coefficient > 0 ? "positive" : "negative");
     }
 
     // The linear answer of the open structure to the pre-load; B K^-1 f from the attachment vectors that are
     // there.
     void opened_by_preload() {
-        if (!m_.has_preload() || m_.rigid_modes().cols() > 0) return;
-        vector<double> u(m_.n_pairs(), 0.0);
-        gemv('T', 1.0, m_.attachment(), m_.preload().data(), 0.0, u.data());
+        if (!m_.has_preload() || m_.n_rigid() > 0) return;
+        vector<double> u = projected(m_.attachment(), m_.preload());
         for (std::int64_t i = 0; i < m_.n_pairs(); ++i) u[i] -= m_.initial_gap()[i];
         const double closest = *std::max_element(u.begin(), u.end());
         if (closest >= 0) return;
@@ -241,14 +227,14 @@ class Audit {
     void rotations() {
         const vector<Translation> &known = m_.translations();
         if (known.empty() || known.front().step < 2) return;
-        const SparseMatrix rows = transpose(m_.gap_matrix());
+        const auto rows = m_.gap_rows().rows();
         std::int64_t turned = 0, one = -1;
-        for (std::int64_t i = 0; i < rows.cols; ++i) {
-            const bool moves = std::any_of(
-                rows.idx.data() + rows.ptr[i], rows.idx.data() + rows.ptr[i + 1], [&](std::int64_t k) {
-                    return std::any_of(known.begin(), known.end(),
-                                       [&](const Translation &t) { return t.holds(m_.free_dof()[k]); });
-                });
+        for (std::int64_t i = 0; i < m_.n_pairs(); ++i) {
+            const auto &row = rows[static_cast<std::size_t>(i)];
+            const bool moves = std::any_of(row.begin(), row.end(), [&](const GapRows::Term &g) {
+                return std::any_of(known.begin(), known.end(),
+                                   [&](const Translation &t) { return t.holds(m_.dof(g.dof)); });
+            });
             if (!moves && turned++ == 0) one = i;
         }
         if (turned > 0)
@@ -257,19 +243,19 @@ class Audit {
                        "use a "
                        "rotation, or numbers that are off by one? Translations are DOFs %lld, %lld, ... "
                        "counted from 0",
-                       Int(turned), Int(one), Int(m_.free_dof()[rows.idx[rows.ptr[one]]]),
+                       Int(turned), Int(one), Int(m_.dof(rows[static_cast<std::size_t>(one)].front().dof)),
                        Int(known.front().first), Int(known.front().first + known.front().step)));
     }
 
     // Rows as (DOF, coefficient) lists; equal ones share a key.
     void repeated_rows() {
-        const SparseMatrix rows = transpose(m_.gap_matrix());
+        const auto rows = m_.gap_rows().rows();
         std::map<std::vector<std::pair<std::int64_t, double>>, std::int64_t> first;
         std::int64_t repeated = 0, one = 0, other = 0;
-        for (std::int64_t i = 0; i < rows.cols; ++i) {
+        for (std::int64_t i = 0; i < m_.n_pairs(); ++i) {
             std::vector<std::pair<std::int64_t, double>> row;
-            for (std::int64_t p = rows.ptr[i]; p < rows.ptr[i + 1]; ++p)
-                row.emplace_back(rows.idx[p], rows.val[p]);
+            for (const GapRows::Term &t : rows[static_cast<std::size_t>(i)])
+                row.emplace_back(t.dof, t.coefficient);
             const auto [place, fresh] = first.emplace(std::move(row), i);
             if (fresh) continue;
             if (repeated++ == 0) one = place->second, other = i;
@@ -284,16 +270,15 @@ class Audit {
     // A pair of nodes moved together keeps its gap: the coefficients of a row cancel, unless a side is ground
     // or fixed.
     void row_balance() {
-        const SparseMatrix rows = transpose(m_.gap_matrix());
         std::int64_t unbalanced = 0, scaled = 0;
-        for (std::int64_t i = 0; i < rows.cols; ++i) {
+        for (const auto &row : m_.gap_rows().rows()) {
             double sum = 0, positive = 0, negative = 0;
-            for (std::int64_t p = rows.ptr[i]; p < rows.ptr[i + 1]; ++p) {
-                sum += rows.val[p];
-                (rows.val[p] > 0 ? positive : negative) += rows.val[p] * rows.val[p];
+            for (const GapRows::Term &t : row) {
+                sum += t.coefficient;
+                (t.coefficient > 0 ? positive : negative) += t.coefficient * t.coefficient;
             }
             const double side = std::sqrt(std::max(positive, negative));
-            const bool two_sided = positive > 0 && negative > 0 && rows.ptr[i + 1] - rows.ptr[i] == 2;
+            const bool two_sided = positive > 0 && negative > 0 && row.size() == 2;
             unbalanced += two_sided && std::abs(sum) > 1e-6 * side;
             scaled += side > 1.5 || side < 0.3;
         }

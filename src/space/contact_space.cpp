@@ -5,8 +5,6 @@
 #include "linalg/lapack.hpp"
 #include "space/massless.hpp"
 #include "space/space.hpp"
-#include "structure/eigs.hpp"
-#include "structure/solver/make_factor.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -19,26 +17,13 @@ namespace {
 // precision is left out, since a soft support may stand between them.
 constexpr double far_above_the_first = 3e4;
 
-constexpr std::int64_t cannot_tell = -1, hit_a_mode = -2; // no count: for good, or at this frequency
+constexpr std::int64_t cannot_tell = -2, hit_a_mode = -1; // no count: for good, or at this frequency
 
-// Number of open modes below the cutoff by Sylvester's law of inertia, if there is one.
-std::int64_t count_below(const Model &model, double cutoff) {
-    if (!tells_inertia(model.host_solver())) return cannot_tell;
-    const SparseMatrix shifted = add(1.0, model.stiffness(), -cutoff * cutoff, model.mass());
-    try {
-        return make_factor(shifted, FactorKind::indefinite, model.host_solver())->negative_eigenvalues();
-    } catch (const Error &e) {
-        if (e.status() != PLM_ERR_SINGULAR) throw;
-        return hit_a_mode; // the caller moves the cutoff
-    }
-}
-
-EigenPairs modes_with_growth(const Model &model, std::int64_t first_guess, double cutoff,
-                             const EigsOptions &options) {
+StructureModes modes_with_growth(const Model &model, std::int64_t first_guess, double cutoff,
+                                 const std::function<bool()> &cancelled) {
     std::int64_t wanted = std::min(first_guess, model.n_free());
     for (;;) {
-        EigenPairs pairs = lowest_eigenpairs(model.stiffness(), model.mass(), model.factor(), -model.shift(),
-                                             wanted, options);
+        StructureModes pairs = model.lowest_modes(wanted, cancelled);
         const std::int64_t found = static_cast<std::int64_t>(pairs.values.size());
         if (found < wanted || wanted == model.n_free() || pairs.values.back() >= cutoff * cutoff)
             return pairs;
@@ -51,8 +36,7 @@ class ContactSpaceBuilder {
     ContactSpaceBuilder(std::shared_ptr<const Model> model, double highest, std::int64_t least_modes,
                         Watch watch, const Space *previous)
         : model_(std::move(model)), previous_(previous), space_(std::make_shared<Space>()), highest_(highest),
-          least_modes_(least_modes), watch_(watch), sigma_(model_->shift()),
-          shifted_(sigma_ > 0 ? add(1.0, model_->stiffness(), sigma_, model_->mass()) : SparseMatrix()) {
+          least_modes_(least_modes), watch_(watch), sigma_(model_->shift()) {
         space_->model = model_;
         space_->highest_frequency = highest;
         space_->is_contact_space = true;
@@ -82,27 +66,24 @@ class ContactSpaceBuilder {
     }
 
   private:
-    const SparseMatrix &shifted() const { return sigma_ > 0 ? shifted_ : model_->stiffness(); }
-
     void exact_modes() {
         watch_.step("open modes", 0.0);
-        EigsOptions options;
-        options.cancelled = [this] { return watch_.cancelled("open modes", 0.3); };
+        const auto cancelled = [this] { return watch_.cancelled("open modes", 0.3); };
         const double cutoff = highest_ * model_->space_options().cutoff_factor;
         double checked = cutoff;
         const std::int64_t count = verified_count(checked);
         std::int64_t guess = std::max<std::int64_t>(least_modes_, count >= 0 ? count : 20);
-        guess = std::max(guess, model_->rigid_modes().cols() + 1);
-        EigenPairs pairs = previous_modes(guess, cutoff);
+        guess = std::max(guess, model_->n_rigid() + 1);
+        StructureModes pairs = previous_modes(guess, cutoff);
         if (pairs.values.empty())
-            pairs = modes_with_growth(*model_, guess, count >= 0 ? 0.0 : cutoff, options);
+            pairs = modes_with_growth(*model_, guess, count >= 0 ? 0.0 : cutoff, cancelled);
         if (count >= 0) {
             const auto below = [&] {
                 return std::upper_bound(pairs.values.begin(), pairs.values.end(), checked * checked) -
                        pairs.values.begin();
             };
             for (int attempt = 0; attempt < 3 && below() < count; ++attempt)
-                pairs = modes_with_growth(*model_, count + 10 * (attempt + 1), 0.0, options);
+                pairs = modes_with_growth(*model_, count + 10 * (attempt + 1), 0.0, cancelled);
             if (below() != count)
                 throw Error(
                     PLM_ERR_EIGENSOLVER,
@@ -112,32 +93,34 @@ class ContactSpaceBuilder {
             space_->counts_verified = true;
         }
         const std::int64_t n_rigid =
-            std::min<std::int64_t>(model_->rigid_modes().cols(), pairs.values.size());
+            std::min<std::int64_t>(model_->n_rigid(), pairs.values.size());
         std::fill(pairs.values.begin(), pairs.values.begin() + n_rigid, 0.0); // exactly
         const double flexible = flexible_eigenvalue(pairs.values);
         reach_ = highest_ > 0 ? highest_ : far_above_the_first * std::sqrt(flexible);
         leave_out_followers(pairs);
         modes_ = std::move(pairs);
-        mass_modes_ = multiply(model_->mass(), modes_.vectors);
+        mass_modes_ = model_->mass_times(modes_.vectors);
         next_lambda_ = modes_.values.empty() ? 0 : modes_.values.back();
     }
 
     // What the modes found have to agree with; `frequency` moves a little where it hits a mode.
     std::int64_t verified_count(double &frequency) const {
         if (!(frequency > 0) || !model_->space_options().verify_counts) return cannot_tell;
+        if (!model_->counts_modes()) {
+            watch_.log(1, unverified());
+            return cannot_tell;
+        }
         std::int64_t count = hit_a_mode;
         for (int attempt = 0; attempt < 3 && count == hit_a_mode; ++attempt) {
             if (attempt > 0) frequency *= 1.003;
             watch_.step("count of open modes", 0.1); // a factorization, which hears nobody
-            count = count_below(*model_, frequency);
+            count = model_->count_modes_below(frequency);
         }
         if (count == hit_a_mode)
             watch_.warn(PLM_REASON_UNVERIFIED,
                         format("the number of open modes below %.6g Hz could not be verified: K - w^2 M is "
                                "singular there and just above; compare with another cutoff_factor",
                                frequency / (2 * M_PI)));
-        else if (count == cannot_tell)
-            watch_.log(1, unverified());
         return count;
     }
 
@@ -147,7 +130,7 @@ class ContactSpaceBuilder {
     }
 
     // "Modes" of next to no mass: what they carry of the contact forces is among the attachment vectors.
-    void leave_out_followers(EigenPairs &pairs) const {
+    void leave_out_followers(StructureModes &pairs) const {
         const double limit = reach_ * reach_ / negligible_inertia;
         std::int64_t kept = 0;
         for (double l : pairs.values) kept += l < limit;
@@ -157,8 +140,8 @@ class ContactSpaceBuilder {
     }
 
     // The exact modes of the earlier space come first in it; empty when they do not reach far enough.
-    EigenPairs previous_modes(std::int64_t wanted, double cutoff) const {
-        EigenPairs pairs;
+    StructureModes previous_modes(std::int64_t wanted, double cutoff) const {
+        StructureModes pairs;
         if (!previous_ || previous_->n_exact_modes < wanted ||
             previous_->lambda[previous_->n_exact_modes - 1] < cutoff * cutoff)
             return pairs;
@@ -168,96 +151,88 @@ class ContactSpaceBuilder {
     }
 
     double flexible_eigenvalue(const vector<double> &values) const {
-        const std::size_t rigid = static_cast<std::size_t>(model_->rigid_modes().cols());
+        const std::size_t rigid = static_cast<std::size_t>(model_->n_rigid());
         return rigid < values.size() ? values[rigid] : 1.0;
     }
 
     // The part of X outside the exact modes; those keep both M- and K-orthogonality by being eigenvectors.
-    void deflate(Matrix &x) const {
+    void deflate(Field &x) const {
         if (modes_.vectors.cols() == 0) return;
-        for (int pass = 0; pass < 2; ++pass) {
-            const Matrix c = product('T', 'N', mass_modes_, x);
-            gemm('N', 'N', -1.0, modes_.vectors, c, 1.0, x);
-        }
+        for (int pass = 0; pass < 2; ++pass)
+            add_combination(-1.0, modes_.vectors, gram(mass_modes_, x), x);
     }
 
-    Matrix load_responses() const {
-        Matrix loads;
-        const auto add_load = [&](const vector<double> &f) {
-            if (std::all_of(f.begin(), f.end(), [](double v) { return v == 0; })) return;
-            Matrix column(model_->n_free(), 1);
-            std::copy(f.begin(), f.end(), column.data());
-            loads.append(column);
-        };
-        add_load(model_->preload());
-        for (const auto &entry : model_->excitation()) {
-            add_load(entry.second.real);
-            add_load(entry.second.imag);
-        }
-        if (!loads.empty()) model_->factor().solve(loads);
+    Field load_responses() const {
+        Field loads = load_columns(model_->preload(), model_->excitation(), model_->n_free());
+        if (!loads.empty()) model_->solve(loads);
         return loads;
     }
 
     // Columns scaled to unit energy; those that the exact modes already contain are dropped.
     void static_block() {
         watch_.step("contact space", 0.4);
-        Matrix x = model_->attachment();
+        Field x = model_->attachment();
         x.append(load_responses());
         if (x.empty()) return;
-        vector<double> before = energies(x);
+        const vector<double> before = energies(x);
         deflate(x);
         const vector<double> after = energies(x);
-        Matrix kept(x.rows(), 0);
+        vector<std::int64_t> kept;
+        vector<double> scale;
         for (std::int64_t j = 0; j < x.cols(); ++j) {
             if (after[j] <= 1e-20 * before[j]) continue;
-            Matrix column = x.columns(j, 1);
-            const double scale = 1 / std::sqrt(after[j]);
-            for (std::int64_t i = 0; i < x.rows(); ++i) column(i, 0) *= scale;
-            kept.append(column);
+            kept.push_back(j);
+            scale.push_back(1 / std::sqrt(after[j]));
         }
-        add_orthonormal(kept, 1e-13);
+        x = x.columns(kept);
+        x.scale(scale);
+        add_orthonormal(x, 1e-13);
     }
 
-    vector<double> energies(const Matrix &x) const {
-        const Matrix kx = multiply(shifted(), x);
-        vector<double> e(x.cols());
-        for (std::int64_t j = 0; j < x.cols(); ++j) e[j] = std::max(0.0, dot(x.rows(), x.col(j), kx.col(j)));
+    vector<double> energies(const Field &x) const {
+        vector<double> e = column_products(x, model_->shifted_times(x));
+        for (double &v : e) v = std::max(0.0, v);
         return e;
     }
 
     // Appends to basis_ a K-orthonormal basis of the columns of x, leaving out what weighs less than `drop`
     // (squared).
-    bool add_orthonormal(Matrix &x, double drop) {
+    bool add_orthonormal(Field &x, double drop) {
         if (x.cols() == 0) return false;
         for (int pass = 0; pass < 2 && basis_.cols() > 0; ++pass)
-            gemm('N', 'N', -1.0, basis_, product('T', 'N', stiff_basis_, x), 1.0, x);
-        Matrix y = x;
+            add_combination(-1.0, basis_, gram(stiff_basis_, x), x);
+        Field y = x;
         for (int pass = 0; pass < 2; ++pass) { // the second pass repairs what the first lost to rounding
-            const SymmetricEigen gram = symmetric_eigen(product('T', 'N', y, multiply(shifted(), y)));
-            const double largest = gram.values.back();
+            const SymmetricEigen energy = symmetric_eigen(gram(y, model_->shifted_times(y)));
+            const double largest = energy.values.back();
             const double least = pass == 0 ? std::max(drop, 1e-14 * largest) : 0.1;
             Matrix t(y.cols(), 0);
             for (std::int64_t j = 0; j < y.cols(); ++j) {
-                if (gram.values[j] < least) continue;
-                Matrix column = gram.vectors.columns(j, 1);
-                for (std::int64_t i = 0; i < y.cols(); ++i) column(i, 0) /= std::sqrt(gram.values[j]);
+                if (energy.values[j] < least) continue;
+                Matrix column = energy.vectors.columns(j, 1);
+                for (std::int64_t i = 0; i < y.cols(); ++i) column(i, 0) /= std::sqrt(energy.values[j]);
                 t.append(column);
             }
             if (t.cols() == 0) return false;
-            y = product('N', 'N', y, t);
+            y = combine(y, t);
         }
         newest_ = y;
         basis_.append(y);
-        stiff_basis_.append(multiply(shifted(), y));
+        stiff_basis_.append(model_->shifted_times(y));
         rayleigh_ritz();
         return true;
     }
 
+    // -Y^T M Y: the slowest come first among its eigenvalues.
+    Matrix negative_inertia(const Field &y) const {
+        Matrix inertia = gram(y, model_->mass_times(y));
+        for (std::int64_t k = 0; k < inertia.rows() * inertia.cols(); ++k) inertia.data()[k] *= -1;
+        return inertia;
+    }
+
     // Diagonalises M in the K-orthonormal basis: compliances mu = 1 / (lambda + sigma), descending.
     void rayleigh_ritz() {
-        Matrix gram = product('T', 'N', basis_, multiply(model_->mass(), basis_));
-        for (std::int64_t k = 0; k < gram.rows() * gram.cols(); ++k) gram.data()[k] *= -1; // slowest first
-        ritz_ = symmetric_eigen(gram);
+        ritz_ = symmetric_eigen(negative_inertia(basis_));
         for (double &mu : ritz_.values) mu = std::max(-mu, 0.0); // 0: no mass
     }
 
@@ -265,16 +240,13 @@ class ContactSpaceBuilder {
     bool next_block() {
         const double reach = highest_ * highest_ + sigma_;
         const double least = 0.03 * std::sqrt(model_->space_options().tolerance);
-        Matrix gram = product('T', 'N', newest_, multiply(model_->mass(), newest_));
-        for (std::int64_t k = 0; k < gram.rows() * gram.cols(); ++k) gram.data()[k] *= -1; // slowest first
-        const SymmetricEigen slow = symmetric_eigen(gram);
+        const SymmetricEigen slow = symmetric_eigen(negative_inertia(newest_));
         std::int64_t count = 0;
-        while (count < gram.cols() && -slow.values[count] * reach > least) ++count;
+        while (count < newest_.cols() && -slow.values[count] * reach > least) ++count;
         if (count == 0) return false;
-        Matrix x = product('N', 'N', newest_, slow.vectors.columns(0, count));
-        x = multiply(model_->mass(), x);
-        for (std::int64_t k = 0; k < x.rows() * x.cols(); ++k) x.data()[k] *= reach;
-        model_->factor().solve(x);
+        Field x = model_->mass_times(combine(newest_, slow.vectors.columns(0, count)));
+        x.scale(vector<double>(count, reach));
+        model_->solve(x);
         deflate(x);
         return add_orthonormal(x, least * least);
     }
@@ -284,59 +256,50 @@ class ContactSpaceBuilder {
     // M)^-1 r.
     double receptance_error() const {
         if (basis_.cols() == 0) return 0;
-        Matrix probes(model_->n_free(), 0);
+        double worst = 0;
         std::uint64_t state = 88172645463325252ull;
         for (int p = 0; p < 3 && model_->n_pairs() > 0; ++p) {
-            vector<double> signs(model_->n_pairs());
-            for (double &s : signs) {
+            Matrix signs(model_->n_pairs(), 1);
+            for (std::int64_t i = 0; i < signs.rows(); ++i) {
                 state ^= state << 13, state ^= state >> 7, state ^= state << 17;
-                s = (state >> 40) & 1 ? 1.0 : -1.0;
+                signs(i, 0) = (state >> 40) & 1 ? 1.0 : -1.0;
             }
-            Matrix column(model_->n_free(), 1);
-            multiply_transposed(model_->gap_matrix(), signs.data(), column.data());
-            probes.append(column);
+            worst = std::max(worst, probe_error(model_->gap_rows().forces(signs)));
         }
-        double worst = 0;
-        for (std::int64_t j = 0; j < probes.cols(); ++j)
-            worst = std::max(worst, probe_error(probes.columns(j, 1)));
-        for (const auto &entry : model_->excitation()) {
-            Matrix column(model_->n_free(), 1);
-            std::copy(entry.second.real.begin(), entry.second.real.end(), column.data());
-            worst = std::max(worst, probe_error(column));
-        }
+        for (const auto &entry : model_->excitation()) worst = std::max(worst, probe_error(entry.second.real));
         return worst;
     }
 
-    double probe_error(Matrix b) const {
-        Matrix whole = b;
-        model_->factor().solve(whole);
-        const double compliance = dot(b.rows(), b.data(), whole.data());
+    double probe_error(Field b) const {
+        Field whole = b;
+        model_->solve(whole);
+        const double compliance = column_products(b, whole)[0];
         if (!(compliance > 0)) return 0;
         // Only the part outside the exact modes can be wrong.
-        gemm('N', 'N', -1.0, mass_modes_, product('T', 'N', modes_.vectors, b), 1.0, b);
+        add_combination(-1.0, mass_modes_, gram(modes_.vectors, b), b);
         const double w2 = highest_ * highest_;
-        Matrix z = product('T', 'N', ritz_.vectors, product('T', 'N', basis_, b));
+        Matrix z = product('T', 'N', ritz_.vectors, gram(basis_, b));
         for (std::int64_t k = 0; k < z.rows(); ++k) z(k, 0) /= 1 - (w2 + sigma_) * ritz_.values[k];
-        const Matrix x = product('N', 'N', basis_, product('N', 'N', ritz_.vectors, z));
-        Matrix r = b;
-        const Matrix kx = multiply(shifted(), x), mx = multiply(model_->mass(), x);
-        for (std::int64_t i = 0; i < r.rows(); ++i) r(i, 0) -= kx(i, 0) - (w2 + sigma_) * mx(i, 0);
-        Matrix e = r;
-        model_->factor().solve(e);
+        const Field x = combine(basis_, product('N', 'N', ritz_.vectors, z));
+        Field r = b;
+        add(-1.0, model_->shifted_times(x), r);
+        add(w2 + sigma_, model_->mass_times(x), r);
+        Field e = r;
+        model_->solve(e);
         const double amplification = 1 / std::max(1e-3, 1 - (w2 + sigma_) * ritz_.values.front());
-        return std::abs(dot(r.rows(), r.data(), e.data())) * amplification / compliance;
+        return std::abs(column_products(r, e)[0]) * amplification / compliance;
     }
 
     // Exact modes and attachment vectors by frequency, then what has no mass.
     void assemble(std::int64_t blocks) {
         const std::int64_t p = modes_.vectors.cols(), a = basis_.cols();
-        Matrix vectors = modes_.vectors;
+        Field vectors = modes_.vectors;
         vector<double> lambda(modes_.values);
         if (a > 0) {
             const RitzVectors attached = attachment_coordinates();
             space_->n_massless = attached.n_massless;
             lambda.insert(lambda.end(), attached.lambda.begin(), attached.lambda.end());
-            Matrix attachment = product('N', 'N', basis_, attached.vectors);
+            Field attachment = combine(basis_, attached.vectors);
             deflate(attachment); // scaling has magnified what rounding left of the exact modes
             vectors.append(attachment);
         }
@@ -344,12 +307,8 @@ class ContactSpaceBuilder {
         std::iota(order.begin(), order.end(), 0);
         std::stable_sort(order.begin(), order.end() - space_->n_massless,
                          [&](auto i, auto j) { return lambda[i] < lambda[j]; });
-        space_->lambda.resize(lambda.size());
-        space_->vectors.reset(model_->n_free(), static_cast<std::int64_t>(lambda.size()));
-        for (std::size_t j = 0; j < order.size(); ++j) {
-            space_->lambda[j] = lambda[order[j]];
-            std::copy_n(vectors.col(order[j]), model_->n_free(), space_->vectors.col(j));
-        }
+        for (std::int64_t j : order) space_->lambda.push_back(lambda[j]);
+        space_->vectors = vectors.columns(order);
         space_->n_exact_modes = p;
         describe(blocks);
         project_onto(*space_);
@@ -387,11 +346,10 @@ class ContactSpaceBuilder {
     std::int64_t least_modes_;
     Watch watch_;
     double sigma_;
-    SparseMatrix shifted_; // K + sigma M when sigma > 0
-    EigenPairs modes_;
-    Matrix mass_modes_;                   // M Phi
+    StructureModes modes_;
+    Field mass_modes_;                    // M Phi
     double next_lambda_ = 0, reach_ = 0;  // reach_: rad/s, of the highest frequency of interest
-    Matrix basis_, stiff_basis_, newest_; // K-orthonormal attachment vectors Y, K Y, the last block
+    Field basis_, stiff_basis_, newest_;  // K-orthonormal attachment vectors Y, K Y, the last block
     SymmetricEigen ritz_;                 // of M in basis_: compliances and vectors
 };
 

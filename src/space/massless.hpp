@@ -3,8 +3,7 @@
 // every motion in time a stiff one. It is kept as a coordinate with a stiffness, its damping and mass 0,
 // which is what static condensation makes of it.
 #pragma once
-#include "linalg/dense.hpp"
-#include "structure/sparse.hpp"
+#include "structure/structure.hpp"
 
 namespace plm {
 
@@ -25,10 +24,10 @@ struct RitzVectors {
 /// mass.
 RitzVectors ritz_vectors(const vector<double> &mu, const Matrix &y, double sigma, double reach);
 
-/// Of motions (n_free x k) in a basis with M = diag(1, ..., 0), K = diag(lambda): by their momentum where
-/// there is mass, by their elastic forces where there is none.
-Matrix coordinates_of(const Matrix &motions, const Matrix &basis, const vector<double> &lambda,
-                      std::int64_t n_massless, const SparseMatrix &mass, const SparseMatrix &stiffness);
+/// Of motions in a basis with M = diag(1, ..., 0), K = diag(lambda): by their momentum where there is mass,
+/// by their elastic forces where there is none.
+Matrix coordinates_of(const Structure &structure, const Field &motions, const Field &basis,
+                      const vector<double> &lambda, std::int64_t n_massless);
 
 /// A Euclidean orthonormal basis of the span of independent columns; the columns themselves when the last
 /// n_massless of the rows of their space are none, since then mass-orthonormal ones are that already.

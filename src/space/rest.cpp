@@ -136,6 +136,8 @@ StaticState solve_static(const StaticProblem &p) {
     return state;
 }
 
+namespace {
+
 RestState solve_rest(const Space &space) {
     const Model &model = *space.model;
     RestState rest;
@@ -157,9 +159,15 @@ RestState solve_rest(const Space &space) {
     rest.force.resize(rest.penetration.size());
     for (std::size_t i = 0; i < rest.force.size(); ++i)
         rest.force[i] = ContactLaw::force(model.contact_stiffness()[i], rest.penetration[i]);
-    rest.displacement.assign(model.n_free(), 0.0);
-    gemv('N', 1.0, space.vectors, rest.coordinates.data(), 0.0, rest.displacement.data());
+    rest.displacement = combine(space.vectors, rest.coordinates);
     return rest;
+}
+
+} // namespace
+
+std::shared_ptr<const RestState> rest_of(const Space &space) {
+    if (!space.rest) space.rest = std::make_shared<const RestState>(solve_rest(space));
+    return space.rest;
 }
 
 } // namespace plm

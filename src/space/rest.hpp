@@ -29,12 +29,13 @@ Error no_equilibrium(const char *load);
 /// The structure at rest under the pre-load.
 struct RestState {
     vector<double> coordinates;  // in the space: q_rest = V coordinates
-    vector<double> displacement; // free DOFs
+    Field displacement;          // one column
     vector<double> penetration;  // u = B q - g, per pair
     vector<double> force;        // N per pair
     vector<char> closed;
     std::int64_t iterations = 0;
 };
-RestState solve_rest(const Space &space);
+/// Solved when first asked for, and kept with the space.
+std::shared_ptr<const RestState> rest_of(const Space &space);
 
 } // namespace plm

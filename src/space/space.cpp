@@ -6,12 +6,6 @@
 namespace plm {
 namespace {
 
-vector<double> project(const Matrix &v, const vector<double> &f) {
-    vector<double> y(v.cols(), 0.0);
-    if (!f.empty()) gemv('T', 1.0, v, f.data(), 0.0, y.data());
-    return y;
-}
-
 // Rayleigh and modal damping are diagonal here because V diagonalises M and K and starts with the exact
 // modes.
 vector<double> diagonal_damping(const Space &space, const Damping &damping) {
@@ -29,19 +23,15 @@ vector<double> diagonal_damping(const Space &space, const Damping &damping) {
 
 void project_onto(Space &space) {
     const Model &model = *space.model;
-    space.gap = multiply(model.gap_matrix(), space.vectors);
+    space.gap = model.gap_rows().of(space.vectors);
     space.damping_diagonal = diagonal_damping(space, model.damping());
     if (model.damping().has_matrix) {
-        space.damping = product('T', 'N', space.vectors, multiply(model.damping_matrix(), space.vectors));
+        space.damping = gram(space.vectors, model.damping_times(space.vectors));
         for (std::int64_t j = 0; j < space.size(); ++j) space.damping(j, j) += space.damping_diagonal[j];
         space.damping_diagonal.clear();
     }
-    if (model.has_preload()) space.preload = project(space.vectors, model.preload());
-    for (const auto &[harmonic, load] : model.excitation()) {
-        HarmonicLoad &reduced = space.excitation[harmonic];
-        reduced.real = project(space.vectors, load.real);
-        if (harmonic > 0) reduced.imag = project(space.vectors, load.imag);
-    }
+    if (model.has_preload()) space.preload = projected(space.vectors, model.preload());
+    space.excitation = projected(space.vectors, model.excitation());
 }
 
 SpaceModes modes_of_contact_set(const Space &space, const vector<char> &closed, double upper) {

@@ -11,22 +11,25 @@
 
 namespace plm {
 
+struct RestState; // space/rest.hpp
+
 struct Space {
     std::shared_ptr<const Model> model;
-    Matrix vectors;                  // V: n_free x m; V^T M V = diag(mass)
+    Field vectors;                   // V: n_free x m; V^T M V = diag(mass)
     vector<double> lambda;           // V^T K V = diag(lambda), >= 0 (rigid-body modes: exactly 0), ascending
     std::int64_t n_massless = 0;     // the last ones: mass 0, and one stiffness for all
     Matrix gap;                      // B V: Z x m
     vector<double> damping_diagonal; // V^T C V = diag(...) when the damping is proportional or modal
     Matrix damping;                  // V^T C V, m x m, when an explicit C is present; else empty
     vector<double> preload;          // V^T F_preload, m; empty without pre-load
-    std::map<int, HarmonicLoad> excitation; // V^T F_h
+    HarmonicLoads excitation;        // V^T F_h
     std::int64_t n_exact_modes = 0;         // the first ones are exact modes of the open system
     double highest_frequency = 0;           // the space is accurate up to here (rad/s)
     double error_estimate = 0;     // relative error of the contact receptances there; 0 when not estimated
     bool is_contact_space = false; // the unreduced structure to the model's tolerance (make_contact_space)
     bool counts_verified = false;  // Sturm count agreed
     double seconds = 0;            // contact space: of making it, with the earlier ones it was made from
+    mutable std::shared_ptr<const RestState> rest; // rest_of()
     std::string description;       // "78 open modes below 20.1 kHz + 2 x 92 attachment vectors, error 3e-8"
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }

@@ -26,14 +26,14 @@ bool solves(const SparseMatrix &k, const Factor &factor) {
 }
 
 /// Factor of K, or null when K is singular to working precision, or may be.
-std::unique_ptr<Factor> factor_regular(const SparseMatrix &k, const HostSolver *host) {
+std::unique_ptr<Factor> factor_regular(const SparseMatrix &k, const Solver &solver) {
     for (double d : diagonal(k))
         if (!(d > 0)) return nullptr; // no need to try
     try {
-        std::unique_ptr<Factor> factor = make_factor(k, FactorKind::positive_definite, host);
+        std::unique_ptr<Factor> factor = make_factor(k, FactorKind::positive_definite, solver);
         const double condition = factor->reciprocal_condition();
         if (condition < 1e-14) return nullptr;
-        if ((host || condition < 1e-9) && !solves(k, *factor)) return nullptr;
+        if ((solver.serving_host() || condition < 1e-9) && !solves(k, *factor)) return nullptr;
         return factor;
     } catch (const Error &e) {
         // a host's solver has no other way than its failure code to say "singular"
@@ -103,8 +103,8 @@ std::int64_t count_rigid(const LowModes &low) {
 class RigidModeSearch {
   public:
     RigidModeSearch(const SparseMatrix &k, const SparseMatrix &m, double largest_contact,
-                    const vector<std::int64_t> &free_dof, const HostSolver *host, Watch watch)
-        : k_(k), m_(m), largest_contact_(largest_contact), free_dof_(free_dof), host_(host), watch_(watch),
+                    const vector<std::int64_t> &free_dof, const Solver &solver, Watch watch)
+        : k_(k), m_(m), largest_contact_(largest_contact), free_dof_(free_dof), solver_(solver), watch_(watch),
           scale_(typical_eigenvalue()) {}
 
     FactoredStiffness run() {
@@ -129,8 +129,8 @@ class RigidModeSearch {
         }
         // again with the better shift: the modes are as orthogonal to the flexible ones as K allows
         low_.take(lowest(*result.factor, result.shift, n_rigid_ + 1), k_, m_);
-        result.rigid_modes = low_.pairs.vectors.columns(0, n_rigid_);
-        result.factor = make_rigid_factor(std::move(result.factor), result.rigid_modes, m_, result.shift);
+        result.rigid_modes = Field(low_.pairs.vectors.columns(0, n_rigid_));
+        result.factor = make_rigid_factor(std::move(result.factor), result.rigid_modes.in_core(), m_, result.shift);
         watch_.log(1,
                    format("the structure has %lld rigid-body modes while its contacts are open; K + %g M is "
                           "factored instead of K",
@@ -169,7 +169,7 @@ class RigidModeSearch {
         result.shift = 1e-2 * scale;
         result.factor = factor_shifted(result.shift, result.shift);
         EigenPairs all = lowest(*result.factor, result.shift, k_.cols);
-        result.rigid_modes = std::move(all.vectors);
+        result.rigid_modes = Field(std::move(all.vectors));
         return result;
     }
 
@@ -222,7 +222,7 @@ class RigidModeSearch {
         for (;; shift = std::min(100 * shift, largest)) {
             watch_.step("factorization", 0.2);
             try {
-                return make_factor(add(1.0, k_, shift, m_), FactorKind::positive_definite, host_);
+                return make_factor(add(1.0, k_, shift, m_), FactorKind::positive_definite, solver_);
             } catch (const Error &e) {
                 if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE && e.status() != PLM_ERR_SINGULAR) throw;
                 if (!(shift < largest)) throw not_positive_definite(e, shift);
@@ -293,7 +293,7 @@ class RigidModeSearch {
     const SparseMatrix &k_, &m_;
     double largest_contact_;
     const vector<std::int64_t> &free_dof_;
-    const HostSolver *host_;
+    const Solver &solver_;
     Watch watch_;
     double scale_; // the size of a usual eigenvalue
     LowModes low_;
@@ -302,17 +302,11 @@ class RigidModeSearch {
 
 } // namespace
 
-double largest_stiffness(const vector<double> &contact_stiffness) {
-    double largest = 0;
-    for (double k : contact_stiffness) largest = std::max(largest, k);
-    return largest;
-}
-
 FactoredStiffness factor_with_rigid_modes(const SparseMatrix &k, const SparseMatrix &m,
                                           double largest_contact, const vector<std::int64_t> &free_dof,
-                                          const HostSolver *host, Watch watch) {
-    if (std::unique_ptr<Factor> factor = factor_regular(k, host)) return {std::move(factor), 0.0, Matrix()};
-    return RigidModeSearch(k, m, largest_contact, free_dof, host, watch).run();
+                                          const Solver &solver, Watch watch) {
+    if (std::unique_ptr<Factor> factor = factor_regular(k, solver)) return {std::move(factor), 0.0, Field()};
+    return RigidModeSearch(k, m, largest_contact, free_dof, solver, watch).run();
 }
 
 } // namespace plm

@@ -2,6 +2,7 @@
 // rigid-body modes that make K singular.
 #pragma once
 #include "linalg/monitor.hpp"
+#include "structure/field.hpp"
 #include "structure/solver/factor.hpp"
 
 namespace plm {
@@ -9,7 +10,7 @@ namespace plm {
 struct FactoredStiffness {
     std::unique_ptr<Factor> factor; // of K + shift M
     double shift = 0;               // 0 when K is positive definite
-    Matrix rigid_modes;             // M-orthonormal, n x count
+    Field rigid_modes;              // M-orthonormal, n x count
     double uncertainty = 0;         // of the first elastic eigenvalue by rounding of K, relative
 };
 
@@ -18,9 +19,6 @@ struct FactoredStiffness {
 /// eigenvalue or a mass-less DOF can move freely.
 FactoredStiffness factor_with_rigid_modes(const SparseMatrix &k, const SparseMatrix &m,
                                           double largest_contact, const vector<std::int64_t> &free_dof,
-                                          const HostSolver *host, Watch watch);
-
-/// Largest k_n given by the caller, 0 if all are left to the library.
-double largest_stiffness(const vector<double> &contact_stiffness);
+                                          const Solver &solver, Watch watch);
 
 } // namespace plm

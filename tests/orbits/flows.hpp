@@ -27,17 +27,19 @@ inline FlowState to_state(const plm::FlowModel &m, const exact::Structure &s, co
     FlowState state{plm::vector<double>(s.n), plm::vector<double>(s.n), 0};
     for (int j = 0; j < s.n; ++j)
         for (int i = 0; i < s.n; ++i) {
-            state.y[j] += m.reduced().vectors(i, j) * s.mass[i] * x[i];
-            state.v[j] += m.reduced().vectors(i, j) * s.mass[i] * x[s.n + i];
+            state.y[j] += m.reduced().vectors.at(i, j) * s.mass[i] * x[i];
+            state.v[j] += m.reduced().vectors.at(i, j) * s.mass[i] * x[s.n + i];
         }
     return state;
 }
 
 /// q and q' over the DOFs.
 inline std::vector<double> to_dofs(const plm::FlowModel &m, const FlowState &state) {
-    const plm::vector<double> q = m.field(state.y), v = m.field(state.v);
-    std::vector<double> x(q.begin(), q.end());
-    x.insert(x.end(), v.begin(), v.end());
+    std::vector<double> x;
+    for (const plm::vector<double> &y : {state.y, state.v}) {
+        const plm::Field q = m.field(y);
+        for (std::int64_t i = 0; i < q.rows(); ++i) x.push_back(q.at(i));
+    }
     return x;
 }
 

@@ -13,6 +13,10 @@ using namespace test;
 
 namespace {
 
+std::vector<double> numbers(const plm::Field &x) {
+    return std::vector<double>(x.in_core().data(), x.in_core().data() + x.rows());
+}
+
 constexpr double beta_of_chain = 0.02;
 
 exact::Structure structure(double k_n, double damping) {
@@ -39,14 +43,14 @@ double newmark_error(const exact::Structure &s, double damping, bool explicit_da
     const plm::NewmarkResult r = newmark.run(start);
     const auto flow_of = flow_model(s);
     plm::ExactFlow flow(flow_of, omega, 1);
-    std::vector<double> x(start.q.begin(), start.q.end());
+    std::vector<double> x = numbers(start.q);
     x.resize(2 * s.n, 0.0);
     FlowState state = to_state(*flow_of, s, x);
     flow.advance(state, 2 * flow.period());
     const std::vector<double> want = to_dofs(*flow_of, state);
     double worst = 0;
     for (int i = 0; i < s.n; ++i)
-        worst = std::max({worst, std::abs(r.state.q[i] - want[i]), std::abs(r.state.v[i] - want[s.n + i])});
+        worst = std::max({worst, std::abs(r.state.q.at(i) - want[i]), std::abs(r.state.v.at(i) - want[s.n + i])});
     return worst;
 }
 
@@ -77,12 +81,12 @@ double energy_left(double alpha, int mode) {
     const double omega = 0.1845; // near the lowest frequency
     plm::Newmark newmark(model, omega, o);
     plm::FullState x = newmark.rest();
-    for (int i = 0; i < s.n; ++i) x.q[i] = modes.vectors(i, mode);
+    for (int i = 0; i < s.n; ++i) x.q.in_core()(i, 0) = modes.vectors(i, mode);
     const plm::NewmarkResult r = newmark.run(x);
     double e = 0;
     for (int i = 0; i < s.n; ++i) {
-        e += r.state.v[i] * r.state.v[i];
-        for (int j = 0; j < s.n; ++j) e += s.stiffness[i * s.n + j] * r.state.q[i] * r.state.q[j];
+        e += r.state.v.at(i) * r.state.v.at(i);
+        for (int j = 0; j < s.n; ++j) e += s.stiffness[i * s.n + j] * r.state.q.at(i) * r.state.q.at(j);
     }
     return e / modes.values[mode];
 }
@@ -104,8 +108,8 @@ struct EnergyWatch : plm::NewmarkObserver {
     void step(const plm::NewmarkStep &x) override {
         double e = 0;
         for (int i = 0; i < s.n; ++i) {
-            e += 0.5 * s.mass[i] * x.v[i] * x.v[i];
-            for (int j = 0; j < s.n; ++j) e += 0.5 * s.stiffness[i * s.n + j] * x.q[i] * x.q[j];
+            e += 0.5 * s.mass[i] * x.v.at(i) * x.v.at(i);
+            for (int j = 0; j < s.n; ++j) e += 0.5 * s.stiffness[i * s.n + j] * x.q.at(i) * x.q.at(j);
         }
         for (int p = 0; p < s.z; ++p) e += plm::ContactLaw::energy(s.contact_stiffness[p], x.penetration[p]);
         range.lowest = std::min(range.lowest, e);
@@ -121,7 +125,7 @@ Bounded energy_under_contact() {
     o.max_periods = 20;
     plm::Newmark newmark(make_model(s), 0.3, o);
     plm::FullState x = newmark.rest();
-    x.v[4] = 1; // energy 1 / 2
+    x.v.in_core()(4, 0) = 1; // energy 1 / 2
     EnergyWatch watch(s);
     newmark.run(x, &watch);
     return watch.range;
@@ -148,8 +152,9 @@ Settled settle() {
     const plm::NewmarkResult r = newmark.run();
     const auto model = flow_model(s);
     plm::ExactFlow flow(model, 0.4, 1);
-    std::vector<double> x(r.state.q.begin(), r.state.q.end());
-    x.insert(x.end(), r.state.v.begin(), r.state.v.end());
+    std::vector<double> x = numbers(r.state.q);
+    const std::vector<double> v = numbers(r.state.v);
+    x.insert(x.end(), v.begin(), v.end());
     return {r.settled, r.periods, plm::periodicity_defect(flow, to_state(*model, s, x))};
 }
 void it_stops_when_settled(void **) {
@@ -203,14 +208,14 @@ double massless_error() {
     plm::NewmarkOptions o;
     o.max_periods = 1;
     o.alpha = 0.1;
-    plm::vector<double> ends[2];
+    plm::Field ends[2];
     for (const exact::Structure *which : {&s, &light}) {
         ModelExtras extras;
         extras.beta = beta_of_chain;
         plm::Newmark newmark(make_model(*which, extras), 0.4, o);
         ends[which == &light] = newmark.run().state.q;
     }
-    for (int i = 0; i < s.n; ++i) difference = std::max(difference, std::abs(ends[0][i] - ends[1][i]));
+    for (int i = 0; i < s.n; ++i) difference = std::max(difference, std::abs(ends[0].at(i) - ends[1].at(i)));
     return difference;
 }
 void massless_dofs_follow(void **) {
@@ -277,8 +282,8 @@ Scene plate(bool with_preload) {
     plm::ExactFlow flow(flow_of, omega, 1);
     FlowState x{plm::vector<double>(flow_of->size()), plm::vector<double>(flow_of->size()), 0};
     plm::vector<double> momentum(model->n_free());
-    plm::multiply(model->mass(), start.q.data(), momentum.data());
-    plm::gemv('T', 1.0, basis.reduced()->static_vectors(), momentum.data(), 0.0, x.y.data());
+    plm::multiply(model->matrices().mass, start.q.in_core().data(), momentum.data());
+    plm::gemv('T', 1.0, basis.reduced()->static_vectors().in_core(), momentum.data(), 0.0, x.y.data());
     const plm::vector<double> row = flow_of->dof_row(dof);
     Scene r{0, 0, model->n_free(), flow_of->size(), 0, true};
     for (std::size_t k = 0; k < watch.times().size(); k += 50) {
@@ -325,7 +330,7 @@ void wrong_input_is_refused(void **) {
     const Failure f = failure_of([&] { plm::Newmark(modal, 1, {}); });
     assert_int_equal(f.status, PLM_ERR_ARGUMENT);
     assert_string_equal(f.argument.c_str(), "modal_ratio");
-    const Failure size = failure_of([&] { plm::Newmark(model, 1, {}).run(plm::FullState{{0}, {0}, 0}); });
+    const Failure size = failure_of([&] { plm::Newmark(model, 1, {}).run(plm::FullState{plm::Field(1, 1), plm::Field(1, 1), 0}); });
     assert_int_equal(size.status, PLM_ERR_ARGUMENT);
     assert_int_equal(failure_of([&] { plm::DofRecorder(model, {99}); }).status, PLM_ERR_ARGUMENT);
 }
@@ -341,7 +346,7 @@ void the_host_can_stop_it(void **) {
     plm::DofRecorder recorder(model, {4});
     const plm::NewmarkResult r = plm::Newmark(model, 0.4, {}, plm::Watch(&stopper)).run(&recorder);
     assert_true(r.cancelled && !r.settled && r.periods == 0);
-    assert_true(r.state.time == recorder.times().back() && r.state.q[4] == recorder.values().back());
+    assert_true(r.state.time == recorder.times().back() && r.state.q.at(4) == recorder.values().back());
     assert_int_equal(stopper.calls, 41);
 }
 

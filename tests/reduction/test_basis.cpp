@@ -124,7 +124,7 @@ struct FullSizeDefect {
 FullSizeDefect full_size_defect(const Case &c, const Basis &basis, bool is_static) {
     const plm::ReducedModel &r = *basis.reduced();
     const exact::Structure &s = c.structure;
-    const Matrix &p = is_static ? r.static_vectors() : r.vectors;
+    const Matrix &p = (is_static ? r.static_vectors() : r.vectors).in_core();
     const plm::vector<double> &lambda = is_static ? r.lambda_0 : r.lambda;
     const Matrix &gap = is_static ? r.gap_0 : r.gap;
     const plm::vector<double> &load = is_static ? r.preload_0 : r.excitation.at(1).real;
@@ -186,7 +186,7 @@ void reduced_matrices_are_those_of_the_full_model(void **) {
 void the_static_basis_holds_the_rest_displacement_exactly(void **) {
     const Case c = make_case(pressed_chains());
     const auto basis = build(c, rule(ModeSelection::bands));
-    const double *q = c.sampler->rest().displacement.data();
+    const plm::Field &q = c.sampler->rest().displacement;
     assert_true(below(plm::projection_residual(*basis, true, true, q), 1e-12));
     assert_true(below(plm::projection_residual(*basis, true, false, q), 1e-9));
     assert_true(basis->report().preload_residual > 1e-3);
@@ -195,11 +195,12 @@ void the_static_basis_holds_the_rest_displacement_exactly(void **) {
 void the_preload_residual_is_eq_12(void **) {
     const Case c = make_case(pressed_chains());
     const auto basis = build(c, rule(ModeSelection::bands));
-    const plm::vector<double> &q = c.sampler->rest().displacement;
-    const double want = gram_schmidt_residual(basis->reduced()->vectors, q);
+    const plm::Field &rest = c.sampler->rest().displacement;
+    const plm::vector<double> q(rest.in_core().data(), rest.in_core().data() + rest.rows());
+    const double want = gram_schmidt_residual(basis->reduced()->vectors.in_core(), q);
     assert_true(near(basis->report().preload_residual, want, 1e-9));
-    assert_true(near(plm::projection_residual(*basis, false, false, q.data()), want, 1e-9));
-    assert_true(near(plm::projection_residual(*basis, false, true, q.data()),
+    assert_true(near(plm::projection_residual(*basis, false, false, rest), want, 1e-9));
+    assert_true(near(plm::projection_residual(*basis, false, true, rest),
                      basis->report().preload_residual_mass, 1e-9));
 }
 
@@ -260,7 +261,7 @@ void a_larger_svd_tolerance_gives_a_smaller_basis(void **) {
 
 double damping_defect(const Basis &basis, const Matrix &full_damping) {
     const plm::ReducedModel &r = *basis.reduced();
-    const Matrix want = congruence(r.vectors, full_damping);
+    const Matrix want = congruence(r.vectors.in_core(), full_damping);
     double worst = 0;
     for (std::int64_t i = 0; i < want.rows(); ++i)
         for (std::int64_t j = 0; j < want.cols(); ++j) {
@@ -326,7 +327,7 @@ void the_full_kind_is_the_whole_space(void **) {
     assert_true(full->reduced()->same_static && full->reduced()->size() == full->space()->size());
     assert_true(below(full_size_defect(c, *full, false).mass, 1e-8)); // the space's own orthonormality
     assert_true(
-        below(plm::projection_residual(*full, false, true, c.sampler->rest().displacement.data()), 1e-8));
+        below(plm::projection_residual(*full, false, true, c.sampler->rest().displacement), 1e-8));
     BasisOptions o = kind(BasisKind::full); // without a sampler the range must be given
     const test::Failure f = test::failure_of([&] { Basis(c.model, nullptr, nullptr, o, plm::Watch()); });
     assert_string_equal(f.argument.c_str(), "frequency_max_hz");
@@ -379,7 +380,7 @@ void a_free_structure_keeps_its_rigid_body_mode(void **) {
     assert_true(basis->reduced()->lambda[0] == 0 && basis->reduced()->lambda[1] > 1e-6);
     assert_true(all_small(full_size_defect(c, *basis, false)));
     assert_true(
-        below(plm::projection_residual(*basis, false, true, plm::vector<double>(80, 1.0).data()), 1e-7));
+        below(plm::projection_residual(*basis, false, true, plm::Field(plm::vector<double>(80, 1.0))), 1e-7));
 }
 
 } // namespace

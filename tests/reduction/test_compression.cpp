@@ -251,8 +251,8 @@ std::vector<Captured> captured() {
         const plm::Compressed pod = plm::compress(responses, 0, n);
         Matrix momentum(m.vectors.rows(), n), first(m.size(), n);
         for (std::int64_t j = 0; j < n; ++j)
-            plm::multiply(m.model->mass(), pod.reduced->vectors.col(j), momentum.col(j));
-        Matrix y = plm::product('T', 'N', m.vectors, momentum);
+            plm::multiply(m.model->matrices().mass, pod.reduced->vectors.in_core().col(j), momentum.col(j));
+        Matrix y = plm::product('T', 'N', m.vectors.in_core(), momentum);
         for (std::int64_t j = 0; j < n; ++j) first(j, j) = 1; // the lowest modes of the open structure
         to_energy(y);
         to_energy(first);
@@ -283,13 +283,13 @@ Projections projections(DampingKind damping, std::int64_t size) {
     const auto m = compressed(parent_curve(model), 1e-5, size)->reduced();
     const plm::vector<double> ones(m->size(), 1.0), ones_0(m->static_size(), 1.0);
     Projections p;
-    p.mass = worst_of(projected(model->mass(), m->vectors), diagonal(ones));
-    p.stiffness = worst_of(projected(model->stiffness(), m->vectors), diagonal(m->lambda));
-    p.mass_0 = worst_of(projected(model->mass(), m->static_vectors()), diagonal(ones_0));
-    p.stiffness_0 = worst_of(projected(model->stiffness(), m->static_vectors()), diagonal(m->lambda_0));
+    p.mass = worst_of(projected(model->matrices().mass, m->vectors.in_core()), diagonal(ones));
+    p.stiffness = worst_of(projected(model->matrices().stiffness, m->vectors.in_core()), diagonal(m->lambda));
+    p.mass_0 = worst_of(projected(model->matrices().mass, m->static_vectors().in_core()), diagonal(ones_0));
+    p.stiffness_0 = worst_of(projected(model->matrices().stiffness, m->static_vectors().in_core()), diagonal(m->lambda_0));
     const Matrix c = m->damping.empty() ? diagonal(m->damping_diagonal) : m->damping;
     if (damping == DampingKind::matrix)
-        p.damping = worst_of(projected(model->damping_matrix(), m->vectors), c);
+        p.damping = worst_of(projected(model->matrices().damping, m->vectors.in_core()), c);
     if (damping == DampingKind::rayleigh) {
         Matrix wanted = diagonal(m->lambda);
         for (std::int64_t j = 0; j < m->size(); ++j) wanted(j, j) *= 0.3;
@@ -320,8 +320,8 @@ InTime in_time(bool with_preload, DampingKind damping, double tolerance) {
     const plm::ReducedModel &m = *pod->reduced();
     Matrix momentum(m.vectors.rows(), m.vectors.cols());
     for (std::int64_t j = 0; j < m.size(); ++j)
-        plm::multiply(m.model->mass(), m.vectors.col(j), momentum.col(j));
-    const Matrix inside = plm::product('T', 'N', m.static_vectors(), momentum);
+        plm::multiply(m.model->matrices().mass, m.vectors.in_core().col(j), momentum.col(j));
+    const Matrix inside = plm::product('T', 'N', m.static_vectors().in_core(), momentum);
     for (std::int64_t j = 0; j < m.size(); ++j)
         t.span = std::max(t.span, std::abs(plm::norm2(inside.rows(), inside.col(j)) - 1));
     HbmOptions o = five_harmonics();
@@ -357,7 +357,7 @@ double difference_at_rest() {
     const BasisPtr pod = compressed(parent, 1e-5);
     HbmOptions o = five_harmonics();
     o.force_scale = 0;
-    plm::vector<double> q[2];
+    plm::Field q[2];
     for (int k = 0; k < 2; ++k) {
         const Basis &b = k ? *pod : *parent.basis;
         q[k] = plm::Hbm(b.reduced(), b.window_min_hz(), b.window_max_hz(), o, plm::Watch())
@@ -365,9 +365,9 @@ double difference_at_rest() {
                    ->field(0, 0.0);
     }
     double worst = 0, largest = 0;
-    for (std::size_t i = 0; i < q[0].size(); ++i) {
-        worst = std::max(worst, std::abs(q[1][i] - q[0][i]));
-        largest = std::max(largest, std::abs(q[0][i]));
+    for (std::int64_t i = 0; i < q[0].rows(); ++i) {
+        worst = std::max(worst, std::abs(q[1].at(i) - q[0].at(i)));
+        largest = std::max(largest, std::abs(q[0].at(i)));
     }
     return largest > 0 ? worst / largest : 1;
 }

@@ -39,7 +39,7 @@ Deviation deviation(const SpacePtr &space, const exact::Structure &s, std::int64
 // V^T M V - I and V^T K V - diag(lambda), relative.
 double defect(const SpacePtr &space, const exact::Structure &s) {
     double worst = 0;
-    const Matrix &v = space->vectors;
+    const Matrix &v = space->vectors.in_core();
     const Matrix kv = plm::product('N', 'N', test::dense_stiffness(s, plm::vector<char>(s.z, 0)), v);
     for (std::int64_t i = 0; i < v.cols(); ++i)
         for (std::int64_t j = 0; j < v.cols(); ++j) {
@@ -129,7 +129,7 @@ void a_singular_interior_is_handled(void **) {
 double flexibility(const SpacePtr &space, std::int64_t i) {
     double sum = 0;
     for (std::int64_t j = 0; j < space->size(); ++j)
-        sum += space->vectors(i, j) * space->vectors(i, j) / space->lambda[j];
+        sum += space->vectors.at(i, j) * space->vectors.at(i, j) / space->lambda[j];
     return sum;
 }
 double exact_flexibility(const exact::Structure &s, std::int64_t i) {

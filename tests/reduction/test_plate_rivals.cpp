@@ -85,9 +85,8 @@ void bilinear_modes_find_the_resonance_that_open_modes_miss(void **) {
 double outside(const plm::ReducedModel &proper, const plm::Space &space, const Matrix &columns,
                std::int64_t which) {
     const Matrix y = plm::condition_columns(space, columns, 1e-8).coordinates.y;
-    Matrix q(proper.vectors.rows(), 1);
-    std::copy_n(proper.vectors.col(which), q.rows(), q.data());
-    const Matrix c = plm::product('T', 'N', space.vectors, plm::multiply(space.model->mass(), q));
+    const Matrix q = proper.vectors.in_core().columns(which, 1);
+    const Matrix c = plm::product('T', 'N', space.vectors.in_core(), plm::multiply(space.model->matrices().mass, q));
     plm::vector<double> rest(c.data(), c.data() + c.rows());
     const double size = plm::norm2(c.rows(), rest.data());
     const Matrix eta = plm::product('T', 'N', y, c);

@@ -47,12 +47,12 @@ Solved errors_against_exact_orbits(plm::BasisKind kind) {
     for (double omega : {0.15, 0.24, 0.4, 0.6, 0.9}) {
         const auto branch = hbm.solve(omega / (2 * M_PI), nullptr, 0);
         std::vector<double> state(2 * s.n);
-        const plm::vector<double> q = branch->field(0, 0.0);
+        const plm::Field q = branch->field(0, 0.0);
         const double step = 1e-6; // velocity by central differences of the recovered field
-        const plm::vector<double> later = branch->field(0, step), sooner = branch->field(0, -step);
+        const plm::Field later = branch->field(0, step), sooner = branch->field(0, -step);
         for (int i = 0; i < s.n; ++i) {
-            state[i] = q[i];
-            state[s.n + i] = (later[i] - sooner[i]) / (2 * step) * omega / (2 * M_PI);
+            state[i] = q.at(i);
+            state[s.n + i] = (later.at(i) - sooner.at(i)) / (2 * step) * omega / (2 * M_PI);
         }
         const exact::Orbit orbit = exact::periodic_orbit(s, omega, state, 0, 200);
         const double got = branch->amplitude(0, n_chain - 1, plm::Measure::peak, 0);

@@ -75,10 +75,8 @@ void mirrored_pairs_need_not_be_carried(void **) {
 // Penetration of every pair from the recovered field itself, at one instant.
 double penetration_defect(const test::Host &host, const plm::Branch &branch, double fraction) {
     const plm::Model &model = *host.model();
-    const plm::vector<double> q = branch.field(0, fraction);
-    plm::vector<double> free(model.n_free()), u(model.n_pairs());
-    model.restrict_to_free(q.data(), free.data());
-    multiply(model.gap_matrix(), free.data(), u.data());
+    plm::vector<double> u(model.n_pairs());
+    model.gap_rows().of(branch.field(0, fraction), u);
     const plm::Matrix c = branch.penetration_coefficients(0);
     if (c.cols() != model.n_pairs()) return 1e300;
     double worst = 0, size = 0;

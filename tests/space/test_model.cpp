@@ -34,7 +34,7 @@ void auto_stiffness_of_two_springs_in_series(void **) {
     assert_true(close_to(m->local_stiffness(), series, 1e-12));
     assert_true(close_to(m->contact_stiffness()[0], 10 * series, 1e-12));
     assert_true(m->initial_gap()[0] == 0.25);
-    assert_true(close_to(m->attachment()(0, 0), 1.0 / 100, 1e-12));
+    assert_true(close_to(m->attachment().at(0), 1.0 / 100, 1e-12));
     assert_true(test::build(two_masses(7))->contact_stiffness()[0] == 7);
 }
 
@@ -48,14 +48,13 @@ void fixed_dofs_vanish(void **) {
     assert_int_equal(m->n_free(), 2);
     assert_int_equal(m->free_index(0), -1);
     assert_int_equal(m->free_index(2), 1);
-    assert_true(m->preload()[1] == 3 && m->preload().size() == 2);
-    assert_true(m->excitation().at(1).real[0] == 2 && m->excitation().at(1).imag.size() == 2);
-    assert_int_equal(m->gap_matrix().nnz(), 1);
-    const double free[] = {7, 8};
-    double all[3], back[2];
-    m->expand(free, all);
-    m->restrict_to_free(all, back);
-    assert_true(all[0] == 0 && all[1] == 7 && all[2] == 8 && back[0] == 7 && back[1] == 8);
+    assert_true(m->preload().at(1) == 3 && m->preload().rows() == 2);
+    assert_true(m->excitation().at(1).real.at(0) == 2 && m->excitation().at(1).imag.rows() == 2);
+    assert_int_equal(m->gap_rows().matrix().nnz(), 1);
+    double all[3];
+    m->expand(plm::Field(plm::vector<double>{7, 8}), 0, all);
+    const plm::Field back = m->restricted(all);
+    assert_true(all[0] == 0 && all[1] == 7 && all[2] == 8 && back.at(0) == 7 && back.at(1) == 8);
 }
 
 void no_pair_is_a_linear_model(void **) {

@@ -10,12 +10,12 @@ namespace {
 
 /// |A X - B| / |B| after a solve with a padded leading dimension.
 double solve_residual(const SparseMatrix &a, FactorKind kind, std::int64_t nrhs,
-                      const plm::HostSolver *host = nullptr) {
+                      const plm::Solver &solver = {}) {
     const std::int64_t n = a.cols, ld = n + 3;
     const Matrix b = random_matrix(n, nrhs, 1);
     Matrix padded(ld, nrhs), x(n, nrhs);
     for (std::int64_t j = 0; j < nrhs; ++j) std::copy_n(b.col(j), n, padded.col(j));
-    const auto factor = plm::make_factor(a, kind, host);
+    const auto factor = plm::make_factor(a, kind, solver);
     factor->solve(padded.data(), nrhs, ld);
     for (std::int64_t j = 0; j < nrhs; ++j) std::copy_n(padded.col(j), n, x.col(j));
     for (std::int64_t j = 0; j < nrhs; ++j)
@@ -32,6 +32,21 @@ void solves_leave_a_residual_of_rounding(void **) {
         }
     const SparseMatrix shifted = plm::add(1, a, -1.2345, diagonal(vector<double>(600, 1.0)));
     assert_true(solve_residual(shifted, FactorKind::indefinite, 3) < 1e-9);
+}
+
+// The library's own by name: each that was built serves, the others say so, and the host's needs a host.
+void solvers_are_chosen_by_name(void **) {
+    const SparseMatrix a = membrane(30, 20);
+    int served = 0;
+    for (plm::SolverName name : {plm::SolverName::cholmod, plm::SolverName::eigen}) {
+        double residual = INFINITY;
+        const auto o = outcome_of([&] { residual = solve_residual(a, FactorKind::positive_definite, 3, name); });
+        assert_true(o.status == PLM_OK ? residual < 1e-12 : o.status == PLM_ERR_NOT_BUILT);
+        served += o.status == PLM_OK;
+    }
+    assert_in_range(served, 1, 2);
+    const auto none = outcome_of([&] { plm::make_factor(a, FactorKind::indefinite, plm::SolverName::host); });
+    assert_int_equal(none.status, PLM_ERR_STATE);
 }
 
 void one_factor_serves_blocks_and_single_solves_alike(void **) {
@@ -200,6 +215,7 @@ void the_hosts_failures_are_reported_with_their_code(void **) {
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(solves_leave_a_residual_of_rounding),
+        cmocka_unit_test(solvers_are_chosen_by_name),
         cmocka_unit_test(one_factor_serves_blocks_and_single_solves_alike),
         cmocka_unit_test(inertia_counts_the_eigenvalues_below_the_shift),
         cmocka_unit_test(the_index_of_a_bad_pivot_is_the_callers),

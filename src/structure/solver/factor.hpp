@@ -1,8 +1,9 @@
-// Sparse symmetric factorization behind one seam: CHOLMOD by default, Eigen's LDLT in the permissive build,
-// or the host's own through callbacks. Nothing above this header knows which one serves.
+// Sparse symmetric factorization behind one seam: CHOLMOD, Eigen's LDLT, or the host's own through callbacks,
+// chosen by name at run time. Nothing above this header knows which one serves.
 #pragma once
 #include "structure/sparse.hpp"
 #include <memory>
+#include <optional>
 
 namespace plm {
 
@@ -42,10 +43,23 @@ struct HostSolver {
     int (*inertia)(void *handle, std::int64_t *negative, void *user) = nullptr;
 };
 
-/// False: a factorization for the sake of its negative_eigenvalues() would be made in vain.
-inline bool tells_inertia(const HostSolver *host) {
-    return !host || host->inertia;
-}
+/// In the order of the choices of the option "solver".
+enum class SolverName { automatic, cholmod, eigen, host };
+
+/// Who factors. automatic: the host's where there is one, else the first of the library's own that was built.
+struct Solver {
+    Solver(SolverName asked = SolverName::automatic) : name(asked) {}
+    Solver(const HostSolver *given) { // null: none
+        if (given) host = *given;
+    }
+    /// The host's, if it is to serve; throws where it is asked for and there is none.
+    const HostSolver *serving_host() const;
+    /// False: a factorization for the sake of its negative_eigenvalues() would be made in vain.
+    bool tells_inertia() const { return !serving_host() || serving_host()->inertia; }
+
+    SolverName name = SolverName::automatic;
+    std::optional<HostSolver> host;
+};
 
 /// The two ways in which a factorization breaks down; `column` is the DOF in the order of the caller.
 [[noreturn]] void throw_not_positive_definite(std::int64_t column);

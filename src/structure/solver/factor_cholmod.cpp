@@ -2,7 +2,6 @@
 #include "linalg/blas_lapack.hpp"
 #include "linalg/memory_count.hpp"
 #include "structure/solver/factor_builtin.hpp"
-#include "structure/solver/make_factor.hpp"
 #include <algorithm>
 #include <cholmod.h>
 #include <new>
@@ -170,16 +169,19 @@ class CholmodFactor final : public Factor {
     mutable Cholmod lib_; // CHOLMOD's solve takes its factor and its workspace by non-const pointer
 };
 
-} // namespace
-
-std::unique_ptr<Factor> make_builtin_factor(const SparseMatrix &a, FactorKind kind) {
+std::unique_ptr<Factor> factor_by_cholmod(const SparseMatrix &a, FactorKind kind) {
     return std::make_unique<CholmodFactor>(a, kind);
 }
 
-std::string factor_backend() {
+std::string cholmod_version() {
     int version[3];
     cholmod_l_version(version);
     return format("CHOLMOD %d.%d.%d", version[0], version[1], version[2]);
 }
+
+} // namespace
+
+extern const Builtin solver_cholmod;
+const Builtin solver_cholmod{SolverName::cholmod, factor_by_cholmod, cholmod_version};
 
 } // namespace plm

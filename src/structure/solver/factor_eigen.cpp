@@ -1,10 +1,9 @@
-// Eigen's simplicial L D L^T (MPL-2.0) behind the seam of factor.hpp, for builds without CHOLMOD.
+// Eigen's simplicial L D L^T (MPL-2.0) behind the seam of factor.hpp.
 #define EIGEN_MPL2_ONLY
 #define EIGEN_NO_DEBUG // an eigen_assert would abort the host
 #define EIGEN_DONT_PARALLELIZE
 #include "linalg/blas_lapack.hpp"
 #include "structure/solver/factor_builtin.hpp"
-#include "structure/solver/make_factor.hpp"
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <limits>
@@ -105,14 +104,17 @@ class EigenFactor final : public Factor {
     mutable vector<double> work_;
 };
 
-} // namespace
-
-std::unique_ptr<Factor> make_builtin_factor(const SparseMatrix &a, FactorKind kind) {
+std::unique_ptr<Factor> factor_by_eigen(const SparseMatrix &a, FactorKind kind) {
     return std::make_unique<EigenFactor>(a, kind);
 }
 
-std::string factor_backend() {
+std::string eigen_version() {
     return format("Eigen %d.%d.%d", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION);
 }
+
+} // namespace
+
+extern const Builtin solver_eigen;
+const Builtin solver_eigen{SolverName::eigen, factor_by_eigen, eigen_version};
 
 } // namespace plm

@@ -5,7 +5,47 @@
 
 namespace plm {
 
-std::unique_ptr<Factor> make_factor(const SparseMatrix &a, FactorKind kind, const HostSolver *host) {
+#ifdef PLM_WITH_CHOLMOD
+extern const Builtin solver_cholmod;
+#endif
+#ifdef PLM_WITH_EIGEN
+extern const Builtin solver_eigen;
+#endif
+
+namespace {
+
+// The first one serves where nothing is asked for.
+const Builtin *const builtins[] = {
+#ifdef PLM_WITH_CHOLMOD
+    &solver_cholmod,
+#endif
+#ifdef PLM_WITH_EIGEN
+    &solver_eigen,
+#endif
+};
+
+const Builtin &builtin(SolverName name) {
+    if (name == SolverName::automatic) return *builtins[0];
+    for (const Builtin *one : builtins)
+        if (one->name == name) return *one;
+    const bool cholmod = name == SolverName::cholmod;
+    throw Error(PLM_ERR_NOT_BUILT, format("the solver %s was left out of this build; configure libplm with "
+                                          "PLM_WITH_%s=ON, or leave \"solver\" at auto",
+                                          cholmod ? "cholmod" : "eigen", cholmod ? "CHOLMOD" : "EIGEN"))
+        .argument("solver");
+}
+
+} // namespace
+
+const HostSolver *Solver::serving_host() const {
+    if (name == SolverName::host && !host)
+        throw Error(PLM_ERR_STATE, "\"solver\" is host, but the context has no solver of the host's: hand one "
+                                   "over before, or leave \"solver\" at auto")
+            .argument("solver");
+    return host && (name == SolverName::automatic || name == SolverName::host) ? &*host : nullptr;
+}
+
+std::unique_ptr<Factor> make_factor(const SparseMatrix &a, FactorKind kind, const Solver &solver) {
     require(a.rows == a.cols && static_cast<std::int64_t>(a.ptr.size()) == a.cols + 1, "make_factor: shape");
     // NaN passes through a Cholesky factorization unnoticed (no comparison with it is true).
     if (!finite(a.val.data(), a.nnz())) {
@@ -14,7 +54,14 @@ std::unique_ptr<Factor> make_factor(const SparseMatrix &a, FactorKind kind, cons
         while (a.ptr[j + 1] <= p) ++j;
         throw Error(PLM_ERR_MATRIX, "NaN or Inf in the matrix to factor").index(j);
     }
-    return host ? make_host_factor(a, kind, *host) : make_builtin_factor(a, kind);
+    if (const HostSolver *host = solver.serving_host()) return make_host_factor(a, kind, *host);
+    return builtin(solver.name).factor(a, kind);
+}
+
+std::string factor_backends() {
+    std::string names;
+    for (const Builtin *one : builtins) names += (names.empty() ? "" : ", ") + one->version();
+    return names;
 }
 
 } // namespace plm

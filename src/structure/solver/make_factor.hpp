@@ -5,9 +5,9 @@
 
 namespace plm {
 
-/// Factors the symmetric matrix `a` (both triangles stored). `host` may be null. Throws plm::Error.
-std::unique_ptr<Factor> make_factor(const SparseMatrix &a, FactorKind kind, const HostSolver *host = nullptr);
-/// "CHOLMOD 3.0.14" or "Eigen 3.4.0": what make_factor uses without a host solver.
-std::string factor_backend();
+/// Factors the symmetric matrix `a` (both triangles stored). Throws plm::Error.
+std::unique_ptr<Factor> make_factor(const SparseMatrix &a, FactorKind kind, const Solver &solver = {});
+/// "CHOLMOD 3.0.14, Eigen 3.4.0": the library's own, the first of them the default.
+std::string factor_backends();
 
 } // namespace plm

@@ -1,0 +1,59 @@
+#include "structure/gap_rows.hpp"
+#include <cmath>
+
+namespace plm {
+
+Matrix GapRows::of(const Field &v) const {
+    return multiply(matrix_, v.in_core());
+}
+
+Matrix GapRows::terms_of(const Field &v) const {
+    SparseMatrix sizes = matrix_;
+    for (double &b : sizes.val) b = std::abs(b);
+    Matrix motion = v.in_core();
+    for (std::int64_t k = 0; k < motion.rows() * motion.cols(); ++k)
+        motion.data()[k] = std::abs(motion.data()[k]);
+    return multiply(sizes, motion);
+}
+
+Field GapRows::forces(const Matrix &f) const {
+    Field on_dofs(matrix_.cols, f.cols());
+    for (std::int64_t j = 0; j < f.cols(); ++j)
+        multiply_transposed(matrix_, f.col(j), on_dofs.in_core().col(j));
+    return on_dofs;
+}
+
+Field GapRows::columns() const {
+    return Field(to_dense(transpose(matrix_)));
+}
+
+std::vector<vector<GapRows::Term>> GapRows::rows() const {
+    std::vector<vector<Term>> rows(static_cast<std::size_t>(n_pairs()));
+    for (std::int64_t j = 0; j < matrix_.cols; ++j)
+        for (std::int64_t p = matrix_.ptr[j]; p < matrix_.ptr[j + 1]; ++p)
+            rows[static_cast<std::size_t>(matrix_.idx[p])].push_back({j, matrix_.val[p]});
+    return rows;
+}
+
+vector<std::int64_t> GapRows::dofs_of(const vector<std::int64_t> &pairs) const {
+    vector<char> chosen(n_pairs(), 0);
+    for (std::int64_t i : pairs) chosen[i] = 1;
+    return dofs_where(chosen);
+}
+
+vector<std::int64_t> GapRows::dofs() const {
+    return dofs_where(vector<char>(n_pairs(), 1));
+}
+
+vector<std::int64_t> GapRows::dofs_where(const vector<char> &chosen) const {
+    vector<std::int64_t> found;
+    for (std::int64_t j = 0; j < matrix_.cols; ++j)
+        for (std::int64_t p = matrix_.ptr[j]; p < matrix_.ptr[j + 1]; ++p)
+            if (matrix_.val[p] != 0 && chosen[matrix_.idx[p]]) {
+                found.push_back(j);
+                break;
+            }
+    return found;
+}
+
+} // namespace plm

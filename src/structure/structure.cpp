@@ -1,0 +1,205 @@
+#include "structure/structure.hpp"
+#include "linalg/scale.hpp"
+#include "structure/matrix_input.hpp"
+#include "structure/rigid_modes.hpp"
+#include "structure/solver/make_factor.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+using Int = long long; // for printf
+
+void require_size(const char *what, std::int64_t size, std::int64_t n_dof) {
+    if (size != n_dof)
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("%s has %lld entries where the model has %lld DOFs", what, Int(size), Int(n_dof)))
+            .argument(what);
+}
+
+/// The full symmetric matrix in `input`, over all DOFs.
+SparseMatrix over_all_dofs(const char *name, const MatrixInput &input, std::int64_t n_dof) {
+    require_size(name, input.layout.n, n_dof);
+    return input.to_sparse();
+}
+
+void require_nonnegative_diagonal(const char *name, const SparseMatrix &a,
+                                  const vector<std::int64_t> &free_dof) {
+    for (std::int64_t j = 0; j < a.cols; ++j)
+        for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p)
+            if (a.idx[p] == j && a.val[p] < 0)
+                throw Error(PLM_ERR_MATRIX,
+                            format("the %s matrix has the negative diagonal entry %g at DOF %lld "
+                                   "(counted from 0); it must be positive semi-definite",
+                                   name, a.val[p], Int(free_dof[j])))
+                    .argument("value")
+                    .index(free_dof[j]);
+}
+
+// What the parts of a model are made of: the largest entry of each counts.
+void require_scale(const char *what, const double *values, std::int64_t n, plm_status status,
+                   const char *argument) {
+    const double largest = largest_of(values, n);
+    if (!too_large(largest) && !too_small(largest)) return;
+    throw Error(status, format("the largest entry of the %s is %g; squares and products overflow or vanish "
+                               "outside %g to %g: check its units",
+                               what, largest, smallest_scale, largest_scale))
+        .argument(argument);
+}
+void require_scale(const char *what, const SparseMatrix &a) {
+    require_scale(what, a.val.data(), a.nnz(), PLM_ERR_MATRIX, "value");
+}
+
+} // namespace
+
+Structure::Structure(const StructureInput &input, std::int64_t n_pairs, double largest_contact,
+                     const Solver &solver, Watch watch)
+    : n_dof_(input.n_dof), solver_(solver) {
+    assemble(input, n_pairs);
+    factor_stiffness(largest_contact, watch);
+}
+
+void Structure::assemble(const StructureInput &input, std::int64_t n_pairs) {
+    if (!input.mass || !input.stiffness)
+        throw Error(PLM_ERR_STATE, input.mass
+                                       ? "the stiffness matrix is missing; hand it over with PLM_STIFFNESS"
+                                       : "the mass matrix is missing; hand it over with PLM_MASS");
+    number_free_dofs(input.fixed);
+    assemble_matrices(input);
+    require_nonnegative_diagonal("mass", mass_, free_dof_);
+    require_nonnegative_diagonal("stiffness", stiffness_, free_dof_);
+    require_scale("mass matrix", mass_);
+    require_scale("stiffness matrix", stiffness_);
+    if (!(trace(mass_) > 0))
+        throw Error(PLM_ERR_MATRIX, "no free DOF has mass; check the mass matrix and the fixed DOFs")
+            .argument("value");
+    require_scale("damping matrix", damping_);
+    assemble_gap(input, n_pairs);
+    assemble_loads(input);
+}
+
+void Structure::number_free_dofs(const vector<std::int64_t> &fixed_dofs) {
+    constexpr std::int64_t fixed = -1;
+    free_of_.assign(n_dof_, 0);
+    for (std::int64_t dof : fixed_dofs) free_of_[dof] = fixed;
+    for (std::int64_t i = 0; i < n_dof_; ++i)
+        if (free_of_[i] != fixed) {
+            free_of_[i] = n_free();
+            free_dof_.push_back(i);
+        }
+    if (free_dof_.empty())
+        throw Error(PLM_ERR_ARGUMENT, "all DOFs are fixed; nothing is left to move").argument("dof");
+}
+
+void Structure::assemble_matrices(const StructureInput &input) {
+    // one at a time: over all DOFs they are large
+    SparseMatrix all = over_all_dofs("stiffness", *input.stiffness, n_dof_);
+    translations_ = find_translations(all);
+    stiffness_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
+    all = over_all_dofs("mass", *input.mass, n_dof_);
+    weigh(translations_, all);
+    mass_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
+    damping_options_ = input.damping;
+    damping_options_.has_matrix = input.damping_matrix != nullptr;
+    if (!damping_options_.has_matrix) return;
+    all = over_all_dofs("damping", *input.damping_matrix, n_dof_);
+    damping_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
+}
+
+void Structure::assemble_gap(const StructureInput &input, std::int64_t z) {
+    vector<std::int64_t> all_pairs(z);
+    for (std::int64_t i = 0; i < z; ++i) all_pairs[i] = i;
+    SparseMatrix gap = submatrix(from_triplets(z, n_dof_, input.gap_pair, input.gap_dof, input.gap_coefficient),
+                            all_pairs, z, free_of_, n_free());
+    vector<double> weight(z, 0.0);
+    for (std::int64_t p = 0; p < gap.nnz(); ++p)
+        weight[gap.idx[p]] += std::abs(gap.val[p]);
+    for (std::int64_t i = 0; i < z; ++i)
+        if (!(weight[i] > 0))
+            throw Error(PLM_ERR_ARGUMENT,
+                        format("contact pair %lld (counted from 0, in the order they were added) "
+                               "touches fixed DOFs only: its penetration can never change; leave it "
+                               "out or release a DOF",
+                               Int(i)))
+                .argument("pair")
+                .index(i);
+    gap_rows_ = GapRows(std::move(gap));
+}
+
+void Structure::assemble_loads(const StructureInput &input) {
+    const auto on_free_dofs = [&](const char *what, const char *name, const vector<double> &all) {
+        Field free(n_free(), 1);
+        if (!all.empty()) {
+            require_size(what, static_cast<std::int64_t>(all.size()), n_dof_);
+            free = restricted(all.data());
+        }
+        require_scale(name, free.in_core().data(), n_free(), PLM_ERR_ARGUMENT, "force");
+        return free;
+    };
+    preload_ = on_free_dofs("preload", "pre-load", input.preload);
+    if (largest_entry(preload_).size == 0) preload_ = Field(); // none: nobody downstream pays for it
+    for (const auto &[harmonic, load] : input.excitation) {
+        HarmonicForce &mine = excitation_[harmonic];
+        mine.real = on_free_dofs("excitation", "excitation", load.real);
+        if (harmonic == 0) continue;
+        mine.imag = on_free_dofs("excitation", "excitation", load.imag);
+        for (std::int64_t dof : input.fixed)
+            for (const vector<double> *part : {&load.real, &load.imag})
+                if (!part->empty())
+                    excitation_on_supports_ = std::hypot(excitation_on_supports_, (*part)[dof]);
+    }
+}
+
+void Structure::factor_stiffness(double largest_contact, Watch watch) {
+    watch.step("factorization", 0.1);
+    FactoredStiffness result =
+        factor_with_rigid_modes(stiffness_, mass_, largest_contact, free_dof_, solver_, watch);
+    factor_ = std::move(result.factor);
+    shift_ = result.shift;
+    if (shift_ > 0) shifted_ = add(1.0, stiffness_, shift_, mass_);
+    rigid_modes_ = std::move(result.rigid_modes);
+    uncertainty_ = result.uncertainty;
+}
+
+StructureModes Structure::lowest_modes(std::int64_t n, const std::function<bool()> &cancelled) const {
+    EigsOptions options;
+    options.cancelled = cancelled;
+    EigenPairs pairs = lowest_eigenpairs(stiffness_, mass_, *factor_, -shift_, n, options);
+    return {std::move(pairs.values), Field(std::move(pairs.vectors))};
+}
+
+std::int64_t Structure::count_modes_below(double omega) const {
+    try {
+        return make_factor(add(1.0, stiffness_, -omega * omega, mass_), FactorKind::indefinite, solver_)
+            ->negative_eigenvalues();
+    } catch (const Error &e) {
+        if (e.status() != PLM_ERR_SINGULAR) throw;
+        return -1;
+    }
+}
+
+std::int64_t Structure::n_massless_dofs() const {
+    std::int64_t count = n_free();
+    for (double m : diagonal(mass_)) count -= m > 0;
+    return count;
+}
+
+void Structure::expand(const Field &x, std::int64_t j, double *all) const {
+    const double *free = x.in_core().col(j);
+    for (std::int64_t i = 0; i < n_dof_; ++i) all[i] = free_of_[i] < 0 ? 0.0 : free[free_of_[i]];
+}
+
+vector<double> Structure::expanded(const Field &x) const {
+    vector<double> all(n_dof_);
+    expand(x, 0, all.data());
+    return all;
+}
+
+Field Structure::restricted(const double *all) const {
+    Field x(n_free(), 1);
+    for (std::int64_t k = 0; k < n_free(); ++k) x.in_core()(k, 0) = all[free_dof_[k]];
+    return x;
+}
+
+} // namespace plm

@@ -1,0 +1,138 @@
+// The structure without its contact: M q'' + C q' + K q = F(t) on its free DOFs, checked once and then
+// read-only, and all that the method does with it. The gap rows B are among it, for they are as long as it is;
+// what the pairs do is not.
+#pragma once
+#include "linalg/monitor.hpp"
+#include "structure/eigs.hpp"
+#include "structure/gap_rows.hpp"
+#include "structure/loads.hpp"
+#include "structure/translations.hpp"
+#include <functional>
+#include <memory>
+
+namespace plm {
+
+struct Damping {
+    double alpha = 0, beta = 0; // C = alpha M + beta K
+    double structural = 0;      // K (1 + i eta), h >= 1
+    vector<double> modal_ratio; // of the open system's modes, the last one for all beyond
+    bool has_matrix = false;    // an explicit C is present (Structure::damped)
+};
+
+/// One matrix as the caller gave it: what to read, checked at the entry. Borrowed arrays stay the caller's.
+struct MatrixInput; // structure/matrix_input.hpp
+
+/// All that the caller said of the structure, before it is checked as a whole. Indices base 0 over all n_dof.
+struct StructureInput {
+    std::int64_t n_dof = 0;
+    std::shared_ptr<const MatrixInput> mass, stiffness, damping_matrix;
+    Damping damping;
+    vector<std::int64_t> fixed; // DOFs held at zero, in any order, some perhaps twice
+    // gap matrix by rows: B = [pair; dof; coefficient] triplets
+    vector<std::int64_t> gap_pair, gap_dof;
+    vector<double> gap_coefficient;
+    vector<double> preload; // empty: none
+    HarmonicLoads excitation;
+};
+
+/// Eigenpairs of K x = lambda M x, M-orthonormal.
+struct StructureModes {
+    vector<double> values; // rad^2/s^2, ascending
+    Field vectors;
+};
+
+class Structure {
+  public:
+    /// Checks the input as a whole, removes fixed DOFs, factors K (or K + sigma M when K is singular), finds
+    /// rigid-body modes. Throws plm::Error with the argument and index at fault.
+    /// largest_contact: the largest k_n given by the caller, 0 if unknown; the scale where K has none.
+    Structure(const StructureInput &input, std::int64_t n_pairs, double largest_contact, const Solver &solver,
+              Watch watch);
+    Structure(const Structure &) = delete;
+
+    std::int64_t n_dof() const { return n_dof_; }
+    std::int64_t n_free() const { return static_cast<std::int64_t>(free_dof_.size()); }
+    /// DOF of a free index.
+    std::int64_t dof(std::int64_t free_index) const { return free_dof_[free_index]; }
+    /// Free index of a DOF, or -1 when it is fixed.
+    std::int64_t free_index(std::int64_t dof) const { return free_of_[dof]; }
+
+    /// M X, K X, C X (the explicit part of the damping only) and (K + shift() M) X.
+    Field mass_times(const Field &x) const { return Field(multiply(mass_, x.in_core())); }
+    Field stiffness_times(const Field &x) const { return Field(multiply(stiffness_, x.in_core())); }
+    Field damping_times(const Field &x) const { return Field(multiply(damping_, x.in_core())); }
+    Field shifted_times(const Field &x) const {
+        return Field(multiply(shift_ > 0 ? shifted_ : stiffness_, x.in_core()));
+    }
+    /// y = M x and y = K x, one column each.
+    void mass_times(const Field &x, Field &y) const { multiply(mass_, x.in_core().data(), y.in_core().data()); }
+    void stiffness_times(const Field &x, Field &y) const {
+        multiply(stiffness_, x.in_core().data(), y.in_core().data());
+    }
+    /// X becomes (K + shift() M)^-1 X; shift() is 0 when K is positive definite.
+    void solve(Field &x) const { factor_->solve(x.in_core()); }
+    double shift() const { return shift_; }
+    /// Rough, from the pivots of that factor.
+    double reciprocal_condition() const { return factor_->reciprocal_condition(); }
+
+    /// The n lowest modes, fewer when there are fewer of finite frequency.
+    StructureModes lowest_modes(std::int64_t n, const std::function<bool()> &cancelled = {}) const;
+    bool counts_modes() const { return solver_.tells_inertia(); }
+    /// Modes below omega (rad/s) by Sylvester's law of inertia; -1: omega hits a mode, try beside it. Only
+    /// where counts_modes().
+    std::int64_t count_modes_below(double omega) const;
+    /// M-orthonormal rigid-body modes (may have no column).
+    const Field &rigid_modes() const { return rigid_modes_; }
+    std::int64_t n_rigid() const { return rigid_modes_.cols(); }
+    /// What rounding of K makes of the first elastic eigenvalue where there are rigid-body modes, relative.
+    double uncertainty() const { return uncertainty_; }
+
+    const GapRows &gap_rows() const { return gap_rows_; }
+    const Damping &damping() const { return damping_options_; }
+    bool has_preload() const { return !preload_.empty(); }
+    const Field &preload() const { return preload_; } // one column, none without pre-load
+    const std::map<int, HarmonicForce> &excitation() const { return excitation_; }
+
+    /// Motions known to strain nothing before supports are applied; empty where the matrices do not tell.
+    const vector<Translation> &translations() const { return translations_; }
+    /// Norm of the harmonic excitation on fixed DOFs, where it does nothing.
+    double excitation_on_supports() const { return excitation_on_supports_; }
+    double trace_of_mass() const { return trace(mass_); }
+    std::int64_t n_massless_dofs() const;
+
+    /// Column j over all DOFs (n_dof numbers), fixed ones zero; and one column from all DOFs.
+    void expand(const Field &x, std::int64_t j, double *all) const;
+    vector<double> expanded(const Field &x) const; // column 0
+    Field restricted(const double *all) const;
+
+    /// The matrices on the free DOFs and who factors them: for this room, and for tests.
+    struct Matrices {
+        const SparseMatrix &mass, &stiffness, &damping; // damping: 0 x 0 without an explicit one
+        const Solver &solver;
+    };
+    Matrices matrices() const { return {mass_, stiffness_, damping_, solver_}; }
+
+  private:
+    void assemble(const StructureInput &input, std::int64_t n_pairs);
+    void number_free_dofs(const vector<std::int64_t> &fixed);
+    void assemble_matrices(const StructureInput &input);
+    void assemble_gap(const StructureInput &input, std::int64_t n_pairs);
+    void assemble_loads(const StructureInput &input);
+    void factor_stiffness(double largest_contact, Watch watch);
+
+    std::int64_t n_dof_ = 0;
+    vector<std::int64_t> free_dof_, free_of_;
+    SparseMatrix mass_, stiffness_, damping_;
+    SparseMatrix shifted_; // K + sigma M when sigma > 0
+    GapRows gap_rows_;
+    Damping damping_options_;
+    Field preload_;
+    std::map<int, HarmonicForce> excitation_;
+    vector<Translation> translations_;
+    double excitation_on_supports_ = 0, shift_ = 0, uncertainty_ = 0;
+    std::unique_ptr<Factor> factor_;
+    Field rigid_modes_;
+    Solver solver_;
+};
+
+} // namespace plm
