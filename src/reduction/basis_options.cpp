@@ -1,5 +1,6 @@
 #include "reduction/basis_options.hpp"
 #include "linalg/error.hpp"
+#include "reduction/basis_kind.hpp"
 #include <cmath>
 #include <string>
 
@@ -10,51 +11,16 @@ void demand(bool condition, const char *key, const std::string &text) {
     if (!condition) throw Error(PLM_ERR_ARGUMENT, text).argument(key);
 }
 
-bool is_rival(BasisKind kind) {
-    return is_made_of_vectors(kind) && kind != BasisKind::plm && kind != BasisKind::snapshots;
-}
-
 } // namespace
 
-bool is_made_of_vectors(BasisKind kind) {
-    return kind != BasisKind::craig_bampton && kind != BasisKind::full && kind != BasisKind::pod;
-}
-
-const char *name_of(BasisKind kind) {
-    switch (kind) {
-    case BasisKind::plm:
-        return "plm";
-    case BasisKind::craig_bampton:
-        return "craig_bampton";
-    case BasisKind::full:
-        return "full";
-    case BasisKind::pod:
-        return "pod";
-    case BasisKind::bilinear:
-        return "bilinear";
-    case BasisKind::lelsm:
-        return "lelsm";
-    case BasisKind::lelsm_updated:
-        return "lelsm_updated";
-    case BasisKind::discontinuity:
-        return "discontinuity";
-    case BasisKind::snapshots:
-        return "snapshots";
-    }
-    return "?";
-}
-
 void check_pairs(const BasisOptions &o, std::int64_t n_pairs) {
-    const long long pairs = n_pairs, asked = o.n_discontinuities;
+    const BasisKind &kind = *o.kind;
     demand(
-        n_pairs > 0 || !is_rival(o.kind), "kind",
+        n_pairs > 0 || !kind.needs_pairs, "kind",
         format(
             "a basis of kind %s is about contact, and the model has no contact pair; \"full\" does without",
-            name_of(o.kind)));
-    demand(
-        o.kind != BasisKind::discontinuity || asked <= pairs, "n_discontinuities",
-        format("n_discontinuities is %lld, but the model has %lld contact pairs; 0 takes one vector per pair",
-               asked, pairs));
+            kind.name));
+    if (kind.check) kind.check(o, n_pairs);
 }
 
 void check_options(const BasisOptions &o) {

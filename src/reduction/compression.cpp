@@ -1,5 +1,7 @@
 #include "reduction/compression.hpp"
 #include "linalg/lapack.hpp"
+#include "reduction/basis_kind.hpp"
+#include "reduction/basis_options.hpp"
 #include "reduction/projection.hpp"
 #include "space/massless.hpp"
 #include <algorithm>
@@ -137,5 +139,21 @@ Compressed compress(const Responses &responses, double tolerance, std::int64_t s
     for (double s : dynamic.svd.values) c.singular_values.push_back(s / largest);
     return c;
 }
+
+namespace {
+
+constexpr BasisKind pod_kind() {
+    BasisKind kind("pod", "the parent compressed to what its responses need");
+    kind.own_options = "pod_tolerance,pod_size";
+    kind.any_parent = true;
+    kind.compress = [](const Responses &responses, const BasisOptions &o) {
+        return compress(responses, o.pod_tolerance, o.pod_size);
+    };
+    return kind;
+}
+
+} // namespace
+
+constexpr BasisKind basis_kinds::pod = pod_kind();
 
 } // namespace plm

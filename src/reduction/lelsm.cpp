@@ -1,4 +1,5 @@
 #include "reduction/lelsm.hpp"
+#include "reduction/basis_kind.hpp"
 #include "sampling/dominant_mode.hpp"
 #include "sampling/frequency_window.hpp"
 #include "sampling/mode_match.hpp"
@@ -141,5 +142,26 @@ EquivalentModes lelsm_modes(const Space &space, const SelectionRule &rule, Watch
     if (result.columns.cols() == 0) throw no_mode_kept(rule, "no equivalent system");
     return result;
 }
+
+namespace {
+
+CollectedModes collect_lelsm(const ColumnSources &from, Watch watch) {
+    EquivalentModes modes = lelsm_modes(from.space, from.rule, watch);
+    CollectedModes collected;
+    collected.columns = std::move(modes.columns);
+    collected.equivalent_share = std::move(modes.share);
+    return collected;
+}
+
+constexpr BasisKind lelsm_kind() {
+    BasisKind kind("lelsm", "modes of equivalent linear systems with the bilinear frequencies");
+    kind.needs_pairs = true;
+    kind.collect = collect_lelsm;
+    return kind;
+}
+
+} // namespace
+
+constexpr BasisKind basis_kinds::lelsm = lelsm_kind();
 
 } // namespace plm

@@ -1,4 +1,5 @@
 #include "searches/refinement.hpp"
+#include "reduction/basis_kind.hpp"
 #include "searches/error_estimate.hpp"
 #include "searches/responses.hpp"
 #include <algorithm>
@@ -27,7 +28,7 @@ class Refiner {
             watch_.log(1, format("refinement %lld: %lld columns, estimated error %.2e",
                                  static_cast<long long>(round),
                                  static_cast<long long>(basis->reduced()->size()), error));
-            const bool compressed = basis->options().kind == BasisKind::pod;
+            const bool compressed = basis->options().kind->is_compressed();
             // the first basis is never the answer: the point is to have a small one
             if (compressed && (!best.basis || error < best.error))
                 best = {basis, branch, error, round, false};
@@ -90,7 +91,7 @@ class Refiner {
         }
         const Responses responses = responses_of({motions});
         BasisOptions o = start_->options();
-        o.kind = BasisKind::pod;
+        o.kind = &basis_kinds::pod;
         o.pod_size = 0;
         o.n_pairs_carried = 0; // what node sampling leaves out is part of the error to be met
         o.pod_tolerance = pod_tolerance_;

@@ -110,7 +110,7 @@ class Study {
             truth.options_text = "the unreduced structure, else as \"" + method.name + "\"";
             truth.kind = MethodKind::response;
             truth.recipe.parent.reset();
-            truth.recipe.basis.kind = BasisKind::full;
+            truth.recipe.basis.kind = &basis_kinds::full;
             return truth;
         }
         throw Error(PLM_ERR_STATE,

@@ -260,7 +260,7 @@ Scene plate(bool with_preload) {
     const std::int64_t dof = s->output_dof;
     scene_destroy(&s);
     plm::BasisOptions b;
-    b.kind = plm::BasisKind::full;
+    b.kind = &plm::basis_kinds::full;
     b.frequency_min_hz = 100;
     b.frequency_max_hz = 3000;
     b.n_harmonics = 5;

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 using plm::Basis;
-using plm::BasisKind;
+namespace basis_kinds = plm::basis_kinds;
 using plm::BasisOptions;
 using plm::Matrix;
 using plm::Sampler;
@@ -36,7 +36,7 @@ Case chains(bool pressed) {
 
 BasisOptions snapshots(std::int64_t n = 12) {
     BasisOptions o;
-    o.kind = BasisKind::snapshots;
+    o.kind = &basis_kinds::snapshots;
     o.n_snapshots = n;
     o.snapshot_tolerance = 1e-9;
     o.svd_tolerance = 1e-12;
@@ -113,7 +113,7 @@ void static_contact_solutions_lie_in_the_basis(void **) {
         assert_int_equal(q.size(), c.structure.n);
         assert_true(below(plm::projection_residual(*basis, true, true, q.data()), space_error));
         BasisOptions modal;
-        modal.kind = BasisKind::snapshots;
+        modal.kind = &basis_kinds::snapshots;
         modal.snapshot_tolerance = 0.49; // next to no snapshot is left: the solutions are not there then
         if (alpha == 30.0)
             assert_true(plm::projection_residual(*build(c, modal), true, true, q.data()) > space_error);
@@ -168,7 +168,8 @@ Case lying_masses() {
 
 void solutions_that_do_not_exist_are_told(void **) {
     const auto basis = build(lying_masses(), snapshots());
-    assert_true(basis->report().warnings.text().find("static contact solutions do not exist") != std::string::npos);
+    assert_true(basis->report().warnings.text().find("static contact solutions do not exist") !=
+                std::string::npos);
     assert_int_equal(basis->reduced()->size(), 2);
 }
 

@@ -6,7 +6,7 @@
 #include "searches/hbm.hpp"
 
 using namespace rival;
-using plm::BasisKind;
+namespace basis_kinds = plm::basis_kinds;
 
 namespace {
 
@@ -194,7 +194,7 @@ std::string argument_without(bool force, bool damping) {
     exact::Structure structure = grounded_chain(1, force ? 0.01 : 0);
     if (!damping) structure.damping.assign(structure.damping.size(), 0.0);
     const Scene s = make_scene(structure, 0.05, 0.12);
-    return test::failure_of([&] { build(s, kind(BasisKind::lelsm_updated)); }).argument;
+    return test::failure_of([&] { build(s, kind(&basis_kinds::lelsm_updated)); }).argument;
 }
 void nothing_that_sets_an_amplitude_is_refused(void **) {
     assert_string_equal(argument_without(true, false).c_str(), "equivalent_amplitude");

@@ -57,7 +57,7 @@ struct FoundPeak {
 };
 FoundPeak peak_of_a_coarse_curve() {
     plm::BasisOptions basis;
-    basis.kind = plm::BasisKind::full;
+    basis.kind = &plm::basis_kinds::full;
     basis.frequency_min_hz = options(0).frequency_min_hz,
     basis.frequency_max_hz = options(0).frequency_max_hz;
     test::ModelExtras damped;
