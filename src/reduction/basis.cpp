@@ -17,6 +17,17 @@ namespace {
 
 constexpr std::int64_t least_open_modes = 10;
 
+// Kinds about contact need a pair, and no more vectors than pairs.
+void check_pairs(const BasisOptions &o, std::int64_t n_pairs) {
+    if (o.kind->needs_pairs && n_pairs == 0)
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("a basis of kind %s is about contact, and the model has no contact pair; "
+                           "\"full\" does without",
+                           o.kind->name))
+            .argument("kind");
+    if (o.kind->check) o.kind->check(o, n_pairs);
+}
+
 void check_parents(const Model &model, const Sampler *sampler, const Basis *parent, const BasisKind &kind) {
     if (kind.needs_sampler && !sampler)
         throw Error(PLM_ERR_STATE, "this kind of basis needs the samples of a sampler that has run")
@@ -170,7 +181,6 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     : model_(std::move(model)), sampler_(std::move(sampler)), options_(options) {
     const auto start = std::chrono::steady_clock::now();
     const BasisKind &kind = *options_.kind;
-    check_options(options_);
     check_pairs(options_, model_->n_pairs());
     check_parents(*model_, sampler_.get(), parent.get(), kind);
     if (kind.is_compressed()) {

@@ -1,4 +1,5 @@
-// What a basis is asked for, and every rule about it in one place.
+// What a basis is asked for. The bounds of each option stand in the table of the keys (capi/keys_basis.cpp)
+// alone.
 #pragma once
 #include "reduction/basis_kinds.hpp"
 #include <cstdint>
@@ -32,10 +33,5 @@ struct BasisOptions {
     PairRule pair_rule = PairRule::effective_independence;
     std::int64_t n_fixed_modes = 0; // Craig-Bampton: fixed-interface modes; 0: all below 4 below_factor H f_f
 };
-
-/// Throws PLM_ERR_ARGUMENT with the option's key as argument.
-void check_options(const BasisOptions &options);
-/// The same for what depends on the model: kinds about contact need a pair, and no more vectors than pairs.
-void check_pairs(const BasisOptions &options, std::int64_t n_pairs);
 
 } // namespace plm

@@ -366,9 +366,6 @@ void wrong_parents_and_options_are_refused(void **) {
         argument([&] { Basis(c.model, other.sampler, nullptr, BasisOptions(), plm::Watch()); }).c_str(),
         "sampler");
     BasisOptions o;
-    o.svd_tolerance = 1;
-    assert_string_equal(argument([&] { build(c, o); }).c_str(), "svd_tolerance");
-    o = BasisOptions();
     o.frequency_min_hz = 100;
     assert_string_equal(argument([&] { build(c, o); }).c_str(), "frequency_min_hz");
 }
