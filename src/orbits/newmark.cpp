@@ -195,8 +195,8 @@ NewmarkResult Newmark::run(const FullState &first, NewmarkObserver *observer) {
     Settling settling(options_.settled, options_.period_multiple);
     FullState before = state_;
     for (std::int64_t done = 1; done <= all && !settling.settled(); ++done) {
-        const double share = static_cast<double>(done) / static_cast<double>(all);
-        if (watch_.cancelled("time integration", share)) {
+        const double progress = static_cast<double>(done) / static_cast<double>(all);
+        if (watch_.cancelled("time integration", progress)) {
             result.cancelled = true;
             break;
         }

@@ -118,25 +118,25 @@ double euclidean_residual(const Matrix &p, const vector<double> &q) {
     Matrix b(p.rows(), 1);
     std::copy(q.begin(), q.end(), b.data());
     const Matrix eta = least_squares(p, b);
-    vector<double> rest(q);
-    gemv('N', -1.0, p, eta.data(), 1.0, rest.data());
-    return relative_size(rest, q);
+    vector<double> remainder(q);
+    gemv('N', -1.0, p, eta.data(), 1.0, remainder.data());
+    return relative_size(remainder, q);
 }
 
 // The same in the M-norm, where P is orthonormal.
 double mass_residual(const Matrix &p, const SparseMatrix &mass, const vector<double> &q) {
     const std::int64_t n = p.rows();
-    vector<double> rest(q), momentum(n), eta(p.cols());
+    vector<double> remainder(q), momentum(n), eta(p.cols());
     multiply(mass, q.data(), momentum.data());
     const double size = dot(n, q.data(), momentum.data());
     if (!(size > 0)) return 0;
     for (int pass = 0; pass < 2; ++pass) {
-        multiply(mass, rest.data(), momentum.data());
+        multiply(mass, remainder.data(), momentum.data());
         gemv('T', 1.0, p, momentum.data(), 0.0, eta.data());
-        gemv('N', -1.0, p, eta.data(), 1.0, rest.data());
+        gemv('N', -1.0, p, eta.data(), 1.0, remainder.data());
     }
-    multiply(mass, rest.data(), momentum.data());
-    return std::sqrt(std::max(0.0, dot(n, rest.data(), momentum.data())) / size);
+    multiply(mass, remainder.data(), momentum.data());
+    return std::sqrt(std::max(0.0, dot(n, remainder.data(), momentum.data())) / size);
 }
 
 Reduction reduce_to_vectors(const Space &space, const Sampler *sampler, const SelectionRule &rule,

@@ -8,7 +8,7 @@
 //     mode's own linear system. options.n_snapshots values of alpha, half of each sign, are spaced
 //     geometrically from 0.3 to 30 times the median size of the sweep's thresholds (the alpha at which the
 //     linear estimate switches a pair). Homogeneous problems have only the two of alpha = -1 and 1.
-//     A snapshot is the solution less the rest, of mass norm 1.
+//     A snapshot is the solution less the position at rest, of mass norm 1.
 //  2. Modes of S up to rest_factor f_f. One is left out when the snapshots' contact forces beyond those of S
 //     and the excitation, at any harmonic 0..H in the window and with 1 % of critical damping, move it by
 //     less than snapshot_tolerance of a snapshot, energies compared: modes of another symmetry, mostly.
@@ -86,7 +86,7 @@ vector<double> snapshot_alphas(const ContactSweep &sweep, bool homogeneous, std:
     return alphas;
 }
 
-// Static solutions less the rest, and the penetrations they change.
+// Static solutions less the position at rest, and the penetrations they change.
 class Snapshots {
   public:
     Snapshots(const Space &space, const RestState &rest) : space_(space), rest_(rest) {}
@@ -277,12 +277,12 @@ CollectedModes collect_snapshots(const ColumnSources &from, Watch watch) {
     }
     watch.step("snapshots", 0.5);
     CollectedModes result;
-    Matrix statics = snapshots.motions, modes;
+    Matrix static_motions = snapshots.motions, modes;
     for (const RestSystem &system : rest_systems(space, rest, rule)) {
         Matrix forces = excitation;
         if (snapshots.motions.cols() > 0) {
             forces.append(snapshots.forces_beyond(system.closed()));
-            statics.append(system.inertia_response(snapshots.motions));
+            static_motions.append(system.inertia_response(snapshots.motions));
         }
         modes.append(
             system.modes(2 * M_PI * options.rest_factor * rule.max_hz, forces, options.snapshot_tolerance));
@@ -291,8 +291,8 @@ CollectedModes collect_snapshots(const ColumnSources &from, Watch watch) {
     warn_of_missing(snapshots, watch);
     result.columns = modes;
     if (homogeneous) modes = orthonormal(space, modes); // those of one system are already
-    if (statics.cols() > 0)
-        result.columns.append(main_directions(space, modes, std::move(statics), 2 * M_PI * rule.max_hz,
+    if (static_motions.cols() > 0)
+        result.columns.append(main_directions(space, modes, std::move(static_motions), 2 * M_PI * rule.max_hz,
                                               options.snapshot_tolerance));
     if (result.columns.cols() == 0)
         throw Error(PLM_ERR_ARGUMENT, format("no mode at rest below %.6g Hz answers to the loads, and there "

@@ -64,7 +64,7 @@ CollectedModes collect_updated_lelsm(const ColumnSources &from, Watch watch) {
         updated_lelsm_modes(from.space, from.rule, o.equivalent_amplitude, o.load_vectors, watch);
     CollectedModes collected;
     collected.columns = std::move(modes.columns);
-    collected.equivalent_share = std::move(modes.motion.share);
+    collected.equivalent_share = std::move(modes.motion.coupling);
     if (!modes.motion.settled)
         watch.warn(PLM_REASON_NO_CONTRACTION,
                    format("the equivalent stiffnesses did not settle in %lld iterations; the last "

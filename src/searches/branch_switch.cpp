@@ -36,7 +36,8 @@ class Switch {
            const BranchPoint &along, bool mirrored)
         : options_(options), mirrored_(mirrored) {
         options_.n_harmonics = harmonics_of(origin, options.period_multiple);
-        options_.unknowns = prefers_modal(*reduced, options) ? UnknownSpace::modal : UnknownSpace::gaps;
+        options_.unknowns =
+            prefers_modal(*reduced, options) ? NonlinearUnknowns::modal : NonlinearUnknowns::gaps;
         system_ = make_system(std::move(reduced), options_);
         at_ = {unknowns_of(*system_, origin), origin.omega};
         const double size = size_of(*system_, at_.x);

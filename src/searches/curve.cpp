@@ -25,9 +25,9 @@ class CurveTracer final : public PathOwner {
         options_.n_harmonics = start.point.n_harmonics / options_.period_multiple;
         limit_harmonics(start.point);
         wants_modal_ = modal_ = prefers_modal(*reduced_, options_);
-        options_.unknowns = modal_ ? UnknownSpace::modal : UnknownSpace::gaps;
+        options_.unknowns = modal_ ? NonlinearUnknowns::modal : NonlinearUnknowns::gaps;
         compliant_ = make_formulation(*reduced_, options_).compliant;
-        branch_.space_used = modal_ ? "modal" : "gaps";
+        branch_.unknowns_used = modal_ ? "modal" : "gaps";
         branch_.sampled = options_.aft == AftKind::sampled;
         system_ = make_system(reduced_, options_);
         try {
@@ -176,7 +176,7 @@ class CurveTracer final : public PathOwner {
     // By the cubic cost of the dense factorization, with some inertia.
     void choose_space() {
         wants_modal_ = modal_;
-        if (asked_.unknowns == UnknownSpace::automatic && reduced_->n_pairs() > 0 && !compliant_) {
+        if (asked_.unknowns == NonlinearUnknowns::automatic && reduced_->n_pairs() > 0 && !compliant_) {
             const double r = static_cast<double>(reduced_->size()), moving = static_cast<double>(moved_most_);
             if (modal_ && 1.5 * moving < r) wants_modal_ = false;
             if (!modal_ && moving > 1.2 * r) wants_modal_ = true;
@@ -192,7 +192,7 @@ class CurveTracer final : public PathOwner {
         for (std::int64_t more = wanted_harmonics_ - options_.n_harmonics;; more /= 2) {
             HbmOptions changed = options_;
             changed.n_harmonics += more;
-            changed.unknowns = wants_modal_ ? UnknownSpace::modal : UnknownSpace::gaps;
+            changed.unknowns = wants_modal_ ? NonlinearUnknowns::modal : NonlinearUnknowns::gaps;
             if (change_to(changed, orientation, path)) return true;
             if (more <= 1) break;
         }
@@ -214,7 +214,7 @@ class CurveTracer final : public PathOwner {
         base_arclength_ = branch_.points()[static_cast<std::size_t>(n - 1)].arclength;
         branch_.truncate(n);
         n_kept_ = n;
-        if (wants_modal_ != modal_) branch_.space_used = "both";
+        if (wants_modal_ != modal_) branch_.unknowns_used = "both";
         options_ = changed;
         modal_ = wants_modal_;
         set_end(other);

@@ -155,7 +155,7 @@ class FoldPath final : public PathOwner {
              const BranchPoint &about, Watch watch)
         : options_(options), watch_(watch) {
         HbmOptions &o = options_.hbm;
-        o.unknowns = UnknownSpace::modal;
+        o.unknowns = NonlinearUnknowns::modal;
         o.aft = AftKind::event;
         o.n_harmonics = harmonics_of(about, o.period_multiple);
         inner_ = make_system(reduced, o);
@@ -187,7 +187,7 @@ class FoldPath final : public PathOwner {
         from.residual = start.residual;
         from.scale = scale_;
         take_outcome(follow_path(*system_, range, from, *this), *branch_);
-        branch_->space_used = "modal";
+        branch_->unknowns_used = "modal";
         return branch_;
     }
 

@@ -80,8 +80,8 @@ HbmOptions options_at(const BranchPoint &point, std::int64_t period_multiple, co
         return o;
     }
     if (o.formulation == FormulationKind::penalty) o.formulation = FormulationKind::automatic;
-    if (o.unknowns == UnknownSpace::modal)
-        o.unknowns = UnknownSpace::gaps; // all that the compliance form has
+    if (o.unknowns == NonlinearUnknowns::modal)
+        o.unknowns = NonlinearUnknowns::gaps; // all that the compliance form has
     return o;
 }
 

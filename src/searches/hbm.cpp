@@ -21,7 +21,7 @@ void check(const HbmOptions &o) {
     const auto refuse = [](const char *name, const std::string &text) {
         throw Error(PLM_ERR_ARGUMENT, text).argument(name);
     };
-    if (o.unknowns == UnknownSpace::modal && o.formulation == FormulationKind::compliance)
+    if (o.unknowns == NonlinearUnknowns::modal && o.formulation == FormulationKind::compliance)
         refuse("formulation",
                "the compliance formulation has the contact gaps as unknowns; set unknowns to gaps or auto");
     if (!(o.frequency_min_hz > 0 && o.frequency_max_hz > o.frequency_min_hz))
@@ -168,7 +168,7 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
     branch->append(std::move(result));
     warn_of_harmonics(options_, *branch);
     branch->end_reason = PLM_REASON_RANGE_END;
-    branch->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
+    branch->unknowns_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
     check_window(window_, watch_, *branch);
     finish(*branch, begin);
     return branch;

@@ -200,8 +200,8 @@ class Search {
         const BranchPoint &near = points[last - 1], &far = points[last - 2];
         const double run = near.force_scale - far.force_scale, apart = solution_distance(near, far);
         if (run == 0) return false;
-        for (double share : {2e-3, 5e-3, 1e-2}) {
-            const double force = points[last].force_scale * (upward ? 1 + share : 1 - share),
+        for (double step : {2e-3, 5e-3, 1e-2}) {
+            const double force = points[last].force_scale * (upward ? 1 + step : 1 - step),
                          t = (force - near.force_scale) / run;
             BranchPoint guess = between(near, far, -t);
             if (!correct_fold(reduced_, options_, force, guess)) continue;

@@ -110,9 +110,9 @@ namespace {
 class ModePath final : public PathOwner {
   public:
     ModePath(std::shared_ptr<const ReducedModel> reduced, const NonlinearModeOptions &options, Watch watch)
-        : m_(std::move(reduced)), options_(options), watch_(watch), share_(share_at_rest(*m_)) {
+        : m_(std::move(reduced)), options_(options), watch_(watch), coupling_(coupling_at_rest(*m_)) {
         HbmOptions &o = options_.hbm;
-        o.unknowns = UnknownSpace::modal;
+        o.unknowns = NonlinearUnknowns::modal;
         o.period_multiple = 1;
         o.force_scale = 0;
     }
@@ -207,13 +207,13 @@ class ModePath final : public PathOwner {
         Branch &branch = *result_.branch;
         take_outcome(out, branch);
         if (branch.end_reason == PLM_REASON_NONE) branch.end_reason = PLM_REASON_RANGE_END;
-        branch.space_used = "modal";
+        branch.unknowns_used = "modal";
         return std::move(result_);
     }
 
     // The mode about rest with the number asked for, or the nearest to the frequency asked for.
     void find_mode() {
-        const SpaceModes modes = modes_at_rest(*m_, share_);
+        const SpaceModes modes = modes_at_rest(*m_, coupling_);
         const std::int64_t best = choose_mode(modes.values);
         omega_ = std::sqrt(modes.values[best]);
         shape_.assign(modes.vectors.col(best), modes.vectors.col(best) + m_->size());
@@ -241,15 +241,15 @@ class ModePath final : public PathOwner {
     // Amplitude of the mode at which the first pair changes its state; 0: none does, or at any amplitude.
     double first_change() const {
         vector<double> x(inner_->size());
-        inner_->linear_response(share_, omega_, x.data());
+        inner_->linear_response(coupling_, omega_, x.data());
         const ReducedModel &m = *m_;
         double first = 0;
         for (std::int64_t i = 0; i < m.n_pairs(); ++i) {
-            double rest = -m.initial_gap[i], swing = 0;
-            for (std::int64_t j = 0; j < m.static_size(); ++j) rest += m.gap_0(i, j) * x[j];
+            double mean = -m.initial_gap[i], swing = 0;
+            for (std::int64_t j = 0; j < m.static_size(); ++j) mean += m.gap_0(i, j) * x[j];
             for (std::int64_t j = 0; j < m.size(); ++j) swing += m.gap(i, j) * shape_[j];
-            if (swing != 0 && share_[i] != 0.5 && (first == 0 || std::abs(rest / swing) < first))
-                first = std::abs(rest / swing);
+            if (swing != 0 && coupling_[i] != 0.5 && (first == 0 || std::abs(mean / swing) < first))
+                first = std::abs(mean / swing);
         }
         return first;
     }
@@ -290,7 +290,7 @@ class ModePath final : public PathOwner {
 
     PathStart start() {
         vector<double> x(inner_->size());
-        inner_->linear_response(share_, omega_, x.data());
+        inner_->linear_response(coupling_, omega_, x.data());
         std::fill(x.begin() + m_->static_size(), x.end(), 0.0);
         for (std::int64_t j = 0; j < m_->size(); ++j)
             x[m_->static_size() + j] = options_.amplitude_min * shape_[j];
@@ -313,7 +313,7 @@ class ModePath final : public PathOwner {
     std::shared_ptr<const ReducedModel> m_;
     NonlinearModeOptions options_;
     Watch watch_;
-    vector<double> share_, shape_;
+    vector<double> coupling_, shape_;
     double omega_ = 0;
     std::unique_ptr<HbmSystem> inner_;
     std::unique_ptr<NonlinearModeSystem> system_;

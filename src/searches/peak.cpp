@@ -203,7 +203,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     if (is_peak && options_.n_harmonics != 0)
         warn_of_given_harmonics(reduced_, options_, dof, measure, harmonic, *one);
     check_basis(window_, watch_, *one);
-    one->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
+    one->unknowns_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);
     peak.branch = one;

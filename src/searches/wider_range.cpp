@@ -85,10 +85,10 @@ class Widening {
         const std::size_t n = points().size();
         const CurveStart start = at == End::first ? CurveStart{points()[0], {points()[1]}, true}
                                                   : CurveStart{points()[n - 1], {points()[n - 2]}, true};
-        HbmOptions rest = options_;
-        rest.max_points -= static_cast<std::int64_t>(n) - 1; // the start is recorded once more
+        HbmOptions options = options_;
+        options.max_points -= static_cast<std::int64_t>(n) - 1; // the start is recorded once more
         Branch piece(branch_.reduced_model(), branch_.force_scale(), branch_.period_multiple());
-        trace_curve(rest, start, watch_, piece);
+        trace_curve(options, start, watch_, piece);
         add_cost(piece);
         if (at == End::first)
             branch_.prepend(piece);
@@ -103,7 +103,7 @@ class Widening {
         branch_.newton_work += piece.newton_work;
         branch_.failed_steps += piece.failed_steps;
         branch_.warnings.add(piece.warnings);
-        if (piece.space_used != branch_.space_used) branch_.space_used = "both";
+        if (piece.unknowns_used != branch_.unknowns_used) branch_.unknowns_used = "both";
     }
 
     void warn(End at) {

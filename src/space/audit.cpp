@@ -139,14 +139,14 @@ class Audit {
 
     // Frequencies carry half of what their squares do; no result is to be wrong by 1 % without a word.
     void rounding() {
-        const double share = 0.5 * m_.uncertainty();
-        if (share < 5e-3) return;
-        add(2, share,
+        const double uncertain = 0.5 * m_.uncertainty();
+        if (uncertain < 5e-3) return;
+        add(2, uncertain,
             format(
                 "rounding of the stiffness matrix leaves the lowest elastic frequency uncertain by %.1g of "
                 "it: the mesh is too fine, or a penalty too stiff, for double precision; use larger "
                 "elements, a softer penalty, or supports",
-                share));
+                uncertain));
     }
 
     void frequencies() {

@@ -98,7 +98,7 @@ class Study {
         return m.setup_seconds - m.space_seconds + m.space->seconds;
     }
 
-    double share_done() const {
+    double progress() const {
         return static_cast<double>(n_done_) / static_cast<double>(1 + plan_.methods.size());
     }
 
@@ -119,7 +119,7 @@ class Study {
     }
 
     void run_reference() {
-        watch_.step("study", share_done());
+        watch_.step("study", progress());
         MethodPlan plan = reference_plan();
         plan.name = "reference";
         plan.recipe = windowed(plan.recipe);
@@ -250,7 +250,7 @@ class Study {
     MethodResult row(const MethodPlan &planned) {
         MethodResult r = named(planned);
         try {
-            watch_.step("study", share_done());
+            watch_.step("study", progress());
             MethodPlan method = planned;
             method.recipe = windowed(method.recipe);
             const Measurement first = measured_once(method, r);
@@ -291,7 +291,7 @@ class Study {
         };
         if (plan_.options.repeats == 0) add(first);
         for (std::int64_t k = 0; k < plan_.options.repeats; ++k) {
-            watch_.step("study", share_done());
+            watch_.step("study", progress());
             add(measure(method, where_, watch_));
         }
         r.space_seconds = median(space);

@@ -31,7 +31,7 @@ double error_at(FormulationKind kind, int harmonics) {
     const Model m = test::reduce_exactly(s);
     HbmOptions o;
     o.n_harmonics = harmonics;
-    o.unknowns = plm::UnknownSpace::gaps;
+    o.unknowns = plm::NonlinearUnknowns::gaps;
     o.formulation = kind;
     const double omega = 2.0; // linear amplitude 0.33 against a gap of 0.2
     const auto branch = solver(m, o, 1, 4).solve(omega / (2 * M_PI), nullptr, 0);
@@ -85,7 +85,7 @@ void the_rigid_limit_is_reached_by_default(void **) {
 
 void the_form_can_be_refused(void **) {
     HbmOptions o;
-    o.unknowns = plm::UnknownSpace::modal;
+    o.unknowns = plm::NonlinearUnknowns::modal;
     o.formulation = FormulationKind::compliance;
     bool refused = false;
     try {

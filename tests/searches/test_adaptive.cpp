@@ -112,7 +112,8 @@ Estimates estimates() {
     const exact::Structure s = test::chain(3, 0.02, 20, 0.1, 0.4, 0.2, {0, 2});
     const Model m = test::reduce_exactly(s);
     Estimates e;
-    for (const plm::UnknownSpace unknowns : {plm::UnknownSpace::modal, plm::UnknownSpace::gaps})
+    for (const plm::NonlinearUnknowns unknowns :
+         {plm::NonlinearUnknowns::modal, plm::NonlinearUnknowns::gaps})
         for (const double omega : {0.62, 0.7, 0.85, 1.0})
             for (const std::int64_t n : {10, 20}) {
                 HbmOptions few, many;
@@ -153,13 +154,13 @@ Spaces spaces() {
         HbmOptions o;
         o.n_harmonics = 7;
         o.max_step = 0.02;
-        o.unknowns = k == 0   ? plm::UnknownSpace::automatic
-                     : k == 1 ? plm::UnknownSpace::modal
-                              : plm::UnknownSpace::gaps;
+        o.unknowns = k == 0   ? plm::NonlinearUnknowns::automatic
+                     : k == 1 ? plm::NonlinearUnknowns::modal
+                              : plm::NonlinearUnknowns::gaps;
         found[k] = solver(m, o, 0.1, 1.2).sweep();
     }
     Spaces r;
-    r.automatic = found[0]->space_used;
+    r.automatic = found[0]->unknowns_used;
     const double top = peak_of(*m, *found[0], 7);
     r.modal_error = std::abs(peak_of(*m, *found[1], 7) / top - 1);
     r.gaps_error = std::abs(peak_of(*m, *found[2], 7) / top - 1);

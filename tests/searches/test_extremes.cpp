@@ -67,7 +67,7 @@ void undamped_response_is_exact_off_resonance(void **) {
 }
 
 // A free mass on a unilateral spring under its weight, shaken gently: it never lifts off and is linear.
-double gentle_shaking_error(plm::UnknownSpace unknowns) {
+double gentle_shaking_error(plm::NonlinearUnknowns unknowns) {
     exact::Structure s = test::bilinear_oscillator(0, 4, 0, 0.01, 1.0);
     s.stiffness = {0};
     s.damping = {0.1};
@@ -81,8 +81,8 @@ double gentle_shaking_error(plm::UnknownSpace unknowns) {
     return std::abs(half_range(*m, branch->points()[0], 0) / want - 1);
 }
 void a_mass_held_by_contact_alone_rests_on_it(void **) {
-    assert_true(below(gentle_shaking_error(plm::UnknownSpace::modal), 1e-10));
-    assert_true(below(gentle_shaking_error(plm::UnknownSpace::gaps), 1e-10));
+    assert_true(below(gentle_shaking_error(plm::NonlinearUnknowns::modal), 1e-10));
+    assert_true(below(gentle_shaking_error(plm::NonlinearUnknowns::gaps), 1e-10));
 }
 
 std::vector<double> amplitudes_over_harmonics() {

@@ -143,7 +143,7 @@ void every_basis_answers_as_the_structure_condensed_by_hand(void **) {
 }
 void gaps_and_both_formulations_do_so(void **) {
     HbmOptions o = options(7);
-    o.unknowns = plm::UnknownSpace::gaps;
+    o.unknowns = plm::NonlinearUnknowns::gaps;
     for (plm::FormulationKind formulation :
          {plm::FormulationKind::penalty, plm::FormulationKind::compliance}) {
         o.formulation = formulation;
