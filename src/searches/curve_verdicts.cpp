@@ -15,7 +15,8 @@ constexpr double far_from_switching = 100;
 
 bool is_inside(const SweepRange &window, const BranchPoint &p) {
     const double hz = p.omega / (2 * M_PI);
-    return hz > window.min_hz * (1 - 1e-6) && hz < window.max_hz * (1 + 1e-6);
+    constexpr double on_the_end = 1e-6; // relative: rounding of the range in Hz and in rad/s
+    return hz > window.min_hz * (1 - on_the_end) && hz < window.max_hz * (1 + on_the_end);
 }
 
 // The point outside the window where the response is largest; -1: all lie inside.

@@ -57,11 +57,14 @@ std::int64_t next_harmonics(const HbmOptions &limits, std::int64_t fewest, std::
                             const HarmonicContent &content, double error) {
     const std::int64_t most = std::max(limits.max_harmonics, now);
     const double over = std::max(error, content.tail / tail_allowance) / limits.harmonic_tolerance;
-    if (over > 30) return std::min(most, 2 * now);
+    constexpr double far_too_few = 30; // times the tolerance: below, two fifths more are likely to do
+    constexpr double too_many = 0.3;   // of the tolerance: no number is to be taken back at the next point
+    if (over > far_too_few) return std::min(most, 2 * now);
     if (over > 1) return std::min(most, std::max(now + 2, (7 * now + 4) / 5));
     // without the upper two fifths the tail would grow from `tail` to `tail + top`, and its effect with it
     const double grows = content.tail > 0 ? 1 + content.top / content.tail : 1;
-    if (over * grows < 0.3 && content.tail + content.top < 0.3 * tail_allowance * limits.harmonic_tolerance)
+    if (over * grows < too_many &&
+        content.tail + content.top < too_many * tail_allowance * limits.harmonic_tolerance)
         return std::max(fewest, now - (2 * now) / 5);
     return now;
 }

@@ -105,10 +105,12 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
     // range is entered a little further on then, if that is better.
     CurveStart start;
     bool found = false;
-    for (int attempt = 0; attempt < 5; ++attempt) {
+    constexpr int most_attempts = 5;
+    constexpr double further_in = 0.02; // of the range: what is left out of the curve is to be small
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
         watch_.step("sweep", 0.0);
         BranchPoint point;
-        if (!solve_at(from + 0.02 * attempt * into, nullptr, *branch, point)) continue;
+        if (!solve_at(from + further_in * attempt * into, nullptr, *branch, point)) continue;
         if (!found || point.harmonic_error < start.point.harmonic_error) start.point = point;
         found = true;
         if (options_.n_harmonics != 0 || start.point.harmonic_error < worthless_error) break;

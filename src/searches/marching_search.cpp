@@ -19,7 +19,7 @@ class Samples final : public FlowRecorder {
     Samples(double begin, double duration, std::int64_t count, std::int64_t n)
         : begin_(begin), step_(duration / static_cast<double>(count)), values_(n, count) {}
     void record(const FlowPiece &piece) override {
-        const double noise = 1e-12 * step_;
+        const double noise = 1e-12 * step_; // an instant on the border of two pieces belongs to either
         for (; next_ < values_.cols(); ++next_) {
             const double t = begin_ + step_ * static_cast<double>(next_) - piece.start;
             if (t > piece.duration + noise) return;
@@ -96,7 +96,7 @@ class Marching {
         }
         ShootingOptions shooting;
         shooting.transient_periods = options_.transient_periods;
-        shooting.tolerance = 1e-8;
+        shooting.tolerance = 1e-8; // a first guess for the harmonics, which cut off more
         PeriodicOrbit orbit;
         try {
             orbit = periodic_orbit(flow, start, shooting);

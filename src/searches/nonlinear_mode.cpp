@@ -195,7 +195,8 @@ class ModePath final : public PathOwner {
         PathOptions range =
             path_options(options_.hbm, std::log(options_.amplitude_min), std::log(options_.amplitude_max));
         range.upward = true;
-        range.max_step = std::min(0.05, options_.hbm.max_step);
+        constexpr double longest_of_mode = 0.05; // internal resonances take up little of the range
+        range.max_step = std::min(longest_of_mode, options_.hbm.max_step);
         range.locate = true;
         PathOutcome out;
         try {
@@ -255,6 +256,11 @@ class ModePath final : public PathOwner {
     }
 
     void find_amplitudes() {
+        constexpr double still_linear = 0.5; // of the first change
+        constexpr double below = 0.1,
+                         far_below = 0.01; // of the amplitude asked for: the mode begins well before it
+        constexpr double far_beyond = 100,
+                         out_of_reach = 1000; // of the first change, of the amplitude asked for
         if (options_.amplitude_min > 0 && options_.amplitude_max > options_.amplitude_min) return;
         const double first = first_change(), asked = asked_amplitude();
         if (first == 0 && asked == 0)
@@ -263,11 +269,11 @@ class ModePath final : public PathOwner {
                 "no pair changes its state at a certain amplitude (neither pre-load nor gap): say up to "
                 "which amplitude to go")
                 .argument("amplitude_max");
-        double low = first > 0 ? 0.5 * first : 0.01 * asked;
-        if (asked > 0) low = std::min(low, 0.1 * asked);
+        double low = first > 0 ? still_linear * first : far_below * asked;
+        if (asked > 0) low = std::min(low, below * asked);
         options_.amplitude_min = low;
         options_.amplitude_max =
-            asked > 0 ? 1000 * std::max(asked, first) : 100 * first; // interrupt() ends it
+            asked > 0 ? out_of_reach * std::max(asked, first) : far_beyond * first; // interrupt() ends it
     }
 
     // The amplitude of the mode that moves the DOF as asked; 0: not asked.
@@ -276,13 +282,14 @@ class ModePath final : public PathOwner {
         const std::int64_t row = m_->model->free_index(options_.dof);
         double swing = 0;
         for (std::int64_t j = 0; j < m_->size() && row >= 0; ++j) swing += m_->vectors(row, j) * shape_[j];
+        constexpr double moves = 1e-6; // of the largest displacement: below, it is rounding of the mode
         double most = 0;
         for (std::int64_t i = 0; i < m_->vectors.rows(); ++i) {
             double v = 0;
             for (std::int64_t j = 0; j < m_->size(); ++j) v += m_->vectors(i, j) * shape_[j];
             most = std::max(most, std::abs(v));
         }
-        if (!(std::abs(swing) > 1e-6 * most))
+        if (!(std::abs(swing) > moves * most))
             throw Error(PLM_ERR_ARGUMENT, "this mode does not move the DOF; name one that it moves")
                 .argument("dof");
         return options_.dof_amplitude_max / std::abs(swing);

@@ -10,6 +10,14 @@ namespace plm {
 namespace {
 
 constexpr std::int32_t crossing = -1; // kind of the test function force - force_scale
+constexpr double longest_step = 0.05; // of a backbone: extrema of the force come in close pairs
+// Where a backbone ends below: upwards what is of interest begins beside the force asked for; downwards it
+// comes to nothing, or turns.
+constexpr double below_the_force = 0.5, next_to_nothing = 1e-3; // of the force asked for, of the start's
+// The start of a backbone, at rest: of the force at which the first pair switches, of the force asked for;
+// and what is so much smaller than that that the pair switches at any force.
+constexpr double before_switching = 0.5, small_force = 0.1, no_force = 1e-9;
+constexpr double about_resonance = 0.02; // relative: a corrected start farther off is another resonance
 
 // The lowest dynamic harmonic with a load; null: nothing is driven.
 const std::pair<const int, HarmonicLoad> *driven_harmonic(const ReducedModel &m) {
@@ -147,12 +155,13 @@ Backbone PhaseResonance::follow(const BranchPoint &start, bool upward) const {
     Followed path(*this, start);
     path.result.branch =
         std::make_shared<Branch>(reduced_, options_.hbm.force_scale, options_.hbm.period_multiple);
-    PathOptions range = path_options(options_.hbm,
-                                     upward ? 0.5 * std::min(start.force_scale, options_.hbm.force_scale)
-                                            : 1e-3 * start.force_scale,
-                                     options_.force_max);
+    PathOptions range =
+        path_options(options_.hbm,
+                     upward ? below_the_force * std::min(start.force_scale, options_.hbm.force_scale)
+                            : next_to_nothing * start.force_scale,
+                     options_.force_max);
     range.upward = upward;
-    range.max_step = std::min(0.05, options_.hbm.max_step); // extrema of the force come in close pairs
+    range.max_step = std::min(longest_step, options_.hbm.max_step);
     range.locate = true;
     PathStart from;
     from.at = {unknowns_of(*path.system, start), start.force_scale};
@@ -225,15 +234,16 @@ bool PhaseResonance::linear_range(const vector<double> &coupling, const BranchPo
             largest = std::min(largest, coupling[i] == 0.5 ? 0.0 : asked * std::abs(mean[i]) / swing);
         most = std::max(most, swing);
     }
-    force = std::min(0.5 * largest, 0.1 * asked);
-    return force > 1e-9 * asked;
+    force = std::min(before_switching * largest, small_force * asked);
+    return force > no_force * asked;
 }
 
 std::vector<Backbone> PhaseResonance::backbones() const {
     std::vector<Backbone> all;
     for (BranchPoint start : linear_resonances()) {
         const double omega = start.omega;
-        if (!correct(start.force_scale, start) || std::abs(start.omega / omega - 1) > 0.02) continue;
+        if (!correct(start.force_scale, start) || std::abs(start.omega / omega - 1) > about_resonance)
+            continue;
         all.push_back(follow(start, true));
     }
     return all;

@@ -9,9 +9,10 @@
 namespace plm {
 namespace {
 
-constexpr std::int64_t looked_at = 16; // points of a curve whose error is estimated, besides its highest
-constexpr std::int64_t corrected = 60; // points whose corrected motions make the next basis
-constexpr double compression = 0.2;    // of the tolerance, at first
+constexpr std::int64_t looked_at = 16;   // points of a curve whose error is estimated, besides its highest
+constexpr std::int64_t corrected = 60;   // points whose corrected motions make the next basis
+constexpr double compression = 0.2;      // of the tolerance, at first
+constexpr double next_compression = 0.3; // of the last one, when it was not enough
 
 class Refiner {
   public:
@@ -38,7 +39,7 @@ class Refiner {
             }
             best.rounds = round;
             if (round >= options_.max_rounds) return best;
-            if (compressed) pod_tolerance_ *= 0.3;
+            if (compressed) pod_tolerance_ *= next_compression;
             basis = compress(*branch);
         }
     }

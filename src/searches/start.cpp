@@ -91,8 +91,9 @@ class Starter {
         PathOptions path;
         path.low = low;
         path.high = high;
-        path.tolerance = std::max(options_.tolerance, 1e-6); // on the way only
-        path.max_points = 1000;
+        constexpr double on_the_way = 1e-6; // the end of the path is corrected to the tolerance asked for
+        path.tolerance = std::max(options_.tolerance, on_the_way);
+        path.max_points = 1000; // a path that needs more leads nowhere
         return path;
     }
 
@@ -121,9 +122,10 @@ class Starter {
             for (std::int64_t c = 0; c < dynamic.cols(); ++c) sum += std::abs(dynamic(i, c));
             reach = std::max(reach, sum);
         }
-        system_.set_extra_gap(1.01 * reach);
+        reach *= 1.01; // clear of it
+        system_.set_extra_gap(reach);
         system_.linear_response(open, omega_, x_.data());
-        StartPath path(system_, StartPath::Kind::gap, omega_, 1.01 * reach);
+        StartPath path(system_, StartPath::Kind::gap, omega_, reach);
         const bool found = follow(path);
         system_.set_extra_gap(0);
         return found && attempt();
@@ -134,9 +136,10 @@ class Starter {
         const double local = local_stiffness(reduced_);
         double stiffest = 0;
         for (double k : reduced_.contact_stiffness) stiffest = std::max(stiffest, k);
-        for (double soft : {1.0, 0.1}) {
+        constexpr double stiffer = 0.5;  // contact that is hardly stiffer is no easier when softened
+        for (double soft : {1.0, 0.1}) { // of the structure's own stiffness at the contact
             const double factor = soft * local / stiffest;
-            if (!(factor > 0 && factor < 0.5)) continue;
+            if (!(factor > 0 && factor < stiffer)) continue;
             system_.set_stiffness_factor(factor);
             bool found = false;
             for (const vector<double> &coupling :
@@ -159,7 +162,7 @@ class Starter {
 
     // From well above the resonances, where the response is nearly linear, down to the frequency asked for.
     bool frequency_path() {
-        for (double far : {1.5, 3.0, 10.0}) {
+        for (double far : {1.5, 3.0, 10.0}) { // farther is safer, but the way back is longer
             const PathOptions path = path_options(omega_, far * omega_);
             system_.linear_response(coupling_, far * omega_, x_.data());
             NewtonLimits limits;
