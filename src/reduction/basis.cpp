@@ -218,11 +218,12 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
 
 void Basis::compress_parent(const Basis *parent, const Responses *responses) {
     if (!parent)
-        throw Error(PLM_ERR_STATE, "a basis of kind pod needs the basis its responses were computed on as "
-                                   "parent; call plm_basis_set_parent first")
+        throw Error(PLM_ERR_STATE,
+                    "a basis of kind pod needs the basis its responses were computed on; set that "
+                    "as its parent first")
             .argument("parent");
     if (!responses)
-        throw Error(PLM_ERR_STATE, "a basis of kind pod needs responses; call plm_basis_set_responses first")
+        throw Error(PLM_ERR_STATE, "a basis of kind pod needs responses; set those of its parent first")
             .argument("responses");
     if (responses->of != parent->reduced())
         throw Error(PLM_ERR_ARGUMENT,

@@ -205,7 +205,7 @@ std::string most_moved(const Branch &branch, const BranchPoint &p) {
 std::string remedy(const HbmOptions &o, const BranchPoint &p) {
     const char *others =
         "make the basis for more harmonics (n_harmonics of sampler and basis) or the contact "
-        "softer, and compare with the exact motion (plm_transient_find_periodic)";
+        "softer, and compare with the exact periodic motion that a transient finds";
     if (harmonics_of(p, o.period_multiple) >= o.max_harmonics)
         return format("raise max_harmonics (%lld) or, if that is accurate enough, harmonic_tolerance; "
                       "otherwise ",

@@ -58,8 +58,7 @@ std::shared_ptr<const Basis> build(const std::shared_ptr<const Model> &model, co
                                    Watch watch, KnownSpace &space) {
     if (recipe.basis.kind->needs_sampler && !recipe.sampler)
         throw Error(PLM_ERR_STATE,
-                    format("a basis of kind %s needs a sampler; call plm_basis_set_sampler first",
-                           recipe.basis.kind->name))
+                    format("a basis of kind %s needs a sampler; give the basis one", recipe.basis.kind->name))
             .argument("sampler");
     std::shared_ptr<const Basis> parent;
     if (recipe.parent) {

@@ -68,12 +68,11 @@ class Study {
   private:
     static Output checked_output(const StudyPlan &plan) {
         if (plan.methods.empty())
-            throw Error(PLM_ERR_STATE,
-                        "the study has no method; call plm_study_add_response or another plm_study_add_...")
+            throw Error(PLM_ERR_STATE, "the study has no method; add one first, a response, a compressed or "
+                                       "refined basis or marching")
                 .argument("study");
         if (!plan.output)
-            throw Error(PLM_ERR_STATE,
-                        "the study does not know the motion to look at; call plm_study_set_output first")
+            throw Error(PLM_ERR_STATE, "the study does not know the motion to look at; set its output first")
                 .argument("study");
         return *plan.output;
     }
@@ -114,7 +113,7 @@ class Study {
             return truth;
         }
         throw Error(PLM_ERR_STATE,
-                    "methods that march in time give no reference; call plm_study_set_reference")
+                    "methods that march in time give no reference; set the reference of the study")
             .argument("reference");
     }
 
