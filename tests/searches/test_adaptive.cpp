@@ -2,28 +2,20 @@
 // can be switched off, and the answer then agrees.
 #include "contact/trig_polynomial.hpp"
 #include "searches/curve.hpp"
-#include "searches/hbm.hpp"
-#include "support/small_reduced.hpp"
+#include "support/small_solver.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 #include <vector>
 
 using plm::HbmOptions;
+using test::peak_at;
+using test::solver;
 
 namespace {
 
 using Model = std::shared_ptr<const plm::ReducedModel>;
 using BranchPtr = std::shared_ptr<const plm::Branch>;
 
-plm::Hbm solver(Model m, const HbmOptions &o, double low, double high) {
-    return plm::Hbm(std::move(m), low / (2 * M_PI), high / (2 * M_PI), o, plm::Watch());
-}
-
-double peak_at(const plm::ReducedModel &m, const plm::BranchPoint &p, int dof) {
-    const auto q = test::displacement(m, p.eta_0, p.eta, dof);
-    const plm::TrigRange r = plm::trig_range(q.data(), p.eta.cols() / 2);
-    return std::max(std::abs(r.maximum), std::abs(r.minimum));
-}
 double peak_of(const plm::ReducedModel &m, const plm::Branch &b, int dof) {
     double top = 0;
     for (const auto &p : b.points()) top = std::max(top, peak_at(m, p, dof));

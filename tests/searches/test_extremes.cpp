@@ -1,20 +1,16 @@
 // Harmonic balance at the edges of its range: nothing to do, nothing to damp, nothing to hold, many
 // harmonics, odd units.
 #include "contact/trig_polynomial.hpp"
-#include "searches/hbm.hpp"
-#include "support/small_reduced.hpp"
+#include "support/small_solver.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 
 using plm::HbmOptions;
+using test::solver;
 
 namespace {
 
 using Model = std::shared_ptr<const plm::ReducedModel>;
-
-plm::Hbm solver(Model m, const HbmOptions &o, double low, double high) {
-    return plm::Hbm(std::move(m), low / (2 * M_PI), high / (2 * M_PI), o, plm::Watch());
-}
 
 double half_range(const plm::ReducedModel &m, const plm::BranchPoint &p, int dof) {
     const auto q = test::displacement(m, p.eta_0, p.eta, dof);
