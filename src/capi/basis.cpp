@@ -2,6 +2,7 @@
 #include "capi/barrier.hpp"
 #include "capi/handles.hpp"
 #include "linalg/scale.hpp"
+#include "reduction/basis_kind.hpp"
 #include "searches/responses.hpp"
 
 namespace plm::capi {
@@ -16,7 +17,7 @@ namespace {
 
 /// The sampler's result; null when the kind of basis does without.
 std::shared_ptr<const Sampler> run_sampler(const BasisHandle &b) {
-    const bool needed = needs_sampler(b.basis_options.kind);
+    const bool needed = b.basis_options.kind->needs_sampler;
     if (!b.sampler) {
         if (needed)
             throw Error(PLM_ERR_STATE,

@@ -1,6 +1,10 @@
 #include "capi/handles.hpp"
 #include "capi/keys.hpp"
+#include "reduction/basis_kind.hpp"
+#include <algorithm>
 #include <cmath>
+#include <deque>
+#include <iterator>
 
 namespace plm::capi {
 namespace {
@@ -43,19 +47,48 @@ template <class Out, class Member> Out per_mode(const H &h, Member member) {
     return out;
 }
 
+// The kinds stand for their place in the register.
+Key kind_option() {
+    const auto joined = [](const char *separator, auto text) {
+        std::string list;
+        for (const BasisKind *kind : basis_kinds::all) list += (list.empty() ? "" : separator) + text(*kind);
+        return list;
+    };
+    static const std::string names = joined(",", [](const BasisKind &k) { return std::string(k.name); });
+    static const std::string descriptions =
+        joined("; ", [](const BasisKind &k) { return std::string(k.name) + ": " + k.description; });
+    Key key{"kind", PLM_TYPE_STRING, true, descriptions.c_str(), 0, 0, names.c_str()};
+    key.read_option = [](const void *o, Value &v) {
+        const BasisKind *kind = static_cast<const BasisOptions *>(o)->kind;
+        v.integer = std::find(std::begin(basis_kinds::all), std::end(basis_kinds::all), kind) -
+                    std::begin(basis_kinds::all);
+    };
+    key.write_option = [](void *o, const Value &v) {
+        static_cast<BasisOptions *>(o)->kind = basis_kinds::all[v.integer];
+    };
+    return key;
+}
+
+// "<kind>: " before the text of every option that only this kind reads.
+void name_their_kinds(std::vector<Key> &keys) {
+    static std::deque<std::string> texts; // the keys point at them
+    for (const BasisKind *kind : basis_kinds::all)
+        for (const std::string &name : split_words(kind->own_options)) {
+            const auto key =
+                std::find_if(keys.begin(), keys.end(), [&](const Key &k) { return k.name == name; });
+            if (key == keys.end())
+                throw Error(PLM_ERR_INTERNAL, format("kind %s reads an option that is no key", kind->name));
+            texts.push_back(std::string(kind->name) + ": " + key->description);
+            key->description = texts.back().c_str();
+        }
+}
+
 void add_options(std::vector<Key> &keys) {
     using O = BasisOptions;
     keys.insert(
         keys.end(),
         {
-            choice_option<&O::kind>(
-                "kind", "plm,craig_bampton,full,pod,bilinear,lelsm,lelsm_updated,discontinuity,snapshots",
-                "plm: piecewise-linear modes; craig_bampton: contact DOFs retained; full: the "
-                "unreduced structure; pod: the parent compressed to what its responses need; bilinear: modes "
-                "of the open and of the sliding system; lelsm: modes of equivalent linear systems with the "
-                "bilinear frequencies; lelsm_updated: modes and Ritz vectors of the system equivalent at "
-                "the resonance's amplitude; discontinuity: linear modes and a static jump per pair; "
-                "snapshots: modes at rest and static contact solutions"),
+            kind_option(),
             choice_option<&O::selection>(
                 "selection", "bands,below",
                 "modes kept of each sample or linear system: inside the bands [h f_min, h f_max] (paper), or "
@@ -75,24 +108,22 @@ void add_options(std::vector<Key> &keys) {
             int_option<&O::static_augmentation>(
                 "static_augmentation", 0, 1,
                 "1: the static response to the pre-load joins the basis of h = 0"),
-            real_option<&O::pod_tolerance>(
-                "pod_tolerance", 0, 0.5,
-                "pod: share of the responses that may be left out, in the energy norm"),
-            int_option<&O::pod_size>("pod_size", 0, 1e9, "pod: columns of P; 0: by pod_tolerance"),
+            real_option<&O::pod_tolerance>("pod_tolerance", 0, 0.5,
+                                           "share of the responses that may be left out, in the energy norm"),
+            int_option<&O::pod_size>("pod_size", 0, 1e9, "columns of P; 0: by pod_tolerance"),
             real_option<&O::equivalent_amplitude>(
                 "equivalent_amplitude", 0, huge,
-                "lelsm_updated: largest amplitude of a pair's relative motion (length); 0: that of the "
+                "largest amplitude of a pair's relative motion (length); 0: that of the "
                 "resonance under the excitation"),
             int_option<&O::n_discontinuities>(
                 "n_discontinuities", 0, 1e9,
-                "discontinuity: the leading jump patterns by flexibility; 0: one vector per pair"),
+                "the leading jump patterns by flexibility; 0: one vector per pair"),
             real_option<&O::rest_factor>("rest_factor", 0.1, 100,
-                                         "snapshots: modes at rest up to this multiple of the window end"),
+                                         "modes at rest up to this multiple of the window end"),
             int_option<&O::n_snapshots>("n_snapshots", 2, 10000,
-                                        "snapshots: static contact solutions for each dominant mode"),
+                                        "static contact solutions for each dominant mode"),
             real_option<&O::snapshot_tolerance>(
-                "snapshot_tolerance", 0, 0.5,
-                "snapshots: left out below this share of the motion, in the energy norm"),
+                "snapshot_tolerance", 0, 0.5, "left out below this share of the motion, in the energy norm"),
             int_option<&O::n_pairs_carried>(
                 "n_pairs_carried", 0, 1e9,
                 "contact pairs in the equations (node sampling), the others lumped to them; 0: all"),
@@ -100,8 +131,7 @@ void add_options(std::vector<Key> &keys) {
                 "pair_rule", "effective_independence,mdof",
                 "how the pairs carried are chosen: by their share in the rank of the "
                 "motion, or as master degrees of freedom"),
-            int_option<&O::n_fixed_modes>("n_fixed_modes", 0, 1e9,
-                                          "Craig-Bampton: fixed-interface modes; 0: by frequency"),
+            int_option<&O::n_fixed_modes>("n_fixed_modes", 0, 1e9, "fixed-interface modes; 0: by frequency"),
         });
 }
 
@@ -182,6 +212,7 @@ const std::vector<Key> &basis_keys() {
     static const std::vector<Key> keys = [] {
         std::vector<Key> k;
         add_options(k);
+        name_their_kinds(k);
         add_results(k);
         return k;
     }();

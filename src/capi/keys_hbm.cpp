@@ -148,7 +148,7 @@ const std::vector<Key> &branch_keys() {
                   "mean time of a Newton iteration, without stability and harmonics (s)",
                   [](const B &b) { return built(b)->seconds_per_iteration(); }),
         result<B>("unknowns", "nonlinear unknowns used: modal, gaps or both",
-                  [](const B &b) { return built(b)->space_used; }),
+                  [](const B &b) { return built(b)->unknowns_used; }),
         warning_text<B>([](const B &b) -> const Warnings & { return built(b)->warnings; }),
         warning_reasons<B>([](const B &b) -> const Warnings & { return built(b)->warnings; }),
     };

@@ -3,6 +3,7 @@
 #include "capi/keys.hpp"
 #include "capi/study_results.hpp"
 #include "orbits/make_transient.hpp"
+#include "reduction/basis_kind.hpp"
 
 namespace plm::capi {
 namespace {
@@ -26,7 +27,7 @@ std::string name_for(const StudyHandle &s, const char *name) {
 /// The options of a basis and of its sampler and parent, as they are now.
 void read_basis(const BasisHandle &b, MethodPlan &method) {
     Recipe &recipe = method.recipe;
-    if (b.basis_options.kind == BasisKind::pod)
+    if (b.basis_options.kind->is_compressed())
         bad_argument(
             "hbm", -1,
             "its basis is of kind pod, which options alone do not make; add the method it is compressed from "
@@ -38,7 +39,7 @@ void read_basis(const BasisHandle &b, MethodPlan &method) {
         if (const std::size_t n = recipe.sampler->extra.size(); n > 0)
             add_text(method.options_text, "further dominant modes", std::to_string(n));
     }
-    if (b.parent && is_made_of_vectors(recipe.basis.kind)) {
+    if (b.parent && recipe.basis.kind->is_collected()) {
         ParentRecipe parent{b.parent->options(), std::nullopt};
         if (b.parent->sampler()) parent.sampler = b.parent->sampler()->options();
         add_text(method.options_text, "parent", changed_options(Kind::basis, &parent.basis));

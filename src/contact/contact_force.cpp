@@ -29,16 +29,16 @@ double indicator_entry(const double *s, std::int64_t row, std::int64_t column) {
     return cosine(s, m - n) - cosine(s, m + n);
 }
 
-void constant_indicator(const vector<double> &share, std::int64_t n_harmonics, ContactIndicator &out) {
-    const std::int64_t z = static_cast<std::int64_t>(share.size());
+void constant_indicator(const vector<double> &coupling, std::int64_t n_harmonics, ContactIndicator &out) {
+    const std::int64_t z = static_cast<std::int64_t>(coupling.size());
     out.averages.reset(4 * n_harmonics + 1, z);
     out.state.assign(z, PairState::open);
     out.n_switching = 0;
     for (std::int64_t i = 0; i < z; ++i) {
-        out.averages(0, i) = share[i];
-        if (share[i] == 0) continue;
-        out.state[i] = share[i] == 1 ? PairState::closed : PairState::switching;
-        out.n_switching += share[i] != 1;
+        out.averages(0, i) = coupling[i];
+        if (coupling[i] == 0) continue;
+        out.state[i] = coupling[i] == 1 ? PairState::closed : PairState::switching;
+        out.n_switching += coupling[i] != 1;
     }
 }
 

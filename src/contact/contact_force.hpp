@@ -41,8 +41,8 @@ struct SwitchingInstants {
 /// u: Z x (2H + 1) coefficients.
 SwitchingInstants switching_instants(const Matrix &u);
 
-/// Averages for a constant indicator: share[i] in [0, 1] per pair.
-void constant_indicator(const vector<double> &share, std::int64_t n_harmonics, ContactIndicator &out);
+/// Averages for a constant indicator: coupling[i] in [0, 1] per pair.
+void constant_indicator(const vector<double> &coupling, std::int64_t n_harmonics, ContactIndicator &out);
 
 /// Entry (row, column) of J(s) from one pair's averages.
 double indicator_entry(const double *averages, std::int64_t row, std::int64_t column);

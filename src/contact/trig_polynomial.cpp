@@ -86,9 +86,9 @@ double trig_root(const double *x, std::int64_t n_harmonics, TrigEnd low, TrigEnd
 }
 
 double trig_stationary(const double *x, std::int64_t n_harmonics, TrigEnd low, TrigEnd high) {
-    const double share = low.slope / (low.slope - high.slope); // chord of x'
-    return safeguarded_newton(x, n_harmonics, low.t, high.t, low.t + share * (high.t - low.t), low.slope > 0,
-                              1);
+    const double fraction = low.slope / (low.slope - high.slope); // chord of x'
+    return safeguarded_newton(x, n_harmonics, low.t, high.t, low.t + fraction * (high.t - low.t),
+                              low.slope > 0, 1);
 }
 
 TrigRange trig_range(const double *x, std::int64_t n_harmonics) {

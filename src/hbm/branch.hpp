@@ -54,10 +54,10 @@ class Branch {
         return newton_work.iterations > 0 ? newton_work.seconds / static_cast<double>(newton_work.iterations)
                                           : 0;
     }
-    std::string space_used; // "modal", "gaps" or "both"
-    bool sampled = false;   // contact forces from time samples
-    Warnings warnings;      // what should be looked at before its points are used
-    bool is_mode = false;   // a nonlinear mode: motions without excitation, each with a damping ratio
+    std::string unknowns_used; // "modal", "gaps" or "both"
+    bool sampled = false;      // contact forces from time samples
+    Warnings warnings;         // what should be looked at before its points are used
+    bool is_mode = false;      // a nonlinear mode: motions without excitation, each with a damping ratio
 
     /// (2H + 1) coefficients a0, a1, b1, ... of a full-model DOF (base 0; zeros when fixed) at a point.
     vector<double> coefficients(std::int64_t point, std::int64_t dof) const;

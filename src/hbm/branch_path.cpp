@@ -65,7 +65,7 @@ std::shared_ptr<Branch> joined(const Branch &before, const Branch &after) {
     whole->newton_work = before.newton_work;
     whole->newton_work += after.newton_work;
     whole->failed_steps = before.failed_steps + after.failed_steps;
-    whole->space_used = before.space_used == after.space_used ? after.space_used : "both";
+    whole->unknowns_used = before.unknowns_used == after.unknowns_used ? after.unknowns_used : "both";
     whole->sampled = after.sampled;
     return whole;
 }

@@ -27,7 +27,7 @@ Formulation make_formulation(const ReducedModel &m, const HbmOptions &options) {
     Formulation f;
     f.stiffness = m.contact_stiffness;
     f.slack.assign(m.n_pairs(), 0.0);
-    const bool possible = options.unknowns != UnknownSpace::modal;
+    const bool possible = options.unknowns != NonlinearUnknowns::modal;
     if (!possible || options.formulation == FormulationKind::penalty) return f;
     const double local = local_stiffness(m);
     if (local == 0) return f; // the static reference of rigid-body modes needs the penalty form

@@ -17,9 +17,9 @@ template <class Base> class FreeFrequency : public Base {
         this->inner_.force_derivative(r);
         r[this->inner_.size()] = 0;
     }
-    void linear_response(const vector<double> &share, double force, double *y) override {
+    void linear_response(const vector<double> &coupling, double force, double *y) override {
         this->inner_.set_force_scale(force);
-        this->inner_.linear_response(share, omega_reference_, y);
+        this->inner_.linear_response(coupling, omega_reference_, y);
         y[this->inner_.size()] = 0;
     }
     void to_point(const double *y, double force, BranchPoint &point) override {

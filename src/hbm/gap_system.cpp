@@ -159,10 +159,10 @@ class GapSystem final : public HbmSystem {
         }
     }
 
-    void linear_response(const vector<double> &share, double omega, double *x) override {
+    void linear_response(const vector<double> &coupling, double omega, double *x) override {
         std::fill(u_.data(), u_.data() + size(), 0.0);
         set_frequency(omega);
-        constant_indicator(share, h_, indicator_);
+        constant_indicator(coupling, h_, indicator_);
         contact_.reset(z_, n_);
         hold_mean();
         respond(); // at u = 0 with zero force: R = -(B D F - g)

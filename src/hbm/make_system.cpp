@@ -13,9 +13,9 @@ std::unique_ptr<ContactForce> make_contact_force(const HbmOptions &options, std:
 }
 
 bool prefers_modal(const ReducedModel &reduced, const HbmOptions &options) {
-    const UnknownSpace unknowns = options.unknowns;
-    if (unknowns != UnknownSpace::automatic || reduced.n_pairs() == 0)
-        return unknowns == UnknownSpace::modal || reduced.n_pairs() == 0;
+    const NonlinearUnknowns unknowns = options.unknowns;
+    if (unknowns != NonlinearUnknowns::automatic || reduced.n_pairs() == 0)
+        return unknowns == NonlinearUnknowns::modal || reduced.n_pairs() == 0;
     // The dense factorization dominates both; its order is r (2H + 1) or, at the most, Z (2H + 1).
     if (make_formulation(reduced, options).compliant) return false;
     return reduced.size() <= reduced.n_pairs();
@@ -36,8 +36,8 @@ class SubharmonicSystem final : public WrappedSystem {
         inner_.parameter_derivative(r);
         for (std::int64_t i = 0; i < size(); ++i) r[i] /= multiple_;
     }
-    void linear_response(const vector<double> &share, double omega, double *x) override {
-        inner_.linear_response(share, omega / multiple_, x);
+    void linear_response(const vector<double> &coupling, double omega, double *x) override {
+        inner_.linear_response(coupling, omega / multiple_, x);
     }
     void to_point(const double *x, double omega, BranchPoint &point) override {
         inner_.to_point(x, omega / multiple_, point);

@@ -114,15 +114,15 @@ class ModalSystem final : public HbmSystem {
         }
     }
 
-    void linear_response(const vector<double> &share, double omega, double *x) override {
+    void linear_response(const vector<double> &coupling, double omega, double *x) override {
         set_omega(omega);
         x_.assign(size(), 0.0);
-        constant_indicator(share, h_, indicator_);
+        constant_indicator(coupling, h_, indicator_);
         hold_mean();
         linearize();
         std::copy(load_.begin(), load_.end(), x);
         vector<double> gap_force(z_); // -B' k s (-g)
-        for (std::int64_t i = 0; i < z_; ++i) gap_force[i] = stiffness_[i] * share[i] * gap_[i];
+        for (std::int64_t i = 0; i < z_; ++i) gap_force[i] = stiffness_[i] * coupling[i] * gap_[i];
         if (z_ > 0) gemv('T', 1.0, m_->gap_0, gap_force.data(), 1.0, x);
         solve(x, 1);
     }

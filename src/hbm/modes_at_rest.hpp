@@ -5,8 +5,8 @@
 
 namespace plm {
 
-/// Modes with pair i coupled by share[i] k_n at all times, ascending; exactly 0: rigid-body motion that
+/// Modes with pair i coupled by coupling[i] k_n at all times, ascending; exactly 0: rigid-body motion that
 /// nothing holds.
-SpaceModes modes_at_rest(const ReducedModel &reduced, const vector<double> &share);
+SpaceModes modes_at_rest(const ReducedModel &reduced, const vector<double> &coupling);
 
 } // namespace plm

@@ -5,7 +5,7 @@
 namespace plm {
 
 enum class AftKind { event, sampled };
-enum class UnknownSpace { automatic, modal, gaps };
+enum class NonlinearUnknowns { automatic, modal, gaps };
 enum class FormulationKind { automatic, penalty, compliance };
 enum class StabilityKind { off, automatic, floquet, hill };
 
@@ -16,10 +16,10 @@ struct HbmOptions {
     bool tail_correction = false;     // adds the next harmonics that follow from the exact force
     std::int64_t period_multiple = 1; // response period over excitation period
     AftKind aft = AftKind::event;
-    std::int64_t time_samples = 256;                          // sampled AFT only
-    UnknownSpace unknowns = UnknownSpace::automatic;          // reduced coordinates or contact gaps, by cost
-    FormulationKind formulation = FormulationKind::automatic; // of the contact law: by its stiffness
-    double frequency_min_hz = 0, frequency_max_hz = 0;        // 0: the basis' window
+    std::int64_t time_samples = 256;                           // sampled AFT only
+    NonlinearUnknowns unknowns = NonlinearUnknowns::automatic; // reduced coordinates or contact gaps, by cost
+    FormulationKind formulation = FormulationKind::automatic;  // of the contact law: by its stiffness
+    double frequency_min_hz = 0, frequency_max_hz = 0;         // 0: the basis' window
     bool upward = false;              // direction of a sweep; downwards starts are safer
     double force_scale = 1;           // scales the excitation, not the pre-load
     double tolerance = 1e-9;          // of the Newton correction, relative to the solution

@@ -21,8 +21,8 @@ class HbmSystem : public Residual {
     virtual void jacobian_product(const double * /*v*/, double * /*r*/) { throw_not_modal(); }
     /// Adds the force 2 xi omega M q' from the next residual() on (nonlinear modes).
     virtual void set_self_excitation(double /*xi*/) { throw_not_modal(); }
-    /// Solution x of the linear equations with every pair coupled by share[i] k_n at all times.
-    virtual void linear_response(const vector<double> &share, double omega, double *x) = 0;
+    /// Solution x of the linear equations with every pair coupled by coupling[i] k_n at all times.
+    virtual void linear_response(const vector<double> &coupling, double omega, double *x) = 0;
 
     /// Motion, frequency, force scale and contact motion of a point; leaves the rest.
     virtual void to_point(const double *x, double omega, BranchPoint &point) = 0;

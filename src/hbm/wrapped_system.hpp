@@ -20,8 +20,8 @@ class WrappedSystem : public HbmSystem {
     void set_self_excitation(double xi) override { inner_.set_self_excitation(xi); }
     void parameter_derivative(double *r) override { inner_.parameter_derivative(r); }
     int determinant_sign() const override { return inner_.determinant_sign(); }
-    void linear_response(const vector<double> &share, double p, double *x) override {
-        inner_.linear_response(share, p, x);
+    void linear_response(const vector<double> &coupling, double p, double *x) override {
+        inner_.linear_response(coupling, p, x);
     }
     double residual_scale() const override { return inner_.residual_scale(); }
     bool in_balance() const override { return inner_.in_balance(); }

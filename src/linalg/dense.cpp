@@ -1,6 +1,7 @@
 #include "dense.hpp"
 #include "blas_lapack.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace plm {
 
@@ -98,6 +99,13 @@ double dot(std::int64_t n, const double *x, const double *y) {
 double norm2(std::int64_t n, const double *x) {
     const blas_int count = to_blas(n), one = 1;
     return dnrm2_(&count, x, &one);
+}
+
+vector<double> patternless_vector(std::int64_t n) {
+    constexpr double step = 0.754877666; // the inverse plastic number: its multiples fill [0, 1) evenly
+    vector<double> v(n);
+    for (std::int64_t i = 0; i < n; ++i) v[i] = 0.5 + std::fmod(step * static_cast<double>(i + 1), 1.0);
+    return v;
 }
 
 } // namespace plm

@@ -58,5 +58,8 @@ Matrix product(char op_a, char op_b, const Matrix &a, const Matrix &b);
 void gemv(char op, double alpha, const Matrix &a, const double *x, double beta, double *y);
 double dot(std::int64_t n, const double *x, const double *y);
 double norm2(std::int64_t n, const double *x); // overflow-safe (dnrm2)
+/// Entries between 0.5 and 1.5 without a pattern: a start or a right-hand side that no symmetry of a system
+/// makes orthogonal to the vector looked for.
+vector<double> patternless_vector(std::int64_t n);
 
 } // namespace plm

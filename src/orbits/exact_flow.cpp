@@ -14,7 +14,7 @@ constexpr double longest_step = 2.0; // rate x duration of a piece: about 26 ter
 constexpr double truncation = 1e-17;
 constexpr double gap_noise = 16 * std::numeric_limits<double>::epsilon();
 constexpr std::int64_t watch_interval = 64; // pieces
-constexpr double no_progress = 1e-12;       // share of a piece
+constexpr double no_progress = 1e-12;       // fraction of a piece
 constexpr int side_corrections = 8; // one is usual; more when pairs that rest at zero act on each other
 
 } // namespace
@@ -73,21 +73,21 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
             if (attempt == side_corrections || !correct_sides(state, duration)) break;
         }
         std::int64_t pair = -1;
-        const double share = first_event(pair);
-        if (recorder) report(state, share, duration, *recorder);
-        move_to(state, share, duration);
+        const double fraction = first_event(pair);
+        if (recorder) report(state, fraction, duration, *recorder);
+        move_to(state, fraction, duration);
         std::fill(at_zero_.begin(), at_zero_.end(), char(0));
-        if (pair >= 0) switch_pair(pair, share, state.time);
+        if (pair >= 0) switch_pair(pair, fraction, state.time);
     }
     require_finite_result(state.y.data(), model_->size(), "displacements of the exact flow");
     require_finite_result(state.v.data(), model_->size(), "velocities of the exact flow");
 }
 
-void ExactFlow::switch_pair(std::int64_t pair, double share, double time) {
+void ExactFlow::switch_pair(std::int64_t pair, double fraction, double time) {
     closed_[pair] = !closed_[pair];
     at_zero_[pair] = 1;
     ++n_events_;
-    stalled_ = share > no_progress ? 0 : stalled_ + 1;
+    stalled_ = fraction > no_progress ? 0 : stalled_ + 1;
     if (--events_left_ >= 0 && stalled_ <= 100 + 20 * model_->n_pairs()) return;
     throw Error(PLM_ERR_CONVERGENCE,
                 stalled_ > 0 ? format("contact events follow each other without end at t = %g s", time)
@@ -253,10 +253,10 @@ ExactFlow::Side ExactFlow::side_of(std::int64_t pair, double noise) const {
     return {-1, closed_[pair] != 0}; // rests at zero: either side is right
 }
 
-// Share of the piece after which the first pair leaves its side, 1 and pair -1 when none does. A zero at the
-// beginning is divided out, so that it is not found again.
+// Fraction of the piece after which the first pair leaves its side, 1 and pair -1 when none does. A zero at
+// the beginning is divided out, so that it is not found again.
 double ExactFlow::first_event(std::int64_t &pair) {
-    double share = 1;
+    double fraction = 1;
     for (std::int64_t i = 0; i < model_->n_pairs(); ++i) {
         const std::int64_t power = sides_[i].power;
         if (power < 0) continue;
@@ -266,42 +266,42 @@ double ExactFlow::first_event(std::int64_t &pair) {
         for (std::int64_t k = power + 1; k < n_terms_; ++k) reach += std::abs(penetration_(i, k));
         if (first >= reach) continue;
         double scale = sign; // the rest of the piece is of no interest once an event is known
-        for (std::int64_t k = power; k < n_terms_; ++k, scale *= share)
+        for (std::int64_t k = power; k < n_terms_; ++k, scale *= fraction)
             polynomial_[k - power] = scale * penetration_(i, k);
         const double at = first_crossing(polynomial_.data(), n_terms_ - 1 - power, noise_[i]);
         if (at < 0) continue;
-        share *= at;
+        fraction *= at;
         pair = i;
     }
-    return share;
+    return fraction;
 }
 
-void ExactFlow::move_to(FlowState &state, double share, double duration) {
+void ExactFlow::move_to(FlowState &state, double fraction, double duration) {
     const std::int64_t n = model_->size();
     std::fill(state.y.begin(), state.y.end(), 0.0);
     std::fill(state.v.begin(), state.v.end(), 0.0);
     for (std::int64_t k = n_terms_ - 1; k >= 0; --k) { // Horner for value and derivative
         const double *c = coefficient_.col(k);
         for (std::int64_t j = 0; j < n; ++j) {
-            state.v[j] = state.v[j] * share + state.y[j];
-            state.y[j] = state.y[j] * share + c[j];
+            state.v[j] = state.v[j] * fraction + state.y[j];
+            state.y[j] = state.y[j] * fraction + c[j];
         }
     }
     for (std::int64_t j = 0; j < n; ++j) state.v[j] /= duration;
-    state.time += share * duration;
+    state.time += fraction * duration;
 }
 
-void ExactFlow::report(const FlowState &state, double share, double duration, FlowRecorder &recorder) {
-    if (!(share > 0)) return;
-    if (share == 1) {
+void ExactFlow::report(const FlowState &state, double fraction, double duration, FlowRecorder &recorder) {
+    if (!(fraction > 0)) return;
+    if (fraction == 1) {
         recorder.record({state.time, duration, coefficient_, closed_});
         return;
     }
     shortened_ = coefficient_;
     double scale = 1;
-    for (std::int64_t k = 0; k < n_terms_; ++k, scale *= share)
+    for (std::int64_t k = 0; k < n_terms_; ++k, scale *= fraction)
         for (std::int64_t j = 0; j < model_->size(); ++j) shortened_(j, k) *= scale;
-    recorder.record({state.time, share * duration, shortened_, closed_});
+    recorder.record({state.time, fraction * duration, shortened_, closed_});
 }
 
 void ContactHistory::record(const FlowPiece &piece) {

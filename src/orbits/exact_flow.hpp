@@ -68,9 +68,9 @@ class ExactFlow {
     bool correct_sides(const FlowState &state, double duration);
     Side side_of(std::int64_t pair, double noise) const;
     double first_event(std::int64_t &pair);
-    void switch_pair(std::int64_t pair, double share, double time);
-    void move_to(FlowState &state, double share, double duration);
-    void report(const FlowState &state, double share, double duration, FlowRecorder &recorder);
+    void switch_pair(std::int64_t pair, double fraction, double time);
+    void move_to(FlowState &state, double fraction, double duration);
+    void report(const FlowState &state, double fraction, double duration, FlowRecorder &recorder);
 
     std::shared_ptr<const FlowModel> model_;
     double omega_, force_scale_, fastest_force_ = 0;

@@ -88,15 +88,15 @@ void FlowModel::project_damping() {
         return;
     }
     // T C T^T + c_max (M_0 - T M T^T) = T (C - c_max M) T^T + c_max M_0
-    const double rest = largest_damping(m);
+    const double largest = largest_damping(m);
     Matrix c = m.damping;
     if (c.empty()) {
         c.reset(m.size(), m.size());
         for (std::int64_t j = 0; j < m.size(); ++j) c(j, j) = m.damping_diagonal[j];
     }
-    for (std::int64_t j = 0; j < m.size(); ++j) c(j, j) -= rest * m.mass(j);
+    for (std::int64_t j = 0; j < m.size(); ++j) c(j, j) -= largest * m.mass(j);
     damping_ = product('N', 'T', product('N', 'N', to_flow_, c), to_flow_);
-    for (std::int64_t j = 0; j < size(); ++j) damping_(j, j) += rest * m.mass_0(j);
+    for (std::int64_t j = 0; j < size(); ++j) damping_(j, j) += largest * m.mass_0(j);
     clear_massless(m.n_massless_0, damping_);
 }
 
@@ -165,8 +165,8 @@ double FlowModel::least_damping() const {
         const double c = damping_.empty() ? damping_diagonal_[j] : damping_(j, j);
         largest = std::max(largest, c);
         if (j >= massive || !(lambda_[j] > 0) || lambda_[j] > lambda_.back() || !(c > 0)) continue;
-        const double share = c / std::sqrt(lambda_[j]);
-        least = least > 0 ? std::min(least, share) : share;
+        const double ratio = c / std::sqrt(lambda_[j]);
+        least = least > 0 ? std::min(least, ratio) : ratio;
     }
     return std::max(negligible * least * reach, 1e-13 * largest);
 }

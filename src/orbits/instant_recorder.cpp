@@ -24,9 +24,9 @@ void InstantRecorder::record(const FlowPiece &piece) {
     polynomials_.reset(piece.coefficient.cols(), rows_.rows());
     gemm('T', 'T', 1.0, piece.coefficient, rows_, 0.0, polynomials_);
     for (; instant() <= piece_start_ + at_the_end * interval_; ++n_instants_) {
-        const double share = std::clamp((instant() - start) / piece.duration, 0.0, 1.0);
+        const double fraction = std::clamp((instant() - start) / piece.duration, 0.0, 1.0);
         for (std::int64_t i = 0; i < rows_.rows(); ++i)
-            values_.push_back(evaluate_polynomial(polynomials_.col(i), polynomials_.rows() - 1, share));
+            values_.push_back(evaluate_polynomial(polynomials_.col(i), polynomials_.rows() - 1, fraction));
     }
 }
 

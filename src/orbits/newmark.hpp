@@ -59,8 +59,8 @@ FullState rest_state(const std::shared_ptr<const Model> &model, Watch watch = Wa
 class Newmark {
   public:
     /// omega: of the excitation (rad/s). Damping: Rayleigh and an explicit C as they are; structural damping
-    /// by its viscous equivalent eta K / omega. PLM_ERR_ARGUMENT for options out of range and for modal
-    /// damping, which has no sparse form.
+    /// by its viscous equivalent eta K / omega. PLM_ERR_ARGUMENT for modal damping, which has no
+    /// sparse form.
     Newmark(std::shared_ptr<const Model> model, double omega, const NewmarkOptions &options,
             Watch watch = Watch());
 

@@ -17,9 +17,9 @@ double seconds_since(Clock::time_point begin) {
 }
 
 // Hands on the progress of one piece of a run as progress of the run.
-class ShareOfRun final : public Monitor {
+class RunProgress final : public Monitor {
   public:
-    ShareOfRun(Watch watch, double n_pieces) : watch_(watch), n_pieces_(n_pieces) {}
+    RunProgress(Watch watch, double n_pieces) : watch_(watch), n_pieces_(n_pieces) {}
     void log(int level, const std::string &text) override { watch_.log(level, text); }
     bool progress(const char *stage, double fraction) override {
         return watch_.cancelled(stage, (done_ + fraction) / n_pieces_);
@@ -50,8 +50,8 @@ class ReducedMotion::March {
   public:
     March(std::shared_ptr<const FlowModel> model, const TransientOptions &options, FlowState state,
           Matrix observed, Watch watch)
-        : options_(options), share_(watch, 4 * static_cast<double>(options.periods)),
-          flow_(std::move(model), excitation_omega(options), options.force_scale, Watch(&share_)),
+        : options_(options), progress_(watch, 4 * static_cast<double>(options.periods)),
+          flow_(std::move(model), excitation_omega(options), options.force_scale, Watch(&progress_)),
           settling_(options.settled, options.period_multiple), state_(std::move(state)), before_(state_),
           begin_(state_.time),
           recorder_(std::move(observed), flow_.period() / static_cast<double>(options.steps_per_period)) {}
@@ -84,8 +84,8 @@ class ReducedMotion::March {
 
   private:
     void period() {
-        for (int quarter = 1; quarter <= 4; ++quarter, share_.next()) {
-            Watch(&share_).step("exact flow", 0.0);
+        for (int quarter = 1; quarter <= 4; ++quarter, progress_.next()) {
+            Watch(&progress_).step("exact flow", 0.0);
             recorder_.continue_at(static_cast<double>(periods_) * flow_.period() + part());
             flow_.advance(state_, begin_ + 0.25 * quarter * flow_.period(), &recorder_);
             if (settling_.quarter(distance(flow_.model(), state_, before_, flow_.omega()))) before_ = state_;
@@ -95,7 +95,7 @@ class ReducedMotion::March {
     }
 
     const TransientOptions &options_;
-    ShareOfRun share_;
+    RunProgress progress_;
     ExactFlow flow_;
     Settling settling_;
     FlowState state_, before_;

@@ -9,13 +9,6 @@ namespace {
 constexpr double least_damping = 1.0 / 64;
 constexpr std::int64_t first_march = 4; // periods; doubled each time
 
-void check(const ShootingOptions &o) {
-    if (o.period_multiple < 1 || o.transient_periods < 0 || !(o.tolerance > 0) || o.max_iterations < 0)
-        throw Error(PLM_ERR_ARGUMENT, "shooting needs period_multiple >= 1, transient_periods >= 0, "
-                                      "tolerance > 0 and max_iterations >= 0")
-            .argument("options");
-}
-
 // Whole periods do not matter to the excitation: times are kept small, and with them their rounding.
 double phase_time(const ExactFlow &flow, double time) {
     return time - std::floor(time / flow.period()) * flow.period();
@@ -55,7 +48,6 @@ void keep_closer(const PeriodRun &run, const FlowState &state, PeriodRun &best, 
 } // namespace
 
 PeriodicOrbit periodic_orbit(ExactFlow &flow, const FlowState &start, const ShootingOptions &options) {
-    check(options);
     FlowState state = start;
     state.time = phase_time(flow, start.time);
     march(flow, state, options.transient_periods);
@@ -82,8 +74,6 @@ PeriodicOrbit periodic_orbit(ExactFlow &flow, const FlowState &start, const Shoo
 }
 
 double periodicity_defect(ExactFlow &flow, const FlowState &state, std::int64_t period_multiple) {
-    if (period_multiple < 1)
-        throw Error(PLM_ERR_ARGUMENT, "period_multiple must be at least 1").argument("period_multiple");
     return run_periods(flow, state, period_multiple).defect();
 }
 

@@ -6,8 +6,41 @@
 namespace plm {
 namespace {
 
-constexpr double target_angle = 0.25;  // rad between neighbouring tangents
 constexpr double same_solution = 1e-6; // distance of two solutions that were computed twice
+
+// The length of a step. It decides how many points a path takes; what may not be stepped over is asked for by
+// accept().
+constexpr double target_angle = 0.25; // rad between neighbouring tangents
+constexpr double straight = 1e-6;     // rad: hardly turned, the angle itself is rounding
+constexpr double most_growth = 1.6,
+                 least_growth = 0.35;       // from one step to the next: the curvature varies, too
+constexpr std::int64_t many_iterations = 6; // Newton's method was slow: the prediction was poor
+constexpr double slow_growth = 0.6;         // then, however straight the path is
+constexpr double after_failure = 0.4;       // of the step that failed
+constexpr double first_step = 0.2,
+                 step_after_rescue = 0.05; // of the largest: nothing is known of the path ahead
+
+// Where a correction may lead: it moves in the plane across the step, so that the distance from the last
+// point is about that step, unless it has come upon another piece of the path.
+constexpr double shortest_move = 0.3, longest_move = 2; // of the step
+constexpr double longest_last_move = 4;                 // of the largest step, to the boundary of the range
+constexpr double across_damping = 0.2; // a step that Newton's method must damp more than this is too long
+
+// A step that turned sharply or seems to have crossed to another curve is tried again, shorter, while it is
+// longer than so many of the smallest: three failures away from it.
+constexpr double shortenable = 20;
+
+constexpr std::int64_t least_points_of_loop = 6; // before: the path is still on its way from the start
+constexpr double passing_distance = 0.2;         // of the step, from its chord to the start it passes
+
+// Lengths tried to get round a corner: from a few of the smallest steps, which cannot resolve it, to what is
+// still a corner seen from steps of the usual length.
+constexpr double corner_from = 10, corner_growth = 10; // of the smallest step
+constexpr double corner_to = 0.01;                     // of the largest
+constexpr double beyond_corner = 0.5; // cosine of the tangent found there with the one expected: 60 degrees
+
+// Ahead of a point where the path is stuck, of the range of p: near enough to be on the same branch.
+constexpr double rescue_distances[] = {1e-4, 1e-3};
 
 class Continuation {
   public:
@@ -16,7 +49,7 @@ class Continuation {
 
     PathOutcome run(const PathStart &start) {
         begin(start);
-        step_ = options_.initial_step > 0 ? options_.initial_step : 0.2 * options_.max_step;
+        step_ = options_.initial_step > 0 ? options_.initial_step : first_step * options_.max_step;
         while (out_.end_reason == PLM_REASON_NONE && !interrupted_) {
             if (n_recorded_ >= options_.max_points) {
                 end(PLM_REASON_POINT_LIMIT);
@@ -69,12 +102,13 @@ class Continuation {
 
     // Whether a correction came out about where the step went.
     static bool is_near(const NewtonOutcome &out, double moved, double step) {
-        return out.converged && moved <= 2 * step && moved >= 0.3 * step;
+        return out.converged && moved <= longest_move * step && moved >= shortest_move * step;
     }
 
     void advance() {
         PathState next = predict(step_);
-        const NewtonOutcome out = walker_.correct(next, walker_.tangent(), 0.2, walker_.is_factored());
+        const NewtonOutcome out =
+            walker_.correct(next, walker_.tangent(), across_damping, walker_.is_factored());
         const double moved = out.converged ? walker_.metric().distance(next, walker_.now()) : 0;
         if (!is_near(out, moved, step_)) return retry(out.reason);
         const PathState before = walker_.now(), old_tangent = walker_.tangent();
@@ -84,7 +118,8 @@ class Continuation {
         walker_.make_tangent(&old_tangent);
         const double cosine = walker_.cosine_with_tangent(old_tangent),
                      angle = std::acos(std::min(1.0, std::max(-1.0, cosine)));
-        if (angle > PathWalker::sharp_angle && step_ > 20 * options_.min_step) { // a corner: closer first
+        if (angle > PathWalker::sharp_angle &&
+            step_ > shortenable * options_.min_step) { // a corner: closer first
             walker_.move(before);
             walker_.set_tangent(old_tangent);
             return retry(PLM_REASON_STEP_MINIMUM);
@@ -94,8 +129,9 @@ class Continuation {
         if (angle > PathWalker::sharp_angle) walker_.orient(orientation_);
         if (!accept(out, moved, old_tangent, before)) return retry(PLM_REASON_STEP_MINIMUM);
         orientation_ = walker_.orientation();
-        double factor = std::min(1.6, std::max(0.35, target_angle / std::max(angle, 1e-6)));
-        if (out.iterations > 6) factor = std::min(factor, 0.6);
+        double factor =
+            std::min(most_growth, std::max(least_growth, target_angle / std::max(angle, straight)));
+        if (out.iterations > many_iterations) factor = std::min(factor, slow_growth);
         step_ = std::min(options_.max_step, std::max(options_.min_step, step_ * factor));
     }
 
@@ -112,7 +148,7 @@ class Continuation {
         tests_ = walker_.tests();
         for (std::size_t k = 0; k < std::min(tests_.size(), old_tests.size()); ++k)
             if (std::isnan(tests_[k])) tests_[k] = old_tests[k]; // its sign is that of the last known value
-        if (locate(before, old_tangent, moved, old_tests) && moved > 20 * options_.min_step) {
+        if (locate(before, old_tangent, moved, old_tests) && moved > shortenable * options_.min_step) {
             tests_ = old_tests;
             last_step_ = 0;
             walker_.restore(before, old_tangent);
@@ -137,12 +173,13 @@ class Continuation {
 
     // The step from `before` passed the point where the path began.
     bool passes_start(const PathState &before, double moved) const {
-        if (from_start_ && n_recorded_ < 6) return false;
+        if (from_start_ && n_recorded_ < least_points_of_loop) return false;
         const PathState chord = difference(walker_.now(), before), back = difference(target_, before);
         const double along = walker_.metric().product(chord, back) / (moved * moved);
         if (!(along > 0 && along <= 1)) return false;
         const double distance = walker_.metric().length(back);
-        return std::sqrt(std::max(0.0, distance * distance - along * along * moved * moved)) < 0.2 * moved;
+        return std::sqrt(std::max(0.0, distance * distance - along * along * moved * moved)) <
+               passing_distance * moved;
     }
 
     // Whether the solution on the present step at the parameter of the start is the start itself.
@@ -197,7 +234,7 @@ class Continuation {
         last.parameter = edge;
         const NewtonOutcome out = walker_.correct_at_parameter(last);
         const double moved = walker_.metric().distance(last, before);
-        if (!out.converged || moved > 4 * options_.max_step) {
+        if (!out.converged || moved > longest_last_move * options_.max_step) {
             last_step_ = 0;
             walker_.restore(before, old_tangent);
             return false;
@@ -225,11 +262,11 @@ class Continuation {
         ++out_.failed_steps;
         walker_.set_factored(false);
         plain_predictor_ = out_.failed_steps % 2 == 0;
-        step_ *= 0.4;
+        step_ *= after_failure;
         if (step_ >= options_.min_step) return;
         if (turn_corner()) return;
         if (!rescued_ && rescue()) {
-            step_ = 0.05 * options_.max_step;
+            step_ = step_after_rescue * options_.max_step;
             return;
         }
         end(reason == PLM_REASON_NONE ? PLM_REASON_STEP_MINIMUM : reason);
@@ -240,7 +277,8 @@ class Continuation {
     // Its direction beyond is that of the tangent matrix a step ahead, on the side that the orientation says.
     bool turn_corner() {
         const PathState before = walker_.now(), old_tangent = walker_.tangent();
-        for (double length = 10 * options_.min_step; length < 0.01 * options_.max_step; length *= 10) {
+        for (double length = corner_from * options_.min_step; length < corner_to * options_.max_step;
+             length *= corner_growth) {
             last_step_ = 0;
             const PathState ahead = predict(length);
             walker_.linearize_at(ahead);
@@ -252,14 +290,15 @@ class Continuation {
             if (cosine > std::cos(PathWalker::sharp_angle)) continue;
             PathState next = ahead; // so that Newton's method begins on the other side of the corner
             add(length * (1 - cosine), direction, next);
-            const NewtonOutcome out = walker_.correct(next, direction, 0.2, false);
+            const NewtonOutcome out = walker_.correct(next, direction, across_damping, false);
             const double moved = out.converged ? walker_.metric().distance(next, before) : 0;
             if (!is_near(out, moved, length)) continue;
             walker_.move(std::move(next));
             walker_.linearize_here();
             walker_.make_tangent(nullptr);
             walker_.orient(orientation_);
-            if (walker_.cosine_with_tangent(direction) > 0.5 && accept(out, moved, old_tangent, before)) {
+            if (walker_.cosine_with_tangent(direction) > beyond_corner &&
+                accept(out, moved, old_tangent, before)) {
                 last_step_ = 0;
                 walker_.set_factored(false);
                 step_ = length;
@@ -275,7 +314,7 @@ class Continuation {
     bool rescue() {
         rescued_ = true;
         const double side = walker_.tangent().parameter < 0 ? -1 : 1;
-        for (double ahead : {1e-4, 1e-3}) {
+        for (double ahead : rescue_distances) {
             PathState next = walker_.now();
             next.parameter += side * ahead * walker_.metric().width;
             const bool found = owner_.rescue(next.parameter, next.x);

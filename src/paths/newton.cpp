@@ -9,6 +9,16 @@ namespace plm {
 namespace {
 
 constexpr double fast_contraction = 0.2; // below: the old factorization is good enough for another step
+constexpr double good_contraction = 0.5; // below: the damping was far too strong
+constexpr double bold_growth = 4, careful_growth = 1.5; // of the damping factor after a damped step
+// Between one trial and the next the damping factor is halved at least, whatever the estimate says, and not
+// made much smaller than the estimate, from one trial alone, is worth.
+constexpr double strongest_cut = 0.1, weakest_cut = 0.5;
+constexpr double rounding = 1e-14; // of the whole solution, static part included: what a correction can be
+// A last correction so small moves the tangent matrix by as little: tangents and tests may be taken from it.
+constexpr double at_the_solution = 1e-6;
+constexpr std::size_t least_pieces =
+    6; // factorizations after which coming back to the same pieces is no chance
 
 class Newton {
   public:
@@ -49,7 +59,8 @@ class Newton {
                 }
                 refactor();
                 size = correction(r_, step_, step_parameter_);
-                damping = std::min(1.0, damping * (contraction < 0.5 ? 4 : 1.5));
+                damping =
+                    std::min(1.0, damping * (contraction < good_contraction ? bold_growth : careful_growth));
                 continue;
             }
             if (!fresh_) { // the old factorization does not serve here: a new one before any damping
@@ -103,7 +114,7 @@ class Newton {
     }
 
     // Rounding of the static part bounds what can be reached.
-    double allowed() const { return limits_.tolerance + 1e-14 * norm2(n_, x_.data()) / scale(); }
+    double allowed() const { return limits_.tolerance + rounding * norm2(n_, x_.data()) / scale(); }
 
     double propose(double damping) {
         for (std::int64_t i = 0; i < n_; ++i) trial_[i] = x_[i] + damping * step_[i];
@@ -122,12 +133,12 @@ class Newton {
             std::hypot(norm2(n_, next_.data()) / scale(),
                        (next_parameter - (1 - damping) * step_parameter_) / limits_.parameter_scale);
         const double estimate = change > 0 ? 0.5 * damping * damping * size / change : 0.0;
-        return std::min(0.5 * damping, std::max(estimate, 0.1 * damping));
+        return std::min(weakest_cut * damping, std::max(estimate, strongest_cut * damping));
     }
 
     // Newton cycles between smooth pieces.
     bool pieces_repeat() const {
-        if (pieces_.size() < 6) return false;
+        if (pieces_.size() < least_pieces) return false;
         const auto last = pieces_.end();
         return *(last - 1) == *(last - 3) && *(last - 2) == *(last - 4) && *(last - 1) != *(last - 2);
     }
@@ -137,7 +148,7 @@ class Newton {
         const double scale = system_.residual_scale();
         out_.residual = scale > 0 ? norm2(n_, r_.data()) / scale : norm2(n_, r_.data());
         out_.converged = std::isfinite(out_.residual) && system_.in_balance();
-        out_.factored_here = fresh_ && size < 1e-6;
+        out_.factored_here = fresh_ && size < at_the_solution;
         return out_;
     }
 

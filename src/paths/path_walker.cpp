@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace plm {
+namespace {
+
+constexpr std::int64_t most_iterations_across = 12; // a shorter step is cheaper than more
+
+} // namespace
 
 PathWalker::PathWalker(Residual &system, const PathOptions &options, PathOwner &owner)
     : system_(system), options_(options), owner_(owner),
@@ -61,7 +66,7 @@ NewtonOutcome PathWalker::correct(PathState &at, const PathState &direction, dou
                                   bool factored) {
     NewtonLimits limits;
     limits.tolerance = options_.tolerance;
-    limits.max_iterations = std::min<std::int64_t>(options_.max_iterations, 12);
+    limits.max_iterations = std::min(options_.max_iterations, most_iterations_across);
     limits.min_damping = min_damping;
     limits.factored = factored;
     const NewtonOutcome out = newton_across(system_, metric_, direction, limits, at);
@@ -91,9 +96,7 @@ vector<double> PathWalker::tests() {
 // sign(det) of the tangent bordered by the path's direction, over the size of its solution for a fixed
 // right-hand side: passes through zero like the smallest singular value.
 double PathWalker::branch_test() {
-    vector<double> a(n_), border(n_);
-    for (std::int64_t i = 0; i < n_; ++i)
-        a[i] = 0.5 + std::fmod(0.754877666 * static_cast<double>(i + 1), 1.0);
+    vector<double> a = patternless_vector(n_), border(n_);
     system_.solve(a.data(), 1);
     system_.parameter_derivative(border.data());
     system_.solve(border.data(), 1);

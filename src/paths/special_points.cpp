@@ -10,6 +10,16 @@ namespace {
 constexpr std::array<double, 5> elsewhere = {0.5, 0.75, 0.25, 0.9, 0.1};
 constexpr double vanishes = 1e-9;        // of the smaller value at the ends: found
 constexpr double nearly_vanishes = 1e-3; // at the end of the search: the function is continuous there
+constexpr int most_places = 60;          // more than bisection needs to the narrowest interval
+constexpr double narrowest = 1e-10;      // interval, of the step: what is left is rounding
+constexpr int bisection_every = 4;       // so that a function that bends hard is enclosed all the same
+constexpr double off_the_ends =
+    1e-3; // of the interval: places where the function is known need no second look
+constexpr double least_damping = 1e-3; // between two known points Newton's method may take its time
+// How far the ends of an interval may lie apart, as a multiple of its part of the step, on one continuous
+// curve.
+constexpr double most_stretched = 20;
+constexpr double corner_width = 1e-3; // of the step: closer ends enclose a corner, farther ones a jump
 
 double value_of(const vector<double> &tests, std::size_t k) {
     return k < tests.size() ? tests[k] : 0;
@@ -29,10 +39,11 @@ class Finder {
         int last_side = 0;
         std::size_t unknown = 0; // times in a row that the function had no value (stability at a fold)
         PathState below = step_.before, above = step_.after;
-        for (int i = 0; i < 60 && b - a > 1e-10; ++i) {
-            double t = i % 4 == 3 ? 0.5 * (a + b) : (a * right - b * left) / (right - left);
+        for (int i = 0; i < most_places && b - a > narrowest; ++i) {
+            double t = i % bisection_every == bisection_every - 1 ? 0.5 * (a + b)
+                                                                  : (a * right - b * left) / (right - left);
             if (unknown > 0) t = a + elsewhere[unknown - 1] * (b - a);
-            t = std::min(b - 1e-3 * (b - a), std::max(a + 1e-3 * (b - a), t));
+            t = std::min(b - off_the_ends * (b - a), std::max(a + off_the_ends * (b - a), t));
             double residual = 0;
             if (!move_to(t, residual)) break;
             const double value = value_of(walker_.tests(), k);
@@ -53,7 +64,7 @@ class Finder {
                 b = t, right = value, last_side = -1, above = walker_.now();
             }
             // what is left is no continuous piece of a curve
-            if (walker_.metric().distance(below, above) > 20 * (b - a) * step_.length) break;
+            if (walker_.metric().distance(below, above) > most_stretched * (b - a) * step_.length) break;
         }
         if (best <= nearly_vanishes * size) return true;
         if (walker_.kind(k) == PLM_BIFURCATION_FOLD && is_corner_fold(below, above, point)) return true;
@@ -79,7 +90,7 @@ class Finder {
     // The point of the path at t of the way becomes the present one.
     bool move_to(double t, double &residual) {
         PathState p = between(t);
-        const NewtonOutcome out = walker_.correct(p, chord_, 1e-3, false);
+        const NewtonOutcome out = walker_.correct(p, chord_, least_damping, false);
         if (!out.converged) return false;
         residual = out.residual;
         walker_.move(std::move(p));
@@ -95,7 +106,8 @@ class Finder {
     // turns round there without its derivative passing zero. `below` and `above` enclose the zero of the
     // fold's test.
     bool is_corner_fold(const PathState &below, const PathState &above, SpecialPoint &point) const {
-        if (walker_.metric().distance(below, above) > std::max(1e-3 * step_.length, options_.min_step))
+        if (walker_.metric().distance(below, above) >
+            std::max(corner_width * step_.length, options_.min_step))
             return false; // a jump
         const double up = step_.tangent_before.parameter > 0 ? 1 : -1;
         point.at = up * below.parameter > up * above.parameter ? below : above;

@@ -1,12 +1,10 @@
 #include "reduction/basis.hpp"
 #include "linalg/lapack.hpp"
+#include "reduction/basis_kind.hpp"
 #include "reduction/conditioning.hpp"
-#include "reduction/contact_snapshots.hpp"
-#include "reduction/craig_bampton.hpp"
 #include "reduction/load_vectors.hpp"
 #include "reduction/pair_sampling.hpp"
 #include "reduction/projection.hpp"
-#include "reduction/rivals.hpp"
 #include "reduction/static_basis.hpp"
 #include "space/massless.hpp"
 #include <algorithm>
@@ -17,12 +15,21 @@
 namespace plm {
 namespace {
 
-constexpr double fixed_mode_margin =
-    4; // Craig-Bampton: fixed-interface modes up to this multiple (amplitudes to 1e-3)
 constexpr std::int64_t least_open_modes = 10;
 
-void check_parents(const Model &model, const Sampler *sampler, const Basis *parent, BasisKind kind) {
-    if (needs_sampler(kind) && !sampler)
+// Kinds about contact need a pair, and no more vectors than pairs.
+void check_pairs(const BasisOptions &o, std::int64_t n_pairs) {
+    if (o.kind->needs_pairs && n_pairs == 0)
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("a basis of kind %s is about contact, and the model has no contact pair; "
+                           "\"full\" does without",
+                           o.kind->name))
+            .argument("kind");
+    if (o.kind->check) o.kind->check(o, n_pairs);
+}
+
+void check_parents(const Model &model, const Sampler *sampler, const Basis *parent, const BasisKind &kind) {
+    if (kind.needs_sampler && !sampler)
         throw Error(PLM_ERR_STATE, "this kind of basis needs the samples of a sampler that has run")
             .argument("sampler");
     if (sampler && sampler->space()->model.get() != &model)
@@ -30,15 +37,15 @@ void check_parents(const Model &model, const Sampler *sampler, const Basis *pare
     if (!parent) return;
     if (parent->model().get() != &model)
         throw Error(PLM_ERR_ARGUMENT, "the parent basis belongs to another model").argument("parent");
-    if (kind == BasisKind::pod || kind == BasisKind::full) return; // any will do
-    if (is_made_of_vectors(parent->options().kind) || parent->options().kind == BasisKind::pod)
+    if (kind.any_parent) return;
+    if (parent->options().kind->is_collected() || parent->options().kind->is_compressed())
         throw Error(PLM_ERR_ARGUMENT, "the parent must be of kind \"craig_bampton\" or \"full\"")
             .argument("parent");
 }
 
 SelectionRule make_rule(const BasisOptions &o, const Sampler *sampler) {
     SelectionRule rule;
-    rule.selection = is_made_of_vectors(o.kind) ? o.selection : ModeSelection::below;
+    rule.selection = o.kind->is_collected() ? o.selection : ModeSelection::below;
     rule.n_harmonics = o.n_harmonics;
     rule.below_factor = o.below_factor;
     rule.min_hz = o.frequency_min_hz > 0 || !sampler ? o.frequency_min_hz : sampler->window().min_hz;
@@ -58,10 +65,8 @@ std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &mo
                                           const Basis *parent, const BasisOptions &o, double highest_hz,
                                           Watch watch, std::shared_ptr<const Space> known) {
     const double highest = 2 * M_PI * highest_hz;
-    if (o.kind == BasisKind::craig_bampton)
-        return make_craig_bampton_space(model, {o.n_fixed_modes, fixed_mode_margin * highest, o.load_vectors},
-                                        watch);
-    if (is_made_of_vectors(o.kind) && parent) {
+    if (o.kind->make_space) return o.kind->make_space(model, o, highest, watch);
+    if (o.kind->is_collected() && parent) {
         if (parent->space()->highest_frequency < highest * (1 - 1e-9))
             watch.log(
                 1,
@@ -109,36 +114,20 @@ double mass_residual(const Model &model, const Field &p, const Field &q) {
     return std::sqrt(std::max(0.0, column_products(remainder, model.mass_times(remainder))[0]) / size);
 }
 
-// The columns of the kind before conditioning; the report tells how they came about. sampler: null where the
-// kind needs none.
-CollectedModes collect(const Space &space, const Sampler *sampler, const RestState &rest,
-                       const SelectionRule &rule, const BasisOptions &o, BasisReport &report, Watch watch) {
-    if (o.kind == BasisKind::snapshots) {
-        CollectedSnapshots collected =
-            collect_snapshots(space, *sampler, rest, dominant_coordinates(*sampler, space), rule, o, watch);
-        report.n_rest_modes = collected.n_rest_modes;
-        CollectedModes snapshots;
-        snapshots.columns = std::move(collected.columns);
-        return snapshots;
-    }
-    CollectedModes collected =
-        o.kind == BasisKind::plm
-            ? collect_modes(space, sampler->samples(), dominant_coordinates(*sampler, space), rule, watch)
-            : collect_rival_modes(space, rule, o, watch);
-    report.samples = collected.samples;
-    report.equivalent_share = std::move(collected.equivalent_share);
-    return collected;
-}
-
 Reduction reduce_to_vectors(const Space &space, const Sampler *sampler, const SelectionRule &rule,
                             const BasisOptions &o, Watch watch) {
     const RestState &rest = *rest_of(space);
     Reduction r;
-    CollectedModes collected = collect(space, sampler, rest, rule, o, r.report, watch);
+    const auto dominant =
+        o.kind->needs_sampler ? dominant_coordinates(*sampler, space) : std::vector<vector<double>>();
+    CollectedModes collected = o.kind->collect({space, sampler, dominant, rest, rule, o}, watch);
+    r.report.samples = std::move(collected.samples);
+    r.report.equivalent_share = std::move(collected.equivalent_share);
+    r.report.n_rest_modes = collected.n_rest_modes;
     Matrix columns = std::move(collected.columns);
     r.report.n_collected = columns.cols();
     watch.step("basis", 0.0);
-    if (o.load_vectors && o.kind != BasisKind::lelsm_updated) { // which has its own
+    if (o.load_vectors && !o.kind->has_load_vectors) {
         const Matrix loads = load_vectors(space);
         if (!loads.empty()) columns.append(loads);
     }
@@ -166,10 +155,10 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
              const Responses *responses, std::shared_ptr<const Space> known)
     : model_(std::move(model)), sampler_(std::move(sampler)), options_(options) {
     const auto start = std::chrono::steady_clock::now();
-    check_options(options_);
+    const BasisKind &kind = *options_.kind;
     check_pairs(options_, model_->n_pairs());
-    check_parents(*model_, sampler_.get(), parent.get(), options_.kind);
-    if (options_.kind == BasisKind::pod) {
+    check_parents(*model_, sampler_.get(), parent.get(), kind);
+    if (kind.is_compressed()) {
         compress_parent(parent.get(), responses);
         choose_pairs();
         report_.setup_seconds =
@@ -184,11 +173,10 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     const bool estimated = sampler_ && sampler_->options().window_max_hz == 0;
     estimated_min_ = estimated && options_.frequency_min_hz == 0;
     estimated_max_ = estimated && options_.frequency_max_hz == 0;
-    const bool statics = options_.kind == BasisKind::snapshots;
-    const double modes_hz = statics ? options_.rest_factor * rule.max_hz : rule.highest_hz();
+    const double modes_hz = kind.highest_hz ? kind.highest_hz(options_, rule) : rule.highest_hz();
     space_ = choose_space(model_, sampler_.get(), parent.get(), options_,
                           std::max(modes_hz, rule.highest_hz()), watch, std::move(known));
-    if (is_made_of_vectors(options_.kind)) {
+    if (kind.is_collected()) {
         Reduction r = reduce_to_vectors(*space_, sampler_.get(), rule, options_, watch);
         reduced_ = std::move(r.reduced);
         report_ = std::move(r.report);
@@ -205,11 +193,12 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
 
 void Basis::compress_parent(const Basis *parent, const Responses *responses) {
     if (!parent)
-        throw Error(PLM_ERR_STATE, "a basis of kind pod needs the basis its responses were computed on as "
-                                   "parent; call plm_basis_set_parent first")
+        throw Error(PLM_ERR_STATE,
+                    "a basis of kind pod needs the basis its responses were computed on; set that "
+                    "as its parent first")
             .argument("parent");
     if (!responses)
-        throw Error(PLM_ERR_STATE, "a basis of kind pod needs responses; call plm_basis_set_responses first")
+        throw Error(PLM_ERR_STATE, "a basis of kind pod needs responses; set those of its parent first")
             .argument("responses");
     if (responses->of != parent->reduced())
         throw Error(PLM_ERR_ARGUMENT,
@@ -226,7 +215,7 @@ void Basis::compress_parent(const Basis *parent, const Responses *responses) {
         throw Error(PLM_ERR_ARGUMENT, format("frequency_min_hz (%g) must be below frequency_max_hz (%g)",
                                              window_min_hz_, window_max_hz_))
             .argument("frequency_min_hz");
-    Compressed c = compress(*responses, options_.pod_tolerance, options_.pod_size);
+    Compressed c = options_.kind->compress(*responses, options_);
     reduced_ = std::move(c.reduced);
     report_.singular_values = std::move(c.singular_values);
     report_.n_collected = parent->reduced()->size();
@@ -238,7 +227,7 @@ void Basis::compress_parent(const Basis *parent, const Responses *responses) {
 SweepRange Basis::sweep_range() const {
     constexpr double reach = 1.5;
     SweepRange range{window_min_hz_, window_max_hz_, window_min_hz_, window_max_hz_};
-    if (is_made_of_vectors(options_.kind) && options_.selection == ModeSelection::bands) return range;
+    if (options_.kind->is_collected() && options_.selection == ModeSelection::bands) return range;
     if (estimated_min_) range.least_hz = window_min_hz_ / reach;
     if (estimated_max_)
         range.most_hz =
@@ -254,9 +243,9 @@ void Basis::choose_pairs() {
 
 std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch,
                                              std::shared_ptr<const Space> known) {
-    if (basis->options().kind == BasisKind::full && !basis->reduced()->all_pairs) return basis;
+    if (basis->options().kind == &basis_kinds::full && !basis->reduced()->all_pairs) return basis;
     BasisOptions o = basis->options();
-    o.kind = BasisKind::full;
+    o.kind = &basis_kinds::full;
     o.n_pairs_carried = 0;
     o.frequency_min_hz = basis->window_min_hz();
     o.frequency_max_hz = basis->window_max_hz();

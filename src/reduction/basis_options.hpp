@@ -1,25 +1,11 @@
-// What a basis is asked for, and every rule about it in one place.
+// What a basis is asked for. The bounds of each option stand in the table of the keys (capi/keys_basis.cpp)
+// alone.
 #pragma once
+#include "reduction/basis_kinds.hpp"
 #include <cstdint>
 
 namespace plm {
 
-enum class BasisKind {
-    plm,
-    craig_bampton,
-    full,
-    pod,
-    bilinear,
-    lelsm,
-    lelsm_updated,
-    discontinuity,
-    snapshots
-};
-
-/// Modes of linear systems and vectors beside them: all kinds but craig_bampton, full and pod.
-bool is_made_of_vectors(BasisKind kind);
-/// The name of a kind as in the options.
-const char *name_of(BasisKind kind);
 enum class ModeSelection {
     bands,
     below
@@ -28,7 +14,7 @@ enum class ModeSelection {
 enum class PairRule { effective_independence, mdof }; // pair_sampling.hpp
 
 struct BasisOptions {
-    BasisKind kind = BasisKind::plm;
+    const BasisKind *kind = &basis_kinds::plm;
     ModeSelection selection = ModeSelection::below;
     std::int64_t n_harmonics = 5;                      // windows h = 1..n_harmonics
     double frequency_min_hz = 0, frequency_max_hz = 0; // f_i, f_f; 0: the sampler's window
@@ -47,15 +33,5 @@ struct BasisOptions {
     PairRule pair_rule = PairRule::effective_independence;
     std::int64_t n_fixed_modes = 0; // Craig-Bampton: fixed-interface modes; 0: all below 4 below_factor H f_f
 };
-
-/// Kinds that are made from the dominant mode and the contact sweep of a sampler.
-constexpr bool needs_sampler(BasisKind kind) {
-    return kind == BasisKind::plm || kind == BasisKind::snapshots;
-}
-
-/// Throws PLM_ERR_ARGUMENT with the option's key as argument.
-void check_options(const BasisOptions &options);
-/// The same for what depends on the model: kinds about contact need a pair, and no more vectors than pairs.
-void check_pairs(const BasisOptions &options, std::int64_t n_pairs);
 
 } // namespace plm

@@ -1,4 +1,5 @@
 #include "reduction/bilinear_modes.hpp"
+#include "reduction/basis_kind.hpp"
 #include "sampling/dominant_mode.hpp"
 #include "sampling/mode_match.hpp"
 #include <utility>
@@ -22,5 +23,20 @@ CollectedModes collect_bilinear_modes(const Space &space, const SelectionRule &r
     if (collected.columns.cols() == 0) throw no_mode_kept(rule, "neither the open nor the sliding system");
     return collected;
 }
+
+namespace {
+
+constexpr BasisKind bilinear_kind() {
+    BasisKind kind("bilinear", "modes of the open and of the sliding system");
+    kind.needs_pairs = true;
+    kind.collect = [](const ColumnSources &from, Watch watch) {
+        return collect_bilinear_modes(from.space, from.rule, watch);
+    };
+    return kind;
+}
+
+} // namespace
+
+constexpr BasisKind basis_kinds::bilinear = bilinear_kind();
 
 } // namespace plm

@@ -1,5 +1,7 @@
 #include "reduction/compression.hpp"
 #include "linalg/lapack.hpp"
+#include "reduction/basis_kind.hpp"
+#include "reduction/basis_options.hpp"
 #include "reduction/projection.hpp"
 #include "space/massless.hpp"
 #include <algorithm>
@@ -49,10 +51,10 @@ struct Decomposition {
     /// How many leave out at most `left_out` of the energy, none of them below `smallest`.
     std::int64_t needed(double left_out, double smallest) const {
         std::int64_t kept = static_cast<std::int64_t>(svd.values.size());
-        for (double rest = 0; kept > 0; --kept) {
+        for (double dropped = 0; kept > 0; --kept) {
             const double s = svd.values[kept - 1];
-            rest += s * s;
-            if (rest > left_out && s > smallest) break;
+            dropped += s * s;
+            if (dropped > left_out && s > smallest) break;
         }
         return kept;
     }
@@ -76,9 +78,9 @@ Matrix among_statics(const ReducedModel &m, const Matrix &y) {
 
 // What is left of motions outside the orthonormal y.
 Matrix remainder(const Matrix &motions, const Matrix &y) {
-    Matrix rest = motions;
-    for (int pass = 0; pass < 2; ++pass) gemm('N', 'N', -1.0, y, product('T', 'N', y, rest), 1.0, rest);
-    return rest;
+    Matrix outside = motions;
+    for (int pass = 0; pass < 2; ++pass) gemm('N', 'N', -1.0, y, product('T', 'N', y, outside), 1.0, outside);
+    return outside;
 }
 
 // h = 0: P_0' holds P', as motions in time need it, and what the rest under pre-load and the mean parts of
@@ -117,9 +119,9 @@ Compressed compress(const Responses &responses, double tolerance, std::int64_t s
     if (!(dynamic.energy > 0))
         throw Error(PLM_ERR_STATE, "nothing moves in the responses; they give no basis")
             .argument("responses");
-    const double largest = dynamic.svd.values[0], share = tolerance * tolerance;
+    const double largest = dynamic.svd.values[0], left_out = tolerance * tolerance;
     const std::int64_t kept = size > 0 ? std::min(size, dynamic.needed(0, rounding * largest))
-                                       : dynamic.needed(share * dynamic.energy, rounding * largest);
+                                       : dynamic.needed(left_out * dynamic.energy, rounding * largest);
     const Coordinates coordinates = diagonalise(space, dynamic.directions(std::max<std::int64_t>(kept, 1)));
     const auto reduced = std::make_shared<ReducedModel>(*project(space, coordinates, StaticBasis()));
 
@@ -128,7 +130,7 @@ Compressed compress(const Responses &responses, double tolerance, std::int64_t s
     const Matrix y_0 = among_statics(from, coordinates.y);
     const Decomposition mean(responses.mean, weights),
         beside(remainder(responses.mean, orthonormal_span(y_0, from.n_massless_0)), weights);
-    const std::int64_t n = beside.needed(share * std::min(mean.energy, dynamic.energy),
+    const std::int64_t n = beside.needed(left_out * std::min(mean.energy, dynamic.energy),
                                          rounding * std::sqrt(std::max(mean.energy, dynamic.energy)));
     reduce_statics(from, y_0, beside.directions(n), *reduced);
 
@@ -137,5 +139,21 @@ Compressed compress(const Responses &responses, double tolerance, std::int64_t s
     for (double s : dynamic.svd.values) c.singular_values.push_back(s / largest);
     return c;
 }
+
+namespace {
+
+constexpr BasisKind pod_kind() {
+    BasisKind kind("pod", "the parent compressed to what its responses need");
+    kind.own_options = "pod_tolerance,pod_size";
+    kind.any_parent = true;
+    kind.compress = [](const Responses &responses, const BasisOptions &o) {
+        return compress(responses, o.pod_tolerance, o.pod_size);
+    };
+    return kind;
+}
+
+} // namespace
+
+constexpr BasisKind basis_kinds::pod = pod_kind();
 
 } // namespace plm

@@ -1,7 +1,26 @@
-#include "reduction/contact_snapshots.hpp"
+// A basis from statics: modes at rest, and what the contact forces of exact unilateral static solutions do to
+// the structure.
+//
+// S is the system linearised about its contact status at rest; without pre-load
+// and gap there are two, the open and the sliding one, and the columns of both are taken.
+//  1. Static solutions: minima of the unilateral problem (solve_static) under pre-load + alpha omega_d^2 M v
+//     for each dominant mode v with its own frequency omega_d; this load is K_d v with the stiffness of the
+//     mode's own linear system. options.n_snapshots values of alpha, half of each sign, are spaced
+//     geometrically from 0.3 to 30 times the median size of the sweep's thresholds (the alpha at which the
+//     linear estimate switches a pair). Homogeneous problems have only the two of alpha = -1 and 1.
+//     A snapshot is the solution less the position at rest, of mass norm 1.
+//  2. Modes of S up to rest_factor f_f. One is left out when the snapshots' contact forces beyond those of S
+//     and the excitation, at any harmonic 0..H in the window and with 1 % of critical damping, move it by
+//     less than snapshot_tolerance of a snapshot, energies compared: modes of another symmetry, mostly.
+//  3. Of the snapshots and of the static responses of S to their inertia at H f_f (one step of a Krylov
+//     sequence, which stands for the modes above rest_factor f_f) what is not in these modes, by its
+//     singular values in the energy norm lambda + (2 pi f_f)^2, down to snapshot_tolerance of the largest.
 #include "linalg/lapack.hpp"
 #include "linalg/work.hpp"
+#include "reduction/basis_kind.hpp"
+#include "reduction/mode_selection.hpp"
 #include "sampling/dominant_mode.hpp"
+#include "sampling/sampler.hpp"
 #include "space/linear_contact.hpp"
 #include "space/rest.hpp"
 #include <algorithm>
@@ -67,7 +86,7 @@ vector<double> snapshot_alphas(const ContactSweep &sweep, bool homogeneous, std:
     return alphas;
 }
 
-// Static solutions less the rest, and the penetrations they change.
+// Static solutions less the position at rest, and the penetrations they change.
 class Snapshots {
   public:
     Snapshots(const Space &space, const RestState &rest) : space_(space), rest_(rest) {}
@@ -244,40 +263,36 @@ void warn_of_missing(const Snapshots &s, Watch watch) {
                    static_cast<long long>(s.asked - found), static_cast<long long>(s.asked)));
 }
 
-} // namespace
-
-CollectedSnapshots collect_snapshots(const Space &space, const Sampler &sampler, const RestState &rest,
-                                     const std::vector<vector<double>> &dominant, const SelectionRule &rule,
-                                     const BasisOptions &options, Watch watch) {
+CollectedModes collect_snapshots(const ColumnSources &from, Watch watch) {
+    const auto &[space, sampler, dominant, rest, rule, options] = from;
     Snapshots snapshots(space, rest);
     const bool homogeneous = is_homogeneous(*space.model);
     Matrix excitation(space.size(), 0);
     for (std::size_t d = 0; d < dominant.size(); ++d) {
         watch.step("snapshots", 0.5 * static_cast<double>(d) / static_cast<double>(dominant.size()));
-        const double omega = 2 * M_PI * sampler.dominant()[d].frequency_hz;
-        for (double a : snapshot_alphas(sampler.sweeps()[d], homogeneous, options.n_snapshots))
+        const double omega = 2 * M_PI * sampler->dominant()[d].frequency_hz;
+        for (double a : snapshot_alphas(sampler->sweeps()[d], homogeneous, options.n_snapshots))
             snapshots.add(dominant[d], a * omega * omega);
         excitation.append(excitation_columns(space, dominant[d], omega));
     }
     watch.step("snapshots", 0.5);
-    CollectedSnapshots result;
-    Matrix statics = snapshots.motions, modes;
+    CollectedModes result;
+    Matrix static_motions = snapshots.motions, modes;
     for (const RestSystem &system : rest_systems(space, rest, rule)) {
         Matrix forces = excitation;
         if (snapshots.motions.cols() > 0) {
             forces.append(snapshots.forces_beyond(system.closed()));
-            statics.append(system.inertia_response(snapshots.motions));
+            static_motions.append(system.inertia_response(snapshots.motions));
         }
         modes.append(
             system.modes(2 * M_PI * options.rest_factor * rule.max_hz, forces, options.snapshot_tolerance));
     }
     result.n_rest_modes = modes.cols();
-    result.n_solutions = snapshots.motions.cols();
     warn_of_missing(snapshots, watch);
     result.columns = modes;
     if (homogeneous) modes = orthonormal(space, modes); // those of one system are already
-    if (statics.cols() > 0)
-        result.columns.append(main_directions(space, modes, std::move(statics), 2 * M_PI * rule.max_hz,
+    if (static_motions.cols() > 0)
+        result.columns.append(main_directions(space, modes, std::move(static_motions), 2 * M_PI * rule.max_hz,
                                               options.snapshot_tolerance));
     if (result.columns.cols() == 0)
         throw Error(PLM_ERR_ARGUMENT, format("no mode at rest below %.6g Hz answers to the loads, and there "
@@ -287,5 +302,20 @@ CollectedSnapshots collect_snapshots(const Space &space, const Sampler &sampler,
             .reason(PLM_REASON_BASIS_TOO_SMALL);
     return result;
 }
+
+constexpr BasisKind snapshots_kind() {
+    BasisKind kind("snapshots", "modes at rest and static contact solutions");
+    kind.own_options = "rest_factor,n_snapshots,snapshot_tolerance";
+    kind.needs_sampler = true;
+    kind.highest_hz = [](const BasisOptions &o, const SelectionRule &rule) {
+        return o.rest_factor * rule.max_hz;
+    };
+    kind.collect = collect_snapshots;
+    return kind;
+}
+
+} // namespace
+
+constexpr BasisKind basis_kinds::snapshots = snapshots_kind();
 
 } // namespace plm

@@ -2,6 +2,8 @@
 // by fixed-interface modes.
 #include "reduction/craig_bampton.hpp"
 #include "linalg/lapack.hpp"
+#include "reduction/basis_kind.hpp"
+#include "reduction/basis_options.hpp"
 #include "space/massless.hpp"
 #include "structure/fixed_interface.hpp"
 #include <algorithm>
@@ -89,5 +91,26 @@ std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Mode
     watch.log(1, space->description);
     return space;
 }
+
+namespace {
+
+constexpr double fixed_mode_margin = 4; // fixed-interface modes up to this multiple: amplitudes to 1e-3
+
+std::shared_ptr<const Space> craig_bampton_space(const std::shared_ptr<const Model> &model,
+                                                 const BasisOptions &o, double highest, Watch watch) {
+    return make_craig_bampton_space(model, {o.n_fixed_modes, fixed_mode_margin * highest, o.load_vectors},
+                                    watch);
+}
+
+constexpr BasisKind craig_bampton_kind() {
+    BasisKind kind("craig_bampton", "contact DOFs retained");
+    kind.own_options = "n_fixed_modes";
+    kind.make_space = craig_bampton_space;
+    return kind;
+}
+
+} // namespace
+
+constexpr BasisKind basis_kinds::craig_bampton = craig_bampton_kind();
 
 } // namespace plm

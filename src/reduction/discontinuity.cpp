@@ -1,5 +1,6 @@
 #include "reduction/discontinuity.hpp"
 #include "linalg/lapack.hpp"
+#include "reduction/basis_kind.hpp"
 #include "reduction/residual_responses.hpp"
 #include "sampling/dominant_mode.hpp"
 #include "sampling/mode_match.hpp"
@@ -53,5 +54,36 @@ DiscontinuousModes discontinuous_modes(const Space &space, const SelectionRule &
     result.columns.append(residual_responses(all, kept, loads));
     return result;
 }
+
+namespace {
+
+void check_discontinuities(const BasisOptions &o, std::int64_t n_pairs) {
+    const long long asked = o.n_discontinuities, pairs = n_pairs;
+    if (asked > pairs)
+        throw Error(PLM_ERR_ARGUMENT, format("n_discontinuities is %lld, but the model has %lld contact "
+                                             "pairs; 0 takes one vector per pair",
+                                             asked, pairs))
+            .argument("n_discontinuities");
+}
+
+CollectedModes collect_discontinuity(const ColumnSources &from, Watch watch) {
+    CollectedModes collected;
+    collected.columns =
+        discontinuous_modes(from.space, from.rule, from.options.n_discontinuities, watch).columns;
+    return collected;
+}
+
+constexpr BasisKind discontinuity_kind() {
+    BasisKind kind("discontinuity", "linear modes and a static jump per pair");
+    kind.own_options = "n_discontinuities";
+    kind.needs_pairs = true;
+    kind.check = check_discontinuities;
+    kind.collect = collect_discontinuity;
+    return kind;
+}
+
+} // namespace
+
+constexpr BasisKind basis_kinds::discontinuity = discontinuity_kind();
 
 } // namespace plm

@@ -12,7 +12,7 @@ namespace plm {
 namespace {
 
 constexpr std::int64_t most_iterations = 200;
-constexpr double settled_change = 1e-6; // of the largest share, which is tiny where contact is stiff
+constexpr double settled_change = 1e-6; // of the largest coupling, which is tiny where contact is stiff
 
 // Static equilibrium of the mean displacement while every pair oscillates with its amplitude: the minimum of
 // a convex, smooth energy, by Newton's method.
@@ -142,7 +142,7 @@ class Iteration {
   public:
     Iteration(const Space &space, const EquivalentMotionOptions &options)
         : space_(space), options_(options), resonance_(space), equilibrium_(space) {
-        motion_.share.assign(space.n_pairs(), 0.5); // the limit of large amplitudes
+        motion_.coupling.assign(space.n_pairs(), 0.5); // the limit of large amplitudes
         motion_.mean = equilibrium_.penetration();
         motion_.amplitude.assign(space.n_pairs(), 0.0);
         set_springs();
@@ -159,14 +159,15 @@ class Iteration {
             vector<double> change = update();
             double largest = 0, most = 0;
             for (std::size_t p = 0; p < change.size(); ++p) {
-                largest = std::max({largest, change[p], motion_.share[p]});
-                change[p] -= motion_.share[p];
+                largest = std::max({largest, change[p], motion_.coupling[p]});
+                change[p] -= motion_.coupling[p];
                 most = std::max(most, std::abs(change[p]));
             }
             motion_.settled = most <= settled_change * largest;
             const double relaxation = motion_.settled ? 1 : relaxation_for(change);
             for (std::size_t p = 0; p < change.size(); ++p)
-                motion_.share[p] = std::min(1.0, std::max(0.0, motion_.share[p] + relaxation * change[p]));
+                motion_.coupling[p] =
+                    std::min(1.0, std::max(0.0, motion_.coupling[p] + relaxation * change[p]));
             set_springs();
             if (motion_.settled) break;
             before_ = std::move(change);
@@ -190,10 +191,10 @@ class Iteration {
 
     void set_springs() {
         motion_.spring = space_.model->contact_stiffness();
-        for (std::size_t p = 0; p < motion_.spring.size(); ++p) motion_.spring[p] *= motion_.share[p];
+        for (std::size_t p = 0; p < motion_.spring.size(); ++p) motion_.spring[p] *= motion_.coupling[p];
     }
 
-    // The shares that the motion of the present system asks for.
+    // The couplings that the motion of the present system asks for.
     vector<double> update() {
         const SpaceModes modes = lowest_modes();
         const std::int64_t leading = leading_mode(modes);
@@ -205,7 +206,7 @@ class Iteration {
         equilibrium_.solve(motion_.amplitude);
         motion_.mean = equilibrium_.penetration();
         const vector<double> &k = space_.model->contact_stiffness();
-        vector<double> wanted(motion_.share.size());
+        vector<double> wanted(motion_.coupling.size());
         for (std::size_t p = 0; p < wanted.size(); ++p)
             wanted[p] = equivalent_stiffness(k[p], motion_.mean[p], motion_.amplitude[p]) / k[p];
         return wanted;
@@ -259,7 +260,7 @@ class Iteration {
     Resonance resonance_;
     MeanEquilibrium equilibrium_;
     EquivalentMotion motion_;
-    vector<double> shape_, before_; // last mode, last change of the shares
+    vector<double> shape_, before_; // last mode, last change of the couplings
     double relaxation_ = 1;
 };
 

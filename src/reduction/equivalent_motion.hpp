@@ -14,7 +14,7 @@ struct EquivalentMotionOptions {
 
 struct EquivalentMotion {
     vector<double> spring;    // Z: equivalent linear stiffness of every pair
-    vector<double> share;     // Z: the same over k_n, in [0, 1]
+    vector<double> coupling;  // Z: the same over k_n, in [0, 1]
     vector<double> mean;      // Z: mean penetration
     vector<double> amplitude; // Z: of the penetration, signed: in phase or in antiphase
     double frequency = 0;     // rad/s, of the mode
@@ -25,7 +25,7 @@ struct EquivalentMotion {
 /// The springs are those of the describing function of every pair's law in u(t) = mean + amplitude cos t. The
 /// amplitudes are those of one mode of the system with these springs, at the amplitude asked for or, in
 /// resonance, where the damping holds the excitation. The mean is in static equilibrium with the pre-load,
-/// the constant excitation and the mean contact forces. Iterated with relaxation until no share changes by
+/// the constant excitation and the mean contact forces. Iterated with relaxation until no coupling changes by
 /// more than 1e-6 of the largest. Throws PLM_ERR_ARGUMENT when nothing sets an amplitude: no excitation, or
 /// no damping.
 EquivalentMotion equivalent_motion(const Space &space, const EquivalentMotionOptions &options, Watch watch);

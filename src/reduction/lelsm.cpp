@@ -1,4 +1,5 @@
 #include "reduction/lelsm.hpp"
+#include "reduction/basis_kind.hpp"
 #include "sampling/dominant_mode.hpp"
 #include "sampling/frequency_window.hpp"
 #include "sampling/mode_match.hpp"
@@ -24,7 +25,7 @@ class EquivalentFamily {
     double open(std::int64_t i) const { return open_.values[i]; }
     double sliding(std::int64_t i) const { return sliding_.values[i]; }
 
-    // The share that gives mode i the eigenvalue `target`, and the mode.
+    // The coupling that gives mode i the eigenvalue `target`, and the mode.
     double solve(std::int64_t i, double target, double *mode) {
         if (target <= open(i) * (1 + settled)) {
             std::copy_n(open_.vectors.col(i), space_.size(), mode);
@@ -52,14 +53,14 @@ class EquivalentFamily {
 
   private:
     struct Point {
-        double share = 0;
+        double coupling = 0;
         vector<double> value, slope; // eigenvalues below the limit and their derivatives by s
         std::int64_t size() const { return static_cast<std::int64_t>(value.size()); }
     };
 
-    SpaceModes modes_at(double share, double upper) const {
+    SpaceModes modes_at(double coupling, double upper) const {
         vector<double> spring(space_.model->contact_stiffness());
-        for (double &k : spring) k *= share;
+        for (double &k : spring) k *= coupling;
         return modes_with_springs(space_.lambda, space_.n_massless, space_.gap, spring, upper);
     }
 
@@ -74,8 +75,8 @@ class EquivalentFamily {
     }
 
     // d lambda / ds = phi' G' k G phi
-    Point point(double share, const SpaceModes &modes) const {
-        Point p{share, modes.values, {}};
+    Point point(double coupling, const SpaceModes &modes) const {
+        Point p{coupling, modes.values, {}};
         const Matrix u = product('N', 'N', space_.gap, modes.vectors);
         for (std::int64_t j = 0; j < u.cols(); ++j) {
             double slope = 0;
@@ -88,8 +89,8 @@ class EquivalentFamily {
 
     static void narrow(const Point &p, std::int64_t i, double target, double &low, double &high) {
         const double value = i < p.size() ? p.value[i] : std::numeric_limits<double>::infinity();
-        if (value >= target) high = std::min(high, p.share);
-        if (value <= target) low = std::max(low, p.share);
+        if (value >= target) high = std::min(high, p.coupling);
+        if (value <= target) low = std::max(low, p.coupling);
     }
 
     double start(std::int64_t i, double target, double low, double high) const {
@@ -99,7 +100,7 @@ class EquivalentFamily {
                 best = &p;
         if (!best) return 0.5 * high;
         if (std::abs(best->value[i] - target) <= settled * target)
-            return best->share; // repeated modes: one system
+            return best->coupling; // repeated modes: one system
         return next(*best, i, target, low, high);
     }
 
@@ -108,7 +109,7 @@ class EquivalentFamily {
     double next(const Point &p, std::int64_t i, double target, double low, double high) const {
         const double inside = low > 0 ? std::sqrt(low * high) : 0.1 * high;
         if (i >= p.size()) return inside;
-        const double risen = p.value[i] - open(i), s = p.share;
+        const double risen = p.value[i] - open(i), s = p.coupling;
         if (!(risen > 0)) return inside;
         const double rho = s * p.slope[i] / risen; // c / (s + c)
         if (!(rho > 0 && rho < 1)) return inside;
@@ -134,12 +135,33 @@ EquivalentModes lelsm_modes(const Space &space, const SelectionRule &rule, Watch
         if (!rule.keeps(hz)) continue;
         Matrix column(space.size(), 1);
         const double omega = 2 * M_PI * hz;
-        result.share.push_back(family.solve(i, omega * omega, column.data()));
+        result.coupling.push_back(family.solve(i, omega * omega, column.data()));
         result.frequency_hz.push_back(hz);
         result.columns.append(column);
     }
     if (result.columns.cols() == 0) throw no_mode_kept(rule, "no equivalent system");
     return result;
 }
+
+namespace {
+
+CollectedModes collect_lelsm(const ColumnSources &from, Watch watch) {
+    EquivalentModes modes = lelsm_modes(from.space, from.rule, watch);
+    CollectedModes collected;
+    collected.columns = std::move(modes.columns);
+    collected.equivalent_share = std::move(modes.coupling);
+    return collected;
+}
+
+constexpr BasisKind lelsm_kind() {
+    BasisKind kind("lelsm", "modes of equivalent linear systems with the bilinear frequencies");
+    kind.needs_pairs = true;
+    kind.collect = collect_lelsm;
+    return kind;
+}
+
+} // namespace
+
+constexpr BasisKind basis_kinds::lelsm = lelsm_kind();
 
 } // namespace plm

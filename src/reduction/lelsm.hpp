@@ -13,8 +13,8 @@ namespace plm {
 struct EquivalentModes {
     Matrix columns; // i-th mode of the system with springs s_i k_n, mass-normalised
     vector<double>
-        frequency_hz;     // its frequency, the bilinear one; 0 for a rigid-body mode of the open system
-    vector<double> share; // s_i, in [0, 1]
+        frequency_hz;        // its frequency, the bilinear one; 0 for a rigid-body mode of the open system
+    vector<double> coupling; // s_i, in [0, 1]
 };
 
 /// One mode for every i whose bilinear frequency the rule keeps. Throws PLM_ERR_ARGUMENT when there is none.

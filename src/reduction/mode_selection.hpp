@@ -36,6 +36,7 @@ struct CollectedModes {
     std::vector<SampleSelection> samples;
     Matrix lost;                     // modes that match the dominant one and are not kept, sample by sample
     vector<double> equivalent_share; // lelsm: s_i of each column; lelsm_updated: of each pair; else empty
+    std::int64_t n_rest_modes = 0;   // snapshots: modes at rest among the columns
 };
 
 /// Columns j of the modes with kept[j] != 0.

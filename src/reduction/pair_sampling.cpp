@@ -103,22 +103,22 @@ vector<std::int64_t> pairs_by_effective_independence(const Matrix &motions, std:
     const Matrix target = svd.u.columns(0, t).transposed(); // column i: t_i
     Matrix inverse(t, t);                                   // (T^T T)^-1 of what is left
     for (std::int64_t k = 0; k < t; ++k) inverse(k, k) = 1;
-    vector<double> share(motions.rows());
-    for (std::int64_t i = 0; i < motions.rows(); ++i) share[i] = dot(t, target.col(i), target.col(i));
+    vector<double> contribution(motions.rows());
+    for (std::int64_t i = 0; i < motions.rows(); ++i) contribution[i] = dot(t, target.col(i), target.col(i));
     Candidates candidates(motions.rows());
     vector<double> a(t);
     while (candidates.size() > n) {
-        const std::int64_t gone = candidates.remove_least([&](std::int64_t i) { return share[i]; });
+        const std::int64_t gone = candidates.remove_least([&](std::int64_t i) { return contribution[i]; });
         if (t == 0) continue; // no pair moves
-        // Sherman & Morrison: the least share is at most t / (pairs left) < 1
+        // Sherman & Morrison: the least contribution is at most t / (pairs left) < 1
         gemv('N', 1.0, inverse, target.col(gone), 0.0, a.data());
-        const double rest = std::max(1 - dot(t, a.data(), target.col(gone)), 1e-14);
+        const double pivot = std::max(1 - dot(t, a.data(), target.col(gone)), 1e-14);
         for (std::int64_t i : candidates.left()) {
             const double c = dot(t, a.data(), target.col(i));
-            share[i] += c * c / rest;
+            contribution[i] += c * c / pivot;
         }
         for (std::int64_t k = 0; k < t; ++k)
-            for (std::int64_t l = 0; l < t; ++l) inverse(l, k) += a[l] * a[k] / rest;
+            for (std::int64_t l = 0; l < t; ++l) inverse(l, k) += a[l] * a[k] / pivot;
     }
     return candidates.left();
 }

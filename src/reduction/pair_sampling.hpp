@@ -10,7 +10,8 @@ namespace plm {
 /// Effective independence (Kammer 1991), from all pairs down to n. motions: Z x r, the pairs' motion in
 /// coordinates of equal energy. The target is the span of its t = min(n, rank) leading left singular vectors
 /// T (singular values above 1e-6 of the largest count); at each step the pair with the least E_i = t_i (T^T
-/// T)^-1 t_i^T, its share in the rank of what is left, goes, the last one of equals. Ascending indices.
+/// T)^-1 t_i^T, its contribution to the rank of what is left, goes, the last one of equals. Ascending
+/// indices.
 vector<std::int64_t> pairs_by_effective_independence(const Matrix &motions, std::int64_t n);
 
 /// Master degrees of freedom (Henshell & Ong 1975), from all pairs down to n: the pair with the largest ratio

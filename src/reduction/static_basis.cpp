@@ -19,9 +19,9 @@ double relative_remainder(const Coordinates &dynamic, const vector<double> &q) {
     const std::int64_t n = static_cast<std::int64_t>(q.size());
     const double size = norm2(n, q.data());
     if (!(size > 0)) return 0;
-    vector<double> rest(q);
-    orthogonalise(orthonormal_span(dynamic.y, dynamic.n_massless), rest);
-    return norm2(n, rest.data()) / size;
+    vector<double> remainder(q);
+    orthogonalise(orthonormal_span(dynamic.y, dynamic.n_massless), remainder);
+    return norm2(n, remainder.data()) / size;
 }
 
 StaticBasis make_static_basis(const Space &space, const Coordinates &dynamic, const vector<double> &q_ps) {
@@ -33,10 +33,10 @@ StaticBasis make_static_basis(const Space &space, const Coordinates &dynamic, co
     for (double &v : unit) v /= size;
     Matrix extended = orthonormal_span(dynamic.y, dynamic.n_massless);
     orthogonalise(extended, unit);
-    const double rest = norm2(n, unit.data());
-    if (rest < 1e-10) return basis;
+    const double remainder = norm2(n, unit.data());
+    if (remainder < 1e-10) return basis;
     Matrix column(n, 1);
-    for (std::int64_t i = 0; i < n; ++i) column(i, 0) = unit[i] / rest;
+    for (std::int64_t i = 0; i < n; ++i) column(i, 0) = unit[i] / remainder;
     extended.append(column);
     basis.same = false;
     basis.coordinates = diagonalise(space, extended);

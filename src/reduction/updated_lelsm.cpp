@@ -1,5 +1,6 @@
 #include "reduction/updated_lelsm.hpp"
 #include "contact/describing_function.hpp"
+#include "reduction/basis_kind.hpp"
 #include "reduction/residual_responses.hpp"
 #include "sampling/mode_match.hpp"
 #include "space/linear_contact.hpp"
@@ -54,5 +55,36 @@ UpdatedModes updated_lelsm_modes(const Space &space, const SelectionRule &rule, 
     result.columns.append(residual_responses(all, kept, loads));
     return result;
 }
+
+namespace {
+
+CollectedModes collect_updated_lelsm(const ColumnSources &from, Watch watch) {
+    const BasisOptions &o = from.options;
+    UpdatedModes modes =
+        updated_lelsm_modes(from.space, from.rule, o.equivalent_amplitude, o.load_vectors, watch);
+    CollectedModes collected;
+    collected.columns = std::move(modes.columns);
+    collected.equivalent_share = std::move(modes.motion.coupling);
+    if (!modes.motion.settled)
+        watch.warn(PLM_REASON_NO_CONTRACTION,
+                   format("the equivalent stiffnesses did not settle in %lld iterations; the last "
+                          "ones are used. Set equivalent_amplitude or choose another kind",
+                          static_cast<long long>(modes.motion.iterations) - 1));
+    return collected;
+}
+
+constexpr BasisKind updated_lelsm_kind() {
+    BasisKind kind("lelsm_updated",
+                   "modes and Ritz vectors of the system equivalent at the resonance's amplitude");
+    kind.own_options = "equivalent_amplitude";
+    kind.needs_pairs = true;
+    kind.has_load_vectors = true;
+    kind.collect = collect_updated_lelsm;
+    return kind;
+}
+
+} // namespace
+
+constexpr BasisKind basis_kinds::lelsm_updated = updated_lelsm_kind();
 
 } // namespace plm

@@ -113,7 +113,7 @@ std::int64_t choose(const SpaceModes &modes, const vector<double> &response,
     return by_response(response, among, request, watch);
 }
 
-double share(const vector<double> &response, vector<std::int64_t> among, std::int64_t chosen) {
+double participation_of(const vector<double> &response, vector<std::int64_t> among, std::int64_t chosen) {
     if (std::find(among.begin(), among.end(), chosen) == among.end()) among.push_back(chosen);
     double sum = 0;
     for (std::int64_t j : among) sum += response[j];
@@ -135,7 +135,7 @@ DominantMode find_dominant_mode(const Space &space, const ModeRequest &request, 
     dominant.system = request.system;
     dominant.mode = chosen + 1;
     dominant.frequency_hz = to_hz(modes.values[chosen]);
-    dominant.participation = share(response, among, chosen);
+    dominant.participation = participation_of(response, among, chosen);
     dominant.coordinates.assign(modes.vectors.col(chosen), modes.vectors.col(chosen) + space.size());
     dominant.mode_penetration.assign(space.n_pairs(), 0.0);
     gemv('N', 1.0, space.gap, dominant.coordinates.data(), 0.0, dominant.mode_penetration.data());

@@ -37,7 +37,7 @@ MatchedModes match_below(const Space &space, const vector<char> &closed, const v
 bool is_settled(const MatchedModes &matched) {
     if (matched.best < 0) return false;
     double left = 1;
-    for (double share : matched.mac) left -= share;
+    for (double value : matched.mac) left -= value;
     return matched.mac[matched.best] >= left;
 }
 

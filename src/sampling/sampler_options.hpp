@@ -1,4 +1,5 @@
-// What a sampler is asked for, and every rule about it in one place.
+// What a sampler is asked for, and what its options ask of one another. The bounds of each stand in the table
+// of the keys (capi/keys_sampler.cpp) alone.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -20,8 +21,8 @@ struct SamplerOptions {
     double window_min_hz = 0, window_max_hz = 0; // > 0: the caller's window instead
     std::int64_t n_harmonics = 5;                // the space must be accurate up to n_harmonics x window
     struct Extra {
-        LinearSystem system;
-        std::int64_t mode;
+        LinearSystem system; // open or sliding
+        std::int64_t mode;   // 1, 2, ...
     };
     std::vector<Extra> extra; // further dominant modes
 };

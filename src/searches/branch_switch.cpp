@@ -11,15 +11,22 @@
 namespace plm {
 namespace {
 
+constexpr int inverse_iterations = 4; // the tangent is singular but for how well the point was located
+
+// First steps on the other curve, of the size of the motion: long enough to be clear of the curve at hand,
+// short enough for the curve to begin like its null vector.
+constexpr double first_steps[] = {1e-2, 3e-2, 1e-1, 3e-3, 1e-3};
+constexpr double further_on = 1.5; // of that step: a second point, which gives the direction
+// A corrected point farther off, of the step or of the range of frequencies, is another solution.
+constexpr double far_away = 10, far_in_frequency = 0.2;
+
 // Null vector of the tangent at x by inverse iteration, of Euclidean length 1.
 vector<double> null_vector(HbmSystem &system, const vector<double> &x, double omega) {
     const std::int64_t n = system.size();
-    vector<double> v(n), r(n);
+    vector<double> v = patternless_vector(n), r(n);
     system.residual(x.data(), omega, r.data());
     system.linearize();
-    for (std::int64_t i = 0; i < n; ++i)
-        v[i] = 0.5 + std::fmod(0.754877666 * static_cast<double>(i + 1), 1.0);
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < inverse_iterations; ++k) {
         system.solve(v.data(), 1);
         const double size = norm2(n, v.data());
         if (!(size > 0) || !std::isfinite(size))
@@ -36,7 +43,8 @@ class Switch {
            const BranchPoint &along, bool mirrored)
         : options_(options), mirrored_(mirrored) {
         options_.n_harmonics = harmonics_of(origin, options.period_multiple);
-        options_.unknowns = prefers_modal(*reduced, options) ? UnknownSpace::modal : UnknownSpace::gaps;
+        options_.unknowns =
+            prefers_modal(*reduced, options) ? NonlinearUnknowns::modal : NonlinearUnknowns::gaps;
         system_ = make_system(std::move(reduced), options_);
         at_ = {unknowns_of(*system_, origin), origin.omega};
         const double size = size_of(*system_, at_.x);
@@ -46,10 +54,10 @@ class Switch {
 
     // A first point of the other curve and one a little further on.
     bool find(CurveStart &start) {
-        for (double step : {1e-2, 3e-2, 1e-1, 3e-3, 1e-3}) {
+        for (double step : first_steps) {
             if (!corrected(step, start.point)) continue;
             BranchPoint further;
-            if (!corrected(1.5 * step, further)) continue;
+            if (!corrected(further_on * step, further)) continue;
             start.towards = {further};
             return true;
         }
@@ -72,12 +80,12 @@ class Switch {
         PathState to = at_;
         add(step, direction_, to);
         NewtonLimits limits = newton_limits(options_);
-        limits.min_damping = 1e-2;
+        limits.min_damping = 1e-2; // a guess that needs more is none: the next step is tried
         const NewtonOutcome out = newton_across(*system_, metric_, direction_, limits, to);
         work_ += out;
         const PathState moved = difference(to, at_);
-        if (!out.converged || std::abs(moved.parameter) > 0.2 * metric_.width) return false;
-        if (metric_.length({moved.x, 0}) > 10 * step) return false; // another solution, far away
+        if (!out.converged || std::abs(moved.parameter) > far_in_frequency * metric_.width) return false;
+        if (metric_.length({moved.x, 0}) > far_away * step) return false;
         point = solved_point(*system_, to, out.residual, out.iterations);
         return true;
     }

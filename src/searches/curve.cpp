@@ -25,9 +25,9 @@ class CurveTracer final : public PathOwner {
         options_.n_harmonics = start.point.n_harmonics / options_.period_multiple;
         limit_harmonics(start.point);
         wants_modal_ = modal_ = prefers_modal(*reduced_, options_);
-        options_.unknowns = modal_ ? UnknownSpace::modal : UnknownSpace::gaps;
+        options_.unknowns = modal_ ? NonlinearUnknowns::modal : NonlinearUnknowns::gaps;
         compliant_ = make_formulation(*reduced_, options_).compliant;
-        branch_.space_used = modal_ ? "modal" : "gaps";
+        branch_.unknowns_used = modal_ ? "modal" : "gaps";
         branch_.sampled = options_.aft == AftKind::sampled;
         system_ = make_system(reduced_, options_);
         try {
@@ -175,11 +175,12 @@ class CurveTracer final : public PathOwner {
 
     // By the cubic cost of the dense factorization, with some inertia.
     void choose_space() {
+        constexpr double to_gaps = 1.5, to_modal = 1.2; // a change costs a factorization and a metric
         wants_modal_ = modal_;
-        if (asked_.unknowns == UnknownSpace::automatic && reduced_->n_pairs() > 0 && !compliant_) {
+        if (asked_.unknowns == NonlinearUnknowns::automatic && reduced_->n_pairs() > 0 && !compliant_) {
             const double r = static_cast<double>(reduced_->size()), moving = static_cast<double>(moved_most_);
-            if (modal_ && 1.5 * moving < r) wants_modal_ = false;
-            if (!modal_ && moving > 1.2 * r) wants_modal_ = true;
+            if (modal_ && to_gaps * moving < r) wants_modal_ = false;
+            if (!modal_ && moving > to_modal * r) wants_modal_ = true;
         }
         moved_most_ = 0;
     }
@@ -192,7 +193,7 @@ class CurveTracer final : public PathOwner {
         for (std::int64_t more = wanted_harmonics_ - options_.n_harmonics;; more /= 2) {
             HbmOptions changed = options_;
             changed.n_harmonics += more;
-            changed.unknowns = wants_modal_ ? UnknownSpace::modal : UnknownSpace::gaps;
+            changed.unknowns = wants_modal_ ? NonlinearUnknowns::modal : NonlinearUnknowns::gaps;
             if (change_to(changed, orientation, path)) return true;
             if (more <= 1) break;
         }
@@ -214,7 +215,7 @@ class CurveTracer final : public PathOwner {
         base_arclength_ = branch_.points()[static_cast<std::size_t>(n - 1)].arclength;
         branch_.truncate(n);
         n_kept_ = n;
-        if (wants_modal_ != modal_) branch_.space_used = "both";
+        if (wants_modal_ != modal_) branch_.unknowns_used = "both";
         options_ = changed;
         modal_ = wants_modal_;
         set_end(other);
@@ -285,7 +286,8 @@ class CurveTracer final : public PathOwner {
         system_->parameter_derivative(tangent.x.data());
         system_->solve(tangent.x.data(), 1); // minus the tangent, for a unit of frequency
         const double along = -metric.cosine(tangent, path.direction);
-        if (!(std::abs(along) > 0.8)) return false;
+        constexpr double same_way = 0.8; // as far as harmonics more or less turn a curve
+        if (!(std::abs(along) > same_way)) return false;
         return wants_modal_ != modal_ ||
                system_->determinant_sign() * (along < 0 ? -1.0 : 1.0) * orientation > 0;
     }
@@ -344,13 +346,16 @@ class CurveTracer final : public PathOwner {
     bool correct(PathStart &path) {
         const Metric metric = metric_at(path.at);
         NewtonLimits limits = newton_limits(options_);
-        limits.min_damping = 0.01;
+        limits.min_damping = 0.01; // one that needs more lies elsewhere
+        // Other harmonics move the point a little. Farther, of the motion or of the window, is another
+        // solution.
+        constexpr double farthest = 0.3, farthest_in_frequency = 0.1;
         const PathState guess = path.at;
         const NewtonOutcome out = newton_across(*system_, metric, path.direction, limits, path.at);
         branch_.newton_work += out;
         const PathState moved = difference(path.at, guess);
-        return out.converged && metric.length({moved.x, 0}) < 0.3 &&
-               std::abs(moved.parameter) < 0.1 * metric.width;
+        return out.converged && metric.length({moved.x, 0}) < farthest &&
+               std::abs(moved.parameter) < farthest_in_frequency * metric.width;
     }
 
     const HbmOptions asked_;

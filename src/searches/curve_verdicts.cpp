@@ -15,7 +15,8 @@ constexpr double far_from_switching = 100;
 
 bool is_inside(const SweepRange &window, const BranchPoint &p) {
     const double hz = p.omega / (2 * M_PI);
-    return hz > window.min_hz * (1 - 1e-6) && hz < window.max_hz * (1 + 1e-6);
+    constexpr double on_the_end = 1e-6; // relative: rounding of the range in Hz and in rad/s
+    return hz > window.min_hz * (1 - on_the_end) && hz < window.max_hz * (1 + on_the_end);
 }
 
 // The point outside the window where the response is largest; -1: all lie inside.
@@ -97,7 +98,7 @@ void check_basis(const SweepRange &window, Watch watch, Branch &branch) {
         .warn(PLM_REASON_BASIS_TOO_SMALL,
               format("the basis (%lld coordinates) is too small: at %.6g Hz the response misses the "
                      "equations of the whole structure by %.2g of its size (full residual), and amplitudes "
-                     "are in doubt by as much (plm_hbm_estimate_error). %s",
+                     "are in doubt by as much (the error estimate of a point tells). %s",
                      static_cast<long long>(branch.reduced().size()), p.omega / (2 * M_PI), residual,
                      branch.reduced().all_pairs
                          ? "Carry more pairs (n_pairs_carried), or raise below_factor of the basis"

@@ -122,7 +122,7 @@ std::int64_t finer(std::int64_t harmonics) {
 ErrorEstimator::ErrorEstimator(std::shared_ptr<const ReducedModel> full, const Branch &branch,
                                const HbmOptions &options)
     : branch_(branch), full_(std::move(full)), options_(options) {
-    options_.unknowns = UnknownSpace::gaps;
+    options_.unknowns = NonlinearUnknowns::gaps;
     options_.period_multiple = branch.period_multiple();
     if (full_->n_pairs() == 0)
         throw Error(PLM_ERR_STATE, "errors are estimated in the contact gaps: the model needs contact pairs");

@@ -155,15 +155,15 @@ class FoldPath final : public PathOwner {
              const BranchPoint &about, Watch watch)
         : options_(options), watch_(watch) {
         HbmOptions &o = options_.hbm;
-        o.unknowns = UnknownSpace::modal;
+        o.unknowns = NonlinearUnknowns::modal;
         o.aft = AftKind::event;
         o.n_harmonics = harmonics_of(about, o.period_multiple);
         inner_ = make_system(reduced, o);
         const vector<double> x = unknowns_of(*inner_, about);
         const std::int64_t s = inner_->static_size();
         scale_ = norm2(inner_->size() - s, x.data() + s);
-        // a change of omega by a twentieth counts as much as one of the response by itself
-        system_ = std::make_unique<FoldSystem>(*inner_, reduced, about, scale_ / (0.05 * about.omega));
+        constexpr double as_much = 0.05; // change of omega that counts like one of the response by itself
+        system_ = std::make_unique<FoldSystem>(*inner_, reduced, about, scale_ / (as_much * about.omega));
         branch_ = std::make_shared<Branch>(reduced, o.force_scale, o.period_multiple);
     }
 
@@ -180,14 +180,15 @@ class FoldPath final : public PathOwner {
     std::shared_ptr<Branch> follow(const BranchPoint &start) {
         PathOptions range = path_options(options_.hbm, options_.force_min, options_.force_max);
         range.upward = options_.upward;
-        range.initial_step = 0.05 * range.max_step; // an extremum may be close
+        constexpr double first = 0.05; // an extremum may be close
+        range.initial_step = first * range.max_step;
         range.locate = true;
         PathStart from;
         from.at = {unknowns_of(*system_, start), start.force_scale};
         from.residual = start.residual;
         from.scale = scale_;
         take_outcome(follow_path(*system_, range, from, *this), *branch_);
-        branch_->space_used = "modal";
+        branch_->unknowns_used = "modal";
         return branch_;
     }
 

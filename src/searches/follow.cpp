@@ -8,6 +8,7 @@ namespace {
 constexpr double start_change = 0.1;    // of the motion: the start is another problem's, or no solution
 constexpr double tangent_error = 0.1;   // of a step: no other branch lies in between
 constexpr double longest_tangent = 0.3; // of the motion
+constexpr double same_place = 1e-6; // of the motion: a step may be too short for its error to mean anything
 // Solutions farther from the start than this (share of the motion) are hardly those of its branch; at its own
 // frequency more harmonics change it so much that one cannot tell.
 constexpr double beside_the_start = 0.05, much_the_same = 0.3;
@@ -48,7 +49,7 @@ class Follower {
         const vector<double> predicted = ahead;
         const double size = size_of(system_, x), step = distance(predicted, x);
         if (step > longest_tangent * size || !correct(to_, ahead)) return false;
-        if (distance(ahead, predicted) > tangent_error * step + 1e-6 * size) return false;
+        if (distance(ahead, predicted) > tangent_error * step + same_place * size) return false;
         x = ahead;
         return true;
     }

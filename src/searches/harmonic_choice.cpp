@@ -57,11 +57,14 @@ std::int64_t next_harmonics(const HbmOptions &limits, std::int64_t fewest, std::
                             const HarmonicContent &content, double error) {
     const std::int64_t most = std::max(limits.max_harmonics, now);
     const double over = std::max(error, content.tail / tail_allowance) / limits.harmonic_tolerance;
-    if (over > 30) return std::min(most, 2 * now);
+    constexpr double far_too_few = 30; // times the tolerance: below, two fifths more are likely to do
+    constexpr double too_many = 0.3;   // of the tolerance: no number is to be taken back at the next point
+    if (over > far_too_few) return std::min(most, 2 * now);
     if (over > 1) return std::min(most, std::max(now + 2, (7 * now + 4) / 5));
     // without the upper two fifths the tail would grow from `tail` to `tail + top`, and its effect with it
     const double grows = content.tail > 0 ? 1 + content.top / content.tail : 1;
-    if (over * grows < 0.3 && content.tail + content.top < 0.3 * tail_allowance * limits.harmonic_tolerance)
+    if (over * grows < too_many &&
+        content.tail + content.top < too_many * tail_allowance * limits.harmonic_tolerance)
         return std::max(fewest, now - (2 * now) / 5);
     return now;
 }
@@ -80,8 +83,8 @@ HbmOptions options_at(const BranchPoint &point, std::int64_t period_multiple, co
         return o;
     }
     if (o.formulation == FormulationKind::penalty) o.formulation = FormulationKind::automatic;
-    if (o.unknowns == UnknownSpace::modal)
-        o.unknowns = UnknownSpace::gaps; // all that the compliance form has
+    if (o.unknowns == NonlinearUnknowns::modal)
+        o.unknowns = NonlinearUnknowns::gaps; // all that the compliance form has
     return o;
 }
 
@@ -196,7 +199,7 @@ std::string most_moved(const Branch &branch, const BranchPoint &p) {
 std::string remedy(const HbmOptions &o, const BranchPoint &p) {
     const char *others =
         "make the basis for more harmonics (n_harmonics of sampler and basis) or the contact "
-        "softer, and compare with the exact motion (plm_transient_find_periodic)";
+        "softer, and compare with the exact periodic motion that a transient finds";
     if (harmonics_of(p, o.period_multiple) >= o.max_harmonics)
         return format("raise max_harmonics (%lld) or, if that is accurate enough, harmonic_tolerance; "
                       "otherwise ",

@@ -16,22 +16,20 @@
 namespace plm {
 namespace {
 
+// What the options ask of one another; the bounds of each stand in the table of the keys.
 void check(const HbmOptions &o) {
     const auto refuse = [](const char *name, const std::string &text) {
         throw Error(PLM_ERR_ARGUMENT, text).argument(name);
     };
-    if (o.n_harmonics < 0) refuse("n_harmonics", "n_harmonics must be positive, or 0 for automatic");
-    if (o.unknowns == UnknownSpace::modal && o.formulation == FormulationKind::compliance)
+    if (o.unknowns == NonlinearUnknowns::modal && o.formulation == FormulationKind::compliance)
         refuse("formulation",
                "the compliance formulation has the contact gaps as unknowns; set unknowns to gaps or auto");
-    if (o.period_multiple < 1) refuse("period_multiple", "period_multiple must be at least 1");
     if (!(o.frequency_min_hz > 0 && o.frequency_max_hz > o.frequency_min_hz))
         refuse("frequency_min_hz",
                format("the frequency range [%g, %g] Hz is empty or not positive; set "
                       "frequency_min_hz < frequency_max_hz, or use a basis that has a window",
                       o.frequency_min_hz, o.frequency_max_hz));
-    if (!(o.min_step > 0 && o.max_step > o.min_step))
-        refuse("min_step", "steps need 0 < min_step < max_step");
+    if (!(o.max_step > o.min_step)) refuse("min_step", "min_step must be below max_step");
 }
 
 } // namespace
@@ -107,10 +105,12 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
     // range is entered a little further on then, if that is better.
     CurveStart start;
     bool found = false;
-    for (int attempt = 0; attempt < 5; ++attempt) {
+    constexpr int most_attempts = 5;
+    constexpr double further_in = 0.02; // of the range: what is left out of the curve is to be small
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
         watch_.step("sweep", 0.0);
         BranchPoint point;
-        if (!solve_at(from + 0.02 * attempt * into, nullptr, *branch, point)) continue;
+        if (!solve_at(from + further_in * attempt * into, nullptr, *branch, point)) continue;
         if (!found || point.harmonic_error < start.point.harmonic_error) start.point = point;
         found = true;
         if (options_.n_harmonics != 0 || start.point.harmonic_error < worthless_error) break;
@@ -170,7 +170,7 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
     branch->append(std::move(result));
     warn_of_harmonics(options_, *branch);
     branch->end_reason = PLM_REASON_RANGE_END;
-    branch->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
+    branch->unknowns_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
     check_window(window_, watch_, *branch);
     finish(*branch, begin);
     return branch;

@@ -49,13 +49,13 @@ class HillMatrix {
     // Coordinates with neither mass nor damping have no exponents: J becomes its Schur complement.
     void eliminate_followers() {
         const vector<std::int64_t> moving = rows_of(0, flow_.n_moving()),
-                                   rest = rows_of(flow_.n_moving(), n_);
-        if (rest.empty()) return;
-        Matrix stiff = block(j_, rest, rest), follow = block(j_, rest, moving);
+                                   following = rows_of(flow_.n_moving(), n_);
+        if (following.empty()) return;
+        Matrix stiff = block(j_, following, following), by_moving = block(j_, following, moving);
         RealLu lu;
         lu.factor(stiff);
-        lu.solve(follow.data(), follow.cols(), follow.rows());
-        const Matrix change = product('N', 'N', block(j_, moving, rest), follow);
+        lu.solve(by_moving.data(), by_moving.cols(), by_moving.rows());
+        const Matrix change = product('N', 'N', block(j_, moving, following), by_moving);
         for (std::int64_t j = 0; j < change.cols(); ++j)
             for (std::int64_t i = 0; i < change.rows(); ++i) j_(moving[i], moving[j]) -= change(i, j);
     }

@@ -12,6 +12,18 @@ namespace {
 constexpr double same_resonance = 1e-5;      // relative distance of phase-resonant points
 constexpr std::int64_t largest_system = 400; // unknowns of the backbone when harmonics are chosen by point
 constexpr double weakest_resonance = 0.05;   // of the main branch, against its largest response
+constexpr double backbone_reach = 8; // times the force: where it ends unless the caller says otherwise
+constexpr double met_there = 1e-3;   // relative distance of a crossing, before it is corrected
+constexpr double of_the_loop = 0.3;  // largest step on a loop, which must not be stepped over
+constexpr double at_first = 0.1;     // of the largest step: the top of a loop is where it bends most
+// The fold's extremum of the force lies near that of the backbone; one farther away belongs to another loop.
+constexpr double same_extremum = 0.3;
+// Where the folds are followed: from half the force on one side to twice the force on the other.
+constexpr double less_force = 0.5, more_force = 2;
+// Beyond a swallowtail: few leaps, each a small part of the force, as long as the folds go on as they went.
+constexpr int most_leaps = 8;
+constexpr double leap_lengths[] = {2e-3, 5e-3, 1e-2};
+constexpr double straight_on = 5; // times the distance that the line through the last folds gives
 
 // A crossing of the backbone with the force, and the extrema of the force (points of the backbone) between it
 // and its neighbours: a loop exists from the minimum above its lower crossing to the maximum below it.
@@ -27,7 +39,7 @@ class Search {
     Search(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, const Branch &main,
            double force_max, Watch watch)
         : reduced_(std::move(reduced)), options_(options), main_(main), watch_(watch),
-          force_max_(force_max > 0 ? force_max : 8 * options.force_scale),
+          force_max_(force_max > 0 ? force_max : backbone_reach * options.force_scale),
           resonance_(reduced_, backbone_options(), watch) {}
 
     IsolatedSearch run() {
@@ -82,7 +94,7 @@ class Search {
     bool met(const BranchPoint &p) const {
         for (const Backbone &b : out_.backbones)
             for (std::size_t i : b.crossings)
-                if (solution_distance(b.branch->points()[i], p) < 1e-3) return true;
+                if (solution_distance(b.branch->points()[i], p) < met_there) return true;
         return false;
     }
 
@@ -125,8 +137,9 @@ class Search {
     void trace(const Seed &seed) {
         HbmOptions options = options_;
         if (seed.reach > 0)
-            options.max_step = std::max(10 * options.min_step, std::min(options.max_step, 0.3 * seed.reach));
-        options.initial_step = 0.1 * options.max_step;
+            options.max_step =
+                std::max(10 * options.min_step, std::min(options.max_step, of_the_loop * seed.reach));
+        options.initial_step = at_first * options.max_step;
         BranchPoint start = seed.point;
         settle_harmonics(reduced_, options, start, watch_);
         IsolatedBranch found;
@@ -163,7 +176,7 @@ class Search {
         });
         for (const BranchPoint &fold : folds) {
             const double turn = first_turn(fold, upward, extremum.force_scale);
-            if (!(std::abs(turn / extremum.force_scale - 1) < 0.3)) continue;
+            if (!(std::abs(turn / extremum.force_scale - 1) < same_extremum)) continue;
             force = turn;
             return true;
         }
@@ -175,13 +188,13 @@ class Search {
     double first_turn(const BranchPoint &fold, bool upward, double estimate) const {
         FoldOptions o;
         o.hbm = options_;
-        o.force_min = upward ? 0.5 * options_.force_scale : 0.5 * estimate;
-        o.force_max = upward ? 2 * estimate : 2 * options_.force_scale;
+        o.force_min = upward ? less_force * options_.force_scale : less_force * estimate;
+        o.force_max = upward ? more_force * estimate : more_force * options_.force_scale;
         o.upward = upward;
         o.stop_at_turn = true;
         double turn = NAN;
         BranchPoint from = fold;
-        for (int leaps = 0; leaps < 8; ++leaps) {
+        for (int leaps = 0; leaps < most_leaps; ++leaps) {
             const auto folds = follow_folds(reduced_, o, from, watch_);
             if (!folds || folds->end_reason == PLM_REASON_RANGE_END) break;
             const auto &points = folds->points();
@@ -200,12 +213,12 @@ class Search {
         const BranchPoint &near = points[last - 1], &far = points[last - 2];
         const double run = near.force_scale - far.force_scale, apart = solution_distance(near, far);
         if (run == 0) return false;
-        for (double share : {2e-3, 5e-3, 1e-2}) {
-            const double force = points[last].force_scale * (upward ? 1 + share : 1 - share),
+        for (double step : leap_lengths) {
+            const double force = points[last].force_scale * (upward ? 1 + step : 1 - step),
                          t = (force - near.force_scale) / run;
             BranchPoint guess = between(near, far, -t);
             if (!correct_fold(reduced_, options_, force, guess)) continue;
-            if (solution_distance(guess, near) > 5 * std::abs(t) * apart) continue;
+            if (solution_distance(guess, near) > straight_on * std::abs(t) * apart) continue;
             guess.force_scale = force;
             beyond = guess;
             return true;

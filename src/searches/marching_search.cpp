@@ -19,7 +19,7 @@ class Samples final : public FlowRecorder {
     Samples(double begin, double duration, std::int64_t count, std::int64_t n)
         : begin_(begin), step_(duration / static_cast<double>(count)), values_(n, count) {}
     void record(const FlowPiece &piece) override {
-        const double noise = 1e-12 * step_;
+        const double noise = 1e-12 * step_; // an instant on the border of two pieces belongs to either
         for (; next_ < values_.cols(); ++next_) {
             const double t = begin_ + step_ * static_cast<double>(next_) - piece.start;
             if (t > piece.duration + noise) return;
@@ -44,7 +44,7 @@ class Marching {
              const std::vector<std::shared_ptr<const Branch>> &known, Watch watch)
         : reduced_(std::move(reduced)), options_(options), known_(known), watch_(watch),
           hbm_(with_first_harmonics(*reduced_, options.hbm)) {
-        hbm_.unknowns = UnknownSpace::modal;
+        hbm_.unknowns = NonlinearUnknowns::modal;
         hbm_.period_multiple = 1;
         system_ = make_system(reduced_, hbm_);
     }
@@ -53,11 +53,11 @@ class Marching {
         find_largest();
         const double low = 2 * M_PI * hbm_.frequency_min_hz, high = 2 * M_PI * hbm_.frequency_max_hz;
         for (std::int64_t i = 0; i < options_.n_frequencies; ++i) {
-            const double share = (static_cast<double>(i) + 0.5) / static_cast<double>(options_.n_frequencies);
+            const double done = (static_cast<double>(i) + 0.5) / static_cast<double>(options_.n_frequencies);
             for (double scale : options_.scales) {
-                watch_.step("search by marching", share);
+                watch_.step("search by marching", done);
                 if (scale != 0 && largest_.eta.empty()) continue;
-                try_start(low + share * (high - low), scale);
+                try_start(low + done * (high - low), scale);
             }
         }
         return std::move(out_);
@@ -73,8 +73,8 @@ class Marching {
             }
         rest_.assign(reduced_->static_size(), 0.0);
         const ReducedModel &m = *reduced_;
-        const vector<double> share = share_at_rest(m);
-        if (std::find(share.begin(), share.end(), 1.0) == share.end()) return;
+        const vector<double> coupling = coupling_at_rest(m);
+        if (std::find(coupling.begin(), coupling.end(), 1.0) == coupling.end()) return;
         rest_ =
             solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap}).coordinates;
     }
@@ -96,7 +96,7 @@ class Marching {
         }
         ShootingOptions shooting;
         shooting.transient_periods = options_.transient_periods;
-        shooting.tolerance = 1e-8;
+        shooting.tolerance = 1e-8; // a first guess for the harmonics, which cut off more
         PeriodicOrbit orbit;
         try {
             orbit = periodic_orbit(flow, start, shooting);

@@ -110,9 +110,9 @@ namespace {
 class ModePath final : public PathOwner {
   public:
     ModePath(std::shared_ptr<const ReducedModel> reduced, const NonlinearModeOptions &options, Watch watch)
-        : m_(std::move(reduced)), options_(options), watch_(watch), share_(share_at_rest(*m_)) {
+        : m_(std::move(reduced)), options_(options), watch_(watch), coupling_(coupling_at_rest(*m_)) {
         HbmOptions &o = options_.hbm;
-        o.unknowns = UnknownSpace::modal;
+        o.unknowns = NonlinearUnknowns::modal;
         o.period_multiple = 1;
         o.force_scale = 0;
     }
@@ -195,7 +195,8 @@ class ModePath final : public PathOwner {
         PathOptions range =
             path_options(options_.hbm, std::log(options_.amplitude_min), std::log(options_.amplitude_max));
         range.upward = true;
-        range.max_step = std::min(0.05, options_.hbm.max_step);
+        constexpr double longest_of_mode = 0.05; // internal resonances take up little of the range
+        range.max_step = std::min(longest_of_mode, options_.hbm.max_step);
         range.locate = true;
         PathOutcome out;
         try {
@@ -207,13 +208,13 @@ class ModePath final : public PathOwner {
         Branch &branch = *result_.branch;
         take_outcome(out, branch);
         if (branch.end_reason == PLM_REASON_NONE) branch.end_reason = PLM_REASON_RANGE_END;
-        branch.space_used = "modal";
+        branch.unknowns_used = "modal";
         return std::move(result_);
     }
 
     // The mode about rest with the number asked for, or the nearest to the frequency asked for.
     void find_mode() {
-        const SpaceModes modes = modes_at_rest(*m_, share_);
+        const SpaceModes modes = modes_at_rest(*m_, coupling_);
         const std::int64_t best = choose_mode(modes.values);
         omega_ = std::sqrt(modes.values[best]);
         shape_.assign(modes.vectors.col(best), modes.vectors.col(best) + m_->size());
@@ -241,20 +242,25 @@ class ModePath final : public PathOwner {
     // Amplitude of the mode at which the first pair changes its state; 0: none does, or at any amplitude.
     double first_change() const {
         vector<double> x(inner_->size());
-        inner_->linear_response(share_, omega_, x.data());
+        inner_->linear_response(coupling_, omega_, x.data());
         const ReducedModel &m = *m_;
         double first = 0;
         for (std::int64_t i = 0; i < m.n_pairs(); ++i) {
-            double rest = -m.initial_gap[i], swing = 0;
-            for (std::int64_t j = 0; j < m.static_size(); ++j) rest += m.gap_0(i, j) * x[j];
+            double mean = -m.initial_gap[i], swing = 0;
+            for (std::int64_t j = 0; j < m.static_size(); ++j) mean += m.gap_0(i, j) * x[j];
             for (std::int64_t j = 0; j < m.size(); ++j) swing += m.gap(i, j) * shape_[j];
-            if (swing != 0 && share_[i] != 0.5 && (first == 0 || std::abs(rest / swing) < first))
-                first = std::abs(rest / swing);
+            if (swing != 0 && coupling_[i] != 0.5 && (first == 0 || std::abs(mean / swing) < first))
+                first = std::abs(mean / swing);
         }
         return first;
     }
 
     void find_amplitudes() {
+        constexpr double still_linear = 0.5; // of the first change
+        constexpr double below = 0.1,
+                         far_below = 0.01; // of the amplitude asked for: the mode begins well before it
+        constexpr double far_beyond = 100,
+                         out_of_reach = 1000; // of the first change, of the amplitude asked for
         if (options_.amplitude_min > 0 && options_.amplitude_max > options_.amplitude_min) return;
         const double first = first_change(), asked = asked_amplitude();
         if (first == 0 && asked == 0)
@@ -263,11 +269,11 @@ class ModePath final : public PathOwner {
                 "no pair changes its state at a certain amplitude (neither pre-load nor gap): say up to "
                 "which amplitude to go")
                 .argument("amplitude_max");
-        double low = first > 0 ? 0.5 * first : 0.01 * asked;
-        if (asked > 0) low = std::min(low, 0.1 * asked);
+        double low = first > 0 ? still_linear * first : far_below * asked;
+        if (asked > 0) low = std::min(low, below * asked);
         options_.amplitude_min = low;
         options_.amplitude_max =
-            asked > 0 ? 1000 * std::max(asked, first) : 100 * first; // interrupt() ends it
+            asked > 0 ? out_of_reach * std::max(asked, first) : far_beyond * first; // interrupt() ends it
     }
 
     // The amplitude of the mode that moves the DOF as asked; 0: not asked.
@@ -276,7 +282,8 @@ class ModePath final : public PathOwner {
         const std::int64_t row = m_->model->free_index(options_.dof);
         const Field mode = combine(m_->vectors, shape_);
         const double swing = row < 0 ? 0 : mode.at(row, 0), most = largest_entry(mode).size;
-        if (!(std::abs(swing) > 1e-6 * most))
+        constexpr double moves = 1e-6; // of the largest displacement: below, it is rounding of the mode
+        if (!(std::abs(swing) > moves * most))
             throw Error(PLM_ERR_ARGUMENT, "this mode does not move the DOF; name one that it moves")
                 .argument("dof");
         return options_.dof_amplitude_max / std::abs(swing);
@@ -284,7 +291,7 @@ class ModePath final : public PathOwner {
 
     PathStart start() {
         vector<double> x(inner_->size());
-        inner_->linear_response(share_, omega_, x.data());
+        inner_->linear_response(coupling_, omega_, x.data());
         std::fill(x.begin() + m_->static_size(), x.end(), 0.0);
         for (std::int64_t j = 0; j < m_->size(); ++j)
             x[m_->static_size() + j] = options_.amplitude_min * shape_[j];
@@ -307,7 +314,7 @@ class ModePath final : public PathOwner {
     std::shared_ptr<const ReducedModel> m_;
     NonlinearModeOptions options_;
     Watch watch_;
-    vector<double> share_, shape_;
+    vector<double> coupling_, shape_;
     double omega_ = 0;
     std::unique_ptr<HbmSystem> inner_;
     std::unique_ptr<NonlinearModeSystem> system_;

@@ -41,8 +41,9 @@ class PeakSearch {
         const Sample &top = *std::max_element(three_.begin(), three_.end(), [](const auto &a, const auto &b) {
             return a.amplitude < b.amplitude;
         });
+        constexpr double same_height = 1e-9; // rounding decides between them
         Sample best;
-        if (!corrected(vertex(), best) || best.amplitude < top.amplitude * (1 - 1e-9)) best = top;
+        if (!corrected(vertex(), best) || best.amplitude < top.amplitude * (1 - same_height)) best = top;
         highest = std::move(best.point);
         return true;
     }
@@ -52,9 +53,12 @@ class PeakSearch {
     // falls with its square. One that misses the top (far from it the curve is no parabola) goes to its
     // higher side with wider steps.
     void close_in() {
-        const double closest = 2e-3 * span_;
+        // Closer, differences of amplitudes drown in the error of their solutions, which corrected() keeps
+        // small.
+        const double closest = 2e-3 * span_, widest = 0.25 * span_;
+        constexpr int most_rounds = 20; // three when the top is inside from the beginning
         double reach = 0.05 * span_;
-        for (int round = 0; round < 20; ++round) {
+        for (int round = 0; round < most_rounds; ++round) {
             Sample left, middle, right;
             if (!corrected(vertex(), middle) || !corrected(middle.s - reach, left) ||
                 !corrected(middle.s + reach, right))
@@ -62,7 +66,7 @@ class PeakSearch {
             three_ = {left, middle, right};
             const bool inside = left.amplitude < middle.amplitude && right.amplitude < middle.amplitude;
             if (inside && reach <= closest) return;
-            reach = inside ? std::max(0.1 * reach, closest) : std::min(2 * reach, 0.25 * span_);
+            reach = inside ? std::max(0.1 * reach, closest) : std::min(2 * reach, widest);
         }
     }
 
@@ -203,7 +207,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     if (is_peak && options_.n_harmonics != 0)
         warn_of_given_harmonics(reduced_, options_, dof, measure, harmonic, *one);
     check_basis(window_, watch_, *one);
-    one->space_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
+    one->unknowns_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);
     peak.branch = one;

@@ -10,6 +10,14 @@ namespace plm {
 namespace {
 
 constexpr std::int32_t crossing = -1; // kind of the test function force - force_scale
+constexpr double longest_step = 0.05; // of a backbone: extrema of the force come in close pairs
+// Where a backbone ends below: upwards what is of interest begins beside the force asked for; downwards it
+// comes to nothing, or turns.
+constexpr double below_the_force = 0.5, next_to_nothing = 1e-3; // of the force asked for, of the start's
+// The start of a backbone, at rest: of the force at which the first pair switches, of the force asked for;
+// and what is so much smaller than that that the pair switches at any force.
+constexpr double before_switching = 0.5, small_force = 0.1, no_force = 1e-9;
+constexpr double about_resonance = 0.02; // relative: a corrected start farther off is another resonance
 
 // The lowest dynamic harmonic with a load; null: nothing is driven.
 const std::pair<const int, HarmonicLoad> *driven_harmonic(const ReducedModel &m) {
@@ -128,7 +136,7 @@ PhaseResonance::PhaseResonance(std::shared_ptr<const ReducedModel> reduced, cons
                                Watch watch)
     : reduced_(std::move(reduced)), options_(options), watch_(watch) {
     options_.hbm.unknowns =
-        UnknownSpace::modal; // the phase is a function of all coordinates, not of the gaps
+        NonlinearUnknowns::modal; // the phase is a function of all coordinates, not of the gaps
     if (options_.force_max <= 0) options_.force_max = 8 * options_.hbm.force_scale;
 }
 
@@ -147,12 +155,13 @@ Backbone PhaseResonance::follow(const BranchPoint &start, bool upward) const {
     Followed path(*this, start);
     path.result.branch =
         std::make_shared<Branch>(reduced_, options_.hbm.force_scale, options_.hbm.period_multiple);
-    PathOptions range = path_options(options_.hbm,
-                                     upward ? 0.5 * std::min(start.force_scale, options_.hbm.force_scale)
-                                            : 1e-3 * start.force_scale,
-                                     options_.force_max);
+    PathOptions range =
+        path_options(options_.hbm,
+                     upward ? below_the_force * std::min(start.force_scale, options_.hbm.force_scale)
+                            : next_to_nothing * start.force_scale,
+                     options_.force_max);
     range.upward = upward;
-    range.max_step = std::min(0.05, options_.hbm.max_step); // extrema of the force come in close pairs
+    range.max_step = std::min(longest_step, options_.hbm.max_step);
     range.locate = true;
     PathStart from;
     from.at = {unknowns_of(*path.system, start), start.force_scale};
@@ -160,7 +169,7 @@ Backbone PhaseResonance::follow(const BranchPoint &start, bool upward) const {
     Branch &branch = *path.result.branch;
     take_outcome(follow_path(*path.system, range, from, path), branch);
     if (branch.end_reason == PLM_REASON_NONE) branch.end_reason = PLM_REASON_RANGE_END;
-    branch.space_used = "modal";
+    branch.unknowns_used = "modal";
     return path.result;
 }
 
@@ -181,10 +190,10 @@ Backbone PhaseResonance::through(const BranchPoint &point) const {
 // Linear responses about rest at the undamped frequencies inside the range, strongest first.
 std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
     const ReducedModel &m = *reduced_;
-    const vector<double> share = share_at_rest(m);
+    const vector<double> coupling = coupling_at_rest(m);
     const auto *driven = driven_harmonic(m);
     if (!driven || driven->first > options_.hbm.n_harmonics) return {};
-    const vector<double> lambda = modes_at_rest(m, share).values;
+    const vector<double> lambda = modes_at_rest(m, coupling).values;
     const auto system = make_system(reduced_, options_.hbm);
     std::vector<BranchPoint> points;
     vector<double> x(system->size());
@@ -193,11 +202,11 @@ std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
         if (omega < 2 * M_PI * options_.hbm.frequency_min_hz ||
             omega > 2 * M_PI * options_.hbm.frequency_max_hz)
             continue;
-        system->linear_response(share, omega, x.data());
+        system->linear_response(coupling, omega, x.data());
         BranchPoint point;
         system->to_point(x.data(), omega, point);
         double force = 0;
-        if (!linear_range(share, point, force)) continue;
+        if (!linear_range(coupling, point, force)) continue;
         for (std::int64_t i = 0; i < point.eta.cols() * m.size(); ++i)
             point.eta.data()[i] *= force / point.force_scale;
         point.force_scale = force;
@@ -208,31 +217,33 @@ std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
 
 // A force at which no pair changes its state yet. False when there is none: pairs that touch without
 // pressure.
-bool PhaseResonance::linear_range(const vector<double> &share, const BranchPoint &point,
+bool PhaseResonance::linear_range(const vector<double> &coupling, const BranchPoint &point,
                                   double &force) const {
     const ReducedModel &m = *reduced_;
     const double asked = options_.hbm.force_scale;
     double largest = 1e300;
-    vector<double> rest(m.n_pairs());
-    for (std::int64_t i = 0; i < m.n_pairs(); ++i) rest[i] = -m.initial_gap[i];
-    if (m.n_pairs() > 0) gemv('N', 1.0, m.gap_0, point.eta_0.data(), 1.0, rest.data());
+    vector<double> mean(m.n_pairs());
+    for (std::int64_t i = 0; i < m.n_pairs(); ++i) mean[i] = -m.initial_gap[i];
+    if (m.n_pairs() > 0) gemv('N', 1.0, m.gap_0, point.eta_0.data(), 1.0, mean.data());
     const Matrix u = product('N', 'N', m.gap, point.eta);
     double most = 0;
     for (std::int64_t i = 0; i < m.n_pairs(); ++i) {
         double swing = 0;
         for (std::int64_t c = 0; c < u.cols(); ++c) swing = std::hypot(swing, u(i, c));
-        if (swing > 0) largest = std::min(largest, share[i] == 0.5 ? 0.0 : asked * std::abs(rest[i]) / swing);
+        if (swing > 0)
+            largest = std::min(largest, coupling[i] == 0.5 ? 0.0 : asked * std::abs(mean[i]) / swing);
         most = std::max(most, swing);
     }
-    force = std::min(0.5 * largest, 0.1 * asked);
-    return force > 1e-9 * asked;
+    force = std::min(before_switching * largest, small_force * asked);
+    return force > no_force * asked;
 }
 
 std::vector<Backbone> PhaseResonance::backbones() const {
     std::vector<Backbone> all;
     for (BranchPoint start : linear_resonances()) {
         const double omega = start.omega;
-        if (!correct(start.force_scale, start) || std::abs(start.omega / omega - 1) > 0.02) continue;
+        if (!correct(start.force_scale, start) || std::abs(start.omega / omega - 1) > about_resonance)
+            continue;
         all.push_back(follow(start, true));
     }
     return all;

@@ -62,7 +62,7 @@ class PhaseResonance {
   private:
     struct Followed;
     std::vector<BranchPoint> linear_resonances() const;
-    bool linear_range(const vector<double> &share, const BranchPoint &point, double &force) const;
+    bool linear_range(const vector<double> &coupling, const BranchPoint &point, double &force) const;
     Backbone follow(const BranchPoint &start, bool upward) const;
 
     std::shared_ptr<const ReducedModel> reduced_;

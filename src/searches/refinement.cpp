@@ -1,4 +1,5 @@
 #include "searches/refinement.hpp"
+#include "reduction/basis_kind.hpp"
 #include "searches/error_estimate.hpp"
 #include "searches/responses.hpp"
 #include <algorithm>
@@ -8,9 +9,10 @@
 namespace plm {
 namespace {
 
-constexpr std::int64_t looked_at = 16; // points of a curve whose error is estimated, besides its highest
-constexpr std::int64_t corrected = 60; // points whose corrected motions make the next basis
-constexpr double compression = 0.2;    // of the tolerance, at first
+constexpr std::int64_t looked_at = 16;   // points of a curve whose error is estimated, besides its highest
+constexpr std::int64_t corrected = 60;   // points whose corrected motions make the next basis
+constexpr double compression = 0.2;      // of the tolerance, at first
+constexpr double next_compression = 0.3; // of the last one, when it was not enough
 
 class Refiner {
   public:
@@ -27,7 +29,7 @@ class Refiner {
             watch_.log(1, format("refinement %lld: %lld columns, estimated error %.2e",
                                  static_cast<long long>(round),
                                  static_cast<long long>(basis->reduced()->size()), error));
-            const bool compressed = basis->options().kind == BasisKind::pod;
+            const bool compressed = basis->options().kind->is_compressed();
             // the first basis is never the answer: the point is to have a small one
             if (compressed && (!best.basis || error < best.error))
                 best = {basis, branch, error, round, false};
@@ -37,7 +39,7 @@ class Refiner {
             }
             best.rounds = round;
             if (round >= options_.max_rounds) return best;
-            if (compressed) pod_tolerance_ *= 0.3;
+            if (compressed) pod_tolerance_ *= next_compression;
             basis = compress(*branch);
         }
     }
@@ -90,7 +92,7 @@ class Refiner {
         }
         const Responses responses = responses_of({motions});
         BasisOptions o = start_->options();
-        o.kind = BasisKind::pod;
+        o.kind = &basis_kinds::pod;
         o.pod_size = 0;
         o.n_pairs_carried = 0; // what node sampling leaves out is part of the error to be met
         o.pod_tolerance = pod_tolerance_;

@@ -17,11 +17,11 @@ constexpr std::int64_t automatic_size = 24;
 // Orthonormal, beside the columns of `free` cut to n rows (what is left out there is 0): n x (n - m).
 Matrix complement(const Matrix &free, std::int64_t n) {
     const std::int64_t m = free.cols();
-    Matrix square(n, n), rest(n, n - m);
+    Matrix square(n, n), beside(n, n - m);
     for (std::int64_t k = 0; k < m; ++k) std::copy_n(free.col(k), n, square.col(k));
     const Matrix turned = thin_svd(square).u; // the first m columns span `free`
-    for (std::int64_t k = m; k < n; ++k) std::copy_n(turned.col(k), n, rest.col(k - m));
-    return rest;
+    for (std::int64_t k = m; k < n; ++k) std::copy_n(turned.col(k), n, beside.col(k - m));
+    return beside;
 }
 
 Matrix identity(std::int64_t n) {

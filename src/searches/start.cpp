@@ -37,8 +37,8 @@ class StartPath final : public WrappedSystem {
         const double factor = kind_ == Kind::force ? full_ : -full_;
         for (std::int64_t i = 0; i < size(); ++i) r[i] *= factor;
     }
-    void linear_response(const vector<double> &share, double, double *x) override {
-        inner_.linear_response(share, omega_, x);
+    void linear_response(const vector<double> &coupling, double, double *x) override {
+        inner_.linear_response(coupling, omega_, x);
     }
     void to_point(const double *x, double, BranchPoint &point) override { inner_.to_point(x, omega_, point); }
 
@@ -52,16 +52,16 @@ class Starter {
     Starter(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options, double omega,
             Watch watch, vector<double> &x)
         : watch_(watch), quiet_(watch), system_(system), reduced_(reduced), options_(options), omega_(omega),
-          share_(share_at_rest(reduced)), x_(x) {
+          coupling_(coupling_at_rest(reduced)), x_(x) {
         x_.resize(system.size());
-        for (double share : share_) loaded_ = loaded_ || share == 1;
+        for (double coupling : coupling_) loaded_ = loaded_ || coupling == 1;
     }
 
     StartOutcome run(bool have_guess) {
         if (have_guess && attempt()) return out_;
-        for (const vector<double> &share :
-             {share_, vector<double>(share_.size(), 0.0), vector<double>(share_.size(), 1.0)})
-            if (from_linear(share)) return out_;
+        for (const vector<double> &coupling :
+             {coupling_, vector<double>(coupling_.size(), 0.0), vector<double>(coupling_.size(), 1.0)})
+            if (from_linear(coupling)) return out_;
         if (loaded_ ? force_path() : gap_path()) return out_;
         if (stiffness_path()) return out_;
         frequency_path();
@@ -74,13 +74,13 @@ class Starter {
         return out_.converged;
     }
 
-    bool from_linear(const vector<double> &share) { return from_linear_guess(share) && attempt(); }
+    bool from_linear(const vector<double> &coupling) { return from_linear_guess(coupling) && attempt(); }
 
-    bool from_linear_guess(const vector<double> &share) {
+    bool from_linear_guess(const vector<double> &coupling) {
         try {
-            system_.linear_response(share, omega_, x_.data());
+            system_.linear_response(coupling, omega_, x_.data());
         } catch (
-            const Error &e) { // a share without a static solution, e.g. open contact and rigid-body modes
+            const Error &e) { // a coupling without a static solution, e.g. open contact and rigid-body modes
             if (e.status() != PLM_ERR_SINGULAR) throw;
             return false;
         }
@@ -91,15 +91,16 @@ class Starter {
         PathOptions path;
         path.low = low;
         path.high = high;
-        path.tolerance = std::max(options_.tolerance, 1e-6); // on the way only
-        path.max_points = 1000;
+        constexpr double on_the_way = 1e-6; // the end of the path is corrected to the tolerance asked for
+        path.tolerance = std::max(options_.tolerance, on_the_way);
+        path.max_points = 1000; // a path that needs more leads nowhere
         return path;
     }
 
     // From rest (unique) along the force, through folds, to the force asked for.
     bool force_path() {
         system_.set_force_scale(0);
-        system_.linear_response(share_, omega_, x_.data());
+        system_.linear_response(coupling_, omega_, x_.data());
         StartPath path(system_, StartPath::Kind::force, omega_, options_.force_scale);
         const bool found = follow(path);
         system_.set_force_scale(options_.force_scale);
@@ -109,7 +110,7 @@ class Starter {
     // Without pre-load the force changes nothing but the size; from the linear response with contact out of
     // reach the gap is closed instead.
     bool gap_path() {
-        const vector<double> open(share_.size(), 0.0);
+        const vector<double> open(coupling_.size(), 0.0);
         if (!from_linear_guess(open)) return false;
         BranchPoint point;
         system_.to_point(x_.data(), omega_,
@@ -121,9 +122,10 @@ class Starter {
             for (std::int64_t c = 0; c < dynamic.cols(); ++c) sum += std::abs(dynamic(i, c));
             reach = std::max(reach, sum);
         }
-        system_.set_extra_gap(1.01 * reach);
+        reach *= 1.01; // clear of it
+        system_.set_extra_gap(reach);
         system_.linear_response(open, omega_, x_.data());
-        StartPath path(system_, StartPath::Kind::gap, omega_, 1.01 * reach);
+        StartPath path(system_, StartPath::Kind::gap, omega_, reach);
         const bool found = follow(path);
         system_.set_extra_gap(0);
         return found && attempt();
@@ -134,14 +136,15 @@ class Starter {
         const double local = local_stiffness(reduced_);
         double stiffest = 0;
         for (double k : reduced_.contact_stiffness) stiffest = std::max(stiffest, k);
-        for (double soft : {1.0, 0.1}) {
+        constexpr double stiffer = 0.5;  // contact that is hardly stiffer is no easier when softened
+        for (double soft : {1.0, 0.1}) { // of the structure's own stiffness at the contact
             const double factor = soft * local / stiffest;
-            if (!(factor > 0 && factor < 0.5)) continue;
+            if (!(factor > 0 && factor < stiffer)) continue;
             system_.set_stiffness_factor(factor);
             bool found = false;
-            for (const vector<double> &share :
-                 {share_, vector<double>(share_.size(), 0.0), vector<double>(share_.size(), 1.0)})
-                found = found || from_linear(share);
+            for (const vector<double> &coupling :
+                 {coupling_, vector<double>(coupling_.size(), 0.0), vector<double>(coupling_.size(), 1.0)})
+                found = found || from_linear(coupling);
             out_.converged = false;
             StartPath path(system_, StartPath::Kind::stiffness, omega_, std::log(factor));
             found = found && follow(path);
@@ -159,9 +162,9 @@ class Starter {
 
     // From well above the resonances, where the response is nearly linear, down to the frequency asked for.
     bool frequency_path() {
-        for (double far : {1.5, 3.0, 10.0}) {
+        for (double far : {1.5, 3.0, 10.0}) { // farther is safer, but the way back is longer
             const PathOptions path = path_options(omega_, far * omega_);
-            system_.linear_response(share_, far * omega_, x_.data());
+            system_.linear_response(coupling_, far * omega_, x_.data());
             NewtonLimits limits;
             limits.max_iterations = options_.max_iterations;
             limits.parameter_scale = omega_;
@@ -185,7 +188,7 @@ class Starter {
     const ReducedModel &reduced_;
     const HbmOptions &options_;
     double omega_;
-    vector<double> share_;
+    vector<double> coupling_;
     bool loaded_ = false; // some pair is closed at rest
     vector<double> &x_;
     StartOutcome out_;
@@ -193,7 +196,7 @@ class Starter {
 
 } // namespace
 
-vector<double> share_at_rest(const ReducedModel &m) {
+vector<double> coupling_at_rest(const ReducedModel &m) {
     vector<double> u(m.n_pairs());
     for (std::size_t i = 0; i < u.size(); ++i) u[i] = -m.initial_gap[i];
     const bool loaded =
@@ -201,9 +204,9 @@ vector<double> share_at_rest(const ReducedModel &m) {
         std::any_of(u.begin(), u.end(), [](double v) { return v > 0; });
     if (loaded)
         u = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap}).penetration;
-    vector<double> share(u.size());
-    for (std::size_t i = 0; i < u.size(); ++i) share[i] = u[i] > 0 ? 1.0 : u[i] < 0 ? 0.0 : 0.5;
-    return share;
+    vector<double> coupling(u.size());
+    for (std::size_t i = 0; i < u.size(); ++i) coupling[i] = u[i] > 0 ? 1.0 : u[i] < 0 ? 0.0 : 0.5;
+    return coupling;
 }
 
 void StartOutcome::add(const StartOutcome &next) {

@@ -9,7 +9,7 @@
 namespace plm {
 
 /// Share of the period each pair is closed at rest: 1, 0, or 1/2 for pairs that neither touch nor gap.
-vector<double> share_at_rest(const ReducedModel &reduced);
+vector<double> coupling_at_rest(const ReducedModel &reduced);
 
 struct StartOutcome : NewtonWork {
     bool converged = false;

@@ -9,6 +9,8 @@ namespace {
 // Rigid-body motion beside the contact falls with the square of the frequency, and would draw the search
 // down.
 vector<char> held_coordinates(const ReducedModel &m, double omega) {
+    constexpr double rigid = 1e-6,
+                     unmoved = 1e-9; // what rounding leaves of a rigid-body mode, of a row of gaps
     double largest = 0;
     for (std::int64_t k = 0; k < m.gap.rows() * m.gap.cols(); ++k)
         largest = std::max(largest, std::abs(m.gap.data()[k]));
@@ -16,7 +18,7 @@ vector<char> held_coordinates(const ReducedModel &m, double omega) {
     for (std::int64_t j = 0; j < m.size(); ++j) {
         double moved = 0;
         for (std::int64_t i = 0; i < m.n_pairs(); ++i) moved = std::max(moved, std::abs(m.gap(i, j)));
-        held[j] = m.lambda[j] > 1e-6 * omega * omega || moved > 1e-9 * largest;
+        held[j] = m.lambda[j] > rigid * omega * omega || moved > unmoved * largest;
     }
     return held;
 }
@@ -78,17 +80,18 @@ class Widening {
             options_.frequency_min_hz = std::max(range_.least_hz, options_.frequency_min_hz - part_);
         else
             options_.frequency_max_hz = std::min(range_.most_hz, options_.frequency_max_hz + part_);
-        return options_.frequency_max_hz - options_.frequency_min_hz > before * (1 + 1e-9);
+        return options_.frequency_max_hz - options_.frequency_min_hz >
+               before * (1 + 1e-9); // by more than rounding
     }
 
     bool go_on(End at) {
         const std::size_t n = points().size();
         const CurveStart start = at == End::first ? CurveStart{points()[0], {points()[1]}, true}
                                                   : CurveStart{points()[n - 1], {points()[n - 2]}, true};
-        HbmOptions rest = options_;
-        rest.max_points -= static_cast<std::int64_t>(n) - 1; // the start is recorded once more
+        HbmOptions options = options_;
+        options.max_points -= static_cast<std::int64_t>(n) - 1; // the start is recorded once more
         Branch piece(branch_.reduced_model(), branch_.force_scale(), branch_.period_multiple());
-        trace_curve(rest, start, watch_, piece);
+        trace_curve(options, start, watch_, piece);
         add_cost(piece);
         if (at == End::first)
             branch_.prepend(piece);
@@ -103,7 +106,7 @@ class Widening {
         branch_.newton_work += piece.newton_work;
         branch_.failed_steps += piece.failed_steps;
         branch_.warnings.add(piece.warnings);
-        if (piece.space_used != branch_.space_used) branch_.space_used = "both";
+        if (piece.unknowns_used != branch_.unknowns_used) branch_.unknowns_used = "both";
     }
 
     void warn(End at) {

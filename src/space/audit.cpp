@@ -91,14 +91,13 @@ class Audit {
                    n > 6 ? " (several loose bodies, or parts that are not connected)" : "");
         if (loose > 0)
             add(1, static_cast<double>(n),
-                format("%s, and %lld of them whatever contact closes: is a support missing? Fix DOFs by "
-                       "plm_model_fix_dofs; where free flight is meant, its mean position is taken as zero",
+                format("%s, and %lld of them whatever contact closes: is a support missing? Fix DOFs; "
+                       "where free flight is meant, its mean position is taken as zero",
                        fact.c_str(), Int(loose)));
         else if (!m_.has_preload())
             add(1, static_cast<double>(n),
                 fact + ", and no pre-load presses the contacts together that could hold them: give the "
-                       "pre-load by "
-                       "plm_model_set_preload, or fix DOFs by plm_model_fix_dofs");
+                       "model a pre-load, or fix DOFs");
         else
             add(n > 6 ? 1 : 0, static_cast<double>(n), fact + "; closed contacts can hold them");
     }
@@ -129,14 +128,14 @@ class Audit {
 
     // Frequencies carry half of what their squares do; no result is to be wrong by 1 % without a word.
     void rounding() {
-        const double share = 0.5 * m_.uncertainty();
-        if (share < 5e-3) return;
-        add(2, share,
+        const double uncertain = 0.5 * m_.uncertainty();
+        if (uncertain < 5e-3) return;
+        add(2, uncertain,
             format(
                 "rounding of the stiffness matrix leaves the lowest elastic frequency uncertain by %.1g of "
                 "it: the mesh is too fine, or a penalty too stiff, for double precision; use larger "
                 "elements, a softer penalty, or supports",
-                share));
+                uncertain));
     }
 
     void frequencies() {
@@ -159,8 +158,8 @@ class Audit {
             std::any_of(d.modal_ratio.begin(), d.modal_ratio.end(), [](double z) { return z > 0; });
         if (d.alpha == 0 && d.beta == 0 && d.structural == 0 && !modal && !d.has_matrix)
             add(1, 0,
-                "no damping: the response at resonance is unbounded, and a curve may end there; give some by "
-                "plm_model_set_modal_damping, _rayleigh_damping or _structural_damping");
+                "no damping: the response at resonance is unbounded, and a curve may end there; give the "
+                "model modal, Rayleigh or structural damping");
     }
 
     void loads() {
@@ -180,7 +179,7 @@ class Audit {
                        m_.excitation_on_supports() > 0
                            ? "the one there is acts on fixed DOFs only: move it to DOFs "
                              "that are free"
-                           : "give one by plm_model_set_excitation, harmonic 1"));
+                           : "give the model one, of harmonic 1"));
     }
 
     void gaps() {

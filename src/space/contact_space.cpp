@@ -125,8 +125,9 @@ class ContactSpaceBuilder {
     }
 
     static std::string unverified() {
-        return "the number of open modes is not verified, since the host's solver does not tell the inertia "
-               "(plm_context_set_inertia)";
+        return "the number of open modes is not verified, since the host's solver does not tell the inertia: "
+               "give "
+               "the context the solver's inertia function, too";
     }
 
     // "Modes" of next to no mass: what they carry of the contact forces is among the attachment vectors.

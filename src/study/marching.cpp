@@ -37,11 +37,11 @@ MarchedCurve march_curve(Transient &motion, const TransientOptions &options, con
                          Watch watch) {
     MarchedCurve curve;
     for (std::int64_t k = 0; k < n_frequencies; ++k) {
-        const double share =
+        const double done =
             n_frequencies > 1 ? static_cast<double>(k) / static_cast<double>(n_frequencies - 1) : 0.5;
-        watch.step("marching", share);
+        watch.step("marching", done);
         TransientOptions o = options;
-        o.frequency_hz = range.high_hz - share * (range.high_hz - range.low_hz);
+        o.frequency_hz = range.high_hz - done * (range.high_hz - range.low_hz);
         o.force_scale = force_scale;
         const TransientRun settling = uncancelled(motion.run(o, {}, watch));
         if (o.settled > 0 && !settling.settled) ++curve.unsettled;

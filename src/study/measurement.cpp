@@ -76,7 +76,7 @@ class Run {
             responses.push_back(sweep(*out_.basis, options_at_level(method_, where_, level), watch_));
         const Responses motions = responses_of(responses);
         BasisOptions o = method_.recipe.basis;
-        o.kind = BasisKind::pod;
+        o.kind = &basis_kinds::pod;
         o.pod_size = method_.size;
         out_.basis = std::make_shared<const Basis>(where_.model, out_.basis->sampler(), out_.basis, o, watch_,
                                                    &motions);

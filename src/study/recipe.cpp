@@ -1,4 +1,5 @@
 #include "study/recipe.hpp"
+#include "reduction/basis_kind.hpp"
 
 namespace plm {
 namespace {
@@ -30,7 +31,7 @@ BasisOptions with_window(const std::shared_ptr<const Model> &model, BasisOptions
 Recipe with_window(const std::shared_ptr<const Model> &model, const Recipe &recipe, Watch watch,
                    KnownSpace &space) {
     Recipe r = recipe;
-    if (needs_sampler(r.basis.kind)) return r;
+    if (r.basis.kind->needs_sampler) return r;
     r.basis = with_window(model, r.basis, r.sampler, watch, space);
     r.sampler.reset();
     r.parent.reset();
@@ -55,10 +56,9 @@ FrequencyRange range_of(const std::shared_ptr<const Model> &model, const Recipe 
 
 std::shared_ptr<const Basis> build(const std::shared_ptr<const Model> &model, const Recipe &recipe,
                                    Watch watch, KnownSpace &space) {
-    if (needs_sampler(recipe.basis.kind) && !recipe.sampler)
+    if (recipe.basis.kind->needs_sampler && !recipe.sampler)
         throw Error(PLM_ERR_STATE,
-                    format("a basis of kind %s needs a sampler; call plm_basis_set_sampler first",
-                           name_of(recipe.basis.kind)))
+                    format("a basis of kind %s needs a sampler; give the basis one", recipe.basis.kind->name))
             .argument("sampler");
     std::shared_ptr<const Basis> parent;
     if (recipe.parent) {

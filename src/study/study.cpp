@@ -68,12 +68,11 @@ class Study {
   private:
     static Output checked_output(const StudyPlan &plan) {
         if (plan.methods.empty())
-            throw Error(PLM_ERR_STATE,
-                        "the study has no method; call plm_study_add_response or another plm_study_add_...")
+            throw Error(PLM_ERR_STATE, "the study has no method; add one first, a response, a compressed or "
+                                       "refined basis or marching")
                 .argument("study");
         if (!plan.output)
-            throw Error(PLM_ERR_STATE,
-                        "the study does not know the motion to look at; call plm_study_set_output first")
+            throw Error(PLM_ERR_STATE, "the study does not know the motion to look at; set its output first")
                 .argument("study");
         return *plan.output;
     }
@@ -98,7 +97,7 @@ class Study {
         return m.setup_seconds - m.space_seconds + m.space->seconds;
     }
 
-    double share_done() const {
+    double progress() const {
         return static_cast<double>(n_done_) / static_cast<double>(1 + plan_.methods.size());
     }
 
@@ -110,16 +109,16 @@ class Study {
             truth.options_text = "the unreduced structure, else as \"" + method.name + "\"";
             truth.kind = MethodKind::response;
             truth.recipe.parent.reset();
-            truth.recipe.basis.kind = BasisKind::full;
+            truth.recipe.basis.kind = &basis_kinds::full;
             return truth;
         }
         throw Error(PLM_ERR_STATE,
-                    "methods that march in time give no reference; call plm_study_set_reference")
+                    "methods that march in time give no reference; set the reference of the study")
             .argument("reference");
     }
 
     void run_reference() {
-        watch_.step("study", share_done());
+        watch_.step("study", progress());
         MethodPlan plan = reference_plan();
         plan.name = "reference";
         plan.recipe = windowed(plan.recipe);
@@ -250,7 +249,7 @@ class Study {
     MethodResult row(const MethodPlan &planned) {
         MethodResult r = named(planned);
         try {
-            watch_.step("study", share_done());
+            watch_.step("study", progress());
             MethodPlan method = planned;
             method.recipe = windowed(method.recipe);
             const Measurement first = measured_once(method, r);
@@ -291,7 +290,7 @@ class Study {
         };
         if (plan_.options.repeats == 0) add(first);
         for (std::int64_t k = 0; k < plan_.options.repeats; ++k) {
-            watch_.step("study", share_done());
+            watch_.step("study", progress());
             add(measure(method, where_, watch_));
         }
         r.space_seconds = median(space);

@@ -42,7 +42,7 @@ double median_milliseconds(std::int64_t r, std::int64_t pairs, std::int64_t harm
     o.n_harmonics = harmonics;
     const auto system = plm::make_modal_system(m, o);
     plm::vector<double> x(system->size()), b(system->size());
-    system->linear_response(plm::share_at_rest(*m), 1.0, x.data());
+    system->linear_response(plm::coupling_at_rest(*m), 1.0, x.data());
     std::vector<double> times;
     for (int k = 0; k < 201; ++k) {
         const auto begin = std::chrono::steady_clock::now();

@@ -74,7 +74,7 @@ static void choose_kind(const scene *s, const char *description) {
     if (!colon || colon - description > 30) return;
     memcpy(kind, description, (size_t)(colon - description));
     kind[colon - description] = 0;
-    plm_basis_set_string(s->basis, "kind", strcmp(kind, "Craig-Bampton") ? kind : "craig_bampton");
+    plm_basis_set_string(s->basis, "kind", kind);
 }
 
 static plm_status move(scene *s, int32_t kind, const char *key, int32_t type, double value) {

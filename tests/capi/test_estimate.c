@@ -384,9 +384,9 @@ static void what_set_responses_refuses(void **state) {
     DONE(plm_basis_create(model, &pod));
     DONE(plm_basis_set_string(pod, "kind", "pod"));
 
-    REFUSED(plm_basis_build(pod), PLM_ERR_STATE, build, "parent", -1, "call plm_basis_set_parent");
+    REFUSED(plm_basis_build(pod), PLM_ERR_STATE, build, "parent", -1, "set that as its parent");
     DONE(plm_basis_set_parent(pod, basis));
-    REFUSED(plm_basis_build(pod), PLM_ERR_STATE, build, "responses", -1, "call plm_basis_set_responses");
+    REFUSED(plm_basis_build(pod), PLM_ERR_STATE, build, "responses", -1, "set those of its parent");
 
     list[0] = list[1] = list[2] = curve;
     assert_int_equal(plm_basis_set_responses(NULL, 1, list), PLM_ERR_HANDLE);
@@ -415,7 +415,7 @@ static void what_set_responses_refuses(void **state) {
     DONE(plm_basis_set_responses(pod, 1, &nothing));
     REFUSED(plm_basis_build(pod), PLM_ERR_STATE, build, "responses", -1, "nothing moves");
     DONE(plm_basis_set_responses(pod, 0, NULL));
-    REFUSED(plm_basis_build(pod), PLM_ERR_STATE, build, "responses", -1, "call plm_basis_set_responses");
+    REFUSED(plm_basis_build(pod), PLM_ERR_STATE, build, "responses", -1, "set those of its parent");
     DONE(plm_basis_set_responses(pod, 1, &curve));
     DONE(plm_basis_set_double(pod, "frequency_min_hz", 7));
     BAD(plm_basis_build(pod), build, "frequency_min_hz", "must be below");

@@ -90,7 +90,10 @@ static int double_option(int32_t kind, const char *key, double low, double high)
     int64_t i = 0;
     return get_double(kind, key, &v) == 0 && v >= low && v <= high && set_double(kind, key, low) == 0 &&
            get_double(kind, key, &v) == 0 && v == low && set_double(kind, key, high) == 0 &&
-           get_double(kind, key, &v) == 0 && v == high && set_double(kind, key, NAN) == PLM_ERR_ARGUMENT &&
+           get_double(kind, key, &v) == 0 && v == high &&
+           set_double(kind, key, 1.001 * high) == PLM_ERR_ARGUMENT &&
+           set_double(kind, key, low - 0.001 * high) == PLM_ERR_ARGUMENT &&
+           set_double(kind, key, NAN) == PLM_ERR_ARGUMENT &&
            set_double(kind, key, INFINITY) == PLM_ERR_ARGUMENT && get_double(kind, key, &v) == 0 &&
            v == high && get_int(kind, key, &i) == PLM_ERR_ARGUMENT;
 }

@@ -238,7 +238,7 @@ static void a_method_that_fails_is_a_row(void **state) {
     DONE(plm_study_add_response(c.study, "short", c.hbm, NULL));
     assert_int_equal(plm_study_run(c.study), PLM_WARNING);
     DONE(plm_study_get_outcome(c.study, 0, sizeof text, text, NULL));
-    assert_non_null(strstr(text, "plm_basis_set_sampler"));
+    assert_non_null(strstr(text, "needs a sampler; give the basis one"));
     DONE(plm_study_get_outcome(c.study, 1, sizeof text, text, NULL));
     assert_string_equal(text, "reached the end of its range");
     DONE(plm_study_get_outcome(c.study, 2, sizeof text, text, NULL));
@@ -255,7 +255,7 @@ static void a_method_that_fails_is_a_row(void **state) {
     assert_true(study_real(c.study, "curve_error_max", 1) < 1e-8);
     assert_true(study_real(c.study, "curve_error_max", 2) > 0.1); /* most of the curve is missing */
     assert_true(refused(ctx, plm_study_get_curve(c.study, 0, 0, &curve), PLM_ERR_STATE, "plm_study_get_curve",
-                        "index", -1, "plm_basis_set_sampler"));
+                        "index", -1, "give the basis one"));
     DONE(plm_study_get_curve(c.study, -1, 0, &curve));
     DONE(plm_study_destroy(&c.study)); /* the curve stays */
     {

@@ -113,7 +113,7 @@ static void too_early(void **state) {
     int64_t n = 7;
     char text[40] = "kept";
     (void)state;
-    EARLY(plm_study_run(c.study), "plm_study_run", "study", "plm_study_add_response");
+    EARLY(plm_study_run(c.study), "plm_study_run", "study", "add one first");
     EARLY(plm_study_get_outcome(c.study, -1, 40, text, NULL), "plm_study_get_outcome", "study",
           "has not run");
     EARLY(plm_study_get_curve(c.study, -1, 0, &branch), "plm_study_get_curve", "study", "has not run");
@@ -127,10 +127,10 @@ static void too_early(void **state) {
     BAD(plm_study_get_name(c.study, 0, 40, text, NULL), "plm_study_get_name", "index", -1, "index is 0");
     DONE(plm_transient_create(c.model, NULL, &motion));
     DONE(plm_study_add_marching(c.study, "marching", motion, 2, NULL));
-    EARLY(plm_study_run(c.study), "plm_study_run", "reference", "plm_study_set_reference");
+    EARLY(plm_study_run(c.study), "plm_study_run", "reference", "set the reference");
     DONE(plm_study_create(c.model, &study));
     DONE(plm_study_add_response(study, "a", c.hbm, NULL));
-    EARLY(plm_study_run(study), "plm_study_run", "study", "plm_study_set_output");
+    EARLY(plm_study_run(study), "plm_study_run", "study", "set its output");
     DONE(plm_basis_create(c.model, &open)); /* no window anywhere */
     DONE(plm_basis_set_string(open, "kind", "full"));
     DONE(plm_hbm_create(open, &hbm));

@@ -2,28 +2,19 @@
 // limit, where the penalty stops at the first touch.
 #include "contact/trig_polynomial.hpp"
 #include "hbm/formulation.hpp"
-#include "searches/hbm.hpp"
-#include "support/small_reduced.hpp"
+#include "support/small_solver.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 #include <vector>
 
 using plm::FormulationKind;
 using plm::HbmOptions;
+using test::peak_at;
+using test::solver;
 
 namespace {
 
 using Model = std::shared_ptr<const plm::ReducedModel>;
-
-plm::Hbm solver(Model m, const HbmOptions &o, double low, double high) {
-    return plm::Hbm(std::move(m), low / (2 * M_PI), high / (2 * M_PI), o, plm::Watch());
-}
-
-double peak_of(const plm::ReducedModel &m, const plm::BranchPoint &p, int dof) {
-    const auto q = test::displacement(m, p.eta_0, p.eta, dof);
-    const plm::TrigRange r = plm::trig_range(q.data(), p.eta.cols() / 2);
-    return std::max(std::abs(r.maximum), std::abs(r.minimum));
-}
 
 // A mass against a stop: relative error of the peak against the exact orbit.
 double error_at(FormulationKind kind, int harmonics) {
@@ -31,7 +22,7 @@ double error_at(FormulationKind kind, int harmonics) {
     const Model m = test::reduce_exactly(s);
     HbmOptions o;
     o.n_harmonics = harmonics;
-    o.unknowns = plm::UnknownSpace::gaps;
+    o.unknowns = plm::NonlinearUnknowns::gaps;
     o.formulation = kind;
     const double omega = 2.0; // linear amplitude 0.33 against a gap of 0.2
     const auto branch = solver(m, o, 1, 4).solve(omega / (2 * M_PI), nullptr, 0);
@@ -39,7 +30,7 @@ double error_at(FormulationKind kind, int harmonics) {
     const auto q = test::displacement(*m, p.eta_0, p.eta, 0);
     const plm::TrigValue v = plm::evaluate_trig(q.data(), p.eta.cols() / 2, 0.0);
     const exact::Orbit orbit = exact::periodic_orbit(s, omega, {v.value, omega * v.slope}, 0, 2000);
-    return orbit.converged ? std::abs(peak_of(*m, p, 0) / orbit.peak(0) - 1) : 1e300;
+    return orbit.converged ? std::abs(peak_at(*m, p, 0) / orbit.peak(0) - 1) : 1e300;
 }
 void both_forms_converge_to_the_exact_orbit(void **) {
     double last = 1e300;
@@ -70,7 +61,7 @@ Swept sweep(double stiffness, FormulationKind kind) {
     Swept w;
     w.reason = branch->end_reason;
     w.compliant = plm::make_formulation(*m, o).compliant;
-    for (const auto &p : branch->points()) w.top = std::max(w.top, peak_of(*m, p, 3));
+    for (const auto &p : branch->points()) w.top = std::max(w.top, peak_at(*m, p, 3));
     return w;
 }
 void the_rigid_limit_is_reached_by_default(void **) {
@@ -85,7 +76,7 @@ void the_rigid_limit_is_reached_by_default(void **) {
 
 void the_form_can_be_refused(void **) {
     HbmOptions o;
-    o.unknowns = plm::UnknownSpace::modal;
+    o.unknowns = plm::NonlinearUnknowns::modal;
     o.formulation = FormulationKind::compliance;
     bool refused = false;
     try {

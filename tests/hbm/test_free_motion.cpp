@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-using plm::UnknownSpace;
+using plm::NonlinearUnknowns;
 
 namespace {
 
@@ -46,7 +46,7 @@ Model on_a_support() {
     return test::reduce_exactly(s);
 }
 
-plm::Hbm solver(Model m, UnknownSpace unknowns) {
+plm::Hbm solver(Model m, NonlinearUnknowns unknowns) {
     plm::HbmOptions o;
     o.n_harmonics = 9;
     o.unknowns = unknowns;
@@ -66,11 +66,11 @@ double stroke(const plm::ReducedModel &m, const plm::BranchPoint &p) {
 
 void free_flight_is_the_motion_of_the_reduced_mass(void **) {
     const Model free = in_free_flight(), held = on_a_support();
-    for (UnknownSpace unknowns : {UnknownSpace::modal, UnknownSpace::gaps})
+    for (NonlinearUnknowns unknowns : {NonlinearUnknowns::modal, NonlinearUnknowns::gaps})
         for (double omega : {1.05, 1.2, 1.3, 1.4, 1.55}) {
             const double hz = omega / (2 * M_PI);
             const auto a = solver(free, unknowns).solve(hz, nullptr, 0),
-                       b = solver(held, UnknownSpace::modal).solve(hz, nullptr, 0);
+                       b = solver(held, NonlinearUnknowns::modal).solve(hz, nullptr, 0);
             const double want = stroke(*held, b->points()[0]);
             assert_true(want > 2 * gap);                                      // the stop is met
             assert_true(close_to(stroke(*free, a->points()[0]), want, 1e-8)); // Newton's tolerance is 1e-9
@@ -88,7 +88,8 @@ void free_flight_is_the_motion_of_the_reduced_mass(void **) {
 }
 
 void its_sweep_is_stable_and_whole(void **) {
-    for (UnknownSpace unknowns : {UnknownSpace::automatic, UnknownSpace::modal, UnknownSpace::gaps}) {
+    for (NonlinearUnknowns unknowns :
+         {NonlinearUnknowns::automatic, NonlinearUnknowns::modal, NonlinearUnknowns::gaps}) {
         const auto curve = solver(in_free_flight(), unknowns).sweep();
         assert_int_equal(curve->end_reason, PLM_REASON_RANGE_END);
         for (const plm::BranchPoint &p : curve->points())
@@ -97,7 +98,7 @@ void its_sweep_is_stable_and_whole(void **) {
 }
 
 void refused(const Model &m) {
-    for (UnknownSpace unknowns : {UnknownSpace::automatic, UnknownSpace::gaps}) {
+    for (NonlinearUnknowns unknowns : {NonlinearUnknowns::automatic, NonlinearUnknowns::gaps}) {
         bool thrown = false;
         try {
             solver(m, unknowns).sweep();
@@ -117,7 +118,7 @@ void loads_that_would_carry_it_away_are_refused(void **) {
     // a balanced pre-load only presses the masses on each other
     const Model pressed = in_free_flight();
     pressed->preload_0[1] = 0.2;
-    assert_int_equal(solver(pressed, UnknownSpace::automatic).sweep()->end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(solver(pressed, NonlinearUnknowns::automatic).sweep()->end_reason, PLM_REASON_RANGE_END);
 }
 
 // The pair of masses beside a wall: no spring but the stop would ever hold it.
@@ -139,7 +140,7 @@ struct Wall {
     double mean = 0, amplitude = 0, stable = 1;
     std::int32_t reason = 0;
 };
-Wall swept_beside_a_wall(UnknownSpace unknowns) {
+Wall swept_beside_a_wall(NonlinearUnknowns unknowns) {
     const Model m = beside_a_wall(20);
     const auto curve = solver(m, unknowns).sweep();
     Wall w;
@@ -154,7 +155,8 @@ Wall swept_beside_a_wall(UnknownSpace unknowns) {
     return w;
 }
 void a_stop_out_of_reach_leaves_the_mean_position_at_zero(void **) {
-    for (UnknownSpace unknowns : {UnknownSpace::automatic, UnknownSpace::modal, UnknownSpace::gaps}) {
+    for (NonlinearUnknowns unknowns :
+         {NonlinearUnknowns::automatic, NonlinearUnknowns::modal, NonlinearUnknowns::gaps}) {
         const Wall w = swept_beside_a_wall(unknowns);
         assert_int_equal(w.reason, PLM_REASON_RANGE_END);
         assert_true(below(w.mean, 1e-9));      // of amplitudes near 1
@@ -165,20 +167,20 @@ void a_stop_out_of_reach_leaves_the_mean_position_at_zero(void **) {
 
 // Within reach: the wall pushes, and nothing pushes back, until it is touched no more. The linear motion
 // again, as far away as it has to be.
-double reach_beside_a_near_wall(UnknownSpace unknowns, double omega) {
+double reach_beside_a_near_wall(NonlinearUnknowns unknowns, double omega) {
     const Model m = beside_a_wall(0.1);
     const auto alone = solver(m, unknowns).solve(omega / (2 * M_PI), nullptr, 0);
     const auto q = test::displacement(*m, alone->points()[0].eta_0, alone->points()[0].eta, 1);
     return q[0] + right_mass_without_wall(omega); // the furthest place
 }
 void a_wall_pushes_it_out_of_its_reach(void **) {
-    for (UnknownSpace unknowns : {UnknownSpace::modal, UnknownSpace::gaps})
+    for (NonlinearUnknowns unknowns : {NonlinearUnknowns::modal, NonlinearUnknowns::gaps})
         for (double omega : {1.05, 1.3, 1.5})
             assert_true(close_to(reach_beside_a_near_wall(unknowns, omega), 0.1, 1e-6));
 }
 
 // A mean force away from the wall: nothing ever holds it.
-std::string said_of_a_mean_force_away(UnknownSpace unknowns) {
+std::string said_of_a_mean_force_away(NonlinearUnknowns unknowns) {
     const Model m = beside_a_wall(0.1);
     m->excitation[0].real = {m->vectors.at(1, 0) > 0 ? -0.1 : 0.1, 0};
     try {
@@ -189,7 +191,7 @@ std::string said_of_a_mean_force_away(UnknownSpace unknowns) {
     return "";
 }
 void a_mean_force_away_from_the_wall_is_told_of(void **) {
-    for (UnknownSpace unknowns : {UnknownSpace::modal, UnknownSpace::gaps}) {
+    for (NonlinearUnknowns unknowns : {NonlinearUnknowns::modal, NonlinearUnknowns::gaps}) {
         const std::string said = said_of_a_mean_force_away(unknowns);
         assert_true(said.find("nothing but its contacts holds") != std::string::npos);
     }
@@ -200,7 +202,7 @@ void a_mean_force_presses_it_against_the_wall(void **) {
     const Model m = beside_a_wall(0.1);
     m->preload_0[0] =
         2 / std::sqrt(left + right) * (m->vectors.at(1, 0) > 0 ? 1 : -1); // 2 on the centre of mass
-    for (UnknownSpace unknowns : {UnknownSpace::modal, UnknownSpace::gaps}) {
+    for (NonlinearUnknowns unknowns : {NonlinearUnknowns::modal, NonlinearUnknowns::gaps}) {
         const auto one = solver(m, unknowns).solve(1.6 / (2 * M_PI), nullptr, 0);
         const auto q = test::displacement(*m, one->points()[0].eta_0, one->points()[0].eta, 1);
         assert_true(close_to(contact * (q[0] - 0.1), 2, 0.2)); // closed for most of the time

@@ -13,19 +13,20 @@
 
 using plm::HbmOptions;
 using plm::HbmSystem;
+using plm::NonlinearUnknowns;
 using plm::ReducedModel;
-using plm::UnknownSpace;
 
 namespace {
 
-HbmOptions options_with(int harmonics, UnknownSpace unknowns) {
+HbmOptions options_with(int harmonics, NonlinearUnknowns unknowns) {
     HbmOptions o;
     o.n_harmonics = harmonics;
     o.unknowns = unknowns;
     return o;
 }
 
-std::unique_ptr<HbmSystem> system_of(std::shared_ptr<ReducedModel> m, int harmonics, UnknownSpace unknowns) {
+std::unique_ptr<HbmSystem> system_of(std::shared_ptr<ReducedModel> m, int harmonics,
+                                     NonlinearUnknowns unknowns) {
     return plm::make_system(m, options_with(harmonics, unknowns));
 }
 
@@ -41,7 +42,7 @@ plm::vector<double> random_point(HbmSystem &system, const ReducedModel &m, doubl
     std::mt19937 random(1);
     std::normal_distribution<double> normal;
     plm::vector<double> x(system.size());
-    system.linear_response(plm::share_at_rest(m), omega, x.data());
+    system.linear_response(plm::coupling_at_rest(m), omega, x.data());
     double size = 0;
     for (double v : x) size = std::max(size, std::abs(v));
     for (double &v : x) v += 0.3 * size * normal(random);
@@ -88,7 +89,7 @@ double omega_derivative_error(HbmSystem &system, const plm::vector<double> &x, d
     return worst;
 }
 
-DerivativeErrors derivative_errors(std::shared_ptr<ReducedModel> m, UnknownSpace unknowns,
+DerivativeErrors derivative_errors(std::shared_ptr<ReducedModel> m, NonlinearUnknowns unknowns,
                                    double self_excitation = 0) {
     const auto system = system_of(m, 4, unknowns);
     if (self_excitation != 0) system->set_self_excitation(self_excitation);
@@ -124,7 +125,7 @@ std::shared_ptr<ReducedModel> with_static_basis() {
 }
 
 void check_derivatives(std::shared_ptr<ReducedModel> m) {
-    for (UnknownSpace unknowns : {UnknownSpace::modal, UnknownSpace::gaps}) {
+    for (NonlinearUnknowns unknowns : {NonlinearUnknowns::modal, NonlinearUnknowns::gaps}) {
         const DerivativeErrors e = derivative_errors(m, unknowns);
         assert_true(below(e.x, 1e-6)); // differences: rounding / step
         assert_true(below(e.omega, 1e-7));
@@ -166,7 +167,7 @@ void jacobians_match_with_rigid_body_modes(void **) {
 
 void jacobians_match_with_self_excitation(void **) {
     for (const auto &m : {chain_model(), with_full_damping(), with_structural_damping()}) {
-        const DerivativeErrors e = derivative_errors(m, UnknownSpace::modal, 0.07);
+        const DerivativeErrors e = derivative_errors(m, NonlinearUnknowns::modal, 0.07);
         assert_true(below(e.x, 1e-6));
         assert_true(below(e.omega, 1e-7));
     }
@@ -176,7 +177,7 @@ void jacobians_match_with_self_excitation(void **) {
 void jacobians_with_more_equations_match_differences(void **) {
     for (const auto &m :
          {chain_model(), with_full_damping(), with_static_basis(), with_a_massless_coordinate()}) {
-        const auto inner = system_of(m, 4, UnknownSpace::modal);
+        const auto inner = system_of(m, 4, NonlinearUnknowns::modal);
         plm::vector<double> x = random_point(*inner, *m, 0.7);
         x.push_back(0.1);
         plm::PhaseResonantSystem resonance(*inner, *m, 1, 0.65, 1.7);
@@ -389,7 +390,7 @@ struct Solved {
     bool converged = false;
     plm::BranchPoint point;
 };
-Solved solve(std::shared_ptr<ReducedModel> m, UnknownSpace unknowns, double omega, int harmonics = 7) {
+Solved solve(std::shared_ptr<ReducedModel> m, NonlinearUnknowns unknowns, double omega, int harmonics = 7) {
     const auto system = system_of(m, harmonics, unknowns);
     const HbmOptions o = options_with(harmonics, unknowns);
     plm::vector<double> x(system->size());
@@ -415,8 +416,8 @@ double difference(const Solved &a, const Solved &b) {
 double worst_difference(std::shared_ptr<ReducedModel> m) {
     double worst = 0;
     for (double omega : {0.15, 0.4, 0.9, 1.3})
-        worst = std::max(
-            worst, difference(solve(m, UnknownSpace::modal, omega), solve(m, UnknownSpace::gaps, omega)));
+        worst = std::max(worst, difference(solve(m, NonlinearUnknowns::modal, omega),
+                                           solve(m, NonlinearUnknowns::gaps, omega)));
     return worst;
 }
 void both_forms_have_the_same_solution(void **) {
@@ -428,7 +429,7 @@ void both_forms_have_the_same_solution(void **) {
 }
 
 // Always open: the linear structure. Always closed: the linear structure with the springs in.
-double linear_error(bool closed, UnknownSpace unknowns) {
+double linear_error(bool closed, NonlinearUnknowns unknowns) {
     exact::Structure s = chain_with(closed ? 50.0 : 0.0, closed ? 0.0 : 1e3);
     s.gap_rows.assign(s.gap_rows.size(), 0.0);
     for (int p = 0; p < s.z; ++p)
@@ -441,7 +442,7 @@ double linear_error(bool closed, UnknownSpace unknowns) {
     const auto m = test::reduce_exactly(linear);
     m->contact_stiffness.clear(), m->initial_gap.clear();
     m->gap = m->gap_0 = plm::Matrix(0, m->size());
-    const Solved want = solve(m, UnknownSpace::modal, omega, 3);
+    const Solved want = solve(m, NonlinearUnknowns::modal, omega, 3);
     const auto original = test::reduce_exactly(s);
     double worst = 0, size = 0;
     for (int dof = 0; dof < s.n; ++dof) {
@@ -455,7 +456,7 @@ double linear_error(bool closed, UnknownSpace unknowns) {
     return got.converged && want.converged ? worst / size : 1e300;
 }
 void open_and_closed_contact_are_linear(void **) {
-    for (UnknownSpace unknowns : {UnknownSpace::modal, UnknownSpace::gaps}) {
+    for (NonlinearUnknowns unknowns : {NonlinearUnknowns::modal, NonlinearUnknowns::gaps}) {
         assert_true(below(linear_error(false, unknowns), 1e-12));
         assert_true(
             below(linear_error(true, unknowns), 1e-10)); // the static part, 100 times larger, limits the rest

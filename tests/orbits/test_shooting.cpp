@@ -133,18 +133,8 @@ void rest_has_no_defect(void **) {
     assert_true(defect_of_rest() == 0);
 }
 
-void wrong_options_are_refused(void **) {
+void rows_of_another_flow_are_refused(void **) {
     plm::ExactFlow flow(flow_model(bilinear_oscillator(0.05, 3, 0.2, 1, 0)), 1, 1);
-    plm::ShootingOptions o;
-    o.period_multiple = 0;
-    assert_int_equal(failure_of([&] {
-                         plm::periodic_orbit(flow, {{0}, {0}, 0}, o);
-                     }).status,
-                     PLM_ERR_ARGUMENT);
-    assert_int_equal(failure_of([&] {
-                         plm::periodicity_defect(flow, {{0}, {0}, 0}, 0);
-                     }).status,
-                     PLM_ERR_ARGUMENT);
     assert_int_equal(failure_of([&] { plm::orbit_peaks(flow, plm::PeriodicOrbit(), Matrix(1, 2)); }).status,
                      PLM_ERR_ARGUMENT);
 }
@@ -158,7 +148,7 @@ int main() {
         cmocka_unit_test(a_linear_orbit_is_found_in_one_step),
         cmocka_unit_test(orbits_of_several_periods_are_found),
         cmocka_unit_test(rest_has_no_defect),
-        cmocka_unit_test(wrong_options_are_refused),
+        cmocka_unit_test(rows_of_another_flow_are_refused),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -117,7 +117,7 @@ class Runs(unittest.TestCase):
         study.add_response("good", hbm)
         study.add_response("bad", plm.Hbm(plm.Basis(study.model)))  # no sampler
         self.assertEqual(study.run().status, plm.WARNING)
-        self.assertIn("plm_basis_set_sampler", study.outcome("bad"))
+        self.assertIn("needs a sampler; give the basis one", study.outcome("bad"))
         self.assertTrue(numpy.isnan(study.curve_error_l2[1]) and study.curve_error_l2[0] < 1e-6)
 
     def test_cancel(self):

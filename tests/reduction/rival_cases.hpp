@@ -52,12 +52,12 @@ inline Scene make_scene(const exact::Structure &structure, double omega_min, dou
     s.model = test::make_model(structure, extras);
     s.window = {omega_min / (2 * M_PI), omega_max / (2 * M_PI)};
     plm::BasisOptions o;
-    o.kind = plm::BasisKind::full;
+    o.kind = &plm::basis_kinds::full;
     s.full = build(s, o);
     return s;
 }
 
-inline plm::BasisOptions kind(plm::BasisKind k, double below_factor = 1.1) {
+inline plm::BasisOptions kind(const plm::BasisKind *k, double below_factor = 1.1) {
     plm::BasisOptions o;
     o.kind = k;
     o.below_factor = below_factor;

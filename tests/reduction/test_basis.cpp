@@ -9,6 +9,7 @@
 
 using plm::Basis;
 using plm::BasisKind;
+namespace basis_kinds = plm::basis_kinds;
 using plm::BasisOptions;
 using plm::Matrix;
 using plm::ModeSelection;
@@ -59,7 +60,7 @@ BasisOptions rule(ModeSelection selection) {
     return o;
 }
 
-BasisOptions kind(BasisKind kind) {
+BasisOptions kind(const BasisKind *kind) {
     BasisOptions o;
     o.kind = kind;
     return o;
@@ -323,12 +324,12 @@ void modal_damping_couples_the_reduced_coordinates(void **) {
 
 void the_full_kind_is_the_whole_space(void **) {
     const Case c = make_case(pressed_chains());
-    const auto full = build(c, kind(BasisKind::full));
+    const auto full = build(c, kind(&basis_kinds::full));
     assert_true(full->reduced()->same_static && full->reduced()->size() == full->space()->size());
     assert_true(below(full_size_defect(c, *full, false).mass, 1e-8)); // the space's own orthonormality
     assert_true(
         below(plm::projection_residual(*full, false, true, c.sampler->rest().displacement), 1e-8));
-    BasisOptions o = kind(BasisKind::full); // without a sampler the range must be given
+    BasisOptions o = kind(&basis_kinds::full); // without a sampler the range must be given
     const test::Failure f = test::failure_of([&] { Basis(c.model, nullptr, nullptr, o, plm::Watch()); });
     assert_string_equal(f.argument.c_str(), "frequency_max_hz");
     o.frequency_max_hz = 0.5;
@@ -340,7 +341,7 @@ void the_full_kind_is_the_whole_space(void **) {
 // directly.
 void a_craig_bampton_parent_gives_the_same_modes(void **) {
     const Case c = make_case(pressed_chains());
-    BasisOptions cb = kind(BasisKind::craig_bampton);
+    BasisOptions cb = kind(&basis_kinds::craig_bampton);
     cb.n_fixed_modes = 60;
     const auto parent = build(c, cb), child = build(c, rule(ModeSelection::below), parent);
     const auto direct = build(c, rule(ModeSelection::below));
@@ -366,9 +367,6 @@ void wrong_parents_and_options_are_refused(void **) {
         argument([&] { Basis(c.model, other.sampler, nullptr, BasisOptions(), plm::Watch()); }).c_str(),
         "sampler");
     BasisOptions o;
-    o.svd_tolerance = 1;
-    assert_string_equal(argument([&] { build(c, o); }).c_str(), "svd_tolerance");
-    o = BasisOptions();
     o.frequency_min_hz = 100;
     assert_string_equal(argument([&] { build(c, o); }).c_str(), "frequency_min_hz");
 }

@@ -17,7 +17,7 @@ extern "C" {
 #include <vector>
 
 using plm::Basis;
-using plm::BasisKind;
+namespace basis_kinds = plm::basis_kinds;
 using plm::BasisOptions;
 using plm::HbmOptions;
 using plm::Matrix;
@@ -85,7 +85,7 @@ Curve parent_curve(std::shared_ptr<const plm::Model> model) {
 }
 BasisPtr compressed(const Curve &parent, double tolerance, std::int64_t size = 0) {
     BasisOptions o;
-    o.kind = BasisKind::pod;
+    o.kind = &basis_kinds::pod;
     o.pod_tolerance = tolerance;
     o.pod_size = size;
     const plm::Responses responses = plm::responses_of({parent.branch});
@@ -137,7 +137,7 @@ double difference_of_one_mass() {
     test::ModelExtras extras;
     extras.explicit_damping = true;
     BasisOptions o;
-    o.kind = BasisKind::full;
+    o.kind = &basis_kinds::full;
     o.frequency_min_hz = 0.05;
     o.frequency_max_hz = 0.4;
     const Curve parent = curve_on(
@@ -230,7 +230,7 @@ double outside(const Matrix &motions, const Matrix &y) {
 }
 std::vector<Captured> captured() {
     BasisOptions full;
-    full.kind = BasisKind::full;
+    full.kind = &basis_kinds::full;
     const Curve plm_curve = parent_curve(model_of(true, DampingKind::rayleigh));
     full.frequency_min_hz = plm_curve.basis->window_min_hz();
     full.frequency_max_hz = plm_curve.basis->window_max_hz();
@@ -404,7 +404,7 @@ WithoutMean without_mean() {
     WithoutMean w;
     {
         BasisOptions o;
-        o.kind = BasisKind::full;
+        o.kind = &basis_kinds::full;
         o.frequency_min_hz = 0.1;
         o.frequency_max_hz = 0.4;
         const Curve parent = curve_on(std::make_shared<const Basis>(

@@ -55,7 +55,7 @@ double compliance_error(const exact::Structure &s, const plm::ReducedModel &r,
 // With a vector for every joint the static response of the gaps is exact, whatever is closed.
 void with_all_vectors_the_contact_compliance_is_exact(void **) {
     const Scene s = two_chains(true);
-    const auto basis = build(s, kind(plm::BasisKind::discontinuity));
+    const auto basis = build(s, kind(&plm::basis_kinds::discontinuity));
     const auto modes =
         span_of(*s.full->space(), linear_modes(*s.full->space(), true, basis->reduced()->size()));
     plm::vector<char> none(n_pairs, 0), all(n_pairs, 1), some(n_pairs, 0);
@@ -71,7 +71,7 @@ void with_all_vectors_the_contact_compliance_is_exact(void **) {
 // jump.
 void the_field_of_least_energy_with_one_jump_is_in_the_basis(void **) {
     const Scene s = two_chains(true);
-    const auto basis = build(s, kind(plm::BasisKind::discontinuity));
+    const auto basis = build(s, kind(&plm::basis_kinds::discontinuity));
     Matrix k = test::dense_stiffness(s.structure, plm::vector<char>(n_pairs, 1)); // homogeneous: all closed
     plm::DenseCholesky cholesky;
     assert_true(cholesky.factor(k));
@@ -103,7 +103,7 @@ void the_reference_is_the_contact_at_rest(void **) {
 
 void rigid_body_motion_is_kept_once(void **) {
     const Scene s = two_chains(false);
-    const auto basis = build(s, kind(plm::BasisKind::discontinuity));
+    const auto basis = build(s, kind(&plm::basis_kinds::discontinuity));
     assert_true(basis->reduced()->lambda[0] == 0 && basis->reduced()->lambda[1] > 1e-6);
     const plm::vector<double> rigid(80, 1.0);
     assert_true(

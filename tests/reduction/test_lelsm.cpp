@@ -6,7 +6,7 @@
 #include "searches/hbm.hpp"
 
 using namespace rival;
-using plm::BasisKind;
+namespace basis_kinds = plm::basis_kinds;
 
 namespace {
 
@@ -39,22 +39,22 @@ double dense_frequency(exact::Structure s, double share, std::int64_t mode) {
 void frequencies_of_the_equivalent_systems_are_the_bilinear_ones(void **) {
     const Scene s = make_scene(test::chain(8, 0.02, 3, 0, 0.01, 0, {1, 5}), 0.17, 0.22);
     const plm::EquivalentModes modes = modes_of(s);
-    assert_int_equal(modes.share.size(), 8); // 3 x 5 harmonics x 0.22 rad/s holds the whole chain
-    for (std::size_t i = 0; i < modes.share.size(); ++i) {
+    assert_int_equal(modes.coupling.size(), 8); // 3 x 5 harmonics x 0.22 rad/s holds the whole chain
+    for (std::size_t i = 0; i < modes.coupling.size(); ++i) {
         const double open = dense_frequency(s.structure, 0, i), closed = dense_frequency(s.structure, 1, i);
         const double bilinear = 2 * open * closed / (open + closed);
         assert_true(close_to(2 * M_PI * modes.frequency_hz[i], bilinear, 1e-9));
         assert_true(
-            close_to(dense_frequency(s.structure, modes.share[i], i), bilinear, 1e-8)); // root to 1e-9
-        assert_true(modes.share[i] > 0 && modes.share[i] < 1);
+            close_to(dense_frequency(s.structure, modes.coupling[i], i), bilinear, 1e-8)); // root to 1e-9
+        assert_true(modes.coupling[i] > 0 && modes.coupling[i] < 1);
     }
 }
 
 void a_rigid_body_mode_of_the_open_system_stays_one(void **) {
     const Scene s = make_scene(test::two_chains(12, 4, 2, false), 1.0, 1.5);
     const plm::EquivalentModes modes = modes_of(s);
-    assert_true(modes.frequency_hz[0] == 0 && modes.share[0] == 0);
-    for (std::size_t i = 1; i < modes.share.size(); ++i) assert_true(modes.frequency_hz[i] > 0);
+    assert_true(modes.frequency_hz[0] == 0 && modes.coupling[0] == 0);
+    for (std::size_t i = 1; i < modes.coupling.size(); ++i) assert_true(modes.frequency_hz[i] > 0);
 }
 
 // Butcher and Lu: the reduced models represent the dynamics of the full one more accurately than those of
@@ -99,7 +99,7 @@ void the_equivalent_motion_of_one_mass_is_its_first_harmonic(void **) {
 }
 
 double share_for(double gap, double force) {
-    return motion_of(make_scene(grounded_chain(gap, force), 0.05, 0.12)).share[0];
+    return motion_of(make_scene(grounded_chain(gap, force), 0.05, 0.12)).coupling[0];
 }
 // What the updated form adds to the other one: stiffness that depends on the amplitude where there is a gap.
 void equivalent_stiffness_depends_on_the_amplitude_with_a_gap_alone(void **) {
@@ -194,7 +194,7 @@ std::string argument_without(bool force, bool damping) {
     exact::Structure structure = grounded_chain(1, force ? 0.01 : 0);
     if (!damping) structure.damping.assign(structure.damping.size(), 0.0);
     const Scene s = make_scene(structure, 0.05, 0.12);
-    return test::failure_of([&] { build(s, kind(BasisKind::lelsm_updated)); }).argument;
+    return test::failure_of([&] { build(s, kind(&basis_kinds::lelsm_updated)); }).argument;
 }
 void nothing_that_sets_an_amplitude_is_refused(void **) {
     assert_string_equal(argument_without(true, false).c_str(), "equivalent_amplitude");

@@ -164,7 +164,7 @@ Chains chains() {
     return c;
 }
 
-BasisOptions sampled(plm::BasisKind kind, std::int64_t n, plm::PairRule rule) {
+BasisOptions sampled(const plm::BasisKind *kind, std::int64_t n, plm::PairRule rule) {
     BasisOptions o;
     o.kind = kind;
     o.n_pairs_carried = n;
@@ -179,8 +179,8 @@ double sum(const plm::vector<double> &x) {
 void the_stiffness_left_out_is_carried_by_the_others(void **) {
     const Chains c = chains();
     const double total = sum(c.model->contact_stiffness());
-    for (plm::BasisKind kind : {plm::BasisKind::plm, plm::BasisKind::snapshots, plm::BasisKind::full,
-                                plm::BasisKind::craig_bampton})
+    for (const plm::BasisKind *kind : {&plm::basis_kinds::plm, &plm::basis_kinds::snapshots,
+                                       &plm::basis_kinds::full, &plm::basis_kinds::craig_bampton})
         for (plm::PairRule rule : {plm::PairRule::effective_independence, plm::PairRule::mdof})
             for (std::int64_t n : {1, 4, 8}) {
                 const auto basis = c.basis(sampled(kind, n, rule));
@@ -201,11 +201,11 @@ void the_stiffness_left_out_is_carried_by_the_others(void **) {
 
 void all_pairs_carried_is_no_sampling(void **) {
     const Chains c = chains();
-    const auto all = c.basis(sampled(plm::BasisKind::plm, 9, plm::PairRule::mdof));
+    const auto all = c.basis(sampled(&plm::basis_kinds::plm, 9, plm::PairRule::mdof));
     assert_true(all->reduced()->all_pairs == nullptr);
     assert_true(all->reduced()->contact_stiffness == c.model->contact_stiffness());
     const test::Failure f = test::failure_of(
-        [&] { c.basis(sampled(plm::BasisKind::plm, 10, plm::PairRule::effective_independence)); });
+        [&] { c.basis(sampled(&plm::basis_kinds::plm, 10, plm::PairRule::effective_independence)); });
     assert_int_equal(f.status, PLM_ERR_ARGUMENT);
     assert_string_equal(f.argument.c_str(), "n_pairs_carried");
 }
@@ -213,12 +213,12 @@ void all_pairs_carried_is_no_sampling(void **) {
 // What is compressed is the motion: the pairs are chosen again, or all carried.
 void compressing_a_sampled_basis_knows_all_pairs(void **) {
     const Chains c = chains();
-    const auto parent = c.basis(sampled(plm::BasisKind::plm, 4, plm::PairRule::effective_independence));
+    const auto parent = c.basis(sampled(&plm::basis_kinds::plm, 4, plm::PairRule::effective_independence));
     plm::Responses responses{parent->reduced(), Matrix(parent->reduced()->size(), 4),
                              Matrix(parent->reduced()->static_size(), 1), 1.0};
     for (std::int64_t j = 0; j < 4; ++j) responses.dynamic(j, j) = 1;
     BasisOptions o;
-    o.kind = plm::BasisKind::pod;
+    o.kind = &plm::basis_kinds::pod;
     const auto pod = c.basis(o, parent, &responses);
     assert_int_equal(pod->reduced()->n_pairs(), 9);
     assert_true(pod->reduced()->contact_stiffness == c.model->contact_stiffness());

@@ -14,7 +14,7 @@ extern "C" {
 }
 
 using namespace rival;
-using plm::BasisKind;
+namespace basis_kinds = plm::basis_kinds;
 using plm::Matrix;
 
 namespace {
@@ -37,7 +37,7 @@ struct Plate {
         o.mode = host->dominant_mode;
         const auto core = plm::capi::find<plm::capi::ModelHandle>(model)->core;
         sampler = std::make_shared<const plm::Sampler>(core, o, plm::Watch());
-        full = basis(kind(BasisKind::full));
+        full = basis(kind(&basis_kinds::full));
         truth = peak(full->reduced());
     }
     ~Plate() {
@@ -71,7 +71,7 @@ struct Plate {
 // of the open system do not.
 void bilinear_modes_find_the_resonance_that_open_modes_miss(void **) {
     const Plate plate(false);
-    const auto bilinear = plate.basis(kind(BasisKind::bilinear));
+    const auto bilinear = plate.basis(kind(&basis_kinds::bilinear));
     const PeakError b = plate.error(bilinear->reduced()),
                     o = plate.error(span_of(*plate.full->space(), linear_modes(*plate.full->space(), false,
                                                                                bilinear->reduced()->size())));
@@ -103,7 +103,7 @@ void proper_orthogonal_modes_lie_in_the_span_of_bilinear_modes(void **) {
     o.stability = plm::StabilityKind::off;
     const plm::Hbm hbm(plate.full->reduced(), plate.window().min_hz, plate.window().max_hz, o, plm::Watch());
     const plm::Responses motions = plm::responses_of({hbm.sweep()});
-    plm::BasisOptions po = kind(BasisKind::pod);
+    plm::BasisOptions po = kind(&basis_kinds::pod);
     po.pod_size = 3;
     const plm::Basis proper(plate.full->model(), nullptr, plate.full, po, plm::Watch(), &motions);
     const plm::Space &space = *plate.full->space();

@@ -2,28 +2,20 @@
 // can be switched off, and the answer then agrees.
 #include "contact/trig_polynomial.hpp"
 #include "searches/curve.hpp"
-#include "searches/hbm.hpp"
-#include "support/small_reduced.hpp"
+#include "support/small_solver.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 #include <vector>
 
 using plm::HbmOptions;
+using test::peak_at;
+using test::solver;
 
 namespace {
 
 using Model = std::shared_ptr<const plm::ReducedModel>;
 using BranchPtr = std::shared_ptr<const plm::Branch>;
 
-plm::Hbm solver(Model m, const HbmOptions &o, double low, double high) {
-    return plm::Hbm(std::move(m), low / (2 * M_PI), high / (2 * M_PI), o, plm::Watch());
-}
-
-double peak_at(const plm::ReducedModel &m, const plm::BranchPoint &p, int dof) {
-    const auto q = test::displacement(m, p.eta_0, p.eta, dof);
-    const plm::TrigRange r = plm::trig_range(q.data(), p.eta.cols() / 2);
-    return std::max(std::abs(r.maximum), std::abs(r.minimum));
-}
 double peak_of(const plm::ReducedModel &m, const plm::Branch &b, int dof) {
     double top = 0;
     for (const auto &p : b.points()) top = std::max(top, peak_at(m, p, dof));
@@ -112,7 +104,8 @@ Estimates estimates() {
     const exact::Structure s = test::chain(3, 0.02, 20, 0.1, 0.4, 0.2, {0, 2});
     const Model m = test::reduce_exactly(s);
     Estimates e;
-    for (const plm::UnknownSpace unknowns : {plm::UnknownSpace::modal, plm::UnknownSpace::gaps})
+    for (const plm::NonlinearUnknowns unknowns :
+         {plm::NonlinearUnknowns::modal, plm::NonlinearUnknowns::gaps})
         for (const double omega : {0.62, 0.7, 0.85, 1.0})
             for (const std::int64_t n : {10, 20}) {
                 HbmOptions few, many;
@@ -153,13 +146,13 @@ Spaces spaces() {
         HbmOptions o;
         o.n_harmonics = 7;
         o.max_step = 0.02;
-        o.unknowns = k == 0   ? plm::UnknownSpace::automatic
-                     : k == 1 ? plm::UnknownSpace::modal
-                              : plm::UnknownSpace::gaps;
+        o.unknowns = k == 0   ? plm::NonlinearUnknowns::automatic
+                     : k == 1 ? plm::NonlinearUnknowns::modal
+                              : plm::NonlinearUnknowns::gaps;
         found[k] = solver(m, o, 0.1, 1.2).sweep();
     }
     Spaces r;
-    r.automatic = found[0]->space_used;
+    r.automatic = found[0]->unknowns_used;
     const double top = peak_of(*m, *found[0], 7);
     r.modal_error = std::abs(peak_of(*m, *found[1], 7) / top - 1);
     r.gaps_error = std::abs(peak_of(*m, *found[2], 7) / top - 1);

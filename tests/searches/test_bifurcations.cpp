@@ -2,9 +2,8 @@
 // piecewise-linear flow, whose code is independent of the library; the curves that leave there; loops that
 // close.
 #include "contact/trig_polynomial.hpp"
-#include "searches/hbm.hpp"
 #include "searches/stability.hpp"
-#include "support/small_reduced.hpp"
+#include "support/small_solver.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 #include <vector>
@@ -12,15 +11,12 @@
 using plm::Branch;
 using plm::HbmOptions;
 using Vec = std::vector<double>;
+using test::solver;
 
 namespace {
 
 using Model = std::shared_ptr<const plm::ReducedModel>;
 using BranchPtr = std::shared_ptr<const Branch>;
-
-plm::Hbm solver(Model m, const HbmOptions &o, double low, double high) {
-    return plm::Hbm(std::move(m), low / (2 * M_PI), high / (2 * M_PI), o, plm::Watch());
-}
 
 std::vector<std::int64_t> of_kind(const Branch &b, std::int32_t kind) {
     std::vector<std::int64_t> found;

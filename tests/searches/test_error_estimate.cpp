@@ -202,7 +202,7 @@ void of_the_unreduced_structure_only_harmonics_are_missing(void **) {
 // The structure's own C, not reduced.
 std::shared_ptr<const plm::ReducedModel> whole(const exact::Structure &s, double low_hz, double high_hz) {
     BasisOptions o;
-    o.kind = plm::BasisKind::full;
+    o.kind = &plm::basis_kinds::full;
     o.frequency_min_hz = low_hz;
     o.frequency_max_hz = high_hz;
     return plm::Basis(test::make_model(s, {{}, 0, 0, true}), nullptr, nullptr, o, plm::Watch()).reduced();

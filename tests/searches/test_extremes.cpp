@@ -1,20 +1,16 @@
 // Harmonic balance at the edges of its range: nothing to do, nothing to damp, nothing to hold, many
 // harmonics, odd units.
 #include "contact/trig_polynomial.hpp"
-#include "searches/hbm.hpp"
-#include "support/small_reduced.hpp"
+#include "support/small_solver.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 
 using plm::HbmOptions;
+using test::solver;
 
 namespace {
 
 using Model = std::shared_ptr<const plm::ReducedModel>;
-
-plm::Hbm solver(Model m, const HbmOptions &o, double low, double high) {
-    return plm::Hbm(std::move(m), low / (2 * M_PI), high / (2 * M_PI), o, plm::Watch());
-}
 
 double half_range(const plm::ReducedModel &m, const plm::BranchPoint &p, int dof) {
     const auto q = test::displacement(m, p.eta_0, p.eta, dof);
@@ -67,7 +63,7 @@ void undamped_response_is_exact_off_resonance(void **) {
 }
 
 // A free mass on a unilateral spring under its weight, shaken gently: it never lifts off and is linear.
-double gentle_shaking_error(plm::UnknownSpace unknowns) {
+double gentle_shaking_error(plm::NonlinearUnknowns unknowns) {
     exact::Structure s = test::bilinear_oscillator(0, 4, 0, 0.01, 1.0);
     s.stiffness = {0};
     s.damping = {0.1};
@@ -81,8 +77,8 @@ double gentle_shaking_error(plm::UnknownSpace unknowns) {
     return std::abs(half_range(*m, branch->points()[0], 0) / want - 1);
 }
 void a_mass_held_by_contact_alone_rests_on_it(void **) {
-    assert_true(below(gentle_shaking_error(plm::UnknownSpace::modal), 1e-10));
-    assert_true(below(gentle_shaking_error(plm::UnknownSpace::gaps), 1e-10));
+    assert_true(below(gentle_shaking_error(plm::NonlinearUnknowns::modal), 1e-10));
+    assert_true(below(gentle_shaking_error(plm::NonlinearUnknowns::gaps), 1e-10));
 }
 
 std::vector<double> amplitudes_over_harmonics() {

@@ -30,7 +30,7 @@ struct Solved {
     std::vector<double> errors; // of the amplitude of the driven DOF, one per frequency
 };
 
-Solved errors_against_exact_orbits(plm::BasisKind kind) {
+Solved errors_against_exact_orbits(const plm::BasisKind *kind) {
     const exact::Structure s = structure();
     const auto model = test::make_model(s, {{}, 0, 2 * 0.05 / 0.24, false});
     plm::BasisOptions b;
@@ -70,7 +70,7 @@ void print(const char *what, const Solved &s) {
 }
 
 void full_order_agrees_with_exact_time_marching(void **) {
-    const Solved s = errors_against_exact_orbits(plm::BasisKind::full);
+    const Solved s = errors_against_exact_orbits(&plm::basis_kinds::full);
     print("full order", s);
     for (double e : s.errors) assert_true(below(e, 1e-3));
     assert_true(
@@ -78,7 +78,7 @@ void full_order_agrees_with_exact_time_marching(void **) {
 }
 
 void craig_bampton_agrees_with_exact_time_marching(void **) {
-    const Solved s = errors_against_exact_orbits(plm::BasisKind::craig_bampton);
+    const Solved s = errors_against_exact_orbits(&plm::basis_kinds::craig_bampton);
     print("Craig-Bampton", s);
     for (double e : s.errors) assert_true(below(e, 1e-2)); // truncated fixed-interface modes
 }

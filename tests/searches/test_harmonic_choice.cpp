@@ -3,24 +3,20 @@
 #include "reduction/basis.hpp"
 #include "sampling/small_models.hpp"
 #include "searches/harmonic_choice.hpp"
-#include "searches/hbm.hpp"
 #include "searches/phase_resonance.hpp"
-#include "support/small_reduced.hpp"
+#include "support/small_solver.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 #include <vector>
 
 using plm::HbmOptions;
 using plm::Measure;
+using test::solver;
 
 namespace {
 
 using Reduced = std::shared_ptr<const plm::ReducedModel>;
 using BranchPtr = std::shared_ptr<const plm::Branch>;
-
-plm::Hbm solver(Reduced m, const HbmOptions &o, double low, double high) {
-    return plm::Hbm(std::move(m), low / (2 * M_PI), high / (2 * M_PI), o, plm::Watch());
-}
 
 // --- harmonics of the excitation
 

@@ -2,10 +2,9 @@
 // against plain sweeps, stable points against the exact flow, folds tracked against folds located.
 #include "contact/trig_polynomial.hpp"
 #include "searches/fold_tracking.hpp"
-#include "searches/hbm.hpp"
 #include "searches/isolated.hpp"
 #include "searches/marching_search.hpp"
-#include "support/small_reduced.hpp"
+#include "support/small_solver.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 #include <cmath>
@@ -13,6 +12,7 @@
 using plm::Branch;
 using plm::BranchPoint;
 using Model = std::shared_ptr<plm::ReducedModel>;
+using test::peak_at;
 
 namespace {
 
@@ -58,15 +58,9 @@ plm::IsolatedSearch search(const Model &m, const plm::HbmOptions &o) {
     return plm::find_isolated(m, o, *sweep(m, o), 0, plm::Watch());
 }
 
-double peak_of(const plm::ReducedModel &m, const BranchPoint &p, int dof) {
-    const auto q = test::displacement(m, p.eta_0, p.eta, dof);
-    const plm::TrigRange range = plm::trig_range(q.data(), p.eta.cols() / 2);
-    return std::max(std::abs(range.maximum), std::abs(range.minimum));
-}
-
 double highest(const plm::ReducedModel &m, const Branch &b) {
     double best = 0;
-    for (const BranchPoint &p : b.points()) best = std::max(best, peak_of(m, p, 0));
+    for (const BranchPoint &p : b.points()) best = std::max(best, peak_at(m, p, 0));
     return best;
 }
 
@@ -119,11 +113,11 @@ LinearBackbone linear_backbone() {
     const double w = phase_resonance_of(*m, 0.5, 1.2);
     const auto &points = backbones[0].branch->points();
     out.points = points.size();
-    const double ratio = peak_of(*m, points[0], 0) / points[0].force_scale;
+    const double ratio = peak_at(*m, points[0], 0) / points[0].force_scale;
     for (const BranchPoint &p : points) {
         out.frequency_error = std::max(out.frequency_error, std::abs(p.omega / w - 1));
         out.amplitude_error =
-            std::max(out.amplitude_error, std::abs(peak_of(*m, p, 0) / p.force_scale / ratio - 1));
+            std::max(out.amplitude_error, std::abs(peak_at(*m, p, 0) / p.force_scale / ratio - 1));
     }
     return out;
 }
@@ -249,7 +243,7 @@ Orbits orbits_on_isola() {
         const exact::Orbit orbit = exact::periodic_orbit(driven, p.omega, state, 0, 400);
         ++out.checked;
         out.unconverged += !orbit.converged;
-        out.worst = std::max(out.worst, std::abs(peak_of(*m, p, 0) / orbit.peak(0) - 1));
+        out.worst = std::max(out.worst, std::abs(peak_at(*m, p, 0) / orbit.peak(0) - 1));
     }
     return out;
 }

@@ -206,7 +206,7 @@ Loops compare_loops() {
     const plm::ReducedModel &full = *all.plate.full;
     l.full_size = full.size();
     plm::HbmOptions o = options();
-    o.unknowns = plm::UnknownSpace::gaps; // 14 pairs against hundreds of coordinates
+    o.unknowns = plm::NonlinearUnknowns::gaps; // 14 pairs against hundreds of coordinates
     const std::size_t middle = loop.points().size() / 3;
     plm::HbmOptions here = o;
     const plm::BranchPoint guess = in_basis(full, *all.plate.reduced, loop.points()[middle]);

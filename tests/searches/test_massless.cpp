@@ -2,6 +2,7 @@
 // and in exact motion, and a mass that goes to zero must lead there.
 #include "orbits/shooting.hpp"
 #include "reduction/basis.hpp"
+#include "reduction/basis_kind.hpp"
 #include "sampling/small_models.hpp"
 #include "searches/exact_motion.hpp"
 #include "searches/hbm.hpp"
@@ -12,6 +13,7 @@
 #include <complex>
 
 using plm::BasisKind;
+namespace basis_kinds = plm::basis_kinds;
 using plm::HbmOptions;
 
 namespace {
@@ -71,7 +73,7 @@ test::ModelExtras mass_damping() {
     return e;
 }
 
-BasisPtr make_basis(const exact::Structure &s, const test::ModelExtras &extras, BasisKind kind) {
+BasisPtr make_basis(const exact::Structure &s, const test::ModelExtras &extras, const BasisKind *kind) {
     const auto model = test::make_model(s, extras);
     const auto sampler = std::make_shared<plm::Sampler>(model, plm::SamplerOptions(), plm::Watch());
     plm::BasisOptions o;
@@ -98,9 +100,9 @@ double distance(const Peak &got, const Peak &want) {
     return std::max(std::abs(got.hz / want.hz - 1), std::abs(got.amplitude / want.amplitude - 1));
 }
 
-const BasisKind kinds[] = {BasisKind::full,          BasisKind::plm,          BasisKind::craig_bampton,
-                           BasisKind::snapshots,     BasisKind::bilinear,     BasisKind::lelsm,
-                           BasisKind::lelsm_updated, BasisKind::discontinuity};
+const BasisKind *const kinds[] = {
+    &basis_kinds::full,     &basis_kinds::plm,   &basis_kinds::craig_bampton, &basis_kinds::snapshots,
+    &basis_kinds::bilinear, &basis_kinds::lelsm, &basis_kinds::lelsm_updated, &basis_kinds::discontinuity};
 
 // --- harmonic balance
 
@@ -110,22 +112,22 @@ double amplitude_at(const plm::Basis &basis, const HbmOptions &o, double hz) {
 }
 double worst_against_condensation(HbmOptions o) {
     o.n_harmonics = 127; // see below
-    const BasisPtr reference = make_basis(condensed(), mass_damping(), BasisKind::full);
+    const BasisPtr reference = make_basis(condensed(), mass_damping(), &basis_kinds::full);
     double worst = 0;
-    for (BasisKind kind : kinds) {
+    for (const BasisKind *kind : kinds) {
         const BasisPtr basis = make_basis(chain_with_tip(0), mass_damping(), kind);
         for (double hz : {10.5, 11.5, 12.5}) {
             const double d = std::abs(amplitude_at(*basis, o, hz) / amplitude_at(*reference, o, hz) - 1);
-            if (!(d < 1e-6)) std::printf("    basis of kind %d, %g Hz: %g\n", static_cast<int>(kind), hz, d);
+            if (!(d < 1e-6)) std::printf("    basis of kind %s, %g Hz: %g\n", kind->name, hz, d);
             worst = std::max(worst, d);
         }
     }
     return worst;
 }
 double worst_between_bases(const HbmOptions &o) {
-    const Peak want = peak_of(*make_basis(chain_with_tip(0), mass_damping(), BasisKind::full), o);
+    const Peak want = peak_of(*make_basis(chain_with_tip(0), mass_damping(), &basis_kinds::full), o);
     double worst = 0;
-    for (BasisKind kind : kinds)
+    for (const BasisKind *kind : kinds)
         worst =
             std::max(worst, distance(peak_of(*make_basis(chain_with_tip(0), mass_damping(), kind), o), want));
     return worst;
@@ -141,7 +143,7 @@ void every_basis_answers_as_the_structure_condensed_by_hand(void **) {
 }
 void gaps_and_both_formulations_do_so(void **) {
     HbmOptions o = options(7);
-    o.unknowns = plm::UnknownSpace::gaps;
+    o.unknowns = plm::NonlinearUnknowns::gaps;
     for (plm::FormulationKind formulation :
          {plm::FormulationKind::penalty, plm::FormulationKind::compliance}) {
         o.formulation = formulation;
@@ -173,15 +175,14 @@ exact::Structure with_dashpots(double tip_mass) {
 }
 
 // A damping ratio of a mode is a dashpot of 2 D sqrt(k m): it goes with the root of the mass.
-double worst_step_to_zero(BasisKind kind, const Case &c) {
+double worst_step_to_zero(const BasisKind *kind, const Case &c) {
     const Peak want = peak_of(*make_basis(with_dashpots(0), c.extras, kind), options(5));
     double worst = 0;
     for (double mass : {1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-15}) {
         const BasisPtr basis = make_basis(with_dashpots(mass), c.extras, kind);
         const double d = distance(peak_of(*basis, options(5)), want);
         const double bound = c.extras.modal_ratio.empty() ? 10 * mass + 1e-6 : std::sqrt(mass) + 1e-6;
-        if (!(d < bound))
-            std::printf("    %s, kind %d, mass %g: %g\n", c.name, static_cast<int>(kind), mass, d);
+        if (!(d < bound)) std::printf("    %s, kind %s, mass %g: %g\n", c.name, kind->name, mass, d);
         worst = std::max(worst, d / bound);
         for (double l : basis->reduced()->lambda) // no mode a thousand times above all that matters
             if (!(l < 1e13)) worst = 1e300;
@@ -191,15 +192,15 @@ double worst_step_to_zero(BasisKind kind, const Case &c) {
 // The change of a peak is proportional to the mass; 1e-6: as above, and what follows statically has no
 // inertia at the highest harmonic.
 void a_vanishing_mass_leads_to_none_with_every_damping(void **) {
-    for (const Case &c : damping_cases()) assert_true(below(worst_step_to_zero(BasisKind::plm, c), 1));
+    for (const Case &c : damping_cases()) assert_true(below(worst_step_to_zero(&basis_kinds::plm, c), 1));
 }
 void a_vanishing_mass_leads_to_none_in_every_basis(void **) {
-    for (BasisKind kind : kinds) assert_true(below(worst_step_to_zero(kind, damping_cases()[1]), 1));
+    for (const BasisKind *kind : kinds) assert_true(below(worst_step_to_zero(kind, damping_cases()[1]), 1));
 }
 
 double nonlinear_mode_error() {
     const auto frequencies = [](const exact::Structure &s) {
-        const BasisPtr basis = make_basis(s, {}, BasisKind::full);
+        const BasisPtr basis = make_basis(s, {}, &basis_kinds::full);
         const plm::Hbm hbm(basis->reduced(), basis->window_min_hz(), basis->window_max_hz(), options(63),
                            plm::Watch());
         const auto branch = hbm.find_nonlinear_mode(1, -1, 0);
@@ -245,7 +246,7 @@ double multiplier_by_events(const plm::FlowModel &model, const plm::BranchPoint 
 }
 
 Exact exact_motion(const exact::Structure &s, const test::ModelExtras &extras, int n_dofs) {
-    const BasisPtr basis = make_basis(s, extras, BasisKind::full);
+    const BasisPtr basis = make_basis(s, extras, &basis_kinds::full);
     const auto model = std::make_shared<const plm::FlowModel>(basis->reduced(), omega);
     plm::ExactFlow flow(model, omega, 1.0);
     const plm::PeriodicOrbit orbit = orbit_of(*basis->reduced(), *model, flow);

@@ -18,7 +18,7 @@ struct Solved {
     plm::Peak peak;
 };
 
-Solved solve(const test::Host &host, plm::BasisKind kind, std::int64_t n, PairRule rule) {
+Solved solve(const test::Host &host, const plm::BasisKind *kind, std::int64_t n, PairRule rule) {
     plm::BasisOptions o;
     o.kind = kind;
     o.n_pairs_carried = n;
@@ -37,11 +37,11 @@ constexpr std::int64_t n_pairs = 15; // of the quick plate
 // 15 pairs give it within 0.5 %.
 void the_error_falls_with_the_pairs_carried(void **) {
     const test::Host host("cracked_plate", true, 4);
-    const Solved all = solve(host, plm::BasisKind::plm, 0, PairRule::mdof);
+    const Solved all = solve(host, &plm::basis_kinds::plm, 0, PairRule::mdof);
     for (PairRule rule : {PairRule::effective_independence, PairRule::mdof}) {
         double before = 1;
         for (std::int64_t n : {1, 3, 6, 12}) {
-            const Solved some = solve(host, plm::BasisKind::plm, n, rule);
+            const Solved some = solve(host, &plm::basis_kinds::plm, n, rule);
             const double error = difference(some.peak.frequency_hz, all.peak.frequency_hz);
             std::printf("    %d pairs: %.1e in frequency, %.1e in amplitude\n", static_cast<int>(n), error,
                         difference(some.peak.amplitude, all.peak.amplitude));
@@ -55,8 +55,8 @@ void the_error_falls_with_the_pairs_carried(void **) {
 
 void all_pairs_give_exactly_the_same(void **) {
     const test::Host host("cracked_plate", true, 4);
-    const Solved all = solve(host, plm::BasisKind::snapshots, 0, PairRule::mdof),
-                 named = solve(host, plm::BasisKind::snapshots, n_pairs, PairRule::mdof);
+    const Solved all = solve(host, &plm::basis_kinds::snapshots, 0, PairRule::mdof),
+                 named = solve(host, &plm::basis_kinds::snapshots, n_pairs, PairRule::mdof);
     assert_true(all.peak.frequency_hz == named.peak.frequency_hz);
     assert_true(all.peak.amplitude == named.peak.amplitude);
 }
@@ -65,8 +65,8 @@ void all_pairs_give_exactly_the_same(void **) {
 // basis of symmetric modes, and one of both is enough. Two thirds of the pairs carry the whole contact.
 void mirrored_pairs_need_not_be_carried(void **) {
     const test::Host host("cracked_plate", true, 4);
-    const Solved all = solve(host, plm::BasisKind::snapshots, 0, PairRule::effective_independence),
-                 some = solve(host, plm::BasisKind::snapshots, 10, PairRule::effective_independence);
+    const Solved all = solve(host, &plm::basis_kinds::snapshots, 0, PairRule::effective_independence),
+                 some = solve(host, &plm::basis_kinds::snapshots, 10, PairRule::effective_independence);
     // lumping is exact then, up to the accuracy of the located peak
     assert_true(below(difference(some.peak.frequency_hz, all.peak.frequency_hz), 1e-7));
     assert_true(below(difference(some.peak.amplitude, all.peak.amplitude), 1e-5));
@@ -93,7 +93,7 @@ double penetration_defect(const test::Host &host, const plm::Branch &branch, dou
 
 void contact_is_reported_for_every_pair(void **) {
     const test::Host host("cracked_plate", true, 4);
-    const Solved some = solve(host, plm::BasisKind::plm, 4, PairRule::effective_independence);
+    const Solved some = solve(host, &plm::basis_kinds::plm, 4, PairRule::effective_independence);
     const plm::Branch &top = *some.peak.branch;
     for (double fraction : {0.0, 0.2, 0.7})
         assert_true(below(penetration_defect(host, top, fraction), 1e-10));
@@ -122,8 +122,8 @@ void contact_is_reported_for_every_pair(void **) {
 // pairs is.
 void motion_in_time_carries_the_same_pairs(void **) {
     const test::Host host("cracked_plate", true, 4);
-    const Solved all = solve(host, plm::BasisKind::snapshots, 0, PairRule::mdof),
-                 some = solve(host, plm::BasisKind::snapshots, 6, PairRule::mdof);
+    const Solved all = solve(host, &plm::basis_kinds::snapshots, 0, PairRule::mdof),
+                 some = solve(host, &plm::basis_kinds::snapshots, 6, PairRule::mdof);
     const double defect = plm::periodicity_defect(*all.peak.branch, 0);
     assert_true(defect > 0); // five harmonics
     assert_true(below(plm::periodicity_defect(*some.peak.branch, 0), 3 * defect));
@@ -132,9 +132,9 @@ void motion_in_time_carries_the_same_pairs(void **) {
 // The residual of all pairs' equations and the estimate of the error know what was left out.
 void the_error_of_sampling_is_estimated(void **) {
     const test::Host host("cracked_plate", true, 4);
-    const Solved all = solve(host, plm::BasisKind::plm, 0, PairRule::mdof);
-    const Solved some = solve(host, plm::BasisKind::plm, 12, PairRule::mdof),
-                 few = solve(host, plm::BasisKind::plm, 3, PairRule::mdof);
+    const Solved all = solve(host, &plm::basis_kinds::plm, 0, PairRule::mdof);
+    const Solved some = solve(host, &plm::basis_kinds::plm, 12, PairRule::mdof),
+                 few = solve(host, &plm::basis_kinds::plm, 3, PairRule::mdof);
     assert_true(all.peak.branch->full_residual(0) < some.peak.branch->full_residual(0));
     assert_true(some.peak.branch->full_residual(0) < few.peak.branch->full_residual(0));
 

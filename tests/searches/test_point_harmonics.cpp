@@ -32,7 +32,7 @@ plm::BranchPoint solved(const Model &m, const plm::HbmOptions &o) {
 // The number of the options was taken for that of the point: read beyond the contact forces of five
 // harmonics.
 void the_error_of_a_point_does_not_depend_on_the_options(void **) {
-    for (auto unknowns : {plm::UnknownSpace::modal, plm::UnknownSpace::gaps}) {
+    for (auto unknowns : {plm::NonlinearUnknowns::modal, plm::NonlinearUnknowns::gaps}) {
         const Model m = striking();
         plm::HbmOptions own = options(5), other = options(9), fewer = options(2);
         own.unknowns = other.unknowns = fewer.unknowns = unknowns;
@@ -57,7 +57,7 @@ struct FoundPeak {
 };
 FoundPeak peak_of_a_coarse_curve() {
     plm::BasisOptions basis;
-    basis.kind = plm::BasisKind::full;
+    basis.kind = &plm::basis_kinds::full;
     basis.frequency_min_hz = options(0).frequency_min_hz,
     basis.frequency_max_hz = options(0).frequency_max_hz;
     test::ModelExtras damped;
@@ -117,7 +117,7 @@ void the_driven_harmonic_must_be_among_those_solved(void **) {
 void a_longer_period_keeps_the_contact_motion(void **) {
     const Model m = striking();
     plm::HbmOptions o = options(5);
-    o.unknowns = plm::UnknownSpace::gaps;
+    o.unknowns = plm::NonlinearUnknowns::gaps;
     o.formulation = plm::FormulationKind::compliance;
     const Model stiff = test::reduce_exactly(test::bilinear_oscillator(0.02, 1e4, 0.5, 1, 0));
     const plm::BranchPoint point =

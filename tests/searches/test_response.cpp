@@ -1,33 +1,27 @@
 // Response curves against independent truths: closed forms and exact periodic orbits of the piecewise-linear
 // flow.
 #include "contact/trig_polynomial.hpp"
-#include "searches/hbm.hpp"
-#include "support/small_reduced.hpp"
+#include "support/small_solver.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 #include <cmath>
 
 using plm::HbmOptions;
+using test::peak_at;
 
 namespace {
 
 // Amplitude of one DOF straight from reduced coordinates: these models have no FE model behind them.
-double peak_of(const plm::ReducedModel &m, const plm::BranchPoint &p, int dof) {
-    const auto q = test::displacement(m, p.eta_0, p.eta, dof);
-    const plm::TrigRange range = plm::trig_range(q.data(), p.eta.cols() / 2);
-    return std::max(std::abs(range.maximum), std::abs(range.minimum));
-}
-
 plm::Hbm solver(std::shared_ptr<const plm::ReducedModel> m, HbmOptions o, double low, double high) {
     o.tolerance = 1e-11;
-    return plm::Hbm(std::move(m), low / (2 * M_PI), high / (2 * M_PI), o, plm::Watch());
+    return test::solver(std::move(m), o, low, high);
 }
 
 double amplitude_at(std::shared_ptr<const plm::ReducedModel> m, double omega, int harmonics, int dof) {
     HbmOptions o;
     o.n_harmonics = harmonics;
     const auto branch = solver(m, o, 0.5 * omega, 2 * omega).solve(omega / (2 * M_PI), nullptr, 0);
-    return peak_of(*m, branch->points()[0], dof);
+    return peak_at(*m, branch->points()[0], dof);
 }
 
 // Zero gap, stiffness 1 open and 1 + 3 closed: free frequency 2 w1 w2 / (w1 + w2) = 4/3 exactly (paper, eq.
@@ -41,11 +35,11 @@ double resonance_of_bilinear_oscillator(int harmonics) {
     double best = 0,
            at = 0; // parabola through the three highest points would do; a fine sweep around them does better
     for (const auto &p : branch->points())
-        if (peak_of(*m, p, 0) > best) best = peak_of(*m, p, 0), at = p.omega;
+        if (peak_at(*m, p, 0) > best) best = peak_at(*m, p, 0), at = p.omega;
     o.max_step = 0.01;
     const auto fine = solver(m, o, at * (1 - 1e-4), at * (1 + 1e-4)).sweep();
     std::vector<double> w, a;
-    for (const auto &p : fine->points()) w.push_back(p.omega), a.push_back(peak_of(*m, p, 0));
+    for (const auto &p : fine->points()) w.push_back(p.omega), a.push_back(peak_at(*m, p, 0));
     const std::size_t top = static_cast<std::size_t>(std::max_element(a.begin(), a.end()) - a.begin());
     if (top == 0 || top + 1 >= a.size()) return 0;
     const double l = (a[top] - a[top - 1]) / (w[top] - w[top - 1]),
@@ -117,7 +111,7 @@ double error_at(const exact::Structure &s, double omega, int harmonics, int dof,
     const auto branch = solver(m, o, 0.5 * omega, 2 * omega).solve(omega / (2 * M_PI), nullptr, 0);
     const plm::BranchPoint &p = branch->points()[0];
     const exact::Orbit orbit = exact::periodic_orbit(s, omega, state_at_zero(*m, p), 0, samples);
-    return orbit.converged ? std::abs(peak_of(*m, p, dof) / orbit.peak(dof) - 1) : 1e300;
+    return orbit.converged ? std::abs(peak_at(*m, p, dof) / orbit.peak(dof) - 1) : 1e300;
 }
 
 // A chain with three contacts at five frequencies.
@@ -149,7 +143,7 @@ SweepFacts sweep(std::shared_ptr<const plm::ReducedModel> m, HbmOptions o, doubl
     double last = 0;
     for (std::size_t i = 0; i < f.points; ++i) {
         const auto &p = branch->points()[i];
-        const double a = peak_of(*m, p, dof);
+        const double a = peak_at(*m, p, dof);
         if (a > f.highest) f.highest = a, f.at = p.omega;
         if (i > 0) {
             const double step = p.omega - branch->points()[i - 1].omega;

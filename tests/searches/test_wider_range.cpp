@@ -22,7 +22,7 @@ Case unreduced(const exact::Structure &s, double max_hz) {
     Case c;
     c.model = test::make_model(s, {{0.01}});
     plm::BasisOptions o;
-    o.kind = plm::BasisKind::full;
+    o.kind = &plm::basis_kinds::full;
     o.frequency_min_hz = 0.5 * max_hz;
     o.frequency_max_hz = max_hz;
     c.basis = std::make_shared<plm::Basis>(c.model, nullptr, nullptr, o, plm::Watch());
@@ -172,7 +172,7 @@ Struck struck_chain(bool all) {
     const auto sampler = std::make_shared<plm::Sampler>(model, plm::SamplerOptions(), plm::Watch());
     plm::BasisOptions o;
     o.n_harmonics = 2;
-    if (all) o.kind = plm::BasisKind::full;
+    if (all) o.kind = &plm::basis_kinds::full;
     const plm::Basis basis(model, sampler, nullptr, o, plm::Watch());
     const plm::Hbm hbm(basis.reduced(), basis.sweep_range(), plm::HbmOptions(), plm::Watch());
     const auto curve = hbm.sweep();

@@ -1,0 +1,14 @@
+// Harmonic balance on small reduced models (small_reduced.hpp), as its tests use it.
+#pragma once
+#include "searches/hbm.hpp"
+#include "support/small_reduced.hpp"
+
+namespace test {
+
+/// Frequencies of the excitation from `low` to `high` (rad/s).
+plm::Hbm solver(std::shared_ptr<const plm::ReducedModel> m, const plm::HbmOptions &o, double low,
+                double high);
+/// Largest displacement of a DOF over the period of a point.
+double peak_at(const plm::ReducedModel &m, const plm::BranchPoint &p, int dof);
+
+} // namespace test
