@@ -99,9 +99,7 @@ void Newmark::factor_step() {
 FullState rest_state(const std::shared_ptr<const Model> &model, Watch watch) {
     const std::int64_t n = model->n_free();
     FullState state{vector<double>(n, 0.0), vector<double>(n, 0.0), 0};
-    const bool interference =
-        std::any_of(model->initial_gap().begin(), model->initial_gap().end(), [](double g) { return g < 0; });
-    if (model->has_preload() || interference)
+    if (model->has_preload() || model->contact().has_interference())
         state.q = solve_rest(*make_contact_space(model, 0.0, 1, watch)).displacement;
     return state;
 }
@@ -132,8 +130,7 @@ void Newmark::start(const FullState &state) {
     contact_force_.assign(z, 0.0);
     multiply(model_->gap_matrix(), state_.q.data(), u_free_.data());
     for (std::int64_t i = 0; i < z; ++i)
-        contact_force_[i] =
-            ContactLaw::force(model_->contact_stiffness()[i], u_free_[i] - model_->initial_gap()[i]);
+        contact_force_[i] = model_->contact().force(i, u_free_[i] - model_->initial_gap()[i]);
     excitation(state_.time, rest_force_);
     multiply(model_->stiffness(), state_.q.data(), work_.data());
     for (std::int64_t i = 0; i < n; ++i) rest_force_[i] -= work_[i];

@@ -12,9 +12,9 @@
 namespace plm {
 namespace {
 
-vector<char> reference_contact(const Space &space) {
+PairStates reference_contact(const Space &space) {
     if (is_homogeneous(*space.model)) return contact_set(LinearSystem::sliding, space.n_pairs());
-    return solve_rest(space).closed;
+    return solve_rest(space).states;
 }
 
 // B K_ref^-1 B^T without rigid-body motion, negated: the softest patterns first.

@@ -75,8 +75,7 @@ class Marching {
         const ReducedModel &m = *reduced_;
         const vector<double> share = share_at_rest(m);
         if (std::find(share.begin(), share.end(), 1.0) == share.end()) return;
-        rest_ =
-            solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap}).coordinates;
+        rest_ = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact}).coordinates;
     }
 
     void try_start(double omega, double scale) {

@@ -245,7 +245,7 @@ class ModePath final : public PathOwner {
         const ReducedModel &m = *m_;
         double first = 0;
         for (std::int64_t i = 0; i < m.n_pairs(); ++i) {
-            double rest = -m.initial_gap[i], swing = 0;
+            double rest = -m.contact.initial_gap[i], swing = 0;
             for (std::int64_t j = 0; j < m.static_size(); ++j) rest += m.gap_0(i, j) * x[j];
             for (std::int64_t j = 0; j < m.size(); ++j) swing += m.gap(i, j) * shape_[j];
             if (swing != 0 && share_[i] != 0.5 && (first == 0 || std::abs(rest / swing) < first))

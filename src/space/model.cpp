@@ -140,13 +140,12 @@ void Model::assemble_matrices(const ModelInput &input) {
 }
 
 void Model::assemble_gap(const ModelInput &input) {
-    const std::int64_t z = static_cast<std::int64_t>(input.contact_stiffness.size());
+    const std::int64_t z = input.contact.n_pairs();
     vector<std::int64_t> all_pairs(z);
     for (std::int64_t i = 0; i < z; ++i) all_pairs[i] = i;
     gap_matrix_ = submatrix(from_triplets(z, n_dof_, input.gap_pair, input.gap_dof, input.gap_coefficient),
                             all_pairs, z, free_of_, n_free());
-    contact_stiffness_ = input.contact_stiffness;
-    initial_gap_ = input.initial_gap;
+    contact_ = input.contact;
     vector<double> weight(z, 0.0);
     for (std::int64_t p = 0; p < gap_matrix_.nnz(); ++p)
         weight[gap_matrix_.idx[p]] += std::abs(gap_matrix_.val[p]);
@@ -189,7 +188,7 @@ void Model::assemble_loads(const ModelInput &input) {
 void Model::factor_stiffness(Watch watch) {
     watch.step("factorization", 0.1);
     FactoredStiffness result = factor_with_rigid_modes(
-        stiffness_, mass_, largest_stiffness(contact_stiffness_), free_dof_, host_, watch);
+        stiffness_, mass_, largest_stiffness(contact_.stiffness), free_dof_, host_, watch);
     factor_ = std::move(result.factor);
     shift_ = result.shift;
     rigid_modes_ = std::move(result.rigid_modes);
@@ -217,7 +216,7 @@ void Model::resolve_contact_stiffness() {
         local_stiffness_ = 2 / (flexibility[(n - 1) / 2] + flexibility[n / 2]);
     }
     for (std::int64_t i = 0; i < z; ++i) {
-        if (contact_stiffness_[i] != PLM_AUTO_STIFFNESS) continue;
+        if (contact_.stiffness[i] != PLM_AUTO_STIFFNESS) continue;
         if (!(local_stiffness_ > 0))
             throw Error(PLM_ERR_ARGUMENT,
                         format("PLM_AUTO_STIFFNESS of pair %lld: the bodies are rigid at the "
@@ -225,7 +224,7 @@ void Model::resolve_contact_stiffness() {
                                Int(i)))
                 .argument("stiffness")
                 .index(i);
-        contact_stiffness_[i] = 10 * local_stiffness_;
+        contact_.stiffness[i] = 10 * local_stiffness_;
     }
 }
 

@@ -1,7 +1,7 @@
 // The structure: M q'' + C q' + K q = F(t) - B^T N(B q - g), on its free DOFs, checked once and then
 // read-only.
 #pragma once
-#include "contact/contact_law.hpp"
+#include "contact/contact.hpp"
 #include "linalg/monitor.hpp"
 #include "structure/solver/factor.hpp"
 #include "structure/translations.hpp"
@@ -35,9 +35,8 @@ struct ModelInput {
     // gap matrix by rows: B = [pair; dof; coefficient] triplets, one stiffness and gap per pair
     vector<std::int64_t> gap_pair, gap_dof;
     vector<double> gap_coefficient;
-    vector<double> contact_stiffness; // PLM_AUTO_STIFFNESS: chosen when the flexibility is known
-    vector<double> initial_gap;
-    vector<double> preload;                 // empty: none
+    Contact contact;        // stiffness PLM_AUTO_STIFFNESS: chosen when the flexibility is known
+    vector<double> preload; // empty: none
     std::map<int, HarmonicLoad> excitation; // by harmonic
 };
 
@@ -72,9 +71,10 @@ class Model {
         return damping_matrix_;
     } // explicit part only; 0 x 0 if none
     const Damping &damping() const { return damping_; }
-    const SparseMatrix &gap_matrix() const { return gap_matrix_; }                 // Z x n_free
-    const vector<double> &contact_stiffness() const { return contact_stiffness_; } // k_n, resolved
-    const vector<double> &initial_gap() const { return initial_gap_; }
+    const SparseMatrix &gap_matrix() const { return gap_matrix_; } // Z x n_free
+    const Contact &contact() const { return contact_; }
+    const vector<double> &contact_stiffness() const { return contact_.stiffness; } // k_n, resolved
+    const vector<double> &initial_gap() const { return contact_.initial_gap; }
     /// 1 / median of the contact flexibility diag(B K^-1 B^T), rigid-body motion left out; 0 without pairs.
     double local_stiffness() const { return local_stiffness_; }
     bool has_preload() const { return !preload_.empty(); }
@@ -115,7 +115,8 @@ class Model {
     vector<std::int64_t> free_dof_, free_of_;
     SparseMatrix mass_, stiffness_, damping_matrix_, gap_matrix_;
     Damping damping_;
-    vector<double> contact_stiffness_, initial_gap_, preload_;
+    Contact contact_;
+    vector<double> preload_;
     std::map<int, HarmonicLoad> excitation_;
     vector<Translation> translations_;
     double excitation_on_supports_ = 0;
