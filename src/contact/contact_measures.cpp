@@ -26,6 +26,17 @@ double factor_to_switching(const Matrix &u) {
     return least;
 }
 
+double amplitude_of_first_switch(const vector<double> &rest, const vector<double> &swing,
+                                 const vector<double> &closed_shares) {
+    double first = 0;
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+        if (swing[i] == 0 || closed_shares[i] == 0.5) continue;
+        const double amplitude = std::abs(rest[i] / swing[i]);
+        if (first == 0 || amplitude < first) first = amplitude;
+    }
+    return first;
+}
+
 double mean_energy(const Matrix &force, const Matrix &u) {
     double energy = 0;
     for (std::int64_t c = 0; c < u.cols(); ++c)

@@ -1,4 +1,5 @@
 #include "searches/nonlinear_mode.hpp"
+#include "contact/contact_measures.hpp"
 #include "hbm/branch_path.hpp"
 #include "hbm/harmonic_tail.hpp"
 #include "hbm/make_system.hpp"
@@ -243,15 +244,12 @@ class ModePath final : public PathOwner {
         vector<double> x(inner_->size());
         inner_->linear_response(share_, omega_, x.data());
         const ReducedModel &m = *m_;
-        double first = 0;
+        vector<double> rest = m.contact.unloaded_penetration(), swing(m.n_pairs(), 0.0);
         for (std::int64_t i = 0; i < m.n_pairs(); ++i) {
-            double rest = -m.contact.initial_gap[i], swing = 0;
-            for (std::int64_t j = 0; j < m.static_size(); ++j) rest += m.gap_0(i, j) * x[j];
-            for (std::int64_t j = 0; j < m.size(); ++j) swing += m.gap(i, j) * shape_[j];
-            if (swing != 0 && share_[i] != 0.5 && (first == 0 || std::abs(rest / swing) < first))
-                first = std::abs(rest / swing);
+            for (std::int64_t j = 0; j < m.static_size(); ++j) rest[i] += m.gap_0(i, j) * x[j];
+            for (std::int64_t j = 0; j < m.size(); ++j) swing[i] += m.gap(i, j) * shape_[j];
         }
-        return first;
+        return amplitude_of_first_switch(rest, swing, share_);
     }
 
     void find_amplitudes() {

@@ -91,6 +91,12 @@ void how_far_the_next_pair_is_from_switching(void **) {
     assert_true(std::isinf(plm::factor_to_switching(Matrix(1, 3))));
 }
 
+// Amplitudes 3 / 1 and 1 / 2; the pair at zero changes at once, the last one never.
+void the_amplitude_at_which_the_first_pair_switches(void **) {
+    assert_true(plm::amplitude_of_first_switch({-3, 1, 0, 1}, {1, -2, 1, 0}, {0, 1, 0.5, 1}) == 0.5);
+    assert_true(plm::amplitude_of_first_switch({0, 1}, {1, 0}, {0.5, 1}) == 0);
+}
+
 void energy_of_springs_in_the_mean(void **) { // k <u^2> / 2 = k (1 + 2) / 2 and k (9 + 1/2) / 2
     const Matrix u = two_motions();
     Matrix force = u;
@@ -151,6 +157,7 @@ int main() {
         cmocka_unit_test(both_forms_of_the_law_give_one_force),
         cmocka_unit_test(shares_of_the_period),
         cmocka_unit_test(how_far_the_next_pair_is_from_switching),
+        cmocka_unit_test(the_amplitude_at_which_the_first_pair_switches),
         cmocka_unit_test(energy_of_springs_in_the_mean),
         cmocka_unit_test(a_piece_of_the_flow_has_springs_in_series),
         cmocka_unit_test(the_first_event_of_a_piece),
