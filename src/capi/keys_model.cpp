@@ -17,18 +17,8 @@ vector<double> rest_displacement(const H &h) {
     return h.core->expanded(rest(h).displacement);
 }
 
-vector<std::int64_t> as_ints(const vector<char> &flags) {
-    return vector<std::int64_t>(flags.begin(), flags.end());
-}
-
 const Warnings &built_warnings(const H &h) {
     return built(h), h.warnings;
-}
-
-std::int64_t n_closed(const RestState &r) {
-    std::int64_t n = 0;
-    for (char c : r.closed) n += c != 0;
-    return n;
 }
 
 } // namespace
@@ -53,10 +43,7 @@ const std::vector<Key> &model_keys() {
                   [](const H &h) { return h.core ? h.core->n_dof() : h.input.n_dof; }),
         result<H>("n_free", "DOFs that are not fixed", [](const H &h) { return built(h)->n_free(); }),
         result<H>("n_pairs", "contact pairs",
-                  [](const H &h) {
-                      return h.core ? h.core->n_pairs()
-                                    : static_cast<std::int64_t>(h.input.contact_stiffness.size());
-                  }),
+                  [](const H &h) { return h.core ? h.core->n_pairs() : h.input.contact.n_pairs(); }),
         warning_text<H>([](const H &h) -> const Warnings & { return built_warnings(h); }),
         warning_reasons<H>([](const H &h) -> const Warnings & { return built_warnings(h); }),
         result<H>("n_rigid_modes", "rigid-body modes of the open structure",
@@ -77,8 +64,9 @@ const std::vector<Key> &model_keys() {
         result<H>("rest_force", "normal force of every pair at rest (force)",
                   [](const H &h) { return rest(h).force; }),
         result<H>("rest_closed", "1 for every pair closed at rest, else 0",
-                  [](const H &h) { return as_ints(rest(h).closed); }),
-        result<H>("rest_n_closed", "pairs closed at rest", [](const H &h) { return n_closed(rest(h)); }),
+                  [](const H &h) { return rest(h).states.flags(); }),
+        result<H>("rest_n_closed", "pairs closed at rest",
+                  [](const H &h) { return rest(h).states.n_closed(); }),
         result<H>("rest_iterations", "Newton iterations of the static equilibrium",
                   [](const H &h) { return rest(h).iterations; }),
     };

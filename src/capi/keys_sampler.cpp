@@ -36,7 +36,10 @@ template <class Out, class List, class Get> Out joined(const List &list, Get get
 Ints sweep_samples(const H &h) {
     Ints out;
     for (const ContactSweep &sweep : core(h).sweeps())
-        for (const vector<char> &closed : sweep.samples) out.insert(out.end(), closed.begin(), closed.end());
+        for (const PairStates &states : sweep.samples) {
+            const Ints flags = states.flags();
+            out.insert(out.end(), flags.begin(), flags.end());
+        }
     return out;
 }
 
@@ -168,8 +171,7 @@ void add_selection_results(std::vector<Key> &keys) {
                       [](const H &h) { return static_cast<std::int64_t>(core(h).samples().size()); }),
             result<H>("selected_samples", "closed (1) or open (0), n_pairs x n_selected",
                       [](const H &h) {
-                          return joined<Ints>(
-                              core(h).samples(), [](auto &s) -> auto & { return s.closed; });
+                          return joined<Ints>(core(h).samples(), [](auto &s) { return s.states.flags(); });
                       }),
             result<H>(
                 "selected_dominant", "which dominant mode's sweep each sample comes from, from 0",
@@ -183,9 +185,10 @@ void add_selection_results(std::vector<Key> &keys) {
                           return each<Ints>(core(h).samples(),
                                             [](auto &s) { return static_cast<std::int64_t>(s.complement); });
                       }),
-            result<H>(
-                "selected_n_closed", "closed pairs of each sample",
-                [](const H &h) { return each<Ints>(core(h).samples(), [](auto &s) { return s.n_closed; }); }),
+            result<H>("selected_n_closed", "closed pairs of each sample",
+                      [](const H &h) {
+                          return each<Ints>(core(h).samples(), [](auto &s) { return s.states.n_closed(); });
+                      }),
         });
 }
 

@@ -51,20 +51,18 @@ vector<double> copied_load(const char *name, std::int64_t n, const double *force
     return vector<double>(force, force + n);
 }
 
-vector<char> contact_set(ModelHandle &m, std::int32_t system, const std::int32_t *closed) {
-    const std::size_t z = static_cast<std::size_t>(m.core->n_pairs());
+PairStates contact_set(ModelHandle &m, std::int32_t system, const std::int32_t *closed) {
+    const std::int64_t z = m.core->n_pairs();
     switch (system) {
     case PLM_SYSTEM_OPEN:
-        return vector<char>(z, 0);
+        return PairStates::all_open(z);
     case PLM_SYSTEM_SLIDING:
-        return vector<char>(z, 1);
+        return PairStates::all_closed(z);
     case PLM_SYSTEM_REST:
-        return solved_rest(m).closed;
+        return solved_rest(m).states;
     default:
         if (z > 0) require_pointer(closed, "closed");
-        vector<char> set(z);
-        for (std::size_t i = 0; i < z; ++i) set[i] = closed[i] != 0;
-        return set;
+        return PairStates::from_flags(closed, z);
     }
 }
 

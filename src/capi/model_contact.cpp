@@ -26,18 +26,18 @@ template <class T> void append(vector<T> &to, const vector<T> &from) {
 
 // All or nothing: after the reservations nothing can fail.
 void add_to(ModelInput &input, NewPairs &pairs) {
-    const std::int64_t first = static_cast<std::int64_t>(input.contact_stiffness.size());
+    const std::int64_t first = input.contact.n_pairs();
     for (std::int64_t &p : pairs.pair) p += first;
     reserve_for(input.gap_pair, pairs.pair);
     reserve_for(input.gap_dof, pairs.dof);
     reserve_for(input.gap_coefficient, pairs.coefficient);
-    reserve_for(input.contact_stiffness, pairs.stiffness);
-    reserve_for(input.initial_gap, pairs.gap);
+    reserve_for(input.contact.stiffness, pairs.stiffness);
+    reserve_for(input.contact.initial_gap, pairs.gap);
     append(input.gap_pair, pairs.pair);
     append(input.gap_dof, pairs.dof);
     append(input.gap_coefficient, pairs.coefficient);
-    append(input.contact_stiffness, pairs.stiffness);
-    append(input.initial_gap, pairs.gap);
+    append(input.contact.stiffness, pairs.stiffness);
+    append(input.contact.initial_gap, pairs.gap);
 }
 
 void take_stiffness_and_gap(NewPairs &pairs, std::int64_t n, const double *stiffness, const double *gap) {

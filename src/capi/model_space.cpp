@@ -26,15 +26,15 @@ const Space &contact_space(ModelHandle &h, double highest_frequency, std::int64_
 
 // Two passes: the space that is exact in statics gives an upper bound of the n-th frequency, and the space
 // that is accurate up to there gives the modes to the model's space_tolerance.
-LowestModes lowest_modes(ModelHandle &h, const vector<char> &closed, std::int64_t n) {
+LowestModes lowest_modes(ModelHandle &h, const PairStates &states, std::int64_t n) {
     const double all = std::numeric_limits<double>::infinity();
     const Space &first = contact_space(h, 0, n + 8);
-    const bool open = std::none_of(closed.begin(), closed.end(), [](char c) { return c != 0; });
-    SpaceModes modes = modes_of_contact_set(first, closed, all);
+    const bool open = states.n_closed() == 0;
+    SpaceModes modes = modes_of_contact_set(first, states, all);
     if (count(modes) < n) too_few(count(modes));
     if (!open) {
         const double highest = std::sqrt(std::max(0.0, modes.values[static_cast<std::size_t>(n - 1)]));
-        modes = modes_of_contact_set(contact_space(h, highest, n + 8), closed, all);
+        modes = modes_of_contact_set(contact_space(h, highest, n + 8), states, all);
         if (count(modes) < n) too_few(count(modes));
     }
     return {h.space, std::move(modes)};

@@ -8,12 +8,11 @@ namespace plm::capi {
 /// (rad/s).
 const Space &contact_space(ModelHandle &h, double highest_frequency, std::int64_t least_modes);
 
-/// The n lowest modes of the system whose pairs with closed[i] != 0 are coupled, in the coordinates of
-/// `space`.
+/// The n lowest modes of the system in which every pair keeps its state, in the coordinates of `space`.
 struct LowestModes {
     std::shared_ptr<const Space> space;
     SpaceModes modes; // at least n
 };
-LowestModes lowest_modes(ModelHandle &h, const vector<char> &closed, std::int64_t n);
+LowestModes lowest_modes(ModelHandle &h, const PairStates &states, std::int64_t n);
 
 } // namespace plm::capi

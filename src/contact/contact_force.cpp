@@ -29,6 +29,13 @@ double indicator_entry(const double *s, std::int64_t row, std::int64_t column) {
     return cosine(s, m - n) - cosine(s, m + n);
 }
 
+double ContactIndicator::closed_share() const {
+    const std::int64_t z = averages.cols();
+    double share = 0;
+    for (std::int64_t i = 0; i < z; ++i) share += averages(0, i) / static_cast<double>(z);
+    return share;
+}
+
 void constant_indicator(const vector<double> &coupling, std::int64_t n_harmonics, ContactIndicator &out) {
     const std::int64_t z = static_cast<std::int64_t>(coupling.size());
     out.averages.reset(4 * n_harmonics + 1, z);

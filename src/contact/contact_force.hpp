@@ -4,12 +4,11 @@
 // sampled AFT.
 #pragma once
 #include "contact/contact_law.hpp"
+#include "contact/pair_states.hpp"
 #include "linalg/dft.hpp"
 #include <memory>
 
 namespace plm {
-
-enum class PairState : char { open, closed, switching };
 
 /// Averages over the period of s, s cos t, s sin t, ..., s cos 2Ht, s sin 2Ht: (4H + 1) x Z, and who
 /// switches.
@@ -17,6 +16,14 @@ struct ContactIndicator {
     Matrix averages;
     vector<PairState> state;
     std::int64_t n_switching = 0;
+
+    /// The pair presses at some time.
+    bool acts(std::int64_t pair) const { return state[pair] != PairState::open; }
+    /// Its tangent depends on time; where it does not: this share of its stiffness, 1 or 0.
+    bool varies(std::int64_t pair) const { return state[pair] == PairState::switching; }
+    double constant_share(std::int64_t pair) const { return state[pair] == PairState::closed ? 1 : 0; }
+    /// Mean over the period and the pairs of what is closed, 0 to 1; 0 without pairs.
+    double closed_share() const;
 };
 
 class ContactForce {
@@ -33,9 +40,9 @@ std::unique_ptr<ContactForce> make_event_force(std::int64_t n_harmonics, std::in
 std::unique_ptr<ContactForce> make_sampled_force(std::int64_t n_harmonics, std::int64_t time_samples,
                                                  std::int64_t n_pairs);
 
-/// When each pair opens and closes in a period: instants in radian, ascending, all zeros of its penetration.
+/// When each pair changes its state in a period: instants in radian, ascending, all zeros of its penetration.
 struct SwitchingInstants {
-    vector<char> closed_first; // state at t = 0
+    PairStates first; // at t = 0
     std::vector<vector<double>> instants;
 };
 /// u: Z x (2H + 1) coefficients.

@@ -1,7 +1,7 @@
 // The contact law (paper, eq. (3)): the one place that maps a pair's penetration to its normal force. It is
 // piecewise linear, N = k_n u where u > 0 and 0 elsewhere, so its derivative is k_n times the contact
 // indicator s = [u > 0]; the solvers integrate s exactly between its switching instants
-// (src/hbm/contact_force.hpp).
+// (contact_force.hpp).
 #pragma once
 
 namespace plm {

@@ -13,9 +13,9 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 } // namespace
 
 ContactStep::ContactStep(Matrix flexibility, const vector<double> &contact_stiffness)
-    : flexibility_(std::move(flexibility)), stiffness_(contact_stiffness), closed_(stiffness_.size()),
-      u_(stiffness_.size()), direction_(stiffness_.size()), change_(stiffness_.size()),
-      small_(stiffness_.size()) {}
+    : flexibility_(std::move(flexibility)), stiffness_(contact_stiffness),
+      states_(PairStates::all_open(static_cast<std::int64_t>(stiffness_.size()))), u_(stiffness_.size()),
+      direction_(stiffness_.size()), change_(stiffness_.size()), small_(stiffness_.size()) {}
 
 void ContactStep::solve(const vector<double> &u_free, vector<double> &force) {
     const std::size_t z = stiffness_.size();
@@ -26,7 +26,7 @@ void ContactStep::solve(const vector<double> &u_free, vector<double> &force) {
     gemv('N', -1.0, flexibility_, force.data(), 1.0, u_.data());
     for (std::int64_t k = 0; k < most_iterations; ++k) {
         ++iterations_;
-        for (std::size_t i = 0; i < z; ++i) closed_[i] = ContactLaw::closed(u_[i]);
+        for (std::size_t i = 0; i < z; ++i) states_.set(i, ContactLaw::closed(u_[i]));
         factor_closed();
         for (std::size_t a = 0; a < active_.size(); ++a) small_[a] = u_free[active_[a]];
         cholesky_.solve(small_.data(), 1, static_cast<std::int64_t>(active_.size()));
@@ -48,20 +48,18 @@ void ContactStep::solve(const vector<double> &u_free, vector<double> &force) {
 }
 
 void ContactStep::factor_closed() {
-    if (closed_ == factored_) return;
-    active_.clear();
-    for (std::size_t i = 0; i < closed_.size(); ++i)
-        if (closed_[i]) active_.push_back(static_cast<std::int64_t>(i));
+    if (states_ == factored_) return;
+    active_ = states_.closed_pairs();
     const std::int64_t n = static_cast<std::int64_t>(active_.size());
     matrix_.reset(n, n);
     for (std::int64_t j = 0; j < n; ++j) {
         for (std::int64_t i = 0; i < n; ++i) matrix_(i, j) = flexibility_(active_[i], active_[j]);
         matrix_(j, j) += 1 / stiffness_[active_[j]];
     }
-    factored_ = closed_;
+    factored_ = states_;
     ++factorizations_;
     if (cholesky_.factor(matrix_)) return;
-    factored_.clear();
+    factored_ = PairStates();
     throw Error(PLM_ERR_SINGULAR, "the contact flexibility of the time step is not positive definite")
         .reason(PLM_REASON_SINGULAR);
 }
@@ -70,7 +68,7 @@ void ContactStep::factor_closed() {
 bool ContactStep::settled(double noise) const {
     for (std::size_t i = 0; i < u_.size(); ++i) {
         const double u = u_[i] + change_[i];
-        if (ContactLaw::closed(u) != (closed_[i] != 0) && std::abs(u) > noise) return false;
+        if (ContactLaw::closed(u) != states_.is_closed(i) && std::abs(u) > noise) return false;
     }
     return true;
 }

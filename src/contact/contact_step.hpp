@@ -3,6 +3,7 @@
 // quadratic energy p^T W p / 2 + sum k_n max(u_free - W p, 0)^2 / 2, reached at p = N.
 #pragma once
 #include "contact/contact_law.hpp"
+#include "contact/pair_states.hpp"
 #include "linalg/lapack.hpp"
 
 namespace plm {
@@ -28,8 +29,8 @@ class ContactStep {
 
     Matrix flexibility_, matrix_;
     const vector<double> &stiffness_;
-    DenseCholesky cholesky_; // of 1 / k_n + W over the pairs in closed_
-    vector<char> closed_, factored_;
+    DenseCholesky cholesky_; // of 1 / k_n + W over the closed pairs
+    PairStates states_, factored_;
     vector<std::int64_t> active_;
     vector<double> u_, direction_, change_, small_;
     std::int64_t iterations_ = 0, factorizations_ = 0;

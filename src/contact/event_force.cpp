@@ -37,11 +37,12 @@ class EventForce final : public ContactForce {
     SwitchingInstants instants(const Matrix &u) {
         SwitchingInstants all;
         if (u.rows() == 0) return all;
+        all.first = PairStates::all_open(u.rows());
         gemm('N', 'T', 1.0, grid_, u, 0.0, values_);
         for (std::int64_t i = 0; i < u.rows(); ++i) {
             for (std::int64_t c = 0; c < u.cols(); ++c) x_[c] = u(i, c);
             find_roots(values_.col(i));
-            all.closed_first.push_back(ContactLaw::closed(values_(0, i)));
+            all.first.set(i, ContactLaw::closed(values_(0, i)));
             all.instants.push_back(roots_);
         }
         return all;

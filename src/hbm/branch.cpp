@@ -1,5 +1,5 @@
 #include "hbm/branch.hpp"
-#include "contact/contact_force.hpp"
+#include "contact/contact_measures.hpp"
 #include "contact/trig_polynomial.hpp"
 #include "hbm/formulation.hpp"
 #include "linalg/scale.hpp"
@@ -179,12 +179,7 @@ Matrix Branch::penetration_coefficients(std::int64_t point) const {
 }
 
 vector<double> Branch::closed_share(std::int64_t point) const {
-    const Matrix u = whole_contact_motion(*reduced_, points_[point]).u;
-    ContactIndicator indicator;
-    make_event_force((u.cols() - 1) / 2, u.rows())->indicator(u, indicator);
-    vector<double> share(u.rows());
-    for (std::int64_t i = 0; i < u.rows(); ++i) share[i] = indicator.averages(0, i);
-    return share;
+    return closed_shares(whole_contact_motion(*reduced_, points_[point]).u);
 }
 
 void require_uncancelled(const Branch &branch) {

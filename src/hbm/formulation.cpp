@@ -23,33 +23,24 @@ double local_stiffness(const ReducedModel &m) {
     return *middle > 0 ? 1 / *middle : 0;
 }
 
-Formulation make_formulation(const ReducedModel &m, const HbmOptions &options) {
-    Formulation f;
-    f.stiffness = m.contact_stiffness;
-    f.slack.assign(m.n_pairs(), 0.0);
+LawForm make_formulation(const ReducedModel &m, const HbmOptions &options) {
     const bool possible = options.unknowns != NonlinearUnknowns::modal;
-    if (!possible || options.formulation == FormulationKind::penalty) return f;
+    if (!possible || options.formulation == FormulationKind::penalty) return penalty_form(m.contact);
     const double local = local_stiffness(m);
-    if (local == 0) return f; // the static reference of rigid-body modes needs the penalty form
+    if (local == 0) return penalty_form(m.contact); // which the static reference of rigid-body modes needs
     const double limit = options.formulation == FormulationKind::compliance ? moderate : stiff;
-    for (std::int64_t i = 0; i < m.n_pairs(); ++i) {
-        if (m.contact_stiffness[i] <= limit * local) continue;
-        f.stiffness[i] = moderate * local;
-        f.slack[i] = 1 / f.stiffness[i] - 1 / m.contact_stiffness[i];
-        f.compliant = true;
-    }
-    return f;
+    return compliance_form(m.contact, limit * local, moderate * local);
 }
 
 namespace {
 
-Matrix penetration(const Matrix &gap_0, const Matrix &gap, const vector<double> &initial_gap,
-                   const BranchPoint &point, std::int64_t n_harmonics) {
+Matrix penetration(const Matrix &gap_0, const Matrix &gap, const Contact &contact, const BranchPoint &point,
+                   std::int64_t n_harmonics) {
     const std::int64_t z = gap.rows(), columns = 2 * n_harmonics;
     Matrix u(z, columns + 1), eta = point.eta;
     if (z == 0) return u;
     set_harmonics(eta, n_harmonics);
-    for (std::int64_t i = 0; i < z; ++i) u(i, 0) = -initial_gap[i];
+    for (std::int64_t i = 0; i < z; ++i) u(i, 0) = -contact.initial_gap[i];
     gemv('N', 1.0, gap_0, point.eta_0.data(), 1.0, u.col(0));
     const Matrix dynamic = product('N', 'N', gap, eta);
     std::copy(dynamic.data(), dynamic.data() + z * columns, u.col(1));
@@ -59,21 +50,21 @@ Matrix penetration(const Matrix &gap_0, const Matrix &gap, const vector<double> 
 } // namespace
 
 Matrix penetration_of(const ReducedModel &m, const BranchPoint &point, std::int64_t n_harmonics) {
-    return penetration(m.gap_0, m.gap, m.initial_gap, point, n_harmonics);
+    return penetration(m.gap_0, m.gap, m.contact, point, n_harmonics);
 }
 
 Matrix whole_penetration_of(const ReducedModel &m, const BranchPoint &point, std::int64_t n_harmonics) {
-    return penetration(m.whole_gap_0(), m.whole_gap(), m.whole_initial_gap(), point, n_harmonics);
+    return penetration(m.whole_gap_0(), m.whole_gap(), m.whole_contact(), point, n_harmonics);
 }
 
 ContactMotion contact_motion(const ReducedModel &m, const BranchPoint &point) {
     if (point.contact_stiffness) return {point.contact_motion, point.contact_stiffness.get()};
-    return {penetration_of(m, point, point.n_harmonics), &m.contact_stiffness};
+    return {penetration_of(m, point, point.n_harmonics), &m.contact.stiffness};
 }
 
 ContactMotion whole_contact_motion(const ReducedModel &m, const BranchPoint &point) {
     if (!m.all_pairs) return contact_motion(m, point);
-    return {whole_penetration_of(m, point, point.n_harmonics), &m.whole_stiffness()};
+    return {whole_penetration_of(m, point, point.n_harmonics), &m.whole_contact().stiffness};
 }
 
 } // namespace plm

@@ -1,26 +1,18 @@
-// How the contact law enters the equations in the contact gaps. Penalty: N = k_n max(u, 0) of the penetration
-// u. Compliance (dynamic Lagrangian): with p = N + e (u - N / k_n) the law is N = max(p, 0) for every e > 0,
-// exactly; in the length v = p / e that is a contact of the moderate stiffness e on v = u + N (1/e - 1/k_n).
-// It does not stiffen with k_n and has the rigid limit 1/k_n = 0, where a penalty on few harmonics only
-// follows its own ripples.
+// Which form of the contact law (contact/law_form.hpp) the equations in the contact gaps have, and the motion
+// of a point's pairs in that form.
 #pragma once
+#include "contact/law_form.hpp"
 #include "hbm/branch_point.hpp"
 #include "hbm/options.hpp"
 #include "reduction/reduced_model.hpp"
 
 namespace plm {
 
-struct Formulation {
-    vector<double> stiffness; // e of every pair; k_n where the pair is soft
-    vector<double> slack;     // 1/e - 1/k_n >= 0
-    bool compliant = false;   // some slack is not zero
-};
-
 /// 1 / median static flexibility of the pairs in the open structure; 0 when rigid-body modes leave it without
 /// one.
 double local_stiffness(const ReducedModel &reduced);
 
-Formulation make_formulation(const ReducedModel &reduced, const HbmOptions &options);
+LawForm make_formulation(const ReducedModel &reduced, const HbmOptions &options);
 
 /// The polynomials (Z x (2H + 1)) whose positive part times a stiffness is the contact force of a point: its
 /// penetration and k_n, or v and e.

@@ -15,10 +15,10 @@ bool acts_along(const Matrix &directions, const vector<double> &load) {
     return norm2(directions.cols(), along.data()) > 1e-8 * norm2(n, load.data());
 }
 
-vector<char> closing_pairs(const ContactIndicator &indicator) {
-    vector<char> closing(indicator.state.size());
-    for (std::size_t i = 0; i < closing.size(); ++i) closing[i] = indicator.state[i] != PairState::open;
-    return closing;
+vector<char> acting_pairs(const ContactIndicator &indicator, std::int64_t n_pairs) {
+    vector<char> acting(n_pairs);
+    for (std::int64_t i = 0; i < n_pairs; ++i) acting[i] = indicator.acts(i);
+    return acting;
 }
 
 } // namespace
@@ -62,7 +62,7 @@ void MeanHold::assign(const ReducedModel &m, Matrix directions) {
 bool MeanHold::set(const ReducedModel &m, const ContactIndicator &indicator,
                    const vector<double> &mean_load) {
     if (!depends_) return false;
-    vector<char> holding = closing_pairs(indicator);
+    vector<char> holding = acting_pairs(indicator, m.n_pairs());
     const bool others = holding != holding_;
     if (others) directions_ = free_motion(m, holding);
     const bool pushed = acts_along(directions_, mean_load);

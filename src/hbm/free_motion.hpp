@@ -7,7 +7,7 @@
 
 namespace plm {
 
-/// Its directions in the static coordinates, orthonormal: r_0 x n. holding: Z flags of the pairs that close
+/// Its directions in the static coordinates, orthonormal: r_0 x n. holding: Z flags of the pairs that act
 /// at some time; without it all pairs hold.
 Matrix free_motion(const ReducedModel &reduced);
 Matrix free_motion(const ReducedModel &reduced, const vector<char> &holding);
@@ -23,7 +23,7 @@ class MeanHold {
     /// mean_load: r_0. True: columns() are others than before.
     bool set(const ReducedModel &reduced, const ContactIndicator &indicator, const vector<double> &mean_load);
     const Matrix &columns() const { return columns_; }
-    /// Whether the mean of the loads acts along a motion that no closing pair holds: no periodic one is here,
+    /// Whether the mean of the loads acts along a motion that no acting pair holds: no periodic one is here,
     /// however small a residual is beside the distance that has been gone.
     bool carried_away() const { return depends_ && pushed_; }
     /// Whether columns() may ever change with the indicator.
@@ -32,7 +32,7 @@ class MeanHold {
   private:
     void assign(const ReducedModel &reduced, Matrix directions);
 
-    Matrix always_, directions_, columns_; // what no pair holds; what no closing pair holds; S
+    Matrix always_, directions_, columns_; // what no pair holds; what no acting pair holds; S
     vector<char> holding_;
     bool depends_ = false, pushed_ = false;
 };

@@ -1,8 +1,8 @@
 // Harmonic balance in the contact gaps: U + g = B D(omega) (F - B' N(U)) + slack N (formulation.hpp; slack is
 // 0 in the penalty form), D the receptance of the open structure in the reduced model's coordinates. Exact
 // for the same reduced model as modal_system.cpp; the size of the dense system is the number of pairs that
-// open and close over the period times (2H + 1), whatever the size of the model. Pairs that stay open or
-// closed are eliminated harmonic by harmonic, exactly, and come back the moment they move.
+// open and close over the period times (2H + 1), whatever the size of the model. Pairs whose tangent is
+// constant in time are eliminated harmonic by harmonic, exactly, and come back the moment it is not.
 #include "hbm/formulation.hpp"
 #include "hbm/free_motion.hpp"
 #include "hbm/make_system.hpp"
@@ -43,7 +43,7 @@ class GapSystem final : public HbmSystem {
     GapSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
         : m_(std::move(reduced)), h_(options.n_harmonics), n_(2 * h_ + 1), z_(m_->n_pairs()), r_(m_->size()),
           r0_(m_->static_size()), force_(make_contact_force(options, z_)),
-          form_(make_formulation(*m_, options)), gap_(m_->initial_gap), u_(z_, n_), contact_(z_, n_),
+          form_(make_formulation(*m_, options)), gap_(m_->contact.initial_gap), u_(z_, n_), contact_(z_, n_),
           receptance_(h_ + 1), constant_(h_ + 1), eta_(h_ + 1), force_scale_(options.force_scale) {
         require_balanced(*m_);
         for (double l : m_->lambda_0) static_is_dense_ = static_is_dense_ || l <= 0;
@@ -93,7 +93,7 @@ class GapSystem final : public HbmSystem {
     }
 
     void set_extra_gap(double extra) override {
-        for (std::int64_t i = 0; i < z_; ++i) gap_[i] = m_->initial_gap[i] + extra;
+        for (std::int64_t i = 0; i < z_; ++i) gap_[i] = m_->contact.initial_gap[i] + extra;
     }
 
     void gap_derivative(double *r) override {
@@ -124,7 +124,7 @@ class GapSystem final : public HbmSystem {
     void linearize() override {
         moving_.clear();
         for (std::int64_t i = 0; i < z_; ++i)
-            if (indicator_.state[i] == PairState::switching) moving_.push_back(i);
+            if (indicator_.varies(i)) moving_.push_back(i);
         for (std::int64_t h = 0; h <= h_; ++h) eliminate(h);
         const std::int64_t s = n_moving();
         if (s == 0) return;
@@ -304,7 +304,7 @@ class GapSystem final : public HbmSystem {
     void add_slack_of_penalty(double *x) {
         std::copy(x, x + size(), u_.data());
         force_->indicator(u_, indicator_);
-        apply_indicator(indicator_, m_->contact_stiffness, u_, contact_);
+        apply_indicator(indicator_, m_->contact.stiffness, u_, contact_);
         for (std::int64_t k = 0; k < size(); ++k) x[k] += form_.slack[k % z_] * contact_.data()[k];
     }
 
@@ -319,8 +319,7 @@ class GapSystem final : public HbmSystem {
 
     // Tangent of a pair that does not switch, in harmonic h, less the part in the reference system.
     double constant_tangent(std::int64_t i, std::int64_t h) const {
-        const double k =
-            indicator_.state[i] == PairState::closed ? stiffness_factor_ * form_.stiffness[i] : 0.0;
+        const double k = stiffness_factor_ * form_.stiffness[i] * indicator_.constant_share(i);
         return h == 0 ? k - reference_[i] : k;
     }
 
@@ -351,7 +350,7 @@ class GapSystem final : public HbmSystem {
         e.pairs.clear();
         e.kappa.clear();
         for (std::int64_t i = 0; i < z_; ++i) {
-            if (indicator_.state[i] == PairState::switching) continue;
+            if (indicator_.varies(i)) continue;
             const double kappa = constant_tangent(i, h);
             if (kappa == 0) continue;
             e.pairs.push_back(i);
@@ -459,7 +458,7 @@ class GapSystem final : public HbmSystem {
     std::shared_ptr<const ReducedModel> m_;
     std::int64_t h_, n_, z_, r_, r0_;
     std::unique_ptr<ContactForce> force_;
-    Formulation form_;
+    LawForm form_;
     std::shared_ptr<const vector<double>> law_; // for points; null: penalty
     vector<double> gap_;
     Matrix u_, contact_;

@@ -43,7 +43,7 @@ Matrix change_by(const Matrix &tail, const ReducedModel &m, const vector<double>
     for (std::int64_t k = 0; k < change.rows() * known; ++k) change.data()[k] = -force.data()[k];
     for (std::int64_t k = known; k < u.cols(); ++k)
         for (std::int64_t i = 0; i < z; ++i) { // in compliance form the unknowns hold the slack, too
-            const double slack = 1 / stiffness[i] - 1 / m.contact_stiffness[i];
+            const double slack = 1 / stiffness[i] - 1 / m.contact.stiffness[i];
             u(i, k) = tail(i, k - known) + slack * force(i, k);
         }
     ContactIndicator indicator;

@@ -84,7 +84,7 @@ bool ModalFactor::invert_linear_part() {
 
 // T R: R couples cosine and sine of harmonic h, as [real, imaginary; -imaginary, real].
 void ModalFactor::add_contact_columns(std::int64_t h) {
-    const std::int64_t z = jacobian_.n_closing(), n = jacobian_.n_coefficients();
+    const std::int64_t z = jacobian_.n_acting(), n = jacobian_.n_coefficients();
     Matrix real, imaginary;
     if (h > 0) {
         receptance_[h].contact_receptance(jacobian_.gap(), real, imaginary);

@@ -17,7 +17,7 @@ struct Border {
     Matrix columns, rows, corner;
 };
 
-/// With few pairs the contact forces y = T G x are the unknowns (Woodbury): of order n_closing (2H + 1) + k
+/// With few pairs the contact forces y = T G x are the unknowns (Woodbury): of order n_acting (2H + 1) + k
 /// instead of r (2H + 1) + k,
 ///     [I + T R, T G D^-1 B; -C D^-1 G', E - C D^-1 B] [y; s],    R = G D^-1 G',
 /// and each solution is refined by its residual. Otherwise, and where D is singular, J is factored itself.
@@ -37,7 +37,7 @@ class ModalFactor {
   private:
     std::int64_t inner_size() const { return jacobian_.size(); }
     std::int64_t n_borders() const { return border_.corner.rows(); }
-    std::int64_t n_forces() const { return jacobian_.n_closing() * jacobian_.n_coefficients(); }
+    std::int64_t n_forces() const { return jacobian_.n_acting() * jacobian_.n_coefficients(); }
 
     bool pays() const;
     bool invert_linear_part();

@@ -61,22 +61,22 @@ ModalJacobian::ModalJacobian(std::shared_ptr<const ReducedModel> reduced, std::i
       r0_(m_->static_size()), weights_(m_->n_pairs(), 4 * h_ + 1), hold_(*m_) {}
 
 void ModalJacobian::set_tangent(const ContactIndicator &indicator, const vector<double> &stiffness) {
-    closing_.clear();
+    acting_.clear();
     for (std::int64_t i = 0; i < m_->n_pairs(); ++i) {
         const double *average = indicator.averages.col(i);
         for (std::int64_t k = 0; k <= 4 * h_; ++k) weights_(i, k) = stiffness[i] * average[k];
-        if (indicator.state[i] != PairState::open) closing_.push_back(i);
+        if (indicator.acts(i)) acting_.push_back(i);
     }
 }
 
 void ModalJacobian::expand_tangent() {
     const std::int64_t n = n_coefficients();
-    gap_ = select_rows(m_->gap, closing_);
-    gap_0_ = select_rows(m_->gap_0, closing_);
-    tangent_.reset(n_closing(), n * n);
+    gap_ = select_rows(m_->gap, acting_);
+    gap_0_ = select_rows(m_->gap_0, acting_);
+    tangent_.reset(n_acting(), n * n);
     vector<double> weights(4 * h_ + 1);
-    for (std::int64_t p = 0; p < n_closing(); ++p) {
-        for (std::int64_t k = 0; k <= 4 * h_; ++k) weights[k] = weights_(closing_[p], k);
+    for (std::int64_t p = 0; p < n_acting(); ++p) {
+        for (std::int64_t k = 0; k <= 4 * h_; ++k) weights[k] = weights_(acting_[p], k);
         for (std::int64_t d = 0; d < n; ++d)
             for (std::int64_t c = 0; c < n; ++c)
                 tangent_(p, c + d * n) = indicator_entry(weights.data(), c, d);
@@ -135,7 +135,7 @@ void ModalJacobian::product(bool transposed, const double *x, double *y) const {
 }
 
 void ModalJacobian::to_gaps(const double *x, Matrix &u) const {
-    u.reset(n_closing(), n_coefficients());
+    u.reset(n_acting(), n_coefficients());
     gaps_of_coordinates(gap_0_, gap_, x, u);
 }
 
@@ -145,19 +145,19 @@ void ModalJacobian::add_from_gaps(double factor, const Matrix &f, double *y) con
 
 void ModalJacobian::apply_tangent(bool transposed, const Matrix &u, Matrix &f) const {
     const std::int64_t n = n_coefficients();
-    f.reset(n_closing(), n);
+    f.reset(n_acting(), n);
     for (std::int64_t d = 0; d < n; ++d)
         for (std::int64_t c = 0; c < n; ++c) {
             const double *t = tangent_.col(transposed ? d + c * n : c + d * n), *in = u.col(d);
             double *out = f.col(c);
-            for (std::int64_t p = 0; p < n_closing(); ++p) out[p] += t[p] * in[p];
+            for (std::int64_t p = 0; p < n_acting(); ++p) out[p] += t[p] * in[p];
         }
 }
 
 // --- the dense form
 
 void ModalJacobian::add_to(Matrix &out) const {
-    if (n_closing() > 0) add_contact(out);
+    if (n_acting() > 0) add_contact(out);
     add_linear(out);
 }
 

@@ -43,13 +43,13 @@ class ModalJacobian {
     /// Adds J to the leading rows and columns of `out`.
     void add_to(Matrix &out) const;
 
-    std::int64_t n_closing() const { return static_cast<std::int64_t>(closing_.size()); }
-    /// Rows of the pairs that close.
+    std::int64_t n_acting() const { return static_cast<std::int64_t>(acting_.size()); }
+    /// Rows of the pairs that act at some time.
     const Matrix &gap() const { return gap_; }
     const Matrix &gap_0() const { return gap_0_; }
-    /// n_closing x (2H + 1)^2: column c + (2H + 1) d is the block (c, d) of T, diagonal over the pairs.
+    /// n_acting x (2H + 1)^2: column c + (2H + 1) d is the block (c, d) of T, diagonal over the pairs.
     const Matrix &tangent() const { return tangent_; }
-    /// u = G x, f = T u or T' u: n_closing x (2H + 1)
+    /// u = G x, f = T u or T' u: n_acting x (2H + 1)
     void to_gaps(const double *x, Matrix &u) const;
     void apply_tangent(bool transposed, const Matrix &u, Matrix &f) const;
     /// y += factor G' f
@@ -68,7 +68,7 @@ class ModalJacobian {
     std::shared_ptr<Products> products_; // the same for all copies
     std::int64_t h_ = 0, r_ = 0, r0_ = 0;
     double omega_ = 0, self_excitation_ = 0;
-    vector<std::int64_t> closing_;
+    vector<std::int64_t> acting_;
     Matrix weights_; // Z x (4H + 1): stiffness times the averages of the indicator
     Matrix gap_, gap_0_, tangent_;
     MeanHold hold_;

@@ -14,8 +14,8 @@ class ModalSystem final : public HbmSystem {
   public:
     ModalSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
         : m_(std::move(reduced)), h_(options.n_harmonics), r_(m_->size()), r0_(m_->static_size()),
-          z_(m_->n_pairs()), force_(make_contact_force(options, z_)), stiffness_(m_->contact_stiffness),
-          gap_(m_->initial_gap), u_(z_, 2 * h_ + 1), contact_(z_, 2 * h_ + 1), x_(size(), 0.0),
+          z_(m_->n_pairs()), force_(make_contact_force(options, z_)), stiffness_(m_->contact.stiffness),
+          gap_(m_->contact.initial_gap), u_(z_, 2 * h_ + 1), contact_(z_, 2 * h_ + 1), x_(size(), 0.0),
           jacobian_(m_, h_) {
         require_balanced(*m_);
         load_.assign(size(), 0.0);
@@ -37,7 +37,7 @@ class ModalSystem final : public HbmSystem {
     }
 
     void set_stiffness_factor(double factor) override {
-        for (std::int64_t i = 0; i < z_; ++i) stiffness_[i] = factor * m_->contact_stiffness[i];
+        for (std::int64_t i = 0; i < z_; ++i) stiffness_[i] = factor * m_->contact.stiffness[i];
     }
 
     void contact_force_change(const Matrix &force, double *r) override { // B' N
@@ -52,7 +52,7 @@ class ModalSystem final : public HbmSystem {
     }
 
     void set_extra_gap(double extra) override {
-        for (std::int64_t i = 0; i < z_; ++i) gap_[i] = m_->initial_gap[i] + extra;
+        for (std::int64_t i = 0; i < z_; ++i) gap_[i] = m_->contact.initial_gap[i] + extra;
     }
 
     void gap_derivative(double *r) override { // B' dN/d gap, dN = -k J(s) e_0

@@ -1,5 +1,6 @@
 #include "hbm/motion_measures.hpp"
 #include "contact/contact_force.hpp"
+#include "contact/contact_measures.hpp"
 #include "hbm/formulation.hpp"
 #include "space/rest.hpp"
 #include <algorithm>
@@ -9,22 +10,17 @@ namespace {
 
 // Static part: strain, contact and load of (eta, u) at rest.
 double rest_energy(const ReducedModel &m) {
-    vector<double> u(m.n_pairs());
-    bool loaded = false;
+    bool loaded = m.contact.has_interference();
     for (double f : m.preload_0) loaded = loaded || f != 0;
-    for (double g : m.initial_gap) loaded = loaded || g < 0;
     if (!loaded) return 0;
-    const StaticState rest =
-        solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap});
+    const StaticState rest = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact});
     double energy = -dot(m.static_size(), m.preload_0.data(), rest.coordinates.data());
     for (std::int64_t j = 0; j < m.static_size(); ++j)
         energy += 0.5 * m.lambda_0[j] * rest.coordinates[j] * rest.coordinates[j];
-    for (std::int64_t i = 0; i < m.n_pairs(); ++i)
-        energy += ContactLaw::energy(m.contact_stiffness[i], rest.penetration[i]);
+    for (std::int64_t i = 0; i < m.n_pairs(); ++i) energy += m.contact.energy(i, rest.penetration[i]);
     return energy;
 }
 
-// <N u> / 2 with N in the harmonics of u: exact, since the others are orthogonal to u.
 void measure_contact(const ReducedModel &m, const BranchPoint &point, MotionMeasures &out) {
     const std::int64_t z = m.n_pairs();
     if (z == 0) return;
@@ -36,14 +32,12 @@ void measure_contact(const ReducedModel &m, const BranchPoint &point, MotionMeas
     make_event_force(v.cols() / 2, z)->indicator(v, s);
     Matrix force;
     apply_indicator(s, *law.stiffness, v, force);
-    for (std::int64_t c = 0; c < u.cols(); ++c)
-        out.contact += (c == 0 ? 0.5 : 0.25) * dot(z, force.col(c), u.col(c));
+    out.contact = mean_energy(force, u);
     if (m.all_pairs) { // the energy is that of the equations, the area that of the surface
         const Matrix all = whole_contact_motion(m, point).u;
         make_event_force(all.cols() / 2, all.rows())->indicator(all, s);
     }
-    for (std::int64_t i = 0; i < m.n_whole_pairs(); ++i)
-        out.closed_share += s.averages(0, i) / static_cast<double>(m.n_whole_pairs());
+    out.closed_share = s.closed_share();
 }
 
 } // namespace

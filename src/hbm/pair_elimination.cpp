@@ -39,28 +39,28 @@ void PairElimination::build(const Matrix &real, const Matrix &imag, std::int64_t
     real_ = leading_block(real, s);
     imag_ = leading_block(imag, s);
     if (n == 0) return;
-    vector<Complex> closed(n * n);
+    vector<Complex> matrix(n * n);
     to_eliminated_.resize(n * s);
     from_eliminated_.resize(s * n);
     for (std::int64_t j = 0; j < n; ++j) {
         for (std::int64_t i = 0; i < n; ++i)
-            closed[i + j * n] =
+            matrix[i + j * n] =
                 Complex(real(s + i, s + j), imag(s + i, s + j)) * kappa[j] + (i == j ? 1.0 : 0.0);
         for (std::int64_t i = 0; i < s; ++i) {
             from_eliminated_[i + j * s] = Complex(real(i, s + j), imag(i, s + j)) * kappa[j];
             to_eliminated_[j + i * n] = Complex(real(s + j, i), imag(s + j, i));
         }
     }
-    closed_.factor(n, closed);
+    constant_.factor(n, matrix);
     if (s == 0) return;
     vector<Complex> x = to_eliminated_; // (I + G_EE kappa)^-1 G_ES
-    closed_.solve(x.data(), s, n);
+    constant_.solve(x.data(), s, n);
     subtract_product(from_eliminated_, x, s, n, real_, imag_);
 }
 
 void PairElimination::condense(vector<Complex> &held, Complex *moving) const {
     if (n_eliminated_ == 0) return;
-    closed_.solve(held.data(), 1, n_eliminated_);
+    constant_.solve(held.data(), 1, n_eliminated_);
     for (std::int64_t j = 0; j < n_eliminated_; ++j)
         for (std::int64_t p = 0; p < n_moving_; ++p)
             moving[p] -= from_eliminated_[p + j * n_moving_] * held[j];
@@ -72,7 +72,7 @@ void PairElimination::expand(const vector<Complex> &y, vector<Complex> &held) co
     for (std::int64_t p = 0; p < n_moving_; ++p)
         for (std::int64_t j = 0; j < n_eliminated_; ++j)
             coupled[j] += to_eliminated_[j + p * n_eliminated_] * y[p];
-    closed_.solve(coupled.data(), 1, n_eliminated_);
+    constant_.solve(coupled.data(), 1, n_eliminated_);
     for (std::int64_t j = 0; j < n_eliminated_; ++j) held[j] -= coupled[j];
 }
 

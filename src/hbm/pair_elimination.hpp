@@ -1,4 +1,4 @@
-// Elimination of the pairs that stay open or closed from one harmonic of the contact equations u + G y = b,
+// Elimination of the pairs whose tangent is constant from one harmonic of the contact equations u + G y = b,
 // where y = kappa u for an eliminated pair and y is kept for a moving one. Exact: a tangent constant in time
 // does not couple harmonics.
 #pragma once
@@ -27,7 +27,7 @@ class PairElimination {
 
   private:
     std::int64_t n_moving_ = 0, n_eliminated_ = 0;
-    ComplexLu closed_;                // I + G_EE kappa
+    ComplexLu constant_;              // I + G_EE kappa
     vector<Complex> to_eliminated_;   // G_ES, eliminated x moving
     vector<Complex> from_eliminated_; // G_SE kappa, moving x eliminated
     Matrix real_, imag_;

@@ -17,7 +17,8 @@ Matrix square_block(const Matrix &a, std::int64_t first, std::int64_t end) {
 } // namespace
 
 ContactSet::ContactSet(const FlowModel &model)
-    : model_(model), moving_(model.n_moving()), massive_(model.n_massive()), stiffness_(moving_, moving_) {
+    : model_(model), moving_(model.n_moving()), massive_(model.n_massive()),
+      contact_(model.contact(), model.gap(), model.flexibility(), moving_), stiffness_(moving_, moving_) {
     if (model_.has_diagonal_damping()) {
         for (std::int64_t j = 0; j < massive_; ++j)
             damping_bound_ = std::max(damping_bound_, std::abs(model_.damping_diagonal()[j]));
@@ -36,49 +37,11 @@ double ContactSet::spectral_bound(const Matrix &s) {
     return std::sqrt(largest * norm2(square_.rows() * square_.cols(), square_.data()));
 }
 
-void ContactSet::assign(const vector<char> &closed) {
-    if (assigned_ && closed == closed_) return;
-    closed_ = closed;
-    assigned_ = true;
-    active_.clear();
-    for (std::size_t i = 0; i < closed.size(); ++i)
-        if (closed[i]) active_.push_back(static_cast<std::int64_t>(i));
-    const std::int64_t n_closed = static_cast<std::int64_t>(active_.size());
-    rows_.reset(n_closed, moving_);
-    for (std::int64_t j = 0; j < moving_; ++j)
-        for (std::int64_t row = 0; row < n_closed; ++row) rows_(row, j) = model_.gap()(active_[row], j);
-    stiffness_.reset(moving_, moving_);
-    if (n_closed > 0) add_springs();
+void ContactSet::assign(const PairStates &states) {
+    if (!contact_.assign(states, stiffness_)) return;
     for (std::int64_t j = 0; j < moving_; ++j) stiffness_(j, j) += model_.lambda()[j];
     relaxing_ = stiffness_.columns(massive_, moving_ - massive_);
     find_rate();
-}
-
-// G_A^T S G_A, symmetric to the last bit where S is diagonal.
-void ContactSet::add_springs() {
-    const std::int64_t n_closed = rows_.rows();
-    const vector<double> &k = model_.contact_stiffness();
-    if (model_.flexibility().empty()) {
-        for (std::int64_t j = 0; j < moving_; ++j)
-            for (std::int64_t row = 0; row < n_closed; ++row) rows_(row, j) *= std::sqrt(k[active_[row]]);
-        gemm('T', 'N', 1.0, rows_, rows_, 0.0, stiffness_);
-        return;
-    }
-    Matrix t(n_closed, n_closed);
-    for (std::int64_t j = 0; j < n_closed; ++j)
-        for (std::int64_t i = 0; i < n_closed; ++i)
-            t(i, j) = model_.flexibility()(active_[i], active_[j]) + (i == j ? 1 / k[active_[i]] : 0.0);
-    if (!cholesky_.factor(t))
-        throw Error(PLM_ERR_SINGULAR,
-                    "the flexibility of the closed pairs is not positive definite; look for "
-                    "gap rows of very different size")
-            .reason(PLM_REASON_SINGULAR);
-    Matrix force = rows_;
-    cholesky_.solve(force.data(), moving_, n_closed);
-    gemm('T', 'N', 1.0, rows_, force, 0.0, stiffness_);
-    for (std::int64_t j = 0; j < moving_; ++j)
-        for (std::int64_t i = j + 1; i < moving_; ++i)
-            stiffness_(i, j) = stiffness_(j, i) = 0.5 * (stiffness_(i, j) + stiffness_(j, i));
 }
 
 // What relaxes adds the fastest of its time constants, and what couples it with the rest, which is no faster
@@ -98,27 +61,6 @@ void ContactSet::find_rate() {
 
 double ContactSet::own_damping(std::int64_t j) const {
     return model_.has_diagonal_damping() ? model_.damping_diagonal()[j] : model_.damping()(j, j);
-}
-
-void ContactSet::add_contact(Matrix &u, Matrix &force) const {
-    force.reset(u.rows(), u.cols());
-    if (active_.empty()) return;
-    const std::int64_t n = static_cast<std::int64_t>(active_.size());
-    const vector<double> &k = model_.contact_stiffness();
-    if (model_.flexibility().empty()) {
-        for (std::int64_t c = 0; c < u.cols(); ++c)
-            for (std::int64_t i : active_) force(i, c) = k[i] * u(i, c);
-        return;
-    }
-    Matrix closed(n, u.cols());
-    for (std::int64_t c = 0; c < u.cols(); ++c)
-        for (std::int64_t a = 0; a < n; ++a) closed(a, c) = u(active_[a], c);
-    cholesky_.solve(closed.data(), u.cols(), n);
-    for (std::int64_t c = 0; c < u.cols(); ++c)
-        for (std::int64_t a = 0; a < n; ++a) force(active_[a], c) = closed(a, c);
-    gemm('N', 'N', -1.0, model_.flexibility(), force, 1.0, u);
-    for (std::int64_t c = 0; c < u.cols(); ++c)
-        for (std::int64_t i : active_) u(i, c) = force(i, c) / k[i];
 }
 
 // c k y_k = dt (f - K y)_(k-1) - k C y_k of what has mass.

@@ -1,9 +1,8 @@
-// The linear system of one contact set: K_i = diag(lambda) + G_A^T S G_A over the closed pairs A, and a bound
-// of how fast its motions are. What the exact flow and its monodromy advance between two contact events. S
-// are the springs k_n of the pairs in series with what follows them without mass and damping: (1/k_n +
-// F_A)^-1 with the flexibility F, of any stiffness down to none.
+// The linear system of one contact set: K_i = diag(lambda) + G_A^T S G_A with the springs S of its pairs
+// (contact/piece_contact.hpp), and a bound of how fast its motions are. What the exact flow and its monodromy
+// advance between two contact events.
 #pragma once
-#include "linalg/lapack.hpp"
+#include "contact/piece_contact.hpp"
 #include "orbits/flow_model.hpp"
 
 namespace plm {
@@ -12,15 +11,16 @@ class ContactSet {
   public:
     explicit ContactSet(const FlowModel &model);
 
-    /// Assembles K_i from the closed pairs (Z flags): always anew, since taking a stiff pair out again by
-    /// subtraction would leave eps k_n behind. 2 |A| n^2 + 2 n^3 flops.
-    void assign(const vector<char> &closed);
+    /// Assembles K_i. 2 |A| n^2 + 2 n^3 flops.
+    void assign(const PairStates &states);
+    /// Of the set with the fastest motions: every pair's spring acts.
+    void assign_stiffest() { assign(PairStates::all_closed(model_.n_pairs())); }
     const Matrix &stiffness() const { return stiffness_; } // n_moving x n_moving
     /// Upper bound (1/s) of |A| for y' = A y with y = (rho q, q'), rho^2 = |K_i|: rho + |C| in the 2-norm.
     double rate() const { return rate_; }
 
     /// u (Z x k) as it would be without contact forces becomes the penetration; the forces, Z x k.
-    void add_contact(Matrix &u, Matrix &force) const;
+    void add_contact(Matrix &u, Matrix &force) const { contact_.add_forces(u, force); }
 
     /// What relaxes, at order k of a Taylor series in time / dt: y_k from K y_(k-1) and the y_k of what has
     /// mass. force: its coefficients of order k - 1, or null. All vectors n_moving; only those entries of
@@ -29,18 +29,14 @@ class ContactSet {
 
   private:
     double spectral_bound(const Matrix &symmetric);
-    void add_springs();
     double own_damping(std::int64_t j) const;
     void find_rate();
 
     const FlowModel &model_;
     std::int64_t moving_, massive_;
     double damping_bound_ = 0, rate_ = 0;
-    Matrix rows_, stiffness_, square_, relaxing_; // relaxing_: columns of K_i, as rows, of what relaxes
-    DenseCholesky cholesky_;                      // of 1/k_n + F_A
-    vector<char> closed_;
-    vector<std::int64_t> active_;
-    bool assigned_ = false;
+    PieceContact contact_;
+    Matrix stiffness_, square_, relaxing_; // relaxing_: columns of K_i, as rows, of what relaxes
 };
 
 /// Number of Taylor terms (powers 0 .. m - 1) after which exp(x) is known to `tolerance`: the remainder

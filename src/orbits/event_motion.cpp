@@ -10,7 +10,7 @@ namespace {
 using complex = std::complex<double>;
 
 constexpr double longest_move = 0.02; // of the period
-constexpr double wrong_side = 1e-3;   // of the largest penetration or gap: an event was missed
+constexpr double missed_event = 1e-3; // of the largest penetration or gap, on the wrong side
 
 vector<double> applied(const Matrix &m, const vector<double> &x) {
     vector<double> y(m.rows());
@@ -36,10 +36,10 @@ EventMotion::EventMotion(const FlowModel &model, double omega, double force_scal
       set_(model) {}
 
 // Of all coordinates, those that only follow included: diag(lambda) + G_A^T k G_A.
-Matrix EventMotion::stiffness_of(const vector<char> &closed) const {
+Matrix EventMotion::stiffness_of(const vector<double> &springs) const {
     Matrix rows = model_.gap(), stiffness(n_, n_);
     for (std::int64_t p = 0; p < rows.rows(); ++p) {
-        const double root = closed[p] ? std::sqrt(model_.contact_stiffness()[p]) : 0.0;
+        const double root = std::sqrt(springs[p]);
         for (std::int64_t j = 0; j < n_; ++j) rows(p, j) *= root;
     }
     if (rows.rows() > 0) gemm('T', 'N', 1.0, rows, rows, 0.0, stiffness);
@@ -63,17 +63,18 @@ vector<complex> EventMotion::wave(const Matrix &stiffness, double w, const Harmo
     return q;
 }
 
-// What pre-load, mean excitation and the gaps of the closed pairs do, then each harmonic. Null: the system of
-// this set is singular.
-const EventMotion::Steady *EventMotion::steady(const vector<char> &closed) {
+// What pre-load, mean excitation and the gaps of the pairs do through their springs, then each harmonic.
+// Null: the system of this set is singular.
+const EventMotion::Steady *EventMotion::steady(const PairStates &states) {
     for (const auto &[set, response] : known_)
-        if (set == closed) return response.get();
-    Matrix stiffness = stiffness_of(closed);
+        if (set == states) return response.get();
+    const vector<double> springs = model_.contact().springs(states);
+    Matrix stiffness = stiffness_of(springs);
     auto found = std::make_shared<Steady>();
     found->mean = model_.preload();
     for (std::int64_t p = 0; p < model_.n_pairs(); ++p)
-        for (std::int64_t j = 0; closed[p] && j < n_; ++j)
-            found->mean[j] += model_.gap()(p, j) * model_.contact_stiffness()[p] * model_.initial_gap()[p];
+        for (std::int64_t j = 0; springs[p] > 0 && j < n_; ++j)
+            found->mean[j] += model_.gap()(p, j) * springs[p] * model_.initial_gap()[p];
     for (const auto &[harmonic, load] : model_.excitation()) {
         const double w = static_cast<double>(harmonic) * omega_;
         if (harmonic != 0) found->waves.emplace_back(w, wave(stiffness, w, load));
@@ -83,7 +84,7 @@ const EventMotion::Steady *EventMotion::steady(const vector<char> &closed) {
     lu.factor(stiffness);
     if (lu.singular()) return nullptr;
     lu.solve(found->mean.data(), 1, n_);
-    known_.emplace_back(closed, std::move(found));
+    known_.emplace_back(states, std::move(found));
     return known_.back().second.get();
 }
 
@@ -115,11 +116,11 @@ void EventMotion::pass(const Piece &piece, vector<double> &state) const {
     for (std::size_t j = 0; j < state.size(); ++j) state[j] += after[j];
 }
 
-bool EventMotion::add_piece(const vector<char> &closed, double from, double to, vector<double> &offset) {
-    const Steady *response = steady(closed);
+bool EventMotion::add_piece(const PairStates &states, double from, double to, vector<double> &offset) {
+    const Steady *response = steady(states);
     if (!response) return false;
     pieces_.push_back(
-        {plm::monodromy(model_, {{to - from, closed}}), at(*response, from), at(*response, to)});
+        {plm::monodromy(model_, {{to - from, states}}), at(*response, from), at(*response, to)});
     const Matrix &propagator = pieces_.back().propagator;
     pass(pieces_.back(), offset);
     monodromy_ = monodromy_.rows() == 0 ? propagator : product('N', 'N', propagator, monodromy_);
@@ -128,14 +129,13 @@ bool EventMotion::add_piece(const vector<char> &closed, double from, double to, 
 
 // Penetrations (first column) and their rates: of the steady response, and of the free motion beside it, in
 // which what has no mass is where the rest and the contact put it.
-Matrix EventMotion::penetrations(const Whole &steady, const vector<double> &state,
-                                 const vector<char> &closed) {
+Matrix EventMotion::penetrations(const Whole &steady, const vector<double> &state, const PairStates &states) {
     const std::int64_t moving = model_.n_moving(), massive = model_.n_massive(), z = model_.n_pairs();
     const vector<double> at_rest = state_of(steady);
     vector<double> y(n_, 0.0), v(n_, 0.0);
     for (std::int64_t j = 0; j < moving; ++j) y[j] = state[j] - at_rest[j];
     for (std::int64_t j = 0; j < massive; ++j) v[j] = state[moving + j] - at_rest[moving + j];
-    set_.assign(closed);
+    set_.assign(states);
     set_.relax(1, 1.0, y.data(), nullptr, v.data());
     Matrix u(z, 2), force;
     gemv('N', 1.0, model_.gap(), y.data(), 0.0, u.col(0));
@@ -147,11 +147,9 @@ Matrix EventMotion::penetrations(const Whole &steady, const vector<double> &stat
     return u;
 }
 
-void EventMotion::look_at_event(const Matrix &u, const ContactEvent &event, const vector<char> &closed) {
-    for (std::int64_t p = 0; p < u.rows(); ++p) {
-        largest_ = std::max(largest_, std::abs(u(p, 0)));
-        if (p != event.pair) worst_ = std::max(worst_, closed[p] ? -u(p, 0) : u(p, 0));
-    }
+void EventMotion::look_at_event(const Matrix &u, const ContactEvent &event, const PairStates &states) {
+    for (std::int64_t p = 0; p < u.rows(); ++p) largest_ = std::max(largest_, std::abs(u(p, 0)));
+    worst_ = std::max(worst_, wrong_side(states, u.col(0), event.pair));
     shifts_.push_back(-u(event.pair, 0) / u(event.pair, 1));
     shift_ = std::max(shift_, std::abs(shifts_.back()) * omega_);
 }
@@ -161,47 +159,38 @@ bool EventMotion::solve(const EventSequence &sequence) {
     shifts_.clear();
     monodromy_ = Matrix();
     size_ = shift_ = largest_ = worst_ = 0;
-    vector<char> closed = sequence.closed_first;
+    PairStates states = sequence.first;
     vector<double> offset(model_.state_size(), 0.0);
     double time = 0;
     for (const ContactEvent &event : sequence.events) {
-        if (!add_piece(closed, time, event.time, offset)) return false;
-        closed[event.pair] ^= 1;
+        if (!add_piece(states, time, event.time, offset)) return false;
+        pass_event(states, event);
         time = event.time;
     }
-    if (!add_piece(closed, time, period_, offset)) return false;
+    if (!add_piece(states, time, period_, offset)) return false;
     const FlowState zero{vector<double>(n_, 0.0), vector<double>(n_, 0.0), 0};
     PeriodRun run;
     run.end = plm::moved(model_, zero, offset, 1);
     vector<double> state = period_step(model_, zero, run, monodromy_, within_);
     if (!is_finite(state)) return false;
     start_ = plm::moved(model_, zero, state, 1);
-    closed = sequence.closed_first;
+    states = sequence.first;
     const EnergyNorm norm(model_, omega_);
     for (std::size_t k = 0; k < sequence.events.size(); ++k) {
         const ContactEvent &event = sequence.events[k];
         pass(pieces_[k], state);
-        look_at_event(penetrations(pieces_[k].after, state, closed), event, closed);
-        closed[event.pair] ^= 1;
+        look_at_event(penetrations(pieces_[k].after, state, states), event, states);
+        pass_event(states, event);
         size_ = std::max(size_, norm.distance(plm::moved(model_, zero, state, 1), start_));
     }
-    consistent_ = worst_ <= wrong_side * largest_;
+    consistent_ = worst_ <= missed_event * largest_;
     return std::isfinite(shift_) && std::isfinite(size_);
 }
 
-// An event that leaves the period comes in at its other end: its pair is then on the other side at time 0.
 EventSequence EventMotion::moved(const EventSequence &sequence) const {
-    EventSequence next = sequence;
-    for (std::size_t k = 0; k < next.events.size(); ++k) {
-        ContactEvent &event = next.events[k];
-        event.time += std::clamp(shifts_[k], -longest_move * period_, longest_move * period_);
-        if (event.time >= 0 && event.time <= period_) continue;
-        event.time += event.time < 0 ? period_ : -period_;
-        next.closed_first[event.pair] ^= 1;
-    }
-    std::stable_sort(next.events.begin(), next.events.end(),
-                     [](const ContactEvent &a, const ContactEvent &b) { return a.time < b.time; });
-    return next;
+    vector<double> moves = shifts_;
+    for (double &move : moves) move = std::clamp(move, -longest_move * period_, longest_move * period_);
+    return sequence.moved(moves, period_);
 }
 
 } // namespace plm

@@ -4,20 +4,11 @@
 // that a wrong instant changes the motion in the second order only: one step of Newton's method moves each
 // event to the zero of its own penetration.
 #pragma once
+#include "contact/event_sequence.hpp"
 #include "orbits/contact_set.hpp"
 #include "orbits/monodromy.hpp"
 
 namespace plm {
-
-struct ContactEvent {
-    double time; // s, within the period of the motion
-    std::int64_t pair;
-};
-
-struct EventSequence {
-    vector<char> closed_first; // Z flags at time 0
-    std::vector<ContactEvent> events;
-};
 
 class EventMotion {
   public:
@@ -32,7 +23,7 @@ class EventMotion {
     const FlowState &start() const { return start_; }
     double size() const { return size_; }   // largest distance from its start at the events, energy norm
     double shift() const { return shift_; } // largest of the events, as an angle of the excitation
-    /// Whether the other pairs are open or closed at the events as the sequence says.
+    /// Whether the other pairs are at the events in the states that the sequence says.
     bool is_consistent() const { return consistent_; }
     /// The sequence with its events moved there; long moves are cut.
     EventSequence moved(const EventSequence &sequence) const;
@@ -46,22 +37,22 @@ class EventMotion {
         Matrix propagator;
         Whole before, after; // the steady response at its ends
     };
-    Matrix stiffness_of(const vector<char> &closed) const;
+    Matrix stiffness_of(const vector<double> &springs) const;
     vector<std::complex<double>> wave(const Matrix &stiffness, double w, const HarmonicLoad &load) const;
-    const Steady *steady(const vector<char> &closed);
+    const Steady *steady(const PairStates &states);
     Whole at(const Steady &steady, double time) const;
     vector<double> state_of(const Whole &whole) const;
     void pass(const Piece &piece, vector<double> &state) const;
-    bool add_piece(const vector<char> &closed, double from, double to, vector<double> &offset);
-    Matrix penetrations(const Whole &steady, const vector<double> &state, const vector<char> &closed);
-    void look_at_event(const Matrix &u, const ContactEvent &event, const vector<char> &closed);
+    bool add_piece(const PairStates &states, double from, double to, vector<double> &offset);
+    Matrix penetrations(const Whole &steady, const vector<double> &state, const PairStates &states);
+    void look_at_event(const Matrix &u, const ContactEvent &event, const PairStates &states);
 
     const FlowModel &model_;
     double omega_, force_scale_, period_;
     const Matrix &within_;
     std::int64_t n_;
     ContactSet set_;
-    std::vector<std::pair<vector<char>, std::shared_ptr<Steady>>> known_;
+    std::vector<std::pair<PairStates, std::shared_ptr<Steady>>> known_;
     std::vector<Piece> pieces_;
     Matrix monodromy_;
     FlowState start_;

@@ -1,18 +1,16 @@
 #include "orbits/exact_flow.hpp"
 #include "contact/contact_step.hpp"
+#include "contact/polynomial.hpp"
 #include "linalg/scale.hpp"
 #include "linalg/work.hpp"
-#include "orbits/polynomial.hpp"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace plm {
 namespace {
 
 constexpr double longest_step = 2.0; // rate x duration of a piece: about 26 terms, of which none exceeds 2
 constexpr double truncation = 1e-17;
-constexpr double gap_noise = 16 * std::numeric_limits<double>::epsilon();
 constexpr std::int64_t watch_interval = 64; // pieces
 constexpr double no_progress = 1e-12;       // fraction of a piece
 constexpr int side_corrections = 8; // one is usual; more when pairs that rest at zero act on each other
@@ -21,21 +19,13 @@ constexpr int side_corrections = 8; // one is usual; more when pairs that rest a
 
 ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, double force_scale, Watch watch)
     : model_(std::move(model)), omega_(omega), force_scale_(force_scale), watch_(watch), system_(*model_),
-      closed_(model_->n_pairs()), at_zero_(model_->n_pairs()), row_norm_(model_->n_pairs()),
-      noise_(model_->n_pairs()), sides_(model_->n_pairs()), polynomial_(max_polynomial_degree + 1),
-      following_(model_->size()) {
+      events_(model_->contact(), model_->gap()), following_(model_->size()) {
     if (!(omega > 0 && std::isfinite(omega) && std::isfinite(force_scale)))
         throw Error(PLM_ERR_ARGUMENT, "the flow needs a positive, finite frequency and a finite force scale")
             .argument("omega");
     for (const auto &entry : model_->excitation())
         fastest_force_ = std::max(fastest_force_, static_cast<double>(entry.first) * omega);
-    for (std::int64_t i = 0; i < model_->n_pairs(); ++i) {
-        double sum = 0;
-        for (std::int64_t j = 0; j < model_->size(); ++j) sum += model_->gap()(i, j) * model_->gap()(i, j);
-        row_norm_[i] = std::sqrt(sum);
-    }
-    closed_.assign(closed_.size(), 1);
-    system_.assign(closed_);
+    system_.assign_stiffest();
     const double pairs = static_cast<double>(model_->n_pairs()), switches = system_.rate() * period() / M_PI;
     event_limit_ = static_cast<std::int64_t>(std::min(1000 + pairs * (100 + switches), 1e15));
 }
@@ -67,16 +57,16 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
         const double left = t_end - state.time;
         double duration = 0;
         for (int attempt = 0;; ++attempt) {
-            system_.assign(closed_);
+            system_.assign(events_.states());
             duration = step_length(left);
             expand(state, duration);
             if (attempt == side_corrections || !correct_sides(state, duration)) break;
         }
         std::int64_t pair = -1;
-        const double fraction = first_event(pair);
+        const double fraction = events_.first(penetration_, pair);
         if (recorder) report(state, fraction, duration, *recorder);
         move_to(state, fraction, duration);
-        std::fill(at_zero_.begin(), at_zero_.end(), char(0));
+        events_.forget_zeros();
         if (pair >= 0) switch_pair(pair, fraction, state.time);
     }
     require_finite_result(state.y.data(), model_->size(), "displacements of the exact flow");
@@ -84,8 +74,7 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
 }
 
 void ExactFlow::switch_pair(std::int64_t pair, double fraction, double time) {
-    closed_[pair] = !closed_[pair];
-    at_zero_[pair] = 1;
+    events_.pass(pair);
     ++n_events_;
     stalled_ = fraction > no_progress ? 0 : stalled_ + 1;
     if (--events_left_ >= 0 && stalled_ <= 100 + 20 * model_->n_pairs()) return;
@@ -100,7 +89,7 @@ void ExactFlow::switch_pair(std::int64_t pair, double fraction, double time) {
 // By the penetration alone; pairs at zero get their side from the series. What follows without mass is where
 // the present forces put it, the contact's among them.
 void ExactFlow::guess_contact(const FlowState &state) {
-    std::fill(at_zero_.begin(), at_zero_.end(), char(0));
+    events_.forget_zeros();
     const std::int64_t z = model_->n_pairs();
     if (z == 0) return;
     vector<double> moving(state.y), u(z);
@@ -115,13 +104,13 @@ void ExactFlow::guess_contact(const FlowState &state) {
         step.solve(u, force);
         u = step.penetration();
     }
-    for (std::int64_t i = 0; i < z; ++i) closed_[i] = ContactLaw::closed(u[i]);
+    events_.guess(u);
 }
 
 void ExactFlow::complete(FlowState &state) {
     if (model_->n_massive() == model_->size()) return;
     guess_contact(state);
-    system_.assign(closed_);
+    system_.assign(events_.states());
     const double duration = step_length(0.125 * period());
     expand(state, duration);
     for (std::int64_t j = model_->n_massive(); j < model_->size(); ++j) {
@@ -187,7 +176,7 @@ void ExactFlow::follow() {
 }
 
 // Taylor coefficients of all forces but K y: Re(F_h exp(i h w t)) has F_h exp(i h w t_0) (i h w duration)^k /
-// k!. The gaps act through the springs of the closed pairs, too, and so does what the forces do at the
+// k!. The gaps act through the springs of the pairs, too, and so does what the forces do at the
 // contact by themselves where there is no mass.
 void ExactFlow::expand_forces(double time, double duration) {
     const std::int64_t n = model_->size();
@@ -228,52 +217,9 @@ void ExactFlow::expand_offsets() {
     for (std::int64_t i = 0; i < z; ++i) offset_(i, 0) -= model_->initial_gap()[i];
 }
 
-// The contact set that the motion itself confirms: each pair on the side to which it first moves away from
-// zero. Continuity of the force makes this well defined: a pair that leaves zero by its j-th derivative has
-// no influence on derivatives up to j + 1. True when a pair changed sides.
 bool ExactFlow::correct_sides(const FlowState &state, double duration) {
     const std::int64_t n = model_->size();
-    const double reach = norm2(n, state.y.data()) + duration * norm2(n, state.v.data());
-    bool changed = false;
-    for (std::int64_t i = 0; i < model_->n_pairs(); ++i) {
-        noise_[i] = gap_noise * (std::abs(model_->initial_gap()[i]) + row_norm_[i] * reach);
-        sides_[i] = side_of(i, noise_[i]);
-        if (sides_[i].power < 0 || sides_[i].closed == (closed_[i] != 0)) continue;
-        closed_[i] = sides_[i].closed;
-        changed = true;
-    }
-    return changed;
-}
-
-ExactFlow::Side ExactFlow::side_of(std::int64_t pair, double noise) const {
-    for (std::int64_t k = at_zero_[pair] ? 1 : 0; k < n_terms_; ++k) {
-        const double c = penetration_(pair, k);
-        if (std::abs(c) > noise) return {k, ContactLaw::closed(c)};
-    }
-    return {-1, closed_[pair] != 0}; // rests at zero: either side is right
-}
-
-// Fraction of the piece after which the first pair leaves its side, 1 and pair -1 when none does. A zero at
-// the beginning is divided out, so that it is not found again.
-double ExactFlow::first_event(std::int64_t &pair) {
-    double fraction = 1;
-    for (std::int64_t i = 0; i < model_->n_pairs(); ++i) {
-        const std::int64_t power = sides_[i].power;
-        if (power < 0) continue;
-        const double sign = closed_[i] ? 1.0 : -1.0, first = sign * penetration_(i, power);
-        if (!(first > 0)) continue; // no side was found that the motion confirms
-        double reach = 0;
-        for (std::int64_t k = power + 1; k < n_terms_; ++k) reach += std::abs(penetration_(i, k));
-        if (first >= reach) continue;
-        double scale = sign; // the rest of the piece is of no interest once an event is known
-        for (std::int64_t k = power; k < n_terms_; ++k, scale *= fraction)
-            polynomial_[k - power] = scale * penetration_(i, k);
-        const double at = first_crossing(polynomial_.data(), n_terms_ - 1 - power, noise_[i]);
-        if (at < 0) continue;
-        fraction *= at;
-        pair = i;
-    }
-    return fraction;
+    return events_.correct(penetration_, norm2(n, state.y.data()) + duration * norm2(n, state.v.data()));
 }
 
 void ExactFlow::move_to(FlowState &state, double fraction, double duration) {
@@ -294,19 +240,19 @@ void ExactFlow::move_to(FlowState &state, double fraction, double duration) {
 void ExactFlow::report(const FlowState &state, double fraction, double duration, FlowRecorder &recorder) {
     if (!(fraction > 0)) return;
     if (fraction == 1) {
-        recorder.record({state.time, duration, coefficient_, closed_});
+        recorder.record({state.time, duration, coefficient_, events_.states()});
         return;
     }
     shortened_ = coefficient_;
     double scale = 1;
     for (std::int64_t k = 0; k < n_terms_; ++k, scale *= fraction)
         for (std::int64_t j = 0; j < model_->size(); ++j) shortened_(j, k) *= scale;
-    recorder.record({state.time, fraction * duration, shortened_, closed_});
+    recorder.record({state.time, fraction * duration, shortened_, events_.states()});
 }
 
 void ContactHistory::record(const FlowPiece &piece) {
-    if (intervals_.empty() || intervals_.back().closed != piece.closed)
-        intervals_.push_back({0.0, piece.closed});
+    if (intervals_.empty() || intervals_.back().states != piece.states)
+        intervals_.push_back({0.0, piece.states});
     intervals_.back().duration += piece.duration;
 }
 

@@ -3,6 +3,7 @@
 // most two radians of the fastest motion), undamped resonance included, since nothing is divided by. On each
 // piece the penetrations are polynomials, whose first zero is isolated, never sampled (polynomial.hpp).
 #pragma once
+#include "contact/piece_events.hpp"
 #include "linalg/monitor.hpp"
 #include "orbits/contact_set.hpp"
 #include "orbits/monodromy.hpp"
@@ -14,7 +15,7 @@ namespace plm {
 struct FlowPiece {
     double start, duration;
     const Matrix &coefficient; // n x (degree + 1)
-    const vector<char> &closed;
+    const PairStates &states;
 };
 
 class FlowRecorder {
@@ -43,20 +44,13 @@ class ExactFlow {
     double omega() const { return omega_; }
     double force_scale() const { return force_scale_; }
     double period() const { return 2 * M_PI / omega_; }
-    const vector<char> &closed() const { return closed_; } // the present contact set
-    std::int64_t n_events() const { return n_events_; }    // since construction
+    std::int64_t n_events() const { return n_events_; } // since construction
     std::int64_t n_steps() const { return n_steps_; }
     /// By default each pair may switch twice per oscillation of the fastest motion, and some more.
     std::int64_t event_limit() const { return event_limit_; }
     void set_event_limit(std::int64_t per_period) { event_limit_ = per_period; }
 
   private:
-    /// Where a pair's penetration first differs from zero: power of s and side; -1 where it never does.
-    struct Side {
-        std::int64_t power = 0;
-        bool closed = false;
-    };
-
     void check(const FlowState &state, double t_end) const;
     void guess_contact(const FlowState &state);
     double step_length(double left);
@@ -66,8 +60,6 @@ class ExactFlow {
     void expand_offsets();
     void follow();
     bool correct_sides(const FlowState &state, double duration);
-    Side side_of(std::int64_t pair, double noise) const;
-    double first_event(std::int64_t &pair);
     void switch_pair(std::int64_t pair, double fraction, double time);
     void move_to(FlowState &state, double fraction, double duration);
     void report(const FlowState &state, double fraction, double duration, FlowRecorder &recorder);
@@ -76,11 +68,9 @@ class ExactFlow {
     double omega_, force_scale_, fastest_force_ = 0;
     Watch watch_;
     ContactSet system_;
-    vector<char> closed_, at_zero_; // at_zero_: its zero was just located
-    vector<double> row_norm_, noise_;
-    std::vector<Side> sides_;
+    PieceEvents events_;
     Matrix coefficient_, force_, offset_, still_, penetration_, contact_force_, shortened_;
-    vector<double> polynomial_, following_;
+    vector<double> following_;
     std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_ = 0, stalled_ = 0;
     double events_left_ = 0;
 };

@@ -45,8 +45,9 @@ class FlowModel {
     const Matrix &flexibility() const { return flexibility_; }
     const vector<double> &preload() const { return preload_; }
     const std::map<int, HarmonicLoad> &excitation() const { return excitation_; } // n each, h = 0 too
-    const vector<double> &contact_stiffness() const { return reduced_->contact_stiffness; }
-    const vector<double> &initial_gap() const { return reduced_->initial_gap; }
+    const Contact &contact() const { return reduced_->contact; }
+    const vector<double> &contact_stiffness() const { return reduced_->contact.stiffness; }
+    const vector<double> &initial_gap() const { return reduced_->contact.initial_gap; }
 
     /// The state at `fraction` of the period of a point of harmonic balance: eta_0 (r_0), eta r x 2H with
     /// columns a_1, b_1, ..., a_H, b_H. PLM_ERR_ARGUMENT when the sizes do not fit.

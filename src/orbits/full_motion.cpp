@@ -6,25 +6,23 @@
 namespace plm {
 namespace {
 
-// Histories of the observed DOFs, and how often a pair has opened or closed.
+// Histories of the observed DOFs, and how often a pair has changed its state.
 class RunObserver final : public NewmarkObserver {
   public:
     RunObserver(const Model &model, const FullState &start, const vector<std::int64_t> &observed)
-        : closed_(model.n_pairs()) {
+        : contact_(model.contact()) {
         for (std::int64_t dof : observed) rows_.push_back(model.free_index(dof));
         vector<double> u(model.n_pairs());
         model.gap_rows().of(start.q, u);
-        for (std::size_t i = 0; i < u.size(); ++i)
-            closed_[i] = ContactLaw::closed(u[i] - model.initial_gap()[i]);
+        for (std::size_t i = 0; i < u.size(); ++i) u[i] -= model.initial_gap()[i];
+        before_ = contact_.states(u);
     }
     void step(const NewmarkStep &step) override {
         ++n_steps_;
-        for (std::size_t i = 0; i < closed_.size(); ++i) {
-            const char closed = step.force[i] > 0;
-            n_events_ += closed != closed_[i];
-            closed_[i] = closed;
-        }
-        for (std::int64_t row : rows_) values_.push_back(row < 0 ? 0.0 : step.q.at(row, 0));
+        const PairStates states = contact_.states_of_forces(step.force);
+        n_events_ += states.n_different(before_);
+        before_ = states;
+        for (std::int64_t row : rows_) values_.push_back(row < 0 ? 0.0 : step.q.at(row));
     }
     std::int64_t n_events() const { return n_events_; }
     std::int64_t n_steps() const { return n_steps_; }
@@ -32,7 +30,8 @@ class RunObserver final : public NewmarkObserver {
 
   private:
     vector<std::int64_t> rows_;
-    vector<char> closed_;
+    const Contact &contact_;
+    PairStates before_;
     vector<double> values_;
     std::int64_t n_events_ = 0, n_steps_ = 0;
 };

@@ -1,5 +1,5 @@
 #include "orbits/instant_recorder.hpp"
-#include "orbits/polynomial.hpp"
+#include "contact/polynomial.hpp"
 #include <algorithm>
 
 namespace plm {
@@ -9,14 +9,14 @@ constexpr double at_the_end = 1e-9; // of an interval: an instant at the end of 
 
 } // namespace
 
-void InstantRecorder::count_events(const vector<char> &closed) {
-    if (closed_.empty()) closed_ = closed;
-    for (std::size_t i = 0; i < closed.size(); ++i) n_events_ += closed[i] != closed_[i];
-    closed_ = closed;
+void InstantRecorder::count_events(const PairStates &states) {
+    if (before_.empty()) before_ = states;
+    n_events_ += states.n_different(before_);
+    before_ = states;
 }
 
 void InstantRecorder::record(const FlowPiece &piece) {
-    count_events(piece.closed);
+    count_events(piece.states);
     const double start = piece_start_;
     piece_start_ += piece.duration;
     const auto instant = [&] { return static_cast<double>(n_instants_ + 1) * interval_; };

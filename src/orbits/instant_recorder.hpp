@@ -22,13 +22,13 @@ class InstantRecorder final : public FlowRecorder {
     std::int64_t n_events() const { return n_events_; }
 
   private:
-    void count_events(const vector<char> &closed);
+    void count_events(const PairStates &states);
 
     Matrix rows_, polynomials_;
     double interval_, piece_start_ = 0;
     std::int64_t n_instants_ = 0, n_events_ = 0;
     vector<double> values_;
-    vector<char> closed_;
+    PairStates before_;
 };
 
 } // namespace plm

@@ -27,7 +27,7 @@ class Exponential {
           next_(n_, size_), y_(n_, size_), v_(n_, size_) {}
 
     void apply(const ContactInterval &interval, Matrix &m) {
-        system_.assign(interval.closed);
+        system_.assign(interval.states);
         const double x = system_.rate() * interval.duration;
         if (x <= longest_series) {
             split(m);
@@ -148,10 +148,10 @@ class Exponential {
 };
 
 void check(const FlowModel &model, const ContactInterval &interval, std::int64_t index) {
-    if (static_cast<std::int64_t>(interval.closed.size()) != model.n_pairs())
+    if (interval.states.size() != model.n_pairs())
         throw Error(PLM_ERR_ARGUMENT,
-                    format("contact interval %lld has flags for %zu pairs where the model has %lld",
-                           static_cast<long long>(index), interval.closed.size(),
+                    format("contact interval %lld has states of %lld pairs where the model has %lld",
+                           static_cast<long long>(index), static_cast<long long>(interval.states.size()),
                            static_cast<long long>(model.n_pairs())))
             .argument("intervals")
             .index(index);

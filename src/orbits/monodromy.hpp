@@ -7,10 +7,10 @@
 
 namespace plm {
 
-/// A time span in which the same pairs are closed (Z flags).
+/// A time span in which every pair keeps its state.
 struct ContactInterval {
     double duration = 0;
-    vector<char> closed;
+    PairStates states;
 };
 
 /// d(y, y') at the end / d(y, y') at the beginning for a given sequence of contact sets: square of order 2n,

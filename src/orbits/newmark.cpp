@@ -92,9 +92,7 @@ void Newmark::find_flexibility() {
 FullState rest_state(const std::shared_ptr<const Model> &model, Watch watch) {
     const std::int64_t n = model->n_free();
     FullState state{Field(n, 1), Field(n, 1), 0};
-    const bool interference =
-        std::any_of(model->initial_gap().begin(), model->initial_gap().end(), [](double g) { return g < 0; });
-    if (model->has_preload() || interference)
+    if (model->has_preload() || model->contact().has_interference())
         state.q = rest_of(*make_contact_space(model, 0.0, 1, watch))->displacement;
     return state;
 }
@@ -133,7 +131,7 @@ void Newmark::start(const FullState &state) {
     Matrix force(z, 1);
     for (std::int64_t i = 0; i < z; ++i)
         force(i, 0) = contact_force_[i] =
-            ContactLaw::force(model_->contact_stiffness()[i], u_free_[i] - model_->initial_gap()[i]);
+            model_->contact().force(i, u_free_[i] - model_->initial_gap()[i]);
     excitation(state_.time, rest_force_);
     subtract_internal_forces(state_.q, state_.v, rest_force_);
     add(-1.0, model_->gap_rows().forces(force), rest_force_);

@@ -120,8 +120,7 @@ void ReducedMotion::use_frequency(double omega) {
 const FlowState &ReducedMotion::present() {
     if (state_.y.empty()) {
         const ReducedModel &m = *reduced_;
-        const StaticState rest =
-            solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap});
+        const StaticState rest = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact});
         state_ = {flow_model_->from_static_coordinates(rest.coordinates), vector<double>(size(), 0.0), 0};
     }
     return state_;

@@ -100,8 +100,7 @@ class Snapshots {
         ++asked;
         worked(1e6 + 100.0 * static_cast<double>(space_.size() * space_.n_pairs())); // about a millisecond
         try {
-            state = solve_static(
-                {space_.lambda, space_.gap, load, model.contact_stiffness(), model.initial_gap()});
+            state = solve_static({space_.lambda, space_.gap, load, model.contact()});
         } catch (const Error &e) {
             if (e.status() != PLM_ERR_CONVERGENCE) throw; // nothing holds the structure under this load
             return;
@@ -118,14 +117,15 @@ class Snapshots {
         sizes.push_back(size);
     }
 
-    /// G^T of the contact forces that the system with `closed` coupled does not have, per unit snapshot.
-    Matrix forces_beyond(const vector<char> &closed) const {
+    /// G^T of the contact forces that the linear system with these springs does not have, per unit snapshot.
+    Matrix forces_beyond(const vector<double> &springs) const {
+        const Contact &contact = space_.model->contact();
         Matrix beyond(space_.n_pairs(), penetrations.cols());
         for (std::int64_t i = 0; i < beyond.rows(); ++i) {
-            const double k = space_.model->contact_stiffness()[i], u0 = rest_.penetration[i];
+            const double u0 = rest_.penetration[i];
             for (std::int64_t c = 0; c < beyond.cols(); ++c) {
-                const double u = penetrations(i, c), linear = closed[i] ? k * (u - u0) : 0;
-                beyond(i, c) = (ContactLaw::force(k, u) - ContactLaw::force(k, u0) - linear) / sizes[c];
+                const double u = penetrations(i, c), linear = springs[i] * (u - u0);
+                beyond(i, c) = (contact.force(i, u) - contact.force(i, u0) - linear) / sizes[c];
             }
         }
         return product('T', 'N', space_.gap, beyond);
@@ -144,13 +144,14 @@ class Snapshots {
 // One linearised system S and what it contributes.
 class RestSystem {
   public:
-    RestSystem(const Space &space, vector<char> closed, const SelectionRule &rule)
-        : space_(space), closed_(std::move(closed)), omega_min_(2 * M_PI * rule.min_hz),
+    RestSystem(const Space &space, const PairStates &states, const SelectionRule &rule)
+        : space_(space), springs_(space.model->contact().springs(states)), omega_min_(2 * M_PI * rule.min_hz),
           omega_max_(2 * M_PI * rule.max_hz), n_harmonics_(rule.n_harmonics) {}
 
     /// Modes up to `highest` (rad/s) that the forces (m x n) move by more than the tolerance.
     Matrix modes(double highest, const Matrix &forces, double tolerance) const {
-        const SpaceModes all = modes_of_contact_set(space_, closed_, highest * highest * (1 + 1e-12));
+        const SpaceModes all = modes_with_springs(space_.lambda, space_.n_massless, space_.gap, springs_,
+                                                  highest * highest * (1 + 1e-12));
         if (forces.cols() == 0) return all.vectors;
         const Matrix work = product('T', 'N', all.vectors, forces);
         Matrix kept;
@@ -164,19 +165,17 @@ class RestSystem {
 
     /// (H omega_f)^2 K_S^-1 M x.
     Matrix inertia_response(const Matrix &motions) const {
-        vector<double> pivot(space_.lambda), spring(space_.model->contact_stiffness());
+        vector<double> pivot(space_.lambda);
         const double shift = 1e-4 * omega_min_ * omega_min_; // rigid-body motion is among the modes anyway
         for (std::int64_t j = 0; j < space_.size(); ++j) pivot[j] += shift * space_.mass(j);
-        for (std::size_t i = 0; i < spring.size(); ++i)
-            if (!closed_[i]) spring[i] = 0;
         Matrix x = momentum(space_, motions);
-        solve_with_springs(pivot, space_.gap, spring, x);
+        solve_with_springs(pivot, space_.gap, springs_, x);
         const double omega = static_cast<double>(n_harmonics_) * omega_max_;
         for (std::int64_t i = 0; i < x.rows() * x.cols(); ++i) x.data()[i] *= omega * omega;
         return x;
     }
 
-    const vector<char> &closed() const { return closed_; }
+    const vector<double> &springs() const { return springs_; }
 
   private:
     // Largest motion of a mode under a unit force at the harmonics of the window, times the root of its
@@ -193,7 +192,7 @@ class RestSystem {
     }
 
     const Space &space_;
-    vector<char> closed_;
+    vector<double> springs_;
     double omega_min_, omega_max_;
     std::int64_t n_harmonics_;
 };
@@ -242,7 +241,7 @@ Matrix main_directions(const Space &space, const Matrix &modes, Matrix x, double
 std::vector<RestSystem> rest_systems(const Space &space, const RestState &rest, const SelectionRule &rule) {
     std::vector<RestSystem> systems;
     if (!is_homogeneous(*space.model)) {
-        systems.emplace_back(space, rest.closed, rule);
+        systems.emplace_back(space, rest.states, rule);
         return systems;
     }
     for (LinearSystem s : {LinearSystem::open, LinearSystem::sliding})
@@ -281,7 +280,7 @@ CollectedModes collect_snapshots(const ColumnSources &from, Watch watch) {
     for (const RestSystem &system : rest_systems(space, rest, rule)) {
         Matrix forces = excitation;
         if (snapshots.motions.cols() > 0) {
-            forces.append(snapshots.forces_beyond(system.closed()));
+            forces.append(snapshots.forces_beyond(system.springs()));
             static_motions.append(system.inertia_response(snapshots.motions));
         }
         modes.append(

@@ -13,9 +13,9 @@
 namespace plm {
 namespace {
 
-vector<char> reference_contact(const Space &space) {
+PairStates reference_contact(const Space &space) {
     if (is_homogeneous(*space.model)) return contact_set(LinearSystem::sliding, space.n_pairs());
-    return rest_of(space)->closed;
+    return rest_of(space)->states;
 }
 
 // B K_ref^-1 B^T without rigid-body motion, negated: the softest patterns first.

@@ -4,9 +4,9 @@
 // is K_ref^-1 B_i^T / (B_i K_ref^-1 B_i^T).
 //
 // The reference system has the contact as it is at rest; where neither pre-load nor initial gap decides that,
-// every pair is closed. A joint here is one contact pair. Fewer vectors than pairs are the softest jump
-// patterns: eigenvectors of the flexibility B K_ref^-1 B^T with the largest values, which is their energy
-// under patterns of unit forces.
+// every pair acts, as in the sliding system. A joint here is one contact pair. Fewer vectors than pairs are
+// the softest jump patterns: eigenvectors of the flexibility B K_ref^-1 B^T with the largest values, which is
+// their energy under patterns of unit forces.
 #pragma once
 #include "reduction/mode_selection.hpp"
 
@@ -15,8 +15,8 @@ namespace plm {
 struct DiscontinuousModes {
     Matrix columns; // modes kept, then the discontinuity vectors (beside the modes), mass-normalised
     std::int64_t n_modes = 0;
-    vector<char> reference; // Z: pairs closed in the reference system
-    vector<double> energy;  // Z: eigenvalues of the flexibility, descending, over the largest
+    PairStates reference;  // of the reference system
+    vector<double> energy; // Z: eigenvalues of the flexibility, descending, over the largest
 };
 
 /// n_vectors: 0 for one per pair, else the leading ones, at most Z. Throws PLM_ERR_ARGUMENT when the rule

@@ -49,8 +49,7 @@ class MeanEquilibrium {
 
   private:
     vector<double> penetration_at(const vector<double> &eta) const {
-        vector<double> u(space_.n_pairs());
-        for (std::size_t p = 0; p < u.size(); ++p) u[p] = -space_.model->initial_gap()[p];
+        vector<double> u = space_.model->contact().unloaded_penetration();
         gemv('N', 1.0, space_.gap, eta.data(), 1.0, u.data());
         return u;
     }

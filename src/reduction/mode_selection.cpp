@@ -104,7 +104,7 @@ CollectedModes collect_modes(const Space &space, const std::vector<SelectedSampl
     for (std::size_t i = 0; i < samples.size(); ++i) {
         watch.step("modes", static_cast<double>(i) / static_cast<double>(samples.size()));
         const MatchedModes found =
-            match_modes(space, samples[i].closed, dominant[samples[i].dominant], rule.highest_eigenvalue());
+            match_modes(space, samples[i].states, dominant[samples[i].dominant], rule.highest_eigenvalue());
         collected.samples.push_back(select_modes(found, rule));
         const SampleSelection &sample = collected.samples.back();
         collected.columns.append(kept_columns(found.modes, sample.kept));

@@ -3,7 +3,7 @@
 #include "linalg/monitor.hpp"
 #include "reduction/basis_options.hpp"
 #include "reduction/conditioning.hpp"
-#include "sampling/contact_sweep.hpp"
+#include "sampling/sample_selection.hpp"
 
 namespace plm {
 

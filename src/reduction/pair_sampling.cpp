@@ -78,17 +78,17 @@ std::shared_ptr<const ReducedModel> carry(const ReducedModel &whole, const vecto
     auto all = std::make_shared<AllPairs>();
     all->gap = whole.gap;
     all->gap_0 = whole.gap_0;
-    all->contact_stiffness = whole.contact_stiffness;
-    all->initial_gap = whole.initial_gap;
+    all->contact = whole.contact;
     reduced->all_pairs = all;
     reduced->carried = carried;
     reduced->gap = select_rows(whole.gap, carried);
     reduced->gap_0 = select_rows(whole.gap_0, carried);
-    reduced->contact_stiffness.assign(carried.size(), 0.0);
-    reduced->initial_gap.resize(carried.size());
-    for (std::size_t c = 0; c < carried.size(); ++c) reduced->initial_gap[c] = whole.initial_gap[carried[c]];
+    reduced->contact.stiffness.assign(carried.size(), 0.0);
+    reduced->contact.initial_gap.resize(carried.size());
+    for (std::size_t c = 0; c < carried.size(); ++c)
+        reduced->contact.initial_gap[c] = whole.contact.initial_gap[carried[c]];
     for (std::int64_t i = 0; i < whole.n_pairs(); ++i)
-        reduced->contact_stiffness[nearest(motions, i, carried)] += whole.contact_stiffness[i];
+        reduced->contact.stiffness[nearest(motions, i, carried)] += whole.contact.stiffness[i];
     return reduced;
 }
 

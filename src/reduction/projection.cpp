@@ -54,8 +54,7 @@ void project_damping(const Space &space, const Coordinates &dynamic, ReducedMode
 void finish(const Space &space, ReducedModel &reduced) {
     reduced.model = space.model;
     reduced.structural = space.model->damping().structural;
-    reduced.contact_stiffness = space.model->contact_stiffness();
-    reduced.initial_gap = space.model->initial_gap();
+    reduced.contact = space.model->contact();
     if (reduced.same_static) {
         reduced.lambda_0 = reduced.lambda;
         reduced.n_massless_0 = reduced.n_massless;

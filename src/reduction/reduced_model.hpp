@@ -8,8 +8,8 @@ namespace plm {
 
 /// The contact of the model when the equations carry some of its pairs only (node sampling).
 struct AllPairs {
-    Matrix gap, gap_0;                             // B P, B P_0: Z x r, Z x r_0
-    vector<double> contact_stiffness, initial_gap; // Z
+    Matrix gap, gap_0; // B P, B P_0: Z x r, Z x r_0
+    Contact contact;
 };
 
 struct ReducedModel {
@@ -28,9 +28,8 @@ struct ReducedModel {
     Matrix gap_0; // B P_0: Z x r_0
     // loads
     vector<double> preload_0;               // P_0^T F_preload, r_0 (zeros without pre-load)
-    HarmonicLoads excitation; // h >= 1: r; h = 0: r_0
-    // contact
-    vector<double> contact_stiffness, initial_gap;
+    HarmonicLoads excitation;               // h >= 1: r; h = 0: r_0
+    Contact contact;
     // Node sampling: all of the above about contact is of the pairs in `carried` only, their stiffness
     // includes that of the pairs left out, and all_pairs has the model's own. Null: all pairs are carried
     vector<std::int64_t> carried;
@@ -47,12 +46,7 @@ struct ReducedModel {
     // what the motion means for the pairs of the model, carried or not
     const Matrix &whole_gap() const { return all_pairs ? all_pairs->gap : gap; }
     const Matrix &whole_gap_0() const { return all_pairs ? all_pairs->gap_0 : gap_0; }
-    const vector<double> &whole_stiffness() const {
-        return all_pairs ? all_pairs->contact_stiffness : contact_stiffness;
-    }
-    const vector<double> &whole_initial_gap() const {
-        return all_pairs ? all_pairs->initial_gap : initial_gap;
-    }
+    const Contact &whole_contact() const { return all_pairs ? all_pairs->contact : contact; }
     std::int64_t n_whole_pairs() const { return whole_gap().rows(); }
     const Field &static_vectors() const { return same_static ? vectors : vectors_0; }
 };

@@ -7,8 +7,8 @@
 
 namespace plm {
 
-vector<char> contact_set(LinearSystem system, std::int64_t n_pairs) {
-    return vector<char>(n_pairs, system == LinearSystem::sliding ? 1 : 0);
+PairStates contact_set(LinearSystem system, std::int64_t n_pairs) {
+    return system == LinearSystem::sliding ? PairStates::all_closed(n_pairs) : PairStates::all_open(n_pairs);
 }
 
 bool is_homogeneous(const Model &model) {
@@ -27,14 +27,14 @@ const char *name_of(LinearSystem system) {
 
 // At least `count` modes and one above `hz`, or all there are.
 SpaceModes lowest_modes(const Space &space, LinearSystem system, std::int64_t count, double hz) {
-    const vector<char> closed = contact_set(system, space.n_pairs());
+    const PairStates states = contact_set(system, space.n_pairs());
     const double reach = 2 * std::max(space.highest_frequency, 2 * M_PI * hz);
     if (reach > 0) {
-        SpaceModes modes = modes_of_contact_set(space, closed, reach * reach);
+        SpaceModes modes = modes_of_contact_set(space, states, reach * reach);
         if (modes.vectors.cols() >= count && !modes.values.empty() && to_hz(modes.values.back()) > hz)
             return modes;
     }
-    return modes_of_contact_set(space, closed, std::numeric_limits<double>::infinity());
+    return modes_of_contact_set(space, states, std::numeric_limits<double>::infinity());
 }
 
 // |phi . F|^2 / omega^4: the squared resonance amplitude of each mode at equal Q, up to a common factor; 0

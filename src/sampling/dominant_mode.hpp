@@ -25,7 +25,7 @@ struct ModeRequest {
 };
 
 /// The contact set of the open or sliding system.
-vector<char> contact_set(LinearSystem system, std::int64_t n_pairs);
+PairStates contact_set(LinearSystem system, std::int64_t n_pairs);
 
 /// True when neither a pre-load nor an initial gap sets a scale: the problem is homogeneous of degree one.
 bool is_homogeneous(const Model &model);

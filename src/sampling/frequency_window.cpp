@@ -17,10 +17,10 @@ constexpr double resembles = 0.5;
 
 // The frequency of the mode that resembles the dominant one; its row is added to the table. `decides`: the
 // window stands or falls with it, otherwise it only makes it wider than it need be.
-double matched_frequency(const Space &space, const DominantMode &dominant, const vector<char> &closed,
+double matched_frequency(const Space &space, const DominantMode &dominant, const PairStates &states,
                          const char *name, bool decides, FrequencyWindow &window, Watch watch) {
     const double omega = 2 * M_PI * dominant.frequency_hz;
-    const MatchedModes matched = match_modes(space, closed, dominant.coordinates, 9 * omega * omega);
+    const MatchedModes matched = match_modes(space, states, dominant.coordinates, 9 * omega * omega);
     if (matched.best < 0)
         throw Error(PLM_ERR_EIGENSOLVER, std::string("the linear system of ") + name + " has no mode");
     MacRow row;
@@ -87,7 +87,7 @@ FrequencyWindow find_window(const Space &space, const DominantMode &dominant, co
     w.f2_hz = matched_frequency(space, dominant, sweep.samples.front(), "system 2", by_halves, w, watch);
     w.blf_hz = bilinear_frequency(w.f1_hz, w.f2_hz);
     if (w.preload_case)
-        w.rest_hz = matched_frequency(space, dominant, rest.closed, "rest", estimated, w, watch);
+        w.rest_hz = matched_frequency(space, dominant, rest.states, "rest", estimated, w, watch);
     if (!estimated) {
         w.min_hz = options.window_min_hz;
         w.max_hz = options.window_max_hz;

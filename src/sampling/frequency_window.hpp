@@ -1,6 +1,6 @@
 // The frequency range where the dominant mode governs the response (paper, 2.3.2).
 #pragma once
-#include "sampling/contact_sweep.hpp"
+#include "contact/contact_sweep.hpp"
 #include "sampling/dominant_mode.hpp"
 #include "space/rest.hpp"
 #include <string>

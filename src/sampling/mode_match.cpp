@@ -20,10 +20,10 @@ double to_hz(double eigenvalue) {
 
 namespace {
 
-MatchedModes match_below(const Space &space, const vector<char> &closed, const vector<double> &shape,
+MatchedModes match_below(const Space &space, const PairStates &states, const vector<double> &shape,
                          double upper) {
     MatchedModes matched;
-    matched.modes = modes_of_contact_set(space, closed, upper);
+    matched.modes = modes_of_contact_set(space, states, upper);
     const std::int64_t count = matched.modes.vectors.cols();
     matched.mac.resize(count);
     for (std::int64_t j = 0; j < count; ++j) {
@@ -43,13 +43,13 @@ bool is_settled(const MatchedModes &matched) {
 
 } // namespace
 
-MatchedModes match_modes(const Space &space, const vector<char> &closed, const vector<double> &shape,
+MatchedModes match_modes(const Space &space, const PairStates &states, const vector<double> &shape,
                          double upper) {
     for (int attempt = 0; attempt < 3 && upper > 0; ++attempt, upper *= 9) {
-        MatchedModes matched = match_below(space, closed, shape, upper);
+        MatchedModes matched = match_below(space, states, shape, upper);
         if (is_settled(matched) || matched.modes.vectors.cols() == space.n_massive()) return matched;
     }
-    return match_below(space, closed, shape, std::numeric_limits<double>::infinity());
+    return match_below(space, states, shape, std::numeric_limits<double>::infinity());
 }
 
 } // namespace plm

@@ -20,7 +20,7 @@ struct MatchedModes {
 /// The modes of a contact set below `upper` (rad^2/s^2), and beyond it as far as is needed to be sure of the
 /// best match: all modes together make up the shape, so the search ends when those found leave too little for
 /// a better one.
-MatchedModes match_modes(const Space &space, const vector<char> &closed, const vector<double> &shape,
+MatchedModes match_modes(const Space &space, const PairStates &states, const vector<double> &shape,
                          double upper);
 
 } // namespace plm

@@ -1,5 +1,5 @@
 #include "sampling/reference_system.hpp"
-#include "sampling/contact_sweep.hpp"
+#include "contact/contact_sweep.hpp"
 #include "sampling/mode_match.hpp"
 #include <algorithm>
 #include <cmath>
@@ -25,33 +25,19 @@ bool contact_holds_a_part(const Space &space) {
     return rigid > unmoved * largest;
 }
 
-// Share of the closed pairs' motion that presses, and of the open pairs' that parts; the lesser of the two.
-double as_assumed(const vector<char> &closed, const vector<double> &stiffness,
-                  const vector<double> &penetration) {
-    double right[2] = {0, 0}, all[2] = {0, 0};
-    for (std::size_t i = 0; i < closed.size(); ++i) {
-        const bool c = closed[i] != 0;
-        const double amount = std::abs(penetration[i]) * (c ? stiffness[i] : 1.0);
-        all[c] += amount;
-        if (c == (penetration[i] > 0)) right[c] += amount;
-    }
-    double least = 1;
-    for (int c : {0, 1})
-        if (all[c] > 0) least = std::min(least, right[c] / all[c]);
-    return least;
-}
-
 double agreement_of_half(const Space &space, const DominantMode &dominant, double side) {
-    vector<char> closed(dominant.mode_penetration.size());
-    for (std::size_t i = 0; i < closed.size(); ++i) closed[i] = side * dominant.mode_penetration[i] > 0;
+    const Contact &contact = space.model->contact();
+    vector<double> half(dominant.mode_penetration);
+    for (double &u : half) u *= side;
+    const PairStates states = contact.states(half);
     const double omega = 2 * M_PI * dominant.frequency_hz;
-    const MatchedModes found = match_modes(space, closed, dominant.coordinates, 9 * omega * omega);
+    const MatchedModes found = match_modes(space, states, dominant.coordinates, 9 * omega * omega);
     if (found.best < 0) return 0;
     const double *mode = found.modes.vectors.col(found.best);
     const double along = dot(space.size(), mode, dominant.coordinates.data()) * side < 0 ? -1.0 : 1.0;
     vector<double> penetration(space.n_pairs(), 0.0);
     gemv('N', along, space.gap, mode, 0.0, penetration.data());
-    return found.mac[found.best] * as_assumed(closed, space.model->contact_stiffness(), penetration);
+    return found.mac[found.best] * contact.agreement(states, penetration);
 }
 
 } // namespace
@@ -63,9 +49,7 @@ double half_cycle_agreement(const Space &space, const DominantMode &dominant) {
 LinearSystem reference_system(LinearSystem asked, const Space &space, const RestState &rest, bool homogeneous,
                               ModeRequest request) {
     if (asked != LinearSystem::automatic) return asked;
-    const auto n_closed =
-        std::count_if(rest.closed.begin(), rest.closed.end(), [](char c) { return c != 0; });
-    if (2 * n_closed > static_cast<std::int64_t>(rest.closed.size())) return LinearSystem::sliding;
+    if (2 * rest.states.n_closed() > rest.states.size()) return LinearSystem::sliding;
     if (!homogeneous) return LinearSystem::open;
     if (contact_holds_a_part(space)) return LinearSystem::sliding;
     double agreement[2];

@@ -1,5 +1,4 @@
 #include "sampling/sampler.hpp"
-#include "sampling/contact_sweep.hpp"
 #include "sampling/dominant_mode.hpp"
 #include "sampling/frequency_window.hpp"
 #include "sampling/mode_match.hpp"

@@ -1,6 +1,7 @@
 // The evolution of the contact area along a dominant mode, and the frequency window (paper, 2.3.1 and 2.3.2).
 #pragma once
 #include "sampling/frequency_window.hpp"
+#include "sampling/sample_selection.hpp"
 #include "sampling/sampler_options.hpp"
 
 namespace plm {

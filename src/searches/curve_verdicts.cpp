@@ -1,5 +1,5 @@
 #include "searches/curve_verdicts.hpp"
-#include "contact/trig_polynomial.hpp"
+#include "contact/contact_measures.hpp"
 #include "searches/wider_range.hpp"
 #include <algorithm>
 #include <cmath>
@@ -37,19 +37,6 @@ bool is_beside_the_point(const SweepRange &window, const Branch &branch) {
     for (const BranchPoint &p : branch.points())
         if (p.n_switching > 0 || is_inside(window, p)) return false;
     return branch.points().size() > 1 && branch.reduced().n_pairs() > 0;
-}
-
-// How many times as large the motion at a point would have to be for the first pair to switch.
-double factor_to_switching(const Branch &branch, std::int64_t point) {
-    const Matrix u = branch.penetration_coefficients(point);
-    const std::int64_t n = u.rows() / 2;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::int64_t i = 0; i < u.cols(); ++i) {
-        const TrigRange range = trig_range(u.col(i), n);
-        const double half = 0.5 * (range.maximum - range.minimum);
-        if (half > 0) least = std::min(least, std::abs(u(0, i)) / half);
-    }
-    return least;
 }
 
 // Whether what the full residual shows is the basis alone: forces from samples miss by themselves, and of
@@ -111,7 +98,7 @@ void check_switching(Watch watch, Branch &branch) {
         if (p.n_switching > 0) return;
     const std::int64_t top = largest_response(branch);
     if (!(response_size(branch, top) > 0)) return; // nothing is excited
-    const double factor = factor_to_switching(branch, top);
+    const double factor = factor_to_switching(branch.penetration_coefficients(top).transposed());
     if (factor < far_from_switching) return;
     watch.keeping(branch.warnings)
         .warn(

@@ -13,14 +13,14 @@ namespace {
 // stiffness, not on the penetration alone, so both that and the contact forces are carried over.
 Matrix gaps_of(const BranchPoint &p, const ReducedModel &from, const ReducedModel &to, HbmOptions o) {
     const ContactMotion motion = whole_contact_motion(from, p);
-    const Formulation law = make_formulation(to, o);
+    const LawForm law = make_formulation(to, o);
     o.n_harmonics = motion.u.cols() / 2;
     Matrix x = whole_penetration_of(from, p, o.n_harmonics);
     if (!law.compliant) return x;
-    ContactIndicator closed;
+    ContactIndicator indicator;
     Matrix force(x.rows(), x.cols());
-    make_contact_force(o, x.rows())->indicator(motion.u, closed);
-    apply_indicator(closed, *motion.stiffness, motion.u, force);
+    make_contact_force(o, x.rows())->indicator(motion.u, indicator);
+    apply_indicator(indicator, *motion.stiffness, motion.u, force);
     for (std::int64_t k = 0; k < x.cols(); ++k)
         for (std::int64_t i = 0; i < x.rows(); ++i) x(i, k) += law.slack[i] * force(i, k);
     return x;

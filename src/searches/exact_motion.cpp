@@ -1,10 +1,8 @@
 #include "searches/exact_motion.hpp"
-#include "contact/contact_force.hpp"
 #include "hbm/formulation.hpp"
 #include "orbits/period_map.hpp"
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace plm {
 namespace {
@@ -22,13 +20,13 @@ constexpr double safe_shift = 5e-4, exact_shift = 1e-7;
 // curve would take minutes.
 constexpr double cheap = 3e6, affordable = 3e7; // flops
 
-// The fastest motion with all pairs closed bounds the length of the flow's pieces from above.
+// The fastest motion of the stiffest contact set bounds the length of the flow's pieces from above.
 double flops_of_run(const ExactFlow &flow, std::int64_t periods) {
     const FlowModel &model = flow.model();
-    ContactSet closed(model);
-    closed.assign(vector<char>(model.n_pairs(), 1));
+    ContactSet stiffest(model);
+    stiffest.assign_stiffest();
     const double n = static_cast<double>(model.size()), z = static_cast<double>(model.n_pairs()),
-                 pieces = 16 + 0.5 * closed.rate() * flow.period() * static_cast<double>(periods);
+                 pieces = 16 + 0.5 * stiffest.rate() * flow.period() * static_cast<double>(periods);
     return pieces * 26 * 2 * n * (n + z); // 26 terms of the series
 }
 
@@ -63,17 +61,7 @@ template <class Search> Matrix found_by(const Search &search) {
 
 EventSequence contact_events(const ReducedModel &m, const BranchPoint &point, std::int64_t period_multiple) {
     const double period = 2 * M_PI / point.omega * static_cast<double>(period_multiple);
-    EventSequence sequence;
-    if (m.n_pairs() == 0) return sequence;
-    SwitchingInstants switching = switching_instants(contact_motion(m, point).u);
-    sequence.closed_first = std::move(switching.closed_first);
-    for (std::int64_t i = 0; i < m.n_pairs(); ++i)
-        for (double t : switching.instants[i]) sequence.events.push_back({t / (2 * M_PI) * period, i});
-    std::sort(sequence.events.begin(), sequence.events.end(),
-              [](const ContactEvent &a, const ContactEvent &b) {
-                  return std::tie(a.time, a.pair) < std::tie(b.time, b.pair);
-              });
-    return sequence;
+    return event_sequence(contact_motion(m, point).u, period);
 }
 
 // Where no pair switches the solution is exact. Elsewhere the instants of harmonic balance are those of a
@@ -83,8 +71,7 @@ Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const Bra
     ExactFlow flow(model, point.omega, point.force_scale);
     if (sequence.events.empty())
         return found_by([&] {
-            return plm::monodromy(*model,
-                                  {{flow.period() * static_cast<double>(periods_), sequence.closed_first}});
+            return plm::monodromy(*model, {{flow.period() * static_cast<double>(periods_), sequence.first}});
         });
     const double omega = point.omega / static_cast<double>(periods_);
     const FlowState start = model->state(point.eta_0, point.eta, omega, 0.0);

@@ -124,7 +124,7 @@ vector<double> FoldSystem::contact_gradient(const vector<double> &w, const vecto
     vector<double> gradient(inner_.size(), 0.0);
     if (z == 0) return gradient;
     Matrix u = gap_motion(y_, 1);
-    for (std::int64_t i = 0; i < z; ++i) u(i, 0) -= m.initial_gap[i];
+    for (std::int64_t i = 0; i < z; ++i) u(i, 0) -= m.contact.initial_gap[i];
     const SwitchingInstants switching = switching_instants(u);
     const Matrix ut = u.transposed(), vt = gap_motion(v, 1).transposed(), wt = gap_motion(w, 2).transposed();
     const std::int64_t columns = u.cols() - 1, h = columns / 2;
@@ -133,7 +133,7 @@ vector<double> FoldSystem::contact_gradient(const vector<double> &w, const vecto
         for (double t : switching.instants[i]) {
             const double speed = std::abs(evaluate_trig(ut.col(i), h, t).slope);
             if (speed == 0) continue;
-            const double weight = m.contact_stiffness[i] * evaluate_trig(vt.col(i), h, t).value *
+            const double weight = m.contact.stiffness[i] * evaluate_trig(vt.col(i), h, t).value *
                                   evaluate_trig(wt.col(i), h, t).value / (2 * M_PI * speed);
             change(i, 0) += weight;
             for (std::int64_t k = 1; k <= h; ++k) {

@@ -75,8 +75,7 @@ class Marching {
         const ReducedModel &m = *reduced_;
         const vector<double> coupling = coupling_at_rest(m);
         if (std::find(coupling.begin(), coupling.end(), 1.0) == coupling.end()) return;
-        rest_ =
-            solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap}).coordinates;
+        rest_ = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact}).coordinates;
     }
 
     void try_start(double omega, double scale) {

@@ -1,4 +1,5 @@
 #include "searches/nonlinear_mode.hpp"
+#include "contact/contact_measures.hpp"
 #include "hbm/branch_path.hpp"
 #include "hbm/harmonic_tail.hpp"
 #include "hbm/make_system.hpp"
@@ -244,15 +245,12 @@ class ModePath final : public PathOwner {
         vector<double> x(inner_->size());
         inner_->linear_response(coupling_, omega_, x.data());
         const ReducedModel &m = *m_;
-        double first = 0;
+        vector<double> rest = m.contact.unloaded_penetration(), swing(m.n_pairs(), 0.0);
         for (std::int64_t i = 0; i < m.n_pairs(); ++i) {
-            double mean = -m.initial_gap[i], swing = 0;
-            for (std::int64_t j = 0; j < m.static_size(); ++j) mean += m.gap_0(i, j) * x[j];
-            for (std::int64_t j = 0; j < m.size(); ++j) swing += m.gap(i, j) * shape_[j];
-            if (swing != 0 && coupling_[i] != 0.5 && (first == 0 || std::abs(mean / swing) < first))
-                first = std::abs(mean / swing);
+            for (std::int64_t j = 0; j < m.static_size(); ++j) rest[i] += m.gap_0(i, j) * x[j];
+            for (std::int64_t j = 0; j < m.size(); ++j) swing[i] += m.gap(i, j) * shape_[j];
         }
-        return first;
+        return amplitude_of_first_switch(rest, swing, coupling_);
     }
 
     void find_amplitudes() {

@@ -222,8 +222,7 @@ bool PhaseResonance::linear_range(const vector<double> &coupling, const BranchPo
     const ReducedModel &m = *reduced_;
     const double asked = options_.hbm.force_scale;
     double largest = 1e300;
-    vector<double> mean(m.n_pairs());
-    for (std::int64_t i = 0; i < m.n_pairs(); ++i) mean[i] = -m.initial_gap[i];
+    vector<double> mean = m.contact.unloaded_penetration();
     if (m.n_pairs() > 0) gemv('N', 1.0, m.gap_0, point.eta_0.data(), 1.0, mean.data());
     const Matrix u = product('N', 'N', m.gap, point.eta);
     double most = 0;

@@ -42,13 +42,6 @@ Matrix states_beside(const Matrix &free, const FlowModel &flow, bool velocities)
     return states;
 }
 
-// Z flags of the pairs that close at some time.
-vector<char> closing_pairs(const EventSequence &sequence) {
-    vector<char> closing = sequence.closed_first;
-    for (const ContactEvent &event : sequence.events) closing[static_cast<std::size_t>(event.pair)] = 1;
-    return closing;
-}
-
 } // namespace
 
 Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
@@ -65,7 +58,7 @@ vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) {
     const auto flow = flow_ ? flow_ : std::make_shared<FlowModel>(reduced_, point.omega);
     if (hill_) return hill_multipliers(*flow, point, period_multiple_);
     const EventSequence sequence = contact_events(*reduced_, point, period_multiple_);
-    const Matrix free = free_motion(*reduced_, closing_pairs(sequence)),
+    const Matrix free = free_motion(*reduced_, sequence.acting()),
                  transition = beside_.monodromy(flow, point, sequence, states_beside(free, *flow, false));
     if (transition.rows() == 0) return {};
     if (free.cols() == 0) return plm::multipliers(transition);

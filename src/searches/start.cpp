@@ -135,7 +135,7 @@ class Starter {
     bool stiffness_path() {
         const double local = local_stiffness(reduced_);
         double stiffest = 0;
-        for (double k : reduced_.contact_stiffness) stiffest = std::max(stiffest, k);
+        for (double k : reduced_.contact.stiffness) stiffest = std::max(stiffest, k);
         constexpr double stiffer = 0.5;  // contact that is hardly stiffer is no easier when softened
         for (double soft : {1.0, 0.1}) { // of the structure's own stiffness at the contact
             const double factor = soft * local / stiffest;
@@ -197,16 +197,12 @@ class Starter {
 } // namespace
 
 vector<double> coupling_at_rest(const ReducedModel &m) {
-    vector<double> u(m.n_pairs());
-    for (std::size_t i = 0; i < u.size(); ++i) u[i] = -m.initial_gap[i];
     const bool loaded =
         std::any_of(m.preload_0.begin(), m.preload_0.end(), [](double f) { return f != 0; }) ||
-        std::any_of(u.begin(), u.end(), [](double v) { return v > 0; });
-    if (loaded)
-        u = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact_stiffness, m.initial_gap}).penetration;
-    vector<double> coupling(u.size());
-    for (std::size_t i = 0; i < u.size(); ++i) coupling[i] = u[i] > 0 ? 1.0 : u[i] < 0 ? 0.0 : 0.5;
-    return coupling;
+        m.contact.has_interference();
+    return m.contact.closed_shares(
+        loaded ? solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact}).penetration
+               : m.contact.unloaded_penetration());
 }
 
 void StartOutcome::add(const StartOutcome &next) {

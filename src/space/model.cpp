@@ -27,9 +27,9 @@ Solver chosen(SolverName name, const HostSolver *host) {
 } // namespace
 
 Model::Model(const ModelInput &input, const SpaceOptions &options, const HostSolver *host, Watch watch)
-    : Structure(input, static_cast<std::int64_t>(input.contact_stiffness.size()),
-                largest_given(input.contact_stiffness), chosen(options.solver, host), watch),
-      contact_stiffness_(input.contact_stiffness), initial_gap_(input.initial_gap), space_options_(options) {
+    : Structure(input, input.contact.n_pairs(),
+                largest_given(input.contact.stiffness), chosen(options.solver, host), watch),
+      contact_(input.contact), space_options_(options) {
     solve_attachment(watch);
     resolve_contact_stiffness();
 }
@@ -69,7 +69,7 @@ void Model::resolve_contact_stiffness() {
     const vector<double> flexibility = elastic_flexibility();
     if (!flexibility.empty()) local_stiffness_ = 1 / median(flexibility);
     for (std::int64_t i = 0; i < n_pairs(); ++i) {
-        if (contact_stiffness_[i] != PLM_AUTO_STIFFNESS) continue;
+        if (contact_.stiffness[i] != PLM_AUTO_STIFFNESS) continue;
         if (!(local_stiffness_ > 0))
             throw Error(PLM_ERR_ARGUMENT,
                         format("PLM_AUTO_STIFFNESS of pair %lld: the bodies are rigid at the "
@@ -77,7 +77,7 @@ void Model::resolve_contact_stiffness() {
                                static_cast<long long>(i)))
                 .argument("stiffness")
                 .index(i);
-        contact_stiffness_[i] = 10 * local_stiffness_;
+        contact_.stiffness[i] = 10 * local_stiffness_;
     }
 }
 

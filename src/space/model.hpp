@@ -1,15 +1,13 @@
 // The structure with its contact: M q'' + C q' + K q = F(t) - B^T N(B q - g), checked once and then read-only.
 #pragma once
-#include "contact/contact_law.hpp"
+#include "contact/contact.hpp"
 #include "structure/structure.hpp"
 
 namespace plm {
 
 /// All that the caller said, before it is checked as a whole.
 struct ModelInput : StructureInput {
-    // one for each pair of the gap matrix
-    vector<double> contact_stiffness; // PLM_AUTO_STIFFNESS: chosen when the flexibility is known
-    vector<double> initial_gap;
+    Contact contact; // of the pairs of the gap matrix; PLM_AUTO_STIFFNESS: chosen when the flexibility is known
 };
 
 /// How the contact space (contact_space.hpp) is built; options of the model.
@@ -29,8 +27,9 @@ class Model : public Structure {
     Model(const ModelInput &input, const SpaceOptions &options, const HostSolver *host, Watch watch);
 
     std::int64_t n_pairs() const { return gap_rows().n_pairs(); }
-    const vector<double> &contact_stiffness() const { return contact_stiffness_; } // k_n, resolved
-    const vector<double> &initial_gap() const { return initial_gap_; }
+    const Contact &contact() const { return contact_; }
+    const vector<double> &contact_stiffness() const { return contact_.stiffness; } // k_n, resolved
+    const vector<double> &initial_gap() const { return contact_.initial_gap; }
     /// 1 / median of the contact flexibility diag(B K^-1 B^T), rigid-body motion left out; 0 without pairs.
     double local_stiffness() const { return local_stiffness_; }
     /// (K + shift M)^-1 B^T, n_free x Z: computed once, at the build (auto stiffness and every space need
@@ -43,7 +42,7 @@ class Model : public Structure {
     vector<double> elastic_flexibility() const;
     void resolve_contact_stiffness();
 
-    vector<double> contact_stiffness_, initial_gap_;
+    Contact contact_;
     double local_stiffness_ = 0;
     Field attachment_;
     SpaceOptions space_options_;

@@ -30,27 +30,24 @@ class RestProblem {
     }
 
     vector<double> penetration(const vector<double> &eta) const {
-        vector<double> u(p_.gap.rows());
-        for (std::size_t i = 0; i < u.size(); ++i) u[i] = -p_.initial_gap[i];
+        vector<double> u = p_.contact.unloaded_penetration();
         gemv('N', 1.0, p_.gap, eta.data(), 1.0, u.data());
         return u;
     }
 
     vector<double> gradient(const vector<double> &eta, const vector<double> &u) const {
-        vector<double> g(p_.gap.cols()), n(u.size());
+        vector<double> g(p_.gap.cols());
+        const vector<double> n = p_.contact.forces(u);
         for (std::size_t j = 0; j < g.size(); ++j) g[j] = p_.lambda[j] * eta[j] - p_.load[j];
-        for (std::size_t i = 0; i < u.size(); ++i) n[i] = ContactLaw::force(p_.contact_stiffness[i], u[i]);
         gemv('T', 1.0, p_.gap, n.data(), 1.0, g.data());
         return g;
     }
 
-    // -(D + G' k G)^-1 g over the closed pairs.
+    // -(D + G' k G)^-1 g over the pairs that press.
     vector<double> newton_step(const vector<double> &g, const vector<double> &u) const {
-        vector<double> d(g), spring(u.size());
+        vector<double> d(g);
         for (double &v : d) v = -v;
-        for (std::size_t i = 0; i < u.size(); ++i)
-            spring[i] = ContactLaw::tangent(p_.contact_stiffness[i], u[i]);
-        solve_with_springs(pivot_, p_.gap, spring, d);
+        solve_with_springs(pivot_, p_.gap, p_.contact.tangents(u), d);
         return d;
     }
 
@@ -68,8 +65,7 @@ class RestProblem {
         double s = 0;
         for (std::size_t j = 0; j < d.size(); ++j)
             s += d[j] * (p_.lambda[j] * (eta[j] + t * d[j]) - p_.load[j]);
-        for (std::size_t i = 0; i < u.size(); ++i)
-            s += du[i] * ContactLaw::force(p_.contact_stiffness[i], u[i] + t * du[i]);
+        for (std::size_t i = 0; i < u.size(); ++i) s += du[i] * p_.contact.force(i, u[i] + t * du[i]);
         return s;
     }
 
@@ -97,12 +93,6 @@ class RestProblem {
     vector<double> pivot_;
 };
 
-vector<char> closed_set(const vector<double> &u) {
-    vector<char> closed(u.size());
-    for (std::size_t i = 0; i < u.size(); ++i) closed[i] = ContactLaw::closed(u[i]);
-    return closed;
-}
-
 } // namespace
 
 StaticState solve_static(const StaticProblem &p) {
@@ -121,9 +111,9 @@ StaticState solve_static(const StaticProblem &p) {
         pushed = problem.pushes_rigid_motion(d, first);
         const double t = problem.line_search(state.coordinates, d, state.penetration);
         for (std::size_t j = 0; j < d.size(); ++j) state.coordinates[j] += t * d[j];
-        const vector<char> before = closed_set(state.penetration);
+        const PairStates before = p.contact.states(state.penetration);
         state.penetration = problem.penetration(state.coordinates);
-        settled = (closed_set(state.penetration) == before) ? settled + 1 : 0;
+        settled = (p.contact.states(state.penetration) == before) ? settled + 1 : 0;
         ++state.iterations;
     }
     if (settled < 2)
@@ -142,23 +132,17 @@ RestState solve_rest(const Space &space) {
     const Model &model = *space.model;
     RestState rest;
     rest.coordinates.assign(space.size(), 0.0);
-    rest.penetration.resize(space.n_pairs());
-    for (std::size_t i = 0; i < rest.penetration.size(); ++i) rest.penetration[i] = -model.initial_gap()[i];
-    const bool interference =
-        std::any_of(rest.penetration.begin(), rest.penetration.end(), [](double u) { return u > 0; });
-    if (model.has_preload() || interference) {
+    rest.penetration = model.contact().unloaded_penetration();
+    if (model.has_preload() || model.contact().has_interference()) {
         vector<double> load(space.preload);
         load.resize(space.size(), 0.0);
-        StaticState state =
-            solve_static({space.lambda, space.gap, load, model.contact_stiffness(), model.initial_gap()});
+        StaticState state = solve_static({space.lambda, space.gap, load, model.contact()});
         rest.coordinates = std::move(state.coordinates);
         rest.penetration = std::move(state.penetration);
         rest.iterations = state.iterations;
     }
-    rest.closed = closed_set(rest.penetration);
-    rest.force.resize(rest.penetration.size());
-    for (std::size_t i = 0; i < rest.force.size(); ++i)
-        rest.force[i] = ContactLaw::force(model.contact_stiffness()[i], rest.penetration[i]);
+    rest.states = model.contact().states(rest.penetration);
+    rest.force = model.contact().forces(rest.penetration);
     rest.displacement = combine(space.vectors, rest.coordinates);
     return rest;
 }

@@ -6,12 +6,13 @@
 namespace plm {
 
 /// The static problem in coordinates where K is diagonal: find the minimum of
-/// eta' diag(lambda) eta / 2 - load' eta + sum_i k_i max(u_i, 0)^2 / 2 with u = gap eta - initial_gap.
+/// eta' diag(lambda) eta / 2 - load' eta + sum_i k_i max(u_i, 0)^2 / 2 with u = gap eta less the initial
+/// gaps.
 struct StaticProblem {
-    const vector<double> &lambda;                          // m, zeros: rigid-body coordinates
-    const Matrix &gap;                                     // Z x m
-    const vector<double> &load;                            // m
-    const vector<double> &contact_stiffness, &initial_gap; // Z
+    const vector<double> &lambda; // m, zeros: rigid-body coordinates
+    const Matrix &gap;            // Z x m
+    const vector<double> &load;   // m
+    const Contact &contact;
 };
 
 struct StaticState {
@@ -32,7 +33,7 @@ struct RestState {
     Field displacement;          // one column
     vector<double> penetration;  // u = B q - g, per pair
     vector<double> force;        // N per pair
-    vector<char> closed;
+    PairStates states;
     std::int64_t iterations = 0;
 };
 /// Solved when first asked for, and kept with the space.

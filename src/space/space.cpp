@@ -34,11 +34,9 @@ void project_onto(Space &space) {
     space.excitation = projected(space.vectors, model.excitation());
 }
 
-SpaceModes modes_of_contact_set(const Space &space, const vector<char> &closed, double upper) {
-    vector<double> spring(space.model->contact_stiffness());
-    for (std::size_t i = 0; i < spring.size(); ++i)
-        if (!closed[i]) spring[i] = 0;
-    return modes_with_springs(space.lambda, space.n_massless, space.gap, spring, upper);
+SpaceModes modes_of_contact_set(const Space &space, const PairStates &states, double upper) {
+    return modes_with_springs(space.lambda, space.n_massless, space.gap,
+                              space.model->contact().springs(states), upper);
 }
 
 } // namespace plm

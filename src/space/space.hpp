@@ -41,9 +41,9 @@ struct Space {
 /// Fills lambda-independent projections (gap, damping, loads) of a space whose vectors and lambda are set.
 void project_onto(Space &space);
 
-/// Modes of the linear system in which pairs with closed[i] != 0 are coupled by k_n,
-/// those below `upper` (rad^2/s^2), or all when upper is infinite.
-SpaceModes modes_of_contact_set(const Space &space, const vector<char> &closed, double upper);
+/// Modes of the linear system in which every pair keeps its state, those below `upper` (rad^2/s^2), or all
+/// when upper is infinite.
+SpaceModes modes_of_contact_set(const Space &space, const PairStates &states, double upper);
 
 /// The contact space: exact open modes up to cutoff_factor x highest_frequency, and contact attachment
 /// vectors block by block until the receptance error at highest_frequency (rad/s) is below the model's

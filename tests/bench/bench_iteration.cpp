@@ -31,8 +31,8 @@ std::shared_ptr<plm::ReducedModel> synthetic(std::int64_t r, std::int64_t pairs)
     m->preload_0.assign(r, 0.0);
     m->excitation[1].real.assign(r, 1.0);
     m->excitation[1].imag.assign(r, 0.0);
-    m->contact_stiffness.assign(pairs, 0.05);
-    m->initial_gap.assign(pairs, 0.0);
+    m->contact.stiffness.assign(pairs, 0.05);
+    m->contact.initial_gap.assign(pairs, 0.0);
     return m;
 }
 

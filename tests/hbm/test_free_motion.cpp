@@ -125,7 +125,7 @@ void loads_that_would_carry_it_away_are_refused(void **) {
 Model beside_a_wall(double wall) {
     Model m = in_free_flight();
     for (std::int64_t j = 0; j < m->size(); ++j) m->gap(0, j) = m->gap_0(0, j) = m->vectors.at(1, j);
-    m->initial_gap[0] = wall;
+    m->contact.initial_gap[0] = wall;
     return m;
 }
 

@@ -440,7 +440,7 @@ double linear_error(bool closed, NonlinearUnknowns unknowns) {
     for (int p = 0; p < s.z && closed; ++p)
         linear.stiffness[(2 * p + 1) * s.n + 2 * p + 1] += s.contact_stiffness[p];
     const auto m = test::reduce_exactly(linear);
-    m->contact_stiffness.clear(), m->initial_gap.clear();
+    m->contact.stiffness.clear(), m->contact.initial_gap.clear();
     m->gap = m->gap_0 = plm::Matrix(0, m->size());
     const Solved want = solve(m, NonlinearUnknowns::modal, omega, 3);
     const auto original = test::reduce_exactly(s);

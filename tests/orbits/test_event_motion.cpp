@@ -15,14 +15,14 @@ plm::PeriodicOrbit orbit_of(plm::ExactFlow &flow) {
 
 plm::EventSequence events_of(const plm::PeriodicOrbit &orbit, double off) {
     plm::EventSequence sequence;
-    sequence.closed_first = orbit.contact_history.front().closed;
+    sequence.first = orbit.contact_history.front().states;
     double time = 0;
     for (std::size_t k = 1; k < orbit.contact_history.size(); ++k) {
         const auto &before = orbit.contact_history[k - 1], &after = orbit.contact_history[k];
         time += before.duration;
-        for (std::size_t p = 0; p < after.closed.size(); ++p)
-            if (before.closed[p] != after.closed[p])
-                sequence.events.push_back({time + (k % 2 ? off : -off), static_cast<std::int64_t>(p)});
+        for (std::int64_t p = 0; p < after.states.size(); ++p)
+            if (before.states.is_closed(p) != after.states.is_closed(p))
+                sequence.events.push_back({time + (k % 2 ? off : -off), p});
     }
     return sequence;
 }

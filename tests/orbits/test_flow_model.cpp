@@ -143,8 +143,7 @@ double motion_at_rest() {
     extras.beta = 0.02;
     const auto r = reduced_with_static(extras);
     const auto m = std::make_shared<plm::FlowModel>(r);
-    const plm::StaticState rest =
-        plm::solve_static({r->lambda_0, r->gap_0, r->preload_0, r->contact_stiffness, r->initial_gap});
+    const plm::StaticState rest = plm::solve_static({r->lambda_0, r->gap_0, r->preload_0, r->contact});
     plm::ExactFlow flow(m, 1.7, 0);
     FlowState x{rest.coordinates, plm::vector<double>(m->size()), 0};
     flow.advance(x, 3 * flow.period());

@@ -77,7 +77,7 @@ double energy_left(double alpha, int mode) {
     o.alpha = alpha;
     o.steps_per_period = 20;
     o.max_periods = 10;
-    const plm::SymmetricEigen modes = dense_modes(s, plm::vector<char>(1, 0));
+    const plm::SymmetricEigen modes = dense_modes(s, plm::PairStates::all_open(1));
     const double omega = 0.1845; // near the lowest frequency
     plm::Newmark newmark(model, omega, o);
     plm::FullState x = newmark.rest();
@@ -241,10 +241,10 @@ std::shared_ptr<const plm::Model> model_of(const scene &s) {
             in.gap_dof.push_back(dof);
             in.gap_coefficient.push_back(side ? -s.normal[k] : s.normal[k]);
         }
-    in.contact_stiffness.assign(s.contact_stiffness, s.contact_stiffness + s.n_pairs);
-    for (double &k : in.contact_stiffness)
+    in.contact.stiffness.assign(s.contact_stiffness, s.contact_stiffness + s.n_pairs);
+    for (double &k : in.contact.stiffness)
         if (k < 0) k = PLM_AUTO_STIFFNESS;
-    in.initial_gap.assign(s.gap, s.gap + s.n_pairs);
+    in.contact.initial_gap.assign(s.gap, s.gap + s.n_pairs);
     if (s.preload) in.preload.assign(s.preload, s.preload + s.n_dof);
     in.excitation[1].real.assign(s.force, s.force + s.n_dof);
     in.excitation[1].imag.assign(s.n_dof, 0.0);

@@ -71,8 +71,10 @@ inline std::shared_ptr<const plm::ReducedModel> span_of(const plm::Space &space,
 
 /// The n lowest modes of the system with all pairs open, or all closed.
 inline plm::Matrix linear_modes(const plm::Space &space, bool closed, std::int64_t n) {
-    const plm::SpaceModes modes =
-        plm::modes_of_contact_set(space, plm::vector<char>(space.n_pairs(), closed ? 1 : 0), infinite);
+    const plm::SpaceModes modes = plm::modes_of_contact_set(
+        space,
+        closed ? plm::PairStates::all_closed(space.n_pairs()) : plm::PairStates::all_open(space.n_pairs()),
+        infinite);
     return modes.vectors.columns(0, n);
 }
 

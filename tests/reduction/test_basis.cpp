@@ -68,10 +68,10 @@ BasisOptions kind(const BasisKind *kind) {
 
 // Frequencies the rule keeps, by dense eigenproblems K_j over all DOFs; written out independently of
 // SelectionRule.
-std::vector<double> dense_selection(const Case &c, const plm::vector<char> &closed, ModeSelection selection,
+std::vector<double> dense_selection(const Case &c, const plm::PairStates &states, ModeSelection selection,
                                     double lo, double hi, int harmonics) {
     std::vector<double> kept;
-    for (double value : test::dense_modes(c.structure, closed).values) {
+    for (double value : test::dense_modes(c.structure, states).values) {
         const double f = std::sqrt(value) / (2 * M_PI);
         bool inside = selection == ModeSelection::below && f <= 1.1 * harmonics * hi;
         for (int h = 1; h <= harmonics && selection == ModeSelection::bands; ++h)
@@ -86,7 +86,7 @@ double selection_error(const Case &c, ModeSelection selection) {
     const auto basis = build(c, rule(selection));
     double worst = 0;
     for (std::size_t i = 0; i < c.sampler->samples().size(); ++i) {
-        const auto want = dense_selection(c, c.sampler->samples()[i].closed, selection,
+        const auto want = dense_selection(c, c.sampler->samples()[i].states, selection,
                                           basis->window_min_hz(), basis->window_max_hz(), 5);
         const plm::SampleSelection &s = basis->report().samples[i];
         std::vector<double> got;
@@ -132,7 +132,8 @@ FullSizeDefect full_size_defect(const Case &c, const Basis &basis, bool is_stati
     const std::vector<double> &full_load = is_static ? s.preload : s.force;
     FullSizeDefect d;
     d.mass = diagonal_defect(congruence(p, dense_mass(s)), plm::vector<double>(p.cols(), 1.0));
-    d.stiffness = diagonal_defect(congruence(p, test::dense_stiffness(s, plm::vector<char>(s.z, 0))), lambda);
+    d.stiffness =
+        diagonal_defect(congruence(p, test::dense_stiffness(s, plm::PairStates::all_open(s.z))), lambda);
     for (std::int64_t j = 0; j < p.cols(); ++j) {
         double f = 0;
         for (int i = 0; i < s.n; ++i) f += p(i, j) * full_load[i];
@@ -281,7 +282,7 @@ Matrix damping_matrix(const exact::Structure &s, double alpha, double beta) {
 }
 
 Matrix modal_damping_matrix(const exact::Structure &s, double zeta) { // sum 2 zeta w (M phi)(M phi)^T
-    const plm::SymmetricEigen modes = test::dense_modes(s, plm::vector<char>(s.z, 0));
+    const plm::SymmetricEigen modes = test::dense_modes(s, plm::PairStates::all_open(s.z));
     Matrix c(s.n, s.n);
     for (int k = 0; k < s.n; ++k)
         for (int i = 0; i < s.n; ++i)

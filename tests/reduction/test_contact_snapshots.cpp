@@ -49,32 +49,33 @@ std::shared_ptr<const Basis> build(const Case &c, const BasisOptions &o) {
 
 // Static equilibrium over all DOFs: the closed set that its own solution confirms.
 plm::vector<double> dense_static(const exact::Structure &s, const plm::vector<double> &load) {
-    plm::vector<char> closed(s.z, 1);
+    plm::PairStates states = plm::PairStates::all_closed(s.z);
     plm::vector<double> q;
     for (int iteration = 0; iteration < 100; ++iteration) {
-        Matrix k = test::dense_stiffness(s, closed);
+        Matrix k = test::dense_stiffness(s, states);
         q = load;
         for (int p = 0; p < s.z; ++p)
-            for (int i = 0; i < s.n && closed[p]; ++i)
+            for (int i = 0; i < s.n && states.is_closed(p); ++i)
                 q[i] += s.gap_rows[p * s.n + i] * s.contact_stiffness[p] * s.gap[p];
         plm::DenseCholesky cholesky;
         if (!cholesky.factor(k)) return {};
         cholesky.solve(q.data(), 1, s.n);
-        plm::vector<char> now(s.z);
+        plm::vector<double> penetration(s.z);
         for (int p = 0; p < s.z; ++p) {
             double u = -s.gap[p];
             for (int i = 0; i < s.n; ++i) u += s.gap_rows[p * s.n + i] * q[i];
-            now[p] = u > 0;
+            penetration[p] = u;
         }
-        if (now == closed) return q;
-        closed = now;
+        const plm::PairStates now = plm::states_at(penetration);
+        if (now == states) return q;
+        states = now;
     }
     return {};
 }
 
 // The largest part outside the basis (norm of M) of the modes of a contact set up to `highest` Hz.
-double modes_outside(const Case &c, const Basis &basis, const plm::vector<char> &closed, double highest) {
-    const plm::SymmetricEigen modes = test::dense_modes(c.structure, closed);
+double modes_outside(const Case &c, const Basis &basis, const plm::PairStates &states, double highest) {
+    const plm::SymmetricEigen modes = test::dense_modes(c.structure, states);
     double worst = 0;
     std::int64_t n = 0;
     for (; n < modes.vectors.cols() && std::sqrt(modes.values[n]) <= 2 * M_PI * highest; ++n)
@@ -89,7 +90,7 @@ void modes_at_rest_lie_in_the_basis(void **) {
     const Case c = chains(true);
     const auto basis = build(c, snapshots());
     assert_true(
-        below(modes_outside(c, *basis, c.sampler->rest().closed, 5.5 * basis->window_max_hz()), space_error));
+        below(modes_outside(c, *basis, c.sampler->rest().states, 5.5 * basis->window_max_hz()), space_error));
     assert_true(basis->report().n_rest_modes > 3);
     assert_true(basis->report().warnings.empty());
 }
@@ -126,8 +127,8 @@ void a_homogeneous_problem_has_two_snapshots(void **) {
     const auto few = build(c, snapshots(2)), many = build(c, snapshots(30));
     assert_int_equal(few->report().n_collected, many->report().n_collected);
     const double highest = 5.5 * few->window_max_hz();
-    assert_true(below(modes_outside(c, *few, plm::vector<char>(9, 0), highest), space_error));
-    assert_true(below(modes_outside(c, *few, plm::vector<char>(9, 1), highest), space_error));
+    assert_true(below(modes_outside(c, *few, plm::PairStates::all_open(9), highest), space_error));
+    assert_true(below(modes_outside(c, *few, plm::PairStates::all_closed(9), highest), space_error));
     const Case pressed = chains(true);
     assert_true(build(pressed, snapshots(2))->report().n_collected <
                 build(pressed, snapshots(30))->report().n_collected);

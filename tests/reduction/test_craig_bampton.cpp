@@ -18,7 +18,7 @@ SpacePtr space_of(const exact::Structure &s, std::int64_t n_fixed, double highes
 }
 
 plm::vector<double> exact_values(const exact::Structure &s) {
-    return test::dense_modes(s, plm::vector<char>(s.z, 0)).values;
+    return test::dense_modes(s, plm::PairStates::all_open(s.z)).values;
 }
 
 // Largest relative excess and shortfall of the space's eigenvalues over the exact ones, the first `count`.
@@ -40,7 +40,7 @@ Deviation deviation(const SpacePtr &space, const exact::Structure &s, std::int64
 double defect(const SpacePtr &space, const exact::Structure &s) {
     double worst = 0;
     const Matrix &v = space->vectors.in_core();
-    const Matrix kv = plm::product('N', 'N', test::dense_stiffness(s, plm::vector<char>(s.z, 0)), v);
+    const Matrix kv = plm::product('N', 'N', test::dense_stiffness(s, plm::PairStates::all_open(s.z)), v);
     for (std::int64_t i = 0; i < v.cols(); ++i)
         for (std::int64_t j = 0; j < v.cols(); ++j) {
             double m = i == j ? -space->mass(i) : 0;
@@ -133,7 +133,7 @@ double flexibility(const SpacePtr &space, std::int64_t i) {
     return sum;
 }
 double exact_flexibility(const exact::Structure &s, std::int64_t i) {
-    Matrix k = test::dense_stiffness(s, plm::vector<char>(s.z, 0)), x(s.n, 1);
+    Matrix k = test::dense_stiffness(s, plm::PairStates::all_open(s.z)), x(s.n, 1);
     x(i, 0) = 1;
     plm::RealLu lu;
     lu.factor(k);

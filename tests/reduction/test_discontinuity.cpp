@@ -16,8 +16,8 @@ Scene two_chains(bool supported) {
 }
 
 // B K_c^-1 B^T of a contact set, dense over all DOFs.
-Matrix dense_compliance(const exact::Structure &s, const plm::vector<char> &closed) {
-    Matrix k = test::dense_stiffness(s, closed), x(s.n, s.z);
+Matrix dense_compliance(const exact::Structure &s, const plm::PairStates &states) {
+    Matrix k = test::dense_stiffness(s, states), x(s.n, s.z);
     for (int p = 0; p < s.z; ++p)
         for (int i = 0; i < s.n; ++i) x(i, p) = s.gap_rows[p * s.n + i];
     const Matrix b = x;
@@ -27,10 +27,8 @@ Matrix dense_compliance(const exact::Structure &s, const plm::vector<char> &clos
     return plm::product('T', 'N', b, x);
 }
 
-Matrix reduced_compliance(const plm::ReducedModel &r, const plm::vector<char> &closed) {
-    plm::vector<double> spring(r.contact_stiffness);
-    for (std::size_t p = 0; p < spring.size(); ++p)
-        if (!closed[p]) spring[p] = 0;
+Matrix reduced_compliance(const plm::ReducedModel &r, const plm::PairStates &states) {
+    const plm::vector<double> spring = r.contact.springs(states);
     Matrix c(r.n_pairs(), r.n_pairs());
     for (std::int64_t p = 0; p < r.n_pairs(); ++p) {
         plm::vector<double> x(r.size());
@@ -42,8 +40,8 @@ Matrix reduced_compliance(const plm::ReducedModel &r, const plm::vector<char> &c
 }
 
 double compliance_error(const exact::Structure &s, const plm::ReducedModel &r,
-                        const plm::vector<char> &closed) {
-    const Matrix want = dense_compliance(s, closed), got = reduced_compliance(r, closed);
+                        const plm::PairStates &states) {
+    const Matrix want = dense_compliance(s, states), got = reduced_compliance(r, states);
     double worst = 0, size = 0;
     for (std::int64_t i = 0; i < s.z * s.z; ++i) {
         worst = std::max(worst, std::abs(got.data()[i] - want.data()[i]));
@@ -58,12 +56,14 @@ void with_all_vectors_the_contact_compliance_is_exact(void **) {
     const auto basis = build(s, kind(&plm::basis_kinds::discontinuity));
     const auto modes =
         span_of(*s.full->space(), linear_modes(*s.full->space(), true, basis->reduced()->size()));
-    plm::vector<char> none(n_pairs, 0), all(n_pairs, 1), some(n_pairs, 0);
-    some[1] = some[4] = some[8] = 1;
-    for (const auto &closed :
+    const plm::PairStates none = plm::PairStates::all_open(n_pairs),
+                          all = plm::PairStates::all_closed(n_pairs);
+    plm::PairStates some = none;
+    for (int pair : {1, 4, 8}) some.switch_pair(pair);
+    for (const auto &states :
          {none, all, some}) { // singular values are cut at 1e-6: squared in the compliance
-        assert_true(below(compliance_error(s.structure, *basis->reduced(), closed), 1e-9));
-        assert_true(compliance_error(s.structure, *modes, closed) > 1e-3); // as many modes: not
+        assert_true(below(compliance_error(s.structure, *basis->reduced(), states), 1e-9));
+        assert_true(compliance_error(s.structure, *modes, states) > 1e-3); // as many modes: not
     }
 }
 
@@ -72,7 +72,8 @@ void with_all_vectors_the_contact_compliance_is_exact(void **) {
 void the_field_of_least_energy_with_one_jump_is_in_the_basis(void **) {
     const Scene s = two_chains(true);
     const auto basis = build(s, kind(&plm::basis_kinds::discontinuity));
-    Matrix k = test::dense_stiffness(s.structure, plm::vector<char>(n_pairs, 1)); // homogeneous: all closed
+    Matrix k =
+        test::dense_stiffness(s.structure, plm::PairStates::all_closed(n_pairs)); // homogeneous: all closed
     plm::DenseCholesky cholesky;
     assert_true(cholesky.factor(k));
     for (int p = 0; p < n_pairs; ++p) {
@@ -94,9 +95,9 @@ void the_reference_is_the_contact_at_rest(void **) {
         plm::SelectionRule rule;
         rule.min_hz = s.window.min_hz, rule.max_hz = s.window.max_hz;
         const auto d = plm::discontinuous_modes(*s.full->space(), rule, 0, plm::Watch());
-        const auto n_closed = std::count(d.reference.begin(), d.reference.end(), 1);
+        const std::int64_t n_closed = d.reference.n_closed();
         assert_true(structure.preload[39] == 0 ? n_closed == n_pairs
-                                               : d.reference == plm::rest_of(*s.full->space())->closed);
+                                               : d.reference == plm::rest_of(*s.full->space())->states);
         if (structure.preload[39] != 0) assert_true(n_closed > 0 && n_closed < n_pairs);
     }
 }

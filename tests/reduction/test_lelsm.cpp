@@ -31,7 +31,7 @@ plm::EquivalentMotion motion_of(const Scene &s, double amplitude = 0) {
 
 double dense_frequency(exact::Structure s, double share, std::int64_t mode) {
     for (double &k : s.contact_stiffness) k *= share;
-    return std::sqrt(std::max(0.0, test::dense_modes(s, plm::vector<char>(s.z, 1)).values[mode]));
+    return std::sqrt(std::max(0.0, test::dense_modes(s, plm::PairStates::all_closed(s.z)).values[mode]));
 }
 
 // Butcher and Lu: the equivalent stiffness is the one with the bilinear frequency. Dense eigenproblems over

@@ -189,10 +189,10 @@ void the_stiffness_left_out_is_carried_by_the_others(void **) {
                 assert_int_equal(r.gap_0.rows(), n);
                 assert_int_equal(r.n_whole_pairs(), 9);
                 assert_true(std::is_sorted(r.carried.begin(), r.carried.end()));
-                assert_true(close_to(sum(r.contact_stiffness), total, 1e-14));
+                assert_true(close_to(sum(r.contact.stiffness), total, 1e-14));
                 for (std::int64_t i = 0; i < n; ++i) {
                     const std::int64_t pair = r.carried[i];
-                    assert_true(r.contact_stiffness[i] >= c.model->contact_stiffness()[pair]);
+                    assert_true(r.contact.stiffness[i] >= c.model->contact_stiffness()[pair]);
                     for (std::int64_t j = 0; j < r.size(); ++j)
                         assert_true(r.gap(i, j) == r.whole_gap()(pair, j));
                 }
@@ -203,7 +203,7 @@ void all_pairs_carried_is_no_sampling(void **) {
     const Chains c = chains();
     const auto all = c.basis(sampled(&plm::basis_kinds::plm, 9, plm::PairRule::mdof));
     assert_true(all->reduced()->all_pairs == nullptr);
-    assert_true(all->reduced()->contact_stiffness == c.model->contact_stiffness());
+    assert_true(all->reduced()->contact.stiffness == c.model->contact_stiffness());
     const test::Failure f = test::failure_of(
         [&] { c.basis(sampled(&plm::basis_kinds::plm, 10, plm::PairRule::effective_independence)); });
     assert_int_equal(f.status, PLM_ERR_ARGUMENT);
@@ -221,7 +221,7 @@ void compressing_a_sampled_basis_knows_all_pairs(void **) {
     o.kind = &plm::basis_kinds::pod;
     const auto pod = c.basis(o, parent, &responses);
     assert_int_equal(pod->reduced()->n_pairs(), 9);
-    assert_true(pod->reduced()->contact_stiffness == c.model->contact_stiffness());
+    assert_true(pod->reduced()->contact.stiffness == c.model->contact_stiffness());
     o.n_pairs_carried = 2;
     assert_int_equal(c.basis(o, parent, &responses)->reduced()->n_pairs(), 2);
     assert_int_equal(unreduced_basis(parent, plm::Watch())->reduced()->n_pairs(), 9);

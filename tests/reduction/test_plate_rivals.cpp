@@ -119,7 +119,7 @@ void proper_orthogonal_modes_lie_in_the_span_of_bilinear_modes(void **) {
     }
 }
 
-Matrix reference_modes(const plm::Space &space, const plm::vector<char> &reference, std::int64_t n) {
+Matrix reference_modes(const plm::Space &space, const plm::PairStates &reference, std::int64_t n) {
     return plm::modes_of_contact_set(space, reference, infinite).vectors.columns(0, n);
 }
 

@@ -40,8 +40,8 @@ std::shared_ptr<const plm::Model> make_model(const exact::Structure &s, const Mo
             input.gap_dof.push_back(j);
             input.gap_coefficient.push_back(s.gap_rows[p * s.n + j]);
         }
-    input.contact_stiffness.assign(s.contact_stiffness.begin(), s.contact_stiffness.end());
-    input.initial_gap.assign(s.gap.begin(), s.gap.end());
+    input.contact.stiffness.assign(s.contact_stiffness.begin(), s.contact_stiffness.end());
+    input.contact.initial_gap.assign(s.gap.begin(), s.gap.end());
     input.preload.assign(s.preload.begin(), s.preload.end());
     input.excitation[1].real.assign(s.force.begin(), s.force.end());
     return std::make_shared<plm::Model>(input, options, nullptr, plm::Watch());
@@ -98,22 +98,22 @@ exact::Structure two_chains(int n, int n_pairs, double contact_stiffness, bool s
     return s;
 }
 
-plm::Matrix dense_stiffness(const exact::Structure &s, const plm::vector<char> &closed) {
+plm::Matrix dense_stiffness(const exact::Structure &s, const plm::PairStates &states) {
     plm::Matrix k(s.n, s.n);
     for (int i = 0; i < s.n; ++i)
         for (int j = 0; j < s.n; ++j) {
             k(i, j) = s.stiffness[i * s.n + j];
             for (int p = 0; p < s.z; ++p)
-                if (closed[p])
+                if (states.is_closed(p))
                     k(i, j) += s.contact_stiffness[p] * s.gap_rows[p * s.n + i] * s.gap_rows[p * s.n + j];
         }
     return k;
 }
 
-plm::SymmetricEigen dense_modes(const exact::Structure &s, const plm::vector<char> &closed) {
+plm::SymmetricEigen dense_modes(const exact::Structure &s, const plm::PairStates &states) {
     plm::Matrix m(s.n, s.n);
     for (int i = 0; i < s.n; ++i) m(i, i) = s.mass[i];
-    return plm::symmetric_eigen_general(dense_stiffness(s, closed), m);
+    return plm::symmetric_eigen_general(dense_stiffness(s, states), m);
 }
 
 Failure failure_of(const std::function<void()> &call) {

@@ -32,8 +32,8 @@ exact::Structure two_chains(int n, int n_pairs, double contact_stiffness, bool s
 exact::Structure breathing_crack();
 
 /// Eigenvalues and M-orthonormal vectors of K + B^T k B over the closed pairs, dense over all DOFs.
-plm::SymmetricEigen dense_modes(const exact::Structure &s, const plm::vector<char> &closed);
-plm::Matrix dense_stiffness(const exact::Structure &s, const plm::vector<char> &closed);
+plm::SymmetricEigen dense_modes(const exact::Structure &s, const plm::PairStates &states);
+plm::Matrix dense_stiffness(const exact::Structure &s, const plm::PairStates &states);
 
 /// What a call that must fail reports.
 struct Failure {

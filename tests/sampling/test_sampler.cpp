@@ -1,8 +1,8 @@
 // The sampler as a whole: which mode dominates, which sweep follows, that its space is accurate enough, and
 // its errors.
-#include "sampling/contact_sweep.hpp"
 #include "sampling/mode_match.hpp"
 #include "sampling/reference_system.hpp"
+#include "sampling/sample_selection.hpp"
 #include "sampling/sampler.hpp"
 #include "small_models.hpp"
 #include "support/small_reduced.hpp"
@@ -29,13 +29,13 @@ exact::Structure pressed_chains(double force, int n_pairs = 9) { // on the free 
     return s;
 }
 
-plm::vector<char> all(int z, char value) {
-    return plm::vector<char>(z, value);
+plm::PairStates all(int z, bool closed) {
+    return closed ? plm::PairStates::all_closed(z) : plm::PairStates::all_open(z);
 }
 
 exact::Structure forced_in_mode(int j) { // F = M phi_j of the open system: no other mode responds
     exact::Structure s = test::two_chains(40, 9, 300, true);
-    const plm::SymmetricEigen modes = test::dense_modes(s, all(9, 0));
+    const plm::SymmetricEigen modes = test::dense_modes(s, all(9, false));
     for (int i = 0; i < s.n; ++i) s.force[i] = s.mass[i] * modes.vectors(i, j);
     return s;
 }
@@ -78,7 +78,7 @@ bool has_duplicates(const Sampler &sampler) {
     const auto &samples = sampler.samples();
     for (std::size_t i = 0; i < samples.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-            if (samples[i].closed == samples[j].closed) return true;
+            if (samples[i].states == samples[j].states) return true;
     return false;
 }
 
@@ -108,7 +108,7 @@ void the_responding_mode_is_proposed(void **) {
 }
 
 void the_search_range_limits_the_proposal(void **) {
-    const plm::SymmetricEigen modes = test::dense_modes(test::two_chains(40, 9, 300, true), all(9, 0));
+    const plm::SymmetricEigen modes = test::dense_modes(test::two_chains(40, 9, 300, true), all(9, false));
     SamplerOptions o;
     o.system = LinearSystem::open;
     o.search_min_hz = plm::to_hz(modes.values[5]) * 0.999;
@@ -123,9 +123,7 @@ void the_search_range_limits_the_proposal(void **) {
 
 void the_reference_system_follows_the_contact_at_rest(void **) {
     const auto closed = run(pressed_chains(50)), open = run(pressed_chains(-50));
-    const auto n_closed = [](const Sampler &s) {
-        return std::count(s.rest().closed.begin(), s.rest().closed.end(), 1);
-    };
+    const auto n_closed = [](const Sampler &s) { return s.rest().states.n_closed(); };
     assert_true(2 * n_closed(*closed) > 9 && closed->dominant()[0].system == LinearSystem::sliding);
     assert_true(n_closed(*open) == 0 && open->dominant()[0].system == LinearSystem::open);
 }

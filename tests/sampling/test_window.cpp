@@ -25,7 +25,7 @@ exact::Structure chain_with_preload() {
 
 // Frequency of the system closed as at rest whose mode resembles the dominant one best, over all DOFs.
 double dense_rest_frequency(const plm::Sampler &sampler, const exact::Structure &s) {
-    const plm::SymmetricEigen modes = test::dense_modes(s, sampler.rest().closed);
+    const plm::SymmetricEigen modes = test::dense_modes(s, sampler.rest().states);
     plm::vector<double> shape(s.n), weighted(s.n);
     gemv('N', 1.0, sampler.space()->vectors.in_core(), sampler.dominant()[0].coordinates.data(), 0.0, shape.data());
     for (int i = 0; i < s.n; ++i) weighted[i] = s.mass[i] * shape[i];
@@ -43,8 +43,8 @@ struct MacCheck {
 MacCheck mac_of_modes_with_themselves() {
     const exact::Structure s = test::two_chains(20, 6, 500, true);
     const auto space = plm::make_contact_space(test::make_model(s), 5.0, 10, plm::Watch());
-    const auto modes =
-        plm::modes_of_contact_set(*space, plm::vector<char>(6, 1), std::numeric_limits<double>::infinity());
+    const auto modes = plm::modes_of_contact_set(*space, plm::PairStates::all_closed(6),
+                                                 std::numeric_limits<double>::infinity());
     MacCheck c;
     for (int i = 0; i < 8; ++i)
         for (int j = 0; j < 8; ++j) {

@@ -53,7 +53,7 @@ void modes_of_another_symmetry_are_left_out(void **) {
     const auto basis = host.basis(o);
     const double highest = 2 * M_PI * basis->report().highest_frequency_hz;
     const plm::SpaceModes all =
-        plm::modes_of_contact_set(*host.sampler()->space(), host.sampler()->rest().closed, highest * highest);
+        plm::modes_of_contact_set(*host.sampler()->space(), host.sampler()->rest().states, highest * highest);
     assert_true(2 * basis->report().n_rest_modes < static_cast<std::int64_t>(all.values.size()));
     assert_true(basis->report().n_rest_modes >= 3);
 }

@@ -79,8 +79,8 @@ Corrected corrected_points(const Chains &c) {
     const plm::Hbm reduced = solver(c.reduced->reduced(), o, c.low_hz, c.high_hz),
                    full = solver(c.full->reduced(), o, c.low_hz, c.high_hz);
     Corrected r;
-    const plm::Formulation wanted = plm::make_formulation(*c.full->reduced(), o),
-                           given = plm::make_formulation(*c.reduced->reduced(), o);
+    const plm::LawForm wanted = plm::make_formulation(*c.full->reduced(), o),
+                       given = plm::make_formulation(*c.reduced->reduced(), o);
     r.compliant = wanted.compliant && given.compliant;
     r.same_law = wanted.stiffness == given.stiffness;
     for (int k = 1; k < 6; ++k) {

@@ -54,13 +54,13 @@ void unsound_models_are_found_out(void **) {
     assert_true(warns(in, "no damping", 1));
     in = sound(), in.excitation.clear();
     assert_true(warns(in, "no harmonic excitation", 1));
-    in = sound(), in.initial_gap[0] = -0.1;
+    in = sound(), in.contact.initial_gap[0] = -0.1;
     assert_true(warns(in, "interference", 1));
     in = sound(), test::add_pair(in, {0, 0, 1, 0, 0, -1}, 1e4);
     assert_true(warns(in, "repeat", 2));
-    in = sound(), in.contact_stiffness[0] = 1e9;
+    in = sound(), in.contact.stiffness[0] = 1e9;
     assert_true(warns(in, "small loops", 1));
-    in = sound(), in.contact_stiffness[0] = 1;
+    in = sound(), in.contact.stiffness[0] = 1;
     assert_true(warns(in, "below 0.1", 1));
     in = sound(), in.gap_coefficient[1] = -0.5;
     assert_true(warns(in, "do not sum to zero", 1));

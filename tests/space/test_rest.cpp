@@ -1,8 +1,8 @@
 // Structures at rest that nothing but contact holds together, against closed forms, however stiff the
 // contact.
-#include "support/caught.hpp"
 #include "linalg/lapack.hpp"
 #include "space/rest.hpp"
+#include "support/caught.hpp"
 #include "support/spring_models.hpp"
 #include "support/test.hpp"
 #include <random>
@@ -42,7 +42,7 @@ void free_bodies_press_on_each_other(void **) {
                 const double tolerance = 1e-8 + 2e-15 * n * k;
                 assert_true(std::abs(rest.force[0] - first) < tolerance);
                 if (n_pairs == 2) assert_true(std::abs(rest.force[1] - (1 - first)) < tolerance);
-                if (first > tolerance) assert_true(rest.closed == plm::vector<char>(n_pairs, 1));
+                if (first > tolerance) assert_true(rest.states == plm::PairStates::all_closed(n_pairs));
                 assert_true(rest.iterations <= 20);
             }
 }

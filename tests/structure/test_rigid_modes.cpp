@@ -1,6 +1,6 @@
 // Structures that are loose while their contacts are open, and stiffness matrices that are none.
-#include "support/caught.hpp"
 #include "space/audit.hpp"
+#include "support/caught.hpp"
 #include "support/spring_models.hpp"
 #include "support/test.hpp"
 #include <cstring>
@@ -72,7 +72,7 @@ void bodies_without_stiffness_need_a_given_one(void **) {
     const auto m = test::build(in);
     assert_int_equal(m->n_rigid(), 1);
     assert_true(m->shift() > 0 && close_to(std::abs(m->rigid_modes().at(0, 0)), std::sqrt(0.5), 1e-12));
-    in.contact_stiffness[0] = PLM_AUTO_STIFFNESS;
+    in.contact.stiffness[0] = PLM_AUTO_STIFFNESS;
     const Caught c = caught([&] { test::build(in); });
     assert_int_equal(c.status, PLM_ERR_ARGUMENT);
     assert_true(c.argument == "stiffness" && c.index == 0 && c.says("give k_n"));

@@ -35,8 +35,8 @@ std::shared_ptr<plm::ReducedModel> reduce_exactly(const exact::Structure &s) {
     r->preload_0.assign(f0.data(), f0.data() + n);
     r->excitation[1].real.assign(f.data(), f.data() + n);
     r->excitation[1].imag.assign(n, 0.0);
-    r->contact_stiffness.assign(s.contact_stiffness.begin(), s.contact_stiffness.end());
-    r->initial_gap.assign(s.gap.begin(), s.gap.end());
+    r->contact.stiffness.assign(s.contact_stiffness.begin(), s.contact_stiffness.end());
+    r->contact.initial_gap.assign(s.gap.begin(), s.gap.end());
     return r;
 }
 

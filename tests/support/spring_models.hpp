@@ -30,13 +30,13 @@ inline plm::ModelInput input(const Dense &m, const Dense &k) {
 
 /// u = sum coefficient[d] q[d] - gap
 inline void add_pair(plm::ModelInput &in, const std::vector<double> &row, double stiffness, double gap = 0) {
-    const std::int64_t pair = static_cast<std::int64_t>(in.contact_stiffness.size());
+    const std::int64_t pair = static_cast<std::int64_t>(in.contact.stiffness.size());
     for (std::size_t d = 0; d < row.size(); ++d)
         if (row[d] != 0)
             in.gap_pair.push_back(pair), in.gap_dof.push_back(static_cast<std::int64_t>(d)),
                 in.gap_coefficient.push_back(row[d]);
-    in.contact_stiffness.push_back(stiffness);
-    in.initial_gap.push_back(gap);
+    in.contact.stiffness.push_back(stiffness);
+    in.contact.initial_gap.push_back(gap);
 }
 
 inline std::shared_ptr<const plm::Model> build(const plm::ModelInput &in) {

@@ -1,22 +1,14 @@
-// The sweep of the contact area against sweeps worked out by hand, and the choice of samples.
-#include "sampling/contact_sweep.hpp"
+// The sweep of the contact area against sweeps worked out by hand.
+#include "contact/contact_sweep.hpp"
+#include "support/sweeps.hpp"
 #include "support/test.hpp"
-#include <string>
 
 using plm::ContactSweep;
-using plm::SelectedSample;
 
 namespace {
 
-plm::vector<double> numbers(std::initializer_list<double> v) {
-    return plm::vector<double>(v);
-}
-
-std::string text(const plm::vector<char> &closed) {
-    std::string s;
-    for (char c : closed) s += c ? 'x' : '.';
-    return s;
-}
+using test::numbers;
+using test::text;
 
 std::string text(const ContactSweep &sweep) {
     std::string s;
@@ -24,28 +16,11 @@ std::string text(const ContactSweep &sweep) {
     return s;
 }
 
-std::string text(const std::vector<SelectedSample> &samples) {
-    std::string s;
-    for (const SelectedSample &sample : samples)
-        s += (s.empty() ? "" : " ") + text(sample.closed) + (sample.complement ? "'" : "");
-    return s;
-}
-
-std::string positions(std::int64_t size, std::int64_t n, bool ends) {
-    ContactSweep sweep;
-    sweep.samples.resize(size);
-    for (std::int64_t i = 1; i < size; ++i) sweep.thresholds.push_back(static_cast<double>(i) - 2.5);
-    std::string s;
-    for (std::int64_t i : plm::equally_spaced(sweep, n, ends))
-        s += (s.empty() ? "" : " ") + std::to_string(i);
-    return s;
-}
-
 // Every representative alpha reproduces its contact set by plain evaluation of eq. (5).
 bool alphas_reproduce(const ContactSweep &sweep, const plm::vector<double> &dv) {
     for (std::size_t s = 0; s < sweep.samples.size(); ++s)
         for (std::size_t i = 0; i < dv.size(); ++i)
-            if ((sweep.offset[i] + sweep.alpha[s] * dv[i] > 0) != (sweep.samples[s][i] != 0)) return false;
+            if ((sweep.offset[i] + sweep.alpha[s] * dv[i] > 0) != sweep.samples[s].is_closed(i)) return false;
     return true;
 }
 
@@ -88,7 +63,8 @@ ContactSweep mirrored(double asymmetry) {
 int torn_twins(const ContactSweep &sweep) {
     int torn = 0;
     for (const auto &sample : sweep.samples)
-        for (std::size_t i = 0; i < sample.size(); i += 2) torn += sample[i] != sample[i + 1];
+        for (std::int64_t i = 0; i < sample.size(); i += 2)
+            torn += sample.is_closed(i) != sample.is_closed(i + 1);
     return torn;
 }
 void twins_of_a_nearly_symmetric_mesh_switch_together(void **) {
@@ -132,47 +108,11 @@ void many_pairs_give_z_plus_1_samples_each_one_switch_apart(void **) {
     }
     const ContactSweep sweep = plm::sweep_contact(offset, true, dv);
     int wrong = 0;
-    for (std::size_t s = 1; s < sweep.samples.size(); ++s) {
-        int changed = 0;
-        for (int i = 0; i < 90; ++i) changed += sweep.samples[s][i] != sweep.samples[s - 1][i];
-        wrong += changed != 1;
-    }
+    for (std::size_t s = 1; s < sweep.samples.size(); ++s)
+        wrong += sweep.samples[s].n_different(sweep.samples[s - 1]) != 1;
     assert_int_equal(sweep.samples.size(), 91);
     assert_int_equal(wrong, 0);
     assert_true(alphas_reproduce(sweep, dv));
-}
-
-void samples_are_equally_spaced(void **) {
-    assert_string_equal(positions(91, 4, true).c_str(), "0 30 60 90");
-    assert_string_equal(positions(11, 4, true).c_str(), "0 3 7 10");
-    assert_string_equal(positions(8, 4, false).c_str(), "1 3 5 7");
-    assert_string_equal(positions(91, 4, false).c_str(), "11 34 56 79");
-    assert_string_equal(positions(3, 4, true).c_str(), "0 1 2"); // more than there are: all
-    assert_string_equal(positions(6, 1, true).c_str(), "2");     // the one at alpha = 0
-    assert_string_equal(positions(6, 1, false).c_str(), "2");
-    assert_string_equal(positions(1, 5, true).c_str(), "0");
-}
-
-void complements_come_after_and_only_when_new(void **) {
-    const ContactSweep sweep = plm::sweep_contact(numbers({1, -1, 0.5}), true, numbers({1, 1, -1}));
-    const std::vector<ContactSweep> one(1, sweep);
-    assert_string_equal(text(plm::select_samples(one, 4, true, false, false)).c_str(), "..x x.x x.. xx.");
-    // the complement of ..x is xx., that of xx. is ..x: both are there already
-    assert_string_equal(text(plm::select_samples(one, 4, true, true, false)).c_str(),
-                        "..x x.x x.. xx. .x.' .xx'");
-    assert_string_equal(text(plm::select_samples(one, 2, true, true, false)).c_str(), "..x xx.");
-    const auto selected = plm::select_samples(one, 4, true, true, false);
-    assert_int_equal(selected[4].sweep_index, 1);
-    assert_int_equal(selected[4].n_closed, 1);
-}
-
-void several_dominant_modes_share_their_samples(void **) {
-    std::vector<ContactSweep> two;
-    two.push_back(plm::sweep_contact(numbers({1, -1}), true, numbers({1, 1})));    // .. x. xx
-    two.push_back(plm::sweep_contact(numbers({1, -1}), true, numbers({-1, 0.5}))); // x. .. .x
-    const auto samples = plm::select_samples(two, 10, true, true, false);
-    assert_string_equal(text(samples).c_str(), ".. x. xx .x");
-    assert_int_equal(samples[3].dominant, 1);
 }
 
 } // namespace
@@ -186,9 +126,6 @@ int main() {
         cmocka_unit_test(motionless_pairs_never_switch),
         cmocka_unit_test(without_offset_all_pairs_switch_at_once),
         cmocka_unit_test(many_pairs_give_z_plus_1_samples_each_one_switch_apart),
-        cmocka_unit_test(samples_are_equally_spaced),
-        cmocka_unit_test(complements_come_after_and_only_when_new),
-        cmocka_unit_test(several_dominant_modes_share_their_samples),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

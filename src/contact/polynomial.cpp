@@ -1,4 +1,4 @@
-#include "orbits/polynomial.hpp"
+#include "contact/polynomial.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>

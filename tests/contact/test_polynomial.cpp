@@ -1,5 +1,5 @@
 // First zeros and extrema of polynomials on [0, 1], against polynomials made from their zeros.
-#include "orbits/polynomial.hpp"
+#include "contact/polynomial.hpp"
 #include "support/test.hpp"
 #include <limits>
 #include <vector>

@@ -1,0 +1,38 @@
+// The contact on one piece of a piecewise-linear flow, where every pair keeps its state: linear springs S
+// along the gap rows G, k_n in series with what follows the pairs at once (without mass and damping), that is
+// (1/k_n + F_A)^-1 over the closed pairs A with the flexibility F, of any stiffness down to none.
+#pragma once
+#include "contact/contact.hpp"
+#include "linalg/lapack.hpp"
+
+namespace plm {
+
+class PieceContact {
+  public:
+    /// All are borrowed. gap: Z x n, of which the first n_moving columns count here; flexibility: Z x Z, or
+    /// empty where nothing follows.
+    PieceContact(const Contact &contact, const Matrix &gap, const Matrix &flexibility, std::int64_t n_moving)
+        : contact_(contact), gap_(gap), flexibility_(flexibility), moving_(n_moving) {}
+
+    /// stiffness: G_A^T S G_A (n_moving x n_moving), always anew, since taking a stiff pair out again by
+    /// subtraction would leave eps k_n behind. False, and it stays as it is, where these are the present
+    /// states. PLM_ERR_SINGULAR when F_A is not positive definite.
+    bool assign(const PairStates &states, Matrix &stiffness);
+
+    /// u (Z x k) as it would be without contact forces becomes the penetration; the forces, Z x k.
+    void add_forces(Matrix &u, Matrix &force) const;
+
+  private:
+    void find_stiffness(Matrix &stiffness);
+
+    const Contact &contact_;
+    const Matrix &gap_, &flexibility_;
+    std::int64_t moving_;
+    PairStates states_;
+    vector<std::int64_t> active_;
+    Matrix rows_;
+    DenseCholesky cholesky_; // of 1/k_n + F_A
+    bool assigned_ = false;
+};
+
+} // namespace plm

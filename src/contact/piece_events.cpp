@@ -1,0 +1,81 @@
+#include "contact/piece_events.hpp"
+#include "contact/polynomial.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plm {
+namespace {
+
+constexpr double gap_noise = 16 * std::numeric_limits<double>::epsilon();
+
+} // namespace
+
+PieceEvents::PieceEvents(const Contact &contact, const Matrix &gap)
+    : contact_(contact), states_(PairStates::all_closed(gap.rows())), at_zero_(gap.rows()),
+      row_norm_(gap.rows()), noise_(gap.rows()), polynomial_(max_polynomial_degree + 1), sides_(gap.rows()) {
+    for (std::int64_t i = 0; i < gap.rows(); ++i) {
+        double sum = 0;
+        for (std::int64_t j = 0; j < gap.cols(); ++j) sum += gap(i, j) * gap(i, j);
+        row_norm_[i] = std::sqrt(sum);
+    }
+}
+
+void PieceEvents::guess(const vector<double> &penetration) {
+    forget_zeros();
+    states_ = states_at(penetration);
+}
+
+void PieceEvents::forget_zeros() {
+    std::fill(at_zero_.begin(), at_zero_.end(), char(0));
+}
+
+bool PieceEvents::correct(const Matrix &penetration, double reach) {
+    bool changed = false;
+    for (std::int64_t i = 0; i < states_.size(); ++i) {
+        noise_[i] = gap_noise * (std::abs(contact_.initial_gap[i]) + row_norm_[i] * reach);
+        sides_[i] = side_of(penetration, i);
+        if (sides_[i].power < 0 || sides_[i].closed == states_.is_closed(i)) continue;
+        states_.set(i, sides_[i].closed);
+        changed = true;
+    }
+    return changed;
+}
+
+PieceEvents::Side PieceEvents::side_of(const Matrix &penetration, std::int64_t pair) const {
+    for (std::int64_t k = at_zero_[pair] ? 1 : 0; k < penetration.cols(); ++k) {
+        const double c = penetration(pair, k);
+        if (std::abs(c) > noise_[pair]) return {k, ContactLaw::closed(c)};
+    }
+    return {-1, states_.is_closed(pair)}; // rests at zero: either side is right
+}
+
+double PieceEvents::first(const Matrix &penetration, std::int64_t &pair) {
+    const std::int64_t n_terms = penetration.cols();
+    double share = 1;
+    pair = -1;
+    for (std::int64_t i = 0; i < states_.size(); ++i) {
+        const std::int64_t power = sides_[i].power;
+        if (power < 0) continue;
+        const double sign = states_.is_closed(i) ? 1.0 : -1.0, first = sign * penetration(i, power);
+        if (!(first > 0)) continue; // no side was found that the motion confirms
+        double reach = 0;
+        for (std::int64_t k = power + 1; k < n_terms; ++k) reach += std::abs(penetration(i, k));
+        if (first >= reach) continue;
+        double scale = sign; // the rest of the piece is of no interest once an event is known
+        for (std::int64_t k = power; k < n_terms; ++k, scale *= share)
+            polynomial_[k - power] = scale * penetration(i, k);
+        const double at = first_crossing(polynomial_.data(), n_terms - 1 - power, noise_[i]);
+        if (at < 0) continue;
+        share *= at;
+        pair = i;
+    }
+    return share;
+}
+
+void PieceEvents::pass(std::int64_t pair) {
+    states_.switch_pair(pair);
+    at_zero_[pair] = 1;
+}
+
+} // namespace plm
