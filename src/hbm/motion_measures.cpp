@@ -2,7 +2,7 @@
 #include "contact/contact_force.hpp"
 #include "contact/contact_measures.hpp"
 #include "hbm/formulation.hpp"
-#include "space/rest.hpp"
+#include "reduction/reduced_rest.hpp"
 #include <algorithm>
 
 namespace plm {
@@ -10,10 +10,8 @@ namespace {
 
 // Static part: strain, contact and load of (eta, u) at rest.
 double rest_energy(const ReducedModel &m) {
-    bool loaded = m.contact.has_interference();
-    for (double f : m.preload_0) loaded = loaded || f != 0;
-    if (!loaded) return 0;
-    const StaticState rest = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact});
+    if (!is_loaded_at_rest(m)) return 0;
+    const StaticState &rest = *rest_of(m);
     double energy = -dot(m.static_size(), m.preload_0.data(), rest.coordinates.data());
     for (std::int64_t j = 0; j < m.static_size(); ++j)
         energy += 0.5 * m.lambda_0[j] * rest.coordinates[j] * rest.coordinates[j];

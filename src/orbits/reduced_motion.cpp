@@ -2,7 +2,7 @@
 #include "orbits/instant_recorder.hpp"
 #include "orbits/settling.hpp"
 #include "orbits/shooting.hpp"
-#include "space/rest.hpp"
+#include "reduction/reduced_rest.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -119,9 +119,7 @@ void ReducedMotion::use_frequency(double omega) {
 // At rest under the pre-load when nothing else was set.
 const FlowState &ReducedMotion::present() {
     if (state_.y.empty()) {
-        const ReducedModel &m = *reduced_;
-        const StaticState rest = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact});
-        state_ = {flow_model_->from_static_coordinates(rest.coordinates), vector<double>(size(), 0.0), 0};
+        state_ = {flow_model_->from_static_coordinates(rest_of(*reduced_)->coordinates), vector<double>(size(), 0.0), 0};
     }
     return state_;
 }

@@ -2,6 +2,7 @@
 // h >= 1 and P_0 for h = 0. All that harmonic balance sees of the structure. m = 1, or 0 for the directions
 // that follow statically (massless.hpp).
 #pragma once
+#include "linalg/kept.hpp"
 #include "space/space.hpp"
 
 namespace plm {
@@ -11,6 +12,8 @@ struct AllPairs {
     Matrix gap, gap_0; // B P, B P_0: Z x r, Z x r_0
     Contact contact;
 };
+
+struct StaticState; // space/rest.hpp
 
 struct ReducedModel {
     std::shared_ptr<const Model> model;
@@ -34,6 +37,7 @@ struct ReducedModel {
     // includes that of the pairs left out, and all_pairs has the model's own. Null: all pairs are carried
     vector<std::int64_t> carried;
     std::shared_ptr<const AllPairs> all_pairs;
+    Kept<StaticState> rest; // rest_of(), reduced_rest.hpp
     // recovery: q = P eta
     Field vectors;   // n_free x r
     Field vectors_0; // n_free x r_0, empty when same_static

@@ -2,9 +2,9 @@
 #include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
 #include "orbits/shooting.hpp"
+#include "reduction/reduced_rest.hpp"
 #include "searches/curve.hpp"
 #include "searches/start.hpp"
-#include "space/rest.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -75,7 +75,7 @@ class Marching {
         const ReducedModel &m = *reduced_;
         const vector<double> coupling = coupling_at_rest(m);
         if (std::find(coupling.begin(), coupling.end(), 1.0) == coupling.end()) return;
-        rest_ = solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact}).coordinates;
+        rest_ = rest_of(m)->coordinates;
     }
 
     void try_start(double omega, double scale) {

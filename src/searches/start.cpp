@@ -2,7 +2,7 @@
 #include "hbm/branch_path.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/wrapped_system.hpp"
-#include "space/rest.hpp"
+#include "reduction/reduced_rest.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -197,12 +197,7 @@ class Starter {
 } // namespace
 
 vector<double> coupling_at_rest(const ReducedModel &m) {
-    const bool loaded =
-        std::any_of(m.preload_0.begin(), m.preload_0.end(), [](double f) { return f != 0; }) ||
-        m.contact.has_interference();
-    return m.contact.closed_shares(
-        loaded ? solve_static({m.lambda_0, m.gap_0, m.preload_0, m.contact}).penetration
-               : m.contact.unloaded_penetration());
+    return m.contact.closed_shares(rest_of(m)->penetration);
 }
 
 void StartOutcome::add(const StartOutcome &next) {

@@ -245,13 +245,14 @@ void put_rows(const Matrix &part, const vector<std::int64_t> &rows, Matrix &x) {
 
 } // namespace
 
-// By the springs' forces F. Firm coordinates: D X + G^T F = B, so that T F = G D^-1 B + G_soft X_soft with
-// T = 1/spring + G D^-1 G^T: stable for any spring. What is left for the soft ones has no difference of large
-// numbers.
-void solve_with_springs(const vector<double> &pivot, const Matrix &gap, const vector<double> &spring,
-                        Matrix &x) {
-    const vector<std::int64_t> active = active_pairs(spring), columns = all_below(x.cols());
-    if (active.empty()) return divide_rows(pivot, x);
+namespace {
+
+// By the springs' forces F, which are returned (those of active pairs). Firm coordinates: D X + G^T F = B, so
+// that T F = G D^-1 B + G_soft X_soft with T = 1/spring + G D^-1 G^T: stable for any spring. What is left for
+// the soft ones has no difference of large numbers.
+Matrix solve_for_forces(const vector<double> &pivot, const Matrix &gap, const vector<double> &spring,
+                        const vector<std::int64_t> &active, Matrix &x) {
+    const vector<std::int64_t> columns = all_below(x.cols());
     const Coordinates c = sorted_by_pivot(pivot);
     const vector<double> firm_pivot = entries(pivot, c.firm), soft_pivots = entries(pivot, c.soft);
     const ActivePairs pairs(firm_pivot, entries(gap, active, c.firm), entries(spring, active));
@@ -272,6 +273,16 @@ void solve_with_springs(const vector<double> &pivot, const Matrix &gap, const ve
     divide_rows(firm_pivot, back);
     for (std::int64_t k = 0; k < back.rows() * back.cols(); ++k) x_firm.data()[k] -= back.data()[k];
     put_rows(x_firm, c.firm, x);
+    return force;
+}
+
+} // namespace
+
+void solve_with_springs(const vector<double> &pivot, const Matrix &gap, const vector<double> &spring,
+                        Matrix &x) {
+    const vector<std::int64_t> active = active_pairs(spring);
+    if (active.empty()) return divide_rows(pivot, x);
+    solve_for_forces(pivot, gap, spring, active, x);
 }
 
 void solve_with_springs(const vector<double> &pivot, const Matrix &gap, const vector<double> &spring,
@@ -280,6 +291,27 @@ void solve_with_springs(const vector<double> &pivot, const Matrix &gap, const ve
     std::copy(x.begin(), x.end(), column.data());
     solve_with_springs(pivot, gap, spring, column);
     std::copy(column.data(), column.data() + x.size(), x.begin());
+}
+
+vector<double> spring_forces(const vector<double> &pivot, const Matrix &gap, const vector<double> &spring,
+                             const vector<double> &x) {
+    vector<double> forces(spring.size(), 0.0);
+    const vector<std::int64_t> active = active_pairs(spring);
+    if (active.empty()) return forces;
+    Matrix column(static_cast<std::int64_t>(x.size()), 1);
+    std::copy(x.begin(), x.end(), column.data());
+    const Matrix found = solve_for_forces(pivot, gap, spring, active, column);
+    for (std::size_t a = 0; a < active.size(); ++a) forces[active[a]] = found(static_cast<std::int64_t>(a), 0);
+    return forces;
+}
+
+vector<double> held_pivots(const vector<double> &lambda) {
+    constexpr double tiny = 1e-10; // nothing to the elastic motion, and far above rounding
+    const auto elastic = std::find_if(lambda.begin(), lambda.end(), [](double l) { return l > 0; });
+    const double least = tiny * (elastic == lambda.end() ? 1 : *elastic);
+    vector<double> pivot(lambda);
+    for (double &p : pivot) p = std::max(p, least);
+    return pivot;
 }
 
 } // namespace plm

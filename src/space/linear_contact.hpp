@@ -29,4 +29,12 @@ void solve_with_springs(const vector<double> &pivot, const Matrix &gap, const ve
 void solve_with_springs(const vector<double> &pivot, const Matrix &gap, const vector<double> &spring,
                         vector<double> &x);
 
+/// The forces of those springs (Z) for one right-hand side: right to eps however stiff they are.
+vector<double> spring_forces(const vector<double> &pivot, const Matrix &gap, const vector<double> &spring,
+                             const vector<double> &x);
+
+/// lambda with a tiny stiffness where there is none, so that rigid-body motion which contact alone holds, or
+/// nothing, has a finite answer: 1e-10 of the first elastic one.
+vector<double> held_pivots(const vector<double> &lambda);
+
 } // namespace plm

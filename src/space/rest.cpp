@@ -18,16 +18,7 @@ namespace {
 // The energy is convex, so Newton with exact line search ends at the minimum from anywhere.
 class RestProblem {
   public:
-    explicit RestProblem(const StaticProblem &p) : p_(p), pivot_(p.lambda) {
-        // Rigid-body coordinates have no stiffness of their own: a tiny one bounds their Newton step.
-        double flexible = 1;
-        for (double l : p.lambda)
-            if (l > 0) {
-                flexible = l;
-                break;
-            }
-        for (double &pivot : pivot_) pivot = std::max(pivot, 1e-10 * flexible);
-    }
+    explicit RestProblem(const StaticProblem &p) : p_(p), pivot_(held_pivots(p.lambda)) {}
 
     vector<double> penetration(const vector<double> &eta) const {
         vector<double> u = p_.contact.unloaded_penetration();
@@ -150,8 +141,7 @@ RestState solve_rest(const Space &space) {
 } // namespace
 
 std::shared_ptr<const RestState> rest_of(const Space &space) {
-    if (!space.rest) space.rest = std::make_shared<const RestState>(solve_rest(space));
-    return space.rest;
+    return space.rest.get([&] { return solve_rest(space); });
 }
 
 } // namespace plm

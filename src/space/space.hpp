@@ -6,6 +6,7 @@
 // count (massless.hpp). They are coordinates like the others, with a stiffness and their damping, but no
 // mass.
 #pragma once
+#include "linalg/kept.hpp"
 #include "space/linear_contact.hpp"
 #include "space/model.hpp"
 
@@ -29,7 +30,7 @@ struct Space {
     bool is_contact_space = false; // the unreduced structure to the model's tolerance (make_contact_space)
     bool counts_verified = false;  // Sturm count agreed
     double seconds = 0;            // contact space: of making it, with the earlier ones it was made from
-    mutable std::shared_ptr<const RestState> rest; // rest_of()
+    Kept<RestState> rest;          // rest_of()
     std::string description;       // "78 open modes below 20.1 kHz + 2 x 92 attachment vectors, error 3e-8"
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }
