@@ -11,7 +11,7 @@ vector<double> static_offset(const Space &space, LinearSystem system,
     if (z > 0) gemv('T', -1.0, space.gap, d.data(), 0.0, load.data());
     if (system == LinearSystem::sliding) {
         const vector<double> &stiffness = space.model->contact_stiffness();
-        vector<double> offset = spring_forces(held_pivots(space.lambda), space.gap, stiffness, load);
+        vector<double> offset = spring_forces(space.lambda, space.gap, stiffness, load);
         for (std::int64_t i = 0; i < z; ++i) offset[i] /= stiffness[i];
         return offset;
     }

@@ -293,14 +293,19 @@ void solve_with_springs(const vector<double> &pivot, const Matrix &gap, const ve
     std::copy(column.data(), column.data() + x.size(), x.begin());
 }
 
-vector<double> spring_forces(const vector<double> &pivot, const Matrix &gap, const vector<double> &spring,
+// Once more with what the tiny stiffness of rigid-body motion has carried: its square is nothing.
+vector<double> spring_forces(const vector<double> &lambda, const Matrix &gap, const vector<double> &spring,
                              const vector<double> &x) {
     vector<double> forces(spring.size(), 0.0);
     const vector<std::int64_t> active = active_pairs(spring);
     if (active.empty()) return forces;
-    Matrix column(static_cast<std::int64_t>(x.size()), 1);
-    std::copy(x.begin(), x.end(), column.data());
-    const Matrix found = solve_for_forces(pivot, gap, spring, active, column);
+    const vector<double> pivot = held_pivots(lambda);
+    Matrix motion(static_cast<std::int64_t>(x.size()), 1);
+    std::copy(x.begin(), x.end(), motion.data());
+    solve_for_forces(pivot, gap, spring, active, motion);
+    for (std::int64_t j = 0; j < motion.rows(); ++j)
+        motion(j, 0) = x[j] + (pivot[j] - lambda[j]) * motion(j, 0);
+    const Matrix found = solve_for_forces(pivot, gap, spring, active, motion);
     for (std::size_t a = 0; a < active.size(); ++a) forces[active[a]] = found(static_cast<std::int64_t>(a), 0);
     return forces;
 }

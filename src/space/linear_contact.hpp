@@ -29,8 +29,9 @@ void solve_with_springs(const vector<double> &pivot, const Matrix &gap, const ve
 void solve_with_springs(const vector<double> &pivot, const Matrix &gap, const vector<double> &spring,
                         vector<double> &x);
 
-/// The forces of those springs (Z) for one right-hand side: right to eps however stiff they are.
-vector<double> spring_forces(const vector<double> &pivot, const Matrix &gap, const vector<double> &spring,
+/// The forces of the springs (Z) in diag(lambda) + G^T diag(spring) G for one right-hand side: right to eps
+/// however stiff they are. Rigid-body motion (lambda 0) that they do not hold is left out.
+vector<double> spring_forces(const vector<double> &lambda, const Matrix &gap, const vector<double> &spring,
                              const vector<double> &x);
 
 /// lambda with a tiny stiffness where there is none, so that rigid-body motion which contact alone holds, or

@@ -194,6 +194,9 @@ for n in range(31):
     (rooms / f"space/knows_{n}.cpp").write_text("bool all() { return states.n_closed() == z; }\n", encoding="utf-8")
 refused("house.counts", "states of a pair known in 31 more files", "[0-9]+ files outside contact know the states of a pair: more than 30",
         python, tests / "house/counts.py", rooms)
+(rooms / "hbm/tall.cpp").write_text("SparseMatrix k;\n", encoding="utf-8")
+refused("house.counts", "a full-size matrix outside structure", "1 files outside structure use full-size matrices", python,
+        tests / "house/counts.py", rooms)
 refused("house.counts", "a sense that no longer occurs", "has no other sense in reduction/lelsm", python, tests / "house/counts.py",
         changed(source / "src/reduction/lelsm.cpp", "(?s).*", "", "rooms/reduction/lelsm.cpp").parents[1])
 

@@ -29,6 +29,21 @@ RULES = [
             (r"\bclosed\b", r"searches/isolated\.[ch]pp", "a curve that returns to its start"),
         ],
     },
+    {
+        "what": "files outside structure use full-size matrices, their factors or the columns of a Field",
+        # What has as many rows as the structure has DOFs goes through Structure, Field and GapRows.
+        "words": r"SparseMatrix|Factor|in_core|matrices|make_factor|lowest_eigenpairs",
+        "outside": "structure",
+        "limit": 0,
+        "other_senses": [],
+    },
+    {
+        "what": "files outside contact solve a system with springs by their compliance",
+        "pattern": r"\+= 1 / \w*(?:spring|stiffness)\w*\[",
+        "outside": "contact",
+        "limit": 1,
+        "other_senses": [],
+    },
 ]
 
 
@@ -58,7 +73,7 @@ def count(source, rule):
             if re.fullmatch(sense[1], name):
                 code, times = re.subn(sense[0], " ", code)
                 met.update([sense] if times else [])
-        identifiers = knows(code, rule["words"])
+        identifiers = knows(code, rule["words"]) if "words" in rule else sorted(set(re.findall(rule["pattern"], code)))
         if identifiers:
             found[name] = identifiers
     return found, met
