@@ -602,6 +602,14 @@ module plm_c
             real(c_double), intent(inout), optional :: shape(*)
             integer(plm_status) :: code
         end function plm_model_get_modes
+        function plm_model_count_modes(model, frequency_hz, count) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            real(c_double), value :: frequency_hz
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_model_count_modes
         function plm_model_audit(model, count) bind(c) result(code)
             import :: c_int64_t, c_ptr, plm_status
             implicit none

@@ -389,6 +389,22 @@ subroutine plmmre(handle, ierr)
     ierr = int(plm_model_solve_rest(as_pointer(handle)))
 end subroutine plmmre
 
+subroutine plmmcm(handle, freq, count, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_count_modes
+    use plm_f77_support, only: as_pointer, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    real(real64), intent(in) :: freq
+    integer, intent(inout) :: count
+    integer, intent(out) :: ierr
+    integer(int64) :: c_count
+    c_count = 0
+    ierr = int(plm_model_count_modes(as_pointer(handle), freq, c_count))
+    if (ierr < 0) return
+    call narrow(c_count, count, ierr)
+end subroutine plmmcm
+
 subroutine plmmau(handle, count, ierr)
     use, intrinsic :: iso_fortran_env, only: int64
     use plm_c, only: plm_model_audit

@@ -19,6 +19,7 @@ module plm_methods
         procedure :: set_rayleigh_damping => model_set_rayleigh_damping
         procedure :: set_modal_damping => model_set_modal_damping
         procedure :: set_structural_damping => model_set_structural_damping
+        procedure :: count_modes => model_count_modes
         procedure :: audit => model_audit
     end type plm_model_methods
 
@@ -88,6 +89,24 @@ contains
         status = plm_model_set_structural_damping(self%handle, eta)
         call finish(self%context, status, stat, errmsg)
     end subroutine model_set_structural_damping
+
+    ! How many natural frequencies of the open structure lie below frequency_hz (Hz), rigid-body modes included,
+    ! by Sylvester's law of inertia: one factorization, no eigenvectors, none is missed. Use it to size a basis or
+    ! to check a modal analysis. PLM_ERR_STATE where the host's own solver does not tell the inertia
+    ! (plm_context_set_inertia); PLM_ERR_SINGULAR where frequency_hz is a natural frequency to working precision.
+    subroutine model_count_modes(self, frequency_hz, count, stat, errmsg)
+        class(plm_model_methods), intent(in) :: self
+        real(real64), intent(in) :: frequency_hz
+        integer, intent(inout) :: count
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(plm_status) :: status
+        integer(int64) :: c_count
+        c_count = 0
+        status = plm_model_count_modes(self%handle, frequency_hz, c_count)
+        if (status >= 0) count = int(c_count)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine model_count_modes
 
     ! Looks the built model over: mass per direction, rigid-body modes, symmetry, definiteness, gap signs, contact
     ! stiffness against local stiffness, units that look off. count: number of findings, read one by one below.

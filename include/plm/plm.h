@@ -335,6 +335,11 @@ PLM_API plm_status plm_model_solve_rest(plm_model *model);
  * closed[n_pairs] for PLM_SYSTEM_GIVEN, else NULL. Relative accuracy: the model's "space_tolerance". */
 PLM_API plm_status plm_model_get_modes(plm_model *model, int32_t system, const int32_t *closed, int64_t n,
                                        double *frequency_hz, double *shape);
+/* How many natural frequencies of the open structure lie below frequency_hz (Hz), rigid-body modes included, by
+ * Sylvester's law of inertia: one factorization, no eigenvectors, none is missed. Use it to size a basis or to check a
+ * modal analysis. PLM_ERR_STATE where the host's own solver does not tell the inertia (plm_context_set_inertia);
+ * PLM_ERR_SINGULAR where frequency_hz is a natural frequency to working precision. */
+PLM_API plm_status plm_model_count_modes(plm_model *model, double frequency_hz, int64_t *count);
 
 /* Looks the built model over: mass per direction, rigid-body modes, symmetry, definiteness, gap signs, contact
  * stiffness against local stiffness, units that look off. count: number of findings, read one by one below. */

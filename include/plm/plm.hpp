@@ -726,6 +726,12 @@ class Model : public detail::WithOptions<Model, plm_model> {
                  "get_modes");
         return m;
     }
+    /// Natural frequencies of the open structure below frequency_hz, rigid-body modes included.
+    std::int64_t count_modes(double frequency_hz) const {
+        std::int64_t n = 0;
+        finished(plm_model_count_modes(handle_, frequency_hz, &n), "count_modes");
+        return n;
+    }
     std::vector<Finding> audit() const {
         std::int64_t n = 0;
         finished(plm_model_audit(handle_, &n), "audit");

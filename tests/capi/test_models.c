@@ -115,6 +115,33 @@ static void no_contact_is_a_linear_model(void **state) {
                         "no contact pair"));
 }
 
+/* Two free bodies of two masses: 0, 0, and twice sqrt(2 k / m). */
+static void modes_are_counted(void **state) {
+    const double elastic = sqrt(2e4) / (2 * 3.14159265358979323846);
+    const struct {
+        double hz;
+        int64_t count;
+    } want[] = {{1e-3 * elastic, 2}, {0.999 * elastic, 2}, {1.001 * elastic, 4}, {1e6, 4}};
+    plm_model *m = NULL;
+    int64_t n = -7;
+    size_t k;
+    (void)state;
+    assert_int_equal(plm_model_count_modes(NULL, 1, &n), PLM_ERR_HANDLE);
+    assert_true(done(ctx, loose_bodies(1, &m)));
+    for (k = 0; k < sizeof want / sizeof *want; ++k) {
+        assert_true(done(ctx, plm_model_count_modes(m, want[k].hz, &n)));
+        assert_int_equal(n, want[k].count);
+    }
+    n = -7;
+    assert_true(refused(ctx, plm_model_count_modes(m, 0, &n), PLM_ERR_ARGUMENT, "plm_model_count_modes",
+                        "frequency_hz", -1, "positive"));
+    assert_true(refused(ctx, plm_model_count_modes(m, NAN, &n), PLM_ERR_ARGUMENT, "plm_model_count_modes",
+                        "frequency_hz", -1, "finite"));
+    assert_true(refused(ctx, plm_model_count_modes(m, 1, NULL), PLM_ERR_ARGUMENT, "plm_model_count_modes", "count",
+                        -1, "NULL"));
+    assert_int_equal(n, -7);
+}
+
 static void *count_and_allocate(int64_t bytes, void *user) {
     *(int64_t *)user += bytes;
     return malloc((size_t)bytes);
@@ -146,6 +173,7 @@ int main(void) {
         TEST(all_kinds_of_input_make_one_model),
         TEST(loose_bodies_held_by_contact),
         TEST(no_contact_is_a_linear_model),
+        TEST(modes_are_counted),
         TEST(a_number_of_dofs_takes_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

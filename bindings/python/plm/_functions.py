@@ -60,6 +60,7 @@ FUNCTIONS = {
     "plm_model_build": "p",
     "plm_model_solve_rest": "p",
     "plm_model_get_modes": "pipqpp",
+    "plm_model_count_modes": "pdp",
     "plm_model_audit": "pp",
     "plm_model_get_finding": "pqppqpp",
     "plm_sampler_create": "pp",

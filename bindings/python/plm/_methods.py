@@ -22,6 +22,15 @@ class ModelMethods:
         """Structural (hysteretic) loss factor eta >= 0: K (1 + i eta) in every harmonic h >= 1."""
         self._work("set_structural_damping", eta)
 
+    def count_modes(self, frequency_hz):
+        """How many natural frequencies of the open structure lie below frequency_hz (Hz), rigid-body modes included, by
+        Sylvester's law of inertia: one factorization, no eigenvectors, none is missed. Use it to size a basis or to
+        check a modal analysis. PLM_ERR_STATE where the host's own solver does not tell the inertia
+        (plm_context_set_inertia); PLM_ERR_SINGULAR where frequency_hz is a natural frequency to working precision."""
+        count = ctypes.c_int64()
+        self._work("count_modes", frequency_hz, ctypes.byref(count))
+        return count.value
+
 
 class SamplerMethods:
     """Of Sampler."""

@@ -335,6 +335,11 @@ PLM_API plm_status plm_model_solve_rest(plm_model *model);
  * closed[n_pairs] for PLM_SYSTEM_GIVEN, else NULL. Relative accuracy: the model's "space_tolerance". */
 PLM_API plm_status plm_model_get_modes(plm_model *model, int32_t system, const int32_t *closed, int64_t n,
                                        double *frequency_hz, double *shape);
+/* How many natural frequencies of the open structure lie below frequency_hz (Hz), rigid-body modes included, by
+ * Sylvester's law of inertia: one factorization, no eigenvectors, none is missed. Use it to size a basis or to check a
+ * modal analysis. PLM_ERR_STATE where the host's own solver does not tell the inertia (plm_context_set_inertia);
+ * PLM_ERR_SINGULAR where frequency_hz is a natural frequency to working precision. */
+PLM_API plm_status plm_model_count_modes(plm_model *model, double frequency_hz, int64_t *count);
 
 /* Looks the built model over: mass per direction, rigid-body modes, symmetry, definiteness, gap signs, contact
  * stiffness against local stiffness, units that look off. count: number of findings, read one by one below. */
@@ -437,8 +442,9 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
  * one and a half times the window at most; PLM_WARNING with PLM_REASON_NO_PEAK when no peak comes inside. An end that
  * the host gave (frequency_min_hz, frequency_max_hz here or of the basis, window_min_hz, window_max_hz of the sampler)
  * stays. PLM_WARNING with PLM_REASON_OUTSIDE_BASIS when the largest response outside the basis' window misses the
- * equations of the whole structure by more than 1 % (plm_branch_get_full_residual), with PLM_REASON_NO_SWITCHING
- * when no pair would open or close under a hundred times the motion. A structure in free flight, or free along a rail:
+ * equations of the whole structure by more than 1 % (plm_branch_get_full_residual), with PLM_REASON_BASIS_TOO_SMALL when
+ * the largest inside it does, with PLM_REASON_NO_SWITCHING when no pair would open or close under a hundred times the
+ * motion. A structure in free flight, or free along a rail:
  * mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
@@ -449,7 +455,8 @@ PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *
  * around the highest point of `branch` (which this hbm's basis computed), with twice its harmonics where they are chosen
  * automatically and the next ones would show. peak: that point as a branch, or NULL. PLM_WARNING with
  * PLM_REASON_NO_PEAK when the highest point stands at an end of the curve (also of one that was cut off): frequency and
- * amplitude are those of that point, and the peak lies elsewhere. A closed curve has no ends. */
+ * amplitude are those of that point, and the peak lies elsewhere; with PLM_REASON_BASIS_TOO_SMALL as for a sweep. A
+ * closed curve has no ends. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
 
