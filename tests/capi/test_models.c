@@ -52,6 +52,8 @@ static void all_kinds_of_input_make_one_model(void **state) {
     }
 }
 
+static const char *solver; /* NULL: the default */
+
 /* two loose bodies of two masses each, and a pair between them if `contact` */
 static plm_status loose_bodies(int contact, plm_model **model) {
     const int32_t mass_ptr[] = {0, 1, 2, 3, 4}, mass_row[] = {0, 1, 2, 3};
@@ -69,6 +71,7 @@ static plm_status loose_bodies(int contact, plm_model **model) {
         s = plm_model_add_gap_rows_i32(p, 0, 1, gap_ptr, gap_dof, coefficient, stiffness, NULL);
     if (!s) s = plm_model_set_excitation(p, 1, 4, force, NULL);
     if (!s && contact) s = plm_model_set_preload(p, 4, squeeze);
+    if (!s && solver) s = plm_model_set_string(p, "solver", solver);
     if (!s) s = plm_model_build(p);
     *model = p;
     return s;
@@ -113,6 +116,34 @@ static void no_contact_is_a_linear_model(void **state) {
     assert_int_equal(plm_sampler_create(m, &sampler), PLM_OK);
     assert_true(refused(ctx, plm_sampler_run(sampler), PLM_ERR_STATE, "plm_sampler_run", "sampler", -1,
                         "no contact pair"));
+}
+
+/* The library's own solvers by name are those of the default; one that was not built, or the host's where the host has
+ * none, is refused by the build with its name, and nothing is lost: another is chosen and the model is built. */
+static void solvers_are_chosen_by_name(void **state) {
+    const char *const own[] = {"cholmod", "eigen"};
+    double want[4], hz[4];
+    plm_model *m = NULL;
+    int k, j, served = 0;
+    (void)state;
+    assert_true(done(ctx, loose_bodies(1, &m)));
+    assert_true(done(ctx, plm_model_get_modes(m, PLM_SYSTEM_SLIDING, NULL, 4, want, NULL)));
+    for (k = 0; k < 2; ++k) {
+        plm_status s;
+        solver = own[k];
+        s = loose_bodies(1, &m);
+        assert_true(s == PLM_OK || s == PLM_ERR_NOT_BUILT);
+        if (s) continue;
+        ++served;
+        assert_true(done(ctx, plm_model_get_modes(m, PLM_SYSTEM_SLIDING, NULL, 4, hz, NULL)));
+        for (j = 1; j < 4; ++j) assert_true(close_to(hz[j], want[j], 1e-10));
+    }
+    assert_in_range(served, 1, 2);
+    solver = "host";
+    assert_true(refused(ctx, loose_bodies(1, &m), PLM_ERR_STATE, "plm_model_build", "solver", -1, "no solver"));
+    assert_true(done(ctx, plm_model_set_string(m, "solver", "auto")));
+    assert_true(done(ctx, plm_model_build(m)));
+    solver = NULL;
 }
 
 /* Two free bodies of two masses: 0, 0, and twice sqrt(2 k / m). */
@@ -173,6 +204,7 @@ int main(void) {
         TEST(all_kinds_of_input_make_one_model),
         TEST(loose_bodies_held_by_contact),
         TEST(no_contact_is_a_linear_model),
+        TEST(solvers_are_chosen_by_name),
         TEST(modes_are_counted),
         TEST(a_number_of_dofs_takes_no_memory),
     };
