@@ -26,7 +26,7 @@ find_python() {
     return 1
 }
 
-packages="g++ cmake ninja-build libopenblas-dev liblapack-dev libarpack2-dev libfftw3-dev libsuitesparse-dev"
+packages="g++ cmake ninja-build libopenblas-dev liblapack-dev libarpack2-dev libfftw3-dev libsuitesparse-dev libeigen3-dev"
 find_python || packages="$packages python3-numpy python3-matplotlib"
 # shellcheck disable=SC2086
 need_packages $packages
