@@ -35,9 +35,10 @@ const std::vector<Key> &model_keys() {
         int_option<&O::max_blocks>("max_blocks", 1, 20, "most blocks of contact attachment vectors"),
         int_option<&O::verify_counts>("verify_counts", 0, 1,
                                       "1: the number of modes is verified by a Sturm count"),
-        choice_option<&O::solver>("solver", "auto,cholmod,eigen,host",
-                                  "who factors sparse matrices; auto: the host's solver where the context has "
-                                  "one, else cholmod where it was built, else eigen"),
+        choice_option<&O::solver>(
+            "solver", "auto,cholmod,eigen,host",
+            "who factors sparse matrices; auto: the host's solver where the context has "
+            "one, else cholmod where it was built, else eigen"),
 
         result<H>("n_dof", "DOFs of the model",
                   [](const H &h) { return h.core ? h.core->n_dof() : h.input.n_dof; }),

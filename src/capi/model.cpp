@@ -166,8 +166,7 @@ plm_status plm_model_count_modes(plm_model *model, double frequency_hz, std::int
     return call<ModelHandle>("plm_model_count_modes", model, [&](ModelHandle &m) {
         const plm::Model &core = *built(m);
         require_finite(frequency_hz, "frequency_hz");
-        if (!(frequency_hz > 0))
-            bad_argument("frequency_hz", -1, "frequency_hz must be positive");
+        if (!(frequency_hz > 0)) bad_argument("frequency_hz", -1, "frequency_hz must be positive");
         require_pointer(count, "count");
         if (!core.counts_modes())
             throw plm::Error(PLM_ERR_STATE, "the host's solver does not tell the inertia, by which modes are "
@@ -177,8 +176,9 @@ plm_status plm_model_count_modes(plm_model *model, double frequency_hz, std::int
         m.owner->watch().step("count of modes", 0); // a factorization, which hears nobody
         const std::int64_t below = core.count_modes_below(2 * M_PI * frequency_hz);
         if (below < 0)
-            throw plm::Error(PLM_ERR_SINGULAR, "frequency_hz is a natural frequency to working precision; ask "
-                                               "a little above or below")
+            throw plm::Error(PLM_ERR_SINGULAR,
+                             "frequency_hz is a natural frequency to working precision; ask "
+                             "a little above or below")
                 .argument("frequency_hz");
         *count = below;
         return PLM_OK;

@@ -68,8 +68,8 @@ const FullState &FullMotion::present() {
 }
 
 void FullMotion::set_state(const double *q, const double *v) {
-    FullState state{q ? model_->restricted(q) : Field(size(), 1), v ? model_->restricted(v) : Field(size(), 1),
-                    0};
+    FullState state{q ? model_->restricted(q) : Field(size(), 1),
+                    v ? model_->restricted(v) : Field(size(), 1), 0};
     state_ = std::move(state);
     restart_clock();
 }

@@ -66,8 +66,8 @@ NewmarkRule::NewmarkRule(const NewmarkOptions &o, double omega)
       beta(0.25 * (1 + o.alpha) * (1 + o.alpha)), gamma(0.5 + o.alpha), now(1 - o.alpha) {}
 
 Newmark::Newmark(std::shared_ptr<const Model> model, double omega, const NewmarkOptions &options, Watch watch)
-    : model_(checked(std::move(model), omega)), omega_(omega), rule_(options, omega),
-      options_(options), watch_(watch), damping_(*model_, damping_of(*model_, omega)),
+    : model_(checked(std::move(model), omega)), omega_(omega), rule_(options, omega), options_(options),
+      watch_(watch), damping_(*model_, damping_of(*model_, omega)),
       step_(*model_, step_of(*model_, omega, options)) {
     watch_.step("time integration", 0.0);
     step_.factor();
@@ -130,8 +130,7 @@ void Newmark::start(const FullState &state) {
     u_free_.assign(u.data(), u.data() + z);
     Matrix force(z, 1);
     for (std::int64_t i = 0; i < z; ++i)
-        force(i, 0) = contact_force_[i] =
-            model_->contact().force(i, u_free_[i] - model_->initial_gap()[i]);
+        force(i, 0) = contact_force_[i] = model_->contact().force(i, u_free_[i] - model_->initial_gap()[i]);
     excitation(state_.time, rest_force_);
     subtract_internal_forces(state_.q, state_.v, rest_force_);
     add(-1.0, model_->gap_rows().forces(force), rest_force_);

@@ -34,8 +34,8 @@ struct FullState {
 /// What an observer sees after each step; valid during the call only.
 struct NewmarkStep {
     double time;
-    const Field &q, &v, &a;          // free DOFs
-    const vector<double> &force;     // N per pair
+    const Field &q, &v, &a;      // free DOFs
+    const vector<double> &force; // N per pair
     const vector<double> &penetration;
 };
 class NewmarkObserver {

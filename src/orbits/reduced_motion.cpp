@@ -119,7 +119,8 @@ void ReducedMotion::use_frequency(double omega) {
 // At rest under the pre-load when nothing else was set.
 const FlowState &ReducedMotion::present() {
     if (state_.y.empty()) {
-        state_ = {flow_model_->from_static_coordinates(rest_of(*reduced_)->coordinates), vector<double>(size(), 0.0), 0};
+        state_ = {flow_model_->from_static_coordinates(rest_of(*reduced_)->coordinates),
+                  vector<double>(size(), 0.0), 0};
     }
     return state_;
 }

@@ -69,8 +69,10 @@ std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Mode
     const FixedInterface held(*model, watch);
     Field t = held.constraint_modes(); // T = [I 0; Psi Phi]
     t.append(held.interior_modes(options.n_fixed, options.highest_frequency, options.load_vectors));
-    Matrix k = projection(t, [&](const Field &x) { return model->stiffness_times(x); }, watch);
-    Matrix m = projection(t, [&](const Field &x) { return model->mass_times(x); }, watch);
+    Matrix k = projection(
+        t, [&](const Field &x) { return model->stiffness_times(x); }, watch);
+    Matrix m = projection(
+        t, [&](const Field &x) { return model->mass_times(x); }, watch);
     symmetrise(k);
     symmetrise(m);
     watch.step("Craig-Bampton", 0.8);

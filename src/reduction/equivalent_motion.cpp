@@ -19,7 +19,8 @@ constexpr double settled_change = 1e-6; // of the largest coupling, which is tin
 class MeanEquilibrium {
   public:
     explicit MeanEquilibrium(const Space &space)
-        : space_(space), pivot_(held_pivots(space.lambda)), load_(space.preload), mean_(rest_of(space)->coordinates) {
+        : space_(space), pivot_(held_pivots(space.lambda)), load_(space.preload),
+          mean_(rest_of(space)->coordinates) {
         // Rigid-body motion that nothing holds drifts until contact is lost; the pivots let it end.
         load_.resize(space.size(), 0.0);
         const auto constant = space.excitation.find(0);

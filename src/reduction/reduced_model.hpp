@@ -30,8 +30,8 @@ struct ReducedModel {
     std::int64_t n_massless_0 = 0;
     Matrix gap_0; // B P_0: Z x r_0
     // loads
-    vector<double> preload_0;               // P_0^T F_preload, r_0 (zeros without pre-load)
-    HarmonicLoads excitation;               // h >= 1: r; h = 0: r_0
+    vector<double> preload_0; // P_0^T F_preload, r_0 (zeros without pre-load)
+    HarmonicLoads excitation; // h >= 1: r; h = 0: r_0
     Contact contact;
     // Node sampling: all of the above about contact is of the pairs in `carried` only, their stiffness
     // includes that of the pairs left out, and all_pairs has the model's own. Null: all pairs are carried

@@ -13,8 +13,7 @@ PairStates contact_set(LinearSystem system, std::int64_t n_pairs) {
 
 bool is_homogeneous(const Model &model) {
     const auto zero = [](double v) { return v == 0; };
-    return !model.has_preload() &&
-           std::all_of(model.initial_gap().begin(), model.initial_gap().end(), zero);
+    return !model.has_preload() && std::all_of(model.initial_gap().begin(), model.initial_gap().end(), zero);
 }
 
 namespace {

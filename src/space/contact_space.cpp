@@ -92,8 +92,7 @@ class ContactSpaceBuilder {
                            static_cast<long long>(count)));
             space_->counts_verified = true;
         }
-        const std::int64_t n_rigid =
-            std::min<std::int64_t>(model_->n_rigid(), pairs.values.size());
+        const std::int64_t n_rigid = std::min<std::int64_t>(model_->n_rigid(), pairs.values.size());
         std::fill(pairs.values.begin(), pairs.values.begin() + n_rigid, 0.0); // exactly
         const double flexible = flexible_eigenvalue(pairs.values);
         reach_ = highest_ > 0 ? highest_ : far_above_the_first * std::sqrt(flexible);
@@ -159,8 +158,7 @@ class ContactSpaceBuilder {
     // The part of X outside the exact modes; those keep both M- and K-orthogonality by being eigenvectors.
     void deflate(Field &x) const {
         if (modes_.vectors.cols() == 0) return;
-        for (int pass = 0; pass < 2; ++pass)
-            add_combination(-1.0, modes_.vectors, gram(mass_modes_, x), x);
+        for (int pass = 0; pass < 2; ++pass) add_combination(-1.0, modes_.vectors, gram(mass_modes_, x), x);
     }
 
     Field load_responses() const {
@@ -267,7 +265,8 @@ class ContactSpaceBuilder {
             }
             worst = std::max(worst, probe_error(model_->gap_rows().forces(signs)));
         }
-        for (const auto &entry : model_->excitation()) worst = std::max(worst, probe_error(entry.second.real));
+        for (const auto &entry : model_->excitation())
+            worst = std::max(worst, probe_error(entry.second.real));
         return worst;
     }
 
@@ -348,10 +347,10 @@ class ContactSpaceBuilder {
     Watch watch_;
     double sigma_;
     StructureModes modes_;
-    Field mass_modes_;                    // M Phi
-    double next_lambda_ = 0, reach_ = 0;  // reach_: rad/s, of the highest frequency of interest
-    Field basis_, stiff_basis_, newest_;  // K-orthonormal attachment vectors Y, K Y, the last block
-    SymmetricEigen ritz_;                 // of M in basis_: compliances and vectors
+    Field mass_modes_;                   // M Phi
+    double next_lambda_ = 0, reach_ = 0; // reach_: rad/s, of the highest frequency of interest
+    Field basis_, stiff_basis_, newest_; // K-orthonormal attachment vectors Y, K Y, the last block
+    SymmetricEigen ritz_;                // of M in basis_: compliances and vectors
 };
 
 } // namespace

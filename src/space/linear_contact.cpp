@@ -306,7 +306,8 @@ vector<double> spring_forces(const vector<double> &lambda, const Matrix &gap, co
     for (std::int64_t j = 0; j < motion.rows(); ++j)
         motion(j, 0) = x[j] + (pivot[j] - lambda[j]) * motion(j, 0);
     const Matrix found = solve_for_forces(pivot, gap, spring, active, motion);
-    for (std::size_t a = 0; a < active.size(); ++a) forces[active[a]] = found(static_cast<std::int64_t>(a), 0);
+    for (std::size_t a = 0; a < active.size(); ++a)
+        forces[active[a]] = found(static_cast<std::int64_t>(a), 0);
     return forces;
 }
 

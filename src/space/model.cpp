@@ -27,8 +27,8 @@ Solver chosen(SolverName name, const HostSolver *host) {
 } // namespace
 
 Model::Model(const ModelInput &input, const SpaceOptions &options, const HostSolver *host, Watch watch)
-    : Structure(input, input.contact.n_pairs(),
-                largest_given(input.contact.stiffness), chosen(options.solver, host), watch),
+    : Structure(input, input.contact.n_pairs(), largest_given(input.contact.stiffness),
+                chosen(options.solver, host), watch),
       contact_(input.contact), space_options_(options) {
     solve_attachment(watch);
     resolve_contact_stiffness();

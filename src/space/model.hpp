@@ -1,4 +1,5 @@
-// The structure with its contact: M q'' + C q' + K q = F(t) - B^T N(B q - g), checked once and then read-only.
+// The structure with its contact: M q'' + C q' + K q = F(t) - B^T N(B q - g), checked once and then
+// read-only.
 #pragma once
 #include "contact/contact.hpp"
 #include "structure/structure.hpp"
@@ -7,7 +8,8 @@ namespace plm {
 
 /// All that the caller said, before it is checked as a whole.
 struct ModelInput : StructureInput {
-    Contact contact; // of the pairs of the gap matrix; PLM_AUTO_STIFFNESS: chosen when the flexibility is known
+    Contact
+        contact; // of the pairs of the gap matrix; PLM_AUTO_STIFFNESS: chosen when the flexibility is known
 };
 
 /// How the contact space (contact_space.hpp) is built; options of the model.
@@ -16,7 +18,7 @@ struct SpaceOptions {
     double cutoff_factor = 2.0; // exact modes up to this multiple of the highest frequency
     std::int64_t max_blocks =
         4; // attachment vectors (K + sigma M)^-1 [M (K + sigma M)^-1]^j B^T, j < max_blocks
-    bool verify_counts = true; // Sturm count of the modes below the cutoff
+    bool verify_counts = true;                 // Sturm count of the modes below the cutoff
     SolverName solver = SolverName::automatic; // of the sparse factorizations
 };
 

@@ -29,10 +29,10 @@ Error no_equilibrium(const char *load);
 
 /// The structure at rest under the pre-load.
 struct RestState {
-    vector<double> coordinates;  // in the space: q_rest = V coordinates
-    Field displacement;          // one column
-    vector<double> penetration;  // u = B q - g, per pair
-    vector<double> force;        // N per pair
+    vector<double> coordinates; // in the space: q_rest = V coordinates
+    Field displacement;         // one column
+    vector<double> penetration; // u = B q - g, per pair
+    vector<double> force;       // N per pair
     PairStates states;
     std::int64_t iterations = 0;
 };

@@ -24,14 +24,14 @@ struct Space {
     Matrix damping;                  // V^T C V, m x m, when an explicit C is present; else empty
     vector<double> preload;          // V^T F_preload, m; empty without pre-load
     HarmonicLoads excitation;        // V^T F_h
-    std::int64_t n_exact_modes = 0;         // the first ones are exact modes of the open system
-    double highest_frequency = 0;           // the space is accurate up to here (rad/s)
-    double error_estimate = 0;     // relative error of the contact receptances there; 0 when not estimated
-    bool is_contact_space = false; // the unreduced structure to the model's tolerance (make_contact_space)
-    bool counts_verified = false;  // Sturm count agreed
-    double seconds = 0;            // contact space: of making it, with the earlier ones it was made from
-    Kept<RestState> rest;          // rest_of()
-    std::string description;       // "78 open modes below 20.1 kHz + 2 x 92 attachment vectors, error 3e-8"
+    std::int64_t n_exact_modes = 0;  // the first ones are exact modes of the open system
+    double highest_frequency = 0;    // the space is accurate up to here (rad/s)
+    double error_estimate = 0;       // relative error of the contact receptances there; 0 when not estimated
+    bool is_contact_space = false;   // the unreduced structure to the model's tolerance (make_contact_space)
+    bool counts_verified = false;    // Sturm count agreed
+    double seconds = 0;              // contact space: of making it, with the earlier ones it was made from
+    Kept<RestState> rest;            // rest_of()
+    std::string description;         // "78 open modes below 20.1 kHz + 2 x 92 attachment vectors, error 3e-8"
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }
     std::int64_t n_massive() const { return size() - n_massless; }

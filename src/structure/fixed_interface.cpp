@@ -127,8 +127,7 @@ class FixedInterface::Interior {
             watch_.step("count of fixed-interface modes", 0.1); // a factorization, which hears nobody
             try {
                 const SparseMatrix shifted = add(1.0, k_, -limit * limit, m_);
-                return make_factor(shifted, FactorKind::indefinite, solver_)
-                    ->negative_eigenvalues();
+                return make_factor(shifted, FactorKind::indefinite, solver_)->negative_eigenvalues();
             } catch (const Error &e) {
                 if (e.status() != PLM_ERR_SINGULAR) throw;
             }
@@ -203,8 +202,7 @@ Field FixedInterface::interior_modes(std::int64_t n_fixed, double highest, bool 
 }
 
 Matrix FixedInterface::interior_loads() const {
-    const Field loads =
-        load_columns(structure_.preload(), structure_.excitation(), structure_.n_free());
+    const Field loads = load_columns(structure_.preload(), structure_.excitation(), structure_.n_free());
     const Matrix inside = loads.rows_at(interior_dof_);
     Matrix kept(inside.rows(), 0);
     for (std::int64_t j = 0; j < inside.cols(); ++j)

@@ -104,8 +104,8 @@ class RigidModeSearch {
   public:
     RigidModeSearch(const SparseMatrix &k, const SparseMatrix &m, double largest_contact,
                     const vector<std::int64_t> &free_dof, const Solver &solver, Watch watch)
-        : k_(k), m_(m), largest_contact_(largest_contact), free_dof_(free_dof), solver_(solver), watch_(watch),
-          scale_(typical_eigenvalue()) {}
+        : k_(k), m_(m), largest_contact_(largest_contact), free_dof_(free_dof), solver_(solver),
+          watch_(watch), scale_(typical_eigenvalue()) {}
 
     FactoredStiffness run() {
         refuse_free_massless_dofs();
@@ -130,7 +130,8 @@ class RigidModeSearch {
         // again with the better shift: the modes are as orthogonal to the flexible ones as K allows
         low_.take(lowest(*result.factor, result.shift, n_rigid_ + 1), k_, m_);
         result.rigid_modes = Field(low_.pairs.vectors.columns(0, n_rigid_));
-        result.factor = make_rigid_factor(std::move(result.factor), result.rigid_modes.in_core(), m_, result.shift);
+        result.factor =
+            make_rigid_factor(std::move(result.factor), result.rigid_modes.in_core(), m_, result.shift);
         watch_.log(1,
                    format("the structure has %lld rigid-body modes while its contacts are open; K + %g M is "
                           "factored instead of K",

@@ -110,11 +110,11 @@ void Structure::assemble_matrices(const StructureInput &input) {
 void Structure::assemble_gap(const StructureInput &input, std::int64_t z) {
     vector<std::int64_t> all_pairs(z);
     for (std::int64_t i = 0; i < z; ++i) all_pairs[i] = i;
-    SparseMatrix gap = submatrix(from_triplets(z, n_dof_, input.gap_pair, input.gap_dof, input.gap_coefficient),
-                            all_pairs, z, free_of_, n_free());
+    SparseMatrix gap =
+        submatrix(from_triplets(z, n_dof_, input.gap_pair, input.gap_dof, input.gap_coefficient), all_pairs,
+                  z, free_of_, n_free());
     vector<double> weight(z, 0.0);
-    for (std::int64_t p = 0; p < gap.nnz(); ++p)
-        weight[gap.idx[p]] += std::abs(gap.val[p]);
+    for (std::int64_t p = 0; p < gap.nnz(); ++p) weight[gap.idx[p]] += std::abs(gap.val[p]);
     for (std::int64_t i = 0; i < z; ++i)
         if (!(weight[i] > 0))
             throw Error(PLM_ERR_ARGUMENT,

@@ -1,6 +1,6 @@
 // The structure without its contact: M q'' + C q' + K q = F(t) on its free DOFs, checked once and then
-// read-only, and all that the method does with it. The gap rows B are among it, for they are as long as it is;
-// what the pairs do is not.
+// read-only, and all that the method does with it. The gap rows B are among it, for they are as long as it
+// is; what the pairs do is not.
 #pragma once
 #include "linalg/monitor.hpp"
 #include "structure/eigs.hpp"
@@ -65,7 +65,9 @@ class Structure {
         return Field(multiply(shift_ > 0 ? shifted_ : stiffness_, x.in_core()));
     }
     /// y = M x and y = K x, one column each.
-    void mass_times(const Field &x, Field &y) const { multiply(mass_, x.in_core().data(), y.in_core().data()); }
+    void mass_times(const Field &x, Field &y) const {
+        multiply(mass_, x.in_core().data(), y.in_core().data());
+    }
     void stiffness_times(const Field &x, Field &y) const {
         multiply(stiffness_, x.in_core().data(), y.in_core().data());
     }

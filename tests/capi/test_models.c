@@ -118,8 +118,9 @@ static void no_contact_is_a_linear_model(void **state) {
                         "no contact pair"));
 }
 
-/* The library's own solvers by name are those of the default; one that was not built, or the host's where the host has
- * none, is refused by the build with its name, and nothing is lost: another is chosen and the model is built. */
+/* The library's own solvers by name are those of the default; one that was not built, or the host's where the
+ * host has none, is refused by the build with its name, and nothing is lost: another is chosen and the model
+ * is built. */
 static void solvers_are_chosen_by_name(void **state) {
     const char *const own[] = {"cholmod", "eigen"};
     double want[4], hz[4];
@@ -140,7 +141,8 @@ static void solvers_are_chosen_by_name(void **state) {
     }
     assert_in_range(served, 1, 2);
     solver = "host";
-    assert_true(refused(ctx, loose_bodies(1, &m), PLM_ERR_STATE, "plm_model_build", "solver", -1, "no solver"));
+    assert_true(
+        refused(ctx, loose_bodies(1, &m), PLM_ERR_STATE, "plm_model_build", "solver", -1, "no solver"));
     assert_true(done(ctx, plm_model_set_string(m, "solver", "auto")));
     assert_true(done(ctx, plm_model_build(m)));
     solver = NULL;
@@ -168,8 +170,8 @@ static void modes_are_counted(void **state) {
                         "frequency_hz", -1, "positive"));
     assert_true(refused(ctx, plm_model_count_modes(m, NAN, &n), PLM_ERR_ARGUMENT, "plm_model_count_modes",
                         "frequency_hz", -1, "finite"));
-    assert_true(refused(ctx, plm_model_count_modes(m, 1, NULL), PLM_ERR_ARGUMENT, "plm_model_count_modes", "count",
-                        -1, "NULL"));
+    assert_true(refused(ctx, plm_model_count_modes(m, 1, NULL), PLM_ERR_ARGUMENT, "plm_model_count_modes",
+                        "count", -1, "NULL"));
     assert_int_equal(n, -7);
 }
 

@@ -81,8 +81,8 @@ void free_flight_is_the_motion_of_the_reduced_mass(void **) {
             double centre[2] = {0, 0};
             for (int c = 0; c < 2; ++c)
                 for (std::int64_t j = 0; j < free->size(); ++j)
-                    centre[c] += (left * free->vectors.at(0, j) + right * free->vectors.at(1, j)) / (left + right) *
-                                 a->points()[0].eta(j, c);
+                    centre[c] += (left * free->vectors.at(0, j) + right * free->vectors.at(1, j)) /
+                                 (left + right) * a->points()[0].eta(j, c);
             assert_true(close_to(std::hypot(centre[0], centre[1]), std::abs(common), 1e-8));
         }
 }

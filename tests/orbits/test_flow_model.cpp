@@ -61,12 +61,15 @@ double projection_error(const ModelExtras &extras) {
     const plm::Model &model = *r->model;
     double worst = 0;
     plm::vector<double> load(m.size());
-    plm::gemv('T', 1.0, r->vectors_0.in_core(), model.excitation().at(1).real.in_core().data(), 0.0, load.data());
+    plm::gemv('T', 1.0, r->vectors_0.in_core(), model.excitation().at(1).real.in_core().data(), 0.0,
+              load.data());
     for (std::int64_t j = 0; j < m.size(); ++j)
         worst = std::max(worst, std::abs(load[j] - m.excitation().at(1).real[j]));
-    plm::SparseMatrix c = plm::add(extras.alpha, model.matrices().mass, extras.beta, model.matrices().stiffness);
+    plm::SparseMatrix c =
+        plm::add(extras.alpha, model.matrices().mass, extras.beta, model.matrices().stiffness);
     if (extras.explicit_damping) c = plm::add(1.0, c, 1.0, model.matrices().damping);
-    const Matrix want = plm::product('T', 'N', r->vectors_0.in_core(), plm::multiply(c, r->vectors_0.in_core()));
+    const Matrix want =
+        plm::product('T', 'N', r->vectors_0.in_core(), plm::multiply(c, r->vectors_0.in_core()));
     for (std::int64_t j = 0; j < m.size(); ++j)
         for (std::int64_t i = 0; i < m.size(); ++i) {
             const double got =
@@ -93,7 +96,8 @@ Modal modal_damping() {
     extras.modal_ratio = {0.01, 0.02, 0.03};
     const auto r = reduced_with_static(extras);
     const plm::FlowModel m(r);
-    const Matrix t = plm::product('T', 'N', r->vectors_0.in_core(), plm::multiply(r->model->matrices().mass, r->vectors.in_core()));
+    const Matrix t = plm::product('T', 'N', r->vectors_0.in_core(),
+                                  plm::multiply(r->model->matrices().mass, r->vectors.in_core()));
     const Matrix c = plm::product('T', 'N', t, plm::product('N', 'N', m.damping(), t));
     Modal result;
     double largest = 0;

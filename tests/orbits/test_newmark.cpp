@@ -50,7 +50,8 @@ double newmark_error(const exact::Structure &s, double damping, bool explicit_da
     const std::vector<double> want = to_dofs(*flow_of, state);
     double worst = 0;
     for (int i = 0; i < s.n; ++i)
-        worst = std::max({worst, std::abs(r.state.q.at(i) - want[i]), std::abs(r.state.v.at(i) - want[s.n + i])});
+        worst =
+            std::max({worst, std::abs(r.state.q.at(i) - want[i]), std::abs(r.state.v.at(i) - want[s.n + i])});
     return worst;
 }
 
@@ -317,7 +318,9 @@ void wrong_input_is_refused(void **) {
     const Failure f = failure_of([&] { plm::Newmark(modal, 1, {}); });
     assert_int_equal(f.status, PLM_ERR_ARGUMENT);
     assert_string_equal(f.argument.c_str(), "modal_ratio");
-    const Failure size = failure_of([&] { plm::Newmark(model, 1, {}).run(plm::FullState{plm::Field(1, 1), plm::Field(1, 1), 0}); });
+    const Failure size = failure_of([&] {
+        plm::Newmark(model, 1, {}).run(plm::FullState{plm::Field(1, 1), plm::Field(1, 1), 0});
+    });
     assert_int_equal(size.status, PLM_ERR_ARGUMENT);
     assert_int_equal(failure_of([&] { plm::DofRecorder(model, {99}); }).status, PLM_ERR_ARGUMENT);
 }

@@ -328,8 +328,7 @@ void the_full_kind_is_the_whole_space(void **) {
     const auto full = build(c, kind(&basis_kinds::full));
     assert_true(full->reduced()->same_static && full->reduced()->size() == full->space()->size());
     assert_true(below(full_size_defect(c, *full, false).mass, 1e-8)); // the space's own orthonormality
-    assert_true(
-        below(plm::projection_residual(*full, false, true, c.sampler->rest().displacement), 1e-8));
+    assert_true(below(plm::projection_residual(*full, false, true, c.sampler->rest().displacement), 1e-8));
     BasisOptions o = kind(&basis_kinds::full); // without a sampler the range must be given
     const test::Failure f = test::failure_of([&] { Basis(c.model, nullptr, nullptr, o, plm::Watch()); });
     assert_string_equal(f.argument.c_str(), "frequency_max_hz");

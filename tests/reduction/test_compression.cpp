@@ -286,7 +286,8 @@ Projections projections(DampingKind damping, std::int64_t size) {
     p.mass = worst_of(projected(model->matrices().mass, m->vectors.in_core()), diagonal(ones));
     p.stiffness = worst_of(projected(model->matrices().stiffness, m->vectors.in_core()), diagonal(m->lambda));
     p.mass_0 = worst_of(projected(model->matrices().mass, m->static_vectors().in_core()), diagonal(ones_0));
-    p.stiffness_0 = worst_of(projected(model->matrices().stiffness, m->static_vectors().in_core()), diagonal(m->lambda_0));
+    p.stiffness_0 = worst_of(projected(model->matrices().stiffness, m->static_vectors().in_core()),
+                             diagonal(m->lambda_0));
     const Matrix c = m->damping.empty() ? diagonal(m->damping_diagonal) : m->damping;
     if (damping == DampingKind::matrix)
         p.damping = worst_of(projected(model->matrices().damping, m->vectors.in_core()), c);

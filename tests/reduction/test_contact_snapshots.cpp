@@ -79,7 +79,8 @@ double modes_outside(const Case &c, const Basis &basis, const plm::PairStates &s
     double worst = 0;
     std::int64_t n = 0;
     for (; n < modes.vectors.cols() && std::sqrt(modes.values[n]) <= 2 * M_PI * highest; ++n)
-        worst = std::max(worst, plm::projection_residual(basis, false, true, plm::Field(modes.vectors.columns(n, 1))));
+        worst = std::max(
+            worst, plm::projection_residual(basis, false, true, plm::Field(modes.vectors.columns(n, 1))));
     return n > 0 ? worst : 1;
 }
 

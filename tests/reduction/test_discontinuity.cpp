@@ -107,8 +107,8 @@ void rigid_body_motion_is_kept_once(void **) {
     const auto basis = build(s, kind(&plm::basis_kinds::discontinuity));
     assert_true(basis->reduced()->lambda[0] == 0 && basis->reduced()->lambda[1] > 1e-6);
     const plm::vector<double> rigid(80, 1.0);
-    assert_true(
-        below(plm::projection_residual(*basis, false, true, plm::Field(rigid)), 1e-7)); // of the space's modes
+    assert_true(below(plm::projection_residual(*basis, false, true, plm::Field(rigid)),
+                      1e-7)); // of the space's modes
 }
 
 } // namespace

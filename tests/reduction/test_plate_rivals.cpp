@@ -86,7 +86,8 @@ double outside(const plm::ReducedModel &proper, const plm::Space &space, const M
                std::int64_t which) {
     const Matrix y = plm::condition_columns(space, columns, 1e-8).coordinates.y;
     const Matrix q = proper.vectors.in_core().columns(which, 1);
-    const Matrix c = plm::product('T', 'N', space.vectors.in_core(), plm::multiply(space.model->matrices().mass, q));
+    const Matrix c =
+        plm::product('T', 'N', space.vectors.in_core(), plm::multiply(space.model->matrices().mass, q));
     plm::vector<double> rest(c.data(), c.data() + c.rows());
     const double size = plm::norm2(c.rows(), rest.data());
     const Matrix eta = plm::product('T', 'N', y, c);

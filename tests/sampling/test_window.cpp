@@ -27,7 +27,8 @@ exact::Structure chain_with_preload() {
 double dense_rest_frequency(const plm::Sampler &sampler, const exact::Structure &s) {
     const plm::SymmetricEigen modes = test::dense_modes(s, sampler.rest().states);
     plm::vector<double> shape(s.n), weighted(s.n);
-    gemv('N', 1.0, sampler.space()->vectors.in_core(), sampler.dominant()[0].coordinates.data(), 0.0, shape.data());
+    gemv('N', 1.0, sampler.space()->vectors.in_core(), sampler.dominant()[0].coordinates.data(), 0.0,
+         shape.data());
     for (int i = 0; i < s.n; ++i) weighted[i] = s.mass[i] * shape[i];
     int best = 0;
     for (int j = 1; j < s.n; ++j)

@@ -185,7 +185,8 @@ plm::BranchPoint in_basis(const plm::ReducedModel &to, const plm::ReducedModel &
     q.eta = plm::product('N', 'N', change, p.eta);
     q.contact_stiffness.reset();
     // static part: rest about the closed contact is close enough to start from
-    const plm::Matrix weighted_0 = plm::multiply(from.model->matrices().mass, from.static_vectors().in_core()),
+    const plm::Matrix weighted_0 =
+                          plm::multiply(from.model->matrices().mass, from.static_vectors().in_core()),
                       change_0 = plm::product('T', 'N', to.static_vectors().in_core(), weighted_0);
     q.eta_0.assign(to.static_vectors().cols(), 0.0);
     plm::gemv('N', 1.0, change_0, p.eta_0.data(), 0.0, q.eta_0.data());

@@ -1,8 +1,8 @@
 // Lowest eigenpairs against dense solutions and closed forms.
 #include "linalg/lapack.hpp"
+#include "matrices.hpp"
 #include "structure/eigs.hpp"
 #include "structure/eigs_internal.hpp"
-#include "matrices.hpp"
 #include "structure/solver/make_factor.hpp"
 
 using namespace test;

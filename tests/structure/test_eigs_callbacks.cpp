@@ -1,6 +1,6 @@
 // The eigensolver amid callbacks and threads: its state is its own.
-#include "structure/eigs.hpp"
 #include "matrices.hpp"
+#include "structure/eigs.hpp"
 #include "structure/solver/make_factor.hpp"
 #include <chrono>
 #include <future>

@@ -40,7 +40,8 @@ void solvers_are_chosen_by_name(void **) {
     int served = 0;
     for (plm::SolverName name : {plm::SolverName::cholmod, plm::SolverName::eigen}) {
         double residual = INFINITY;
-        const auto o = outcome_of([&] { residual = solve_residual(a, FactorKind::positive_definite, 3, name); });
+        const auto o =
+            outcome_of([&] { residual = solve_residual(a, FactorKind::positive_definite, 3, name); });
         assert_true(o.status == PLM_OK ? residual < 1e-12 : o.status == PLM_ERR_NOT_BUILT);
         served += o.status == PLM_OK;
     }

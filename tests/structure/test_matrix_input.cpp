@@ -1,6 +1,6 @@
 // Every format reads to the same matrix; every wrong entry is refused with its position.
-#include "support/caught.hpp"
 #include "structure/matrix_input.hpp"
+#include "support/caught.hpp"
 #include "support/test.hpp"
 #include <limits>
 

@@ -39,8 +39,9 @@ const Builtin &builtin(SolverName name) {
 
 const HostSolver *Solver::serving_host() const {
     if (name == SolverName::host && !host)
-        throw Error(PLM_ERR_STATE, "\"solver\" is host, but the context has no solver of the host's: hand one "
-                                   "over before, or leave \"solver\" at auto")
+        throw Error(PLM_ERR_STATE,
+                    "\"solver\" is host, but the context has no solver of the host's: hand one "
+                    "over before, or leave \"solver\" at auto")
             .argument("solver");
     return host && (name == SolverName::automatic || name == SolverName::host) ? &*host : nullptr;
 }
