@@ -17,8 +17,6 @@ namespace {
 // precision is left out, since a soft support may stand between them.
 constexpr double far_above_the_first = 3e4;
 
-constexpr std::int64_t cannot_tell = -2, hit_a_mode = -1; // no count: for good, or at this frequency
-
 StructureModes modes_with_growth(const Model &model, std::int64_t first_guess, double cutoff,
                                  const std::function<bool()> &cancelled) {
     std::int64_t wanted = std::min(first_guess, model.n_free());
@@ -104,29 +102,26 @@ class ContactSpaceBuilder {
 
     // What the modes found have to agree with; `frequency` moves a little where it hits a mode.
     std::int64_t verified_count(double &frequency) const {
-        if (!(frequency > 0) || !model_->space_options().verify_counts) return cannot_tell;
-        if (!model_->counts_modes()) {
-            watch_.log(1, unverified());
-            return cannot_tell;
-        }
-        std::int64_t count = hit_a_mode;
-        for (int attempt = 0; attempt < 3 && count == hit_a_mode; ++attempt) {
+        if (!(frequency > 0) || !model_->space_options().verify_counts) return Model::cannot_tell;
+        std::int64_t count = model_->counts_modes() ? Model::hit_a_mode : Model::cannot_tell;
+        for (int attempt = 0; attempt < 3 && count == Model::hit_a_mode; ++attempt) {
             if (attempt > 0) frequency *= 1.003;
             watch_.step("count of open modes", 0.1); // a factorization, which hears nobody
             count = model_->count_modes_below(frequency);
         }
-        if (count == hit_a_mode)
+        if (count == Model::hit_a_mode)
             watch_.warn(PLM_REASON_UNVERIFIED,
                         format("the number of open modes below %.6g Hz could not be verified: K - w^2 M is "
                                "singular there and just above; compare with another cutoff_factor",
                                frequency / (2 * M_PI)));
+        else if (count == Model::cannot_tell)
+            watch_.log(1, unverified());
         return count;
     }
 
     static std::string unverified() {
         return "the number of open modes is not verified, since the host's solver does not tell the inertia: "
-               "give "
-               "the context the solver's inertia function, too";
+               "give the context the solver's inertia function, too";
     }
 
     // "Modes" of next to no mass: what they carry of the contact forces is among the attachment vectors.

@@ -175,7 +175,7 @@ std::int64_t Structure::count_modes_below(double omega) const {
             ->negative_eigenvalues();
     } catch (const Error &e) {
         if (e.status() != PLM_ERR_SINGULAR) throw;
-        return -1;
+        return hit_a_mode;
     }
 }
 

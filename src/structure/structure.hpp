@@ -80,8 +80,9 @@ class Structure {
     /// The n lowest modes, fewer when there are fewer of finite frequency.
     StructureModes lowest_modes(std::int64_t n, const std::function<bool()> &cancelled = {}) const;
     bool counts_modes() const { return solver_.tells_inertia(); }
-    /// Modes below omega (rad/s) by Sylvester's law of inertia; -1: omega hits a mode, try beside it. Only
-    /// where counts_modes().
+    /// No count: the host's solver cannot tell, or omega hits a mode (try beside it).
+    static constexpr std::int64_t cannot_tell = -1, hit_a_mode = -2;
+    /// Modes below omega (rad/s) by Sylvester's law of inertia. In vain where not counts_modes().
     std::int64_t count_modes_below(double omega) const;
     /// M-orthonormal rigid-body modes (may have no column).
     const Field &rigid_modes() const { return rigid_modes_; }

@@ -225,6 +225,7 @@ static void the_hosts_solver_serves(void **state) {
     plm_context *ctx = NULL;
     plm_model *with = NULL, *without = NULL;
     double hz_with[4], hz_without[4], local_with = 0, local_without = 1;
+    int64_t count = 0;
     int j;
     (void)state;
     memset(&s, 0, sizeof s);
@@ -242,6 +243,8 @@ static void the_hosts_solver_serves(void **state) {
     assert_true(done(ctx, plm_model_get_modes(with, PLM_SYSTEM_SLIDING, NULL, 4, hz_with, NULL)));
     assert_true(done(ctx, plm_model_get_modes(without, PLM_SYSTEM_SLIDING, NULL, 4, hz_without, NULL)));
     for (j = 0; j < 4; ++j) assert_true(close_to(hz_with[j], hz_without[j], 1e-8));
+    assert_true(refused(ctx, plm_model_count_modes(with, hz_with[3], &count), PLM_ERR_STATE,
+                        "plm_model_count_modes", "model", -1, "inertia"));
     plm_model_destroy(&with);
     assert_int_equal(s.live, 0);
     plm_context_destroy(&ctx);
