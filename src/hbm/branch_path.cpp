@@ -27,18 +27,24 @@ vector<double> unknowns_of(HbmSystem &system, const BranchPoint &point) {
     return x;
 }
 
+void put_solution(HbmSystem &system, const PathState &at, double residual, std::int64_t iterations,
+                  BranchPoint &point) {
+    system.to_point(at.x.data(), at.parameter, point);
+    point.residual = residual;
+    point.iterations = iterations;
+    point.n_switching = system.indicator().n_switching;
+}
+
 BranchPoint solved_point(HbmSystem &system, const PathState &at, double residual, std::int64_t iterations) {
-    return solved_point(system, {at.x, at.parameter, 0, residual, iterations, PLM_BIFURCATION_NONE});
+    BranchPoint point;
+    put_solution(system, at, residual, iterations, point);
+    return point;
 }
 
 BranchPoint solved_point(HbmSystem &system, const PathPoint &p) {
-    BranchPoint point;
-    system.to_point(p.x.data(), p.parameter, point);
+    BranchPoint point = solved_point(system, {p.x, p.parameter}, p.residual, p.iterations);
     point.arclength = p.arclength;
-    point.residual = p.residual;
-    point.iterations = p.iterations;
     point.bifurcation = p.bifurcation;
-    point.n_switching = system.indicator().n_switching;
     return point;
 }
 

@@ -2,6 +2,7 @@
 #include "contact/contact_force.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/receptance.hpp"
+#include "paths/metric.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -53,22 +54,14 @@ Matrix change_by(const Matrix &tail, const ReducedModel &m, const vector<double>
     return change;
 }
 
-// Newton's step for a change of the contact forces, less what lies along the curve's tangent; its shift of
-// omega.
-vector<double> across_curve(HbmSystem &system, const double *x, double omega, const Matrix &force_change,
-                            double &shift) {
-    const std::int64_t n = system.size();
-    vector<double> change(n), along(n);
+// Newton's step for a change of the contact forces, less what lies along the curve's tangent. Lengths are
+// measured by the solution and the frequency themselves.
+PathState across_curve(HbmSystem &system, const double *x, double omega, const Matrix &force_change) {
+    vector<double> change(system.size());
     system.contact_force_change(force_change, change.data());
-    system.parameter_derivative(along.data());
     system.solve(change.data(), 1);
-    system.solve(along.data(), 1);
-    // lengths are measured by the solution and the frequency themselves; the tangent is (-along, 1)
-    const double scale = norm2(n, x), per_length = scale > 0 ? 1 / (scale * scale) : 1;
-    shift = per_length * dot(n, along.data(), change.data()) /
-            (per_length * dot(n, along.data(), along.data()) + 1 / (omega * omega));
-    for (std::int64_t i = 0; i < n; ++i) change[i] = shift * along[i] - change[i];
-    return change;
+    const double size = norm2(system.size(), x);
+    return step_across({size > 0 ? size : 1, omega}, tangent_at(system), change);
 }
 
 } // namespace
@@ -105,11 +98,10 @@ HarmonicChange harmonic_change(const ReducedModel &m, const BranchPoint &point, 
     HarmonicChange out;
     out.motion.reset(r, 2 * (2 * solved + 2));
     if (content.tail == 0) return out;
-    double shift = 0;
-    const vector<double> change = across_curve(system, x, point.omega, content.force_change, shift);
-    out.shift = shift / point.omega;
+    const PathState change = across_curve(system, x, point.omega, content.force_change);
+    out.shift = change.parameter / point.omega;
     Matrix u, force;
-    system.contact_motion_change(change.data(), u);
+    system.contact_motion_change(change.x.data(), u);
     const ContactMotion contact = contact_motion(m, point);
     apply_indicator(system.indicator(), *contact.stiffness, u, force);
     for (std::int64_t k = 0; k < force.rows() * force.cols(); ++k)

@@ -37,6 +37,21 @@ double Metric::cosine(const PathState &a, const PathState &b) const {
     return product(a, b) / std::sqrt(product(a, a) * product(b, b));
 }
 
+PathState tangent_at(Residual &system) {
+    PathState tangent{vector<double>(system.size()), 1};
+    system.parameter_derivative(tangent.x.data());
+    system.solve(tangent.x.data(), 1);
+    for (double &v : tangent.x) v = -v;
+    return tangent;
+}
+
+PathState step_across(const Metric &metric, const PathState &tangent, const vector<double> &change) {
+    PathState step{change, 0};
+    scale_by(-1, step);
+    add(-metric.product(tangent, step) / metric.product(tangent, tangent), tangent, step);
+    return step;
+}
+
 double size_of(const Residual &system, const vector<double> &x) {
     const std::int64_t s = system.static_size();
     const double moving = norm2(system.size() - s, x.data() + s);

@@ -26,6 +26,12 @@ struct Metric {
     double cosine(const PathState &a, const PathState &b) const;
 };
 
+/// The direction (t, 1) of the path through the point linearized last.
+PathState tangent_at(Residual &system);
+/// The shortest way from there, where the residual's Newton step is -change, to where the path comes nearest:
+/// (-change, 0) and so much of the tangent that it stands across it.
+PathState step_across(const Metric &metric, const PathState &tangent, const vector<double> &change);
+
 /// The size of a solution: of the unknowns behind static_size(), or of all where those vanish.
 double size_of(const Residual &system, const vector<double> &x);
 

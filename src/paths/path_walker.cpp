@@ -39,10 +39,8 @@ void PathWalker::linearize_here() {
 }
 
 void PathWalker::make_tangent(const PathState *previous) {
-    PathState t{vector<double>(n_), -1};
-    system_.parameter_derivative(t.x.data());
-    system_.solve(t.x.data(), 1);
-    double sign = options_.upward ? -1 : 1;
+    PathState t = tangent_at(system_);
+    double sign = options_.upward ? 1 : -1;
     if (previous) sign = metric_.product(t, *previous) > 0 ? 1 : -1;
     scale_by(sign / metric_.length(t), t);
     tangent_ = std::move(t);

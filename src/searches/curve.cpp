@@ -279,13 +279,11 @@ class CurveTracer final : public PathOwner {
     bool keeps_direction(std::int64_t n, double orientation, const PathStart &path) {
         if (n == 1) return true; // into the range
         const Metric metric = metric_at(path.at);
-        PathState tangent{vector<double>(system_->size()), -1};
-        system_->residual(path.at.x.data(), path.at.parameter, tangent.x.data());
+        vector<double> r(system_->size());
+        system_->residual(path.at.x.data(), path.at.parameter, r.data());
         system_->linearize();
         ++branch_.newton_work.factorizations;
-        system_->parameter_derivative(tangent.x.data());
-        system_->solve(tangent.x.data(), 1); // minus the tangent, for a unit of frequency
-        const double along = -metric.cosine(tangent, path.direction);
+        const double along = metric.cosine(tangent_at(*system_), path.direction);
         constexpr double same_way = 0.8; // as far as harmonics more or less turn a curve
         if (!(std::abs(along) > same_way)) return false;
         return wants_modal_ != modal_ ||

@@ -1,6 +1,7 @@
 #include "searches/error_estimate.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/make_system.hpp"
+#include "paths/metric.hpp"
 #include "searches/curve.hpp"
 #include <algorithm>
 #include <cmath>
@@ -46,31 +47,23 @@ class Correction {
         std::copy(gaps.data(), gaps.data() + known, x_.begin());
     }
 
-    // Newton's step from here; the tangent of the first one is kept. Its length, relative.
+    // Newton's step from here across the tangent; that of the first one is kept. Its length, by the solution
+    // and the frequency themselves.
     double step(bool with_new_tangent) {
         const std::int64_t n = system_->size();
         vector<double> change(n);
         system_->residual(x_.data(), omega_, change.data());
         if (with_new_tangent) {
-            along_.resize(n);
-            system_->parameter_derivative(along_.data());
             system_->linearize();
-            system_->solve(along_.data(), 1);
-            for (double &v : along_) v = -v;
+            tangent_ = tangent_at(*system_);
         }
         system_->solve(change.data(), 1);
-        const double scale = norm2(n, x_.data()), per_length = scale > 0 ? 1 / (scale * scale) : 1;
-        // across the tangent (along, 1), lengths measured by the solution and the frequency themselves
-        const double shift = per_length * dot(n, along_.data(), change.data()) /
-                             (per_length * dot(n, along_.data(), along_.data()) + 1 / (omega_ * omega_));
-        double moved = 0;
-        for (std::int64_t i = 0; i < n; ++i) {
-            const double d = shift * along_[i] - change[i];
-            x_[i] += d;
-            moved += per_length * d * d;
-        }
-        const double length = std::hypot(std::sqrt(moved), shift / omega_);
-        omega_ += shift;
+        const double size = norm2(n, x_.data());
+        const Metric metric{size > 0 ? size : 1, omega_};
+        const PathState step = step_across(metric, tangent_, change);
+        const double length = metric.length(step);
+        for (std::int64_t i = 0; i < n; ++i) x_[i] += step.x[i];
+        omega_ += step.parameter;
         if (!std::isfinite(omega_) || !std::isfinite(norm2(n, x_.data())))
             throw Error(PLM_ERR_CONVERGENCE,
                         "the tangent of the unreduced structure is singular at this point")
@@ -108,7 +101,8 @@ class Correction {
   private:
     std::shared_ptr<const ReducedModel> full_;
     std::unique_ptr<HbmSystem> system_;
-    vector<double> x_, along_;
+    vector<double> x_;
+    PathState tangent_;
     double omega_;
     std::int64_t period_multiple_;
 };

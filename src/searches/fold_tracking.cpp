@@ -171,9 +171,7 @@ class FoldPath final : public PathOwner {
         vector<double> y = unknowns_of(*system_, point);
         const NewtonOutcome out = newton_at(*system_, newton_limits(options_.hbm), y, force);
         if (!out.converged) return false;
-        point.residual = out.residual;
-        point.iterations = out.iterations;
-        system_->to_point(y.data(), force, point);
+        put_solution(*system_, {y, force}, out.residual, out.iterations, point);
         return point.omega > 0;
     }
 

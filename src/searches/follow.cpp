@@ -39,13 +39,12 @@ class Follower {
     }
 
     bool along_tangent(vector<double> &x) {
-        vector<double> tangent(x.size()), ahead = x;
-        system_.residual(x.data(), from_, tangent.data());
+        vector<double> r(x.size()), ahead = x;
+        system_.residual(x.data(), from_, r.data());
         system_.linearize();
         ++out_.factorizations;
-        system_.parameter_derivative(tangent.data());
-        system_.solve(tangent.data(), 1);
-        for (std::size_t i = 0; i < x.size(); ++i) ahead[i] -= (to_ - from_) * tangent[i];
+        const PathState tangent = tangent_at(system_);
+        for (std::size_t i = 0; i < x.size(); ++i) ahead[i] += (to_ - from_) * tangent.x[i];
         const vector<double> predicted = ahead;
         const double size = size_of(system_, x), step = distance(predicted, x);
         if (step > longest_tangent * size || !correct(to_, ahead)) return false;

@@ -1,4 +1,5 @@
 #include "searches/harmonic_choice.hpp"
+#include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
 #include "searches/start.hpp"
 #include <algorithm>
@@ -116,10 +117,7 @@ bool solved_with(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &
     const StartOutcome out = warm ? correct_at(*system, options, point.omega, watch, x)
                                   : find_start(*system, *reduced, options, point.omega, false, watch, x);
     if (!out.converged) return false;
-    point.iterations += out.iterations;
-    point.residual = out.residual;
-    system->to_point(x.data(), point.omega, point);
-    point.n_switching = system->indicator().n_switching;
+    put_solution(*system, {x, point.omega}, out.residual, point.iterations + out.iterations, point);
     return true;
 }
 

@@ -8,16 +8,16 @@ namespace plm {
 
 /// All that the caller said, before it is checked as a whole.
 struct ModelInput : StructureInput {
-    Contact
-        contact; // of the pairs of the gap matrix; PLM_AUTO_STIFFNESS: chosen when the flexibility is known
+    /// Of the pairs of the gap matrix. PLM_AUTO_STIFFNESS: chosen when the flexibility is known.
+    Contact contact;
 };
 
 /// How the contact space (contact_space.hpp) is built; options of the model.
 struct SpaceOptions {
     double tolerance = 1e-7; // relative error of the contact receptances at the highest frequency asked for
     double cutoff_factor = 2.0; // exact modes up to this multiple of the highest frequency
-    std::int64_t max_blocks =
-        4; // attachment vectors (K + sigma M)^-1 [M (K + sigma M)^-1]^j B^T, j < max_blocks
+    /// Attachment vectors (K + sigma M)^-1 [M (K + sigma M)^-1]^j B^T, j < max_blocks.
+    std::int64_t max_blocks = 4;
     bool verify_counts = true;                 // Sturm count of the modes below the cutoff
     SolverName solver = SolverName::automatic; // of the sparse factorizations
 };

@@ -104,7 +104,7 @@ KrylovResult run(const Pencil &pencil, const KrylovRequest &request) {
 
 const char *meaning(KrylovEnd end) {
     return end == KrylovEnd::too_few
-               ? "the others did not converge within the allowed restarts"
+               ? "the rest did not converge within the allowed restarts"
                : "the mass matrix has too low a rank for more; ask for fewer, or check the masses";
 }
 
@@ -138,8 +138,8 @@ EigenPairs best_of_the_rest(const Pencil &pencil, const Matrix &known, const Mat
 }
 
 /// Nothing real lies below the shift: a negative distance is rounding noise around theta = 0.
-bool lies_below(const EigenPairs &rest, double shift, double distance) {
-    return !rest.values.empty() && rest.values[0] > shift && rest.values[0] - shift < distance;
+bool lies_below(const EigenPairs &others, double shift, double distance) {
+    return !others.values.empty() && others.values[0] > shift && others.values[0] - shift < distance;
 }
 
 /// A Lanczos process from one vector sees further copies of a multiple eigenvalue by its rounding errors
@@ -152,13 +152,13 @@ Matrix add_missed(const Pencil &pencil, EigenPairs &pairs) {
     constexpr double glance = 1e-2;
     for (std::int64_t round = 0; round < wanted && pencil.rank() - wanted >= 3; ++round) {
         const double largest = pairs.values.back() - pencil.shift;
-        EigenPairs rest = best_of_the_rest(pencil, pairs.vectors, m_vectors, glance, 16, 10);
-        if (!lies_below(rest, pencil.shift, (1 + 2 * glance) * largest)) break;
-        rest = best_of_the_rest(pencil, pairs.vectors, m_vectors, pencil.options.tolerance, 40,
-                                pencil.options.max_restarts);
-        if (!lies_below(rest, pencil.shift, (1 - 1e-9) * largest)) break;
-        pairs.values.push_back(rest.values[0]);
-        pairs.vectors.append(rest.vectors);
+        EigenPairs others = best_of_the_rest(pencil, pairs.vectors, m_vectors, glance, 16, 10);
+        if (!lies_below(others, pencil.shift, (1 + 2 * glance) * largest)) break;
+        others = best_of_the_rest(pencil, pairs.vectors, m_vectors, pencil.options.tolerance, 40,
+                                  pencil.options.max_restarts);
+        if (!lies_below(others, pencil.shift, (1 - 1e-9) * largest)) break;
+        pairs.values.push_back(others.values[0]);
+        pairs.vectors.append(others.vectors);
         sort_and_cut(pairs, wanted);
         m_vectors = orthonormalize(pencil.m, pairs.vectors);
     }

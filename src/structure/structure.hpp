@@ -16,7 +16,7 @@ struct Damping {
     double alpha = 0, beta = 0; // C = alpha M + beta K
     double structural = 0;      // K (1 + i eta), h >= 1
     vector<double> modal_ratio; // of the open system's modes, the last one for all beyond
-    bool has_matrix = false;    // an explicit C is present (Structure::damped)
+    bool has_matrix = false;    // an explicit C is present (Structure::damping_times)
 };
 
 /// One matrix as the caller gave it: what to read, checked at the entry. Borrowed arrays stay the caller's.

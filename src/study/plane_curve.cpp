@@ -75,11 +75,10 @@ class Step {
 
     // Tangent from the linearised equations, of length 1, along the chord.
     void set_direction(Node &n) {
-        PathState along{vector<double>(n.point.x.size()), -1};
-        system_->residual(n.point.x.data(), n.point.parameter, along.x.data());
-        system_->parameter_derivative(along.x.data());
+        vector<double> r(n.point.x.size());
+        system_->residual(n.point.x.data(), n.point.parameter, r.data());
         system_->linearize();
-        system_->solve(along.x.data(), 1);
+        const PathState along = tangent_at(*system_);
         const double length = metric_.length(along) * (metric_.product(along, chord_) < 0 ? -1 : 1);
         n.direction = std::isfinite(length) ? along : chord_; // exactly at a fold: the chord
         scale_by(1 / (std::isfinite(length) ? length : chord_length_), n.direction);

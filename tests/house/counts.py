@@ -44,6 +44,20 @@ RULES = [
         "limit": 1,
         "other_senses": [],
     },
+    {
+        "what": "files outside paths solve for the tangent of a path, or correct across it: a corrector of their own",
+        "pattern": r"parameter_derivative\([^;]*;(?:\s*\w+(?:\.|->)linearize\(\);)?\s*\w+(?:\.|->)solve\(",
+        "outside": "paths",
+        "limit": 0,
+        "other_senses": [],
+    },
+    {
+        "what": "files make the record of a branch's point from a solution",
+        "pattern": r"\bpoint\.(?:residual|iterations|n_switching) [+]?= ",
+        "outside": "capi",
+        "limit": 1,
+        "other_senses": [],
+    },
 ]
 
 
