@@ -57,15 +57,15 @@ choose() {
     [ -n "$fuzz_longer" ] || return 0
     case $1 in
     asan) # the rooms and hosts; the other languages call the same C API
-        for room in linalg paths model sampling reduction orbits hbm searches study capi host; do
+        for room in linalg paths structure contact space sampling reduction orbits hbm searches study capi host; do
             programs="$programs tests/$room/all"
             tests="$tests|$room"
         done
         programs="plm plm_static$programs"
         tests="^(${tests#|})[.]" ;;
     permissive) # its own factorization and transforms
-        programs='plm plm_static test_linalg_factor test_linalg_dft test_capi_run test_capi_transient accuracy'
-        tests='^(linalg[.](factor|dft)|capi[.](run|transient)|accuracy[.]quick|abi[.](object|ledger))$' ;;
+        programs='plm plm_static test_structure_factor test_linalg_dft test_capi_run test_capi_transient accuracy'
+        tests='^(structure[.]factor|linalg[.]dft|capi[.](run|transient)|accuracy[.]quick|abi[.](object|ledger))$' ;;
     release) # what the shared object carries and hides
         programs='plm plm_static test_capi_run test_host_own_lapack test_host_quiet_blas test_host_ilp64 test_host_fork
                   test_host_limit test_host_starved test_host_unload test_host_plugin_shared test_host_plugin_static'

@@ -195,13 +195,6 @@ vector<double> FlowModel::from_static_coordinates(const vector<double> &y) const
     return out;
 }
 
-double FlowModel::damping_trace() const {
-    double sum = 0;
-    for (std::int64_t j = 0; j < n_massive(); ++j)
-        sum += has_diagonal_damping() ? damping_diagonal_[j] : damping_(j, j);
-    return sum;
-}
-
 FlowState FlowModel::state(const vector<double> &eta_0, const Matrix &eta, double omega,
                            double fraction) const {
     if (static_cast<std::int64_t>(eta_0.size()) != size() || eta.rows() != reduced_->size() ||

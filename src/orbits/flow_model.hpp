@@ -39,7 +39,6 @@ class FlowModel {
     bool has_diagonal_damping() const { return damping_.empty(); }
     const vector<double> &damping_diagonal() const { return damping_diagonal_; } // n, when diagonal
     const Matrix &damping() const { return damping_; }                           // n x n, when not
-    double damping_trace() const;                                                // over a mass of 1
     const Matrix &gap() const { return gap_; }                                   // Z x n
     /// What the coordinates that follow do at the contact: Z x Z, empty without them.
     const Matrix &flexibility() const { return flexibility_; }

@@ -208,21 +208,4 @@ NewmarkResult Newmark::run(const FullState &first, NewmarkObserver *observer) {
     return result;
 }
 
-DofRecorder::DofRecorder(std::shared_ptr<const Model> model, const vector<std::int64_t> &dofs) {
-    for (std::int64_t dof : dofs) {
-        if (dof < 0 || dof >= model->n_dof())
-            throw Error(PLM_ERR_ARGUMENT,
-                        format("DOF %lld is not one of 0 .. %lld", static_cast<long long>(dof),
-                               static_cast<long long>(model->n_dof() - 1)))
-                .argument("dof")
-                .index(dof);
-        rows_.push_back(model->free_index(dof));
-    }
-}
-
-void DofRecorder::step(const NewmarkStep &step) {
-    times_.push_back(step.time);
-    for (std::int64_t row : rows_) values_.push_back(row < 0 ? 0.0 : step.q.at(row, 0));
-}
-
 } // namespace plm

@@ -91,18 +91,4 @@ class Newmark {
     vector<double> u_free_, contact_force_;
 };
 
-/// Displacements of chosen DOFs (base 0 of all DOFs) at every step.
-class DofRecorder final : public NewmarkObserver {
-  public:
-    DofRecorder(std::shared_ptr<const Model> model, const vector<std::int64_t> &dofs);
-    void step(const NewmarkStep &step) override;
-    const vector<double> &times() const { return times_; }
-    /// One step after the other, dofs.size() values each.
-    const vector<double> &values() const { return values_; }
-
-  private:
-    vector<std::int64_t> rows_;
-    vector<double> times_, values_;
-};
-
 } // namespace plm

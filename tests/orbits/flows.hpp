@@ -33,6 +33,14 @@ inline FlowState to_state(const plm::FlowModel &m, const exact::Structure &s, co
     return state;
 }
 
+/// Trace of the damping, over a mass of 1.
+inline double damping_trace(const plm::FlowModel &m) {
+    double sum = 0;
+    for (std::int64_t j = 0; j < m.n_massive(); ++j)
+        sum += m.has_diagonal_damping() ? m.damping_diagonal()[j] : m.damping()(j, j);
+    return sum;
+}
+
 /// q and q' over the DOFs.
 inline std::vector<double> to_dofs(const plm::FlowModel &m, const FlowState &state) {
     std::vector<double> x;

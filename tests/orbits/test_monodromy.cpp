@@ -56,7 +56,7 @@ Compared compare(const Case &c) {
     }
     Compared r;
     r.finite_difference = max_difference(m, difference);
-    r.liouville = std::abs(determinant_magnitude(m) + model->damping_trace() * flow.period());
+    r.liouville = std::abs(determinant_magnitude(m) + test::damping_trace(*model) * flow.period());
     r.size = plm::norm2(4 * n * n, m.data());
     r.intervals = history.intervals().size();
     return r;

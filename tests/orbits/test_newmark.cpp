@@ -13,6 +13,25 @@ using namespace test;
 
 namespace {
 
+/// Displacements of chosen DOFs at every step.
+class DofRecorder final : public plm::NewmarkObserver {
+  public:
+    DofRecorder(const std::shared_ptr<const plm::Model> &model, std::initializer_list<std::int64_t> dofs) {
+        for (std::int64_t dof : dofs) rows_.push_back(model->free_index(dof));
+    }
+    void step(const plm::NewmarkStep &step) override {
+        times_.push_back(step.time);
+        for (std::int64_t row : rows_) values_.push_back(row < 0 ? 0.0 : step.q.at(row));
+    }
+    const std::vector<double> &times() const { return times_; }
+    /// One step after the other.
+    const std::vector<double> &values() const { return values_; }
+
+  private:
+    std::vector<std::int64_t> rows_;
+    std::vector<double> times_, values_;
+};
+
 std::vector<double> numbers(const plm::Field &x) {
     return std::vector<double>(x.in_core().data(), x.in_core().data() + x.rows());
 }
@@ -276,7 +295,7 @@ Scene plate(bool with_preload) {
     o.steps_per_period = 2000;
     o.max_periods = 3;
     plm::Newmark newmark(model, omega, o);
-    plm::DofRecorder watch(model, {dof});
+    DofRecorder watch(model, {dof});
     const plm::FullState start = newmark.rest();
     newmark.run(start, &watch);
     const auto flow_of = std::make_shared<plm::FlowModel>(basis.reduced());
@@ -322,7 +341,6 @@ void wrong_input_is_refused(void **) {
         plm::Newmark(model, 1, {}).run(plm::FullState{plm::Field(1, 1), plm::Field(1, 1), 0});
     });
     assert_int_equal(size.status, PLM_ERR_ARGUMENT);
-    assert_int_equal(failure_of([&] { plm::DofRecorder(model, {99}); }).status, PLM_ERR_ARGUMENT);
 }
 
 struct Stopper : plm::Monitor {
@@ -333,7 +351,7 @@ struct Stopper : plm::Monitor {
 void the_host_can_stop_it(void **) {
     Stopper stopper;
     const auto model = make_model(structure(5, 0));
-    plm::DofRecorder recorder(model, {4});
+    DofRecorder recorder(model, {4});
     const plm::NewmarkResult r = plm::Newmark(model, 0.4, {}, plm::Watch(&stopper)).run(&recorder);
     assert_true(r.cancelled && !r.settled && r.periods == 0);
     assert_true(r.state.time == recorder.times().back() && r.state.q.at(4) == recorder.values().back());
