@@ -14,7 +14,8 @@ const RestState &rest(const H &h) {
 }
 
 vector<double> rest_displacement(const H &h) {
-    return h.core->expanded(rest(h).displacement);
+    const RestState &r = rest(h); // throws first where nothing is built
+    return h.core->expanded(r.displacement);
 }
 
 const Warnings &built_warnings(const H &h) {

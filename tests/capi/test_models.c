@@ -97,6 +97,20 @@ static void loose_bodies_held_by_contact(void **state) {
     assert_true(close_to(u, 1 / 2e4, 1e-9));
 }
 
+/* Results of a model that is not built, or not at rest yet. */
+static void results_wait_for_their_computation(void **state) {
+    double q[4];
+    int64_t n = 0;
+    plm_model *m = NULL;
+    (void)state;
+    assert_int_equal(plm_model_create(ctx, 4, &m), PLM_OK);
+    assert_true(refused(ctx, plm_model_get_array(m, "rest_displacement", 4, q, &n), PLM_ERR_STATE,
+                        "plm_model_get_array", "key", -1, "not known yet"));
+    assert_true(done(ctx, loose_bodies(1, &m)));
+    assert_true(refused(ctx, plm_model_get_array(m, "rest_displacement", 4, q, &n), PLM_ERR_STATE,
+                        "plm_model_get_array", "key", -1, "not known yet"));
+}
+
 static void no_contact_is_a_linear_model(void **state) {
     plm_model *m = NULL;
     plm_sampler *sampler = NULL;
@@ -206,6 +220,7 @@ int main(void) {
         TEST(all_kinds_of_input_make_one_model),
         TEST(loose_bodies_held_by_contact),
         TEST(no_contact_is_a_linear_model),
+        TEST(results_wait_for_their_computation),
         TEST(solvers_are_chosen_by_name),
         TEST(modes_are_counted),
         TEST(a_number_of_dofs_takes_no_memory),
