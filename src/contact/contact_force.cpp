@@ -29,6 +29,12 @@ double indicator_entry(const double *s, std::int64_t row, std::int64_t column) {
     return cosine(s, m - n) - cosine(s, m + n);
 }
 
+void ContactIndicator::reset(std::int64_t n_harmonics, std::int64_t n_pairs) {
+    averages.reset(4 * n_harmonics + 1, n_pairs);
+    state.assign(n_pairs, PairState::open);
+    n_switching = 0;
+}
+
 double ContactIndicator::closed_share() const {
     const std::int64_t z = averages.cols();
     double share = 0;
@@ -38,9 +44,7 @@ double ContactIndicator::closed_share() const {
 
 void constant_indicator(const vector<double> &coupling, std::int64_t n_harmonics, ContactIndicator &out) {
     const std::int64_t z = static_cast<std::int64_t>(coupling.size());
-    out.averages.reset(4 * n_harmonics + 1, z);
-    out.state.assign(z, PairState::open);
-    out.n_switching = 0;
+    out.reset(n_harmonics, z);
     for (std::int64_t i = 0; i < z; ++i) {
         out.averages(0, i) = coupling[i];
         if (coupling[i] == 0) continue;

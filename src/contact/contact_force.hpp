@@ -16,6 +16,8 @@ struct ContactIndicator {
     Matrix averages;
     vector<PairState> state;
     std::int64_t n_switching = 0;
+    /// Of n_pairs pairs that are open throughout, in the harmonics of n_harmonics.
+    void reset(std::int64_t n_harmonics, std::int64_t n_pairs);
 
     /// The pair presses at some time.
     bool acts(std::int64_t pair) const { return state[pair] != PairState::open; }

@@ -21,9 +21,7 @@ class EventForce final : public ContactForce {
 
     void indicator(const Matrix &u, ContactIndicator &out) override {
         const std::int64_t z = u.rows();
-        out.averages.reset(4 * h_ + 1, z);
-        out.state.resize(z);
-        out.n_switching = 0;
+        out.reset(h_, z);
         if (z == 0) return;
         gemm('N', 'T', 1.0, grid_, u, 0.0, values_);
         for (std::int64_t i = 0; i < z; ++i) {

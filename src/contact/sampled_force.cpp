@@ -14,9 +14,7 @@ class SampledForce final : public ContactForce {
 
     void indicator(const Matrix &u, ContactIndicator &out) override {
         const std::int64_t z = u.rows();
-        out.averages.reset(4 * h_ + 1, z);
-        out.state.resize(z);
-        out.n_switching = 0;
+        out.reset(h_, z);
         if (z == 0) return;
         for (std::int64_t i = 0; i < z; ++i)
             for (std::int64_t c = 0; c < u.cols(); ++c) coefficients_(c, i) = u(i, c);

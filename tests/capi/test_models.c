@@ -217,12 +217,9 @@ static void a_number_of_dofs_takes_no_memory(void **state) {
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(all_kinds_of_input_make_one_model),
-        TEST(loose_bodies_held_by_contact),
-        TEST(no_contact_is_a_linear_model),
-        TEST(results_wait_for_their_computation),
-        TEST(solvers_are_chosen_by_name),
-        TEST(modes_are_counted),
+        TEST(all_kinds_of_input_make_one_model), TEST(loose_bodies_held_by_contact),
+        TEST(no_contact_is_a_linear_model),      TEST(results_wait_for_their_computation),
+        TEST(solvers_are_chosen_by_name),        TEST(modes_are_counted),
         TEST(a_number_of_dofs_takes_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -49,10 +49,10 @@ static plm_branch *peak_of(plm_basis *basis, plm_hbm **hbm) {
     DONE(plm_hbm_set_string(*hbm, "bifurcations", "off"));
     /* few pairs are carried, and that is said */
     assert_true(done_but_for(ctx, plm_hbm_sweep(*hbm, &curve), PLM_REASON_BASIS_TOO_SMALL));
-    assert_true(done_but_for(ctx,
-                             plm_hbm_find_peak(*hbm, curve, host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, &hz,
-                                               &amplitude, &top),
-                             PLM_REASON_BASIS_TOO_SMALL));
+    assert_true(done_but_for(
+        ctx,
+        plm_hbm_find_peak(*hbm, curve, host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, &hz, &amplitude, &top),
+        PLM_REASON_BASIS_TOO_SMALL));
     return top;
 }
 

@@ -212,7 +212,7 @@ static void a_transient_outlives_its_parents(void **state) {
     assert_int_equal(plm_transient_destroy(&none), PLM_OK);
     assert_int_equal(plm_transient_run(copy), PLM_ERR_HANDLE);
     assert_int_equal(plm_transient_destroy(&copy), PLM_OK); /* gone already: nothing to do */
-    copy = full; /* the context takes the rest with it */
+    copy = full;                                            /* the context takes the rest with it */
     assert_int_equal(plm_context_destroy(&ctx), PLM_OK);
     assert_int_equal(plm_transient_run(copy), PLM_ERR_HANDLE);
 }

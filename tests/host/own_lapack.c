@@ -1,4 +1,5 @@
-/* A host with its own ARPACK, LAPACK, CHOLMOD and FFTW: here they abort, so that any captured call is seen. */
+/* A host with its own ARPACK, LAPACK, CHOLMOD and FFTW: here they abort, so that any captured call is seen.
+ */
 #include "whole_run.h"
 #include <stdio.h>
 #include <stdlib.h>
