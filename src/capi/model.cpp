@@ -169,14 +169,13 @@ plm_status plm_model_count_modes(plm_model *model, double frequency_hz, std::int
         if (!(frequency_hz > 0)) bad_argument("frequency_hz", -1, "frequency_hz must be positive");
         require_pointer(count, "count");
         m.owner->watch().step("count of modes", 0); // a factorization, which hears nobody
-        const std::int64_t below =
-            core.counts_modes() ? core.count_modes_below(2 * M_PI * frequency_hz) : plm::Model::cannot_tell;
-        if (below == plm::Model::cannot_tell)
+        const std::int64_t below = core.count_modes_below(2 * M_PI * frequency_hz);
+        if (below == plm::cannot_tell_count)
             throw plm::Error(PLM_ERR_STATE, "the host's solver does not tell the inertia, by which modes are "
                                             "counted; hand the callback over, or build the model with a "
                                             "\"solver\" of the library's own")
                 .argument("model");
-        if (below == plm::Model::hit_a_mode)
+        if (below == plm::hit_a_mode)
             throw plm::Error(PLM_ERR_SINGULAR,
                              "frequency_hz is a natural frequency to working precision; ask "
                              "a little above or below")

@@ -102,20 +102,9 @@ class ContactSpaceBuilder {
 
     // What the modes found have to agree with; `frequency` moves a little where it hits a mode.
     std::int64_t verified_count(double &frequency) const {
-        if (!(frequency > 0) || !model_->space_options().verify_counts) return Model::cannot_tell;
-        std::int64_t count = model_->counts_modes() ? Model::hit_a_mode : Model::cannot_tell;
-        for (int attempt = 0; attempt < 3 && count == Model::hit_a_mode; ++attempt) {
-            if (attempt > 0) frequency *= 1.003;
-            watch_.step("count of open modes", 0.1); // a factorization, which hears nobody
-            count = model_->count_modes_below(frequency);
-        }
-        if (count == Model::hit_a_mode)
-            watch_.warn(PLM_REASON_UNVERIFIED,
-                        format("the number of open modes below %.6g Hz could not be verified: K - w^2 M is "
-                               "singular there and just above; compare with another cutoff_factor",
-                               frequency / (2 * M_PI)));
-        else if (count == Model::cannot_tell)
-            watch_.log(1, unverified());
+        if (!(frequency > 0) || !model_->space_options().verify_counts) return cannot_tell_count;
+        const std::int64_t count = model_->count_modes_near(frequency, watch_);
+        if (count == cannot_tell_count) watch_.log(1, unverified());
         return count;
     }
 

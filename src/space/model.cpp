@@ -18,17 +18,11 @@ double median(vector<double> values) {
     return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-Solver chosen(SolverName name, const HostSolver *host) {
-    Solver solver(host);
-    solver.name = name;
-    return solver;
-}
-
 } // namespace
 
 Model::Model(const ModelInput &input, const SpaceOptions &options, const HostSolver *host, Watch watch)
     : Structure(input, input.contact.n_pairs(), largest_given(input.contact.stiffness),
-                chosen(options.solver, host), watch),
+                Solver(options.solver, host), watch),
       contact_(input.contact), space_options_(options) {
     solve_attachment(watch);
     resolve_contact_stiffness();

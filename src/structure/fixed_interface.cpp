@@ -1,4 +1,5 @@
 #include "structure/fixed_interface.hpp"
+#include "structure/mode_count.hpp"
 #include "structure/solver/make_factor.hpp"
 #include <algorithm>
 #include <cmath>
@@ -34,7 +35,10 @@ class FixedInterface::Interior {
         EigsOptions options;
         options.cancelled = [this] { return watch_.cancelled("fixed-interface modes", 0.5); };
         double limit = highest;
-        const std::int64_t counted = n_fixed > 0 ? n_fixed : count_below(limit);
+        const std::int64_t counted = n_fixed > 0
+                                         ? n_fixed
+                                         : count_modes_near(k_, m_, limit, solver_, "fixed-interface modes",
+                                                            "highest frequency", watch_);
         std::int64_t wanted = std::min(n_, counted >= 0 ? counted : 20);
         for (;;) {
             if (wanted == 0) return Matrix(n_, 0);
@@ -116,28 +120,6 @@ class FixedInterface::Interior {
             for (std::int64_t k = 0; k < x.rows() * x.cols(); ++k) x.data()[k] += residual.data()[k];
         }
         return x;
-    }
-
-    // By Sylvester's law of inertia; -1 when the solver cannot tell. `limit` moves a little where it hits a
-    // mode.
-    std::int64_t count_below(double &limit) const {
-        if (!solver_.tells_inertia()) return -1;
-        for (int attempt = 0; attempt < 4; ++attempt) {
-            if (attempt > 0) limit *= 1.003;
-            watch_.step("count of fixed-interface modes", 0.1); // a factorization, which hears nobody
-            try {
-                const SparseMatrix shifted = add(1.0, k_, -limit * limit, m_);
-                return make_factor(shifted, FactorKind::indefinite, solver_)->negative_eigenvalues();
-            } catch (const Error &e) {
-                if (e.status() != PLM_ERR_SINGULAR) throw;
-            }
-        }
-        watch_.warn(
-            PLM_REASON_UNVERIFIED,
-            format("the number of fixed-interface modes below %.6g Hz could not be verified: K - w^2 M "
-                   "is singular there and just above; compare with another highest frequency",
-                   limit / (2 * M_PI)));
-        return -1;
     }
 
     static void require_counted(const EigenPairs &pairs, std::int64_t counted, double limit) {

@@ -2,7 +2,6 @@
 #include "linalg/scale.hpp"
 #include "structure/matrix_input.hpp"
 #include "structure/rigid_modes.hpp"
-#include "structure/solver/make_factor.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -170,13 +169,11 @@ StructureModes Structure::lowest_modes(std::int64_t n, const std::function<bool(
 }
 
 std::int64_t Structure::count_modes_below(double omega) const {
-    try {
-        return make_factor(add(1.0, stiffness_, -omega * omega, mass_), FactorKind::indefinite, solver_)
-            ->negative_eigenvalues();
-    } catch (const Error &e) {
-        if (e.status() != PLM_ERR_SINGULAR) throw;
-        return hit_a_mode;
-    }
+    return count_modes(stiffness_, mass_, omega, solver_);
+}
+
+std::int64_t Structure::count_modes_near(double &omega, Watch watch) const {
+    return plm::count_modes_near(stiffness_, mass_, omega, solver_, "open modes", "cutoff_factor", watch);
 }
 
 std::int64_t Structure::n_massless_dofs() const {

@@ -6,6 +6,7 @@
 #include "structure/eigs.hpp"
 #include "structure/gap_rows.hpp"
 #include "structure/loads.hpp"
+#include "structure/mode_count.hpp"
 #include "structure/translations.hpp"
 #include <functional>
 #include <memory>
@@ -79,11 +80,9 @@ class Structure {
 
     /// The n lowest modes, fewer when there are fewer of finite frequency.
     StructureModes lowest_modes(std::int64_t n, const std::function<bool()> &cancelled = {}) const;
-    bool counts_modes() const { return solver_.tells_inertia(); }
-    /// No count: the host's solver cannot tell, or omega hits a mode (try beside it).
-    static constexpr std::int64_t cannot_tell = -1, hit_a_mode = -2;
-    /// Modes below omega (rad/s) by Sylvester's law of inertia. In vain where not counts_modes().
+    /// Modes below omega (rad/s), cannot_tell_count or hit_a_mode; where it may move a little: near it.
     std::int64_t count_modes_below(double omega) const;
+    std::int64_t count_modes_near(double &omega, Watch watch) const;
     /// M-orthonormal rigid-body modes (may have no column).
     const Field &rigid_modes() const { return rigid_modes_; }
     std::int64_t n_rigid() const { return rigid_modes_.cols(); }

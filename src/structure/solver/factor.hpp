@@ -48,10 +48,11 @@ enum class SolverName { automatic, cholmod, eigen, host };
 
 /// Who factors. automatic: the host's where there is one, else the first of the library's own that was built.
 struct Solver {
-    Solver(SolverName asked = SolverName::automatic) : name(asked) {}
-    Solver(const HostSolver *given) { // null: none
+    /// given: the host's own, or null.
+    Solver(SolverName asked = SolverName::automatic, const HostSolver *given = nullptr) : name(asked) {
         if (given) host = *given;
     }
+    Solver(const HostSolver *given) : Solver(SolverName::automatic, given) {}
     /// The host's, if it is to serve; throws where it is asked for and there is none.
     const HostSolver *serving_host() const;
     /// False: a factorization for the sake of its negative_eigenvalues() would be made in vain.

@@ -1,0 +1,37 @@
+#include "structure/mode_count.hpp"
+#include "structure/solver/make_factor.hpp"
+#include <cmath>
+
+namespace plm {
+
+std::int64_t count_modes(const SparseMatrix &k, const SparseMatrix &m, double omega, const Solver &solver) {
+    if (!solver.tells_inertia()) return cannot_tell_count;
+    try {
+        return make_factor(add(1.0, k, -omega * omega, m), FactorKind::indefinite, solver)
+            ->negative_eigenvalues();
+    } catch (const Error &e) {
+        if (e.status() != PLM_ERR_SINGULAR) throw;
+        return hit_a_mode;
+    }
+}
+
+std::int64_t count_modes_near(const SparseMatrix &k, const SparseMatrix &m, double &omega,
+                              const Solver &solver, const char *which, const char *remedy, Watch watch) {
+    constexpr int attempts = 4;
+    constexpr double aside = 1.003; // out of reach of the mode, and hardly another frequency
+    std::int64_t count = hit_a_mode;
+    for (int attempt = 0; attempt < attempts && count == hit_a_mode; ++attempt) {
+        if (attempt > 0) omega *= aside;
+        watch.step("count of modes", 0.1); // a factorization, which hears nobody
+        count = count_modes(k, m, omega, solver);
+    }
+    if (count == hit_a_mode)
+        watch.warn(
+            PLM_REASON_UNVERIFIED,
+            format("the number of %s below %.6g Hz could not be verified: K - w^2 M is singular there and "
+                   "just above; compare with another %s",
+                   which, omega / (2 * M_PI), remedy));
+    return count;
+}
+
+} // namespace plm
