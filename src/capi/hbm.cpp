@@ -4,6 +4,7 @@
 #include "capi/branch_input.hpp"
 #include "capi/hbm_input.hpp"
 #include "linalg/scale.hpp"
+#include "reduction/widened_model.hpp"
 #include "searches/error_estimate.hpp"
 #include "searches/refinement.hpp"
 
@@ -35,7 +36,7 @@ Outcome deliver(HbmHandle &h, BranchPtr core, plm_branch **branch) {
 
 std::shared_ptr<BranchHandle> own_branch(const HbmHandle &h, const plm_branch *branch, const char *name) {
     std::shared_ptr<BranchHandle> b = same_context<BranchHandle>(h, branch, name);
-    if (b->core->reduced_model() != built(*h.basis)->reduced())
+    if (!of_one_basis(b->core->reduced_model(), built(*h.basis)->reduced()))
         bad_argument(
             name, -1,
             format("the branch %s was computed on another basis, or before the basis was built anew; "

@@ -19,6 +19,10 @@ template <class Out, class Get> Out per_point(const B &b, Get get) {
 const std::vector<Key> &hbm_keys() {
     using O = HbmOptions;
     static const std::vector<Key> keys = {
+        choice_option<&O::motion>(
+            "motion", "auto,exact,harmonics",
+            "curves and their points: exact motions of the reduced model, or harmonic balance; auto: exact "
+            "where that is cheaper and no option of harmonic balance is set"),
         int_option<&O::n_harmonics>(
             "n_harmonics", 0, 1000,
             "harmonics H of the solution, all of the excitation's; 0: as many as each "
@@ -147,7 +151,7 @@ const std::vector<Key> &branch_keys() {
         result<B>("seconds_per_iteration",
                   "mean time of a Newton iteration, without stability and harmonics (s)",
                   [](const B &b) { return built(b)->seconds_per_iteration(); }),
-        result<B>("unknowns", "nonlinear unknowns used: modal, gaps or both",
+        result<B>("unknowns", "nonlinear unknowns used: modal, gaps or both; state: exact motions",
                   [](const B &b) { return built(b)->unknowns_used; }),
         warning_text<B>([](const B &b) -> const Warnings & { return built(b)->warnings; }),
         warning_reasons<B>([](const B &b) -> const Warnings & { return built(b)->warnings; }),

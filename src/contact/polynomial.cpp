@@ -102,18 +102,18 @@ double first_crossing(const double *c, std::int64_t n, double noise) {
     return CrossingSearch(c, n, noise).search(b, 0.0, 1.0, 0);
 }
 
-double largest_magnitude(const double *c, std::int64_t n, double least) {
+void widen_range(const double *c, std::int64_t n, double &minimum, double &maximum) {
     double reach = 0;
-    for (std::int64_t i = 0; i <= n; ++i) reach += std::abs(c[i]);
-    if (reach <= least) return least;
+    for (std::int64_t i = 1; i <= n; ++i) reach += std::abs(c[i]);
+    if (c[0] + reach <= maximum && c[0] - reach >= minimum) return;
     Coefficients b, negative;
     to_bernstein(c, n, b.data());
     for (std::int64_t i = 0; i <= n; ++i) negative[i] = -b[i];
-    const double resolution = 8e-15 * reach; // rounding of the coefficients: no halving gets below
-    double best = least;
-    raise_maximum(b, n, 0, resolution, best);
-    raise_maximum(negative, n, 0, resolution, best);
-    return best;
+    const double resolution = 8e-15 * (std::abs(c[0]) + reach); // of the coefficients: no halving gets below
+    double lowest = -minimum;
+    raise_maximum(b, n, 0, resolution, maximum);
+    raise_maximum(negative, n, 0, resolution, lowest);
+    minimum = -lowest;
 }
 
 } // namespace plm

@@ -16,8 +16,8 @@ double evaluate_polynomial(const double *coefficient, std::int64_t degree, doubl
 /// before that, to rounding. Dips that stay above -noise do not count. Returns -1 when there is none.
 double first_crossing(const double *coefficient, std::int64_t degree, double noise);
 
-/// max |p| over [0, 1], to rounding. `least`: values up to this one are of no interest and may be returned
-/// instead (it saves the search).
-double largest_magnitude(const double *coefficient, std::int64_t degree, double least);
+/// Lowers `minimum` and raises `maximum` to the extrema over [0, 1], to rounding; a search that the values
+/// given already make idle is saved.
+void widen_range(const double *coefficient, std::int64_t degree, double &minimum, double &maximum);
 
 } // namespace plm

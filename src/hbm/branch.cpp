@@ -130,6 +130,15 @@ vector<double> Branch::coefficients(std::int64_t point, std::int64_t dof) const 
     return c;
 }
 
+namespace {
+
+double amplitude_of(const TrigRange &range, Measure measure) {
+    if (measure == Measure::half_peak_to_peak) return 0.5 * (range.maximum - range.minimum);
+    return std::max(std::abs(range.maximum), std::abs(range.minimum));
+}
+
+} // namespace
+
 double amplitude_of(const vector<double> &c, Measure measure, std::int64_t harmonic) {
     const std::int64_t n = static_cast<std::int64_t>(c.size()) / 2;
     if (measure == Measure::harmonic) {
@@ -141,12 +150,13 @@ double amplitude_of(const vector<double> &c, Measure measure, std::int64_t harmo
         for (std::size_t k = 1; k < c.size(); ++k) s += 0.5 * c[k] * c[k];
         return std::sqrt(s);
     }
-    const TrigRange range = trig_range(c.data(), n);
-    if (measure == Measure::half_peak_to_peak) return 0.5 * (range.maximum - range.minimum);
-    return std::max(std::abs(range.maximum), std::abs(range.minimum));
+    return amplitude_of(trig_range(c.data(), n), measure);
 }
 
 double Branch::amplitude(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
+    const BranchPoint &p = points_[static_cast<std::size_t>(point)];
+    if (p.motion && (measure == Measure::peak || measure == Measure::half_peak_to_peak))
+        return amplitude_of(p.motion->range(dof), measure);
     return amplitude_of(coefficients(point, dof), measure, harmonic);
 }
 
@@ -162,6 +172,7 @@ std::int64_t Branch::highest_point(std::int64_t dof, Measure measure, std::int64
 
 Field Branch::field(std::int64_t point, double fraction) const {
     const BranchPoint &p = points_[point];
+    if (p.motion) return combine(reduced_->static_vectors(), p.motion->displacement(fraction));
     vector<double> eta(reduced_->size(), 0.0);
     for (std::int64_t h = 1; h <= n_harmonics_; ++h) {
         const double angle = 2 * M_PI * fraction * static_cast<double>(h), c = std::cos(angle),
@@ -179,6 +190,8 @@ Matrix Branch::penetration_coefficients(std::int64_t point) const {
 }
 
 vector<double> Branch::closed_share(std::int64_t point) const {
+    const BranchPoint &p = points_[static_cast<std::size_t>(point)];
+    if (p.motion && !reduced_->all_pairs) return p.motion->closed_shares();
     return closed_shares(whole_contact_motion(*reduced_, points_[point]).u);
 }
 

@@ -30,6 +30,7 @@ vector<double> unknowns_of(HbmSystem &system, const BranchPoint &point) {
 void put_solution(HbmSystem &system, const PathState &at, double residual, std::int64_t iterations,
                   BranchPoint &point) {
     system.to_point(at.x.data(), at.parameter, point);
+    point.motion.reset();
     point.residual = residual;
     point.iterations = iterations;
     point.n_switching = system.indicator().n_switching;

@@ -20,6 +20,7 @@ void set_harmonics(Matrix &eta, std::int64_t n) {
 
 BranchPoint between(const BranchPoint &a, const BranchPoint &b, double t) {
     BranchPoint p = a;
+    p.motion.reset();
     for (std::size_t j = 0; j < p.eta_0.size(); ++j) p.eta_0[j] += t * (b.eta_0[j] - a.eta_0[j]);
     for (std::int64_t j = 0; j < p.eta.rows() * p.eta.cols(); ++j)
         p.eta.data()[j] += t * (b.eta.data()[j] - a.eta.data()[j]);
@@ -44,6 +45,7 @@ Matrix spread_harmonics(const Matrix &from, std::int64_t mean, std::int64_t mult
 BranchPoint on_longer_period(const BranchPoint &point, std::int64_t multiple) {
     if (multiple == 1) return point;
     BranchPoint longer = point;
+    longer.motion.reset();
     longer.n_harmonics = multiple * point.n_harmonics;
     longer.eta = spread_harmonics(point.eta, 0, multiple);
     if (point.contact_stiffness) longer.contact_motion = spread_harmonics(point.contact_motion, 1, multiple);

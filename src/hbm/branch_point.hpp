@@ -1,5 +1,6 @@
 // One point of a response curve: Fourier coefficients in reduced coordinates.
 #pragma once
+#include "hbm/point_motion.hpp"
 #include "linalg/dense.hpp"
 #include "plm/plm.h"
 #include <complex>
@@ -28,6 +29,8 @@ struct BranchPoint {
     double residual = 0;          // relative residual reached
     std::int64_t iterations = 0;  // Newton iterations spent
     std::int64_t n_switching = 0; // pairs that open and close in the period
+    /// Not null: a solution of the exact flow, of which the coefficients are those of its first harmonics.
+    std::shared_ptr<const PointMotion> motion;
 };
 
 /// +1 stable (all multipliers inside the unit circle), 0 unstable, -1 not computed.

@@ -12,14 +12,16 @@ namespace {
 constexpr double longest_step = 2.0; // rate x duration of a piece: about 26 terms, of which none exceeds 2
 constexpr double truncation = 1e-17;
 constexpr std::int64_t watch_interval = 64; // pieces
+constexpr double least_advance = 0.05, shorter_piece = 0.25; // of a piece, in the modes of its contact set
 constexpr double no_progress = 1e-12;       // fraction of a piece
 constexpr int side_corrections = 8; // one is usual; more when pairs that rest at zero act on each other
 
 } // namespace
 
-ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, double force_scale, Watch watch)
+ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, double force_scale, Watch watch,
+                     std::shared_ptr<ContactModesKept> modes)
     : model_(std::move(model)), omega_(omega), force_scale_(force_scale), watch_(watch), system_(*model_),
-      events_(model_->contact(), model_->gap()), following_(model_->size()) {
+      events_(model_->contact(), model_->gap()), modes_(std::move(modes)), following_(model_->size()) {
     if (!(omega > 0 && std::isfinite(omega) && std::isfinite(force_scale)))
         throw Error(PLM_ERR_ARGUMENT, "the flow needs a positive, finite frequency and a finite force scale")
             .argument("omega");
@@ -50,27 +52,99 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
     events_left_ = static_cast<double>(event_limit_) * std::max(1.0, std::ceil((t_end - begin) / period()));
     stalled_ = 0;
     guess_contact(state);
+    if (parameter_ != FlowParameter::none) {
+        const vector<double> still(static_cast<std::size_t>(model_->size()), 0.0);
+        change_ = {still, still, begin};
+    }
+    // what relaxes or follows at once has no modes; its motion is slow anyhow
+    may_use_modes_ = model_->n_massive() == model_->size() && model_->size() > 0 &&
+                     !(recorder && recorder->only_polynomials());
+    if (may_use_modes_ && !modes_) modes_ = std::make_shared<ContactModesKept>(model_);
+    if (may_use_modes_) modal_ = std::make_unique<ModalPieces>(*model_, omega_, force_scale_, parameter_);
+    fresh_ = true;
     while (state.time < t_end) {
         if (n_steps_++ % watch_interval == 0)
             watch_.step("exact flow", (state.time - begin) / (t_end - begin));
         worked(flops_of_piece());
         const double left = t_end - state.time;
-        double duration = 0;
-        for (int attempt = 0;; ++attempt) {
-            system_.assign(events_.states());
-            duration = step_length(left);
-            expand(state, duration);
-            if (attempt == side_corrections || !correct_sides(state, duration)) break;
-        }
-        std::int64_t pair = -1;
-        const double fraction = events_.first(penetration_, pair);
-        if (recorder) report(state, fraction, duration, *recorder);
-        move_to(state, fraction, duration);
-        events_.forget_zeros();
-        if (pair >= 0) switch_pair(pair, fraction, state.time);
+        if (may_use_modes_ && !fresh_ && enter_modes(state) && modal_piece(state, left, recorder)) continue;
+        series_piece(state, left, recorder);
     }
     require_finite_result(state.y.data(), model_->size(), "displacements of the exact flow");
     require_finite_result(state.v.data(), model_->size(), "velocities of the exact flow");
+}
+
+void ExactFlow::series_piece(FlowState &state, double left, FlowRecorder *recorder) {
+    double duration = 0;
+    for (int attempt = 0;; ++attempt) {
+        system_.assign(events_.states());
+        duration = step_length(left);
+        expand(state, duration, motion_);
+        if (attempt == side_corrections || !correct_sides(state, duration, motion_.penetration)) break;
+    }
+    std::int64_t pair = -1;
+    const double fraction = events_.first(motion_.penetration, pair);
+    if (recorder) report(state.time, fraction, duration, motion_.coefficient, nullptr, *recorder);
+    if (parameter_ != FlowParameter::none) {
+        expand(change_, duration, derivative_);
+        move_to(change_, fraction, duration, derivative_.coefficient);
+    }
+    move_to(state, fraction, duration, motion_.coefficient);
+    events_.forget_zeros();
+    fresh_ = pair >= 0;
+    if (pair >= 0) switch_pair(pair, fraction, state.time);
+}
+
+bool ExactFlow::enter_modes(const FlowState &state) {
+    if (modal_->inside()) return true;
+    const ContactModes *modes = modes_->find(events_.states(), 1);
+    return modes && modal_->enter(*modes, state, change_);
+}
+
+// False: a pair stands at zero, and the series has to say on which side it leaves; nothing has moved.
+bool ExactFlow::modal_piece(FlowState &state, double left, FlowRecorder *recorder) {
+    double longest = std::min(left, 0.125 * period());
+    for (;;) {
+        const double duration = modal_->expand(longest);
+        if (correct_sides(state, duration, modal_->penetration())) {
+            modal_->leave();
+            fresh_ = true;
+            return false;
+        }
+        std::int64_t pair = -1;
+        const double fraction = events_.first(modal_->penetration(), pair);
+        const bool veiled = pair >= 0 && modal_->is_veiled(pair);
+        if (veiled && fraction < least_advance) { // shorter pieces see more
+            longest = shorter_piece * duration;
+            continue;
+        }
+        if (recorder) {
+            const bool wanted = recorder->needs_motion();
+            report(state.time, fraction, duration, wanted ? modal_->coefficient() : nothing_,
+                   wanted ? &modal_->fast() : nullptr, *recorder);
+        }
+        modal_->advance(fraction * duration, state, change_);
+        events_.forget_zeros();
+        if (pair < 0 || veiled) return true;
+        modal_->leave();
+        fresh_ = true;
+        switch_pair(pair, fraction, state.time);
+        return true;
+    }
+}
+
+vector<double> ExactFlow::acceleration(const FlowState &state) {
+    system_.assign(events_.states());
+    const double duration = step_length(0.125 * period());
+    expand(state, duration, motion_);
+    vector<double> a(static_cast<std::size_t>(model_->n_massive()));
+    for (std::size_t j = 0; j < a.size(); ++j)
+        a[j] = 2 * motion_.coefficient.col(2)[j] / (duration * duration);
+    return a;
+}
+
+void ExactFlow::differentiate(FlowParameter parameter) {
+    parameter_ = parameter;
 }
 
 void ExactFlow::switch_pair(std::int64_t pair, double fraction, double time) {
@@ -95,8 +169,8 @@ void ExactFlow::guess_contact(const FlowState &state) {
     vector<double> moving(state.y), u(z);
     std::fill(moving.begin() + model_->n_moving(), moving.end(), 0.0);
     n_terms_ = 1;
-    expand_forces(state.time, 0.0);
-    std::copy_n(offset_.data(), z, u.data());
+    expand_forces(state.time, 0.0, motion_);
+    std::copy_n(motion_.offset.data(), z, u.data());
     gemv('N', 1.0, model_->gap(), moving.data(), 1.0, u.data());
     if (model_->n_following() > 0) {
         ContactStep step(model_->flexibility(), model_->contact_stiffness());
@@ -112,10 +186,10 @@ void ExactFlow::complete(FlowState &state) {
     guess_contact(state);
     system_.assign(events_.states());
     const double duration = step_length(0.125 * period());
-    expand(state, duration);
+    expand(state, duration, motion_);
     for (std::int64_t j = model_->n_massive(); j < model_->size(); ++j) {
-        state.y[j] = coefficient_(j, 0);
-        state.v[j] = coefficient_(j, 1) / duration;
+        state.y[j] = motion_.coefficient(j, 0);
+        state.v[j] = motion_.coefficient(j, 1) / duration;
     }
 }
 
@@ -134,100 +208,137 @@ double ExactFlow::step_length(double left) {
 }
 
 // (k + 1)(k + 2) y_{k+2} = duration^2 (f_k - K y_k) - duration (k + 1) C y_{k+1}, powers of s = t / duration.
-void ExactFlow::expand(const FlowState &state, double duration) {
+void ExactFlow::expand(const FlowState &state, double duration, Series &series) {
     const std::int64_t n = model_->n_massive(), moving = model_->n_moving();
-    expand_forces(state.time, duration);
-    coefficient_.reset(model_->size(), n_terms_);
+    expand_forces(state.time, duration, series);
+    Matrix &y = series.coefficient;
+    y.reset(model_->size(), n_terms_);
     for (std::int64_t j = 0; j < moving; ++j) {
-        coefficient_(j, 0) = state.y[j];
-        if (j < n) coefficient_(j, 1) = duration * state.v[j];
+        y(j, 0) = state.y[j];
+        if (j < n) y(j, 1) = duration * state.v[j];
     }
-    system_.relax(1, duration, coefficient_.col(0), force_.col(0), coefficient_.col(1));
+    system_.relax(1, duration, y.col(0), series.force.col(0), y.col(1));
     for (std::int64_t k = 2; k < n_terms_; ++k) {
         const double order = static_cast<double>(k), factor = duration * duration / (order * (order - 1));
-        const double *before = coefficient_.col(k - 1);
-        double *next = coefficient_.col(k);
-        std::copy_n(force_.col(k - 2), moving, next);
-        gemv('N', -factor, system_.stiffness(), coefficient_.col(k - 2), factor, next);
+        const double *before = y.col(k - 1);
+        double *next = y.col(k);
+        std::copy_n(series.force.col(k - 2), moving, next);
+        gemv('N', -factor, system_.stiffness(), y.col(k - 2), factor, next);
         if (model_->has_diagonal_damping()) {
             const vector<double> &c = model_->damping_diagonal();
             for (std::int64_t j = 0; j < n; ++j) next[j] -= duration / order * c[j] * before[j];
         } else {
             gemv('N', -duration / order, model_->damping(), before, 1.0, next);
         }
-        system_.relax(k, duration, before, force_.col(k - 1), next);
+        system_.relax(k, duration, before, series.force.col(k - 1), next);
     }
-    penetration_ = offset_;
-    if (model_->n_pairs() > 0) gemm('N', 'N', 1.0, model_->gap(), coefficient_, 1.0, penetration_);
-    follow();
+    if (&series == &derivative_ && model_->n_following() == 0) return; // what it does to the gaps is not asked
+    series.penetration = series.offset;
+    if (model_->n_pairs() > 0) gemm('N', 'N', 1.0, model_->gap(), y, 1.0, series.penetration);
+    follow(series);
 }
 
 // What has neither mass nor damping: y = (f - G^T N) / k.
-void ExactFlow::follow() {
+void ExactFlow::follow(Series &series) {
     const std::int64_t moving = model_->n_moving(), n = model_->n_following();
     if (n == 0) return;
-    system_.add_contact(penetration_, contact_force_);
+    system_.add_contact(series.penetration, contact_force_);
     for (std::int64_t k = 0; k < n_terms_; ++k) {
         double *f = following_.data();
-        std::copy_n(force_.col(k) + moving, n, f + moving);
+        std::copy_n(series.force.col(k) + moving, n, f + moving);
         if (model_->n_pairs() > 0) gemv('T', -1.0, model_->gap(), contact_force_.col(k), 1.0, f);
-        for (std::int64_t j = moving; j < moving + n; ++j) coefficient_(j, k) = f[j] / model_->lambda()[j];
+        for (std::int64_t j = moving; j < moving + n; ++j) series.coefficient(j, k) = f[j] / model_->lambda()[j];
     }
 }
 
-// Taylor coefficients of all forces but K y: Re(F_h exp(i h w t)) has F_h exp(i h w t_0) (i h w duration)^k /
-// k!. The gaps act through the springs of the pairs, too, and so does what the forces do at the
-// contact by themselves where there is no mass.
-void ExactFlow::expand_forces(double time, double duration) {
-    const std::int64_t n = model_->size();
-    const std::int64_t count = model_->n_massive() < n ? n_terms_ : std::max<std::int64_t>(n_terms_ - 2, 1);
-    force_.reset(n, n_terms_);
-    for (std::int64_t j = 0; j < n; ++j) force_(j, 0) = model_->preload()[j];
+std::int64_t ExactFlow::n_force_terms() const {
+    return model_->n_massive() < model_->size() ? n_terms_ : std::max<std::int64_t>(n_terms_ - 2, 1);
+}
+
+// Taylor coefficients of all forces but K y. The gaps act through the springs of the pairs, too, and so does
+// what the forces do at the contact by themselves where there is no mass.
+void ExactFlow::expand_forces(double time, double duration, Series &series) {
+    series.force.reset(model_->size(), n_terms_);
+    if (&series == &derivative_)
+        expand_change_of_loads(time, duration, series.force);
+    else
+        expand_loads(time, duration, series.force);
+    expand_offsets(series);
+    series.still.reset(model_->n_pairs(), model_->n_following() > 0 ? n_terms_ : 1);
+    if (model_->n_pairs() == 0) return;
+    std::copy_n(series.offset.data(), series.still.rows() * series.still.cols(), series.still.data());
+    system_.add_contact(series.still, contact_force_);
+    for (std::int64_t k = 0; k < series.still.cols(); ++k) {
+        gemv('T', -1.0, model_->gap(), contact_force_.col(k), 0.0, following_.data());
+        for (std::int64_t j = 0; j < model_->n_moving(); ++j) series.force(j, k) += following_[j];
+    }
+}
+
+// Re(F_h exp(i h w t)) has F_h exp(i h w t_0) (i h w duration)^k / k!.
+void ExactFlow::expand_loads(double time, double duration, Matrix &force) const {
+    const std::int64_t n = model_->size(), count = n_force_terms();
+    for (std::int64_t j = 0; j < n; ++j) force(j, 0) = model_->preload()[j];
     for (const auto &[harmonic, load] : model_->excitation()) {
         const double step = static_cast<double>(harmonic) * omega_ * duration;
         std::complex<double> z = std::polar(force_scale_, static_cast<double>(harmonic) * omega_ * time);
         for (std::int64_t k = 0; k < count; ++k) {
-            double *f = force_.col(k);
+            double *f = force.col(k);
             for (std::int64_t j = 0; j < n; ++j) f[j] += z.real() * load.real[j];
             if (harmonic == 0) break;
             for (std::int64_t j = 0; j < n; ++j) f[j] -= z.imag() * load.imag[j];
             z *= std::complex<double>(0.0, step / static_cast<double>(k + 1));
         }
     }
-    expand_offsets();
-    still_.reset(model_->n_pairs(), model_->n_following() > 0 ? n_terms_ : 1);
-    if (model_->n_pairs() == 0) return;
-    std::copy_n(offset_.data(), still_.rows() * still_.cols(), still_.data());
-    system_.add_contact(still_, contact_force_);
-    for (std::int64_t k = 0; k < still_.cols(); ++k) {
-        gemv('T', -1.0, model_->gap(), contact_force_.col(k), 0.0, following_.data());
-        for (std::int64_t j = 0; j < model_->n_moving(); ++j) force_(j, k) += following_[j];
+}
+
+// By the force scale: f / force_scale. By the frequency: with x = w - (t / omega) x', w' = A w + (t / omega)
+// df/dt, so t Re(i h F_h exp(i h w t)), whose powers of s are those of the exponential times t_0 and, one on,
+// the duration.
+void ExactFlow::expand_change_of_loads(double time, double duration, Matrix &force) const {
+    const std::int64_t n = model_->size(), count = n_force_terms();
+    const bool by_frequency = parameter_ == FlowParameter::frequency;
+    for (const auto &[harmonic, load] : model_->excitation()) {
+        if (by_frequency && harmonic == 0) continue;
+        const double h = static_cast<double>(harmonic), step = h * omega_ * duration;
+        std::complex<double> z = std::polar(1.0, h * omega_ * time), before = 0;
+        if (by_frequency) z *= std::complex<double>(0.0, force_scale_ * h);
+        for (std::int64_t k = 0; k < count; ++k) {
+            const std::complex<double> now = by_frequency ? time * z + duration * before : z;
+            double *f = force.col(k);
+            for (std::int64_t j = 0; j < n; ++j) f[j] += now.real() * load.real[j];
+            if (harmonic == 0) break;
+            for (std::int64_t j = 0; j < n; ++j) f[j] -= now.imag() * load.imag[j];
+            before = z;
+            z *= std::complex<double>(0.0, step / static_cast<double>(k + 1));
+        }
     }
 }
 
 // Penetrations with the moving coordinates at zero, without contact forces.
-void ExactFlow::expand_offsets() {
+void ExactFlow::expand_offsets(Series &series) {
     const std::int64_t moving = model_->n_moving(), n = model_->n_following(), z = model_->n_pairs();
-    offset_.reset(z, n_terms_);
+    series.offset.reset(z, n_terms_);
     std::fill(following_.begin(), following_.end(), 0.0);
     for (std::int64_t k = 0; k < n_terms_ && n > 0 && z > 0; ++k) {
-        for (std::int64_t j = moving; j < moving + n; ++j) following_[j] = force_(j, k) / model_->lambda()[j];
-        gemv('N', 1.0, model_->gap(), following_.data(), 0.0, offset_.col(k));
+        for (std::int64_t j = moving; j < moving + n; ++j)
+            following_[j] = series.force(j, k) / model_->lambda()[j];
+        gemv('N', 1.0, model_->gap(), following_.data(), 0.0, series.offset.col(k));
     }
-    for (std::int64_t i = 0; i < z; ++i) offset_(i, 0) -= model_->initial_gap()[i];
+    if (&series == &derivative_) return; // the gaps stay
+    for (std::int64_t i = 0; i < z; ++i) series.offset(i, 0) -= model_->initial_gap()[i];
 }
 
-bool ExactFlow::correct_sides(const FlowState &state, double duration) {
+bool ExactFlow::correct_sides(const FlowState &state, double duration, const Matrix &penetration) {
     const std::int64_t n = model_->size();
-    return events_.correct(penetration_, norm2(n, state.y.data()) + duration * norm2(n, state.v.data()));
+    return events_.correct(penetration, norm2(n, state.y.data()) + duration * norm2(n, state.v.data()));
 }
 
-void ExactFlow::move_to(FlowState &state, double fraction, double duration) {
+void ExactFlow::move_to(FlowState &state, double fraction, double duration, const Matrix &coefficient) const {
     const std::int64_t n = model_->size();
     std::fill(state.y.begin(), state.y.end(), 0.0);
     std::fill(state.v.begin(), state.v.end(), 0.0);
     for (std::int64_t k = n_terms_ - 1; k >= 0; --k) { // Horner for value and derivative
-        const double *c = coefficient_.col(k);
+        const double *c = coefficient.col(k);
         for (std::int64_t j = 0; j < n; ++j) {
             state.v[j] = state.v[j] * fraction + state.y[j];
             state.y[j] = state.y[j] * fraction + c[j];
@@ -237,35 +348,24 @@ void ExactFlow::move_to(FlowState &state, double fraction, double duration) {
     state.time += fraction * duration;
 }
 
-void ExactFlow::report(const FlowState &state, double fraction, double duration, FlowRecorder &recorder) {
+void ExactFlow::report(double start, double fraction, double duration, const Matrix &coefficient,
+                       const FastMotion *fast, FlowRecorder &recorder) {
     if (!(fraction > 0)) return;
     if (fraction == 1) {
-        recorder.record({state.time, duration, coefficient_, events_.states()});
+        recorder.record({start, duration, coefficient, events_.states(), fast});
         return;
     }
-    shortened_ = coefficient_;
+    shortened_ = coefficient;
     double scale = 1;
-    for (std::int64_t k = 0; k < n_terms_; ++k, scale *= fraction)
-        for (std::int64_t j = 0; j < model_->size(); ++j) shortened_(j, k) *= scale;
-    recorder.record({state.time, fraction * duration, shortened_, events_.states()});
+    for (std::int64_t k = 0; k < shortened_.cols(); ++k, scale *= fraction)
+        for (std::int64_t j = 0; j < shortened_.rows(); ++j) shortened_(j, k) *= scale;
+    recorder.record({start, fraction * duration, shortened_, events_.states(), fast});
 }
 
 void ContactHistory::record(const FlowPiece &piece) {
     if (intervals_.empty() || intervals_.back().states != piece.states)
         intervals_.push_back({0.0, piece.states});
     intervals_.back().duration += piece.duration;
-}
-
-void PeakRecorder::record(const FlowPiece &piece) {
-    const std::int64_t degree = piece.coefficient.cols() - 1;
-    values_.reset(rows_.rows(), degree + 1);
-    if (rows_.rows() == 0) return;
-    gemm('N', 'N', 1.0, rows_, piece.coefficient, 0.0, values_);
-    polynomial_.resize(degree + 1);
-    for (std::int64_t i = 0; i < rows_.rows(); ++i) {
-        for (std::int64_t k = 0; k <= degree; ++k) polynomial_[k] = values_(i, k);
-        peak_[i] = largest_magnitude(polynomial_.data(), degree, peak_[i]);
-    }
 }
 
 } // namespace plm

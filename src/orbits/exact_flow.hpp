@@ -1,40 +1,38 @@
 // The exact flow of a reduced model under pre-load and harmonic excitation. Between two contact events the
 // system is linear with constant coefficients: its Taylor series in time is summed to rounding (steps of at
 // most two radians of the fastest motion), undamped resonance included, since nothing is divided by. On each
-// piece the penetrations are polynomials, whose first zero is isolated, never sampled (polynomial.hpp).
+// piece the penetrations are polynomials, whose first zero is isolated, never sampled (polynomial.hpp). In a
+// contact set that comes back often, the exponentials of its modes take the place of the series, and the
+// pieces are as long as the slow modes allow (modal_pieces.hpp).
 #pragma once
 #include "contact/piece_events.hpp"
 #include "linalg/monitor.hpp"
 #include "orbits/contact_set.hpp"
+#include "orbits/modal_pieces.hpp"
 #include "orbits/monodromy.hpp"
 
 namespace plm {
 
-/// One piece of the motion: y(start + s duration) = sum_k coefficient(:, k) s^k for s in [0, 1], with one
-/// contact set. Valid during the call of the recorder only.
-struct FlowPiece {
-    double start, duration;
-    const Matrix &coefficient; // n x (degree + 1)
-    const PairStates &states;
-};
-
-class FlowRecorder {
-  public:
-    virtual ~FlowRecorder() = default;
-    virtual void record(const FlowPiece &piece) = 0;
-};
-
 class ExactFlow {
   public:
     /// force_scale scales the excitation, not the pre-load. PLM_ERR_ARGUMENT unless omega > 0 and finite.
-    ExactFlow(std::shared_ptr<const FlowModel> model, double omega, double force_scale,
-              Watch watch = Watch());
+    /// `modes`: of the same model, shared by flows that pass the same contact sets; null: its own.
+    ExactFlow(std::shared_ptr<const FlowModel> model, double omega, double force_scale, Watch watch = Watch(),
+              std::shared_ptr<ContactModesKept> modes = nullptr);
 
     /// Advances the state to t_end >= state.time. A recorder, if any, sees every piece in order.
     /// PLM_ERR_CONVERGENCE with PLM_REASON_CONTACT_CHATTER and the pair as index when events follow each
     /// other without time going on, or when there are more of them than event_limit() per period;
     /// PLM_ERR_ARGUMENT for wrong sizes, NaN or Inf; PLM_CANCELLED.
     void advance(FlowState &state, double t_end, FlowRecorder *recorder = nullptr);
+
+    /// From the next advance() on, which has to begin at time 0, `change` goes along: with x the state and its
+    /// beginning kept, dx / d(force scale) = change; d x(fraction of the period) / d omega = change -
+    /// (t / omega) x'(t).
+    void differentiate(FlowParameter parameter);
+    const FlowState &change() const { return change_; }
+    /// y'' of the coordinates with mass at a state that the last advance() led to.
+    vector<double> acceleration(const FlowState &state);
 
     /// Gives the coordinates without mass what the others and the forces make of them: velocities, and the
     /// displacements of those that follow at once.
@@ -55,22 +53,40 @@ class ExactFlow {
     void guess_contact(const FlowState &state);
     double step_length(double left);
     double flops_of_piece() const;
-    void expand(const FlowState &state, double duration);
-    void expand_forces(double time, double duration);
-    void expand_offsets();
-    void follow();
-    bool correct_sides(const FlowState &state, double duration);
+    // Taylor series over one piece, in powers of its share.
+    struct Series {
+        Matrix coefficient, force, offset, still, penetration;
+    };
+    void expand(const FlowState &state, double duration, Series &series);
+    void expand_forces(double time, double duration, Series &series);
+    void expand_change_of_loads(double time, double duration, Matrix &force) const;
+    void expand_loads(double time, double duration, Matrix &force) const;
+    std::int64_t n_force_terms() const;
+    void expand_offsets(Series &series);
+    void follow(Series &series);
+    bool correct_sides(const FlowState &state, double duration, const Matrix &penetration);
     void switch_pair(std::int64_t pair, double fraction, double time);
-    void move_to(FlowState &state, double fraction, double duration);
-    void report(const FlowState &state, double fraction, double duration, FlowRecorder &recorder);
+    void move_to(FlowState &state, double fraction, double duration, const Matrix &coefficient) const;
+    void report(double start, double fraction, double duration, const Matrix &coefficient,
+                const FastMotion *fast, FlowRecorder &recorder);
+    void series_piece(FlowState &state, double left, FlowRecorder *recorder);
+    bool modal_piece(FlowState &state, double left, FlowRecorder *recorder);
+    bool enter_modes(const FlowState &state);
 
     std::shared_ptr<const FlowModel> model_;
     double omega_, force_scale_, fastest_force_ = 0;
     Watch watch_;
     ContactSet system_;
     PieceEvents events_;
-    Matrix coefficient_, force_, offset_, still_, penetration_, contact_force_, shortened_;
+    std::shared_ptr<ContactModesKept> modes_;
+    FlowParameter parameter_ = FlowParameter::none;
+    FlowState change_;
+    Series motion_, derivative_;
+    Matrix contact_force_, shortened_;
+    const Matrix nothing_;
     vector<double> following_;
+    std::unique_ptr<ModalPieces> modal_;
+    bool may_use_modes_ = false, fresh_ = true; // fresh_: the states at hand are still to be confirmed
     std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_ = 0, stalled_ = 0;
     double events_left_ = 0;
 };
@@ -79,24 +95,13 @@ class ExactFlow {
 class ContactHistory final : public FlowRecorder {
   public:
     void record(const FlowPiece &piece) override;
+    bool only_polynomials() const override { return false; }
+    bool needs_motion() const override { return false; }
     const std::vector<ContactInterval> &intervals() const { return intervals_; }
     void clear() { intervals_.clear(); }
 
   private:
     std::vector<ContactInterval> intervals_;
-};
-
-/// max |row . y| over the motion for each row of a matrix (rows x n): extrema between the events are
-/// found exactly, not sampled.
-class PeakRecorder final : public FlowRecorder {
-  public:
-    explicit PeakRecorder(Matrix rows) : rows_(std::move(rows)), peak_(rows_.rows(), 0.0) {}
-    void record(const FlowPiece &piece) override;
-    const vector<double> &peak() const { return peak_; }
-
-  private:
-    Matrix rows_, values_;
-    vector<double> peak_, polynomial_;
 };
 
 } // namespace plm

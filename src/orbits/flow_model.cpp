@@ -1,32 +1,11 @@
 #include "orbits/flow_model.hpp"
 #include "linalg/lapack.hpp"
+#include "reduction/widened_model.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace plm {
 namespace {
-
-vector<double> transposed_product(const Matrix &a, const vector<double> &x) {
-    if (x.empty()) return {};
-    vector<double> y(a.cols(), 0.0);
-    gemv('T', 1.0, a, x.data(), 0.0, y.data());
-    return y;
-}
-
-// Largest eigenvalue of the damping matrix, diagonal or not.
-double largest_damping(const ReducedModel &m) {
-    if (m.size() == 0) return 0;
-    if (!m.damping.empty()) return symmetric_eigen(m.damping).values.back();
-    return *std::max_element(m.damping_diagonal.begin(), m.damping_diagonal.end());
-}
-
-// Coordinates without mass and without damping of their own have none with others either, where the damping
-// takes energy at all.
-void clear_massless(std::int64_t n, Matrix &c) {
-    for (std::int64_t j = 0; j < c.cols(); ++j)
-        for (std::int64_t i = 0; i < c.rows(); ++i)
-            if (i >= c.rows() - n || j >= c.cols() - n) c(i, j) = 0;
-}
 
 // The last rows of x become turn^T times them.
 void turn_rows(const Matrix &turn, Matrix &x) {
@@ -41,63 +20,17 @@ void turn_rows(const Matrix &turn, Matrix &x) {
 } // namespace
 
 FlowModel::FlowModel(std::shared_ptr<const ReducedModel> reduced, double omega)
-    : reduced_(std::move(reduced)) {
-    find_coordinates();
-    project_loads();
-    project_damping();
-    if (reduced_->structural != 0) add_structural_damping(omega);
-    if (reduced_->n_massless_0 > 0) sort_massless();
-}
-
-void FlowModel::find_coordinates() {
-    lambda_ = reduced_->lambda_0;
-    gap_ = reduced_->gap_0;
+    : reduced_(widened(reduced)) {
+    if (reduced_ != reduced) to_flow_ = static_coordinates_of(*reduced, reduced->vectors);
+    lambda_ = reduced_->lambda;
+    gap_ = reduced_->gap;
     preload_ = reduced_->preload_0;
-    n_following_ = reduced_->n_massless_0;
-    if (reduced_->same_static) return;
-    if (!reduced_->model)
-        throw Error(PLM_ERR_STATE, "a reduced model with static directions of its own needs its model");
-    to_flow_ = static_coordinates_of(*reduced_, reduced_->vectors);
-}
-
-void FlowModel::project_loads() {
-    if (reduced_->same_static) {
-        excitation_ = reduced_->excitation;
-        return;
-    }
-    excitation_ = projected(reduced_->vectors_0, reduced_->model->excitation());
-}
-
-void FlowModel::project_damping() {
-    const ReducedModel &m = *reduced_;
-    if (m.same_static) {
-        damping_diagonal_ = m.damping_diagonal;
-        damping_ = m.damping;
-        return;
-    }
-    const Damping &damping = m.model->damping();
-    if (damping.modal_ratio.empty() && !damping.has_matrix) {
-        for (std::int64_t j = 0; j < size(); ++j)
-            damping_diagonal_.push_back(damping.alpha * m.mass_0(j) + damping.beta * lambda_[j]);
-        return;
-    }
-    if (damping.modal_ratio.empty()) {
-        damping_ = gram(m.vectors_0, m.model->damping_times(m.vectors_0));
-        for (std::int64_t j = 0; j < size(); ++j)
-            damping_(j, j) += damping.alpha * m.mass_0(j) + damping.beta * lambda_[j];
-        return;
-    }
-    // T C T^T + c_max (M_0 - T M T^T) = T (C - c_max M) T^T + c_max M_0
-    const double largest = largest_damping(m);
-    Matrix c = m.damping;
-    if (c.empty()) {
-        c.reset(m.size(), m.size());
-        for (std::int64_t j = 0; j < m.size(); ++j) c(j, j) = m.damping_diagonal[j];
-    }
-    for (std::int64_t j = 0; j < m.size(); ++j) c(j, j) -= largest * m.mass(j);
-    damping_ = product('N', 'T', product('N', 'N', to_flow_, c), to_flow_);
-    for (std::int64_t j = 0; j < size(); ++j) damping_(j, j) += largest * m.mass_0(j);
-    clear_massless(m.n_massless_0, damping_);
+    n_following_ = reduced_->n_massless;
+    excitation_ = reduced_->excitation;
+    damping_diagonal_ = reduced_->damping_diagonal;
+    damping_ = reduced_->damping;
+    if (reduced_->structural != 0) add_structural_damping(omega);
+    if (reduced_->n_massless > 0) sort_massless();
 }
 
 void FlowModel::add_structural_damping(double omega) {
@@ -158,7 +91,7 @@ void FlowModel::sort_massless() {
 // Damping that is nothing beside that of the motions of interest. Its time constant would be as short.
 double FlowModel::least_damping() const {
     constexpr double negligible = 1e-5;
-    const std::int64_t massive = size() - reduced_->n_massless_0;
+    const std::int64_t massive = size() - reduced_->n_massless;
     const double reach = std::sqrt(lambda_.back()); // sqrt(k m) to compare with, for a mass of 1
     double least = 0, largest = 0;
     for (std::int64_t j = 0; j < size(); ++j) {
@@ -197,7 +130,7 @@ vector<double> FlowModel::from_static_coordinates(const vector<double> &y) const
 
 FlowState FlowModel::state(const vector<double> &eta_0, const Matrix &eta, double omega,
                            double fraction) const {
-    if (static_cast<std::int64_t>(eta_0.size()) != size() || eta.rows() != reduced_->size() ||
+    if (static_cast<std::int64_t>(eta_0.size()) != size() || eta.rows() != (to_flow_.empty() ? size() : to_flow_.cols()) ||
         eta.cols() % 2 != 0)
         throw Error(PLM_ERR_ARGUMENT, "the harmonic coordinates do not belong to this reduced model")
             .argument("eta");
@@ -211,7 +144,7 @@ FlowState FlowModel::state(const vector<double> &eta_0, const Matrix &eta, doubl
         }
     }
     FlowState state{from_static_coordinates(eta_0), vector<double>(size(), 0.0), 2 * M_PI * fraction / omega};
-    if (reduced_->same_static) {
+    if (to_flow_.empty()) {
         y = from_static_coordinates(y);
         for (std::int64_t j = 0; j < size(); ++j) state.y[j] += y[j];
         state.v = from_static_coordinates(v);
@@ -223,7 +156,7 @@ FlowState FlowModel::state(const vector<double> &eta_0, const Matrix &eta, doubl
 }
 
 vector<double> FlowModel::dof_row(std::int64_t dof) const {
-    const Field &vectors = reduced_->static_vectors();
+    const Field &vectors = reduced_->vectors;
     const std::int64_t n_dof = reduced_->model ? reduced_->model->n_dof() : vectors.rows();
     if (dof < 0 || dof >= n_dof)
         throw Error(PLM_ERR_ARGUMENT, format("DOF %lld is not one of 0 .. %lld", static_cast<long long>(dof),
@@ -236,7 +169,7 @@ vector<double> FlowModel::dof_row(std::int64_t dof) const {
 }
 
 Field FlowModel::field(const vector<double> &y) const {
-    return combine(reduced_->static_vectors(), in_static_coordinates(y));
+    return combine(reduced_->vectors, in_static_coordinates(y));
 }
 
 } // namespace plm

@@ -1,7 +1,7 @@
 // A reduced model in the time domain: y'' + C y' + diag(lambda) y = F_preload + F(t) - G^T max(k_n u, 0),
 // u = G y - g, in mass-normalised coordinates. Harmonic balance may use two sets of coordinates, P for
 // h >= 1 and P_0 for h = 0; a flow needs one. P_0 spans P and has diagonal m and k too, so the flow lives in
-// P_0, and T (static_coordinates_of) takes dynamic coordinates to its own.
+// P_0 (reduction/widened_model.hpp), and T (static_coordinates_of) takes dynamic coordinates to its own.
 //
 // Coordinates without mass come last. They are turned so that their own damping is diagonal: those with
 // damping relax (c y' + k y = f: their displacement is a state), those without follow at once (k y = f: no
@@ -21,9 +21,7 @@ class FlowModel {
   public:
     /// omega (rad/s) is needed for structural damping only, which has no causal form in time: it is replaced
     /// by viscous damping that loses the same energy per cycle at omega, c = eta lambda / omega.
-    /// PLM_ERR_ARGUMENT when it is missing then. Outside the span of P (a few static directions) Rayleigh
-    /// damping and an explicit C are projected like everything else; modal damping, known on P only, is
-    /// continued by its largest value.
+    /// PLM_ERR_ARGUMENT when it is missing then.
     explicit FlowModel(std::shared_ptr<const ReducedModel> reduced, double omega = 0);
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda_.size()); }
@@ -33,7 +31,7 @@ class FlowModel {
     std::int64_t state_size() const { return n_moving() + n_massive(); } // displacements, velocities
     double mass(std::int64_t j) const { return j < n_massive() ? 1.0 : 0.0; }
     std::int64_t n_pairs() const { return gap_.rows(); }
-    const ReducedModel &reduced() const { return *reduced_; }
+    const ReducedModel &reduced() const { return *reduced_; } // the widened one
 
     const vector<double> &lambda() const { return lambda_; } // n
     bool has_diagonal_damping() const { return damping_.empty(); }
@@ -61,15 +59,12 @@ class FlowModel {
     vector<double> from_static_coordinates(const vector<double> &y) const;
 
   private:
-    void find_coordinates();
-    void project_loads();
     void add_structural_damping(double omega);
-    void project_damping();
     void sort_massless();
     double least_damping() const;
     void turn_damping();
 
-    std::shared_ptr<const ReducedModel> reduced_;
+    std::shared_ptr<const ReducedModel> reduced_; // widened
     Matrix to_flow_; // T: n x r; empty when the coordinates are the dynamic ones
     Matrix turn_; // of the last coordinates: those of P_0 = turn times the flow's; empty: they all have mass
     Matrix gap_, flexibility_, damping_;

@@ -2,7 +2,7 @@
 // intervals. The contact force is continuous at an event, so no saltation matrix comes in between.
 #pragma once
 #include "linalg/monitor.hpp"
-#include "orbits/flow_model.hpp"
+#include "orbits/contact_modes.hpp"
 #include <complex>
 
 namespace plm {
@@ -16,12 +16,12 @@ struct ContactInterval {
 /// d(y, y') at the end / d(y, y') at the beginning for a given sequence of contact sets: square of order 2n,
 /// or FlowModel::state_size() where coordinates have no mass (y of those that move, y' of those with mass);
 /// `tolerance` bounds the truncation error of each interval. PLM_ERR_ARGUMENT for a wrong number of pairs or
-/// a duration that is not finite and >= 0.
+/// a duration that is not finite and >= 0. `modes`, unless null: those of the sets that are known by them.
 /// Cost of an interval of length dt, x = rate dt (contact_set.hpp): (12 + 5 x) 4 n^3 flops about, up to x =
 /// 3, and (85 + 16 log2 x) n^3 beyond. Measured, 180 intervals with x near 1 (and 3.5) on one core: 2 (3) ms
 /// for n = 12, 8 (11) ms for n = 24, 32 (47) ms for n = 42.
 Matrix monodromy(const FlowModel &model, const std::vector<ContactInterval> &intervals,
-                 double tolerance = 1e-15, Watch watch = Watch());
+                 double tolerance = 1e-15, Watch watch = Watch(), ContactModesKept *modes = nullptr);
 
 /// Floquet multipliers: the eigenvalues of a monodromy matrix, largest modulus first.
 vector<std::complex<double>> multipliers(const Matrix &monodromy);

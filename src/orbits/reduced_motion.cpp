@@ -3,6 +3,7 @@
 #include "orbits/settling.hpp"
 #include "orbits/shooting.hpp"
 #include "reduction/reduced_rest.hpp"
+#include "reduction/widened_model.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -140,12 +141,13 @@ void ReducedMotion::set_state(const double *q, const double *v) {
 }
 
 void ReducedMotion::start_at(const HarmonicMotion &m) {
-    if (m.reduced != reduced_)
+    if (!of_one_basis(m.reduced, reduced_))
         throw Error(PLM_ERR_ARGUMENT,
                     "the branch was computed on another basis, or before the basis was built "
                     "anew; take one of this basis, or make a transient without a basis")
             .argument("branch");
-    state_ = flow_model_->state(m.eta_0, m.eta, m.omega / static_cast<double>(m.period_multiple), 0.0);
+    state_ = FlowModel(m.reduced, model_omega_)
+                 .state(m.eta_0, m.eta, m.omega / static_cast<double>(m.period_multiple), 0.0);
     restart_clock();
 }
 

@@ -77,13 +77,4 @@ double periodicity_defect(ExactFlow &flow, const FlowState &state, std::int64_t 
     return run_periods(flow, state, period_multiple).defect();
 }
 
-vector<double> orbit_peaks(ExactFlow &flow, const PeriodicOrbit &orbit, const Matrix &rows) {
-    if (rows.cols() != flow.model().size())
-        throw Error(PLM_ERR_ARGUMENT, "the rows do not fit the coordinates of the flow").argument("rows");
-    PeakRecorder recorder(rows);
-    FlowState state = orbit.state;
-    flow.advance(state, state.time + static_cast<double>(orbit.period_multiple) * flow.period(), &recorder);
-    return recorder.peak();
-}
-
 } // namespace plm

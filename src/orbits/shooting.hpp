@@ -34,8 +34,4 @@ PeriodicOrbit periodic_orbit(ExactFlow &flow, const FlowState &start, const Shoo
 /// asked for.
 double periodicity_defect(ExactFlow &flow, const FlowState &state, std::int64_t period_multiple = 1);
 
-/// max |row . y| over one run of the orbit for each row of `rows` (k x n; see FlowModel::dof_row), extrema
-/// between the contact events found exactly.
-vector<double> orbit_peaks(ExactFlow &flow, const PeriodicOrbit &orbit, const Matrix &rows);
-
 } // namespace plm

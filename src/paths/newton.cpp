@@ -28,10 +28,10 @@ class Newton {
           r_(n_), step_(n_), border_(n_), trial_(n_), next_(n_) {}
 
     NewtonOutcome run() {
-        if (limits_.factored)
-            make_border(); // at the point the factorization belongs to, before residual() moves it
+        const bool kept = limits_.factored && !system_.is_cheap_to_linearize();
+        if (kept) make_border(); // at the point the factorization belongs to, before residual() moves it
         system_.residual(x_.data(), parameter_, r_.data());
-        if (!limits_.factored) refactor();
+        if (!kept) refactor();
         double size = correction(r_, step_, step_parameter_);
         double damping = 1;
         while (out_.iterations < limits_.max_iterations) {
@@ -51,7 +51,7 @@ class Newton {
                 x_ = trial_;
                 parameter_ = trial_parameter;
                 fresh_ = false;
-                if (damping == 1 && contraction <= fast_contraction) {
+                if (damping == 1 && contraction <= fast_contraction && !system_.is_cheap_to_linearize()) {
                     step_.swap(next_);
                     step_parameter_ = next_parameter;
                     size = next_size;

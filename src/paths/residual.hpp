@@ -25,6 +25,8 @@ class Residual {
     virtual double residual_scale() const = 0;
     /// False: there is no solution where residual() was last evaluated, whatever rounding leaves of it.
     virtual bool in_balance() const { return true; }
+    /// A new tangent costs little beside a residual: none is used twice.
+    virtual bool is_cheap_to_linearize() const { return false; }
     /// A number for the smooth piece of R at the last residual(): where it goes to and fro, Newton's method
     /// cycles.
     virtual std::int64_t piece() const { return 0; }

@@ -38,6 +38,7 @@ struct ReducedModel {
     vector<std::int64_t> carried;
     std::shared_ptr<const AllPairs> all_pairs;
     Kept<StaticState> rest; // rest_of(), reduced_rest.hpp
+    Kept<ReducedModel> widened; // widened(), widened_model.hpp
     // recovery: q = P eta
     Field vectors;   // n_free x r
     Field vectors_0; // n_free x r_0, empty when same_static

@@ -5,6 +5,7 @@
 #include "hbm/make_system.hpp"
 #include "searches/curve.hpp"
 #include "searches/hbm.hpp"
+#include "searches/point_equations.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -21,7 +22,7 @@ constexpr double further_on = 1.5; // of that step: a second point, which gives 
 constexpr double far_away = 10, far_in_frequency = 0.2;
 
 // Null vector of the tangent at x by inverse iteration, of Euclidean length 1.
-vector<double> null_vector(HbmSystem &system, const vector<double> &x, double omega) {
+vector<double> null_vector(Residual &system, const vector<double> &x, double omega) {
     const std::int64_t n = system.size();
     vector<double> v = patternless_vector(n), r(n);
     system.residual(x.data(), omega, r.data());
@@ -40,14 +41,14 @@ vector<double> null_vector(HbmSystem &system, const vector<double> &x, double om
 class Switch {
   public:
     Switch(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, const BranchPoint &origin,
-           const BranchPoint &along, bool mirrored)
+           const BranchPoint &along, bool mirrored, Watch watch)
         : options_(options), mirrored_(mirrored) {
         options_.n_harmonics = harmonics_of(origin, options.period_multiple);
         options_.unknowns =
             prefers_modal(*reduced, options) ? NonlinearUnknowns::modal : NonlinearUnknowns::gaps;
-        system_ = make_system(std::move(reduced), options_);
-        at_ = {unknowns_of(*system_, origin), origin.omega};
-        const double size = size_of(*system_, at_.x);
+        equations_ = equations_of(std::move(reduced), options_, origin, watch);
+        at_ = {equations_->unknowns(origin), origin.omega};
+        const double size = size_of(equations_->residual(), at_.x);
         metric_ = {size > 0 ? size : 1, 2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz)};
         set_direction(along);
     }
@@ -69,8 +70,8 @@ class Switch {
   private:
     // The null vector less its share of the curve at hand, of length 1.
     void set_direction(const BranchPoint &along) {
-        direction_ = {null_vector(*system_, at_.x, at_.parameter), 0};
-        const PathState tangent = difference({unknowns_of(*system_, along), along.omega}, at_);
+        direction_ = {null_vector(equations_->residual(), at_.x, at_.parameter), 0};
+        const PathState tangent = difference({equations_->unknowns(along), along.omega}, at_);
         const double square = metric_.product(tangent, tangent);
         if (square > 0) add(-metric_.product(tangent, direction_) / square, tangent, direction_);
         scale_by((mirrored_ ? -1 : 1) / metric_.length(direction_), direction_);
@@ -81,18 +82,18 @@ class Switch {
         add(step, direction_, to);
         NewtonLimits limits = newton_limits(options_);
         limits.min_damping = 1e-2; // a guess that needs more is none: the next step is tried
-        const NewtonOutcome out = newton_across(*system_, metric_, direction_, limits, to);
+        const NewtonOutcome out = newton_across(equations_->residual(), metric_, direction_, limits, to);
         work_ += out;
         const PathState moved = difference(to, at_);
         if (!out.converged || std::abs(moved.parameter) > far_in_frequency * metric_.width) return false;
         if (metric_.length({moved.x, 0}) > far_away * step) return false;
-        point = solved_point(*system_, to, out.residual, out.iterations);
+        point = equations_->solved_point(to, out.residual, out.iterations);
         return true;
     }
 
     HbmOptions options_;
     bool mirrored_;
-    std::unique_ptr<HbmSystem> system_;
+    std::unique_ptr<PointEquations> equations_;
     Metric metric_;
     PathState at_, direction_;
     NewtonWork work_;
@@ -103,8 +104,7 @@ class Switch {
 std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &branch, std::int64_t point,
                                                  bool mirrored) const {
     const Clock::time_point begin = Clock::now();
-    if (branch.reduced_model() != reduced_)
-        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("branch");
+    const std::shared_ptr<const ReducedModel> reduced = model_of(branch, "branch");
     const BranchPoint &origin = branch.points().at(static_cast<std::size_t>(point));
     if (origin.bifurcation != PLM_BIFURCATION_BRANCH_POINT &&
         origin.bifurcation != PLM_BIFURCATION_PERIOD_DOUBLING)
@@ -120,14 +120,14 @@ std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &branch, std::int6
     options.force_scale = origin.force_scale;
     const std::size_t neighbour = static_cast<std::size_t>(point > 0 ? point - 1 : point + 1);
     const BranchPoint &along = branch.points().size() > 1 ? branch.points()[neighbour] : origin;
-    Switch other(reduced_, options, on_longer_period(origin, factor), on_longer_period(along, factor),
-                 mirrored);
+    const auto longer = [&](const BranchPoint &p) { return p.motion ? p : on_longer_period(p, factor); };
+    Switch other(reduced, options, longer(origin), longer(along), mirrored, watch_);
     CurveStart start;
     if (!other.find(start))
         throw Error(PLM_ERR_CONVERGENCE, "no point of another curve was found beside this one")
             .argument("point")
             .reason(PLM_REASON_START_FAILED);
-    auto found = std::make_shared<Branch>(reduced_, options.force_scale, options.period_multiple);
+    auto found = std::make_shared<Branch>(reduced, options.force_scale, options.period_multiple);
     found->newton_work = other.work();
     trace_curve(options, start, watch_, *found);
     finish(*found, begin);

@@ -2,6 +2,7 @@
 #include "hbm/branch_path.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/make_system.hpp"
+#include "searches/exact_curve.hpp"
 #include "searches/stability.hpp"
 #include "searches/start.hpp"
 #include <algorithm>
@@ -379,6 +380,7 @@ class CurveTracer final : public PathOwner {
 } // namespace
 
 void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch) {
+    if (start.point.motion) return trace_exact_curve(options, start, watch, branch);
     CurveTracer(options, watch, branch).run(start);
 }
 

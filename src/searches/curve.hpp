@@ -18,7 +18,8 @@ struct CurveStart {
 };
 
 /// Appends the curve's points to `branch` and sets its ending and its cost. n_harmonics of the options is the
-/// number to begin with when they are chosen by point (options.n_harmonics = 0: the start's).
+/// number to begin with when they are chosen by point (options.n_harmonics = 0: the start's). From an exact
+/// motion, the curve is one of exact motions.
 void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch);
 
 } // namespace plm

@@ -33,6 +33,7 @@ constexpr double settled = 0.05;     // last step over first, with tangents rene
 constexpr double negligible = 1e-10; // relative step that asks for no more
 constexpr double diverged = 1.0;     // relative step that has left the neighbourhood of the point
 constexpr int most_steps = 8;
+constexpr std::int64_t enough_harmonics = 30; // for what a basis misses of an exact motion
 
 // One point in the gaps of the unreduced structure, corrected step by step across the curve.
 class Correction {
@@ -131,6 +132,10 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
             .argument("point")
             .index(point);
     HbmOptions o = options_at(p, branch_.period_multiple(), options_);
+    if (p.motion) { // no harmonics are missing: with enough of them, all is the basis
+        o.n_harmonics = std::max(o.n_harmonics, std::min(finer(o.n_harmonics), enough_harmonics));
+        with_harmonics = false;
+    }
     ErrorEstimate e;
     double amplitude = branch_.amplitude(point, dof, measure, harmonic), hz = p.omega / (2 * M_PI);
     const auto settle = [&](Correction &c, double ErrorParts::*part) {

@@ -3,9 +3,11 @@
 #include "hbm/free_motion.hpp"
 #include "hbm/make_system.hpp"
 #include "linalg/scale.hpp"
+#include "reduction/widened_model.hpp"
 #include "searches/curve.hpp"
 #include "searches/curve_verdicts.hpp"
 #include "searches/follow.hpp"
+#include "searches/orbit_points.hpp"
 #include "searches/stability.hpp"
 #include "searches/start.hpp"
 #include "searches/wider_range.hpp"
@@ -36,7 +38,7 @@ void check(const HbmOptions &o) {
 
 Hbm::Hbm(std::shared_ptr<const ReducedModel> reduced, const SweepRange &window, const HbmOptions &options,
          Watch watch)
-    : reduced_(std::move(reduced)), options_(options), window_(window), watch_(watch) {
+    : basis_(std::move(reduced)), reduced_(basis_), options_(options), window_(window), watch_(watch) {
     const bool fixed_min = options_.frequency_min_hz > 0, fixed_max = options_.frequency_max_hz > 0;
     if (!fixed_min) options_.frequency_min_hz = window.min_hz;
     if (!fixed_max) options_.frequency_max_hz = window.max_hz;
@@ -44,9 +46,16 @@ Hbm::Hbm(std::shared_ptr<const ReducedModel> reduced, const SweepRange &window, 
               fixed_min ? options_.frequency_min_hz : window.least_hz,
               fixed_max ? options_.frequency_max_hz : window.most_hz};
     check(options_);
+    exact_ = prefers_exact(reduced_, options_);
+    if (exact_) reduced_ = widened(reduced_);
 }
 
 Hbm::~Hbm() = default;
+
+std::shared_ptr<const ReducedModel> Hbm::model_of(const Branch &branch, const char *argument) const {
+    if (of_one_basis(branch.reduced_model(), basis_)) return branch.reduced_model();
+    throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument(argument);
+}
 
 std::shared_ptr<Branch> Hbm::new_branch() const {
     return std::make_shared<Branch>(reduced_, options_.force_scale, options_.period_multiple);
@@ -81,6 +90,26 @@ bool Hbm::solve_with(const HbmOptions &options, double omega, const BranchPoint 
 }
 
 bool Hbm::solve_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const {
+    if (exact_ && solve_exactly_at(omega, guess, branch, point)) return true;
+    if (!solve_by_harmonics_at(omega, guess, branch, point)) return false;
+    if (exact_ && !make_exact(reduced_, options_, watch_, point, branch.newton_work))
+        return options_.motion != MotionKind::exact;
+    return true;
+}
+
+// Along the exact motions from the guess, or beside a solution with few harmonics.
+bool Hbm::solve_exactly_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const {
+    if (guess && guess->motion)
+        return follow_exactly_to(reduced_, options_, *guess, omega, watch_, point, branch.newton_work);
+    HbmOptions few = options_;
+    few.n_harmonics = few_harmonics(*reduced_);
+    if (guess) few.n_harmonics = std::max(few.n_harmonics, harmonics_of(*guess, options_.period_multiple));
+    return solve_with(few, omega, guess, branch, point) &&
+           make_exact(reduced_, options_, watch_, point, branch.newton_work);
+}
+
+bool Hbm::solve_by_harmonics_at(double omega, const BranchPoint *guess, Branch &branch,
+                                BranchPoint &point) const {
     HbmOptions wanted = with_first_harmonics(*reduced_, options_);
     if (guess && options_.n_harmonics == 0) // a start with its harmonics cut would be another motion
         wanted.n_harmonics =
@@ -132,8 +161,6 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
 }
 
 BranchPoint Hbm::first_guess(const Branch &start, std::int64_t point) const {
-    if (start.reduced_model() != reduced_)
-        throw Error(PLM_ERR_ARGUMENT, "the start belongs to another basis").argument("start");
     const std::int64_t multiple = options_.period_multiple / start.period_multiple();
     if (multiple * start.period_multiple() != options_.period_multiple)
         throw Error(PLM_ERR_ARGUMENT,
@@ -147,6 +174,12 @@ BranchPoint Hbm::first_guess(const Branch &start, std::int64_t point) const {
 
 std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *start, std::int64_t point) const {
     const Clock::time_point begin = Clock::now();
+    if (start && model_of(*start, "start") != reduced_) { // its coordinates are those of that model
+        Hbm there(*this);
+        there.reduced_ = model_of(*start, "start");
+        there.exact_ = exact_ && there.reduced_ == widened(basis_);
+        return there.solve(frequency_hz, start, point);
+    }
     if (!(frequency_hz >= smallest_scale && frequency_hz <= largest_scale))
         throw Error(PLM_ERR_ARGUMENT,
                     format("frequency_hz is %g; it must be positive, and squares must neither vanish nor "
@@ -164,13 +197,15 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
             .argument("frequency_hz")
             .reason(PLM_REASON_START_FAILED);
     Stability stability(reduced_, options_);
-    if (stability.wanted()) result.multipliers = stability.multipliers(result);
+    if (stability.wanted() && !result.motion) result.multipliers = stability.multipliers(result);
     if (stability.wanted() && result.multipliers.empty())
         branch->warnings.add(PLM_REASON_UNVERIFIED, stability.unknown_text(1, 1));
     branch->append(std::move(result));
     warn_of_harmonics(options_, *branch);
     branch->end_reason = PLM_REASON_RANGE_END;
-    branch->unknowns_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
+    branch->unknowns_used = branch->points()[0].motion            ? "state"
+                            : prefers_modal(*reduced_, options_) ? "modal"
+                                                                 : "gaps";
     check_window(window_, watch_, *branch);
     finish(*branch, begin);
     return branch;

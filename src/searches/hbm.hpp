@@ -61,10 +61,17 @@ class Hbm {
     bool solve_with(const HbmOptions &options, double omega, const BranchPoint *guess, Branch &branch,
                     BranchPoint &point) const;
     bool solve_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const;
+    bool solve_exactly_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const;
+    bool solve_by_harmonics_at(double omega, const BranchPoint *guess, Branch &branch,
+                               BranchPoint &point) const;
     BranchPoint first_guess(const Branch &start, std::int64_t point) const;
 
-    std::shared_ptr<const ReducedModel> reduced_;
+    /// The model that a branch of this basis was computed on. PLM_ERR_ARGUMENT for one of another basis.
+    std::shared_ptr<const ReducedModel> model_of(const Branch &branch, const char *argument) const;
+
+    std::shared_ptr<const ReducedModel> basis_, reduced_; // as handed over; widened for exact motions
     HbmOptions options_;
+    bool exact_ = false; // curves of exact motions, where their first point is one
     SweepRange window_, reach_; // of the basis; of a sweep with these options
     Watch watch_;
 };

@@ -11,8 +11,7 @@
 namespace plm {
 
 IsolatedSearch Hbm::find_isolated(const Branch &main, double force_max) const {
-    if (main.reduced_model() != reduced_)
-        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("main_branch");
+    const std::shared_ptr<const ReducedModel> reduced = model_of(main, "main_branch");
     HbmOptions options = options_;
     options.period_multiple = main.period_multiple();
     // the curve may have gone on past the window to its peak
@@ -20,7 +19,7 @@ IsolatedSearch Hbm::find_isolated(const Branch &main, double force_max) const {
         options.frequency_min_hz = std::min(options.frequency_min_hz, p.omega / (2 * M_PI));
         options.frequency_max_hz = std::max(options.frequency_max_hz, p.omega / (2 * M_PI));
     }
-    return plm::find_isolated(reduced_, options, main, force_max, watch_);
+    return plm::find_isolated(reduced, options, main, force_max, watch_);
 }
 
 std::vector<Backbone> Hbm::find_backbones(double force_max) const {
@@ -33,8 +32,7 @@ std::vector<Backbone> Hbm::find_backbones(double force_max) const {
 std::shared_ptr<const Branch> Hbm::track_fold(const Branch &branch, std::int64_t point, double force_min,
                                               double force_max) const {
     const BranchPoint &fold = branch.points().at(static_cast<std::size_t>(point));
-    if (branch.reduced_model() != reduced_)
-        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("branch");
+    const std::shared_ptr<const ReducedModel> reduced = model_of(branch, "branch");
     if (fold.bifurcation != PLM_BIFURCATION_FOLD)
         throw Error(PLM_ERR_ARGUMENT, format("point %lld is no fold; see the branch's \"bifurcation\"",
                                              static_cast<long long>(point)))
@@ -49,7 +47,7 @@ std::shared_ptr<const Branch> Hbm::track_fold(const Branch &branch, std::int64_t
     options.hbm.period_multiple = branch.period_multiple();
     options.force_min = force_min;
     options.force_max = force_max;
-    const auto folds = follow_folds_both_ways(reduced_, options, fold, watch_);
+    const auto folds = follow_folds_both_ways(reduced, options, fold, watch_);
     if (!folds)
         throw Error(PLM_ERR_CONVERGENCE, "the fold could not be corrected at its own force")
             .argument("point")
@@ -65,7 +63,17 @@ Hbm::find_by_marching(const std::vector<std::shared_ptr<const Branch>> &known, s
     options.n_frequencies = n_frequencies;
     options.scales = {0};
     for (std::int64_t i = 0; i < n_states; ++i) options.scales.push_back(std::exp2(static_cast<double>(i)));
-    return search_by_marching(reduced_, options, known, watch_).branches;
+    std::shared_ptr<const ReducedModel> reduced = reduced_;
+    for (const auto &branch : known) {
+        const auto of_this = model_of(*branch, "known");
+        if (branch != known.front() && of_this != reduced)
+            throw Error(PLM_ERR_ARGUMENT, "the known branches are exact motions and solutions of harmonic "
+                                          "balance, which differ on a basis with a pre-load; hand over those "
+                                          "of one kind (\"motion\" of the hbm)")
+                .argument("known");
+        reduced = of_this;
+    }
+    return search_by_marching(reduced, options, known, watch_).branches;
 }
 
 std::shared_ptr<const Branch> Hbm::find_nonlinear_mode(std::int64_t mode, std::int64_t dof,

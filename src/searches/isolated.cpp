@@ -2,6 +2,7 @@
 #include "hbm/branch_path.hpp"
 #include "searches/curve.hpp"
 #include "searches/fold_tracking.hpp"
+#include "searches/orbit_points.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -40,7 +41,7 @@ class Search {
            double force_max, Watch watch)
         : reduced_(std::move(reduced)), options_(options), main_(main), watch_(watch),
           force_max_(force_max > 0 ? force_max : backbone_reach * options.force_scale),
-          resonance_(reduced_, backbone_options(), watch) {}
+          resonance_(reduced_, backbone_options(), watch), exact_(prefers_exact(reduced_, options)) {}
 
     IsolatedSearch run() {
         const auto begin = std::chrono::steady_clock::now();
@@ -141,7 +142,9 @@ class Search {
                 std::max(10 * options.min_step, std::min(options.max_step, of_the_loop * seed.reach));
         options.initial_step = at_first * options.max_step;
         BranchPoint start = seed.point;
-        settle_harmonics(reduced_, options, start, watch_);
+        NewtonWork work;
+        if (!exact_ || !make_exact(reduced_, options, watch_, start, work))
+            settle_harmonics(reduced_, options, start, watch_);
         IsolatedBranch found;
         found.branch = trace_through(reduced_, options, start, watch_);
         found.closed = found.branch->end_reason == PLM_REASON_LOOP_CLOSED;
@@ -232,6 +235,7 @@ class Search {
     Watch watch_;
     double force_max_;
     PhaseResonance resonance_;
+    bool exact_; // loops of exact motions
     std::vector<BranchPoint> known_; // phase-resonant points of the branches known
     IsolatedSearch out_;
 };

@@ -1,16 +1,18 @@
 // The highest point of a curve, found on the curve itself: points on hyperplanes across the chord through the
 // three highest ones, by successive parabolic interpolation.
 #include "hbm/branch_path.hpp"
-#include "hbm/make_system.hpp"
 #include "searches/curve.hpp"
 #include "searches/curve_verdicts.hpp"
 #include "searches/hbm.hpp"
+#include "searches/point_equations.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace plm {
 namespace {
+
+constexpr double least_tolerance = 1e-12; // rounding of a period of the flow
 
 struct Sample {
     double s = 0; // position along the chord
@@ -21,9 +23,9 @@ struct Sample {
 
 class PeakSearch {
   public:
-    PeakSearch(HbmSystem &system, const HbmOptions &options, std::shared_ptr<const ReducedModel> reduced,
+    PeakSearch(PointEquations &equations, const HbmOptions &options, std::shared_ptr<const ReducedModel> reduced,
                std::int64_t dof, Measure measure, std::int64_t harmonic, Watch watch)
-        : system_(system), options_(options), reduced_(std::move(reduced)), dof_(dof), measure_(measure),
+        : equations_(equations), options_(options), reduced_(std::move(reduced)), dof_(dof), measure_(measure),
           harmonic_(harmonic), watch_(watch) {}
 
     /// False: the highest point of the curve is no solution with this system's harmonics, nor near one.
@@ -72,12 +74,12 @@ class PeakSearch {
 
     void load(const Branch &branch, std::int64_t i, Sample &s) {
         s.point = branch.points()[i];
-        s.at = {unknowns_of(system_, s.point), s.point.omega};
+        s.at = {equations_.unknowns(s.point), s.point.omega};
         s.amplitude = branch.amplitude(i, dof_, measure_, harmonic_);
     }
 
     void set_chord() {
-        const double size = norm2(system_.size(), three_[1].at.x.data());
+        const double size = norm2(equations_.residual().size(), three_[1].at.x.data());
         metric_ = {size > 0 ? size : 1, 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz)};
         chord_ = difference(three_[2].at, three_[0].at);
         scale_by(1 / metric_.length(chord_), chord_);
@@ -113,18 +115,18 @@ class PeakSearch {
         add(lb, b.at, out.at);
         add(lc, c.at, out.at);
         NewtonLimits limits = newton_limits(options_);
-        limits.tolerance *= 1e-3; // the vertex is found from small differences
-        const NewtonOutcome found = newton_across(system_, metric_, chord_, limits, out.at);
+        limits.tolerance = std::max(1e-3 * limits.tolerance, least_tolerance); // for small differences
+        const NewtonOutcome found = newton_across(equations_.residual(), metric_, chord_, limits, out.at);
         if (!found.converged) return false;
         out.s = s;
-        out.point = solved_point(system_, out.at, found.residual, found.iterations);
+        out.point = equations_.solved_point(out.at, found.residual, found.iterations);
         Branch one(reduced_, options_.force_scale, options_.period_multiple);
         one.append(out.point);
         out.amplitude = one.amplitude(0, dof_, measure_, harmonic_);
         return true;
     }
 
-    HbmSystem &system_;
+    PointEquations &equations_;
     const HbmOptions &options_;
     std::shared_ptr<const ReducedModel> reduced_;
     std::int64_t dof_;
@@ -166,14 +168,13 @@ std::string why_no_peak(const Branch &branch, std::int64_t top, double amplitude
 } // namespace
 
 Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
-    if (branch.reduced_model() != reduced_)
-        throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument("branch");
+    const std::shared_ptr<const ReducedModel> reduced = model_of(branch, "branch");
     const std::int64_t top = branch.highest_point(dof, measure, harmonic);
     const double highest = branch.amplitude(top, dof, measure, harmonic);
     std::array<std::int64_t, 3> around;
     const bool is_peak = neighbours(branch, top, around) && highest != 0;
     Peak peak;
-    auto one = std::make_shared<Branch>(reduced_, branch.force_scale(), branch.period_multiple());
+    auto one = std::make_shared<Branch>(reduced, branch.force_scale(), branch.period_multiple());
     one->end_reason = PLM_REASON_RANGE_END;
     BranchPoint point = branch.points()[top];
     double error = point.harmonic_error; // in what is asked for, where harmonics are chosen
@@ -186,28 +187,30 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         options.n_harmonics = harmonics_of(point, options.period_multiple);
         // Where harmonics are chosen, an order better than on the curve: one point is cheap, and its
         // amplitude is what people quote.
-        const bool automatic = options_.n_harmonics == 0;
+        const bool automatic = options_.n_harmonics == 0 && !point.motion;
         const double wanted = 0.1 * options_.harmonic_tolerance;
         const auto error_here = [&] { // at the DOF, which need not be that of the motion as a whole
-            const MeasuredHarmonics next = measure_harmonics(reduced_, options, point);
-            return harmonic_error_at(*reduced_, point, next.change, dof, measure, harmonic);
+            const MeasuredHarmonics next = measure_harmonics(reduced, options, point);
+            return harmonic_error_at(*reduced, point, next.change, dof, measure, harmonic);
         };
         if (automatic) error = error_here();
         do {
             if (error > wanted)
                 options.n_harmonics =
                     std::max(options.n_harmonics, std::min(options_.max_harmonics, 2 * options.n_harmonics));
-            const auto system = make_system(reduced_, options);
-            PeakSearch(*system, options, reduced_, dof, measure, harmonic, watch_).run(branch, around, point);
+            const auto equations = equations_of(reduced, options, point, watch_);
+            PeakSearch(*equations, options, reduced, dof, measure, harmonic, watch_)
+                .run(branch, around, point);
+            point.multipliers = equations->multipliers(point);
             if (automatic) error = error_here();
         } while (error > wanted && options.n_harmonics < options_.max_harmonics);
     }
     one->append(std::move(point));
     warn_of_harmonics(options_, error, *one);
-    if (is_peak && options_.n_harmonics != 0)
-        warn_of_given_harmonics(reduced_, options_, dof, measure, harmonic, *one);
+    if (is_peak && options_.n_harmonics != 0 && !one->points()[0].motion)
+        warn_of_given_harmonics(reduced, options_, dof, measure, harmonic, *one);
     check_basis(window_, watch_, *one);
-    one->unknowns_used = prefers_modal(*reduced_, options_) ? "modal" : "gaps";
+    one->unknowns_used = branch.unknowns_used;
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);
     peak.branch = one;

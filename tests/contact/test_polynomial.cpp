@@ -69,12 +69,20 @@ void series_of_high_degree_are_searched_to_rounding(void **) {
     assert_true(near(plm::first_crossing(c.data(), 40, 1e-14), M_PI / 8, 3e-15));
     std::vector<double> s = c;
     s[0] += 0.25;
-    assert_true(near(plm::largest_magnitude(s.data(), 40, 0), 1.25, 1e-14));
+    double low = INFINITY, high = -INFINITY;
+    plm::widen_range(s.data(), 40, low, high);
+    assert_true(near(high, 1.25, 1e-14));
     s[0] -= 0.5;
-    assert_true(near(plm::largest_magnitude(s.data(), 40, 0), 1.25, 5e-13)); // -1.25, terms up to 27
-    assert_true(plm::largest_magnitude(s.data(), 40, 2.0) == 2.0);
+    plm::widen_range(s.data(), 40, low, high);
+    assert_true(near(low, -1.25, 5e-13)); // terms up to 27
+    assert_true(near(high, 1.25, 1e-14));
+    low = -2, high = 2; // wider already
+    plm::widen_range(s.data(), 40, low, high);
+    assert_true(low == -2 && high == 2);
     const double constant[] = {0.7, 0, 0, 0};
-    assert_true(plm::largest_magnitude(constant, 3, 0) == 0.7);
+    low = INFINITY, high = -INFINITY;
+    plm::widen_range(constant, 3, low, high);
+    assert_true(low == 0.7 && high == 0.7);
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // One set of coordinates for what harmonic balance keeps in two: against the same quantities over the DOFs.
+#include "orbits/recorded_motion.hpp"
 #include "flows.hpp"
 #include "reduction/projection.hpp"
 #include "space/rest.hpp"
@@ -128,7 +129,7 @@ double structural_amplitude_error() {
     const plm::PeriodicOrbit orbit = plm::periodic_orbit(flow, {{0}, {0}, 0});
     Matrix row(1, 1);
     row(0, 0) = 1;
-    return std::abs(plm::orbit_peaks(flow, orbit, row)[0] * 0.04 - 1);
+    return std::abs(plm::orbit_peaks(flow, orbit.state, orbit.period_multiple, row)[0] * 0.04 - 1);
 }
 void structural_damping_loses_the_same_energy(void **) {
     assert_true(below(structural_amplitude_error(), 1e-12));

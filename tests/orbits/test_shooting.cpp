@@ -1,5 +1,6 @@
 // Periodic orbits by shooting: against the tests' own orbits, with multipliers, peaks and the defect as a
 // certificate of states that are not periodic.
+#include "orbits/recorded_motion.hpp"
 #include "flows.hpp"
 
 using namespace test;
@@ -24,7 +25,7 @@ Agreement against_own_orbit(double omega) {
     Matrix rows(n, n);
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < n; ++j) rows(i, j) = model->dof_row(i)[j];
-    const plm::vector<double> peaks = plm::orbit_peaks(flow, got, rows);
+    const plm::vector<double> peaks = plm::orbit_peaks(flow, got.state, got.period_multiple, rows);
     Agreement a;
     a.state = max_difference(to_dofs(*model, got.state), want.start);
     a.peak = 0;
@@ -86,7 +87,7 @@ Linear linear_orbit() {
     Matrix row(1, 1);
     row(0, 0) = 1;
     const double want = 2 / std::hypot(1 - omega * omega, 2 * zeta * omega);
-    return {std::abs(plm::orbit_peaks(flow, orbit, row)[0] / want - 1),
+    return {std::abs(plm::orbit_peaks(flow, orbit.state, orbit.period_multiple, row)[0] / want - 1),
             std::abs(std::abs(orbit.multipliers[0]) / std::exp(-zeta * flow.period()) - 1), orbit.iterations};
 }
 void a_linear_orbit_is_found_in_one_step(void **) {
@@ -135,7 +136,7 @@ void rest_has_no_defect(void **) {
 
 void rows_of_another_flow_are_refused(void **) {
     plm::ExactFlow flow(flow_model(bilinear_oscillator(0.05, 3, 0.2, 1, 0)), 1, 1);
-    assert_int_equal(failure_of([&] { plm::orbit_peaks(flow, plm::PeriodicOrbit(), Matrix(1, 2)); }).status,
+    assert_int_equal(failure_of([&] { plm::orbit_peaks(flow, plm::FlowState(), 1, Matrix(1, 2)); }).status,
                      PLM_ERR_ARGUMENT);
 }
 

@@ -2,6 +2,7 @@
 // x 5 mm, crack at a quarter of the length, 7 of 13 rows deep, closed at rest by an even pressure on its end,
 // Q = 500.
 #include "capi/handles.hpp"
+#include "orbits/recorded_motion.hpp"
 #include "orbits/shooting.hpp"
 #include "searches/hbm.hpp"
 #include "searches/isolated.hpp"
@@ -255,7 +256,7 @@ double marched_peak(const Plate &plate, const plm::BranchPoint &p, std::int64_t 
     const auto row = model->dof_row(dof);
     plm::Matrix rows(1, model->size());
     for (std::int64_t j = 0; j < model->size(); ++j) rows(0, j) = row[j];
-    return plm::orbit_peaks(flow, orbit, rows)[0];
+    return plm::orbit_peaks(flow, orbit.state, orbit.period_multiple, rows)[0];
 }
 // Nowhere else does the loop reach higher at the frequency of point i.
 bool on_upper_flank(const Curve &c, std::size_t i) {

@@ -1,5 +1,6 @@
 // DOFs without mass: the structure condensed by hand must answer as the one with them, in harmonic balance
 // and in exact motion, and a mass that goes to zero must lead there.
+#include "orbits/recorded_motion.hpp"
 #include "orbits/shooting.hpp"
 #include "reduction/basis.hpp"
 #include "reduction/basis_kind.hpp"
@@ -255,7 +256,7 @@ Exact exact_motion(const exact::Structure &s, const test::ModelExtras &extras, i
         const plm::vector<double> row = model->dof_row(i);
         for (std::int64_t j = 0; j < model->size(); ++j) rows(i, j) = row[j];
     }
-    const plm::vector<double> peaks = plm::orbit_peaks(flow, orbit, rows);
+    const plm::vector<double> peaks = plm::orbit_peaks(flow, orbit.state, orbit.period_multiple, rows);
     const plm::Hbm hbm(basis->reduced(), 10, 13, options(40), plm::Watch());
     const auto fine = hbm.solve(omega / (2 * M_PI), nullptr, 0);
     Exact e;

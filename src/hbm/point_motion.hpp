@@ -1,0 +1,20 @@
+// The exact motion of a point of a curve, where more of it is known than the Fourier coefficients that the
+// point carries.
+#pragma once
+#include "contact/trig_polynomial.hpp"
+#include "linalg/memory.hpp"
+
+namespace plm {
+
+class PointMotion {
+  public:
+    virtual ~PointMotion() = default;
+    /// Extrema over a period of the response of a DOF of the full model (base 0; zeros when fixed).
+    virtual TrigRange range(std::int64_t dof) const = 0;
+    /// Static coordinates (r_0) at t = fraction x period of the response.
+    virtual vector<double> displacement(double fraction) const = 0;
+    /// Share of the period during which each pair in the equations is closed.
+    virtual const vector<double> &closed_shares() const = 0;
+};
+
+} // namespace plm

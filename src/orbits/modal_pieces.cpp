@@ -1,0 +1,268 @@
+#include "orbits/modal_pieces.hpp"
+#include "contact/polynomial.hpp"
+#include "orbits/contact_set.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plm {
+namespace {
+
+constexpr double longest_turn = 3.0;     // rad of a mode that a polynomial describes: 30 terms or so
+constexpr double nearest_resonance = 1e-7; // of the rate
+constexpr double clear_of_zero = 3;      // times what the fast modes may add: a piece that gets somewhere
+constexpr double truncation = 1e-17;
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+} // namespace
+
+bool ModalPieces::enter(const ContactModes &modes, const FlowState &state, const FlowState &change) {
+    modes_ = &modes;
+    start_ = now_ = state.time;
+    if (!set_steady()) {
+        modes_ = nullptr;
+        return false;
+    }
+    const std::size_t size = static_cast<std::size_t>(modes.size());
+    const bool changes = parameter_ != FlowParameter::none;
+    vector<double> motion(size), changed(size);
+    free_.resize(size);
+    modes.from_state(state.y.data(), state.v.data(), free_.data());
+    if (changes) {
+        changed_free_.resize(size);
+        modes.from_state(change.y.data(), change.v.data(), changed_free_.data());
+    }
+    steady_at(start_, motion, changes ? &changed : nullptr);
+    for (std::size_t i = 0; i < size; ++i) {
+        free_[i] -= motion[i];
+        if (changes) changed_free_[i] -= changed[i];
+    }
+    present_ = free_;
+    at_now_ = motion;
+    for (std::size_t i = 0; i < size; ++i) at_now_[i] += present_[i];
+    return true;
+}
+
+// z' = lambda z + beta, beta = P B e^{iht} / 2 + P conj(B) e^{-iht} / 2, P = row c_1 + i row c_2 of the way into
+// the coordinates.
+bool ModalPieces::set_steady() {
+    const std::size_t size = static_cast<std::size_t>(modes_->size());
+    constant_.assign(size, 0.0);
+    changed_constant_.assign(size, 0.0);
+    const auto add_constant = [&](const vector<double> &load, double factor, vector<double> &to) {
+        for (const ContactModes::Mode &m : modes_->modes()) {
+            const std::size_t j = static_cast<std::size_t>(m.first);
+            const Complex z = -factor * Complex(load[j], m.is_pair ? load[j + 1] : 0.0) / m.rate;
+            to[j] += z.real();
+            if (m.is_pair) to[j + 1] += z.imag();
+        }
+    };
+    add_constant(modes_->constant_load(), 1.0, constant_);
+    steady_.assign(modes_->loads().size(), {});
+    for (std::size_t l = 0; l < steady_.size(); ++l) {
+        const ContactModes::Load &load = modes_->loads()[l];
+        if (load.harmonic == 0) {
+            add_constant(load.real, force_scale_, constant_);
+            if (parameter_ == FlowParameter::force_scale) add_constant(load.real, 1.0, changed_constant_);
+            continue;
+        }
+        const double w = load.harmonic * omega_;
+        for (const ContactModes::Mode &m : modes_->modes()) {
+            const std::size_t j = static_cast<std::size_t>(m.first);
+            const Complex real(load.real[j], m.is_pair ? load.real[j + 1] : 0.0),
+                imag(load.imag[j], m.is_pair ? load.imag[j + 1] : 0.0), i(0, 1);
+            const Complex up = i * w - m.rate, down = -i * w - m.rate;
+            if (std::min(std::abs(up), std::abs(down)) < nearest_resonance * std::abs(m.rate)) return false;
+            Steady s;
+            s.plus = 0.5 * (real + i * imag) / up;
+            s.minus = 0.5 * (real - i * imag) / down;
+            if (parameter_ == FlowParameter::frequency) {
+                const Complex turn = i * (load.harmonic * force_scale_);
+                s.plus_slope = turn * s.plus;
+                s.minus_slope = -turn * s.minus;
+            }
+            steady_[l].push_back(s);
+        }
+    }
+    return true;
+}
+
+void ModalPieces::steady_at(double time, vector<double> &motion, vector<double> *change) const {
+    motion = constant_;
+    if (change) *change = changed_constant_;
+    for (std::size_t l = 0; l < steady_.size(); ++l) {
+        if (steady_[l].empty()) continue;
+        const double w = modes_->loads()[l].harmonic * omega_;
+        const Complex e = std::polar(1.0, w * time), back = std::conj(e);
+        for (std::size_t k = 0; k < steady_[l].size(); ++k) {
+            const ContactModes::Mode &m = modes_->modes()[k];
+            const Steady &s = steady_[l][k];
+            const std::size_t j = static_cast<std::size_t>(m.first);
+            const Complex z = force_scale_ * (s.plus * e + s.minus * back);
+            motion[j] += z.real();
+            if (m.is_pair) motion[j + 1] += z.imag();
+            if (!change) continue;
+            Complex c = s.plus * e + s.minus * back;
+            if (parameter_ == FlowParameter::frequency) { // (a t + b) e^{iht}: b = -a / (i h w - lambda)
+                const Complex i(0, 1);
+                c = s.plus_slope * e * (time - 1.0 / (i * w - m.rate)) +
+                    s.minus_slope * back * (time - 1.0 / (-i * w - m.rate));
+            }
+            (*change)[j] += c.real();
+            if (m.is_pair) (*change)[j + 1] += c.imag();
+        }
+    }
+}
+
+// What the modes that a piece of this length does not resolve may add to the pairs.
+void ModalPieces::veil(double duration, vector<double> &sum) const {
+    std::fill(sum.begin(), sum.end(), 0.0);
+    const Matrix &reach = modes_->reach();
+    for (std::int64_t k = 0; k < reach.cols(); ++k) {
+        const ContactModes::Mode &m = modes_->modes()[static_cast<std::size_t>(k)];
+        if (m.speed * duration <= longest_turn) continue;
+        const double grows = m.rate.real() > 0 ? std::exp(m.rate.real() * duration) : 1.0,
+                     size = size_[static_cast<std::size_t>(k)] * grows, *row = reach.col(k);
+        for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += row[i] * size;
+    }
+}
+
+bool ModalPieces::allows(double duration) {
+    veil(duration, veil_);
+    for (std::size_t i = 0; i < veil_.size(); ++i) {
+        if (veil_[i] <= tiny_[i])
+            veil_[i] = 0;
+        else if (!(distance_[i] > clear_of_zero * veil_[i]))
+            return false;
+    }
+    return true;
+}
+
+double ModalPieces::expand(double longest) {
+    const std::int64_t z = modes_->gap().rows();
+    distance_.resize(static_cast<std::size_t>(z));
+    tiny_.resize(static_cast<std::size_t>(z));
+    veil_.resize(static_cast<std::size_t>(z));
+    const double size = norm2(modes_->size(), at_now_.data());
+    for (std::int64_t i = 0; i < z; ++i) {
+        double u = -model_.initial_gap()[i], row = 0;
+        for (std::int64_t j = 0; j < modes_->size(); ++j) {
+            u += modes_->gap()(i, j) * at_now_[j];
+            row += modes_->gap()(i, j) * modes_->gap()(i, j);
+        }
+        distance_[i] = std::abs(u);
+        tiny_[i] = eps * (std::abs(model_.initial_gap()[i]) + std::sqrt(row) * size);
+    }
+    size_.clear();
+    for (const ContactModes::Mode &m : modes_->modes()) {
+        const double re = present_[m.first], im = m.is_pair ? present_[m.first + 1] : 0.0;
+        size_.push_back(std::sqrt(re * re + im * im));
+    }
+    double duration = longest;
+    while (!allows(duration)) duration *= 0.5; // at the end all modes are resolved
+    duration_ = duration;
+    resolved_ = std::all_of(veil_.begin(), veil_.end(), [](double v) { return v == 0; });
+    fill_powers(duration);
+    penetration_.reset(z, n_terms_);
+    if (z > 0) gemm('N', 'N', 1.0, modes_->gap(), powers_, 0.0, penetration_);
+    for (std::int64_t i = 0; i < z; ++i) {
+        penetration_(i, 0) -= model_.initial_gap()[i];
+        if (veil_[i] > 0) penetration_(i, 0) -= std::copysign(veil_[i], penetration_(i, 0));
+    }
+    return duration;
+}
+
+// Coordinates as powers of s: the free motion of the modes that are resolved, and all that is steady.
+void ModalPieces::fill_powers(double duration) {
+    double turn = 0;
+    for (const ContactModes::Mode &m : modes_->modes())
+        if (m.speed * duration <= longest_turn) turn = std::max(turn, m.speed * duration);
+    for (const ContactModes::Load &load : modes_->loads())
+        turn = std::max(turn, load.harmonic * omega_ * duration);
+    n_terms_ = std::min(taylor_terms(turn, truncation) + 3, max_polynomial_degree + 1);
+    powers_.reset(modes_->size(), n_terms_);
+    while (static_cast<std::int64_t>(inverse_.size()) < n_terms_)
+        inverse_.push_back(1 / static_cast<double>(inverse_.size() + 1));
+    const auto put = [&](const ContactModes::Mode &m, Complex value, Complex ratio) {
+        double re = value.real(), im = value.imag(), *c = powers_.data() + m.first;
+        for (std::int64_t k = 0; k < n_terms_; ++k, c += powers_.rows()) {
+            c[0] += re;
+            if (m.is_pair) c[1] += im;
+            const double a = ratio.real() * inverse_[k], b = ratio.imag() * inverse_[k], turned = re * a - im * b;
+            im = re * b + im * a;
+            re = turned;
+        }
+    };
+    for (std::size_t j = 0; j < constant_.size(); ++j) powers_.data()[j] = constant_[j];
+    for (std::size_t k = 0; k < modes_->modes().size(); ++k) {
+        const ContactModes::Mode &m = modes_->modes()[k];
+        if (m.speed * duration <= longest_turn)
+            put(m, Complex(present_[m.first], m.is_pair ? present_[m.first + 1] : 0.0), m.rate * duration);
+        for (std::size_t l = 0; l < steady_.size(); ++l) {
+            if (steady_[l].empty()) continue;
+            const double w = modes_->loads()[l].harmonic * omega_;
+            const Complex e = std::polar(1.0, w * now_);
+            put(m, force_scale_ * steady_[l][k].plus * e, Complex(0, w * duration));
+            put(m, force_scale_ * steady_[l][k].minus * std::conj(e), Complex(0, -w * duration));
+        }
+    }
+}
+
+const Matrix &ModalPieces::coefficient() {
+    coefficient_ = product('N', 'N', modes_->displacement(), powers_);
+    keep_fast();
+    return coefficient_;
+}
+
+void ModalPieces::keep_fast() {
+    fast_.rate.clear();
+    const Matrix &rows = modes_->displacement();
+    const double size = norm2(modes_->size(), at_now_.data());
+    std::vector<const ContactModes::Mode *> kept;
+    for (const ContactModes::Mode &m : modes_->modes()) {
+        if (m.speed * duration_ <= longest_turn) continue;
+        const double *z = present_.data() + m.first;
+        if (std::sqrt(z[0] * z[0] + (m.is_pair ? z[1] * z[1] : 0.0)) > eps * size) kept.push_back(&m);
+    }
+    fast_.cosine.reset(rows.rows(), static_cast<std::int64_t>(kept.size()));
+    fast_.sine.reset(rows.rows(), static_cast<std::int64_t>(kept.size()));
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+        const ContactModes::Mode &m = *kept[k];
+        fast_.rate.push_back(m.rate);
+        const double re = present_[m.first], im = m.is_pair ? present_[m.first + 1] : 0;
+        for (std::int64_t j = 0; j < rows.rows(); ++j) { // columns Re v and -Im v
+            const double a = rows(j, m.first), b = m.is_pair ? -rows(j, m.first + 1) : 0;
+            fast_.cosine(j, static_cast<std::int64_t>(k)) = a * re - b * im;
+            fast_.sine(j, static_cast<std::int64_t>(k)) = a * im + b * re;
+        }
+    }
+}
+
+void ModalPieces::advance(double duration, FlowState &state, FlowState &change) {
+    now_ += duration;
+    const bool changes = parameter_ != FlowParameter::none;
+    vector<double> changed(changes ? free_.size() : 0), changed_free = changed_free_;
+    steady_at(now_, at_now_, changes ? &changed : nullptr);
+    for (const ContactModes::Mode &m : modes_->modes()) {
+        const Complex factor = std::exp(m.rate * (now_ - start_));
+        const std::size_t j = static_cast<std::size_t>(m.first);
+        const auto turn = [&](const vector<double> &from, vector<double> &to) {
+            const Complex z = factor * Complex(from[j], m.is_pair ? from[j + 1] : 0.0);
+            to[j] = z.real();
+            if (m.is_pair) to[j + 1] = z.imag();
+        };
+        turn(free_, present_);
+        if (changes) turn(changed_free_, changed_free);
+    }
+    for (std::size_t j = 0; j < at_now_.size(); ++j) {
+        at_now_[j] += present_[j];
+        if (changes) changed[j] += changed_free[j];
+    }
+    modes_->to_state(at_now_.data(), state.y.data(), state.v.data());
+    state.time = now_;
+    if (!changes) return;
+    modes_->to_state(changed.data(), change.y.data(), change.v.data());
+    change.time = now_;
+}
+
+} // namespace plm

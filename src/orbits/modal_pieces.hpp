@@ -1,0 +1,66 @@
+// Pieces of a flow in the modes of its contact set. A piece is as long as the slow modes allow whose motion
+// its polynomials describe; the free motion of the fast ones is known by its exponentials, and as long as it
+// is too small to bring a pair to zero nothing has to resolve it.
+#pragma once
+#include "orbits/contact_modes.hpp"
+#include "orbits/flow_piece.hpp"
+
+namespace plm {
+
+class ModalPieces {
+  public:
+    ModalPieces(const FlowModel &model, double omega, double force_scale, FlowParameter parameter)
+        : model_(model), omega_(omega), force_scale_(force_scale), parameter_(parameter) {}
+
+    /// Goes on from a state (and its change) in the linear system of these modes. False: a load is in
+    /// resonance with one of them, by which would be divided.
+    bool enter(const ContactModes &modes, const FlowState &state, const FlowState &change);
+    bool inside() const { return modes_ != nullptr; }
+    void leave() { modes_ = nullptr; }
+
+    /// Polynomials over the longest piece, no longer than `longest`, that the pairs' distances from zero
+    /// allow; its length.
+    double expand(double longest);
+    /// Penetrations without the fast modes, each nearer to zero by all that these may add; Z x terms.
+    const Matrix &penetration() const { return penetration_; }
+    /// Whether fast modes act on a pair: its zero is then not an event, but as far as the piece goes.
+    bool is_veiled(std::int64_t pair) const { return veil_[static_cast<std::size_t>(pair)] > 0; }
+    bool is_resolved() const { return resolved_; } // no pair is
+    /// Displacements as polynomials, n x terms, and what the fast modes add.
+    const Matrix &coefficient();
+    const FastMotion &fast() const { return fast_; }
+    /// To `duration` beyond the beginning of the last piece.
+    void advance(double duration, FlowState &state, FlowState &change);
+
+  private:
+    using Complex = std::complex<double>;
+    // Response of one mode to one load: (plus (t) e^{iht} + minus (t) e^{-iht}), linear in t for the change.
+    struct Steady {
+        Complex plus, minus, plus_slope, minus_slope;
+    };
+    bool set_steady();
+    void steady_at(double time, vector<double> &motion, vector<double> *change) const;
+    void veil(double duration, vector<double> &sum) const;
+    bool allows(double duration);
+    void fill_powers(double duration);
+    void keep_fast();
+
+    const FlowModel &model_;
+    double omega_, force_scale_;
+    FlowParameter parameter_;
+    const ContactModes *modes_ = nullptr;
+    double start_ = 0, now_ = 0; // of the stay in the set; of the last piece
+    vector<double> constant_, changed_constant_; // c, steady under the constant loads
+    std::vector<std::vector<Steady>> steady_;    // by load and mode
+    vector<double> free_, changed_free_;         // free part of c at start_
+    vector<double> present_, at_now_;            // free part at now_; c there
+    vector<double> veil_, distance_, tiny_;      // of the pairs
+    vector<double> size_, inverse_;              // |z| of the modes; 1, 1/2, 1/3, ...
+    Matrix powers_, penetration_, coefficient_;
+    FastMotion fast_;
+    double duration_ = 0;
+    std::int64_t n_terms_ = 0;
+    bool resolved_ = true;
+};
+
+} // namespace plm

@@ -1,0 +1,100 @@
+#include "orbits/orbit_equations.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+OrbitEquations::OrbitEquations(std::shared_ptr<const FlowModel> model, FlowState rest,
+                               const OrbitConditions &conditions, FlowParameter parameter, Watch watch)
+    : model_(std::move(model)), rest_(std::move(rest)), conditions_(conditions), parameter_(parameter),
+      watch_(watch), modes_(std::make_shared<ContactModesKept>(model_)), weight_(size()), x_(size()),
+      end_(size()), change_(size()) {
+    const std::int64_t moving = model_->n_moving();
+    for (std::int64_t j = 0; j < moving; ++j)
+        weight_[j] =
+            std::sqrt(model_->lambda()[j] + model_->mass(j) * conditions_.omega * conditions_.omega);
+    std::fill(weight_.begin() + moving, weight_.end(), 1.0);
+}
+
+OrbitConditions OrbitEquations::conditions(double p) const {
+    OrbitConditions now = conditions_;
+    (parameter_ == FlowParameter::force_scale ? now.force_scale : now.omega) = p;
+    return now;
+}
+
+FlowState OrbitEquations::state(const double *x) const {
+    FlowState state = rest_;
+    state.time = 0;
+    const std::int64_t moving = model_->n_moving();
+    for (std::int64_t j = 0; j < moving; ++j) state.y[j] += x[j] / weight_[j];
+    for (std::int64_t j = 0; j < model_->n_massive(); ++j) state.v[j] += x[moving + j];
+    return state;
+}
+
+vector<double> OrbitEquations::unknowns(const FlowState &state) const {
+    const std::int64_t moving = model_->n_moving();
+    vector<double> x(size());
+    for (std::int64_t j = 0; j < moving; ++j) x[j] = (state.y[j] - rest_.y[j]) * weight_[j];
+    for (std::int64_t j = 0; j < model_->n_massive(); ++j) x[moving + j] = state.v[j] - rest_.v[j];
+    return x;
+}
+
+// By the frequency at a fixed phase: ExactFlow::differentiate().
+void OrbitEquations::run(const double *x, double p) {
+    if (known_ && p == p_ && std::equal(x_.begin(), x_.end(), x)) return;
+    std::copy_n(x, size(), x_.begin());
+    p_ = p;
+    known_ = true;
+    failed_ = false;
+    ++n_runs_;
+    const OrbitConditions now = conditions(p);
+    try {
+        ExactFlow flow(model_, now.omega, now.force_scale, watch_, modes_);
+        flow.differentiate(parameter_);
+        FlowState state = this->state(x);
+        ContactHistory recorder;
+        const double duration = static_cast<double>(now.period_multiple) * flow.period();
+        flow.advance(state, duration, &recorder);
+        intervals_ = recorder.intervals();
+        end_ = unknowns(state);
+        const double back = parameter_ == FlowParameter::frequency ? duration / now.omega : 0;
+        const std::int64_t moving = model_->n_moving();
+        const vector<double> acceleration = flow.acceleration(state);
+        for (std::int64_t j = 0; j < moving; ++j)
+            change_[j] = (flow.change().y[j] - back * state.v[j]) * weight_[j];
+        for (std::int64_t j = 0; j < model_->n_massive(); ++j)
+            change_[moving + j] = flow.change().v[j] - back * acceleration[j];
+        size_ = norm2(size(), end_.data());
+    } catch (const Error &e) { // chatter, overflow: no motion from here
+        if (e.status() != PLM_ERR_CONVERGENCE && e.status() != PLM_ERR_ARGUMENT) throw;
+        failed_ = true;
+    }
+}
+
+void OrbitEquations::residual(const double *x, double p, double *r) {
+    run(x, p);
+    for (std::int64_t i = 0; i < size(); ++i) r[i] = failed_ ? NAN : end_[i] - x[i];
+}
+
+void OrbitEquations::linearize() {
+    const std::int64_t n = size();
+    Matrix a(n, n);
+    for (std::int64_t j = 0; j < n; ++j) a(j, j) = 1;
+    if (!failed_) {
+        monodromy_ = plm::monodromy(*model_, intervals_, 1e-15, watch_, modes_.get());
+        for (std::int64_t j = 0; j < n; ++j)
+            for (std::int64_t i = 0; i < n; ++i) monodromy_(i, j) *= weight_[i] / weight_[j];
+        for (std::int64_t j = 0; j < n; ++j)
+            for (std::int64_t i = 0; i < n; ++i) a(i, j) = monodromy_(i, j) - a(i, j);
+    }
+    lu_.factor(a);
+}
+
+void OrbitEquations::solve(double *b, std::int64_t n) {
+    if (std::all_of(b, b + n * size(), [](double v) { return std::isfinite(v); })) lu_.solve(b, n, size());
+}
+
+void OrbitEquations::parameter_derivative(double *r) {
+    std::copy(change_.begin(), change_.end(), r);
+}
+
+} // namespace plm

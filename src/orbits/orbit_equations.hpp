@@ -1,0 +1,69 @@
+// Periodic motions of the exact flow as equations: x, the state at the beginning of the excitation's period,
+// comes back after one period of the response. No harmonics are cut off; the tangent matrix is that of the
+// monodromy, so the multipliers of a solution come with it.
+#pragma once
+#include "linalg/lapack.hpp"
+#include "orbits/exact_flow.hpp"
+#include "paths/residual.hpp"
+#include <optional>
+
+namespace plm {
+
+/// The state over the parameters of a periodic motion.
+struct OrbitConditions {
+    double omega = 0; // rad/s, of the excitation; the unknowns' scale where the path's parameter replaces it
+    double force_scale = 1;
+    std::int64_t period_multiple = 1;
+};
+
+class OrbitEquations final : public Residual {
+  public:
+    /// The path's parameter: the frequency (rad/s, of the excitation) or the force scale. Unknowns count from
+    /// `rest`, displacements by the root of lambda + omega^2, so that |x|^2 is an energy. Structural damping
+    /// depends on the frequency: such a model serves at one frequency only.
+    OrbitEquations(std::shared_ptr<const FlowModel> model, FlowState rest, const OrbitConditions &conditions,
+                   FlowParameter parameter, Watch watch);
+
+    std::int64_t size() const override { return model_->state_size(); }
+    void residual(const double *x, double p, double *r) override;
+    void linearize() override;
+    void solve(double *b, std::int64_t n) override;
+    int determinant_sign() const override { return lu_.determinant_sign(); }
+    void parameter_derivative(double *r) override;
+    double residual_scale() const override { return size_; }
+    bool is_cheap_to_linearize() const override { return true; } // beside a run of the flow
+    std::int64_t piece() const override { return static_cast<std::int64_t>(intervals_.size()); }
+
+    const FlowModel &model() const { return *model_; }
+    const std::shared_ptr<const FlowModel> &shared_model() const { return model_; }
+    FlowState state(const double *x) const;
+    vector<double> unknowns(const FlowState &state) const;
+    const std::shared_ptr<ContactModesKept> &modes() const { return modes_; }
+    /// Of a value of the path's parameter.
+    OrbitConditions conditions(double p) const;
+    /// Of the last linearize(): d(state at the end) / d(state at the beginning), in the unknowns.
+    const Matrix &monodromy() const { return monodromy_; }
+    /// Contact of the last residual(), from the beginning of the period.
+    const std::vector<ContactInterval> &intervals() const { return intervals_; }
+    /// Runs of the flow so far, and pieces of them.
+    std::int64_t n_runs() const { return n_runs_; }
+
+  private:
+    void run(const double *x, double p);
+
+    std::shared_ptr<const FlowModel> model_;
+    FlowState rest_;
+    OrbitConditions conditions_;
+    FlowParameter parameter_;
+    Watch watch_;
+    std::shared_ptr<ContactModesKept> modes_;
+    vector<double> weight_, x_, end_, change_; // of the unknowns; the last run: from, to, and by the parameter
+    double p_ = 0, size_ = 0;
+    bool known_ = false, failed_ = false;
+    std::vector<ContactInterval> intervals_;
+    Matrix monodromy_;
+    RealLu lu_;
+    std::int64_t n_runs_ = 0;
+};
+
+} // namespace plm

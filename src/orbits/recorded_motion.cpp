@@ -1,0 +1,231 @@
+#include "orbits/recorded_motion.hpp"
+#include "contact/polynomial.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+using Complex = std::complex<double>;
+
+// m_k = integral of s^k exp(-i a s) over [0, 1], k = 0 .. degree. By parts, m_k = (k m_(k-1) - exp(-i a)) /
+// (i a): forward as long as k < a, from beyond the degree backward for the rest, so that errors shrink.
+void moments(double a, std::int64_t degree, vector<Complex> &m) {
+    constexpr std::int64_t run_up = 60; // the guess at its far end is forgotten like a^k / k!
+    const double real = std::cos(a), imag = -std::sin(a), inverse = 1 / a; // exp(-i a)
+    const std::int64_t turn = a > static_cast<double>(degree) ? degree + 1 : static_cast<std::int64_t>(a);
+    m.resize(static_cast<std::size_t>(degree + 1));
+    double re = -imag * inverse, im = (real - 1) * inverse; // m_0 = i (exp(-i a) - 1) / a
+    for (std::int64_t k = 0; k < turn; ++k) {
+        if (k > 0) { // (x + i y) / (i a) = (y - i x) / a
+            const double x = static_cast<double>(k) * re - real, y = static_cast<double>(k) * im - imag;
+            re = y * inverse, im = -x * inverse;
+        }
+        m[k] = {re, im};
+    }
+    if (turn > degree) return;
+    const double far = static_cast<double>(degree + run_up + 1);
+    re = real / far, im = imag / far;
+    for (std::int64_t k = degree + run_up;; --k) { // m_(k-1) = (i a m_k + exp(-i a)) / k
+        if (k <= degree) m[k] = {re, im};
+        if (k == turn) return;
+        const double share = 1 / static_cast<double>(k), x = (real - a * im) * share;
+        im = (imag + a * re) * share;
+        re = x;
+    }
+}
+
+// Integral of exp(rate t) over [0, duration].
+Complex growth(Complex rate, double duration) {
+    return (std::exp(rate * duration) - 1.0) / rate;
+}
+
+struct FastTerm {
+    Complex rate, size; // Re(size exp(rate t)), t in s from the beginning of the piece
+};
+using FastRow = std::vector<FastTerm>;
+
+// p(a + (b - a) s) by repeated Horner steps.
+vector<double> polynomial_between(const vector<double> &c, double a, double b) {
+    vector<double> out(c);
+    const std::size_t n = out.size();
+    for (std::size_t i = 0; i + 1 < n; ++i)
+        for (std::size_t k = n - 1; k-- > i;) out[k] += a * out[k + 1];
+    double scale = 1;
+    for (double &v : out) v *= scale, scale *= b - a;
+    return out;
+}
+
+constexpr double resolved_turn = 3.0; // rad of a fast motion that the added powers describe
+constexpr std::size_t resolved_terms = 32;
+
+void widen_between(const vector<double> &slow, const FastRow &fast, double duration, double a, double b,
+                   MotionRange &range) {
+    double most = 0, turn = 0;
+    for (const FastTerm &f : fast) {
+        most += std::abs(f.size) * std::exp(f.rate.real() * (f.rate.real() > 0 ? b : a) * duration);
+        turn = std::max(turn, std::abs(f.rate) * (b - a) * duration);
+    }
+    vector<double> p = a == 0 && b == 1 ? slow : polynomial_between(slow, a, b);
+    double reach = most;
+    for (std::size_t k = 1; k < p.size(); ++k) reach += std::abs(p[k]);
+    if (p[0] + reach <= range.maximum && p[0] - reach >= range.minimum) return;
+    if (fast.empty() || turn <= resolved_turn) {
+        p.resize(std::max(p.size(), fast.empty() ? p.size() : resolved_terms), 0.0);
+        for (const FastTerm &f : fast) {
+            Complex term = f.size * std::exp(f.rate * (a * duration));
+            for (std::size_t k = 0; k < resolved_terms; ++k) {
+                p[k] += term.real();
+                term *= f.rate * ((b - a) * duration) / static_cast<double>(k + 1);
+            }
+        }
+        widen_range(p.data(), static_cast<std::int64_t>(p.size()) - 1, range.minimum, range.maximum);
+        return;
+    }
+    MotionRange bare = range; // of the slow part: if it stays this far inside, the fast one changes nothing
+    bare.maximum -= most, bare.minimum += most;
+    const MotionRange before = bare;
+    widen_range(p.data(), static_cast<std::int64_t>(p.size()) - 1, bare.minimum, bare.maximum);
+    if (bare.maximum <= before.maximum && bare.minimum >= before.minimum) return;
+    const double middle = 0.5 * (a + b);
+    widen_between(slow, fast, duration, a, middle, range);
+    widen_between(slow, fast, duration, middle, b, range);
+}
+
+} // namespace
+
+void RecordedMotion::record(const FlowPiece &piece) {
+    pieces_.push_back({duration_, piece.duration, piece.coefficient, piece.states,
+                       piece.fast ? *piece.fast : FastMotion()});
+    duration_ += piece.duration;
+}
+
+vector<double> RecordedMotion::mean() const {
+    vector<double> sum(pieces_.empty() ? 0 : pieces_[0].coefficient.rows(), 0.0);
+    for (const Piece &p : pieces_)
+        for (std::int64_t k = 0; k < p.coefficient.cols(); ++k) {
+            const double share = p.duration / duration_ / static_cast<double>(k + 1);
+            for (std::size_t j = 0; j < sum.size(); ++j) sum[j] += share * p.coefficient.col(k)[j];
+        }
+    for (const Piece &p : pieces_)
+        for (std::size_t k = 0; k < p.fast.rate.size(); ++k) {
+            const Complex w = growth(p.fast.rate[k], p.duration) / duration_;
+            const std::int64_t column = static_cast<std::int64_t>(k);
+            for (std::size_t j = 0; j < sum.size(); ++j)
+                sum[j] += (w * Complex(p.fast.cosine.col(column)[j], p.fast.sine.col(column)[j])).real();
+        }
+    return sum;
+}
+
+double RecordedMotion::mean_square(const Matrix &a) const {
+    vector<double> mean = this->mean(), part;
+    double sum = 0;
+    for (const Piece &p : pieces_) {
+        Matrix c = p.coefficient;
+        for (std::size_t j = 0; j < mean.size(); ++j) c.col(0)[j] -= mean[j];
+        if (a.cols() > 0) c = product('N', 'N', a, c);
+        const Matrix inner = product('T', 'N', c, c); // of the powers
+        double square = 0;
+        for (std::int64_t k = 0; k < inner.cols(); ++k)
+            for (std::int64_t i = 0; i < inner.rows(); ++i)
+                square += inner(i, k) / static_cast<double>(i + k + 1);
+        sum += square * p.duration / duration_;
+    }
+    return std::max(sum, 0.0);
+}
+
+Matrix RecordedMotion::harmonics(std::int64_t first, std::int64_t count) const {
+    const std::int64_t n = pieces_.empty() ? 0 : pieces_[0].coefficient.rows();
+    Matrix found(n, 2 * count), weight;
+    vector<Complex> m;
+    for (const Piece &p : pieces_) {
+        const std::int64_t terms = p.coefficient.cols();
+        weight.reset(terms, 2 * count);
+        for (std::int64_t h = 0; h < count; ++h) {
+            const double per_time = 2 * M_PI * static_cast<double>(first + h) / duration_;
+            moments(per_time * p.duration, terms - 1, m);
+            const Complex phase = std::polar(2 * p.duration / duration_, -per_time * p.start);
+            for (std::int64_t k = 0; k < terms; ++k) {
+                const Complex w = phase * m[k]; // y = Re(Y exp(i h w t)): a = Re Y, b = -Im Y
+                weight(k, 2 * h) = w.real();
+                weight(k, 2 * h + 1) = -w.imag();
+            }
+        }
+        gemm('N', 'N', 1.0, p.coefficient, weight, 1.0, found);
+        for (std::size_t k = 0; k < p.fast.rate.size(); ++k) add_fast(p, k, first, found);
+    }
+    return found;
+}
+
+// y = Re(q exp(rate t)) = (q exp(rate t) + its conjugate) / 2.
+void RecordedMotion::add_fast(const Piece &p, std::size_t k, std::int64_t first, Matrix &found) const {
+    const std::int64_t column = static_cast<std::int64_t>(k);
+    for (std::int64_t h = 0; 2 * h < found.cols(); ++h) {
+        const double per_time = 2 * M_PI * static_cast<double>(first + h) / duration_;
+        const Complex turn(0, per_time), phase = std::polar(1 / duration_, -per_time * p.start),
+                                         w = phase * growth(p.fast.rate[k] - turn, p.duration),
+                                         back = phase * growth(std::conj(p.fast.rate[k]) - turn, p.duration);
+        for (std::int64_t j = 0; j < found.rows(); ++j) {
+            const Complex q(p.fast.cosine(j, column), p.fast.sine(j, column)), y = w * q + back * std::conj(q);
+            found(j, 2 * h) += y.real();
+            found(j, 2 * h + 1) -= y.imag();
+        }
+    }
+}
+
+// Where what is fast might raise or lower an extremum, the piece is halved until a polynomial describes it,
+// too.
+void RecordedMotion::widen_by_piece(const Piece &piece, const double *row, MotionRange &range) {
+    const std::int64_t n = piece.coefficient.rows(), degree = piece.coefficient.cols() - 1;
+    vector<double> slow(static_cast<std::size_t>(degree + 1), 0.0);
+    gemv('T', 1.0, piece.coefficient, row, 0.0, slow.data());
+    FastRow fast;
+    for (std::size_t k = 0; k < piece.fast.rate.size(); ++k) {
+        const std::int64_t column = static_cast<std::int64_t>(k);
+        fast.push_back({piece.fast.rate[k],
+                        {dot(n, row, piece.fast.cosine.col(column)), dot(n, row, piece.fast.sine.col(column))}});
+    }
+    widen_between(slow, fast, piece.duration, 0.0, 1.0, range);
+}
+
+std::vector<MotionRange> RecordedMotion::ranges(const Matrix &rows) const {
+    std::vector<MotionRange> out(static_cast<std::size_t>(rows.rows()), {INFINITY, -INFINITY});
+    const Matrix by_row = rows.transposed();
+    for (const Piece &p : pieces_)
+        for (std::int64_t i = 0; i < rows.rows(); ++i)
+            widen_by_piece(p, by_row.col(i), out[static_cast<std::size_t>(i)]);
+    return out;
+}
+
+vector<double> RecordedMotion::closed_shares() const {
+    vector<double> share(pieces_.empty() ? 0 : pieces_[0].states.size(), 0.0);
+    for (const Piece &p : pieces_)
+        for (std::size_t i = 0; i < share.size(); ++i)
+            if (p.states.is_closed(static_cast<std::int64_t>(i))) share[i] += p.duration / duration_;
+    return share;
+}
+
+std::int64_t RecordedMotion::n_switching() const {
+    std::int64_t n = 0;
+    const std::int64_t pairs = pieces_.empty() ? 0 : pieces_[0].states.size();
+    for (std::int64_t i = 0; i < pairs; ++i)
+        n += std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece &p) {
+            return p.states.is_closed(i) != pieces_[0].states.is_closed(i);
+        });
+    return n;
+}
+
+vector<double> orbit_peaks(ExactFlow &flow, const FlowState &start, std::int64_t period_multiple,
+                           const Matrix &rows) {
+    if (rows.cols() != flow.model().size())
+        throw Error(PLM_ERR_ARGUMENT, "the rows do not fit the coordinates of the flow").argument("rows");
+    RecordedMotion motion;
+    FlowState state = start;
+    flow.advance(state, state.time + static_cast<double>(period_multiple) * flow.period(), &motion);
+    vector<double> peaks;
+    for (const MotionRange &range : motion.ranges(rows))
+        peaks.push_back(std::max(std::abs(range.minimum), std::abs(range.maximum)));
+    return peaks;
+}
+
+} // namespace plm

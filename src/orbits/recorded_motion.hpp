@@ -1,0 +1,49 @@
+// One period of an exact motion, kept piece by piece: its extrema, its Fourier coefficients and its contact
+// follow from the pieces without sampling.
+#pragma once
+#include "orbits/exact_flow.hpp"
+
+namespace plm {
+
+struct MotionRange {
+    double minimum, maximum;
+};
+
+class RecordedMotion final : public FlowRecorder {
+  public:
+    void record(const FlowPiece &piece) override;
+    bool only_polynomials() const override { return false; }
+
+    double duration() const { return duration_; }
+    /// Mean of the coordinates, n.
+    vector<double> mean() const;
+    /// Mean of |a y|^2 over the motion less that of its mean, without what is fast; a: rows x n, empty: the
+    /// identity.
+    double mean_square(const Matrix &a = Matrix()) const;
+    /// Harmonics [first, first + count) of the motion as one period: n x 2 count, columns a_h, b_h.
+    Matrix harmonics(std::int64_t first, std::int64_t count) const;
+    /// Extrema of row . y for every row of a matrix (rows x n).
+    std::vector<MotionRange> ranges(const Matrix &rows) const;
+    /// Share of the motion during which each pair is closed, and the number of pairs that are not always or
+    /// never so.
+    vector<double> closed_shares() const;
+    std::int64_t n_switching() const;
+
+  private:
+    struct Piece {
+        double start, duration;
+        Matrix coefficient;
+        PairStates states;
+        FastMotion fast;
+    };
+    void add_fast(const Piece &piece, std::size_t mode, std::int64_t first, Matrix &found) const;
+    static void widen_by_piece(const Piece &piece, const double *row, MotionRange &range);
+    std::vector<Piece> pieces_;
+    double duration_ = 0;
+};
+
+/// max |row . y| over one period of the response for each row of `rows` (k x n; see FlowModel::dof_row).
+vector<double> orbit_peaks(ExactFlow &flow, const FlowState &start, std::int64_t period_multiple,
+                           const Matrix &rows);
+
+} // namespace plm

@@ -1,0 +1,19 @@
+// The reduced model in which the static directions are free to move: P_0 in the place of P, too. A flow has
+// one set of coordinates, and so have exact motions.
+#pragma once
+#include "reduction/reduced_model.hpp"
+
+namespace plm {
+
+/// `reduced` itself where P_0 = P; otherwise made when first asked for and kept with it. Rayleigh damping and
+/// an explicit C are projected; modal damping, known on P only, is continued by its largest value.
+std::shared_ptr<const ReducedModel> widened(const std::shared_ptr<const ReducedModel> &reduced);
+
+/// The last n coordinates, without mass and without damping of their own, have none with others either, where
+/// the damping takes energy at all: their rows and columns of c become zero.
+void clear_massless(std::int64_t n, Matrix &c);
+
+/// Of one basis: one is the other, or the other widened.
+bool of_one_basis(const std::shared_ptr<const ReducedModel> &a, const std::shared_ptr<const ReducedModel> &b);
+
+} // namespace plm

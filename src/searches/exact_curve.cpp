@@ -1,0 +1,94 @@
+#include "searches/exact_curve.hpp"
+#include "hbm/branch_path.hpp"
+#include "orbits/shooting.hpp"
+#include "searches/orbit_points.hpp"
+#include "searches/stability.hpp"
+
+namespace plm {
+namespace {
+
+class ExactTracer final : public PathOwner {
+  public:
+    ExactTracer(const HbmOptions &options, Watch watch, Branch &branch, double omega)
+        : options_(options), watch_(watch), branch_(branch),
+          equations_(orbit_equations(branch.reduced_model(), options, omega, FlowParameter::frequency, watch)) {}
+
+    void run(const CurveStart &start) {
+        branch_.unknowns_used = "state";
+        PathOptions limits = path_options(options_, 2 * M_PI * options_.frequency_min_hz,
+                                          2 * M_PI * options_.frequency_max_hz);
+        limits.upward = options_.upward;
+        limits.initial_step = options_.initial_step;
+        limits.locate = options_.bifurcations;
+        try {
+            take_outcome(follow_path(equations_, limits, first(start), *this), branch_);
+        } catch (const Error &e) { // stopped in the middle of a point: those found so far stay valid
+            if (e.status() != PLM_CANCELLED || branch_.points().empty()) throw;
+            branch_.end_reason = PLM_REASON_CANCELLED;
+        }
+    }
+
+    void record(const PathPoint &p) override {
+        BranchPoint point = orbit_point(equations_, options_, {p.x, p.parameter});
+        point.arclength = p.arclength;
+        point.bifurcation = p.bifurcation;
+        point.residual = p.residual;
+        point.iterations = p.iterations;
+        point.multipliers = multipliers(equations_.monodromy());
+        branch_.append(std::move(point));
+    }
+
+    bool cancelled(double fraction) override { return watch_.cancelled("sweep", fraction); }
+
+    // By marching: to a stable motion, where there is one.
+    bool rescue(double omega, vector<double> &x) override {
+        try {
+            ExactFlow flow(equations_.shared_model(), omega, options_.force_scale, watch_);
+            ShootingOptions shooting;
+            shooting.period_multiple = options_.period_multiple;
+            const PeriodicOrbit orbit = periodic_orbit(flow, equations_.state(x.data()), shooting);
+            if (!orbit.converged) return false;
+            x = equations_.unknowns(orbit.state);
+            return newton_at(equations_, newton_limits(options_), x, omega).converged;
+        } catch (const Error &e) { // chatter
+            if (e.status() != PLM_ERR_CONVERGENCE) throw;
+            return false;
+        }
+    }
+
+    vector<std::int32_t> test_kinds() const override {
+        return {PLM_BIFURCATION_PERIOD_DOUBLING, PLM_BIFURCATION_NEIMARK_SACKER};
+    }
+
+    void test(const vector<double> &, double, vector<double> &values) override {
+        values = bifurcation_tests(multipliers(equations_.monodromy()));
+    }
+
+  private:
+    PathStart first(const CurveStart &start) const {
+        PathStart path;
+        path.at = state_of(start.point);
+        path.residual = start.point.residual;
+        if (start.towards.empty()) return path;
+        path.direction = difference(state_of(start.towards[0]), path.at);
+        if (start.away) scale_by(-1, path.direction);
+        return path;
+    }
+
+    PathState state_of(const BranchPoint &point) const {
+        return {orbit_unknowns(equations_, point, options_.period_multiple), point.omega};
+    }
+
+    const HbmOptions options_;
+    Watch watch_;
+    Branch &branch_;
+    OrbitEquations equations_;
+};
+
+} // namespace
+
+void trace_exact_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch) {
+    ExactTracer(options, watch, branch, start.point.omega).run(start);
+}
+
+} // namespace plm

@@ -1,0 +1,273 @@
+#include "searches/orbit_points.hpp"
+#include "hbm/branch_path.hpp"
+#include "hbm/free_motion.hpp"
+#include "orbits/recorded_motion.hpp"
+#include "orbits/shooting.hpp"
+#include "reduction/reduced_rest.hpp"
+#include "reduction/widened_model.hpp"
+#include "searches/harmonic_choice.hpp"
+#include "searches/start.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+constexpr double of_tolerance = 0.1; // what the coefficients of an exact motion may leave out; at the gaps,
+constexpr double at_gaps_more = 20;  // whose local motion hardly acts back, this many times more
+constexpr std::int64_t harmonics_at_once = 8;
+
+double fastest_rate(const ReducedModel &m) {
+    auto model = std::make_shared<const FlowModel>(std::make_shared<const ReducedModel>(m), 1.0);
+    ContactSet stiffest(*model);
+    stiffest.assign_stiffest();
+    return stiffest.rate();
+}
+
+// A step of Newton's method for an exact motion, in flops: every pair switches a few times in a period, and each
+// event costs a product with the propagator of its contact set, now and then the modes of a new one, and some
+// pieces of the flow. Without mass somewhere, the pieces are as short as the fastest motion.
+double exact_step_flops(const ReducedModel &m, const HbmOptions &o) {
+    constexpr double events_per_pair = 3, pieces_per_event = 5, terms = 30;
+    const double n = static_cast<double>(m.size()), z = static_cast<double>(m.n_pairs()),
+                 events = events_per_pair * z * static_cast<double>(o.period_multiple),
+                 per_event = 100 * n * n * n, per_piece = 4 * terms * n * (n + z);
+    double pieces = pieces_per_event * events;
+    if (m.n_massless > 0) {
+        const double omega = M_PI * (o.frequency_min_hz + o.frequency_max_hz);
+        pieces += fastest_rate(m) * M_PI / omega * static_cast<double>(o.period_multiple);
+    }
+    return events * per_event + pieces * per_piece;
+}
+
+// The same of harmonic balance with as many harmonics as most points ask for.
+double harmonic_step_flops(const ReducedModel &m) {
+    constexpr double usual_harmonics = 8;
+    const double unknowns = static_cast<double>(std::min(m.size(), m.n_pairs())) * (2 * usual_harmonics + 1);
+    return 2.0 / 3 * unknowns * unknowns * unknowns;
+}
+constexpr double cheap_step = 5e7; // a curve takes seconds
+
+class OrbitMotion final : public PointMotion {
+  public:
+    OrbitMotion(std::shared_ptr<const FlowModel> model, std::shared_ptr<ContactModesKept> modes,
+                FlowState start, const OrbitConditions &conditions, vector<double> closed_shares)
+        : model_(std::move(model)), modes_(std::move(modes)), start_(std::move(start)), conditions_(conditions),
+          closed_shares_(std::move(closed_shares)) {}
+
+    const FlowState &start() const { return start_; }
+
+    TrigRange range(std::int64_t dof) const override {
+        if (dof != known_dof_) {
+            RecordedMotion motion;
+            run(1, &motion);
+            const vector<double> row = model_->dof_row(dof);
+            Matrix rows(1, model_->size());
+            std::copy(row.begin(), row.end(), rows.data());
+            const MotionRange found = motion.ranges(rows)[0];
+            known_range_ = {found.minimum, found.maximum};
+            known_dof_ = dof;
+        }
+        return known_range_;
+    }
+
+    vector<double> displacement(double fraction) const override {
+        return model_->in_static_coordinates(run(fraction - std::floor(fraction), nullptr).y);
+    }
+
+    const vector<double> &closed_shares() const override { return closed_shares_; }
+
+  private:
+    FlowState run(double periods, FlowRecorder *recorder) const {
+        ExactFlow flow(model_, conditions_.omega, conditions_.force_scale, Watch(), modes_);
+        FlowState state = start_;
+        flow.advance(state, periods * static_cast<double>(conditions_.period_multiple) * flow.period(),
+                     recorder);
+        return state;
+    }
+
+    std::shared_ptr<const FlowModel> model_;
+    std::shared_ptr<ContactModesKept> modes_;
+    FlowState start_;
+    OrbitConditions conditions_;
+    vector<double> closed_shares_;
+    mutable std::int64_t known_dof_ = -1; // of the last range(): curves are asked for one DOF at a time
+    mutable TrigRange known_range_ = {};
+};
+
+// Mean and harmonics in the coordinates of the basis.
+void put_harmonics(const FlowModel &model, const RecordedMotion &motion, const HbmOptions &options,
+                   BranchPoint &point) {
+    point.eta_0 = model.in_static_coordinates(motion.mean());
+    const double whole = motion.mean_square(), at_gaps = motion.mean_square(model.gap());
+    const double allowed = of_tolerance * options.harmonic_tolerance, allowed_at_gaps = at_gaps_more * allowed;
+    const std::int64_t fewest = few_harmonics(model.reduced()) * options.period_multiple,
+                       most = std::max(fewest, options.max_harmonics * options.period_multiple);
+    double left = whole, left_at_gaps = at_gaps;
+    Matrix eta;
+    while (eta.cols() < 2 * most && (eta.cols() < 2 * fewest || left > allowed * allowed * whole ||
+                                     left_at_gaps > allowed_at_gaps * allowed_at_gaps * at_gaps)) {
+        const std::int64_t known = eta.cols() / 2,
+                           more = std::min(most - known, std::max(fewest, harmonics_at_once));
+        const Matrix next = motion.harmonics(known + 1, more),
+                     gaps = product('N', 'N', model.gap(), next);
+        for (std::int64_t k = 0; k < 2 * more; ++k) {
+            left -= 0.5 * dot(next.rows(), next.col(k), next.col(k));
+            left_at_gaps -= 0.5 * dot(gaps.rows(), gaps.col(k), gaps.col(k));
+        }
+        eta.append(next);
+    }
+    for (std::int64_t k = 0; k < eta.cols(); ++k) {
+        const vector<double> turned =
+            model.in_static_coordinates(vector<double>(eta.col(k), eta.col(k) + eta.rows()));
+        std::copy(turned.begin(), turned.end(), eta.col(k));
+    }
+    point.eta = std::move(eta);
+    point.n_harmonics = point.eta.cols() / 2;
+    point.harmonic_tail = at_gaps > 0 ? std::sqrt(std::max(left_at_gaps, 0.0) / at_gaps) : 0;
+    point.harmonic_error = 0;
+}
+
+FlowState rest_state(const FlowModel &model) {
+    return {model.from_static_coordinates(rest_of(model.reduced())->coordinates),
+            vector<double>(static_cast<std::size_t>(model.size()), 0.0), 0};
+}
+
+// By Newton's method from the point; by marching where that does not contract.
+bool solve_exact(OrbitEquations &equations, const HbmOptions &options, Watch watch, const BranchPoint &point,
+                 vector<double> &x, NewtonOutcome &out) {
+    x = orbit_unknowns(equations, point, options.period_multiple);
+    const vector<double> guess = x;
+    constexpr double same_motion = 0.3; // of its size: farther away it is another one
+    out = newton_at(equations, newton_limits(options), x, point.omega);
+    double far = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) far = std::hypot(far, x[i] - guess[i]);
+    if (out.converged && far <= same_motion * norm2(equations.size(), x.data())) return true;
+    ExactFlow flow(equations.shared_model(), point.omega, options.force_scale, watch);
+    ShootingOptions shooting;
+    shooting.period_multiple = options.period_multiple;
+    shooting.transient_periods = 20 * options.period_multiple; // on a stable branch; most of the starts are
+    PeriodicOrbit orbit;
+    try {
+        orbit = periodic_orbit(flow, equations.state(guess.data()), shooting);
+    } catch (const Error &e) { // chatter
+        if (e.status() != PLM_ERR_CONVERGENCE) throw;
+        return false;
+    }
+    if (!orbit.converged) return false;
+    x = equations.unknowns(orbit.state);
+    out = newton_at(equations, newton_limits(options), x, point.omega);
+    return out.converged;
+}
+
+} // namespace
+
+bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &o) {
+    if (o.motion == MotionKind::harmonics) return false;
+    const bool asked = o.motion == MotionKind::exact;
+    const auto refuse = [&](const char *argument, const std::string &why) {
+        if (asked) throw Error(PLM_ERR_ARGUMENT, why).argument(argument);
+        return false;
+    };
+    if (reduced->structural != 0)
+        return refuse("motion", "structural damping has no exact motion in time; set motion to auto or harmonics");
+    if (o.aft == AftKind::sampled)
+        return refuse("aft", "an exact motion has no time samples; set aft to event, or motion to harmonics");
+    if (o.stability == StabilityKind::hill)
+        return refuse("stability", "Hill's method is one of harmonics; set stability to floquet");
+    if (asked) return true;
+    if (o.n_harmonics != 0 || o.tail_correction || o.unknowns != NonlinearUnknowns::automatic ||
+        o.formulation != FormulationKind::automatic || reduced->n_pairs() == 0)
+        return false;
+    return exact_step_flops(*widened(reduced), o) < std::max(cheap_step, harmonic_step_flops(*reduced));
+}
+
+OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                               double omega, FlowParameter parameter, Watch watch) {
+    auto model = std::make_shared<const FlowModel>(std::move(reduced), omega);
+    FlowState rest = rest_state(*model);
+    return OrbitEquations(std::move(model), std::move(rest), {omega, options.force_scale, options.period_multiple},
+                          parameter, watch);
+}
+
+FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_t period_multiple) {
+    if (const auto *motion = dynamic_cast<const OrbitMotion *>(point.motion.get())) return motion->start();
+    return model.state(point.eta_0, point.eta, point.omega / static_cast<double>(period_multiple), 0.0);
+}
+
+vector<double> orbit_unknowns(const OrbitEquations &equations, const BranchPoint &point,
+                              std::int64_t period_multiple) {
+    return equations.unknowns(start_of(equations.model(), point, period_multiple));
+}
+
+BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &options, const PathState &at) {
+    const OrbitConditions conditions = equations.conditions(at.parameter);
+    RecordedMotion motion;
+    ExactFlow flow(equations.shared_model(), conditions.omega, conditions.force_scale, Watch(),
+                   equations.modes());
+    const FlowState start = equations.state(at.x.data());
+    FlowState state = start;
+    flow.advance(state, static_cast<double>(conditions.period_multiple) * flow.period(), &motion);
+    BranchPoint point;
+    point.omega = conditions.omega;
+    point.force_scale = conditions.force_scale;
+    put_harmonics(equations.model(), motion, options, point);
+    point.n_switching = motion.n_switching();
+    point.motion = std::make_shared<OrbitMotion>(equations.shared_model(), equations.modes(), start,
+                                                 conditions, motion.closed_shares());
+    return point;
+}
+
+namespace {
+
+// A solution at which nothing else is known, with its multipliers.
+BranchPoint whole_point(OrbitEquations &equations, const HbmOptions &options, const PathState &at,
+                        const NewtonOutcome &out) {
+    BranchPoint point = orbit_point(equations, options, at);
+    point.residual = out.residual;
+    point.iterations = out.iterations;
+    vector<double> r(at.x.size());
+    equations.residual(at.x.data(), at.parameter, r.data());
+    equations.linearize();
+    point.multipliers = multipliers(equations.monodromy());
+    return point;
+}
+
+} // namespace
+
+bool make_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, Watch watch,
+                BranchPoint &point, NewtonWork &work) {
+    OrbitEquations equations =
+        orbit_equations(reduced, options, point.omega, FlowParameter::frequency, watch);
+    vector<double> x;
+    NewtonOutcome out;
+    const bool found = solve_exact(equations, options, watch, point, x, out);
+    work += out;
+    if (!found) return false;
+    out.iterations += point.iterations;
+    point = whole_point(equations, options, {x, point.omega}, out);
+    return true;
+}
+
+bool follow_exactly_to(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                       const BranchPoint &from, double omega, Watch watch, BranchPoint &point,
+                       NewtonWork &work) {
+    OrbitEquations equations = orbit_equations(reduced, options, from.omega, FlowParameter::frequency, watch);
+    PathState at = {orbit_unknowns(equations, from, options.period_multiple), from.omega};
+    if (omega != from.omega) {
+        PathOptions path = path_options(options, std::min(from.omega, omega), std::max(from.omega, omega));
+        path.upward = omega > from.omega;
+        QuietOwner quiet(watch);
+        const PathOutcome out = follow_path(equations, path, {at}, quiet);
+        work += out.work;
+        if (out.end_reason != PLM_REASON_RANGE_END || out.at.parameter != omega) return false;
+        at = out.at;
+    }
+    const NewtonOutcome out = newton_at(equations, newton_limits(options), at.x, omega);
+    work += out;
+    if (!out.converged) return false;
+    point = whole_point(equations, options, {at.x, omega}, out);
+    return true;
+}
+
+} // namespace plm

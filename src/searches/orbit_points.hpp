@@ -1,0 +1,39 @@
+// Points of a curve that are exact motions: orbits of the flow with the Fourier coefficients of their first
+// harmonics, and when they are taken in the place of harmonic balance.
+#pragma once
+#include "hbm/branch.hpp"
+#include "hbm/options.hpp"
+#include "linalg/monitor.hpp"
+#include "orbits/orbit_equations.hpp"
+
+namespace plm {
+
+/// Whether curves of this model are made of exact motions. Throws for motion = exact where other options, or
+/// the model, speak against it.
+bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
+
+/// Unknowns are measured at `omega`, where the flow's model is made, too.
+OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                               double omega, FlowParameter parameter, Watch watch);
+
+/// The state at the beginning of the period, of an exact motion or of harmonic balance.
+FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_t period_multiple);
+/// The unknowns of a point, of an exact motion or of harmonic balance.
+vector<double> orbit_unknowns(const OrbitEquations &equations, const BranchPoint &point,
+                              std::int64_t period_multiple);
+
+/// A solution as a point: as many harmonics as describe its motion to a tenth of harmonic_tolerance, no more
+/// than max_harmonics. Multipliers are not set.
+BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &options, const PathState &at);
+
+/// The exact motion beside a point of harmonic balance at its frequency, with its multipliers. False: none
+/// was found; `point` has not changed.
+bool make_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, Watch watch,
+                BranchPoint &point, NewtonWork &work);
+
+/// Along the exact motions from a point that is one to another frequency; short of folds only.
+bool follow_exactly_to(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                       const BranchPoint &from, double omega, Watch watch, BranchPoint &point,
+                       NewtonWork &work);
+
+} // namespace plm

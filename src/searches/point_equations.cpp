@@ -1,0 +1,66 @@
+#include "searches/point_equations.hpp"
+#include "hbm/branch_path.hpp"
+#include "hbm/make_system.hpp"
+#include "searches/orbit_points.hpp"
+#include "searches/stability.hpp"
+
+namespace plm {
+namespace {
+
+class HarmonicEquations final : public PointEquations {
+  public:
+    HarmonicEquations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
+        : system_(make_system(reduced, options)), stability_(reduced, options) {}
+    Residual &residual() override { return *system_; }
+    vector<double> unknowns(const BranchPoint &point) const override { return unknowns_of(*system_, point); }
+    BranchPoint solved_point(const PathState &at, double residual, std::int64_t iterations) override {
+        return plm::solved_point(*system_, at, residual, iterations);
+    }
+    vector<std::complex<double>> multipliers(const BranchPoint &point) override {
+        return stability_.wanted() ? stability_.multipliers(point) : vector<std::complex<double>>();
+    }
+
+  private:
+    std::unique_ptr<HbmSystem> system_;
+    Stability stability_;
+};
+
+class ExactEquations final : public PointEquations {
+  public:
+    ExactEquations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, double omega,
+                   Watch watch)
+        : options_(options),
+          equations_(orbit_equations(std::move(reduced), options, omega, FlowParameter::frequency, watch)) {}
+    Residual &residual() override { return equations_; }
+    vector<double> unknowns(const BranchPoint &point) const override {
+        return orbit_unknowns(equations_, point, options_.period_multiple);
+    }
+    BranchPoint solved_point(const PathState &at, double residual, std::int64_t iterations) override {
+        BranchPoint point = orbit_point(equations_, options_, at);
+        point.residual = residual;
+        point.iterations = iterations;
+        return point;
+    }
+    vector<std::complex<double>> multipliers(const BranchPoint &point) override {
+        const vector<double> x = unknowns(point);
+        vector<double> r(x.size());
+        equations_.residual(x.data(), point.omega, r.data());
+        equations_.linearize();
+        return plm::multipliers(equations_.monodromy());
+    }
+
+  private:
+    const HbmOptions options_;
+    OrbitEquations equations_;
+};
+
+} // namespace
+
+std::unique_ptr<PointEquations> equations_of(std::shared_ptr<const ReducedModel> reduced,
+                                             const HbmOptions &options, const BranchPoint &point,
+                                             Watch watch) {
+    if (point.motion) return std::make_unique<ExactEquations>(std::move(reduced), options, point.omega, watch);
+    return std::make_unique<HarmonicEquations>(std::move(reduced), options);
+}
+
+} // namespace plm
