@@ -8,8 +8,7 @@
 namespace plm::capi {
 
 const std::shared_ptr<const Basis> &built(const BasisHandle &h) {
-    if (!h.core)
-        throw Error(PLM_ERR_STATE, "the basis is not built; call plm_basis_build first").argument("basis");
+    if (!h.core) throw Error(PLM_ERR_STATE, "the basis is not built; build it first").argument("basis");
     return h.core;
 }
 
@@ -20,8 +19,7 @@ std::shared_ptr<const Sampler> run_sampler(const BasisHandle &b) {
     const bool needed = b.basis_options.kind->needs_sampler;
     if (!b.sampler) {
         if (needed)
-            throw Error(PLM_ERR_STATE,
-                        "a basis of this kind needs a sampler; call plm_basis_set_sampler first")
+            throw Error(PLM_ERR_STATE, "a basis of this kind needs a sampler; give it one first")
                 .argument("sampler");
         return nullptr;
     }

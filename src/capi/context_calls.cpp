@@ -99,7 +99,7 @@ plm_status plm_context_set_inertia(plm_context *ctx, plm_inertia_fn inertia) {
         if (inertia && !c.solver.factor)
             throw plm::Error(PLM_ERR_STATE,
                              "the context has no solver of the host whose factorizations could be "
-                             "counted in; call plm_context_set_solver first")
+                             "counted in; set one first")
                 .argument("inertia");
         c.solver.inertia = inertia;
         return PLM_OK;

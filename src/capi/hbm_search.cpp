@@ -78,8 +78,7 @@ plm_status plm_hbm_get_found(plm_hbm *hbm, std::int64_t index, double *force_ran
     return call<HbmHandle>("plm_hbm_get_found", hbm, [&](HbmHandle &h) {
         const std::int64_t n = static_cast<std::int64_t>(h.found.size());
         if (n == 0)
-            throw plm::Error(PLM_ERR_STATE,
-                             "this hbm has found no branch; call a plm_hbm_find_... function first")
+            throw plm::Error(PLM_ERR_STATE, "this hbm has found no branch; search for some first")
                 .argument("index");
         require_range(index, 0, n - 1, "index");
         require_pointer(branch, "branch");

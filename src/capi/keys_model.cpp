@@ -8,8 +8,7 @@ using H = ModelHandle;
 
 const RestState &rest(const H &h) {
     if (!h.rest)
-        throw Error(PLM_ERR_STATE, "the rest state is not known yet; call plm_model_solve_rest first")
-            .argument("key");
+        throw Error(PLM_ERR_STATE, "the rest state is not known yet; solve for it first").argument("key");
     return *h.rest;
 }
 

@@ -92,7 +92,7 @@ void add_errors(std::vector<Key> &keys) {
             per_method<Reals>("curve_error_max", "the largest such distance", &R::curve_error_max),
             per_method<Reals>(
                 "estimated_error",
-                "relative error of the peak as plm_hbm_estimate_error says, all causes together, at the "
+                "relative error of the peak as the error estimate says, all causes together, at the "
                 "level where the true one is largest",
                 &R::estimated_error),
             per_method<Reals>(

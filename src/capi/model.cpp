@@ -9,8 +9,7 @@
 namespace plm::capi {
 
 const std::shared_ptr<const Model> &built(const ModelHandle &h) {
-    if (!h.core)
-        throw Error(PLM_ERR_STATE, "the model is not built; call plm_model_build first").argument("model");
+    if (!h.core) throw Error(PLM_ERR_STATE, "the model is not built; build it first").argument("model");
     return h.core;
 }
 
@@ -198,7 +197,7 @@ plm_status plm_model_get_finding(plm_model *model, std::int64_t index, std::int3
                                  std::int64_t capacity, char *buffer, std::int64_t *needed) {
     return call<ModelHandle>("plm_model_get_finding", model, [&](ModelHandle &m) {
         if (m.findings.empty())
-            throw plm::Error(PLM_ERR_STATE, "there are no findings yet; call plm_model_audit first");
+            throw plm::Error(PLM_ERR_STATE, "there are no findings yet; audit the model first");
         require_range(index, 0, static_cast<std::int64_t>(m.findings.size()) - 1, "index");
         require_pointer(severity, "severity");
         require_pointer(value, "value");

@@ -11,7 +11,7 @@ using Int = long long; // for printf
 
 /// New rows of B, complete and checked before the model sees them.
 struct NewPairs {
-    vector<std::int64_t> pair, dof;
+    vector<std::int64_t> row, dof;
     vector<double> coefficient, stiffness, gap;
 };
 
@@ -26,14 +26,14 @@ template <class T> void append(vector<T> &to, const vector<T> &from) {
 
 // All or nothing: after the reservations nothing can fail.
 void add_to(ModelInput &input, NewPairs &pairs) {
-    const std::int64_t first = input.contact.n_pairs();
-    for (std::int64_t &p : pairs.pair) p += first;
-    reserve_for(input.gap_pair, pairs.pair);
+    const std::int64_t first = input.contact.n_rows();
+    for (std::int64_t &r : pairs.row) r += first;
+    reserve_for(input.gap_row, pairs.row);
     reserve_for(input.gap_dof, pairs.dof);
     reserve_for(input.gap_coefficient, pairs.coefficient);
     reserve_for(input.contact.stiffness, pairs.stiffness);
     reserve_for(input.contact.initial_gap, pairs.gap);
-    append(input.gap_pair, pairs.pair);
+    append(input.gap_row, pairs.row);
     append(input.gap_dof, pairs.dof);
     append(input.gap_coefficient, pairs.coefficient);
     append(input.contact.stiffness, pairs.stiffness);
@@ -78,7 +78,7 @@ void add_side(NewPairs &pairs, const char *name, const Index *dof, const double 
             require_dof(dof[k], base, n_dof, name, k);
             ++present;
             if (normal[k] == 0) continue;
-            pairs.pair.push_back(i);
+            pairs.row.push_back(plm::Contact::normal_row(i));
             pairs.dof.push_back(dof[k] - base);
             pairs.coefficient.push_back(sign * normal[k]);
         }
@@ -163,7 +163,7 @@ void take_rows(NewPairs &pairs, std::int64_t n, std::int64_t base, std::int64_t 
                 bad_argument("dof", p,
                              format("dof[%lld] = %lld stands twice in gap row %lld; sum its coefficients",
                                     Int(p), Int(dof[p]), Int(i)));
-            pairs.pair.push_back(i);
+            pairs.row.push_back(plm::Contact::normal_row(i));
             pairs.dof.push_back(dof[p] - base);
             pairs.coefficient.push_back(coefficient[p]);
             largest = std::max(largest, std::abs(coefficient[p]));

@@ -5,8 +5,7 @@
 namespace plm::capi {
 
 const std::shared_ptr<const Sampler> &built(const SamplerHandle &h) {
-    if (!h.core)
-        throw Error(PLM_ERR_STATE, "the sampler has not run; call plm_sampler_run first").argument("sampler");
+    if (!h.core) throw Error(PLM_ERR_STATE, "the sampler has not run; run it first").argument("sampler");
     return h.core;
 }
 

@@ -28,10 +28,9 @@ std::string name_for(const StudyHandle &s, const char *name) {
 void read_basis(const BasisHandle &b, MethodPlan &method) {
     Recipe &recipe = method.recipe;
     if (b.basis_options.kind->is_compressed())
-        bad_argument(
-            "hbm", -1,
-            "its basis is of kind pod, which options alone do not make; add the method it is compressed from "
-            "with plm_study_add_compressed or plm_study_add_refined");
+        bad_argument("hbm", -1,
+                     "its basis is of kind pod, which options alone do not make; add the method it is "
+                     "compressed from, to be compressed or refined");
     recipe.basis = b.basis_options;
     if (b.sampler) {
         recipe.sampler = b.sampler->sampler_options;
@@ -250,8 +249,7 @@ plm_status plm_study_get_curve(plm_study *study, std::int64_t index, std::int64_
         if (row.curves.empty())
             throw plm::Error(
                 PLM_ERR_STATE,
-                plm::format("the method \"%.80s\" marches in time and has points, no branch; read them by "
-                            "plm_study_get_points",
+                plm::format("the method \"%.80s\" marches in time and has points, no branch; read its points",
                             row.name.c_str()))
                 .argument("index");
         *branch =

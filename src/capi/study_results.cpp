@@ -4,8 +4,7 @@
 namespace plm::capi {
 
 const StudyResult &last_run(const StudyHandle &h) {
-    if (!h.result)
-        throw Error(PLM_ERR_STATE, "the study has not run; call plm_study_run first").argument("study");
+    if (!h.result) throw Error(PLM_ERR_STATE, "the study has not run; run it first").argument("study");
     return *h.result;
 }
 

@@ -138,8 +138,8 @@ plm_status plm_transient_get_history(plm_transient *transient, std::int64_t obse
         const plm::TransientRun &run = last_run(t);
         const std::size_t n_observed = run.observed.size();
         if (n_observed == 0)
-            throw plm::Error(PLM_ERR_STATE, "the last run recorded no DOF; call plm_transient_observe_i32 or "
-                                            "_i64 before the run")
+            throw plm::Error(PLM_ERR_STATE, "the last run recorded no DOF; say before the run "
+                                            "which to observe")
                 .argument("observed");
         require_range(observed, 0, static_cast<std::int64_t>(n_observed) - 1, "observed");
         plm::vector<double> history(run.time.size());

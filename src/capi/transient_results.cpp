@@ -5,15 +5,14 @@ namespace plm::capi {
 
 const TransientRun &last_run(const TransientHandle &h) {
     if (!h.last_run)
-        throw Error(PLM_ERR_STATE, "the transient has not run; call plm_transient_run first")
-            .argument("transient");
+        throw Error(PLM_ERR_STATE, "the transient has not run; run it first").argument("transient");
     return *h.last_run;
 }
 
 const PeriodicMotion &periodic_motion(const TransientHandle &h) {
     if (!h.periodic)
-        throw Error(PLM_ERR_STATE, "no periodic motion was looked for since the start was set; call "
-                                   "plm_transient_find_periodic first")
+        throw Error(PLM_ERR_STATE, "no periodic motion was looked for since the start was set; "
+                                   "look for one first")
             .argument("transient");
     return *h.periodic;
 }

@@ -4,6 +4,8 @@
 
 namespace plm {
 
+static_assert(Contact::n_directions == 1, "what stands below has one number for each pair, along its normal");
+
 vector<double> Contact::unloaded_penetration() const {
     vector<double> u(initial_gap.size());
     for (std::size_t i = 0; i < u.size(); ++i) u[i] = -initial_gap[i];

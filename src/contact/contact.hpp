@@ -15,12 +15,16 @@ struct Contact {
     vector<double> initial_gap; // g of every pair, < 0: interference
 
     std::int64_t n_pairs() const { return static_cast<std::int64_t>(stiffness.size()); }
+    static constexpr std::int64_t n_directions = ContactLaw::n_directions; // of every pair
+    /// Of the gap matrix: one for each direction of each pair, those of a pair together, its normal first.
+    std::int64_t n_rows() const { return n_pairs() * n_directions; }
+    static std::int64_t normal_row(std::int64_t pair) { return pair * n_directions; }
     /// u = -g: of the structure without loads, before contact moves it.
     vector<double> unloaded_penetration() const;
     /// Some pair presses without any load.
     bool has_interference() const;
 
-    // u: penetration of every pair
+    // u: penetration of every pair, along its normal
     double force(std::int64_t pair, double u) const { return ContactLaw::force(stiffness[pair], u); }
     double energy(std::int64_t pair, double u) const { return ContactLaw::energy(stiffness[pair], u); }
     vector<double> forces(const vector<double> &u) const;

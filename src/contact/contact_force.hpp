@@ -20,10 +20,10 @@ struct ContactIndicator {
     void reset(std::int64_t n_harmonics, std::int64_t n_pairs);
 
     /// The pair presses at some time.
-    bool acts(std::int64_t pair) const { return state[pair] != PairState::open; }
-    /// Its tangent depends on time; where it does not: this share of its stiffness, 1 or 0.
-    bool varies(std::int64_t pair) const { return state[pair] == PairState::switching; }
-    double constant_share(std::int64_t pair) const { return state[pair] == PairState::closed ? 1 : 0; }
+    bool acts(std::int64_t pair) const { return ContactLaw::acts(state[pair]); }
+    /// Its tangent depends on time; where it does not: this share of its stiffness.
+    bool varies(std::int64_t pair) const { return ContactLaw::varies(state[pair]); }
+    double constant_share(std::int64_t pair) const { return ContactLaw::constant_share(state[pair]); }
     /// Mean over the period and the pairs of what is closed, 0 to 1; 0 without pairs.
     double closed_share() const;
 };

@@ -1,14 +1,13 @@
-// The states of the pairs of a model: at one instant of a motion, or in one linear system. A pair acts in one
-// direction, the normal of its gap row, and is open or closed there; who holds a PairStates hands it on and
-// need not know.
+// The states of the pairs of a model: at one instant of a motion, or in one linear system. Which there are is
+// up to the law; who holds a PairStates hands it on and need not know.
 #pragma once
+#include "contact/contact_law.hpp"
 #include "linalg/memory.hpp"
 #include <cstdint>
 
 namespace plm {
 
-/// Of one pair. `switching`: both in turn over a period; no state of an instant.
-enum class PairState : char { open, closed, switching };
+using PairState = ContactLaw::State;
 
 class PairStates {
   public:

@@ -4,10 +4,9 @@
 // open and close over the period times (2H + 1), whatever the size of the model. Pairs whose tangent is
 // constant in time are eliminated harmonic by harmonic, exactly, and come back the moment it is not.
 #include "hbm/formulation.hpp"
-#include "hbm/free_motion.hpp"
+#include "hbm/gap_response.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/pair_elimination.hpp"
-#include "hbm/receptance.hpp"
 #include "hbm/system.hpp"
 #include "linalg/work.hpp"
 #include <algorithm>
@@ -43,12 +42,8 @@ class GapSystem final : public HbmSystem {
     GapSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
         : m_(std::move(reduced)), h_(options.n_harmonics), n_(2 * h_ + 1), z_(m_->n_pairs()), r_(m_->size()),
           r0_(m_->static_size()), force_(make_contact_force(options, z_)),
-          form_(make_formulation(*m_, options)), gap_(m_->contact.initial_gap), u_(z_, n_), contact_(z_, n_),
-          receptance_(h_ + 1), constant_(h_ + 1), eta_(h_ + 1), force_scale_(options.force_scale) {
-        require_balanced(*m_);
-        for (double l : m_->lambda_0) static_is_dense_ = static_is_dense_ || l <= 0;
-        hold_ = MeanHold(*m_);
-        update_static();
+          form_(make_formulation(*m_, options)), response_(m_, form_, h_), gap_(m_->contact.initial_gap),
+          u_(z_, n_), contact_(z_, n_), constant_(h_ + 1), eta_(h_ + 1), force_scale_(options.force_scale) {
         if (form_.compliant) law_ = std::make_shared<const vector<double>>(form_.stiffness);
     }
 
@@ -61,14 +56,14 @@ class GapSystem final : public HbmSystem {
             if (h > h_) continue;
             if (h == 0) {
                 vector<double> v(load.real);
-                apply_static(v.data());
+                response_.mean().apply(v.data());
                 gemv('N', -1.0, m_->gap_0, v.data(), 0.0, r);
                 continue;
             }
             vector<Complex> v(r_);
             for (std::int64_t j = 0; j < r_; ++j) v[j] = Complex(load.real[j], load.imag[j]);
-            receptance_[h].apply(v.data());
-            write_gaps(v, -1.0, r + (2 * h - 1) * z_);
+            response_.harmonic(h).apply(v.data());
+            response_.write_gaps(v, -1.0, r + (2 * h - 1) * z_);
         }
     }
 
@@ -82,7 +77,7 @@ class GapSystem final : public HbmSystem {
                 c[i] = force(i, h == 0 ? 0 : 2 * h - 1);
                 if (h > 0) q[i] = force(i, 2 * h);
             }
-            subtract_response(h, c, q, r);
+            response_.subtract(h, c, q, r);
         }
         for (std::int64_t k = 0; k < size(); ++k) r[k] = -r[k];
     }
@@ -98,20 +93,20 @@ class GapSystem final : public HbmSystem {
 
     void gap_derivative(double *r) override {
         std::fill(r, r + size(), 0.0);
-        vector<double> moved(reference_), v(r0_); // the reference stiffness pulls at u + g
+        vector<double> moved(response_.mean().stiffness()), v(r0_); // the reference stiffness pulls at u + g
         gemv('T', 1.0, m_->gap_0, moved.data(), 0.0, v.data());
-        apply_static(v.data());
+        response_.mean().apply(v.data());
         gemv('N', -1.0, m_->gap_0, v.data(), 0.0, r);
         for (std::int64_t i = 0; i < z_; ++i) r[i] += 1.0;
     }
 
     double residual_scale() const override { return norm2(size(), u_.data()); }
     // nothing else holds the structure against the mean of the loads
-    bool in_balance() const override { return !hold_.carried_away(); }
+    bool in_balance() const override { return !response_.mean().carried_away(); }
 
     void residual(const double *x, double omega, double *r) override {
         std::copy(x, x + size(), u_.data());
-        set_frequency(omega);
+        response_.set_frequency(omega);
         force_->indicator(u_, indicator_);
         apply_indicator(indicator_, form_.stiffness, u_, contact_);
         for (std::int64_t k = 0; k < size(); ++k) contact_.data()[k] *= stiffness_factor_;
@@ -135,7 +130,7 @@ class GapSystem final : public HbmSystem {
                 for (std::int64_t row = 0; row < n_; ++row)
                     tangent_(row + c * n_, p) =
                         stiffness_factor_ * form_.stiffness[moving_[p]] * indicator_entry(average, row, c);
-            tangent_(0, p) -= reference_[moving_[p]];
+            tangent_(0, p) -= response_.mean().stiffness()[moving_[p]];
             worked(12.0 * static_cast<double>(n_ * n_));
         }
         assemble();
@@ -153,15 +148,15 @@ class GapSystem final : public HbmSystem {
         std::fill(r, r + size(), 0.0);
         vector<Complex> v(r_);
         for (std::int64_t h = 1; h <= h_; ++h) { // d/d omega of -B D f = B D (dD^-1) D f
-            receptance_[h].derivative(eta_[h].data(), v.data());
-            receptance_[h].apply(v.data());
-            write_gaps(v, 1.0, r + (2 * h - 1) * z_);
+            response_.harmonic(h).derivative(eta_[h].data(), v.data());
+            response_.harmonic(h).apply(v.data());
+            response_.write_gaps(v, 1.0, r + (2 * h - 1) * z_);
         }
     }
 
     void linear_response(const vector<double> &coupling, double omega, double *x) override {
         std::fill(u_.data(), u_.data() + size(), 0.0);
-        set_frequency(omega);
+        response_.set_frequency(omega);
         constant_indicator(coupling, h_, indicator_);
         contact_.reset(z_, n_);
         hold_mean();
@@ -205,27 +200,8 @@ class GapSystem final : public HbmSystem {
     }
 
   private:
-    // An open structure with rigid-body modes has no static receptance: then a part of the contact stiffness
-    // is moved from the contact law into the static reference system (h = 0 only), which is exact.
-    void update_static() {
-        reference_.assign(z_, 0.0);
-        if (!static_is_dense_) return;
-        Matrix k(r0_, r0_), scaled = m_->gap_0;
-        for (std::int64_t i = 0; i < z_; ++i) reference_[i] = reference_stiffness(i);
-        for (std::int64_t j = 0; j < r0_; ++j)
-            for (std::int64_t i = 0; i < z_; ++i) scaled(i, j) *= reference_[i];
-        gemm('T', 'N', 1.0, m_->gap_0, scaled, 0.0, k);
-        for (std::int64_t j = 0; j < r0_; ++j) k(j, j) += m_->lambda_0[j];
-        gemm('N', 'T', 1.0, hold_.columns(), hold_.columns(), 1.0, k);
-        if (!static_cholesky_.factor(k))
-            throw Error(PLM_ERR_SINGULAR,
-                        "the structure has rigid-body modes that closed contacts hardly hold; "
-                        "fix DOFs or solve in reduced coordinates (unknowns = modal)")
-                .reason(PLM_REASON_SINGULAR);
-    }
-
     void hold_mean() {
-        if (hold_.depends_on_contact() && hold_.set(*m_, indicator_, mean_load())) update_static();
+        if (response_.mean().depends_on_contact()) response_.mean().hold(indicator_, mean_load());
     }
 
     vector<double> mean_load() const {
@@ -233,28 +209,6 @@ class GapSystem final : public HbmSystem {
         if (const HarmonicLoad *mean = excitation(0))
             for (std::int64_t j = 0; j < r0_; ++j) load[j] += force_scale_ * mean->real[j];
         return load;
-    }
-
-    // No stiffer than the structure at the pair, whose flexibility would drown in the rounding of a stiff
-    // contact.
-    double reference_stiffness(std::int64_t i) const {
-        double flexibility = 0;
-        for (std::int64_t j = 0; j < r0_; ++j)
-            if (m_->lambda_0[j] > 0) flexibility += m_->gap_0(i, j) * m_->gap_0(i, j) / m_->lambda_0[j];
-        const double half = 0.5 * form_.stiffness[i];
-        return half * flexibility > 1 ? 1 / flexibility : half;
-    }
-
-    void apply_static(double *v) const {
-        if (static_is_dense_) return static_cholesky_.solve(v, 1, r0_);
-        for (std::int64_t j = 0; j < r0_; ++j) v[j] /= m_->lambda_0[j];
-    }
-
-    void set_frequency(double omega) {
-        if (omega == omega_) return;
-        omega_ = -1; // an update may throw, and not all of them would be of one frequency
-        for (std::int64_t h = 1; h <= h_; ++h) receptance_[h].update(*m_, h, omega);
-        omega_ = omega;
     }
 
     const HarmonicLoad *excitation(std::int64_t h) const {
@@ -266,38 +220,17 @@ class GapSystem final : public HbmSystem {
     void respond() {
         eta_0_ = mean_load();
         vector<double> n(z_);
-        for (std::int64_t i = 0; i < z_; ++i) n[i] = contact_(i, 0) - reference_[i] * (u_(i, 0) + gap_[i]);
+        for (std::int64_t i = 0; i < z_; ++i)
+            n[i] = contact_(i, 0) - response_.mean().stiffness()[i] * (u_(i, 0) + gap_[i]);
         gemv('T', -1.0, m_->gap_0, n.data(), 1.0, eta_0_.data());
-        apply_static(eta_0_.data());
+        response_.mean().apply(eta_0_.data());
         for (std::int64_t h = 1; h <= h_; ++h) {
-            gather(contact_.col(2 * h - 1), contact_.col(2 * h), -1.0, eta_[h]);
+            response_.gather(contact_.col(2 * h - 1), contact_.col(2 * h), -1.0, eta_[h]);
             if (const HarmonicLoad *load = excitation(h))
                 for (std::int64_t j = 0; j < r_; ++j)
                     eta_[h][j] += force_scale_ * Complex(load->real[j], load->imag[j]);
-            receptance_[h].apply(eta_[h].data());
+            response_.harmonic(h).apply(eta_[h].data());
         }
-    }
-
-    // v = factor B' (c - i s)
-    void gather(const double *c, const double *s, double factor, vector<Complex> &v) {
-        real_.resize(r_);
-        imag_.resize(r_);
-        gemv('T', factor, m_->gap, c, 0.0, real_.data());
-        gemv('T', -factor, m_->gap, s, 0.0, imag_.data());
-        v.resize(r_);
-        for (std::int64_t j = 0; j < r_; ++j) v[j] = Complex(real_[j], imag_[j]);
-    }
-
-    // out (cosine column, then sine column) = factor B v with v = c - i s
-    void write_gaps(const vector<Complex> &v, double factor, double *out) {
-        real_.resize(r_);
-        imag_.resize(r_);
-        for (std::int64_t j = 0; j < r_; ++j) {
-            real_[j] = v[j].real();
-            imag_[j] = -v[j].imag();
-        }
-        gemv('N', factor, m_->gap, real_.data(), 0.0, out);
-        gemv('N', factor, m_->gap, imag_.data(), 0.0, out + z_);
     }
 
     // x = u becomes v = u + slack N with the force of the penalty law: a first guess.
@@ -312,7 +245,7 @@ class GapSystem final : public HbmSystem {
     void gaps_of_response(double *out) {
         for (std::int64_t i = 0; i < z_; ++i) out[i] = -gap_[i];
         gemv('N', 1.0, m_->gap_0, eta_0_.data(), 1.0, out);
-        for (std::int64_t h = 1; h <= h_; ++h) write_gaps(eta_[h], 1.0, out + (2 * h - 1) * z_);
+        for (std::int64_t h = 1; h <= h_; ++h) response_.write_gaps(eta_[h], 1.0, out + (2 * h - 1) * z_);
         if (form_.compliant)
             for (std::int64_t k = 0; k < size(); ++k) out[k] += form_.slack[k % z_] * contact_.data()[k];
     }
@@ -320,29 +253,7 @@ class GapSystem final : public HbmSystem {
     // Tangent of a pair that does not switch, in harmonic h, less the part in the reference system.
     double constant_tangent(std::int64_t i, std::int64_t h) const {
         const double k = stiffness_factor_ * form_.stiffness[i] * indicator_.constant_share(i);
-        return h == 0 ? k - reference_[i] : k;
-    }
-
-    void receptance_of(std::int64_t h, const vector<std::int64_t> &pairs, Matrix &real, Matrix &imag) const {
-        const Matrix rows = select_rows(h == 0 ? m_->gap_0 : m_->gap, pairs);
-        if (h > 0) {
-            receptance_[h].contact_receptance(rows, real, imag);
-        } else {
-            static_receptance(rows, real, imag);
-        }
-        for (std::size_t p = 0; p < pairs.size(); ++p) real(p, p) -= form_.slack[pairs[p]];
-    }
-
-    void static_receptance(const Matrix &rows, Matrix &real, Matrix &imag) const {
-        Matrix solved = rows.transposed();
-        if (static_is_dense_) {
-            static_cholesky_.solve(solved.data(), solved.cols(), r0_);
-        } else {
-            for (std::int64_t j = 0; j < solved.cols(); ++j)
-                for (std::int64_t i = 0; i < r0_; ++i) solved(i, j) /= m_->lambda_0[i];
-        }
-        real = product('N', 'N', rows, solved);
-        imag.reset(rows.rows(), rows.rows());
+        return h == 0 ? k - response_.mean().stiffness()[i] : k;
     }
 
     void eliminate(std::int64_t h) {
@@ -359,7 +270,7 @@ class GapSystem final : public HbmSystem {
         vector<std::int64_t> all = moving_;
         all.insert(all.end(), e.pairs.begin(), e.pairs.end());
         Matrix real, imag;
-        receptance_of(h, all, real, imag);
+        response_.receptance_of(h, all, real, imag);
         e.elimination.build(real, imag, n_moving(), e.kappa);
     }
 
@@ -425,32 +336,10 @@ class GapSystem final : public HbmSystem {
             c[moving_[p]] = forces[p].real(), q[moving_[p]] = -forces[p].imag();
         for (std::size_t j = 0; j < e.pairs.size(); ++j)
             c[e.pairs[j]] = e.kappa[j] * held[j].real(), q[e.pairs[j]] = -e.kappa[j] * held[j].imag();
-        subtract_response(h, c, q, b);
+        response_.subtract(h, c, q, b);
         for (std::size_t j = 0; j < e.pairs.size(); ++j) write(held[j], z_, h, e.pairs[j], b);
         for (std::int64_t p = 0; p < n_moving(); ++p)
             write(read(moving, n_moving(), h, p), z_, h, moving_[p], b);
-    }
-
-    // b -= B D B' (c - i q) in harmonic h
-    void subtract_response(std::int64_t h, const vector<double> &c, const vector<double> &q, double *b) {
-        if (h == 0) {
-            vector<double> v(r0_);
-            gemv('T', 1.0, m_->gap_0, c.data(), 0.0, v.data());
-            apply_static(v.data());
-            gemv('N', -1.0, m_->gap_0, v.data(), 1.0, b);
-            for (std::int64_t i = 0; i < z_; ++i) b[i] += form_.slack[i] * c[i];
-            return;
-        }
-        vector<Complex> v;
-        gather(c.data(), q.data(), 1.0, v);
-        receptance_[h].apply(v.data());
-        vector<double> gaps(2 * z_);
-        write_gaps(v, 1.0, gaps.data());
-        for (std::int64_t k = 0; k < 2 * z_; ++k) b[(2 * h - 1) * z_ + k] -= gaps[k];
-        for (std::int64_t i = 0; i < z_; ++i) {
-            b[(2 * h - 1) * z_ + i] += form_.slack[i] * c[i];
-            b[2 * h * z_ + i] += form_.slack[i] * q[i];
-        }
     }
 
     std::int64_t n_moving() const { return static_cast<std::int64_t>(moving_.size()); }
@@ -459,17 +348,14 @@ class GapSystem final : public HbmSystem {
     std::int64_t h_, n_, z_, r_, r0_;
     std::unique_ptr<ContactForce> force_;
     LawForm form_;
+    GapResponse response_;
     std::shared_ptr<const vector<double>> law_; // for points; null: penalty
     vector<double> gap_;
     Matrix u_, contact_;
-    std::vector<Receptance> receptance_;
     std::vector<Constant> constant_;
     std::vector<vector<Complex>> eta_; // harmonics >= 1
-    vector<double> eta_0_, reference_, real_, imag_;
-    MeanHold hold_;
-    DenseCholesky static_cholesky_;
-    bool static_is_dense_ = false;
-    double force_scale_, stiffness_factor_ = 1, omega_ = -1;
+    vector<double> eta_0_;
+    double force_scale_, stiffness_factor_ = 1;
     vector<std::int64_t> moving_;
     Matrix tangent_, jacobian_;
     RealLu lu_;

@@ -32,7 +32,6 @@ class ModalFactor {
     int determinant_sign() const {
         return condensed_ ? sign_ * lu_.determinant_sign() : lu_.determinant_sign();
     }
-    bool condensed() const { return condensed_; }
 
   private:
     std::int64_t inner_size() const { return jacobian_.size(); }

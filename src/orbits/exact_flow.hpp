@@ -22,8 +22,8 @@ class ExactFlow {
 
     /// Advances the state to t_end >= state.time. A recorder, if any, sees every piece in order.
     /// PLM_ERR_CONVERGENCE with PLM_REASON_CONTACT_CHATTER and the pair as index when events follow each
-    /// other without time going on, or when there are more of them than event_limit() per period;
-    /// PLM_ERR_ARGUMENT for wrong sizes, NaN or Inf; PLM_CANCELLED.
+    /// other without time going on, or when there are more of them than two of each pair per oscillation of
+    /// the fastest motion, and some more; PLM_ERR_ARGUMENT for wrong sizes, NaN or Inf; PLM_CANCELLED.
     void advance(FlowState &state, double t_end, FlowRecorder *recorder = nullptr);
 
     /// From the next advance() on, which has to begin at time 0, `change` goes along: with x the state and its
@@ -44,9 +44,6 @@ class ExactFlow {
     double period() const { return 2 * M_PI / omega_; }
     std::int64_t n_events() const { return n_events_; } // since construction
     std::int64_t n_steps() const { return n_steps_; }
-    /// By default each pair may switch twice per oscillation of the fastest motion, and some more.
-    std::int64_t event_limit() const { return event_limit_; }
-    void set_event_limit(std::int64_t per_period) { event_limit_ = per_period; }
 
   private:
     void check(const FlowState &state, double t_end) const;

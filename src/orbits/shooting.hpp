@@ -21,7 +21,6 @@ struct PeriodicOrbit {
     double defect = 0;                            // as periodicity_defect()
     vector<std::complex<double>> multipliers;     // over period_multiple periods, largest modulus first
     std::vector<ContactInterval> contact_history; // of the orbit, from its start
-    bool stable() const { return !multipliers.empty() && std::abs(multipliers.front()) < 1; }
 };
 
 /// From `start`, at any time. Not converged: the best state found, with its defect. Throws what

@@ -47,12 +47,12 @@ struct ReducedModel {
     std::int64_t static_size() const { return static_cast<std::int64_t>(lambda_0.size()); }
     double mass(std::int64_t j) const { return j < size() - n_massless ? 1.0 : 0.0; }
     double mass_0(std::int64_t j) const { return j < static_size() - n_massless_0 ? 1.0 : 0.0; }
-    std::int64_t n_pairs() const { return gap.rows(); } // in the equations
+    std::int64_t n_pairs() const { return contact.n_pairs(); } // in the equations
     // what the motion means for the pairs of the model, carried or not
     const Matrix &whole_gap() const { return all_pairs ? all_pairs->gap : gap; }
     const Matrix &whole_gap_0() const { return all_pairs ? all_pairs->gap_0 : gap_0; }
     const Contact &whole_contact() const { return all_pairs ? all_pairs->contact : contact; }
-    std::int64_t n_whole_pairs() const { return whole_gap().rows(); }
+    std::int64_t n_whole_pairs() const { return whole_contact().n_pairs(); }
     const Field &static_vectors() const { return same_static ? vectors : vectors_0; }
 };
 

@@ -199,7 +199,7 @@ class Audit {
 
     // A reversed sign shows here at a glance.
     std::string closing_motion() const {
-        const auto row = m_.gap_rows().rows().front();
+        const auto row = m_.gap_rows().rows()[Contact::normal_row(0)];
         GapRows::Term strongest = row.front();
         for (const GapRows::Term &t : row)
             if (std::abs(t.coefficient) > std::abs(strongest.coefficient)) strongest = t;
@@ -211,8 +211,10 @@ class Audit {
     // there.
     void opened_by_preload() {
         if (!m_.has_preload() || m_.n_rigid() > 0) return;
-        vector<double> u = projected(m_.attachment(), m_.preload());
-        for (std::int64_t i = 0; i < m_.n_pairs(); ++i) u[i] -= m_.initial_gap()[i];
+        const vector<double> answer = projected(m_.attachment(), m_.preload());
+        vector<double> u(m_.initial_gap().size());
+        for (std::int64_t i = 0; i < m_.n_pairs(); ++i)
+            u[i] = answer[Contact::normal_row(i)] - m_.initial_gap()[i];
         const double closest = *std::max_element(u.begin(), u.end());
         if (closest >= 0) return;
         add(1, closest,
@@ -229,7 +231,7 @@ class Audit {
         const auto rows = m_.gap_rows().rows();
         std::int64_t turned = 0, one = -1;
         for (std::int64_t i = 0; i < m_.n_pairs(); ++i) {
-            const auto &row = rows[static_cast<std::size_t>(i)];
+            const auto &row = rows[Contact::normal_row(i)];
             const bool moves = std::any_of(row.begin(), row.end(), [&](const GapRows::Term &g) {
                 return std::any_of(known.begin(), known.end(),
                                    [&](const Translation &t) { return t.holds(m_.dof(g.dof)); });
@@ -253,7 +255,7 @@ class Audit {
         std::int64_t repeated = 0, one = 0, other = 0;
         for (std::int64_t i = 0; i < m_.n_pairs(); ++i) {
             std::vector<std::pair<std::int64_t, double>> row;
-            for (const GapRows::Term &t : rows[static_cast<std::size_t>(i)])
+            for (const GapRows::Term &t : rows[Contact::normal_row(i)])
                 row.emplace_back(t.dof, t.coefficient);
             const auto [place, fresh] = first.emplace(std::move(row), i);
             if (fresh) continue;

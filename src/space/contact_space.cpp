@@ -242,7 +242,7 @@ class ContactSpaceBuilder {
         double worst = 0;
         std::uint64_t state = 88172645463325252ull;
         for (int p = 0; p < 3 && model_->n_pairs() > 0; ++p) {
-            Matrix signs(model_->n_pairs(), 1);
+            Matrix signs(model_->gap_rows().n_rows(), 1);
             for (std::int64_t i = 0; i < signs.rows(); ++i) {
                 state ^= state << 13, state ^= state >> 7, state ^= state << 17;
                 signs(i, 0) = (state >> 40) & 1 ? 1.0 : -1.0;

@@ -21,8 +21,8 @@ double median(vector<double> values) {
 } // namespace
 
 Model::Model(const ModelInput &input, const SpaceOptions &options, const HostSolver *host, Watch watch)
-    : Structure(input, input.contact.n_pairs(), largest_given(input.contact.stiffness),
-                Solver(options.solver, host), watch),
+    : Structure(input, {input.contact.n_pairs(), Contact::n_directions},
+                largest_given(input.contact.stiffness), Solver(options.solver, host), watch),
       contact_(input.contact), space_options_(options) {
     solve_attachment(watch);
     resolve_contact_stiffness();
@@ -43,15 +43,16 @@ void Model::solve_attachment(Watch watch) {
 
 // diag(B K^-1 B^T) without rigid-body motion, of the pairs that see more than that.
 vector<double> Model::elastic_flexibility() const {
-    const Matrix rigid_gap = n_rigid() > 0 ? gap_rows().of(rigid_modes()) : Matrix(n_pairs(), 0);
+    const Matrix rigid_gap = n_rigid() > 0 ? gap_rows().of(rigid_modes()) : Matrix(gap_rows().n_rows(), 0);
     const auto rows = gap_rows().rows();
     vector<double> flexibility;
     for (std::int64_t i = 0; i < n_pairs(); ++i) {
+        const std::int64_t row = Contact::normal_row(i);
         double whole = 0, rigid = 0;
-        for (const GapRows::Term &t : rows[static_cast<std::size_t>(i)])
-            whole += t.coefficient * attachment_.at(t.dof, i);
+        for (const GapRows::Term &t : rows[static_cast<std::size_t>(row)])
+            whole += t.coefficient * attachment_.at(t.dof, row);
         for (std::int64_t j = 0; j < rigid_gap.cols(); ++j)
-            rigid += rigid_gap(i, j) * rigid_gap(i, j) / shift();
+            rigid += rigid_gap(row, j) * rigid_gap(row, j) / shift();
         // below 1e-13 the difference is rounding: this pair sees rigid motion only
         if (whole - rigid > 1e-13 * whole) flexibility.push_back(whole - rigid);
     }

@@ -28,7 +28,7 @@ class Model : public Structure {
     /// host: its own solver, or null.
     Model(const ModelInput &input, const SpaceOptions &options, const HostSolver *host, Watch watch);
 
-    std::int64_t n_pairs() const { return gap_rows().n_pairs(); }
+    std::int64_t n_pairs() const { return contact_.n_pairs(); }
     const Contact &contact() const { return contact_; }
     const vector<double> &contact_stiffness() const { return contact_.stiffness; } // k_n, resolved
     const vector<double> &initial_gap() const { return contact_.initial_gap; }

@@ -36,7 +36,7 @@ struct Space {
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }
     std::int64_t n_massive() const { return size() - n_massless; }
     double mass(std::int64_t j) const { return j < n_massive() ? 1.0 : 0.0; }
-    std::int64_t n_pairs() const { return gap.rows(); }
+    std::int64_t n_pairs() const { return model->contact().n_pairs(); }
 };
 
 /// Fills lambda-independent projections (gap, damping, loads) of a space whose vectors and lambda are set.

@@ -28,7 +28,7 @@ Field GapRows::columns() const {
 }
 
 std::vector<vector<GapRows::Term>> GapRows::rows() const {
-    std::vector<vector<Term>> rows(static_cast<std::size_t>(n_pairs()));
+    std::vector<vector<Term>> rows(static_cast<std::size_t>(n_rows()));
     for (std::int64_t j = 0; j < matrix_.cols; ++j)
         for (std::int64_t p = matrix_.ptr[j]; p < matrix_.ptr[j + 1]; ++p)
             rows[static_cast<std::size_t>(matrix_.idx[p])].push_back({j, matrix_.val[p]});
@@ -36,20 +36,20 @@ std::vector<vector<GapRows::Term>> GapRows::rows() const {
 }
 
 vector<std::int64_t> GapRows::dofs_of(const vector<std::int64_t> &pairs) const {
-    vector<char> chosen(n_pairs(), 0);
+    vector<char> chosen(size_.n_pairs, 0);
     for (std::int64_t i : pairs) chosen[i] = 1;
     return dofs_where(chosen);
 }
 
 vector<std::int64_t> GapRows::dofs() const {
-    return dofs_where(vector<char>(n_pairs(), 1));
+    return dofs_where(vector<char>(size_.n_pairs, 1));
 }
 
 vector<std::int64_t> GapRows::dofs_where(const vector<char> &chosen) const {
     vector<std::int64_t> found;
     for (std::int64_t j = 0; j < matrix_.cols; ++j)
         for (std::int64_t p = matrix_.ptr[j]; p < matrix_.ptr[j + 1]; ++p)
-            if (matrix_.val[p] != 0 && chosen[matrix_.idx[p]]) {
+            if (matrix_.val[p] != 0 && chosen[size_.pair_of(matrix_.idx[p])]) {
                 found.push_back(j);
                 break;
             }

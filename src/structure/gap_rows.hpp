@@ -1,23 +1,32 @@
-// The gap matrix B over the free DOFs: row i gives the relative normal displacement of contact pair i.
+// The gap matrix B over the free DOFs: each row gives the relative displacement of a contact pair in one of
+// the directions in which it acts.
 #pragma once
 #include "structure/field.hpp"
 #include "structure/sparse.hpp"
 
 namespace plm {
 
+/// The rows of a pair follow one another, its normal first.
+struct GapSize {
+    std::int64_t n_pairs = 0, n_directions = 1;
+    std::int64_t n_rows() const { return n_pairs * n_directions; }
+    std::int64_t pair_of(std::int64_t row) const { return row / n_directions; }
+};
+
 class GapRows {
   public:
     GapRows() = default;
-    explicit GapRows(SparseMatrix matrix) : matrix_(std::move(matrix)) {}
+    /// n_rows() x n_free.
+    GapRows(SparseMatrix matrix, GapSize size) : matrix_(std::move(matrix)), size_(size) {}
 
-    std::int64_t n_pairs() const { return matrix_.rows; }
-    /// B V, Z x k.
+    std::int64_t n_rows() const { return size_.n_rows(); }
+    /// B V, n_rows() x k.
     Matrix of(const Field &v) const;
-    /// The same of one column, into u (Z).
+    /// The same of one column, into u.
     void of(const Field &v, vector<double> &u) const { multiply(matrix_, v.in_core().data(), u.data()); }
     /// What the terms of B V are before they cancel: |B| |V|.
     Matrix terms_of(const Field &v) const;
-    /// B^T F, forces F (Z x k) on the DOFs.
+    /// B^T F, forces F (n_rows() x k) on the DOFs.
     Field forces(const Matrix &f) const;
     /// B^T.
     Field columns() const;
@@ -38,7 +47,8 @@ class GapRows {
   private:
     vector<std::int64_t> dofs_where(const vector<char> &chosen) const;
 
-    SparseMatrix matrix_; // Z x n_free
+    SparseMatrix matrix_; // n_rows() x n_free
+    GapSize size_;
 };
 
 } // namespace plm

@@ -52,14 +52,14 @@ void require_scale(const char *what, const SparseMatrix &a) {
 
 } // namespace
 
-Structure::Structure(const StructureInput &input, std::int64_t n_pairs, double largest_contact,
-                     const Solver &solver, Watch watch)
+Structure::Structure(const StructureInput &input, GapSize gap, double largest_contact, const Solver &solver,
+                     Watch watch)
     : n_dof_(input.n_dof), solver_(solver) {
-    assemble(input, n_pairs);
+    assemble(input, gap);
     factor_stiffness(largest_contact, watch);
 }
 
-void Structure::assemble(const StructureInput &input, std::int64_t n_pairs) {
+void Structure::assemble(const StructureInput &input, GapSize gap) {
     if (!input.mass || !input.stiffness)
         throw Error(PLM_ERR_STATE, input.mass
                                        ? "the stiffness matrix is missing; hand it over with PLM_STIFFNESS"
@@ -74,7 +74,7 @@ void Structure::assemble(const StructureInput &input, std::int64_t n_pairs) {
         throw Error(PLM_ERR_MATRIX, "no free DOF has mass; check the mass matrix and the fixed DOFs")
             .argument("value");
     require_scale("damping matrix", damping_);
-    assemble_gap(input, n_pairs);
+    assemble_gap(input, gap);
     assemble_loads(input);
 }
 
@@ -106,24 +106,25 @@ void Structure::assemble_matrices(const StructureInput &input) {
     damping_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
 }
 
-void Structure::assemble_gap(const StructureInput &input, std::int64_t z) {
-    vector<std::int64_t> all_pairs(z);
-    for (std::int64_t i = 0; i < z; ++i) all_pairs[i] = i;
+void Structure::assemble_gap(const StructureInput &input, GapSize size) {
+    const std::int64_t n_rows = size.n_rows();
+    vector<std::int64_t> all_rows(n_rows);
+    for (std::int64_t i = 0; i < n_rows; ++i) all_rows[i] = i;
     SparseMatrix gap =
-        submatrix(from_triplets(z, n_dof_, input.gap_pair, input.gap_dof, input.gap_coefficient), all_pairs,
-                  z, free_of_, n_free());
-    vector<double> weight(z, 0.0);
+        submatrix(from_triplets(n_rows, n_dof_, input.gap_row, input.gap_dof, input.gap_coefficient),
+                  all_rows, n_rows, free_of_, n_free());
+    vector<double> weight(n_rows, 0.0);
     for (std::int64_t p = 0; p < gap.nnz(); ++p) weight[gap.idx[p]] += std::abs(gap.val[p]);
-    for (std::int64_t i = 0; i < z; ++i)
+    for (std::int64_t i = 0; i < n_rows; ++i)
         if (!(weight[i] > 0))
             throw Error(PLM_ERR_ARGUMENT,
                         format("contact pair %lld (counted from 0, in the order they were added) "
                                "touches fixed DOFs only: its penetration can never change; leave it "
                                "out or release a DOF",
-                               Int(i)))
+                               Int(size.pair_of(i))))
                 .argument("pair")
-                .index(i);
-    gap_rows_ = GapRows(std::move(gap));
+                .index(size.pair_of(i));
+    gap_rows_ = GapRows(std::move(gap), size);
 }
 
 void Structure::assemble_loads(const StructureInput &input) {

@@ -29,8 +29,8 @@ struct StructureInput {
     std::shared_ptr<const MatrixInput> mass, stiffness, damping_matrix;
     Damping damping;
     vector<std::int64_t> fixed; // DOFs held at zero, in any order, some perhaps twice
-    // gap matrix by rows: B = [pair; dof; coefficient] triplets
-    vector<std::int64_t> gap_pair, gap_dof;
+    // gap matrix by rows: B = [row; dof; coefficient] triplets
+    vector<std::int64_t> gap_row, gap_dof;
     vector<double> gap_coefficient;
     vector<double> preload; // empty: none
     HarmonicLoads excitation;
@@ -47,7 +47,7 @@ class Structure {
     /// Checks the input as a whole, removes fixed DOFs, factors K (or K + sigma M when K is singular), finds
     /// rigid-body modes. Throws plm::Error with the argument and index at fault.
     /// largest_contact: the largest k_n given by the caller, 0 if unknown; the scale where K has none.
-    Structure(const StructureInput &input, std::int64_t n_pairs, double largest_contact, const Solver &solver,
+    Structure(const StructureInput &input, GapSize gap, double largest_contact, const Solver &solver,
               Watch watch);
     Structure(const Structure &) = delete;
 
@@ -115,10 +115,10 @@ class Structure {
     Matrices matrices() const { return {mass_, stiffness_, damping_, solver_}; }
 
   private:
-    void assemble(const StructureInput &input, std::int64_t n_pairs);
+    void assemble(const StructureInput &input, GapSize gap);
     void number_free_dofs(const vector<std::int64_t> &fixed);
     void assemble_matrices(const StructureInput &input);
-    void assemble_gap(const StructureInput &input, std::int64_t n_pairs);
+    void assemble_gap(const StructureInput &input, GapSize size);
     void assemble_loads(const StructureInput &input);
     void factor_stiffness(double largest_contact, Watch watch);
 

@@ -215,14 +215,14 @@ static void too_early(void **state) {
     plm_branch *branch = NULL;
     (void)state;
     REFUSED(plm_model_solve_rest(model), PLM_ERR_STATE, "plm_model_solve_rest", "model", -1,
-            "plm_model_build first");
+            "not built; build it first");
     REFUSED(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 1, &hz, NULL), PLM_ERR_STATE,
             "plm_model_get_modes", "model", -1, "not built");
     REFUSED(plm_model_audit(model, &n), PLM_ERR_STATE, "plm_model_audit", "model", -1, "not built");
     REFUSED(plm_model_get_finding(model, 0, &severity, &hz, 0, NULL, NULL), PLM_ERR_STATE,
-            "plm_model_get_finding", "", -1, "plm_model_audit");
+            "plm_model_get_finding", "", -1, "audit the model first");
     REFUSED(plm_model_get_array(model, "rest_force", 0, NULL, &n), PLM_ERR_STATE, "plm_model_get_array",
-            "key", -1, "plm_model_solve_rest");
+            "key", -1, "solve for it first");
     REFUSED(plm_model_get_int(model, "n_free", &n), PLM_ERR_STATE, "plm_model_get_int", "model", -1,
             "not built");
     assert_int_equal(plm_sampler_create(model, &sampler), PLM_OK);
@@ -231,13 +231,13 @@ static void too_early(void **state) {
     assert_int_equal(plm_hbm_create(basis, &hbm), PLM_OK);
     REFUSED(plm_sampler_run(sampler), PLM_ERR_STATE, "plm_sampler_run", "model", -1, "not built");
     REFUSED(plm_sampler_get_double(sampler, "blf_hz", &hz), PLM_ERR_STATE, "plm_sampler_get_double",
-            "sampler", -1, "plm_sampler_run");
+            "sampler", -1, "not run; run it first");
     REFUSED(plm_basis_build(basis), PLM_ERR_STATE, "plm_basis_build", "model", -1, "not built");
     REFUSED(plm_basis_set_parent(basis, parent), PLM_ERR_STATE, "plm_basis_set_parent", "basis", -1,
-            "plm_basis_build");
+            "not built; build it first");
     REFUSED(plm_basis_get_int(basis, "size", &n), PLM_ERR_STATE, "plm_basis_get_int", "basis", -1,
-            "plm_basis_build");
-    REFUSED(plm_hbm_sweep(hbm, &branch), PLM_ERR_STATE, "plm_hbm_sweep", "basis", -1, "plm_basis_build");
+            "not built; build it first");
+    REFUSED(plm_hbm_sweep(hbm, &branch), PLM_ERR_STATE, "plm_hbm_sweep", "basis", -1, "build it first");
     BAD(plm_hbm_solve(hbm, 0, NULL, 0, &branch), "plm_hbm_solve", "frequency_hz", -1, "> 0");
     BAD(plm_sampler_add_dominant_mode(sampler, 2, 1), "plm_sampler_add_dominant_mode", "system", -1, "0..1");
     BAD(plm_sampler_add_dominant_mode(sampler, 0, 0), "plm_sampler_add_dominant_mode", "mode", -1,

@@ -288,7 +288,7 @@ static void modes_are_verified_by_the_hosts_inertia(void **state) {
     assert_int_equal(plm_context_create(PLM_API_VERSION, &ctx), PLM_OK);
     s.ctx = ctx;
     assert_true(refused(ctx, plm_context_set_inertia(ctx, dense_inertia), PLM_ERR_STATE,
-                        "plm_context_set_inertia", "inertia", -1, "plm_context_set_solver"));
+                        "plm_context_set_inertia", "inertia", -1, "set one first"));
     assert_int_equal(plm_context_set_inertia(ctx, NULL), PLM_OK);
     assert_int_equal(plm_context_set_solver(ctx, dense_factor, dense_solve, dense_free, &s), PLM_OK);
     assert_true(described(ctx, text) >= 0);

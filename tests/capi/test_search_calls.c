@@ -102,7 +102,8 @@ static void searches(void **state) {
     int64_t count = 7;
     (void)state;
     known[0] = known[1] = curve;
-    REFUSED(plm_hbm_get_found(hbm, 0, range, &none), PLM_ERR_STATE, get, "index", -1, "plm_hbm_find_...");
+    REFUSED(plm_hbm_get_found(hbm, 0, range, &none), PLM_ERR_STATE, get, "index", -1,
+            "search for some first");
     assert_true(done(ctx, plm_hbm_find_backbones(hbm, 0.02, &count)));
     assert_int_equal(count, 1);
     count = 7; /* what was found stays through all that follows */
@@ -244,7 +245,7 @@ static void nonlinear_mode(void **state) {
     assert_true(done(ctx, chain_built(ctx, 1, &chain_of_8)));
     assert_true(done(ctx, plm_basis_create(chain_of_8, &of_chain)));
     assert_true(done(ctx, plm_hbm_create(of_chain, &h)));
-    REFUSED(plm_hbm_find_nonlinear_mode(h, 1, 0, 1, &none), PLM_ERR_STATE, f, "basis", -1, "plm_basis_build");
+    REFUSED(plm_hbm_find_nonlinear_mode(h, 1, 0, 1, &none), PLM_ERR_STATE, f, "basis", -1, "build it first");
     assert_true(done(ctx, plm_basis_set_string(of_chain, "kind", "full")));
     assert_true(done(ctx, plm_basis_set_double(of_chain, "frequency_min_hz", 2)));
     assert_true(done(ctx, plm_basis_set_double(of_chain, "frequency_max_hz", 4)));

@@ -93,7 +93,7 @@ static void methods_are_checked(void **state) {
     DONE(plm_basis_set_string(pod, "kind", "pod"));
     DONE(plm_hbm_create(pod, &of_pod));
     BAD(plm_study_add_response(c.study, "a", of_pod, &index), "plm_study_add_response", "hbm", -1,
-        "plm_study_add_compressed");
+        "to be compressed or refined");
     assert_true(index == 7 && study_scalar(c.study, "n_methods") == 0);
     DONE(plm_study_add_response(c.study, "a", c.hbm, &index));
     assert_int_equal(index, 0);
@@ -140,7 +140,7 @@ static void too_early(void **state) {
     DONE(plm_study_destroy(&study));
     DONE(plm_model_create(ctx, 1, &raw));
     DONE(plm_study_create(raw, &study));
-    EARLY(plm_study_run(study), "plm_study_run", "model", "plm_model_build");
+    EARLY(plm_study_run(study), "plm_study_run", "model", "build it first");
     assert_true(n == 7 && branch == NULL && strcmp(text, "kept") == 0);
 }
 
@@ -158,8 +158,7 @@ static void results_are_read_within_their_bounds(void **state) {
     BAD(plm_study_get_curve(c.study, -2, 0, &branch), "plm_study_get_curve", "index", -1, "-1..1");
     BAD(plm_study_get_curve(c.study, 0, 1, &branch), "plm_study_get_curve", "level", -1, "0..0");
     BAD(plm_study_get_curve(c.study, 0, 0, NULL), "plm_study_get_curve", "branch", -1, "NULL");
-    EARLY(plm_study_get_curve(c.study, 1, 0, &branch), "plm_study_get_curve", "index",
-          "plm_study_get_points");
+    EARLY(plm_study_get_curve(c.study, 1, 0, &branch), "plm_study_get_curve", "index", "read its points");
     BAD(plm_study_get_points(c.study, 0, 0, 1, &x, &y, &n), "plm_study_get_points", "capacity", -1,
         "capacity is 1");
     BAD(plm_study_get_points(c.study, 0, 0, 9, &x, NULL, &n), "plm_study_get_points", "amplitude", -1,

@@ -110,21 +110,22 @@ static void too_early(void **state) {
     EARLY(plm_transient_get_history(full, 0, 1, &x, &n), "plm_transient_get_history", "transient",
           "has not run");
     EARLY(plm_transient_get_multipliers(reduced, 1, &x, &x, &n), "plm_transient_get_multipliers", "transient",
-          "plm_transient_find_periodic");
+          "look for one first");
     EARLY(plm_transient_get_array(full, "time", 0, NULL, &n), "plm_transient_get_array", "transient",
           "has not run");
-    EARLY(plm_transient_get_int(full, "stable", &n), "plm_transient_get_int", "transient", "find_periodic");
+    EARLY(plm_transient_get_int(full, "stable", &n), "plm_transient_get_int", "transient",
+          "look for one first");
     assert_true(done(ctx, plm_model_create(ctx, 1, &raw)));
     assert_true(done(ctx, plm_basis_create(raw, &not_built)));
     assert_true(done(ctx, plm_transient_create(raw, NULL, &t)));
     assert_true(done(ctx, plm_transient_create(raw, not_built, &u)));
-    EARLY(plm_transient_set_state(t, 1, &q, NULL), "plm_transient_set_state", "model", "plm_model_build");
-    EARLY(plm_transient_get_state(u, 1, &x, NULL), "plm_transient_get_state", "model", "plm_model_build");
+    EARLY(plm_transient_set_state(t, 1, &q, NULL), "plm_transient_set_state", "model", "build it first");
+    EARLY(plm_transient_get_state(u, 1, &x, NULL), "plm_transient_get_state", "model", "build it first");
     plm_basis_destroy(&not_built);
     assert_true(done(ctx, plm_basis_create(model, &not_built)));
     plm_transient_destroy(&u);
     assert_true(done(ctx, plm_transient_create(model, not_built, &u)));
-    EARLY(plm_transient_run(u), "plm_transient_run", "basis", "plm_basis_build");
+    EARLY(plm_transient_run(u), "plm_transient_run", "basis", "build it first");
     BAD(plm_transient_find_periodic(full), "plm_transient_find_periodic", "transient", -1,
         "reduced models only");
     assert_true(x == 7 && n == 7);

@@ -257,7 +257,7 @@ std::shared_ptr<const plm::Model> model_of(const scene &s) {
         for (int side = 0; side < 2; ++side) {
             const std::int64_t dof = side ? s.dof_b[k] : s.dof_a[k];
             if (dof < 0 || s.normal[k] == 0) continue;
-            in.gap_pair.push_back(k / 3);
+            in.gap_row.push_back(k / 3);
             in.gap_dof.push_back(dof);
             in.gap_coefficient.push_back(side ? -s.normal[k] : s.normal[k]);
         }

@@ -73,7 +73,7 @@ class Methods(unittest.TestCase):
         self.assertEqual(len(study.points("marching").frequency_hz), 2)
         with self.assertRaises(plm.PlmError) as caught:
             study.curve("marching")
-        self.assertIn("plm_study_get_points", str(caught.exception))
+        self.assertIn("read its points", str(caught.exception))
         with self.assertRaises(plm.PlmError) as caught:
             study.points(0, 2)
         self.assertEqual(caught.exception.argument, "level")

@@ -36,7 +36,7 @@ std::shared_ptr<const plm::Model> make_model(const exact::Structure &s, const Mo
     for (int p = 0; p < s.z; ++p)
         for (int j = 0; j < s.n; ++j) {
             if (s.gap_rows[p * s.n + j] == 0) continue;
-            input.gap_pair.push_back(p);
+            input.gap_row.push_back(p);
             input.gap_dof.push_back(j);
             input.gap_coefficient.push_back(s.gap_rows[p * s.n + j]);
         }

@@ -33,7 +33,7 @@ inline void add_pair(plm::ModelInput &in, const std::vector<double> &row, double
     const std::int64_t pair = static_cast<std::int64_t>(in.contact.stiffness.size());
     for (std::size_t d = 0; d < row.size(); ++d)
         if (row[d] != 0)
-            in.gap_pair.push_back(pair), in.gap_dof.push_back(static_cast<std::int64_t>(d)),
+            in.gap_row.push_back(pair), in.gap_dof.push_back(static_cast<std::int64_t>(d)),
                 in.gap_coefficient.push_back(row[d]);
     in.contact.stiffness.push_back(stiffness);
     in.contact.initial_gap.push_back(gap);
