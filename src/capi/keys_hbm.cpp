@@ -19,10 +19,6 @@ template <class Out, class Get> Out per_point(const B &b, Get get) {
 const std::vector<Key> &hbm_keys() {
     using O = HbmOptions;
     static const std::vector<Key> keys = {
-        choice_option<&O::motion>(
-            "motion", "auto,exact,harmonics",
-            "curves and their points: exact motions of the reduced model, or harmonic balance; auto: exact "
-            "where that is cheaper and no option of harmonic balance is set"),
         int_option<&O::n_harmonics>(
             "n_harmonics", 0, 1000,
             "harmonics H of the solution, all of the excitation's; 0: as many as each "
@@ -36,6 +32,10 @@ const std::vector<Key> &hbm_keys() {
                                            "add the next harmonics that follow from the exact contact force"),
         int_option<&O::period_multiple>("period_multiple", 1, 64,
                                         "excitation periods in a period of the response (sub-harmonics)"),
+        choice_option<&O::motion>(
+            "motion", "auto,exact,harmonics",
+            "curves and their points: exact motions of the reduced model, or harmonic balance; auto: exact "
+            "where that is cheaper and no option of harmonic balance is set"),
         choice_option<&O::aft>(
             "aft", "event,sampled",
             "contact forces integrated between exact switching instants, or from time samples"),

@@ -4,6 +4,7 @@
 #include "contact/contact_law.hpp"
 #include "linalg/memory.hpp"
 #include <cstdint>
+#include <cstring>
 
 namespace plm {
 
@@ -32,8 +33,12 @@ class PairStates {
     PairStates inverted() const;
     /// Pairs whose state is another one there; of the same size.
     std::int64_t n_different(const PairStates &other) const;
-    bool operator==(const PairStates &other) const { return state_ == other.state_; }
-    bool operator!=(const PairStates &other) const { return state_ != other.state_; }
+    /// In one comparison of memory: sets are looked up by their states.
+    bool operator==(const PairStates &other) const {
+        return state_.size() == other.state_.size() &&
+               (state_.empty() || std::memcmp(state_.data(), other.state_.data(), state_.size()) == 0);
+    }
+    bool operator!=(const PairStates &other) const { return !(*this == other); }
 
   private:
     PairStates(std::int64_t n_pairs, PairState state) : state_(n_pairs, state) {}

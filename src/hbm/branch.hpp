@@ -54,7 +54,7 @@ class Branch {
         return newton_work.iterations > 0 ? newton_work.seconds / static_cast<double>(newton_work.iterations)
                                           : 0;
     }
-    std::string unknowns_used; // "modal", "gaps" or "both"
+    std::string unknowns_used; // "modal", "gaps", "both" or "state"
     bool sampled = false;      // contact forces from time samples
     Warnings warnings;         // what should be looked at before its points are used
     bool is_mode = false;      // a nonlinear mode: motions without excitation, each with a damping ratio

@@ -27,13 +27,22 @@ vector<double> unknowns_of(HbmSystem &system, const BranchPoint &point) {
     return x;
 }
 
+void put_record(double residual, std::int64_t iterations, std::int64_t n_switching, BranchPoint &point) {
+    point.residual = residual;
+    point.iterations = iterations;
+    point.n_switching = n_switching;
+}
+
+void put_place(const PathPoint &at, BranchPoint &point) {
+    point.arclength = at.arclength;
+    point.bifurcation = at.bifurcation;
+}
+
 void put_solution(HbmSystem &system, const PathState &at, double residual, std::int64_t iterations,
                   BranchPoint &point) {
     system.to_point(at.x.data(), at.parameter, point);
     point.motion.reset();
-    point.residual = residual;
-    point.iterations = iterations;
-    point.n_switching = system.indicator().n_switching;
+    put_record(residual, iterations, system.indicator().n_switching, point);
 }
 
 BranchPoint solved_point(HbmSystem &system, const PathState &at, double residual, std::int64_t iterations) {
@@ -44,8 +53,7 @@ BranchPoint solved_point(HbmSystem &system, const PathState &at, double residual
 
 BranchPoint solved_point(HbmSystem &system, const PathPoint &p) {
     BranchPoint point = solved_point(system, {p.x, p.parameter}, p.residual, p.iterations);
-    point.arclength = p.arclength;
-    point.bifurcation = p.bifurcation;
+    put_place(p, point);
     return point;
 }
 

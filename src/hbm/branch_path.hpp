@@ -13,6 +13,10 @@ PathOptions path_options(const HbmOptions &options, double low, double high);
 
 /// The unknowns of a point.
 vector<double> unknowns_of(HbmSystem &system, const BranchPoint &point);
+/// What the search for a solution tells of it.
+void put_record(double residual, std::int64_t iterations, std::int64_t n_switching, BranchPoint &point);
+/// Where it stands on its path.
+void put_place(const PathPoint &at, BranchPoint &point);
 /// A solution at which the system has just been evaluated, into a point that keeps what else it knows.
 void put_solution(HbmSystem &system, const PathState &at, double residual, std::int64_t iterations,
                   BranchPoint &point);

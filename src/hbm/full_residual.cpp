@@ -88,14 +88,21 @@ class FullResidual {
     double omega_; // of the response
 };
 
+// Z x (2H + 1). Those of an exact motion are its own: the first harmonics of the motion have others.
+Matrix contact_forces_of(const ReducedModel &reduced, const BranchPoint &point) {
+    if (point.motion && !reduced.all_pairs) return point.motion->contact_forces(point.n_harmonics);
+    const ContactMotion motion = whole_contact_motion(reduced, point);
+    ContactIndicator indicator;
+    make_event_force(point.n_harmonics, motion.u.rows())->indicator(motion.u, indicator);
+    Matrix contact;
+    apply_indicator(indicator, *motion.stiffness, motion.u, contact);
+    return contact;
+}
+
 } // namespace
 
 double Branch::full_residual(std::int64_t point) const {
-    const ContactMotion motion = whole_contact_motion(*reduced_, points_[point]);
-    ContactIndicator indicator;
-    make_event_force(points_[point].n_harmonics, motion.u.rows())->indicator(motion.u, indicator);
-    Matrix contact;
-    apply_indicator(indicator, *motion.stiffness, motion.u, contact);
+    const Matrix contact = contact_forces_of(*reduced_, points_[point]);
     const FullResidual full(*reduced_, points_[point], period_multiple_);
     double residual = 0, energy = 0;
     const std::int64_t last = points_[point].n_harmonics;

@@ -36,6 +36,9 @@ void measure_contact(const ReducedModel &m, const BranchPoint &point, MotionMeas
         make_event_force(all.cols() / 2, all.rows())->indicator(all, s);
     }
     out.closed_share = s.closed_share();
+    if (!point.motion || m.all_pairs || z == 0) return;
+    out.closed_share = 0; // known without the harmonics
+    for (double share : point.motion->closed_shares()) out.closed_share += share / static_cast<double>(z);
 }
 
 } // namespace

@@ -13,6 +13,8 @@ class PointMotion {
     virtual TrigRange range(std::int64_t dof) const = 0;
     /// Static coordinates (r_0) at t = fraction x period of the response.
     virtual vector<double> displacement(double fraction) const = 0;
+    /// Fourier coefficients of the forces of the pairs in the equations: Z x (2H + 1), a_0, a_1, b_1, ...
+    virtual Matrix contact_forces(std::int64_t n_harmonics) const = 0;
     /// Share of the period during which each pair in the equations is closed.
     virtual const vector<double> &closed_shares() const = 0;
 };

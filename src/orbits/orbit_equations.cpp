@@ -4,9 +4,9 @@
 
 namespace plm {
 OrbitEquations::OrbitEquations(std::shared_ptr<const FlowModel> model, FlowState rest,
-                               const OrbitConditions &conditions, FlowParameter parameter, Watch watch)
+                               const OrbitConditions &conditions, FlowParameter parameter)
     : model_(std::move(model)), rest_(std::move(rest)), conditions_(conditions), parameter_(parameter),
-      watch_(watch), modes_(std::make_shared<ContactModesKept>(model_)), weight_(size()), x_(size()),
+      modes_(std::make_shared<ContactModesKept>(model_)), weight_(size()), x_(size()),
       end_(size()), change_(size()) {
     const std::int64_t moving = model_->n_moving();
     for (std::int64_t j = 0; j < moving; ++j)
@@ -48,7 +48,7 @@ void OrbitEquations::run(const double *x, double p) {
     ++n_runs_;
     const OrbitConditions now = conditions(p);
     try {
-        ExactFlow flow(model_, now.omega, now.force_scale, watch_, modes_);
+        ExactFlow flow(model_, now.omega, now.force_scale, Watch(), modes_);
         flow.differentiate(parameter_);
         FlowState state = this->state(x);
         ContactHistory recorder;
@@ -80,7 +80,7 @@ void OrbitEquations::linearize() {
     Matrix a(n, n);
     for (std::int64_t j = 0; j < n; ++j) a(j, j) = 1;
     if (!failed_) {
-        monodromy_ = plm::monodromy(*model_, intervals_, 1e-15, watch_, modes_.get());
+        monodromy_ = plm::monodromy(*model_, intervals_, 1e-15, Watch(), modes_.get());
         for (std::int64_t j = 0; j < n; ++j)
             for (std::int64_t i = 0; i < n; ++i) monodromy_(i, j) *= weight_[i] / weight_[j];
         for (std::int64_t j = 0; j < n; ++j)

@@ -22,7 +22,7 @@ class OrbitEquations final : public Residual {
     /// `rest`, displacements by the root of lambda + omega^2, so that |x|^2 is an energy. Structural damping
     /// depends on the frequency: such a model serves at one frequency only.
     OrbitEquations(std::shared_ptr<const FlowModel> model, FlowState rest, const OrbitConditions &conditions,
-                   FlowParameter parameter, Watch watch);
+                   FlowParameter parameter);
 
     std::int64_t size() const override { return model_->state_size(); }
     void residual(const double *x, double p, double *r) override;
@@ -55,7 +55,6 @@ class OrbitEquations final : public Residual {
     FlowState rest_;
     OrbitConditions conditions_;
     FlowParameter parameter_;
-    Watch watch_;
     std::shared_ptr<ContactModesKept> modes_;
     vector<double> weight_, x_, end_, change_; // of the unknowns; the last run: from, to, and by the parameter
     double p_ = 0, size_ = 0;

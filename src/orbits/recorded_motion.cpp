@@ -197,6 +197,27 @@ std::vector<MotionRange> RecordedMotion::ranges(const Matrix &rows) const {
     return out;
 }
 
+RecordedMotion RecordedMotion::contact_forces(const FlowModel &model) const {
+    RecordedMotion forces;
+    forces.duration_ = duration_;
+    for (const Piece &p : pieces_) {
+        const vector<double> springs = model.contact().springs(p.states); // 0 where open
+        const auto pressed = [&](const Matrix &motion) {
+            Matrix force = product('N', 'N', model.gap(), motion);
+            for (std::int64_t k = 0; k < force.cols(); ++k)
+                for (std::size_t i = 0; i < springs.size(); ++i) force.col(k)[i] *= springs[i];
+            return force;
+        };
+        Piece now{p.start, p.duration, pressed(p.coefficient), p.states, {p.fast.rate, Matrix(), Matrix()}};
+        for (std::size_t i = 0; i < springs.size(); ++i)
+            now.coefficient.col(0)[i] -= springs[i] * model.initial_gap()[i];
+        now.fast.cosine = p.fast.rate.empty() ? Matrix() : pressed(p.fast.cosine);
+        now.fast.sine = p.fast.rate.empty() ? Matrix() : pressed(p.fast.sine);
+        forces.pieces_.push_back(std::move(now));
+    }
+    return forces;
+}
+
 vector<double> RecordedMotion::closed_shares() const {
     vector<double> share(pieces_.empty() ? 0 : pieces_[0].states.size(), 0.0);
     for (const Piece &p : pieces_)

@@ -22,6 +22,8 @@ class RecordedMotion final : public FlowRecorder {
     double mean_square(const Matrix &a = Matrix()) const;
     /// Harmonics [first, first + count) of the motion as one period: n x 2 count, columns a_h, b_h.
     Matrix harmonics(std::int64_t first, std::int64_t count) const;
+    /// The forces of the pairs as a motion of Z coordinates.
+    RecordedMotion contact_forces(const FlowModel &model) const;
     /// Extrema of row . y for every row of a matrix (rows x n).
     std::vector<MotionRange> ranges(const Matrix &rows) const;
     /// Share of the motion during which each pair is closed, and the number of pairs that are not always or

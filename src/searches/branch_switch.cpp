@@ -4,6 +4,7 @@
 #include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
 #include "searches/curve.hpp"
+#include "searches/harmonic_choice.hpp"
 #include "searches/hbm.hpp"
 #include "searches/point_equations.hpp"
 #include <algorithm>
@@ -41,12 +42,12 @@ vector<double> null_vector(Residual &system, const vector<double> &x, double ome
 class Switch {
   public:
     Switch(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, const BranchPoint &origin,
-           const BranchPoint &along, bool mirrored, Watch watch)
+           const BranchPoint &along, bool mirrored)
         : options_(options), mirrored_(mirrored) {
         options_.n_harmonics = harmonics_of(origin, options.period_multiple);
         options_.unknowns =
             prefers_modal(*reduced, options) ? NonlinearUnknowns::modal : NonlinearUnknowns::gaps;
-        equations_ = equations_of(std::move(reduced), options_, origin, watch);
+        equations_ = equations_of(std::move(reduced), options_, origin);
         at_ = {equations_->unknowns(origin), origin.omega};
         const double size = size_of(equations_->residual(), at_.x);
         metric_ = {size > 0 ? size : 1, 2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz)};
@@ -121,7 +122,7 @@ std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &branch, std::int6
     const std::size_t neighbour = static_cast<std::size_t>(point > 0 ? point - 1 : point + 1);
     const BranchPoint &along = branch.points().size() > 1 ? branch.points()[neighbour] : origin;
     const auto longer = [&](const BranchPoint &p) { return p.motion ? p : on_longer_period(p, factor); };
-    Switch other(reduced, options, longer(origin), longer(along), mirrored, watch_);
+    Switch other(reduced, options, longer(origin), longer(along), mirrored);
     CurveStart start;
     if (!other.find(start))
         throw Error(PLM_ERR_CONVERGENCE, "no point of another curve was found beside this one")

@@ -1,8 +1,10 @@
 #include "searches/error_estimate.hpp"
+#include "hbm/branch_path.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/make_system.hpp"
 #include "paths/metric.hpp"
 #include "searches/curve.hpp"
+#include "searches/harmonic_choice.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,7 +35,6 @@ constexpr double settled = 0.05;     // last step over first, with tangents rene
 constexpr double negligible = 1e-10; // relative step that asks for no more
 constexpr double diverged = 1.0;     // relative step that has left the neighbourhood of the point
 constexpr int most_steps = 8;
-constexpr std::int64_t enough_harmonics = 30; // for what a basis misses of an exact motion
 
 // One point in the gaps of the unreduced structure, corrected step by step across the curve.
 class Correction {
@@ -108,6 +109,23 @@ class Correction {
     std::int64_t period_multiple_;
 };
 
+// Harmonic balance at the frequency of an exact motion, with the harmonics of the options.
+bool solve_with_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                          BranchPoint &point) {
+    const auto system = make_system(std::move(reduced), options);
+    vector<double> x = unknowns_of(*system, point);
+    const NewtonOutcome out = newton_at(*system, newton_limits(options), x, point.omega);
+    if (out.converged) put_solution(*system, {x, point.omega}, out.residual, out.iterations, point);
+    return out.converged;
+}
+
+double amplitude_alone(const Branch &branch, const BranchPoint &point, std::int64_t dof, Measure measure,
+                       std::int64_t harmonic) {
+    Branch alone(branch.reduced_model(), branch.force_scale(), branch.period_multiple());
+    alone.append(point);
+    return alone.amplitude(0, dof, measure, harmonic);
+}
+
 std::int64_t finer(std::int64_t harmonics) {
     return 2 * harmonics + 2;
 }
@@ -132,22 +150,24 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
             .argument("point")
             .index(point);
     HbmOptions o = options_at(p, branch_.period_multiple(), options_);
-    if (p.motion) { // no harmonics are missing: with enough of them, all is the basis
-        o.n_harmonics = std::max(o.n_harmonics, std::min(finer(o.n_harmonics), enough_harmonics));
-        with_harmonics = false;
-    }
     ErrorEstimate e;
+    BranchPoint from = p;
+    if (p.motion) { // no harmonics are missing: what both structures answer with as many differs by the basis
+        with_harmonics = false;
+        e.known = solve_with_harmonics(branch_.reduced_model(), o, from);
+    }
     double amplitude = branch_.amplitude(point, dof, measure, harmonic), hz = p.omega / (2 * M_PI);
+    if (p.motion && e.known) amplitude = amplitude_alone(branch_, from, dof, measure, harmonic);
     const auto settle = [&](Correction &c, double ErrorParts::*part) {
         const double a = c.amplitude(dof, measure, harmonic), f = c.frequency_hz();
         e.amplitude.*part = a - amplitude;
         e.frequency_hz.*part = f - hz;
         amplitude = a, hz = f;
     };
-    Correction c(full_, o, p, *branch_.reduced_model());
+    Correction c(full_, o, from, *branch_.reduced_model());
     const double length = c.step(true);
     settle(c, &ErrorParts::basis);
-    e.known = c.settle(length);
+    e.known = c.settle(length) && e.known;
     settle(c, &ErrorParts::contact);
     if (e.known && with_harmonics) {
         o.n_harmonics = finer(o.n_harmonics);

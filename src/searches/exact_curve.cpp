@@ -11,7 +11,7 @@ class ExactTracer final : public PathOwner {
   public:
     ExactTracer(const HbmOptions &options, Watch watch, Branch &branch, double omega)
         : options_(options), watch_(watch), branch_(branch),
-          equations_(orbit_equations(branch.reduced_model(), options, omega, FlowParameter::frequency, watch)) {}
+          equations_(orbit_equations(branch.reduced_model(), options, omega, FlowParameter::frequency)) {}
 
     void run(const CurveStart &start) {
         branch_.unknowns_used = "state";
@@ -29,12 +29,9 @@ class ExactTracer final : public PathOwner {
     }
 
     void record(const PathPoint &p) override {
-        BranchPoint point = orbit_point(equations_, options_, {p.x, p.parameter});
-        point.arclength = p.arclength;
-        point.bifurcation = p.bifurcation;
-        point.residual = p.residual;
-        point.iterations = p.iterations;
-        point.multipliers = multipliers(equations_.monodromy());
+        BranchPoint point = orbit_point(equations_, options_, {p.x, p.parameter}, p.residual, p.iterations);
+        put_place(p, point);
+        if (with_stability()) point.multipliers = multipliers(equations_.monodromy());
         branch_.append(std::move(point));
     }
 
@@ -57,14 +54,17 @@ class ExactTracer final : public PathOwner {
     }
 
     vector<std::int32_t> test_kinds() const override {
+        if (!with_stability()) return {};
         return {PLM_BIFURCATION_PERIOD_DOUBLING, PLM_BIFURCATION_NEIMARK_SACKER};
     }
 
     void test(const vector<double> &, double, vector<double> &values) override {
-        values = bifurcation_tests(multipliers(equations_.monodromy()));
+        if (with_stability()) values = bifurcation_tests(multipliers(equations_.monodromy()));
     }
 
   private:
+    bool with_stability() const { return options_.stability != StabilityKind::off; }
+
     PathStart first(const CurveStart &start) const {
         PathStart path;
         path.at = state_of(start.point);

@@ -3,6 +3,7 @@
 #include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
 #include "searches/curve.hpp"
+#include "searches/harmonic_choice.hpp"
 #include <algorithm>
 #include <cmath>
 

@@ -7,6 +7,7 @@
 #include "searches/curve.hpp"
 #include "searches/curve_verdicts.hpp"
 #include "searches/follow.hpp"
+#include "searches/harmonic_choice.hpp"
 #include "searches/orbit_points.hpp"
 #include "searches/stability.hpp"
 #include "searches/start.hpp"

@@ -1,6 +1,7 @@
 // The searches of Hbm: checks, and the options they run with.
 #include "searches/curve.hpp"
 #include "searches/fold_tracking.hpp"
+#include "searches/harmonic_choice.hpp"
 #include "searches/hbm.hpp"
 #include "searches/isolated.hpp"
 #include "searches/marching_search.hpp"

@@ -2,6 +2,7 @@
 #include "hbm/branch_path.hpp"
 #include "searches/curve.hpp"
 #include "searches/fold_tracking.hpp"
+#include "searches/harmonic_choice.hpp"
 #include "searches/orbit_points.hpp"
 #include <algorithm>
 #include <chrono>

@@ -4,6 +4,7 @@
 #include "orbits/shooting.hpp"
 #include "reduction/reduced_rest.hpp"
 #include "searches/curve.hpp"
+#include "searches/harmonic_choice.hpp"
 #include "searches/start.hpp"
 #include <algorithm>
 #include <cmath>

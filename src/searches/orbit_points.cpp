@@ -5,6 +5,7 @@
 #include "orbits/shooting.hpp"
 #include "reduction/reduced_rest.hpp"
 #include "reduction/widened_model.hpp"
+#include "searches/exact_motion.hpp"
 #include "searches/harmonic_choice.hpp"
 #include "searches/start.hpp"
 #include <algorithm>
@@ -13,8 +14,10 @@
 namespace plm {
 namespace {
 
-constexpr double of_tolerance = 0.1; // what the coefficients of an exact motion may leave out; at the gaps,
-constexpr double at_gaps_more = 20;  // whose local motion hardly acts back, this many times more
+// What the harmonics of an exact motion may leave out, of harmonic_tolerance: those that harmonic balance would
+// go on with, and those of the coefficients handed out, whose derivatives are read, too. At the gaps, whose
+// local motion hardly acts back, more.
+constexpr double of_solution = 0.1, of_coefficients = 0.01, at_gaps_more = 20;
 constexpr std::int64_t harmonics_at_once = 8;
 
 double fastest_rate(const ReducedModel &m) {
@@ -75,6 +78,18 @@ class OrbitMotion final : public PointMotion {
         return model_->in_static_coordinates(run(fraction - std::floor(fraction), nullptr).y);
     }
 
+    Matrix contact_forces(std::int64_t n_harmonics) const override {
+        RecordedMotion motion;
+        run(1, &motion);
+        const RecordedMotion forces = motion.contact_forces(*model_);
+        const vector<double> mean = forces.mean();
+        const Matrix harmonics = forces.harmonics(1, n_harmonics);
+        Matrix all(static_cast<std::int64_t>(mean.size()), 2 * n_harmonics + 1);
+        std::copy(mean.begin(), mean.end(), all.data());
+        std::copy(harmonics.data(), harmonics.col(harmonics.cols()), all.col(1));
+        return all;
+    }
+
     const vector<double> &closed_shares() const override { return closed_shares_; }
 
   private:
@@ -95,27 +110,47 @@ class OrbitMotion final : public PointMotion {
     mutable TrigRange known_range_ = {};
 };
 
+// Of the motion and of the gaps: mean squares, of all and of what the harmonics so far leave out.
+struct Remainder {
+    double all, gaps, left, left_at_gaps;
+    bool is_within(double share) const {
+        return left <= share * share * all && left_at_gaps <= share * share * at_gaps_more * at_gaps_more * gaps;
+    }
+    void take(const Matrix &harmonics, const Matrix &at_gaps) {
+        for (std::int64_t k = 0; k < harmonics.cols(); ++k) {
+            left -= 0.5 * dot(harmonics.rows(), harmonics.col(k), harmonics.col(k));
+            left_at_gaps -= 0.5 * dot(at_gaps.rows(), at_gaps.col(k), at_gaps.col(k));
+        }
+    }
+};
+
 // Mean and harmonics in the coordinates of the basis.
 void put_harmonics(const FlowModel &model, const RecordedMotion &motion, const HbmOptions &options,
                    BranchPoint &point) {
     point.eta_0 = model.in_static_coordinates(motion.mean());
-    const double whole = motion.mean_square(), at_gaps = motion.mean_square(model.gap());
-    const double allowed = of_tolerance * options.harmonic_tolerance, allowed_at_gaps = at_gaps_more * allowed;
+    Remainder rest{motion.mean_square(), motion.mean_square(model.gap()), 0, 0};
+    rest.left = rest.all, rest.left_at_gaps = rest.gaps;
     const std::int64_t fewest = few_harmonics(model.reduced()) * options.period_multiple,
                        most = std::max(fewest, options.max_harmonics * options.period_multiple);
-    double left = whole, left_at_gaps = at_gaps;
+    const auto told = [&] { return rest.gaps > 0 ? std::sqrt(std::max(rest.left_at_gaps, 0.0) / rest.gaps) : 0.0; };
+    point.n_harmonics = 0;
     Matrix eta;
-    while (eta.cols() < 2 * most && (eta.cols() < 2 * fewest || left > allowed * allowed * whole ||
-                                     left_at_gaps > allowed_at_gaps * allowed_at_gaps * at_gaps)) {
-        const std::int64_t known = eta.cols() / 2,
-                           more = std::min(most - known, std::max(fewest, harmonics_at_once));
-        const Matrix next = motion.harmonics(known + 1, more),
-                     gaps = product('N', 'N', model.gap(), next);
-        for (std::int64_t k = 0; k < 2 * more; ++k) {
-            left -= 0.5 * dot(next.rows(), next.col(k), next.col(k));
-            left_at_gaps -= 0.5 * dot(gaps.rows(), gaps.col(k), gaps.col(k));
+    while (eta.cols() < 2 * most) {
+        if (eta.cols() >= 2 * fewest && point.n_harmonics == 0 &&
+            rest.is_within(of_solution * options.harmonic_tolerance)) {
+            point.n_harmonics = eta.cols() / 2;
+            point.harmonic_tail = told();
         }
+        if (point.n_harmonics > 0 && rest.is_within(of_coefficients * options.harmonic_tolerance)) break;
+        const std::int64_t known = eta.cols() / 2,
+                           more = std::min(most - known, known == 0 ? fewest : harmonics_at_once);
+        const Matrix next = motion.harmonics(known + 1, more);
+        rest.take(next, product('N', 'N', model.gap(), next));
         eta.append(next);
+    }
+    if (point.n_harmonics == 0) {
+        point.n_harmonics = eta.cols() / 2;
+        point.harmonic_tail = told();
     }
     for (std::int64_t k = 0; k < eta.cols(); ++k) {
         const vector<double> turned =
@@ -123,14 +158,20 @@ void put_harmonics(const FlowModel &model, const RecordedMotion &motion, const H
         std::copy(turned.begin(), turned.end(), eta.col(k));
     }
     point.eta = std::move(eta);
-    point.n_harmonics = point.eta.cols() / 2;
-    point.harmonic_tail = at_gaps > 0 ? std::sqrt(std::max(left_at_gaps, 0.0) / at_gaps) : 0;
     point.harmonic_error = 0;
 }
 
 FlowState rest_state(const FlowModel &model) {
     return {model.from_static_coordinates(rest_of(model.reduced())->coordinates),
             vector<double>(static_cast<std::size_t>(model.size()), 0.0), 0};
+}
+
+// Rigid-body motion that no pair ever holds has no place of its own: harmonic balance keeps its mean.
+bool moves_freely(const OrbitEquations &equations, const ReducedModel &reduced) {
+    vector<char> acting(static_cast<std::size_t>(reduced.n_pairs()), 0);
+    for (const ContactInterval &interval : equations.intervals())
+        for (std::int64_t pair : interval.states.closed_pairs()) acting[static_cast<std::size_t>(pair)] = 1;
+    return free_motion(reduced, acting).cols() > 0;
 }
 
 // By Newton's method from the point; by marching where that does not contract.
@@ -183,11 +224,11 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
 }
 
 OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
-                               double omega, FlowParameter parameter, Watch watch) {
+                               double omega, FlowParameter parameter) {
     auto model = std::make_shared<const FlowModel>(std::move(reduced), omega);
     FlowState rest = rest_state(*model);
     return OrbitEquations(std::move(model), std::move(rest), {omega, options.force_scale, options.period_multiple},
-                          parameter, watch);
+                          parameter);
 }
 
 FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_t period_multiple) {
@@ -200,7 +241,8 @@ vector<double> orbit_unknowns(const OrbitEquations &equations, const BranchPoint
     return equations.unknowns(start_of(equations.model(), point, period_multiple));
 }
 
-BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &options, const PathState &at) {
+BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &options, const PathState &at,
+                        double residual, std::int64_t iterations) {
     const OrbitConditions conditions = equations.conditions(at.parameter);
     RecordedMotion motion;
     ExactFlow flow(equations.shared_model(), conditions.omega, conditions.force_scale, Watch(),
@@ -212,7 +254,7 @@ BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &optio
     point.omega = conditions.omega;
     point.force_scale = conditions.force_scale;
     put_harmonics(equations.model(), motion, options, point);
-    point.n_switching = motion.n_switching();
+    put_record(residual, iterations, motion.n_switching(), point);
     point.motion = std::make_shared<OrbitMotion>(equations.shared_model(), equations.modes(), start,
                                                  conditions, motion.closed_shares());
     return point;
@@ -223,9 +265,8 @@ namespace {
 // A solution at which nothing else is known, with its multipliers.
 BranchPoint whole_point(OrbitEquations &equations, const HbmOptions &options, const PathState &at,
                         const NewtonOutcome &out) {
-    BranchPoint point = orbit_point(equations, options, at);
-    point.residual = out.residual;
-    point.iterations = out.iterations;
+    BranchPoint point = orbit_point(equations, options, at, out.residual, out.iterations);
+    if (options.stability == StabilityKind::off) return point;
     vector<double> r(at.x.size());
     equations.residual(at.x.data(), at.parameter, r.data());
     equations.linearize();
@@ -237,13 +278,15 @@ BranchPoint whole_point(OrbitEquations &equations, const HbmOptions &options, co
 
 bool make_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, Watch watch,
                 BranchPoint &point, NewtonWork &work) {
+    const EventSequence sequence = contact_events(*reduced, point, options.period_multiple);
+    if (free_motion(*reduced, sequence.acting()).cols() > 0) return false; // its place is arbitrary
     OrbitEquations equations =
-        orbit_equations(reduced, options, point.omega, FlowParameter::frequency, watch);
+        orbit_equations(reduced, options, point.omega, FlowParameter::frequency);
     vector<double> x;
     NewtonOutcome out;
     const bool found = solve_exact(equations, options, watch, point, x, out);
     work += out;
-    if (!found) return false;
+    if (!found || moves_freely(equations, *reduced)) return false;
     out.iterations += point.iterations;
     point = whole_point(equations, options, {x, point.omega}, out);
     return true;
@@ -252,7 +295,7 @@ bool make_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &o
 bool follow_exactly_to(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                        const BranchPoint &from, double omega, Watch watch, BranchPoint &point,
                        NewtonWork &work) {
-    OrbitEquations equations = orbit_equations(reduced, options, from.omega, FlowParameter::frequency, watch);
+    OrbitEquations equations = orbit_equations(reduced, options, from.omega, FlowParameter::frequency);
     PathState at = {orbit_unknowns(equations, from, options.period_multiple), from.omega};
     if (omega != from.omega) {
         PathOptions path = path_options(options, std::min(from.omega, omega), std::max(from.omega, omega));

@@ -14,7 +14,7 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
 
 /// Unknowns are measured at `omega`, where the flow's model is made, too.
 OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
-                               double omega, FlowParameter parameter, Watch watch);
+                               double omega, FlowParameter parameter);
 
 /// The state at the beginning of the period, of an exact motion or of harmonic balance.
 FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_t period_multiple);
@@ -24,7 +24,8 @@ vector<double> orbit_unknowns(const OrbitEquations &equations, const BranchPoint
 
 /// A solution as a point: as many harmonics as describe its motion to a tenth of harmonic_tolerance, no more
 /// than max_harmonics. Multipliers are not set.
-BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &options, const PathState &at);
+BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &options, const PathState &at,
+                        double residual, std::int64_t iterations);
 
 /// The exact motion beside a point of harmonic balance at its frequency, with its multipliers. False: none
 /// was found; `point` has not changed.

@@ -3,6 +3,7 @@
 #include "hbm/branch_path.hpp"
 #include "searches/curve.hpp"
 #include "searches/curve_verdicts.hpp"
+#include "searches/harmonic_choice.hpp"
 #include "searches/hbm.hpp"
 #include "searches/point_equations.hpp"
 #include <algorithm>
@@ -198,7 +199,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
             if (error > wanted)
                 options.n_harmonics =
                     std::max(options.n_harmonics, std::min(options_.max_harmonics, 2 * options.n_harmonics));
-            const auto equations = equations_of(reduced, options, point, watch_);
+            const auto equations = equations_of(reduced, options, point);
             PeakSearch(*equations, options, reduced, dof, measure, harmonic, watch_)
                 .run(branch, around, point);
             point.multipliers = equations->multipliers(point);

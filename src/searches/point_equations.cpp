@@ -27,21 +27,18 @@ class HarmonicEquations final : public PointEquations {
 
 class ExactEquations final : public PointEquations {
   public:
-    ExactEquations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, double omega,
-                   Watch watch)
+    ExactEquations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, double omega)
         : options_(options),
-          equations_(orbit_equations(std::move(reduced), options, omega, FlowParameter::frequency, watch)) {}
+          equations_(orbit_equations(std::move(reduced), options, omega, FlowParameter::frequency)) {}
     Residual &residual() override { return equations_; }
     vector<double> unknowns(const BranchPoint &point) const override {
         return orbit_unknowns(equations_, point, options_.period_multiple);
     }
     BranchPoint solved_point(const PathState &at, double residual, std::int64_t iterations) override {
-        BranchPoint point = orbit_point(equations_, options_, at);
-        point.residual = residual;
-        point.iterations = iterations;
-        return point;
+        return orbit_point(equations_, options_, at, residual, iterations);
     }
     vector<std::complex<double>> multipliers(const BranchPoint &point) override {
+        if (options_.stability == StabilityKind::off) return {};
         const vector<double> x = unknowns(point);
         vector<double> r(x.size());
         equations_.residual(x.data(), point.omega, r.data());
@@ -57,9 +54,8 @@ class ExactEquations final : public PointEquations {
 } // namespace
 
 std::unique_ptr<PointEquations> equations_of(std::shared_ptr<const ReducedModel> reduced,
-                                             const HbmOptions &options, const BranchPoint &point,
-                                             Watch watch) {
-    if (point.motion) return std::make_unique<ExactEquations>(std::move(reduced), options, point.omega, watch);
+                                             const HbmOptions &options, const BranchPoint &point) {
+    if (point.motion) return std::make_unique<ExactEquations>(std::move(reduced), options, point.omega);
     return std::make_unique<HarmonicEquations>(std::move(reduced), options);
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 #include "hbm/branch.hpp"
 #include "hbm/options.hpp"
-#include "linalg/monitor.hpp"
 #include "paths/metric.hpp"
 
 namespace plm {
@@ -21,6 +20,6 @@ class PointEquations {
 
 /// Those that `point` solves; options: with the force, the period and the harmonics that it has.
 std::unique_ptr<PointEquations> equations_of(std::shared_ptr<const ReducedModel> reduced,
-                                             const HbmOptions &options, const BranchPoint &point, Watch watch);
+                                             const HbmOptions &options, const BranchPoint &point);
 
 } // namespace plm

@@ -2,6 +2,7 @@
 #include "hbm/harmonic_tail.hpp"
 #include "hbm/make_system.hpp"
 #include "searches/curve.hpp"
+#include "searches/harmonic_choice.hpp"
 #include "study/curve_point.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // One set of coordinates for what harmonic balance keeps in two: against the same quantities over the DOFs.
-#include "orbits/recorded_motion.hpp"
 #include "flows.hpp"
+#include "orbits/recorded_motion.hpp"
 #include "reduction/projection.hpp"
 #include "space/rest.hpp"
 

@@ -1,7 +1,7 @@
 // Periodic orbits by shooting: against the tests' own orbits, with multipliers, peaks and the defect as a
 // certificate of states that are not periodic.
-#include "orbits/recorded_motion.hpp"
 #include "flows.hpp"
+#include "orbits/recorded_motion.hpp"
 
 using namespace test;
 

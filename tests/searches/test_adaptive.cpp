@@ -2,6 +2,7 @@
 // can be switched off, and the answer then agrees.
 #include "contact/trig_polynomial.hpp"
 #include "searches/curve.hpp"
+#include "searches/harmonic_choice.hpp"
 #include "support/small_solver.hpp"
 #include "support/test.hpp"
 #include <algorithm>
@@ -30,7 +31,7 @@ struct Chosen {
 };
 Chosen chosen_harmonics() {
     const Model m = test::reduce_exactly(test::bilinear_oscillator(0.01, 3, 1.0, 0.1, 0));
-    HbmOptions automatic, many;
+    HbmOptions automatic = test::by_harmonics(), many = automatic;
     many.n_harmonics = 60;
     many.max_step = automatic.max_step = 0.02; // dense points: peaks are compared
     const BranchPtr a = solver(m, automatic, 0.6, 1.8).sweep(), b = solver(m, many, 0.6, 1.8).sweep();
@@ -66,7 +67,7 @@ Settled settled_point(bool corrected) {
     const double omega = 0.85;
     Settled r;
     for (int k = 0; k < 2; ++k) {
-        HbmOptions o;
+        HbmOptions o = test::by_harmonics();
         o.tail_correction = corrected;
         if (k == 0) o.n_harmonics = 5;
         const plm::BranchPoint p = solver(m, o, 0.3, 1).solve(omega / (2 * M_PI), nullptr, 0)->points()[0];
@@ -89,7 +90,7 @@ void a_single_solution_takes_the_harmonics_it_needs(void **) {
     std::printf("    H = %d: %.1e, H = 5: %.1e, with tail %.1e\n", static_cast<int>(plain.harmonics),
                 plain.error, plain.error_5, corrected.error_5);
     assert_true(plain.harmonics > 5);
-    assert_true(below(plain.left, HbmOptions().harmonic_tolerance));
+    assert_true(below(plain.left, test::by_harmonics().harmonic_tolerance));
     assert_true(below(plain.error, 0.5 * plain.error_5));
     assert_true(
         below(corrected.error_5, plain.error_5)); // the exact force knows more than the harmonics kept
@@ -108,7 +109,7 @@ Estimates estimates() {
          {plm::NonlinearUnknowns::modal, plm::NonlinearUnknowns::gaps})
         for (const double omega : {0.62, 0.7, 0.85, 1.0})
             for (const std::int64_t n : {10, 20}) {
-                HbmOptions few, many;
+                HbmOptions few = test::by_harmonics(), many = few;
                 few.n_harmonics = n, many.n_harmonics = 60;
                 few.unknowns = many.unknowns = unknowns;
                 const BranchPtr coarse = solver(m, few, 0.3, 1.2).solve(omega / (2 * M_PI), nullptr, 0),
@@ -143,7 +144,7 @@ Spaces spaces() {
     const Model m = test::reduce_exactly(s);
     BranchPtr found[3];
     for (int k = 0; k < 3; ++k) {
-        HbmOptions o;
+        HbmOptions o = test::by_harmonics();
         o.n_harmonics = 7;
         o.max_step = 0.02;
         o.unknowns = k == 0   ? plm::NonlinearUnknowns::automatic

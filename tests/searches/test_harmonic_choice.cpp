@@ -32,7 +32,7 @@ Reduced driven_at(int harmonic) {
 
 void a_load_that_the_harmonics_do_not_reach_is_refused(void **) {
     const Reduced m = driven_at(7);
-    HbmOptions few, capped;
+    HbmOptions few = test::by_harmonics(), capped = few;
     few.n_harmonics = 6;
     capped.max_harmonics = 6;
     const auto of_solve = test::failure_of([&] { solver(m, few, 0.5, 2).solve(0.1, nullptr, 0); }),
@@ -50,7 +50,7 @@ void a_load_that_the_harmonics_do_not_reach_is_refused(void **) {
 void chosen_harmonics_begin_at_the_excitation(void **) {
     const Reduced m = driven_at(7);
     const double omega = 0.31;
-    const BranchPtr b = solver(m, HbmOptions(), 0.2, 0.5).solve(omega / (2 * M_PI), nullptr, 0);
+    const BranchPtr b = solver(m, test::by_harmonics(), 0.2, 0.5).solve(omega / (2 * M_PI), nullptr, 0);
     const plm::BranchPoint &p = b->points()[0];
     const bool reached = p.eta.cols() >= 14;
     // linear oscillator: |q| = F / |1 - w^2 + 2 i zeta w|
@@ -65,8 +65,8 @@ void chosen_harmonics_begin_at_the_excitation(void **) {
 // Free flight between impacts that lose nothing: harmonic balance converges slowly, if at all.
 void too_few_harmonics_are_said(void **) {
     const Reduced m = test::reduce_exactly(test::bilinear_oscillator(5e-7, 1e9, 0, 1, 0));
-    const BranchPtr b = solver(m, HbmOptions(), 1.7, 2.1).solve(1.9 / (2 * M_PI), nullptr, 0);
-    const HbmOptions o;
+    const BranchPtr b = solver(m, test::by_harmonics(), 1.7, 2.1).solve(1.9 / (2 * M_PI), nullptr, 0);
+    const HbmOptions o = test::by_harmonics();
     const bool missed = b->points()[0].harmonic_error > o.harmonic_tolerance,
                said = b->warnings.has(PLM_REASON_HARMONICS_TOO_FEW),
                where = b->warnings.text().find("1 of 1 points") != std::string::npos &&
@@ -74,9 +74,9 @@ void too_few_harmonics_are_said(void **) {
     assert_true(missed && said && where);
 
     const Reduced easy = test::reduce_exactly(test::bilinear_oscillator(0.01, 3, 1.0, 0.1, 0));
-    const BranchPtr good = solver(easy, HbmOptions(), 0.6, 1.8).sweep();
+    const BranchPtr good = solver(easy, test::by_harmonics(), 0.6, 1.8).sweep();
     const bool wolf = !good->warnings.empty();
-    HbmOptions capped;
+    HbmOptions capped = test::by_harmonics();
     capped.max_harmonics = 4;
     const BranchPtr poor = solver(easy, capped, 0.6, 1.8).sweep();
     std::int64_t over = 0;
@@ -115,7 +115,7 @@ struct Share {
 Share share_at_the_struck_mass(double contact_stiffness) {
     std::shared_ptr<const plm::Basis> basis;
     const Reduced m = struck(contact_stiffness, basis);
-    HbmOptions few, many;
+    HbmOptions few = test::by_harmonics(), many = few;
     few.n_harmonics = 10, many.n_harmonics = 60;
     const double hz = 17.6;
     const BranchPtr coarse = solver(m, few, 90, 130).solve(hz, nullptr, 0),
@@ -155,7 +155,7 @@ struct Climbed {
 };
 Climbed climbed() {
     const Reduced m = test::reduce_exactly(test::chain(3, 0.02, 20, 0.1, 0.4, 0.2, {0, 2}));
-    HbmOptions few, many;
+    HbmOptions few = test::by_harmonics(), many = few;
     few.n_harmonics = 5, many.n_harmonics = 40;
     const double omega = 0.85;
     plm::BranchPoint p = solver(m, few, 0.1, 1).solve(omega / (2 * M_PI), nullptr, 0)->points()[0];

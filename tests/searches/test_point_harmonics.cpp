@@ -4,6 +4,7 @@
 #include "reduction/basis.hpp"
 #include "sampling/small_models.hpp"
 #include "searches/curve.hpp"
+#include "searches/harmonic_choice.hpp"
 #include "searches/hbm.hpp"
 #include "searches/isolated.hpp"
 #include "support/small_reduced.hpp"
@@ -20,6 +21,7 @@ Model striking() {
 }
 plm::HbmOptions options(std::int64_t harmonics) {
     plm::HbmOptions o;
+    o.motion = plm::MotionKind::harmonics;
     o.n_harmonics = harmonics;
     o.frequency_min_hz = 0.6 / (2 * M_PI);
     o.frequency_max_hz = 1.8 / (2 * M_PI);

@@ -136,6 +136,21 @@ class Flow {
 
     double omega() const { return omega_; }
     int dim() const { return dim_; }
+    /// Bound of the frequencies with every pair closed, by rows (Gershgorin).
+    double fastest() const {
+        double largest = 0;
+        for (int i = 0; i < s_.n; ++i) {
+            double row = 0;
+            for (int j = 0; j < s_.n; ++j) {
+                row += std::abs(s_.stiffness[i * s_.n + j]);
+                for (int p = 0; p < s_.z; ++p)
+                    row += s_.contact_stiffness[p] *
+                           std::abs(s_.gap_rows[p * s_.n + i] * s_.gap_rows[p * s_.n + j]);
+            }
+            largest = std::max(largest, row / s_.mass[i]);
+        }
+        return std::sqrt(largest);
+    }
 
   private:
     // Contact set valid just after y: a pair at u = 0 takes the side it moves to.
@@ -199,12 +214,15 @@ class Flow {
     double cached_dt_ = 0;
 };
 
+// n_steps of equal length, each in parts of a quarter of the shortest impact: none may begin and end between two
+// looks at the pairs.
 Vec one_period(Flow &flow, const Vec &start, int n_steps, Square *tangent, std::vector<Vec> *samples) {
     Vec y = flow.initial(start);
-    const double dt = 2 * M_PI / flow.omega() / n_steps;
+    const double step = 2 * M_PI / flow.omega() / n_steps;
+    const int parts = static_cast<int>(std::min(1e3, std::max(1.0, std::ceil(step * flow.fastest() * 4 / M_PI))));
     for (int i = 0; i < n_steps; ++i) {
         if (samples) samples->push_back(Vec(y.begin(), y.begin() + static_cast<long>(start.size() / 2)));
-        flow.advance(y, dt, tangent);
+        for (int k = 0; k < parts; ++k) flow.advance(y, step / parts, tangent);
     }
     y.resize(start.size());
     return y;
@@ -238,6 +256,22 @@ std::vector<double> period_map(const Structure &s, double omega, const std::vect
     return end;
 }
 
+namespace {
+
+// Of the end from the start, displacements and velocities over omega; `size`: of the start.
+double defect_of(const Vec &end, const Vec &start, int n, double omega, double &size) {
+    double defect = 0;
+    size = 0;
+    for (int i = 0; i < 2 * n; ++i) {
+        const double scale = i < n ? 1 : omega;
+        defect = std::max(defect, std::abs(end[i] - start[i]) / scale);
+        size = std::max(size, std::abs(start[i]) / scale);
+    }
+    return defect;
+}
+
+} // namespace
+
 Orbit periodic_orbit(const Structure &s, double omega, std::vector<double> guess, int transient_periods,
                      int n_samples) {
     Flow flow(s, omega);
@@ -245,21 +279,29 @@ Orbit periodic_orbit(const Structure &s, double omega, std::vector<double> guess
     if (guess.empty()) guess.assign(d, 0.0);
     for (int k = 0; k < transient_periods; ++k) guess = one_period(flow, guess, steps, nullptr, nullptr);
     Orbit orbit;
+    double size = 0;
     for (int k = 0; k < 25; ++k) {
         Square tangent = identity(flow.dim());
         const Vec end = one_period(flow, guess, steps, &tangent, nullptr);
         Square a(d);
         Vec b(d);
-        double defect = 0, size = 0;
+        const double defect = defect_of(end, guess, s.n, omega, size);
         for (int i = 0; i < d; ++i) {
             b[i] = end[i] - guess[i];
-            defect = std::max(defect, std::abs(b[i]) / (i < s.n ? 1 : omega));
-            size = std::max(size, std::abs(guess[i]) / (i < s.n ? 1 : omega));
             for (int j = 0; j < d; ++j) a(i, j) = (i == j ? 1.0 : 0.0) - tangent(i, j);
         }
         const Vec step = solve(a, b);
-        for (int i = 0; i < d; ++i) guess[i] += step[i];
-        if (defect < 1e-10 * size) { // before the last step; stiff damping leaves rounding of 1e-11
+        const bool last = defect < 1e-10 * size; // before the last step; stiff damping leaves rounding of 1e-11
+        Vec next;
+        for (double factor = 1; factor > 0.05; factor *= 0.5) { // to the orbit nearby, not to any
+            next = guess;
+            for (int i = 0; i < d; ++i) next[i] += factor * step[i];
+            double ignored;
+            if (last || defect_of(one_period(flow, next, steps, nullptr, nullptr), next, s.n, omega, ignored) < defect)
+                break;
+        }
+        guess = next;
+        if (last) {
             orbit.converged = true;
             break;
         }

@@ -5,6 +5,12 @@
 
 namespace test {
 
+/// Harmonic balance, as many harmonics as needed, where exact motions would be the default.
+inline plm::HbmOptions by_harmonics() {
+    plm::HbmOptions options;
+    options.motion = plm::MotionKind::harmonics;
+    return options;
+}
 /// Frequencies of the excitation from `low` to `high` (rad/s).
 plm::Hbm solver(std::shared_ptr<const plm::ReducedModel> m, const plm::HbmOptions &o, double low,
                 double high);

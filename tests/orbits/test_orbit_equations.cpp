@@ -1,0 +1,247 @@
+// Periodic motions as equations: their derivatives against differences, their solutions against the tests' own
+// orbits, with and without the modes of contact sets that come back.
+#include "flows.hpp"
+#include "orbits/orbit_equations.hpp"
+#include "orbits/recorded_motion.hpp"
+#include "paths/newton.hpp"
+
+using namespace test;
+using plm::FlowParameter;
+using plm::OrbitEquations;
+
+namespace {
+
+FlowState rest_of(const plm::FlowModel &m) {
+    const plm::vector<double> zero(static_cast<std::size_t>(m.size()), 0.0);
+    return {zero, zero, 0};
+}
+
+OrbitEquations equations(const exact::Structure &s, double omega, FlowParameter parameter,
+                         std::int64_t periods = 1) {
+    const auto model = flow_model(s);
+    return OrbitEquations(model, rest_of(*model), {omega, 1.0, periods}, parameter);
+}
+
+plm::vector<double> residual(OrbitEquations &e, const plm::vector<double> &x, double p) {
+    plm::vector<double> r(x.size());
+    e.residual(x.data(), p, r.data());
+    return r;
+}
+
+plm::vector<double> solution(OrbitEquations &e, double p) {
+    plm::vector<double> x(static_cast<std::size_t>(e.size()), 0.0);
+    const auto march = [&](int periods) {
+        const plm::OrbitConditions c = e.conditions(p);
+        plm::ExactFlow flow(e.shared_model(), c.omega, c.force_scale);
+        FlowState state = e.state(x.data());
+        for (int k = 0; k < periods; ++k) {
+            flow.advance(state, flow.period());
+            state.time = 0;
+        }
+        return e.unknowns(state);
+    };
+    x = march(40);
+    plm::NewtonLimits limits;
+    limits.tolerance = 1e-12;
+    plm::newton_at(e, limits, x, p);
+    return x;
+}
+
+// Largest difference of the derivative by the parameter, and of that along a direction, from central
+// differences, as shares.
+struct Errors {
+    double parameter = 1e300, direction = 1e300, solution = 1e300;
+};
+Errors derivative_errors(const exact::Structure &s, double omega, FlowParameter parameter, double p,
+                         std::int64_t periods = 1) {
+    OrbitEquations e = equations(s, omega, parameter, periods);
+    const plm::vector<double> x = solution(e, p);
+    const std::size_t n = x.size();
+    Errors out;
+    out.solution = plm::norm2(e.size(), residual(e, x, p).data()) / plm::norm2(e.size(), x.data());
+    e.linearize();
+    plm::vector<double> by_p(n), v = plm::patternless_vector(e.size()), back = v;
+    e.parameter_derivative(by_p.data());
+    e.solve(back.data(), 1); // x' with J x' = v: J x' is to be v again
+    const double h = 1e-6 * p, g = 1e-6 * plm::norm2(e.size(), x.data()) / plm::norm2(e.size(), back.data());
+    const plm::vector<double> up = residual(e, x, p + h), down = residual(e, x, p - h);
+    plm::vector<double> ahead = x, behind = x;
+    for (std::size_t i = 0; i < n; ++i) ahead[i] += g * back[i], behind[i] -= g * back[i];
+    const plm::vector<double> there = residual(e, ahead, p), here = residual(e, behind, p);
+    double size = 0, far = 0, along = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        size = std::max(size, std::abs(by_p[i]));
+        far = std::max(far, std::abs((up[i] - down[i]) / (2 * h) - by_p[i]));
+        along = std::max(along, std::abs((there[i] - here[i]) / (2 * g) - v[i]));
+    }
+    out.parameter = far / size;
+    out.direction = along;
+    return out;
+}
+// Differences over 1e-6 of the motion: events move by as much, and the force bends there.
+void derivatives_are_those_of_differences(void **) {
+    const exact::Structure s = damped_chain();
+    for (double omega : {0.4, 0.9, 1.5}) {
+        const Errors w = derivative_errors(s, omega, FlowParameter::frequency, omega),
+                     f = derivative_errors(s, omega, FlowParameter::force_scale, 1.3),
+                     two = derivative_errors(s, omega, FlowParameter::frequency, omega, 2);
+        for (const Errors &e : {w, f, two}) {
+            assert_true(below(e.solution, 1e-11));
+            assert_true(below(e.parameter, 1e-4));
+            assert_true(below(e.direction, 1e-4));
+        }
+    }
+}
+void stiff_contact_has_the_same_derivatives(void **) {
+    exact::Structure s = damped_chain();
+    for (double &k : s.contact_stiffness) k = 1e5;
+    const Errors w = derivative_errors(s, 0.4, FlowParameter::frequency, 0.4);
+    assert_true(below(w.solution, 1e-10));
+    assert_true(below(w.parameter, 1e-3));
+    assert_true(below(w.direction, 1e-3));
+}
+
+// How far the tests' own flow takes a solution in a period.
+double defect_by_own_flow(double omega, double k_n) {
+    exact::Structure s = damped_chain();
+    for (double &k : s.contact_stiffness) k = k_n;
+    OrbitEquations e = equations(s, omega, FlowParameter::frequency);
+    const plm::vector<double> x = solution(e, omega);
+    const std::vector<double> start = to_dofs(e.model(), e.state(x.data()));
+    return max_difference(exact::period_map(s, omega, start, nullptr), start);
+}
+void solutions_are_orbits(void **) {
+    for (double omega : {0.2, 0.4, 1.5}) assert_true(below(defect_by_own_flow(omega, 3), 1e-12));
+    assert_true(below(defect_by_own_flow(0.4, 1e5), 1e-9));
+}
+
+// --- the flow by the modes of its contact sets against its series
+
+struct Flows {
+    double state = 0, multipliers = 0;
+    std::int64_t pieces_of_series = 0, pieces_of_modes = 0;
+};
+class Polynomials final : public plm::FlowRecorder { // makes the flow keep to its series
+  public:
+    void record(const plm::FlowPiece &) override {}
+};
+// ground: of a spring that all but fixes the first mass, a mode which hardly moves.
+Flows flows(double k_n, double omega, double ground = 0) {
+    exact::Structure s = damped_chain();
+    for (double &k : s.contact_stiffness) k = k_n;
+    s.stiffness[0] += ground;
+    const auto model = flow_model(s);
+    const auto modes = std::make_shared<plm::ContactModesKept>(model);
+    plm::ExactFlow series(model, omega, 1), by_modes(model, omega, 1, plm::Watch(), modes);
+    FlowState start = rest_of(*model), a, b;
+    for (int k = 0; k < 30; ++k) { // the sets become known
+        by_modes.advance(start, by_modes.period());
+        start.time = 0;
+    }
+    Polynomials keep;
+    plm::ContactHistory history;
+    a = b = start;
+    const std::int64_t before = by_modes.n_steps();
+    series.advance(a, series.period(), &keep);
+    by_modes.advance(b, by_modes.period(), &history);
+    Flows out;
+    out.pieces_of_series = series.n_steps(), out.pieces_of_modes = by_modes.n_steps() - before;
+    const auto x = to_dofs(*model, a), y = to_dofs(*model, b);
+    double size = 0;
+    for (double v : x) size = std::max(size, std::abs(v));
+    out.state = max_difference(x, y) / size;
+    const auto m = plm::multipliers(plm::monodromy(*model, history.intervals())),
+               n = plm::multipliers(
+                   plm::monodromy(*model, history.intervals(), 1e-15, plm::Watch(), modes.get()));
+    out.multipliers = std::abs(std::abs(m[0]) - std::abs(n[0])) / std::abs(m[0]);
+    return out;
+}
+void modes_give_the_motion_of_the_series(void **) {
+    for (double k_n : {3.0, 1e3, 1e6}) {
+        const Flows f = flows(k_n, 0.4);
+        // an event a rounding earlier is carried on by the multipliers of many impacts
+        assert_true(below(f.state, k_n < 1e5 ? 1e-10 : 1e-7));
+        assert_true(below(f.multipliers, 1e-8));
+    }
+}
+void a_mode_that_hardly_moves_does_not_dictate_the_pieces(void **) {
+    const Flows f = flows(3, 0.4, 1e8);
+    assert_true(f.pieces_of_modes * 50 < f.pieces_of_series);
+    assert_true(below(f.state, 1e-9));
+}
+
+// --- what is read from a motion, against dense samples of it
+
+struct Reading {
+    double harmonics = 0, mean = 0, range = 0, square = 0;
+};
+Reading reading(double k_n) {
+    exact::Structure s = damped_chain();
+    for (double &k : s.contact_stiffness) k = k_n;
+    OrbitEquations e = equations(s, 0.4, FlowParameter::frequency);
+    const plm::vector<double> x = solution(e, 0.4);
+    plm::ExactFlow flow(e.shared_model(), 0.4, 1, plm::Watch(), e.modes());
+    plm::RecordedMotion motion;
+    FlowState state = e.state(x.data());
+    flow.advance(state, flow.period(), &motion);
+    constexpr int n_samples = 4096, top = 12;
+    Matrix rows(1, e.model().size());
+    for (std::int64_t j = 0; j < rows.cols(); ++j) rows(0, j) = e.model().dof_row(3)[j];
+    std::vector<double> samples(n_samples);
+    FlowState now = e.state(x.data());
+    plm::ExactFlow second(e.shared_model(), 0.4, 1);
+    for (int k = 0; k < n_samples; ++k) {
+        second.advance(now, second.period() * k / n_samples);
+        samples[k] = plm::dot(rows.cols(), rows.data(), now.y.data());
+    }
+    Reading r;
+    const auto range = motion.ranges(rows)[0];
+    const double high = *std::max_element(samples.begin(), samples.end()),
+                 low = *std::min_element(samples.begin(), samples.end()), size = high - low;
+    r.range = std::max(std::abs(range.maximum - high), std::abs(range.minimum - low)) / size;
+    double mean = 0, square = 0;
+    for (double v : samples) mean += v / n_samples;
+    for (double v : samples) square += (v - mean) * (v - mean) / n_samples;
+    const plm::vector<double> got = motion.mean();
+    r.mean = std::abs(plm::dot(rows.cols(), rows.data(), got.data()) - mean) / size;
+    r.square = std::abs(motion.mean_square(rows) / square - 1);
+    const Matrix h = motion.harmonics(1, top), later = motion.harmonics(5, 2);
+    for (int k = 1; k <= top; ++k) {
+        double a = 0, b = 0;
+        for (int i = 0; i < n_samples; ++i) {
+            a += 2 * samples[i] * std::cos(2 * M_PI * k * i / n_samples) / n_samples;
+            b += 2 * samples[i] * std::sin(2 * M_PI * k * i / n_samples) / n_samples;
+        }
+        const double ga = plm::dot(rows.cols(), rows.data(), h.col(2 * k - 2)),
+                     gb = plm::dot(rows.cols(), rows.data(), h.col(2 * k - 1));
+        r.harmonics = std::max(r.harmonics, std::hypot(ga - a, gb - b) / size);
+        if (k == 6) // a block that begins elsewhere is the same
+            r.harmonics = std::max(r.harmonics, std::abs(later(0, 2) - h(0, 10)) / size);
+    }
+    return r;
+}
+// Sums over 4096 samples alias what is beyond harmonic 4000; an extremum between two is a little higher, that of
+// the ringing after an impact more.
+void readings_are_those_of_dense_samples(void **) {
+    for (double k_n : {3.0, 1e4, 1e8}) {
+        const Reading r = reading(k_n);
+        assert_true(below(r.harmonics, 1e-6));
+        assert_true(below(r.mean, 1e-6));
+        assert_true(below(r.range, k_n < 1e6 ? 1e-5 : 1e-4));
+        assert_true(below(r.square, 1e-4)); // leaves out what is fast
+    }
+}
+
+} // namespace
+
+int main() {
+    const CMUnitTest tests[] = {
+        cmocka_unit_test(derivatives_are_those_of_differences),
+        cmocka_unit_test(stiff_contact_has_the_same_derivatives),
+        cmocka_unit_test(solutions_are_orbits),
+        cmocka_unit_test(modes_give_the_motion_of_the_series),
+        cmocka_unit_test(a_mode_that_hardly_moves_does_not_dictate_the_pieces),
+        cmocka_unit_test(readings_are_those_of_dense_samples),
+    };
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
