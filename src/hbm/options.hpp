@@ -11,7 +11,8 @@ enum class MotionKind { automatic, exact, harmonics };
 enum class StabilityKind { off, automatic, floquet, hill };
 
 struct HbmOptions {
-    MotionKind motion = MotionKind::automatic; // periodic orbits of the exact flow, or harmonic balance: by cost
+    MotionKind motion =
+        MotionKind::automatic;        // periodic orbits of the exact flow, or harmonic balance: by cost
     std::int64_t n_harmonics = 0;     // 0: as many as each point needs
     std::int64_t max_harmonics = 60;  // n_harmonics = 0 only
     double harmonic_tolerance = 5e-4; // n_harmonics = 0: allowed harmonic_error of a point

@@ -75,7 +75,8 @@ void ContactModes::decompose(const FlowModel &model, const Matrix &k) {
     for (std::int64_t k = 0; k < reach_.cols(); ++k) {
         const Mode &m = modes_[static_cast<std::size_t>(k)];
         for (std::int64_t i = 0; i < reach_.rows(); ++i)
-            reach_(i, k) = m.is_pair ? std::hypot(gap_(i, m.first), gap_(i, m.first + 1)) : std::abs(gap_(i, m.first));
+            reach_(i, k) =
+                m.is_pair ? std::hypot(gap_(i, m.first), gap_(i, m.first + 1)) : std::abs(gap_(i, m.first));
     }
     to_state_ = std::move(w);
     from_state_ = std::move(inverse);
@@ -124,8 +125,9 @@ void ContactModes::advance(double dt, Matrix &m, Matrix &scratch) const {
 }
 
 double ContactModes::bytes() const {
-    return 8.0 * static_cast<double>(2 * to_state_.rows() * to_state_.cols() + displacement_.rows() * displacement_.cols() +
-                                     gap_.rows() * gap_.cols() + reach_.rows() * reach_.cols());
+    return 8.0 * static_cast<double>(2 * to_state_.rows() * to_state_.cols() +
+                                     displacement_.rows() * displacement_.cols() + gap_.rows() * gap_.cols() +
+                                     reach_.rows() * reach_.cols());
 }
 
 const ContactModes *ContactModesKept::find(const PairStates &states, std::int64_t effort) {

@@ -33,8 +33,8 @@ class ContactModes {
     const Matrix &gap() const { return gap_; }
     /// Largest effect of a unit of a mode on a pair: Z x modes.
     const Matrix &reach() const { return reach_; }
-    /// Loads in the coordinates: constant ones with the gaps' (they act through the springs), and Re(F_h exp(i
-    /// h w t)) of the excitation, real and imaginary part of F_h.
+    /// Loads in the coordinates: constant ones with the gaps' (they act through the springs), and Re(F_h
+    /// exp(i h w t)) of the excitation, real and imaginary part of F_h.
     const vector<double> &constant_load() const { return constant_; }
     struct Load {
         int harmonic;

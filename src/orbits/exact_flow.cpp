@@ -11,9 +11,9 @@ namespace {
 
 constexpr double longest_step = 2.0; // rate x duration of a piece: about 26 terms, of which none exceeds 2
 constexpr double truncation = 1e-17;
-constexpr std::int64_t watch_interval = 64; // pieces
+constexpr std::int64_t watch_interval = 64;                  // pieces
 constexpr double least_advance = 0.05, shorter_piece = 0.25; // of a piece, in the modes of its contact set
-constexpr double no_progress = 1e-12;       // fraction of a piece
+constexpr double no_progress = 1e-12;                        // fraction of a piece
 constexpr int side_corrections = 8; // one is usual; more when pairs that rest at zero act on each other
 
 } // namespace
@@ -232,7 +232,8 @@ void ExactFlow::expand(const FlowState &state, double duration, Series &series) 
         }
         system_.relax(k, duration, before, series.force.col(k - 1), next);
     }
-    if (&series == &derivative_ && model_->n_following() == 0) return; // what it does to the gaps is not asked
+    if (&series == &derivative_ && model_->n_following() == 0)
+        return; // what it does to the gaps is not asked
     series.penetration = series.offset;
     if (model_->n_pairs() > 0) gemm('N', 'N', 1.0, model_->gap(), y, 1.0, series.penetration);
     follow(series);
@@ -247,7 +248,8 @@ void ExactFlow::follow(Series &series) {
         double *f = following_.data();
         std::copy_n(series.force.col(k) + moving, n, f + moving);
         if (model_->n_pairs() > 0) gemv('T', -1.0, model_->gap(), contact_force_.col(k), 1.0, f);
-        for (std::int64_t j = moving; j < moving + n; ++j) series.coefficient(j, k) = f[j] / model_->lambda()[j];
+        for (std::int64_t j = moving; j < moving + n; ++j)
+            series.coefficient(j, k) = f[j] / model_->lambda()[j];
     }
 }
 

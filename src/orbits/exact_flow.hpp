@@ -26,9 +26,9 @@ class ExactFlow {
     /// the fastest motion, and some more; PLM_ERR_ARGUMENT for wrong sizes, NaN or Inf; PLM_CANCELLED.
     void advance(FlowState &state, double t_end, FlowRecorder *recorder = nullptr);
 
-    /// From the next advance() on, which has to begin at time 0, `change` goes along: with x the state and its
-    /// beginning kept, dx / d(force scale) = change; d x(fraction of the period) / d omega = change -
-    /// (t / omega) x'(t).
+    /// From the next advance() on, which has to begin at time 0, `change` goes along: with x the state and
+    /// its beginning kept, dx / d(force scale) = change; d x(fraction of the period) / d omega = change - (t
+    /// / omega) x'(t).
     void differentiate(FlowParameter parameter);
     const FlowState &change() const { return change_; }
     /// y'' of the coordinates with mass at a state that the last advance() led to.

@@ -19,8 +19,7 @@ void turn_rows(const Matrix &turn, Matrix &x) {
 
 } // namespace
 
-FlowModel::FlowModel(std::shared_ptr<const ReducedModel> reduced, double omega)
-    : reduced_(widened(reduced)) {
+FlowModel::FlowModel(std::shared_ptr<const ReducedModel> reduced, double omega) : reduced_(widened(reduced)) {
     if (reduced_ != reduced) to_flow_ = static_coordinates_of(*reduced, reduced->vectors);
     lambda_ = reduced_->lambda;
     gap_ = reduced_->gap;
@@ -130,8 +129,8 @@ vector<double> FlowModel::from_static_coordinates(const vector<double> &y) const
 
 FlowState FlowModel::state(const vector<double> &eta_0, const Matrix &eta, double omega,
                            double fraction) const {
-    if (static_cast<std::int64_t>(eta_0.size()) != size() || eta.rows() != (to_flow_.empty() ? size() : to_flow_.cols()) ||
-        eta.cols() % 2 != 0)
+    if (static_cast<std::int64_t>(eta_0.size()) != size() ||
+        eta.rows() != (to_flow_.empty() ? size() : to_flow_.cols()) || eta.cols() % 2 != 0)
         throw Error(PLM_ERR_ARGUMENT, "the harmonic coordinates do not belong to this reduced model")
             .argument("eta");
     vector<double> y(eta.rows(), 0.0), v(eta.rows(), 0.0);

@@ -65,7 +65,7 @@ class FlowModel {
     void turn_damping();
 
     std::shared_ptr<const ReducedModel> reduced_; // widened
-    Matrix to_flow_; // T: n x r; empty when the coordinates are the dynamic ones
+    Matrix to_flow_;                              // T: n x r; empty when the coordinates are the dynamic ones
     Matrix turn_; // of the last coordinates: those of P_0 = turn times the flow's; empty: they all have mass
     Matrix gap_, flexibility_, damping_;
     vector<double> lambda_, damping_diagonal_, preload_;

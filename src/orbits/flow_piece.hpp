@@ -8,8 +8,8 @@ namespace plm {
 /// What a motion may be differentiated by.
 enum class FlowParameter { none, frequency, force_scale };
 
-/// Free motion of fast modes on a piece, too small to matter to its contact events: y(t) = Re sum_k (cosine_k +
-/// i sine_k) exp(rate_k t), t from the beginning of the piece.
+/// Free motion of fast modes on a piece, too small to matter to its contact events: y(t) = Re sum_k (cosine_k
+/// + i sine_k) exp(rate_k t), t from the beginning of the piece.
 struct FastMotion {
     vector<std::complex<double>> rate;
     Matrix cosine, sine; // n x modes

@@ -8,9 +8,9 @@
 namespace plm {
 namespace {
 
-constexpr double longest_turn = 3.0;     // rad of a mode that a polynomial describes: 30 terms or so
+constexpr double longest_turn = 3.0;       // rad of a mode that a polynomial describes: 30 terms or so
 constexpr double nearest_resonance = 1e-7; // of the rate
-constexpr double clear_of_zero = 3;      // times what the fast modes may add: a piece that gets somewhere
+constexpr double clear_of_zero = 3;        // times what the fast modes may add: a piece that gets somewhere
 constexpr double truncation = 1e-17;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
@@ -43,8 +43,8 @@ bool ModalPieces::enter(const ContactModes &modes, const FlowState &state, const
     return true;
 }
 
-// z' = lambda z + beta, beta = P B e^{iht} / 2 + P conj(B) e^{-iht} / 2, P = row c_1 + i row c_2 of the way into
-// the coordinates.
+// z' = lambda z + beta, beta = P B e^{iht} / 2 + P conj(B) e^{-iht} / 2, P = row c_1 + i row c_2 of the way
+// into the coordinates.
 bool ModalPieces::set_steady() {
     const std::size_t size = static_cast<std::size_t>(modes_->size());
     constant_.assign(size, 0.0);
@@ -188,7 +188,8 @@ void ModalPieces::fill_powers(double duration) {
         for (std::int64_t k = 0; k < n_terms_; ++k, c += powers_.rows()) {
             c[0] += re;
             if (m.is_pair) c[1] += im;
-            const double a = ratio.real() * inverse_[k], b = ratio.imag() * inverse_[k], turned = re * a - im * b;
+            const double a = ratio.real() * inverse_[k], b = ratio.imag() * inverse_[k],
+                         turned = re * a - im * b;
             im = re * b + im * a;
             re = turned;
         }

@@ -49,7 +49,7 @@ class ModalPieces {
     double omega_, force_scale_;
     FlowParameter parameter_;
     const ContactModes *modes_ = nullptr;
-    double start_ = 0, now_ = 0; // of the stay in the set; of the last piece
+    double start_ = 0, now_ = 0;                 // of the stay in the set; of the last piece
     vector<double> constant_, changed_constant_; // c, steady under the constant loads
     std::vector<std::vector<Steady>> steady_;    // by load and mode
     vector<double> free_, changed_free_;         // free part of c at start_

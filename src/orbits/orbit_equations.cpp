@@ -6,12 +6,11 @@ namespace plm {
 OrbitEquations::OrbitEquations(std::shared_ptr<const FlowModel> model, FlowState rest,
                                const OrbitConditions &conditions, FlowParameter parameter)
     : model_(std::move(model)), rest_(std::move(rest)), conditions_(conditions), parameter_(parameter),
-      modes_(std::make_shared<ContactModesKept>(model_)), weight_(size()), x_(size()),
-      end_(size()), change_(size()) {
+      modes_(std::make_shared<ContactModesKept>(model_)), weight_(size()), x_(size()), end_(size()),
+      change_(size()) {
     const std::int64_t moving = model_->n_moving();
     for (std::int64_t j = 0; j < moving; ++j)
-        weight_[j] =
-            std::sqrt(model_->lambda()[j] + model_->mass(j) * conditions_.omega * conditions_.omega);
+        weight_[j] = std::sqrt(model_->lambda()[j] + model_->mass(j) * conditions_.omega * conditions_.omega);
     std::fill(weight_.begin() + moving, weight_.end(), 1.0);
 }
 

@@ -43,6 +43,9 @@ class OrbitEquations final : public Residual {
     OrbitConditions conditions(double p) const;
     /// Of the last linearize(): d(state at the end) / d(state at the beginning), in the unknowns.
     const Matrix &monodromy() const { return monodromy_; }
+    /// Of the tangent of the last linearize(): of the order of rounding where a motion is free to go
+    /// anywhere.
+    double reciprocal_condition() const { return lu_.reciprocal_condition(); }
     /// Contact of the last residual(), from the beginning of the period.
     const std::vector<ContactInterval> &intervals() const { return intervals_; }
     /// Runs of the flow so far, and pieces of them.
@@ -56,7 +59,8 @@ class OrbitEquations final : public Residual {
     OrbitConditions conditions_;
     FlowParameter parameter_;
     std::shared_ptr<ContactModesKept> modes_;
-    vector<double> weight_, x_, end_, change_; // of the unknowns; the last run: from, to, and by the parameter
+    vector<double> weight_, x_, end_,
+        change_; // of the unknowns; the last run: from, to, and by the parameter
     double p_ = 0, size_ = 0;
     bool known_ = false, failed_ = false;
     std::vector<ContactInterval> intervals_;

@@ -8,35 +8,38 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// m_k = integral of s^k exp(-i a s) over [0, 1], k = 0 .. degree. By parts, m_k = (k m_(k-1) - exp(-i a)) /
-// (i a): forward as long as k < a, from beyond the degree backward for the rest, so that errors shrink.
-void moments(double a, std::int64_t degree, vector<Complex> &m) {
-    constexpr std::int64_t run_up = 60; // the guess at its far end is forgotten like a^k / k!
-    const double real = std::cos(a), imag = -std::sin(a), inverse = 1 / a; // exp(-i a)
+// m_k = integral of s^k exp(rate s) over [0, 1], k = 0 .. degree. By parts, m_k = (exp(rate) - k m_(k-1)) /
+// rate: forward as long as k < |rate|, from beyond the degree backward for the rest, so that errors shrink.
+void moments(Complex rate, std::int64_t degree, vector<Complex> &m) {
+    constexpr std::int64_t run_up = 60; // the guess at its far end is forgotten like |rate|^k / k!
+    const Complex end = std::exp(rate), inverse = 1.0 / rate;
+    const double a = std::abs(rate), real = end.real(), imag = end.imag();
     const std::int64_t turn = a > static_cast<double>(degree) ? degree + 1 : static_cast<std::int64_t>(a);
     m.resize(static_cast<std::size_t>(degree + 1));
-    double re = -imag * inverse, im = (real - 1) * inverse; // m_0 = i (exp(-i a) - 1) / a
+    double re = 0, im = 0;
     for (std::int64_t k = 0; k < turn; ++k) {
-        if (k > 0) { // (x + i y) / (i a) = (y - i x) / a
-            const double x = static_cast<double>(k) * re - real, y = static_cast<double>(k) * im - imag;
-            re = y * inverse, im = -x * inverse;
-        }
+        const double x = real - (k > 0 ? static_cast<double>(k) * re : 1.0),
+                     y = imag - static_cast<double>(k) * im;
+        re = x * inverse.real() - y * inverse.imag(), im = x * inverse.imag() + y * inverse.real();
         m[k] = {re, im};
     }
     if (turn > degree) return;
     const double far = static_cast<double>(degree + run_up + 1);
     re = real / far, im = imag / far;
-    for (std::int64_t k = degree + run_up;; --k) { // m_(k-1) = (i a m_k + exp(-i a)) / k
+    for (std::int64_t k = degree + run_up;; --k) { // m_(k-1) = (exp(rate) - rate m_k) / k
         if (k <= degree) m[k] = {re, im};
         if (k == turn) return;
-        const double share = 1 / static_cast<double>(k), x = (real - a * im) * share;
-        im = (imag + a * re) * share;
+        const double share = 1 / static_cast<double>(k),
+                     x = (real - rate.real() * re + rate.imag() * im) * share;
+        im = (imag - rate.real() * im - rate.imag() * re) * share;
         re = x;
     }
 }
 
 // Integral of exp(rate t) over [0, duration].
 Complex growth(Complex rate, double duration) {
+    constexpr double still = 1e-8; // hardly changes
+    if (std::abs(rate) * duration < still) return duration;
     return (std::exp(rate * duration) - 1.0) / rate;
 }
 
@@ -117,19 +120,56 @@ vector<double> RecordedMotion::mean() const {
     return sum;
 }
 
+namespace {
+
+// Integral of |y|^2 over a piece: of the polynomials, of what is fast, and of both together.
+double square_of(const Matrix &powers, const FastMotion &fast, double duration) {
+    const Matrix inner = product('T', 'N', powers, powers);
+    double sum = 0;
+    for (std::int64_t k = 0; k < inner.cols(); ++k)
+        for (std::int64_t i = 0; i < inner.rows(); ++i) sum += inner(i, k) / static_cast<double>(i + k + 1);
+    sum *= duration;
+    const std::int64_t n = powers.rows();
+    vector<Complex> m;
+    for (std::size_t k = 0; k < fast.rate.size(); ++k) {
+        const double *a = fast.cosine.col(static_cast<std::int64_t>(k)),
+                     *b = fast.sine.col(static_cast<std::int64_t>(k));
+        moments(fast.rate[k] * duration, powers.cols() - 1, m);
+        for (std::int64_t i = 0; i < powers.cols(); ++i)
+            sum +=
+                2 * duration *
+                (Complex(dot(n, powers.col(i), a), dot(n, powers.col(i), b)) * m[static_cast<std::size_t>(i)])
+                    .real();
+        for (std::size_t l = 0; l < fast.rate.size(); ++l) {
+            const double *c = fast.cosine.col(static_cast<std::int64_t>(l)),
+                         *d = fast.sine.col(static_cast<std::int64_t>(l));
+            const double ac = dot(n, a, c), bd = dot(n, b, d), ad = dot(n, a, d), bc = dot(n, b, c);
+            sum +=
+                0.5 * (Complex(ac - bd, ad + bc) * growth(fast.rate[k] + fast.rate[l], duration) +
+                       Complex(ac + bd, bc - ad) * growth(fast.rate[k] + std::conj(fast.rate[l]), duration))
+                          .real();
+        }
+    }
+    return sum;
+}
+
+} // namespace
+
 double RecordedMotion::mean_square(const Matrix &a) const {
-    vector<double> mean = this->mean(), part;
+    const vector<double> mean = this->mean();
     double sum = 0;
     for (const Piece &p : pieces_) {
-        Matrix c = p.coefficient;
-        for (std::size_t j = 0; j < mean.size(); ++j) c.col(0)[j] -= mean[j];
-        if (a.cols() > 0) c = product('N', 'N', a, c);
-        const Matrix inner = product('T', 'N', c, c); // of the powers
-        double square = 0;
-        for (std::int64_t k = 0; k < inner.cols(); ++k)
-            for (std::int64_t i = 0; i < inner.rows(); ++i)
-                square += inner(i, k) / static_cast<double>(i + k + 1);
-        sum += square * p.duration / duration_;
+        Matrix powers = p.coefficient;
+        FastMotion fast = p.fast;
+        for (std::size_t j = 0; j < mean.size(); ++j) powers.col(0)[j] -= mean[j];
+        if (a.cols() > 0) {
+            powers = product('N', 'N', a, powers);
+            if (!fast.rate.empty()) {
+                fast.cosine = product('N', 'N', a, fast.cosine);
+                fast.sine = product('N', 'N', a, fast.sine);
+            }
+        }
+        sum += square_of(powers, fast, p.duration) / duration_;
     }
     return std::max(sum, 0.0);
 }
@@ -143,7 +183,7 @@ Matrix RecordedMotion::harmonics(std::int64_t first, std::int64_t count) const {
         weight.reset(terms, 2 * count);
         for (std::int64_t h = 0; h < count; ++h) {
             const double per_time = 2 * M_PI * static_cast<double>(first + h) / duration_;
-            moments(per_time * p.duration, terms - 1, m);
+            moments(Complex(0, -per_time * p.duration), terms - 1, m);
             const Complex phase = std::polar(2 * p.duration / duration_, -per_time * p.start);
             for (std::int64_t k = 0; k < terms; ++k) {
                 const Complex w = phase * m[k]; // y = Re(Y exp(i h w t)): a = Re Y, b = -Im Y
@@ -166,7 +206,8 @@ void RecordedMotion::add_fast(const Piece &p, std::size_t k, std::int64_t first,
                                          w = phase * growth(p.fast.rate[k] - turn, p.duration),
                                          back = phase * growth(std::conj(p.fast.rate[k]) - turn, p.duration);
         for (std::int64_t j = 0; j < found.rows(); ++j) {
-            const Complex q(p.fast.cosine(j, column), p.fast.sine(j, column)), y = w * q + back * std::conj(q);
+            const Complex q(p.fast.cosine(j, column), p.fast.sine(j, column)),
+                y = w * q + back * std::conj(q);
             found(j, 2 * h) += y.real();
             found(j, 2 * h + 1) -= y.imag();
         }
@@ -182,8 +223,9 @@ void RecordedMotion::widen_by_piece(const Piece &piece, const double *row, Motio
     FastRow fast;
     for (std::size_t k = 0; k < piece.fast.rate.size(); ++k) {
         const std::int64_t column = static_cast<std::int64_t>(k);
-        fast.push_back({piece.fast.rate[k],
-                        {dot(n, row, piece.fast.cosine.col(column)), dot(n, row, piece.fast.sine.col(column))}});
+        fast.push_back(
+            {piece.fast.rate[k],
+             {dot(n, row, piece.fast.cosine.col(column)), dot(n, row, piece.fast.sine.col(column))}});
     }
     widen_between(slow, fast, piece.duration, 0.0, 1.0, range);
 }

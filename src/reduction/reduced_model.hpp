@@ -37,7 +37,7 @@ struct ReducedModel {
     // includes that of the pairs left out, and all_pairs has the model's own. Null: all pairs are carried
     vector<std::int64_t> carried;
     std::shared_ptr<const AllPairs> all_pairs;
-    Kept<StaticState> rest; // rest_of(), reduced_rest.hpp
+    Kept<StaticState> rest;     // rest_of(), reduced_rest.hpp
     Kept<ReducedModel> widened; // widened(), widened_model.hpp
     // recovery: q = P eta
     Field vectors;   // n_free x r

@@ -1,5 +1,5 @@
-// One response curve from a first point on: of exact motions from an exact motion (exact_curve.hpp), otherwise by
-// harmonic balance (harmonic_curve.hpp).
+// One response curve from a first point on: of exact motions from an exact motion (exact_curve.hpp),
+// otherwise by harmonic balance (harmonic_curve.hpp).
 #pragma once
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"

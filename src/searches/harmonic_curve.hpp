@@ -9,8 +9,8 @@
 
 namespace plm {
 
-/// n_harmonics of the options is the number to begin with when they are chosen by point (options.n_harmonics = 0:
-/// the start's).
+/// n_harmonics of the options is the number to begin with when they are chosen by point (options.n_harmonics
+/// = 0: the start's).
 void trace_harmonic_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch);
 
 } // namespace plm

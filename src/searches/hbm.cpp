@@ -204,7 +204,7 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
     branch->append(std::move(result));
     warn_of_harmonics(options_, *branch);
     branch->end_reason = PLM_REASON_RANGE_END;
-    branch->unknowns_used = branch->points()[0].motion            ? "state"
+    branch->unknowns_used = branch->points()[0].motion           ? "state"
                             : prefers_modal(*reduced_, options_) ? "modal"
                                                                  : "gaps";
     check_window(window_, watch_, *branch);

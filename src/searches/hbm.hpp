@@ -71,7 +71,7 @@ class Hbm {
 
     std::shared_ptr<const ReducedModel> basis_, reduced_; // as handed over; widened for exact motions
     HbmOptions options_;
-    bool exact_ = false; // curves of exact motions, where their first point is one
+    bool exact_ = false;        // curves of exact motions, where their first point is one
     SweepRange window_, reach_; // of the basis; of a sweep with these options
     Watch watch_;
 };

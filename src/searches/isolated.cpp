@@ -236,7 +236,7 @@ class Search {
     Watch watch_;
     double force_max_;
     PhaseResonance resonance_;
-    bool exact_; // loops of exact motions
+    bool exact_;                     // loops of exact motions
     std::vector<BranchPoint> known_; // phase-resonant points of the branches known
     IsolatedSearch out_;
 };

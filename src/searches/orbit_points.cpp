@@ -14,9 +14,9 @@
 namespace plm {
 namespace {
 
-// What the harmonics of an exact motion may leave out, of harmonic_tolerance: those that harmonic balance would
-// go on with, and those of the coefficients handed out, whose derivatives are read, too. At the gaps, whose
-// local motion hardly acts back, more.
+// What the harmonics of an exact motion may leave out, of harmonic_tolerance: those that harmonic balance
+// would go on with, and those of the coefficients handed out, whose derivatives are read, too. At the gaps,
+// whose local motion hardly acts back, more.
 constexpr double of_solution = 0.1, of_coefficients = 0.01, at_gaps_more = 20;
 constexpr std::int64_t harmonics_at_once = 8;
 
@@ -27,9 +27,9 @@ double fastest_rate(const ReducedModel &m) {
     return stiffest.rate();
 }
 
-// A step of Newton's method for an exact motion, in flops: every pair switches a few times in a period, and each
-// event costs a product with the propagator of its contact set, now and then the modes of a new one, and some
-// pieces of the flow. Without mass somewhere, the pieces are as short as the fastest motion.
+// A step of Newton's method for an exact motion, in flops: every pair switches a few times in a period, and
+// each event costs a product with the propagator of its contact set, now and then the modes of a new one, and
+// some pieces of the flow. Without mass somewhere, the pieces are as short as the fastest motion.
 double exact_step_flops(const ReducedModel &m, const HbmOptions &o) {
     constexpr double events_per_pair = 3, pieces_per_event = 5, terms = 30;
     const double n = static_cast<double>(m.size()), z = static_cast<double>(m.n_pairs()),
@@ -55,8 +55,8 @@ class OrbitMotion final : public PointMotion {
   public:
     OrbitMotion(std::shared_ptr<const FlowModel> model, std::shared_ptr<ContactModesKept> modes,
                 FlowState start, const OrbitConditions &conditions, vector<double> closed_shares)
-        : model_(std::move(model)), modes_(std::move(modes)), start_(std::move(start)), conditions_(conditions),
-          closed_shares_(std::move(closed_shares)) {}
+        : model_(std::move(model)), modes_(std::move(modes)), start_(std::move(start)),
+          conditions_(conditions), closed_shares_(std::move(closed_shares)) {}
 
     const FlowState &start() const { return start_; }
 
@@ -114,7 +114,8 @@ class OrbitMotion final : public PointMotion {
 struct Remainder {
     double all, gaps, left, left_at_gaps;
     bool is_within(double share) const {
-        return left <= share * share * all && left_at_gaps <= share * share * at_gaps_more * at_gaps_more * gaps;
+        return left <= share * share * all &&
+               left_at_gaps <= share * share * at_gaps_more * at_gaps_more * gaps;
     }
     void take(const Matrix &harmonics, const Matrix &at_gaps) {
         for (std::int64_t k = 0; k < harmonics.cols(); ++k) {
@@ -132,7 +133,9 @@ void put_harmonics(const FlowModel &model, const RecordedMotion &motion, const H
     rest.left = rest.all, rest.left_at_gaps = rest.gaps;
     const std::int64_t fewest = few_harmonics(model.reduced()) * options.period_multiple,
                        most = std::max(fewest, options.max_harmonics * options.period_multiple);
-    const auto told = [&] { return rest.gaps > 0 ? std::sqrt(std::max(rest.left_at_gaps, 0.0) / rest.gaps) : 0.0; };
+    const auto told = [&] {
+        return rest.gaps > 0 ? std::sqrt(std::max(rest.left_at_gaps, 0.0) / rest.gaps) : 0.0;
+    };
     point.n_harmonics = 0;
     Matrix eta;
     while (eta.cols() < 2 * most) {
@@ -211,7 +214,8 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
         return false;
     };
     if (reduced->structural != 0)
-        return refuse("motion", "structural damping has no exact motion in time; set motion to auto or harmonics");
+        return refuse("motion",
+                      "structural damping has no exact motion in time; set motion to auto or harmonics");
     if (o.aft == AftKind::sampled)
         return refuse("aft", "an exact motion has no time samples; set aft to event, or motion to harmonics");
     if (o.stability == StabilityKind::hill)
@@ -227,8 +231,8 @@ OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, cons
                                double omega, FlowParameter parameter) {
     auto model = std::make_shared<const FlowModel>(std::move(reduced), omega);
     FlowState rest = rest_state(*model);
-    return OrbitEquations(std::move(model), std::move(rest), {omega, options.force_scale, options.period_multiple},
-                          parameter);
+    return OrbitEquations(std::move(model), std::move(rest),
+                          {omega, options.force_scale, options.period_multiple}, parameter);
 }
 
 FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_t period_multiple) {
@@ -247,7 +251,8 @@ BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &optio
     RecordedMotion motion;
     ExactFlow flow(equations.shared_model(), conditions.omega, conditions.force_scale, Watch(),
                    equations.modes());
-    const FlowState start = equations.state(at.x.data());
+    FlowState start = equations.state(at.x.data());
+    flow.complete(start); // what follows without mass is no unknown
     FlowState state = start;
     flow.advance(state, static_cast<double>(conditions.period_multiple) * flow.period(), &motion);
     BranchPoint point;
@@ -262,15 +267,20 @@ BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &optio
 
 namespace {
 
-// A solution at which nothing else is known, with its multipliers.
-BranchPoint whole_point(OrbitEquations &equations, const HbmOptions &options, const PathState &at,
-                        const NewtonOutcome &out) {
-    BranchPoint point = orbit_point(equations, options, at, out.residual, out.iterations);
-    if (options.stability == StabilityKind::off) return point;
+// The tangent at a solution. False: it leaves a motion free, whose place is then arbitrary.
+bool holds(OrbitEquations &equations, const PathState &at) {
+    constexpr double free_to_go = 1e-11;
     vector<double> r(at.x.size());
     equations.residual(at.x.data(), at.parameter, r.data());
     equations.linearize();
-    point.multipliers = multipliers(equations.monodromy());
+    return equations.reciprocal_condition() > free_to_go;
+}
+
+// A solution where the tangent is known, with its multipliers.
+BranchPoint whole_point(OrbitEquations &equations, const HbmOptions &options, const PathState &at,
+                        const NewtonOutcome &out) {
+    BranchPoint point = orbit_point(equations, options, at, out.residual, out.iterations);
+    if (options.stability != StabilityKind::off) point.multipliers = multipliers(equations.monodromy());
     return point;
 }
 
@@ -280,13 +290,12 @@ bool make_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &o
                 BranchPoint &point, NewtonWork &work) {
     const EventSequence sequence = contact_events(*reduced, point, options.period_multiple);
     if (free_motion(*reduced, sequence.acting()).cols() > 0) return false; // its place is arbitrary
-    OrbitEquations equations =
-        orbit_equations(reduced, options, point.omega, FlowParameter::frequency);
+    OrbitEquations equations = orbit_equations(reduced, options, point.omega, FlowParameter::frequency);
     vector<double> x;
     NewtonOutcome out;
     const bool found = solve_exact(equations, options, watch, point, x, out);
     work += out;
-    if (!found || moves_freely(equations, *reduced)) return false;
+    if (!found || moves_freely(equations, *reduced) || !holds(equations, {x, point.omega})) return false;
     out.iterations += point.iterations;
     point = whole_point(equations, options, {x, point.omega}, out);
     return true;
@@ -308,7 +317,7 @@ bool follow_exactly_to(std::shared_ptr<const ReducedModel> reduced, const HbmOpt
     }
     const NewtonOutcome out = newton_at(equations, newton_limits(options), at.x, omega);
     work += out;
-    if (!out.converged) return false;
+    if (!out.converged || !holds(equations, {at.x, omega})) return false;
     point = whole_point(equations, options, {at.x, omega}, out);
     return true;
 }

@@ -24,10 +24,11 @@ struct Sample {
 
 class PeakSearch {
   public:
-    PeakSearch(PointEquations &equations, const HbmOptions &options, std::shared_ptr<const ReducedModel> reduced,
-               std::int64_t dof, Measure measure, std::int64_t harmonic, Watch watch)
-        : equations_(equations), options_(options), reduced_(std::move(reduced)), dof_(dof), measure_(measure),
-          harmonic_(harmonic), watch_(watch) {}
+    PeakSearch(PointEquations &equations, const HbmOptions &options,
+               std::shared_ptr<const ReducedModel> reduced, std::int64_t dof, Measure measure,
+               std::int64_t harmonic, Watch watch)
+        : equations_(equations), options_(options), reduced_(std::move(reduced)), dof_(dof),
+          measure_(measure), harmonic_(harmonic), watch_(watch) {}
 
     /// False: the highest point of the curve is no solution with this system's harmonics, nor near one.
     bool run(const Branch &branch, const std::array<std::int64_t, 3> &around, BranchPoint &highest) {

@@ -198,7 +198,8 @@ contains
         call check(all(shape(c) == [2*h + 1, 1]), 'coefficients have their shape')
         call check(abs(hypot(c(2, 1), c(3, 1))/harmonic(1) - 1) < 1e-12, 'harmonic 1 by its coefficients')
         call peak%field(1, 0.0_real64, q)
-        call check(abs(q(n_dof) - c(1, 1) - sum(c(2::2, 1))) < 1e-4*peak_m, 'the field at time 0 by its coefficients') ! its first ones
+        ! its first ones: an exact motion has more
+        call check(abs(q(n_dof) - c(1, 1) - sum(c(2::2, 1))) < 1e-4*peak_m, 'the field at time 0 by its coefficients')
         call peak%contact(1, 8, u, f, closed)
         call check(all(shape(u) == [2, 8]) .and. all(closed .eqv. u > 0), 'closed where the penetration is positive')
         call check(all(f >= 0), 'contact does not pull')
@@ -209,7 +210,7 @@ contains
         call one%full_residual(1, r)
         call check(r < 1, 'the full residual is a number')
         call hbm%estimate_error(peak, 1, n_dof, error, measure=PLM_HARMONIC)
-        call check(abs(error(1)) < 0.01*peak_m .and. abs(error(3)) > 0, 'the error of the peak, without the frequency')
+        call check(abs(error(1)) < 0.01*peak_m .and. abs(error(3)) <= 0, 'an exact motion lacks no harmonics')
         call hbm%estimate_error(peak, 1, n_dof, frequency_hz=shift)
         call check(maxval(abs(shift)) < 0.1*peak_hz, 'the error of the peak, without the amplitude')
         call hbm%refine_basis(n_dof, 1e-3_real64, small, error(1))

@@ -1,5 +1,5 @@
-// Curves of exact motions, with nothing set: every point, its stability, its peak and its bifurcations against
-// the tests' own orbits; harmonic balance comes to them as its harmonics grow.
+// Curves of exact motions, with nothing set: every point, its stability, its peak and its bifurcations
+// against the tests' own orbits; harmonic balance comes to them as its harmonics grow.
 #include "linalg/lapack.hpp"
 #include "searches/orbit_points.hpp"
 #include "searches/stability.hpp"
@@ -65,7 +65,7 @@ Comparison compare(const exact::Structure &s, double low, double high, int n_sam
         if (i % stride != 0 || !p.motion) continue;
         const Vec start = state_over_dofs(m, p);
         Vec phi;
-        const Vec end = exact::period_map(s, p.omega, start, &phi);
+        const Vec end = exact::period_map(s, p.omega, start, &phi, n_samples);
         c.defect = std::max(c.defect, difference(end, start) / largest(start));
         const double mu = largest_multiplier(phi, 2 * s.n);
         if (std::abs(mu - 1) > 1e-4) c.wrong_flags += plm::stability_of(p) != (mu < 1);

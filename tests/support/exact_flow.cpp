@@ -214,12 +214,13 @@ class Flow {
     double cached_dt_ = 0;
 };
 
-// n_steps of equal length, each in parts of a quarter of the shortest impact: none may begin and end between two
-// looks at the pairs.
+// n_steps of equal length, each in parts of a quarter of the shortest impact: none may begin and end between
+// two looks at the pairs.
 Vec one_period(Flow &flow, const Vec &start, int n_steps, Square *tangent, std::vector<Vec> *samples) {
     Vec y = flow.initial(start);
     const double step = 2 * M_PI / flow.omega() / n_steps;
-    const int parts = static_cast<int>(std::min(1e3, std::max(1.0, std::ceil(step * flow.fastest() * 4 / M_PI))));
+    const int parts =
+        static_cast<int>(std::min(1e3, std::max(1.0, std::ceil(step * flow.fastest() * 4 / M_PI))));
     for (int i = 0; i < n_steps; ++i) {
         if (samples) samples->push_back(Vec(y.begin(), y.begin() + static_cast<long>(start.size() / 2)));
         for (int k = 0; k < parts; ++k) flow.advance(y, step / parts, tangent);
@@ -244,10 +245,10 @@ double Orbit::peak(int dof) const {
 }
 
 std::vector<double> period_map(const Structure &s, double omega, const std::vector<double> &start,
-                               std::vector<double> *monodromy) {
+                               std::vector<double> *monodromy, int n_steps) {
     Flow flow(s, omega);
     Square tangent = identity(flow.dim());
-    const Vec end = one_period(flow, start, 200, monodromy ? &tangent : nullptr, nullptr);
+    const Vec end = one_period(flow, start, n_steps, monodromy ? &tangent : nullptr, nullptr);
     if (monodromy) {
         monodromy->clear();
         for (int i = 0; i < 2 * s.n; ++i)
@@ -291,13 +292,15 @@ Orbit periodic_orbit(const Structure &s, double omega, std::vector<double> guess
             for (int j = 0; j < d; ++j) a(i, j) = (i == j ? 1.0 : 0.0) - tangent(i, j);
         }
         const Vec step = solve(a, b);
-        const bool last = defect < 1e-10 * size; // before the last step; stiff damping leaves rounding of 1e-11
+        const bool last =
+            defect < 1e-10 * size; // before the last step; stiff damping leaves rounding of 1e-11
         Vec next;
         for (double factor = 1; factor > 0.05; factor *= 0.5) { // to the orbit nearby, not to any
             next = guess;
             for (int i = 0; i < d; ++i) next[i] += factor * step[i];
             double ignored;
-            if (last || defect_of(one_period(flow, next, steps, nullptr, nullptr), next, s.n, omega, ignored) < defect)
+            if (last || defect_of(one_period(flow, next, steps, nullptr, nullptr), next, s.n, omega,
+                                  ignored) < defect)
                 break;
         }
         guess = next;

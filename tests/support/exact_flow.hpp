@@ -26,9 +26,10 @@ struct Orbit {
 };
 
 /// State (2n) one forcing period after `start`; monodromy, if not null, receives the 2n x 2n derivative,
-/// row-major.
+/// row-major. A contact that begins and ends within one of the n_steps is missed: a grazing one may be as
+/// short.
 std::vector<double> period_map(const Structure &s, double omega, const std::vector<double> &start,
-                               std::vector<double> *monodromy);
+                               std::vector<double> *monodromy, int n_steps = 200);
 
 /// Periodic orbit of the forcing period by Newton on the Poincare map with the exact monodromy matrix, from
 /// `guess` (2n, may be empty: zero) after `transient_periods` of marching.
