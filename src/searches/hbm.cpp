@@ -35,6 +35,12 @@ void check(const HbmOptions &o) {
     if (!(o.max_step > o.min_step)) refuse("min_step", "min_step must be below max_step");
 }
 
+// A curve that could not be followed, not one that is long or was stopped.
+bool is_stuck(const Branch &branch) {
+    return branch.end_reason == PLM_REASON_STEP_MINIMUM || branch.end_reason == PLM_REASON_CONTACT_CHATTER ||
+           branch.end_reason == PLM_REASON_SINGULAR_TANGENT;
+}
+
 } // namespace
 
 Hbm::Hbm(std::shared_ptr<const ReducedModel> reduced, const SweepRange &window, const HbmOptions &options,
@@ -126,9 +132,19 @@ bool Hbm::solve_by_harmonics_at(double omega, const BranchPoint *guess, Branch &
     return found;
 }
 
+// The curve of harmonic balance where that of exact motions could not be followed to its end; null: none
+// begins at omega.
+std::shared_ptr<Branch> Hbm::by_harmonics(double omega) const {
+    auto branch = new_branch();
+    CurveStart start;
+    if (!solve_by_harmonics_at(omega, nullptr, *branch, start.point)) return nullptr;
+    trace_curve(options_, start, watch_, *branch);
+    return branch;
+}
+
 std::shared_ptr<const Branch> Hbm::sweep() const {
     const Clock::time_point begin = Clock::now();
-    const auto branch = new_branch();
+    auto branch = new_branch();
     const double low = 2 * M_PI * options_.frequency_min_hz, high = 2 * M_PI * options_.frequency_max_hz;
     const double from = options_.upward ? low : high, into = options_.upward ? high - low : low - high;
     // A start inside a super-harmonic region may fail, or find no solution that more harmonics confirm: the
@@ -153,6 +169,14 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
                    from / (2 * M_PI), drift_hint(*reduced_).c_str()))
             .reason(PLM_REASON_START_FAILED);
     trace_curve(options_, start, watch_, *branch);
+    if (exact_ && options_.motion == MotionKind::automatic && is_stuck(*branch)) {
+        const auto other = by_harmonics(from);
+        if (other && !is_stuck(*other)) {
+            other->newton_work += branch->newton_work;
+            other->failed_steps += branch->failed_steps;
+            branch = other;
+        }
+    }
     bring_peak_inside(options_, reach_, watch_, *branch);
     check_window(window_, watch_, *branch);
     check_basis(window_, watch_, *branch);

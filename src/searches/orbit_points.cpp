@@ -19,10 +19,11 @@ namespace {
 // whose local motion hardly acts back, more.
 constexpr double of_solution = 0.1, of_coefficients = 0.01, at_gaps_more = 20;
 constexpr std::int64_t harmonics_at_once = 8;
+constexpr double largest_flow = 300; // coordinates: beyond, no flow is cheap, and none is made to see that
 
-double fastest_rate(const ReducedModel &m) {
-    auto model = std::make_shared<const FlowModel>(std::make_shared<const ReducedModel>(m), 1.0);
-    ContactSet stiffest(*model);
+double fastest_rate(const std::shared_ptr<const ReducedModel> &reduced) {
+    const FlowModel model(reduced, 1.0);
+    ContactSet stiffest(model);
     stiffest.assign_stiffest();
     return stiffest.rate();
 }
@@ -30,15 +31,15 @@ double fastest_rate(const ReducedModel &m) {
 // A step of Newton's method for an exact motion, in flops: every pair switches a few times in a period, and
 // each event costs a product with the propagator of its contact set, now and then the modes of a new one, and
 // some pieces of the flow. Without mass somewhere, the pieces are as short as the fastest motion.
-double exact_step_flops(const ReducedModel &m, const HbmOptions &o) {
+double exact_step_flops(const std::shared_ptr<const ReducedModel> &reduced, const HbmOptions &o) {
     constexpr double events_per_pair = 3, pieces_per_event = 5, terms = 30;
-    const double n = static_cast<double>(m.size()), z = static_cast<double>(m.n_pairs()),
+    const double n = static_cast<double>(reduced->static_size()), z = static_cast<double>(reduced->n_pairs()),
                  events = events_per_pair * z * static_cast<double>(o.period_multiple),
                  per_event = 100 * n * n * n, per_piece = 4 * terms * n * (n + z);
     double pieces = pieces_per_event * events;
-    if (m.n_massless > 0) {
+    if (reduced->n_massless_0 > 0 && n < largest_flow) {
         const double omega = M_PI * (o.frequency_min_hz + o.frequency_max_hz);
-        pieces += fastest_rate(m) * M_PI / omega * static_cast<double>(o.period_multiple);
+        pieces += fastest_rate(reduced) * M_PI / omega * static_cast<double>(o.period_multiple);
     }
     return events * per_event + pieces * per_piece;
 }
@@ -224,7 +225,7 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
     if (o.n_harmonics != 0 || o.tail_correction || o.unknowns != NonlinearUnknowns::automatic ||
         o.formulation != FormulationKind::automatic || reduced->n_pairs() == 0)
         return false;
-    return exact_step_flops(*widened(reduced), o) < std::max(cheap_step, harmonic_step_flops(*reduced));
+    return exact_step_flops(reduced, o) < std::max(cheap_step, harmonic_step_flops(*reduced));
 }
 
 OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
