@@ -33,9 +33,10 @@ double fastest_rate(const std::shared_ptr<const ReducedModel> &reduced) {
 // some pieces of the flow. Without mass somewhere, the pieces are as short as the fastest motion.
 double exact_step_flops(const std::shared_ptr<const ReducedModel> &reduced, const HbmOptions &o) {
     constexpr double events_per_pair = 3, pieces_per_event = 5, terms = 30;
+    constexpr double least_piece = 3e4; // what a piece of the smallest system takes, in time
     const double n = static_cast<double>(reduced->static_size()), z = static_cast<double>(reduced->n_pairs()),
                  events = events_per_pair * z * static_cast<double>(o.period_multiple),
-                 per_event = 100 * n * n * n, per_piece = 4 * terms * n * (n + z);
+                 per_event = 100 * n * n * n, per_piece = least_piece + 4 * terms * n * (n + z);
     double pieces = pieces_per_event * events;
     if (reduced->n_massless_0 > 0 && n < largest_flow) {
         const double omega = M_PI * (o.frequency_min_hz + o.frequency_max_hz);
