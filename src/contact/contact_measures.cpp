@@ -19,7 +19,7 @@ double factor_to_switching(const Matrix &u) {
     const Matrix pairs = u.transposed();
     double least = std::numeric_limits<double>::infinity();
     for (std::int64_t i = 0; i < pairs.cols(); ++i) {
-        const TrigRange range = trig_range(pairs.col(i), pairs.rows() / 2);
+        const ValueRange range = trig_range(pairs.col(i), pairs.rows() / 2);
         const double half = 0.5 * (range.maximum - range.minimum);
         if (half > 0) least = std::min(least, std::abs(pairs(0, i)) / half);
     }

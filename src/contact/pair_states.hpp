@@ -39,6 +39,11 @@ class PairStates {
                (state_.empty() || std::memcmp(state_.data(), other.state_.data(), state_.size()) == 0);
     }
     bool operator!=(const PairStates &other) const { return !(*this == other); }
+    /// Some order, for lookup.
+    bool operator<(const PairStates &other) const {
+        if (state_.size() != other.state_.size()) return state_.size() < other.state_.size();
+        return !state_.empty() && std::memcmp(state_.data(), other.state_.data(), state_.size()) < 0;
+    }
 
   private:
     PairStates(std::int64_t n_pairs, PairState state) : state_(n_pairs, state) {}

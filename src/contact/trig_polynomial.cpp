@@ -91,8 +91,8 @@ double trig_stationary(const double *x, std::int64_t n_harmonics, TrigEnd low, T
                               low.slope > 0, 1);
 }
 
-TrigRange trig_range(const double *x, std::int64_t n_harmonics) {
-    TrigRange range{x[0], x[0]};
+ValueRange trig_range(const double *x, std::int64_t n_harmonics) {
+    ValueRange range{x[0], x[0]};
     if (n_harmonics == 0) return range;
     const std::int64_t n = std::max<std::int64_t>(64, 16 * n_harmonics);
     const double width = 2 * M_PI / static_cast<double>(n);

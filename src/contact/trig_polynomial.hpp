@@ -15,11 +15,11 @@ TrigValue evaluate_trig(const double *coefficient, std::int64_t n_harmonics, dou
 /// Rows: value (first n) and slope (next n) at the n grid instants 2 pi i / n, as a (2n) x (2H + 1) matrix.
 Matrix trig_grid(std::int64_t n_harmonics, std::int64_t n);
 
-struct TrigRange {
+struct ValueRange {
     double minimum, maximum;
 };
 /// Exact extrema over the period.
-TrigRange trig_range(const double *coefficient, std::int64_t n_harmonics);
+ValueRange trig_range(const double *coefficient, std::int64_t n_harmonics);
 
 /// One end of a bracket: the instant, and x and x' there.
 struct TrigEnd {

@@ -132,7 +132,7 @@ vector<double> Branch::coefficients(std::int64_t point, std::int64_t dof) const 
 
 namespace {
 
-double amplitude_of(const TrigRange &range, Measure measure) {
+double amplitude_of(const ValueRange &range, Measure measure) {
     if (measure == Measure::half_peak_to_peak) return 0.5 * (range.maximum - range.minimum);
     return std::max(std::abs(range.maximum), std::abs(range.minimum));
 }

@@ -19,13 +19,7 @@ ContactModes::ContactModes(const FlowModel &model, const PairStates &states) : n
     set.assign(states);
     decompose(model, set.stiffness());
     if (!usable_) return;
-    constant_ = model.preload();
-    const vector<double> springs = model.contact().springs(states);
-    for (std::int64_t i = 0; i < model.n_pairs(); ++i) {
-        const double force = springs[i] * model.initial_gap()[i];
-        for (std::int64_t j = 0; j < n_ && force != 0; ++j) constant_[j] += model.gap()(i, j) * force;
-    }
-    constant_ = load_in_coordinates(constant_);
+    constant_ = load_in_coordinates(model.constant_load(model.contact().springs(states)));
     for (const auto &[harmonic, load] : model.excitation())
         loads_.push_back({harmonic, load_in_coordinates(load.real),
                           load.imag.empty() ? vector<double>(2 * n_, 0.0) : load_in_coordinates(load.imag)});
@@ -131,7 +125,7 @@ double ContactModes::bytes() const {
 }
 
 const ContactModes *ContactModesKept::find(const PairStates &states, std::int64_t effort) {
-    Entry &entry = entries_[states.closed_pairs()];
+    Entry &entry = entries_[states];
     entry.last_use = ++clock_;
     entry.effort += effort;
     if (entry.tried) return entry.modes && entry.modes->usable() ? entry.modes.get() : nullptr;
@@ -140,7 +134,7 @@ const ContactModes *ContactModesKept::find(const PairStates &states, std::int64_
     auto modes = std::make_unique<ContactModes>(*model_, states);
     if (!modes->usable()) return nullptr;
     make_room(modes->bytes());
-    Entry &now = entries_[states.closed_pairs()]; // room may have been made by dropping all others
+    Entry &now = entries_[states]; // room may have been made by dropping all others
     now.tried = true;
     now.last_use = clock_;
     now.modes = std::move(modes);

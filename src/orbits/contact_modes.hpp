@@ -76,7 +76,7 @@ class ContactModesKept {
     void make_room(double bytes);
 
     std::shared_ptr<const FlowModel> model_;
-    std::map<vector<std::int64_t>, Entry> entries_;
+    std::map<PairStates, Entry> entries_;
     std::int64_t clock_ = 0;
     double bytes_ = 0;
 };

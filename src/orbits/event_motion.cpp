@@ -66,15 +66,11 @@ vector<complex> EventMotion::wave(const Matrix &stiffness, double w, const Harmo
 // What pre-load, mean excitation and the gaps of the pairs do through their springs, then each harmonic.
 // Null: the system of this set is singular.
 const EventMotion::Steady *EventMotion::steady(const PairStates &states) {
-    for (const auto &[set, response] : known_)
-        if (set == states) return response.get();
+    if (const auto known = known_.find(states); known != known_.end()) return known->second.get();
     const vector<double> springs = model_.contact().springs(states);
     Matrix stiffness = stiffness_of(springs);
     auto found = std::make_shared<Steady>();
-    found->mean = model_.preload();
-    for (std::int64_t p = 0; p < model_.n_pairs(); ++p)
-        for (std::int64_t j = 0; springs[p] > 0 && j < n_; ++j)
-            found->mean[j] += model_.gap()(p, j) * springs[p] * model_.initial_gap()[p];
+    found->mean = model_.constant_load(springs);
     for (const auto &[harmonic, load] : model_.excitation()) {
         const double w = static_cast<double>(harmonic) * omega_;
         if (harmonic != 0) found->waves.emplace_back(w, wave(stiffness, w, load));
@@ -84,8 +80,7 @@ const EventMotion::Steady *EventMotion::steady(const PairStates &states) {
     lu.factor(stiffness);
     if (lu.singular()) return nullptr;
     lu.solve(found->mean.data(), 1, n_);
-    known_.emplace_back(states, std::move(found));
-    return known_.back().second.get();
+    return known_.emplace(states, std::move(found)).first->second.get();
 }
 
 EventMotion::Whole EventMotion::at(const Steady &steady, double time) const {

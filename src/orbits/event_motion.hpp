@@ -7,6 +7,7 @@
 #include "contact/event_sequence.hpp"
 #include "orbits/contact_set.hpp"
 #include "orbits/monodromy.hpp"
+#include <map>
 
 namespace plm {
 
@@ -52,7 +53,7 @@ class EventMotion {
     const Matrix &within_;
     std::int64_t n_;
     ContactSet set_;
-    std::vector<std::pair<PairStates, std::shared_ptr<Steady>>> known_;
+    std::map<PairStates, std::shared_ptr<Steady>> known_;
     std::vector<Piece> pieces_;
     Matrix monodromy_;
     FlowState start_;

@@ -154,6 +154,14 @@ FlowState FlowModel::state(const vector<double> &eta_0, const Matrix &eta, doubl
     return state;
 }
 
+vector<double> FlowModel::constant_load(const vector<double> &springs) const {
+    vector<double> load = preload_;
+    for (std::int64_t i = 0; i < n_pairs(); ++i)
+        for (std::int64_t j = 0; springs[i] > 0 && j < size(); ++j)
+            load[j] += gap_(i, j) * springs[i] * initial_gap()[i];
+    return load;
+}
+
 vector<double> FlowModel::dof_row(std::int64_t dof) const {
     const Field &vectors = reduced_->vectors;
     const std::int64_t n_dof = reduced_->model ? reduced_->model->n_dof() : vectors.rows();

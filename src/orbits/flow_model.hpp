@@ -41,6 +41,8 @@ class FlowModel {
     /// What the coordinates that follow do at the contact: Z x Z, empty without them.
     const Matrix &flexibility() const { return flexibility_; }
     const vector<double> &preload() const { return preload_; }
+    /// The pre-load and, through the springs of a contact set (one a pair), the gaps.
+    vector<double> constant_load(const vector<double> &springs) const;
     const std::map<int, HarmonicLoad> &excitation() const { return excitation_; } // n each, h = 0 too
     const Contact &contact() const { return reduced_->contact; }
     const vector<double> &contact_stiffness() const { return reduced_->contact.stiffness; }

@@ -161,7 +161,6 @@ double ModalPieces::expand(double longest) {
     double duration = longest;
     while (!allows(duration)) duration *= 0.5; // at the end all modes are resolved
     duration_ = duration;
-    resolved_ = std::all_of(veil_.begin(), veil_.end(), [](double v) { return v == 0; });
     fill_powers(duration);
     penetration_.reset(z, n_terms_);
     if (z > 0) gemm('N', 'N', 1.0, modes_->gap(), powers_, 0.0, penetration_);

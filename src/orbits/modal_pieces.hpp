@@ -25,7 +25,6 @@ class ModalPieces {
     const Matrix &penetration() const { return penetration_; }
     /// Whether fast modes act on a pair: its zero is then not an event, but as far as the piece goes.
     bool is_veiled(std::int64_t pair) const { return veil_[static_cast<std::size_t>(pair)] > 0; }
-    bool is_resolved() const { return resolved_; } // no pair is
     /// Displacements as polynomials, n x terms, and what the fast modes add.
     const Matrix &coefficient();
     const FastMotion &fast() const { return fast_; }
@@ -60,7 +59,6 @@ class ModalPieces {
     FastMotion fast_;
     double duration_ = 0;
     std::int64_t n_terms_ = 0;
-    bool resolved_ = true;
 };
 
 } // namespace plm

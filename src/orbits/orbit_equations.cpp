@@ -44,7 +44,6 @@ void OrbitEquations::run(const double *x, double p) {
     p_ = p;
     known_ = true;
     failed_ = false;
-    ++n_runs_;
     const OrbitConditions now = conditions(p);
     try {
         ExactFlow flow(model_, now.omega, now.force_scale, Watch(), modes_);

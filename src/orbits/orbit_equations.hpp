@@ -5,11 +5,10 @@
 #include "linalg/lapack.hpp"
 #include "orbits/exact_flow.hpp"
 #include "paths/residual.hpp"
-#include <optional>
 
 namespace plm {
 
-/// The state over the parameters of a periodic motion.
+/// What a periodic motion is asked for at.
 struct OrbitConditions {
     double omega = 0; // rad/s, of the excitation; the unknowns' scale where the path's parameter replaces it
     double force_scale = 1;
@@ -48,8 +47,6 @@ class OrbitEquations final : public Residual {
     double reciprocal_condition() const { return lu_.reciprocal_condition(); }
     /// Contact of the last residual(), from the beginning of the period.
     const std::vector<ContactInterval> &intervals() const { return intervals_; }
-    /// Runs of the flow so far, and pieces of them.
-    std::int64_t n_runs() const { return n_runs_; }
 
   private:
     void run(const double *x, double p);
@@ -66,7 +63,6 @@ class OrbitEquations final : public Residual {
     std::vector<ContactInterval> intervals_;
     Matrix monodromy_;
     RealLu lu_;
-    std::int64_t n_runs_ = 0;
 };
 
 } // namespace plm

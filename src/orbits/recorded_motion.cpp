@@ -63,7 +63,7 @@ constexpr double resolved_turn = 3.0; // rad of a fast motion that the added pow
 constexpr std::size_t resolved_terms = 32;
 
 void widen_between(const vector<double> &slow, const FastRow &fast, double duration, double a, double b,
-                   MotionRange &range) {
+                   ValueRange &range) {
     double most = 0, turn = 0;
     for (const FastTerm &f : fast) {
         most += std::abs(f.size) * std::exp(f.rate.real() * (f.rate.real() > 0 ? b : a) * duration);
@@ -85,9 +85,9 @@ void widen_between(const vector<double> &slow, const FastRow &fast, double durat
         widen_range(p.data(), static_cast<std::int64_t>(p.size()) - 1, range.minimum, range.maximum);
         return;
     }
-    MotionRange bare = range; // of the slow part: if it stays this far inside, the fast one changes nothing
+    ValueRange bare = range; // of the slow part: if it stays this far inside, the fast one changes nothing
     bare.maximum -= most, bare.minimum += most;
-    const MotionRange before = bare;
+    const ValueRange before = bare;
     widen_range(p.data(), static_cast<std::int64_t>(p.size()) - 1, bare.minimum, bare.maximum);
     if (bare.maximum <= before.maximum && bare.minimum >= before.minimum) return;
     const double middle = 0.5 * (a + b);
@@ -216,7 +216,7 @@ void RecordedMotion::add_fast(const Piece &p, std::size_t k, std::int64_t first,
 
 // Where what is fast might raise or lower an extremum, the piece is halved until a polynomial describes it,
 // too.
-void RecordedMotion::widen_by_piece(const Piece &piece, const double *row, MotionRange &range) {
+void RecordedMotion::widen_by_piece(const Piece &piece, const double *row, ValueRange &range) {
     const std::int64_t n = piece.coefficient.rows(), degree = piece.coefficient.cols() - 1;
     vector<double> slow(static_cast<std::size_t>(degree + 1), 0.0);
     gemv('T', 1.0, piece.coefficient, row, 0.0, slow.data());
@@ -230,8 +230,8 @@ void RecordedMotion::widen_by_piece(const Piece &piece, const double *row, Motio
     widen_between(slow, fast, piece.duration, 0.0, 1.0, range);
 }
 
-std::vector<MotionRange> RecordedMotion::ranges(const Matrix &rows) const {
-    std::vector<MotionRange> out(static_cast<std::size_t>(rows.rows()), {INFINITY, -INFINITY});
+std::vector<ValueRange> RecordedMotion::ranges(const Matrix &rows) const {
+    std::vector<ValueRange> out(static_cast<std::size_t>(rows.rows()), {INFINITY, -INFINITY});
     const Matrix by_row = rows.transposed();
     for (const Piece &p : pieces_)
         for (std::int64_t i = 0; i < rows.rows(); ++i)
@@ -286,7 +286,7 @@ vector<double> orbit_peaks(ExactFlow &flow, const FlowState &start, std::int64_t
     FlowState state = start;
     flow.advance(state, state.time + static_cast<double>(period_multiple) * flow.period(), &motion);
     vector<double> peaks;
-    for (const MotionRange &range : motion.ranges(rows))
+    for (const ValueRange &range : motion.ranges(rows))
         peaks.push_back(std::max(std::abs(range.minimum), std::abs(range.maximum)));
     return peaks;
 }

@@ -1,13 +1,10 @@
 // One period of an exact motion, kept piece by piece: its extrema, its Fourier coefficients and its contact
 // follow from the pieces without sampling.
 #pragma once
+#include "contact/trig_polynomial.hpp"
 #include "orbits/exact_flow.hpp"
 
 namespace plm {
-
-struct MotionRange {
-    double minimum, maximum;
-};
 
 class RecordedMotion final : public FlowRecorder {
   public:
@@ -24,7 +21,7 @@ class RecordedMotion final : public FlowRecorder {
     /// The forces of the pairs as a motion of Z coordinates.
     RecordedMotion contact_forces(const FlowModel &model) const;
     /// Extrema of row . y for every row of a matrix (rows x n).
-    std::vector<MotionRange> ranges(const Matrix &rows) const;
+    std::vector<ValueRange> ranges(const Matrix &rows) const;
     /// Share of the motion during which each pair is closed, and the number of pairs that are not always or
     /// never so.
     vector<double> closed_shares() const;
@@ -38,7 +35,7 @@ class RecordedMotion final : public FlowRecorder {
         FastMotion fast;
     };
     void add_fast(const Piece &piece, std::size_t mode, std::int64_t first, Matrix &found) const;
-    static void widen_by_piece(const Piece &piece, const double *row, MotionRange &range);
+    static void widen_by_piece(const Piece &piece, const double *row, ValueRange &range);
     std::vector<Piece> pieces_;
     double duration_ = 0;
 };

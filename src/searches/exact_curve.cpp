@@ -1,6 +1,5 @@
 #include "searches/exact_curve.hpp"
 #include "hbm/branch_path.hpp"
-#include "orbits/shooting.hpp"
 #include "searches/orbit_points.hpp"
 #include "searches/stability.hpp"
 
@@ -39,18 +38,10 @@ class ExactTracer final : public PathOwner {
 
     // By marching: to a stable motion, where there is one.
     bool rescue(double omega, vector<double> &x) override {
-        try {
-            ExactFlow flow(equations_.shared_model(), omega, options_.force_scale, watch_);
-            ShootingOptions shooting;
-            shooting.period_multiple = options_.period_multiple;
-            const PeriodicOrbit orbit = periodic_orbit(flow, equations_.state(x.data()), shooting);
-            if (!orbit.converged) return false;
-            x = equations_.unknowns(orbit.state);
-            return newton_at(equations_, newton_limits(options_), x, omega).converged;
-        } catch (const Error &e) { // chatter
-            if (e.status() != PLM_ERR_CONVERGENCE) throw;
-            return false;
-        }
+        NewtonOutcome out;
+        const bool found = march_to_orbit(equations_, options_, omega, 0, watch_, x, out);
+        branch_.newton_work += out;
+        return found;
     }
 
     vector<std::int32_t> test_kinds() const override {

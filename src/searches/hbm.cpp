@@ -170,7 +170,7 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
             .reason(PLM_REASON_START_FAILED);
     trace_curve(options_, start, watch_, *branch);
     if (exact_ && options_.motion == MotionKind::automatic && is_stuck(*branch)) {
-        const auto other = by_harmonics(from);
+        const auto other = by_harmonics(start.point.omega);
         if (other && !is_stuck(*other)) {
             other->newton_work += branch->newton_work;
             other->failed_steps += branch->failed_steps;

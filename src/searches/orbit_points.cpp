@@ -62,15 +62,14 @@ class OrbitMotion final : public PointMotion {
 
     const FlowState &start() const { return start_; }
 
-    TrigRange range(std::int64_t dof) const override {
+    ValueRange range(std::int64_t dof) const override {
         if (dof != known_dof_) {
             RecordedMotion motion;
             run(1, &motion);
             const vector<double> row = model_->dof_row(dof);
             Matrix rows(1, model_->size());
             std::copy(row.begin(), row.end(), rows.data());
-            const MotionRange found = motion.ranges(rows)[0];
-            known_range_ = {found.minimum, found.maximum};
+            known_range_ = motion.ranges(rows)[0];
             known_dof_ = dof;
         }
         return known_range_;
@@ -109,7 +108,7 @@ class OrbitMotion final : public PointMotion {
     OrbitConditions conditions_;
     vector<double> closed_shares_;
     mutable std::int64_t known_dof_ = -1; // of the last range(): curves are asked for one DOF at a time
-    mutable TrigRange known_range_ = {};
+    mutable ValueRange known_range_ = {};
 };
 
 // Of the motion and of the gaps: mean squares, of all and of what the harmonics so far leave out.
@@ -189,21 +188,9 @@ bool solve_exact(OrbitEquations &equations, const HbmOptions &options, Watch wat
     double far = 0;
     for (std::size_t i = 0; i < x.size(); ++i) far = std::hypot(far, x[i] - guess[i]);
     if (out.converged && far <= same_motion * norm2(equations.size(), x.data())) return true;
-    ExactFlow flow(equations.shared_model(), point.omega, options.force_scale, watch);
-    ShootingOptions shooting;
-    shooting.period_multiple = options.period_multiple;
-    shooting.transient_periods = 20 * options.period_multiple; // on a stable branch; most of the starts are
-    PeriodicOrbit orbit;
-    try {
-        orbit = periodic_orbit(flow, equations.state(guess.data()), shooting);
-    } catch (const Error &e) { // chatter
-        if (e.status() != PLM_ERR_CONVERGENCE) throw;
-        return false;
-    }
-    if (!orbit.converged) return false;
-    x = equations.unknowns(orbit.state);
-    out = newton_at(equations, newton_limits(options), x, point.omega);
-    return out.converged;
+    constexpr std::int64_t settling = 20; // periods: on a stable branch, as most of the starts are
+    x = guess;
+    return march_to_orbit(equations, options, point.omega, settling, watch, x, out);
 }
 
 } // namespace
@@ -227,6 +214,24 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
         o.formulation != FormulationKind::automatic || reduced->n_pairs() == 0)
         return false;
     return exact_step_flops(reduced, o) < std::max(cheap_step, harmonic_step_flops(*reduced));
+}
+
+bool march_to_orbit(OrbitEquations &equations, const HbmOptions &options, double omega,
+                    std::int64_t transient_periods, Watch watch, vector<double> &x, NewtonOutcome &out) {
+    ExactFlow flow(equations.shared_model(), omega, options.force_scale, watch, equations.modes());
+    ShootingOptions shooting;
+    shooting.period_multiple = options.period_multiple;
+    shooting.transient_periods = transient_periods * options.period_multiple;
+    try {
+        const PeriodicOrbit orbit = periodic_orbit(flow, equations.state(x.data()), shooting);
+        if (!orbit.converged) return false;
+        x = equations.unknowns(orbit.state);
+    } catch (const Error &e) { // chatter
+        if (e.status() != PLM_ERR_CONVERGENCE) throw;
+        return false;
+    }
+    out = newton_at(equations, newton_limits(options), x, omega);
+    return out.converged;
 }
 
 OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,

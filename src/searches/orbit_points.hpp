@@ -5,6 +5,7 @@
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
 #include "orbits/orbit_equations.hpp"
+#include "paths/newton.hpp"
 
 namespace plm {
 
@@ -21,6 +22,10 @@ FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_
 /// The unknowns of a point, of an exact motion or of harmonic balance.
 vector<double> orbit_unknowns(const OrbitEquations &equations, const BranchPoint &point,
                               std::int64_t period_multiple);
+
+/// From the state x by marching to a stable motion, then Newton's method. False: none was found.
+bool march_to_orbit(OrbitEquations &equations, const HbmOptions &options, double omega,
+                    std::int64_t transient_periods, Watch watch, vector<double> &x, NewtonOutcome &out);
 
 /// A solution as a point: as many harmonics as describe its motion to a tenth of harmonic_tolerance, no more
 /// than max_harmonics. Multipliers are not set.

@@ -196,16 +196,17 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
             return harmonic_error_at(*reduced, point, next.change, dof, measure, harmonic);
         };
         if (automatic) error = error_here();
+        std::unique_ptr<PointEquations> equations;
         do {
             if (error > wanted)
                 options.n_harmonics =
                     std::max(options.n_harmonics, std::min(options_.max_harmonics, 2 * options.n_harmonics));
-            const auto equations = equations_of(reduced, options, point);
+            equations = equations_of(reduced, options, point);
             PeakSearch(*equations, options, reduced, dof, measure, harmonic, watch_)
                 .run(branch, around, point);
-            point.multipliers = equations->multipliers(point);
             if (automatic) error = error_here();
         } while (error > wanted && options.n_harmonics < options_.max_harmonics);
+        point.multipliers = equations->multipliers(point);
     }
     one->append(std::move(point));
     warn_of_harmonics(options_, error, *one);

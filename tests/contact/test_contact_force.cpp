@@ -203,7 +203,7 @@ double worst_extremum_error() {
     double worst = 0;
     for (int k = 0; k < 20; ++k) {
         const std::vector<double> x = random_wave(random, 8);
-        const plm::TrigRange range = plm::trig_range(x.data(), 8);
+        const plm::ValueRange range = plm::trig_range(x.data(), 8);
         double high = -1e300, low = 1e300;
         for (int i = 0; i < 200000; ++i) {
             const double v = value(x, 2 * M_PI * i / 200000);

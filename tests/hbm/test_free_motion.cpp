@@ -60,7 +60,7 @@ double stroke(const plm::ReducedModel &m, const plm::BranchPoint &p) {
         u[0] += m.gap_0(0, j) * p.eta_0[j];
         for (std::int64_t c = 0; c < n; ++c) u[c + 1] += m.gap(0, j) * p.eta(j, c);
     }
-    const plm::TrigRange r = plm::trig_range(u.data(), n / 2);
+    const plm::ValueRange r = plm::trig_range(u.data(), n / 2);
     return r.maximum - r.minimum;
 }
 

@@ -71,7 +71,7 @@ Comparison compare(const exact::Structure &s, double low, double high, int n_sam
         if (std::abs(mu - 1) > 1e-4) c.wrong_flags += plm::stability_of(p) != (mu < 1);
         const exact::Orbit orbit = exact::periodic_orbit(s, p.omega, start, 0, n_samples);
         if (!orbit.converged || difference(orbit.start, start) > 1e-6 * largest(start)) continue;
-        const plm::TrigRange range = p.motion->range(s.n - 1);
+        const plm::ValueRange range = p.motion->range(s.n - 1);
         const double got = std::max(std::abs(range.maximum), std::abs(range.minimum));
         c.amplitude = std::max(c.amplitude, std::abs(got / orbit.peak(s.n - 1) - 1));
         ++c.peaks;
@@ -107,7 +107,7 @@ Vec errors_of_harmonics(std::initializer_list<int> harmonics) {
     HbmOptions exactly;
     exactly.motion = plm::MotionKind::exact;
     const auto truth = solver(m, exactly, 0.5, 2).solve(hz, nullptr, 0);
-    const plm::TrigRange range = truth->points()[0].motion->range(0);
+    const plm::ValueRange range = truth->points()[0].motion->range(0);
     Vec errors;
     for (int h : harmonics) {
         HbmOptions o;

@@ -14,7 +14,7 @@ using Model = std::shared_ptr<const plm::ReducedModel>;
 
 double half_range(const plm::ReducedModel &m, const plm::BranchPoint &p, int dof) {
     const auto q = test::displacement(m, p.eta_0, p.eta, dof);
-    const plm::TrigRange range = plm::trig_range(q.data(), p.eta.cols() / 2);
+    const plm::ValueRange range = plm::trig_range(q.data(), p.eta.cols() / 2);
     return 0.5 * (range.maximum - range.minimum);
 }
 
@@ -53,7 +53,7 @@ double undamped_error(double omega) {
     const auto q = test::displacement(*m, p.eta_0, p.eta, 0);
     const plm::TrigValue v = plm::evaluate_trig(q.data(), 40, 0.0);
     const exact::Orbit orbit = exact::periodic_orbit(s, omega, {v.value, omega * v.slope}, 0, 2000);
-    const plm::TrigRange range = plm::trig_range(q.data(), 40);
+    const plm::ValueRange range = plm::trig_range(q.data(), 40);
     const double peak = std::max(std::abs(range.maximum), std::abs(range.minimum));
     return orbit.converged ? std::abs(peak / orbit.peak(0) - 1) : 1e300;
 }

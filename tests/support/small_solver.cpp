@@ -12,7 +12,7 @@ plm::Hbm solver(std::shared_ptr<const plm::ReducedModel> m, const plm::HbmOption
 
 double peak_at(const plm::ReducedModel &m, const plm::BranchPoint &p, int dof) {
     const auto q = displacement(m, p.eta_0, p.eta, dof);
-    const plm::TrigRange range = plm::trig_range(q.data(), p.eta.cols() / 2);
+    const plm::ValueRange range = plm::trig_range(q.data(), p.eta.cols() / 2);
     return std::max(std::abs(range.maximum), std::abs(range.minimum));
 }
 
