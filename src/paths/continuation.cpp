@@ -37,6 +37,7 @@ constexpr double passing_distance = 0.2;         // of the step, from its chord 
 // still a corner seen from steps of the usual length.
 constexpr double corner_from = 10, corner_growth = 10; // of the smallest step
 constexpr double corner_to = 0.01;                     // of the largest
+constexpr int corner_attempts = 6;                     // with each
 constexpr double beyond_corner = 0.5; // cosine of the tangent found there with the one expected: 60 degrees
 
 // Ahead of a point where the path is stuck, of the range of p: near enough to be on the same branch.
@@ -274,39 +275,57 @@ class Continuation {
 
     // Contact that begins with a grazing touch adds stiffness like the square root of the way: the path turns
     // within any step by an angle that may exceed a right one, and the plane across the step then misses it.
-    // Its direction beyond is that of the tangent matrix a step ahead, on the side that the orientation says.
+    // Contact so stiff that it is an impact has a velocity in proportion to the way along the path beyond:
+    // only about the square of that way leads into contact, and Newton's method wants to begin with less.
     bool turn_corner() {
-        const PathState before = walker_.now(), old_tangent = walker_.tangent();
         for (double length = corner_from * options_.min_step; length < corner_to * options_.max_step;
              length *= corner_growth) {
-            last_step_ = 0;
-            const PathState ahead = predict(length);
-            walker_.linearize_at(ahead);
-            walker_.make_tangent(nullptr);
-            walker_.orient(orientation_);
-            const PathState direction = walker_.tangent();
-            walker_.set_tangent(old_tangent);
-            const double cosine = walker_.cosine_with_tangent(direction);
-            if (cosine > std::cos(PathWalker::sharp_angle)) continue;
-            PathState next = ahead; // so that Newton's method begins on the other side of the corner
-            add(length * (1 - cosine), direction, next);
-            const NewtonOutcome out = walker_.correct(next, direction, across_damping, false);
-            const double moved = out.converged ? walker_.metric().distance(next, before) : 0;
-            if (!is_near(out, moved, length)) continue;
-            walker_.move(std::move(next));
-            walker_.linearize_here();
-            walker_.make_tangent(nullptr);
-            walker_.orient(orientation_);
-            if (walker_.cosine_with_tangent(direction) > beyond_corner &&
-                accept(out, moved, old_tangent, before)) {
-                last_step_ = 0;
-                walker_.set_factored(false);
-                step_ = length;
-                return true;
+            double into = length;
+            for (int k = 0; k < corner_attempts; ++k) {
+                PathState direction;
+                if (!turns_ahead(into, direction)) break;
+                if (step_beyond(length, into, direction)) return true;
+                into = k == 0 ? length * length : 0.5 * into;
             }
-            walker_.move(before);
-            walker_.set_tangent(old_tangent);
         }
+        return false;
+    }
+
+    // Whether the path turns within a step of this length: the direction beyond is that of the tangent matrix
+    // there, on the side that the orientation says.
+    bool turns_ahead(double length, PathState &direction) {
+        const PathState tangent = walker_.tangent();
+        last_step_ = 0;
+        walker_.linearize_at(predict(length));
+        walker_.make_tangent(nullptr);
+        walker_.orient(orientation_);
+        direction = walker_.tangent();
+        walker_.set_tangent(tangent);
+        return walker_.cosine_with_tangent(direction) < std::cos(PathWalker::sharp_angle);
+    }
+
+    // Newton's method begins on the other side of the corner, `into` ahead and from there along `direction`,
+    // `length` in all.
+    bool step_beyond(double length, double into, const PathState &direction) {
+        const PathState before = walker_.now(), old_tangent = walker_.tangent();
+        PathState next = predict(into);
+        add(length - into * walker_.cosine_with_tangent(direction), direction, next);
+        const NewtonOutcome out = walker_.correct(next, direction, across_damping, false);
+        const double moved = out.converged ? walker_.metric().distance(next, before) : 0;
+        if (!is_near(out, moved, length)) return false;
+        walker_.move(std::move(next));
+        walker_.linearize_here();
+        walker_.make_tangent(nullptr);
+        walker_.orient(orientation_);
+        if (walker_.cosine_with_tangent(direction) > beyond_corner &&
+            accept(out, moved, old_tangent, before)) {
+            last_step_ = 0;
+            walker_.set_factored(false);
+            step_ = length;
+            return true;
+        }
+        walker_.move(before);
+        walker_.set_tangent(old_tangent);
         return false;
     }
 

@@ -99,6 +99,18 @@ void hard_stops_are_no_exception(void **) {
     expect_exact(compare(test::chain(2, 0.03, 100, 1, 0.1, 0, {1}), 0.5, 0.75, 8000), 1e-7, 1e-4);
 }
 
+// Contact so stiff that it is an impact: where the motion begins to touch the stop, the curve turns a corner
+// that no step resolves. Up to 4e12 times the stiffness of the structure, that is, up to a rigid stop.
+void curves_turn_where_impacts_begin(void **) {
+    for (double stiffness : {2.5e6, 2.5e7, 2.5e8, 2.5e9, 1e12})
+        for (const auto &[gap, preload] : {std::pair(1.0, 0.0), std::pair(0.0, 0.1), std::pair(0.0, 0.0)}) {
+            const auto m = test::reduce_exactly(test::chain(4, 0.1, stiffness, gap, 1, preload, {3}));
+            const auto curve = solver(m, HbmOptions(), 0.5, 0.9).sweep();
+            assert_int_equal(curve->end_reason, PLM_REASON_RANGE_END);
+            for (const plm::BranchPoint &p : curve->points()) assert_non_null(p.motion.get());
+        }
+}
+
 // Amplitude at one frequency by ever more harmonics, against the exact motion's.
 Vec errors_of_harmonics(std::initializer_list<int> harmonics) {
     const exact::Structure s = test::bilinear_oscillator(0.05, 0.5, 0.3, 0.2, 0);
@@ -174,6 +186,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(every_point_is_an_orbit),
         cmocka_unit_test(hard_stops_are_no_exception),
+        cmocka_unit_test(curves_turn_where_impacts_begin),
         cmocka_unit_test(harmonics_come_to_the_exact_motion),
         cmocka_unit_test(coefficients_are_those_of_the_motion),
         cmocka_unit_test(what_has_no_exact_motion_is_refused),
