@@ -20,13 +20,15 @@ constexpr double safe_shift = 5e-4, exact_shift = 1e-7;
 // curve would take minutes.
 constexpr double cheap = 3e6, affordable = 3e7; // flops
 
-// The fastest motion of the stiffest contact set bounds the length of the flow's pieces from above.
-double flops_of_run(const ExactFlow &flow, std::int64_t periods) {
+// The fastest motion of the stiffest contact set bounds the length of the flow's pieces from above; every
+// event ends one.
+double flops_of_run(const ExactFlow &flow, std::int64_t periods, std::size_t n_events) {
     const FlowModel &model = flow.model();
     ContactSet stiffest(model);
     stiffest.assign_stiffest();
     const double n = static_cast<double>(model.size()), z = static_cast<double>(model.n_pairs()),
-                 pieces = 16 + 0.5 * stiffest.rate() * flow.period() * static_cast<double>(periods);
+                 pieces = 16 + 0.5 * stiffest.rate() * flow.period() * static_cast<double>(periods) +
+                          static_cast<double>(n_events);
     return pieces * 26 * 2 * n * (n + z); // 26 terms of the series
 }
 
@@ -75,7 +77,7 @@ Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const Bra
         });
     const double omega = point.omega / static_cast<double>(periods_);
     const FlowState start = model->state(point.eta_0, point.eta, omega, 0.0);
-    const double flops = flops_of_run(flow, periods_);
+    const double flops = flops_of_run(flow, periods_, sequence.events.size());
     Matrix found;
     if (flops > cheap) found = found_by([&] { return by_events(flow, start, sequence, within); });
     if (found.rows() > 0 || flops > (patient_ ? INFINITY : affordable)) return found;

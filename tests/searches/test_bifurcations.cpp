@@ -2,6 +2,8 @@
 // piecewise-linear flow, whose code is independent of the library; the curves that leave there; loops that
 // close.
 #include "contact/trig_polynomial.hpp"
+#include "linalg/work.hpp"
+#include "searches/exact_motion.hpp"
 #include "searches/stability.hpp"
 #include "support/small_solver.hpp"
 #include "support/test.hpp"
@@ -515,6 +517,43 @@ void twenty_four_coordinates_are_those_of_the_basis(void **) {
     assert_true(!stability_by_default(25, false) && !stability_by_default(25, true));
 }
 
+struct Listener final : plm::WorkListener {
+    int heard = 0;
+    bool goes_on() override { return ++heard < 0; }
+};
+// A block that rocks on 1000 springs, in a motion that is none of its own: no events of it help, and a run of
+// the flow passes 2000, in seconds. Stability is not worth that unless it is asked for.
+void events_count_in_the_price_of_a_flow(void **) {
+    constexpr int z = 1000;
+    exact::Structure s = test::chain(3, 0.05, 0.005, 0, 0.3, 0, {0});
+    s.z = z;
+    s.gap_rows.assign(3 * z, 0.0);
+    s.contact_stiffness.assign(z, 0.005);
+    s.gap.assign(z, 0.0);
+    for (int p = 0; p < z; ++p) {
+        s.gap_rows[3 * p] = 1;
+        s.gap_rows[3 * p + 1] = p / 500.0 - 1;
+        s.gap_rows[3 * p + 2] = std::sin(37.0 * p);
+        s.gap[p] = 1e-3 * std::cos(37.0 * p);
+    }
+    const auto m = test::reduce_exactly(s);
+    plm::BranchPoint point;
+    point.omega = 1, point.force_scale = 1, point.n_harmonics = 1;
+    point.eta_0.assign(3, 0.0);
+    point.eta = plm::Matrix(3, 2);
+    point.eta(0, 0) = point.eta(1, 1) = 1;
+    Listener listener;
+    const plm::WorkScope scope(&listener);
+    const plm::EventSequence sequence = plm::contact_events(*m, point, 1);
+    assert_true(sequence.events.size() >= z);
+    plm::MotionBeside beside(1, false);
+    const plm::Matrix none =
+        beside.monodromy(std::make_shared<const plm::FlowModel>(m, 1.0), point, sequence, plm::Matrix());
+    printf("    %zu events, %d pieces of work\n", sequence.events.size(), listener.heard);
+    assert_int_equal(none.rows(), 0);
+    assert_true(listener.heard < 3); // one run takes 19
+}
+
 } // namespace
 
 int main() {
@@ -529,6 +568,7 @@ int main() {
         cmocka_unit_test(folds_are_found_with_sampled_forces),
         cmocka_unit_test(a_solution_from_a_start_keeps_to_its_branch_or_says_so),
         cmocka_unit_test(stability_is_that_of_the_exact_motion),
+        cmocka_unit_test(events_count_in_the_price_of_a_flow),
         cmocka_unit_test(hills_method_converges_to_the_multipliers_of_the_flow),
         cmocka_unit_test(hills_method_ends_where_it_would_not_be_heard_of),
     };
