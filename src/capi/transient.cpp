@@ -5,6 +5,7 @@
 #include "capi/transient_results.hpp"
 #include "linalg/scale.hpp"
 #include "orbits/make_transient.hpp"
+#include "searches/orbit_points.hpp"
 #include <algorithm>
 
 namespace plm::capi {
@@ -91,11 +92,10 @@ plm_status plm_transient_start_at(plm_transient *transient, plm_branch *branch, 
         const std::shared_ptr<BranchHandle> b = same_context<BranchHandle>(t, branch, "branch");
         require_point(*b->core, point);
         const plm::BranchPoint &p = b->core->points()[static_cast<std::size_t>(point)];
-        const std::int64_t multiple = b->core->period_multiple();
-        core(t).start_at({b->core->reduced_model(), p.eta_0, p.eta, p.omega, multiple});
+        core(t).start_at(plm::start_of(*b->core, point));
         t.transient_options.frequency_hz = p.omega / (2 * M_PI);
         t.transient_options.force_scale = p.force_scale;
-        t.transient_options.period_multiple = multiple;
+        t.transient_options.period_multiple = b->core->period_multiple();
         t.periodic.reset();
         return PLM_OK;
     });

@@ -74,14 +74,12 @@ void FullMotion::set_state(const double *q, const double *v) {
     restart_clock();
 }
 
-void FullMotion::start_at(const HarmonicMotion &m) {
-    if (m.reduced->model != model_)
+void FullMotion::start_at(const PointStart &start) {
+    if (start.reduced->model != model_)
         throw Error(PLM_ERR_ARGUMENT, "the branch is of another model; take one of this model")
             .argument("branch");
-    const FlowModel recovery(m.reduced, m.omega);
-    const FlowState state =
-        recovery.state(m.eta_0, m.eta, m.omega / static_cast<double>(m.period_multiple), 0.0);
-    state_ = {recovery.field(state.y), recovery.field(state.v), 0};
+    const FlowModel recovery(start.reduced, 1.0); // coordinates do not depend on the frequency
+    state_ = {recovery.field(start.state.y), recovery.field(start.state.v), 0};
     restart_clock();
 }
 

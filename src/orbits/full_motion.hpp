@@ -12,7 +12,7 @@ class FullMotion final : public Transient {
     bool is_reduced() const override { return false; }
     std::int64_t size() const override { return model_->n_free(); }
     void set_state(const double *q, const double *v) override;
-    void start_at(const HarmonicMotion &motion) override; // of any reduced model of this model
+    void start_at(const PointStart &start) override; // of any reduced model of this model
     void get_state(double *q, double *v) override;
     TransientRun run(const TransientOptions &options, const vector<std::int64_t> &observed,
                      Watch watch) override;

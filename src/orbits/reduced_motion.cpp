@@ -140,14 +140,13 @@ void ReducedMotion::set_state(const double *q, const double *v) {
     restart_clock();
 }
 
-void ReducedMotion::start_at(const HarmonicMotion &m) {
-    if (!of_one_basis(m.reduced, reduced_))
+void ReducedMotion::start_at(const PointStart &start) {
+    if (!of_one_basis(start.reduced, reduced_))
         throw Error(PLM_ERR_ARGUMENT,
                     "the branch was computed on another basis, or before the basis was built "
                     "anew; take one of this basis, or make a transient without a basis")
             .argument("branch");
-    state_ = FlowModel(m.reduced, model_omega_)
-                 .state(m.eta_0, m.eta, m.omega / static_cast<double>(m.period_multiple), 0.0);
+    state_ = start.state;
     restart_clock();
 }
 

@@ -12,7 +12,7 @@ class ReducedMotion final : public Transient {
     bool is_reduced() const override { return true; }
     std::int64_t size() const override { return flow_model_->size(); }
     void set_state(const double *q, const double *v) override; // static_coordinates_of()
-    void start_at(const HarmonicMotion &motion) override;
+    void start_at(const PointStart &start) override;
     void get_state(double *q, double *v) override;
     TransientRun run(const TransientOptions &options, const vector<std::int64_t> &observed,
                      Watch watch) override;

@@ -3,7 +3,7 @@
 // method for the full one.
 #pragma once
 #include "linalg/monitor.hpp"
-#include "reduction/reduced_model.hpp"
+#include "orbits/flow_model.hpp"
 #include <complex>
 
 namespace plm {
@@ -44,14 +44,10 @@ struct PeriodicMotion {
     double seconds = 0;
 };
 
-/// A point of harmonic balance (BranchPoint): coordinates of its reduced model; the response's frequency is
-/// omega / period_multiple.
-struct HarmonicMotion {
+/// The beginning of the period of a point of a curve: a state of the flow of its reduced model.
+struct PointStart {
     std::shared_ptr<const ReducedModel> reduced;
-    const vector<double> &eta_0;
-    const Matrix &eta;
-    double omega;
-    std::int64_t period_multiple;
+    FlowState state;
 };
 
 /// Starts at rest under the pre-load. Nothing changes where a member throws; a cancelled run has kept what it
@@ -68,7 +64,7 @@ class Transient {
     /// Over all DOFs of the model (n_dof), null for zero, at the beginning of a period; the time is 0 again.
     virtual void set_state(const double *q, const double *v) = 0;
     /// The state of a point at the beginning of its period. Reduced models take their own points only.
-    virtual void start_at(const HarmonicMotion &motion) = 0;
+    virtual void start_at(const PointStart &start) = 0;
     /// Over all DOFs (n_dof), each may be null.
     virtual void get_state(double *q, double *v) = 0;
 

@@ -247,6 +247,12 @@ FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_
     return model.state(point.eta_0, point.eta, point.omega / static_cast<double>(period_multiple), 0.0);
 }
 
+PointStart start_of(const Branch &branch, std::int64_t point) {
+    const BranchPoint &p = branch.points()[static_cast<std::size_t>(point)];
+    const FlowModel model(branch.reduced_model(), p.omega);
+    return {branch.reduced_model(), start_of(model, p, branch.period_multiple())};
+}
+
 vector<double> orbit_unknowns(const OrbitEquations &equations, const BranchPoint &point,
                               std::int64_t period_multiple) {
     return equations.unknowns(start_of(equations.model(), point, period_multiple));

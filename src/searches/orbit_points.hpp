@@ -5,6 +5,7 @@
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
 #include "orbits/orbit_equations.hpp"
+#include "orbits/transient.hpp"
 #include "paths/newton.hpp"
 
 namespace plm {
@@ -19,6 +20,7 @@ OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, cons
 
 /// The state at the beginning of the period, of an exact motion or of harmonic balance.
 FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_t period_multiple);
+PointStart start_of(const Branch &branch, std::int64_t point);
 /// The unknowns of a point, of an exact motion or of harmonic balance.
 vector<double> orbit_unknowns(const OrbitEquations &equations, const BranchPoint &point,
                               std::int64_t period_multiple);

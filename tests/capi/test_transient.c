@@ -265,12 +265,40 @@ static void an_unstable_motion_is_found_and_left(void **state) {
     assert_true(fabs(largest(history, n) - peak[middle]) > 0.05 * peak[middle]);
 }
 
+/* a stop so stiff that the velocity jumps: the harmonics of a point are far from where its motion begins */
+static void a_point_of_exact_motions_begins_as_it_is(void **state) {
+    const oscillator o = {1, 0.05, 1e7, 0.5, 1};
+    plm_hbm *hbm = NULL;
+    plm_branch *curve = NULL;
+    double peak[4000], defect = 1;
+    int64_t n = 0, k, iterations = -1;
+    (void)state;
+    assert_true(make(&o, 0.4));
+    assert_true(done(ctx, plm_hbm_create(basis, &hbm)));
+    assert_true(done(ctx, plm_hbm_set_double(hbm, "frequency_min_hz", 0.25)));
+    assert_true(done(ctx, plm_hbm_set_double(hbm, "frequency_max_hz", 0.35)));
+    assert_true(done(ctx, plm_hbm_set_string(hbm, "motion", "exact")));
+    assert_true(done(ctx, plm_hbm_sweep(hbm, &curve)));
+    assert_true(done(ctx, plm_branch_get_amplitude(curve, 0, PLM_PEAK, 0, 4000, peak, &n)));
+    motion = new_motion(basis, 1, 1, 5000, 0);
+    for (k = 0; k < n; k += n / 8) {
+        assert_true(done(ctx, plm_transient_start_at(motion, curve, k)));
+        assert_true(done(ctx, plm_transient_set_double(motion, "tolerance", 1e-8)));
+        assert_true(done(ctx, plm_transient_find_periodic(motion)));
+        plm_transient_get_double(motion, "periodicity_defect", &defect);
+        plm_transient_get_int(motion, "iterations", &iterations);
+        printf("    point %d of %d: defect %.1e after %d iterations, peak %.3f\n", (int)k, (int)n, defect,
+               (int)iterations, peak[k]);
+        assert_true(iterations == 0 && defect < 1e-8);
+    }
+}
+
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
         TEST(a_linear_oscillator_in_closed_form),         TEST(a_bilinear_oscillator_in_closed_form),
         TEST(the_full_model_agrees_with_its_reduced_one), TEST(a_point_of_harmonic_balance_is_periodic),
-        TEST(an_unstable_motion_is_found_and_left),
+        TEST(an_unstable_motion_is_found_and_left),       TEST(a_point_of_exact_motions_begins_as_it_is),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
