@@ -40,6 +40,7 @@ Measured outcome_of(const Curve &curve) {
     Measured m;
     m.reason = curve.end_reason;
     m.outcome = curve.end_text;
+    m.unknowns = curve.unknowns;
     m.work = curve.work;
     return m;
 }

@@ -9,7 +9,7 @@ namespace extreme {
 struct Measured {
     double error = 1e300; // against the row's truth; what it is a share of stands in Row::truth
     std::int32_t reason = PLM_REASON_NONE;
-    std::string outcome;
+    std::string outcome, unknowns; // unknowns of the curve: "state" where it is made of exact motions
     Work work;
     double time_limit = 0; // seconds that a sweep of `work` may take; 0: any
 };

@@ -54,7 +54,7 @@ Bedded bedded(Rest rest, double ratio) {
     return b;
 }
 
-// The exact flow takes steps of a fifth of the shortest contact, so that it misses none.
+// Displacements have kinks at impacts: five samples in the shortest contact.
 int samples_for(double ratio) {
     return std::max(2000, static_cast<int>(16 * std::sqrt(ratio)));
 }
@@ -73,16 +73,15 @@ Setup range(double low, double high, bool sampled) {
     return setup;
 }
 
-// Above 1e7 the exact flow is that of 1e7, an impact of 2e-4 of the period: the difference is far below the
-// bound. From some points of the stiffest contact no exact orbit of the forcing period is found (see
-// one_stop).
+// From some points of the stiffest contact no exact orbit of the forcing period is found (see one_stop).
 Measured against_impacts(exact::Structure (*build)(Rest, double), Rest rest, double ratio, bool sampled) {
-    const double exact_ratio = std::min(ratio, 1e7);
-    Solver solver(build(rest, ratio), range(ratio > 100 ? 0.5 : 0.3, 0.9, sampled));
+    const exact::Structure s = build(rest, ratio);
+    Solver solver(s, range(ratio > 100 ? 0.5 : 0.3, 0.9, sampled));
     const auto curve = solver.sweep();
     Measured m = outcome_of(*curve);
+    if (curve->end_reason != PLM_REASON_RANGE_END) return m; // seconds a point, for nothing
     const int n = 6;
-    const OrbitErrors errors = orbit_errors(build(rest, exact_ratio), *curve, n, samples_for(exact_ratio));
+    const OrbitErrors errors = orbit_errors(s, *curve, n, samples_for(ratio));
     m.error = 2 * errors.missing < n ? errors.worst : 1e300;
     if (errors.missing > 0)
         m.outcome += "; exact orbits at " + std::to_string(n - errors.missing) + " of " + std::to_string(n) +
@@ -102,20 +101,13 @@ struct Family {
     Measured (*measure)(Rest rest, double ratio, bool sampled);
 };
 
-// Impacts of 2 % (1e3) to 2e-5 (1e9) of the period; velocities jump, and errors fall as 1 / H: 3e-2 with 60
-// harmonics, 1e-2 with 120, 6e-3 with 240 at 1e5 and 0.55 rad/s; 0.2 holds what the curves have. The bed
-// takes the jumps away. Elsewhere a few times harmonic_tolerance, which is an estimate.
-double bound(const Family &family, int power) {
-    if (power <= 1) return 2e-3;
-    if (family.name[0] == 'b') return power <= 3 ? 5e-3 : 2e-3;
-    return power <= 3 ? 1e-2 : 0.2;
-}
+// Curves of exact motions are right to what the exact flow of the tests resolves: its orbits end at 1e-10,
+// and beside a grazing touch the amplitude changes by much more than the state. The project promises 1e-4.
+constexpr double bound = 1e-4;
 
-// The soft ones, and what a second or two shows of the stiff ones.
-bool quick(const Family &family, Rest rest, int power) {
-    const bool bed = family.name[0] == 'b';
-    return power <= 1 || (bed && rest == Rest::preload && power <= 5) ||
-           (!bed && rest != Rest::preload && power == 3);
+// Truths of the stiffest impacts take a minute.
+bool quick(const Family &family, int power) {
+    return power <= 5 || family.name[0] == 'b';
 }
 
 Row row_of(const Family &family, Rest rest, const char *word, int power) {
@@ -124,12 +116,8 @@ Row row_of(const Family &family, Rest rest, const char *word, int power) {
     std::snprintf(parameters, sizeof parameters, "%s, %s, k_n = 1e%d k_loc", family.text, word, power);
     const double ratio = std::pow(10.0, power);
     const auto measure = family.measure;
-    return {name,
-            parameters,
-            power == 9 && family.name[0] != 'b' ? "exact orbits at 1e7" : "exact orbits",
-            bound(family, power),
-            quick(family, rest, power),
-            [=](bool sampled) { return measure(rest, ratio, sampled); }};
+    return {name,  parameters,           "exact orbits",
+            bound, quick(family, power), [=](bool sampled) { return measure(rest, ratio, sampled); }};
 }
 
 } // namespace

@@ -55,13 +55,16 @@ void Work::add(const Work &w) {
     seconds += w.seconds;
 }
 
-Curve::Curve(plm_context *ctx, plm_branch *branch, plm_status) : ctx_(ctx), branch_(branch) {
+Curve::Curve(plm_context *ctx, plm_model *model, plm_basis *basis, plm_branch *branch)
+    : ctx_(ctx), model_(model), basis_(basis), branch_(branch) {
     std::int64_t reason = 0, count = 0;
     check_call(ctx, plm_branch_get_int(branch, "end_reason", &reason));
     end_reason = static_cast<std::int32_t>(reason);
     char text[256] = "";
     check_call(ctx, plm_branch_get_string(branch, "end_text", sizeof text, text, nullptr));
     end_text = text;
+    check_call(ctx, plm_branch_get_string(branch, "unknowns", sizeof text, text, nullptr));
+    unknowns = text;
     check_call(ctx, plm_branch_get_array(branch, "frequency_hz", 0, nullptr, &count));
     omega.resize(count);
     check_call(ctx, plm_branch_get_array(branch, "frequency_hz", count, omega.data(), &count));
@@ -90,15 +93,6 @@ std::vector<std::int32_t> Curve::bifurcations() const {
     return {kind.begin(), kind.end()};
 }
 
-std::vector<double> Curve::coefficients(std::size_t point, std::int64_t dof) const {
-    std::int64_t h = 0;
-    check_call(ctx_, plm_branch_get_int(branch_, "n_harmonics", &h));
-    std::vector<double> c(2 * h + 1);
-    check_call(ctx_,
-               plm_branch_get_coefficients(branch_, static_cast<std::int64_t>(point), dof, 1, c.data()));
-    return c;
-}
-
 Setup setup_of(const scene &s) {
     Setup setup;
     setup.kind = "plm";
@@ -107,15 +101,16 @@ Setup setup_of(const scene &s) {
 }
 
 std::vector<double> Curve::state(std::size_t point, std::int64_t n) const {
-    std::vector<double> y(2 * n, 0.0);
-    for (std::int64_t dof = 0; dof < n; ++dof) {
-        const std::vector<double> c = coefficients(point, dof);
-        y[dof] = c[0];
-        for (std::size_t h = 1; 2 * h < c.size(); ++h) {
-            y[dof] += c[2 * h - 1];
-            y[n + dof] += static_cast<double>(h) * omega[point] * c[2 * h];
-        }
-    }
+    plm_transient *motion = nullptr;
+    check_call(ctx_, plm_transient_create(model_, basis_, &motion));
+    check_call(ctx_, plm_transient_start_at(motion, branch_, static_cast<std::int64_t>(point)));
+    std::int64_t n_dof = 0;
+    check_call(ctx_, plm_branch_get_int(branch_, "n_dof", &n_dof));
+    std::vector<double> q(n_dof), v(n_dof);
+    check_call(ctx_, plm_transient_get_state(motion, n_dof, q.data(), v.data()));
+    plm_transient_destroy(&motion);
+    std::vector<double> y(q.begin(), q.begin() + n);
+    y.insert(y.end(), v.begin(), v.begin() + n);
     return y;
 }
 
@@ -208,7 +203,7 @@ std::unique_ptr<Curve> Solver::sweep() {
     const plm_status status = plm_hbm_sweep(hbm_, &branch);
     const double seconds = now() - begin;
     check(status);
-    auto curve = std::make_unique<Curve>(ctx_, branch, status);
+    auto curve = std::make_unique<Curve>(ctx_, model_, basis_, branch);
     curve->work.seconds = seconds;
     const double first = curve->omega.front(), last = curve->omega.back();
     if (curve->end_reason == PLM_REASON_RANGE_END && std::abs(last - first) < 0.5 * (high_ - low_)) {
@@ -225,7 +220,7 @@ std::unique_ptr<Curve> Solver::solve(double omega, const Curve *start, std::size
                                             start ? static_cast<std::int64_t>(point) : 0, &branch);
     const double seconds = now() - begin;
     check(status);
-    auto curve = std::make_unique<Curve>(ctx_, branch, status);
+    auto curve = std::make_unique<Curve>(ctx_, model_, basis_, branch);
     curve->work.seconds = seconds;
     return curve;
 }

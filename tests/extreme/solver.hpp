@@ -43,26 +43,28 @@ struct Work {
 /// A branch and what it took.
 class Curve {
   public:
-    Curve(plm_context *ctx, plm_branch *branch, plm_status status);
+    Curve(plm_context *ctx, plm_model *model, plm_basis *basis, plm_branch *branch);
     ~Curve();
     Curve(const Curve &) = delete;
     Curve &operator=(const Curve &) = delete;
 
     std::int32_t end_reason = 0;
-    std::string end_text;
+    std::string end_text, unknowns;
     std::vector<double> omega;
     Work work;
 
     std::size_t size() const { return omega.size(); }
     std::vector<double> amplitude(std::int64_t dof, std::int32_t measure = PLM_PEAK, int harmonic = 0) const;
-    /// q(0), q'(0) of the first n DOFs.
+    /// q(0), q'(0) of the first n DOFs, of the motion itself: harmonics of an impact are far from its
+    /// velocity.
     std::vector<double> state(std::size_t point, std::int64_t n) const;
     std::vector<std::int32_t> bifurcations() const; // PLM_BIFURCATION_... of every point
-    std::vector<double> coefficients(std::size_t point, std::int64_t dof) const;
     plm_branch *handle() const { return branch_; }
 
   private:
     plm_context *ctx_;
+    plm_model *model_;
+    plm_basis *basis_;
     plm_branch *branch_;
 };
 
