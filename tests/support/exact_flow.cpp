@@ -294,16 +294,17 @@ Orbit periodic_orbit(const Structure &s, double omega, std::vector<double> guess
         const Vec step = solve(a, b);
         const bool last =
             defect < 1e-10 * size; // before the last step; stiff damping leaves rounding of 1e-11
+        // To the orbit nearby, not to any; at a fold the last step, of rounding alone, would lead anywhere.
         Vec next;
-        for (double factor = 1; factor > 0.05; factor *= 0.5) { // to the orbit nearby, not to any
+        bool closer = false;
+        for (double factor = 1; factor > (last ? 0.9 : 0.05) && !closer; factor *= 0.5) {
             next = guess;
             for (int i = 0; i < d; ++i) next[i] += factor * step[i];
             double ignored;
-            if (last || defect_of(one_period(flow, next, steps, nullptr, nullptr), next, s.n, omega,
-                                  ignored) < defect)
-                break;
+            closer = defect_of(one_period(flow, next, steps, nullptr, nullptr), next, s.n, omega, ignored) <
+                     defect;
         }
-        guess = next;
+        if (closer || !last) guess = next;
         if (last) {
             orbit.converged = true;
             break;
