@@ -10,6 +10,8 @@
 !     type(plm_study) :: study            call study%create(model), set_output(dof), add_response('name', hbm), run() ...
 !                                         call context%destroy(): and all that was made in it
 !
+! and plm_compute_response(model, dof, hz, amplitude, curve) goes from the model to the peak in one call.
+!
 ! Every procedure ends with the optional arguments stat (a PLM_... status) and errmsg. Without stat a failure is written
 ! to error_unit and the program stops with error stop; an outcome (a status above 0: something to look at) is written
 ! there, too, and the program goes on. DOFs, points and columns count from 1; 0 stands for "no DOF".
@@ -20,7 +22,7 @@ module plm
     use plm_models, only: plm_model
     use plm_reductions, only: plm_sampler, plm_basis
     use plm_branches, only: plm_branch
-    use plm_responses, only: plm_hbm
+    use plm_responses, only: plm_hbm, plm_compute_response
     use plm_motions, only: plm_transient
     use plm_studies, only: plm_study
     use plm_library_facts, only: plm_version_numbers, plm_build_line, plm_describe_keys

@@ -629,6 +629,21 @@ module plm_c
             integer(c_int64_t), intent(inout), optional :: needed
             integer(plm_status) :: code
         end function plm_model_get_finding
+        function plm_model_compute_response(model, dof, measure, accuracy, frequency_hz, amplitude, error, curve, &
+            hbm) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int64_t), value :: dof
+            integer(c_int32_t), value :: measure
+            real(c_double), value :: accuracy
+            real(c_double), intent(inout) :: frequency_hz
+            real(c_double), intent(inout) :: amplitude
+            real(c_double), intent(inout), optional :: error
+            type(c_ptr), intent(inout), optional :: curve
+            type(c_ptr), intent(inout), optional :: hbm
+            integer(plm_status) :: code
+        end function plm_model_compute_response
         function plm_sampler_create(model, sampler) bind(c) result(code)
             import :: c_ptr, plm_status
             implicit none

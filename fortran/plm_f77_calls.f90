@@ -405,6 +405,33 @@ subroutine plmmcm(handle, freq, count, ierr)
     call narrow(c_count, count, ierr)
 end subroutine plmmcm
 
+subroutine plmmrp(handle, idof, imeas, accur, freq, ampl, err, curve, hbm, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t, c_null_ptr, c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_compute_response
+    use plm_f77_support, only: as_pointer, as_handle
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: idof
+    integer, intent(in) :: imeas
+    real(real64), intent(in) :: accur
+    real(real64), intent(inout) :: freq
+    real(real64), intent(inout) :: ampl
+    real(real64), intent(inout) :: err
+    integer(int64), intent(inout) :: curve
+    integer(int64), intent(inout) :: hbm
+    integer, intent(out) :: ierr
+    type(c_ptr) :: c_curve
+    type(c_ptr) :: c_hbm
+    c_curve = c_null_ptr
+    c_hbm = c_null_ptr
+    ierr = int(plm_model_compute_response(as_pointer(handle), int(idof - 1, int64), int(imeas, c_int32_t), accur, &
+        freq, ampl, err, c_curve, c_hbm))
+    if (ierr < 0) return
+    if (as_handle(c_curve) /= 0) curve = as_handle(c_curve)
+    if (as_handle(c_hbm) /= 0) hbm = as_handle(c_hbm)
+end subroutine plmmrp
+
 subroutine plmmau(handle, count, ierr)
     use, intrinsic :: iso_fortran_env, only: int64
     use plm_c, only: plm_model_audit

@@ -7,10 +7,11 @@ module plm_responses
     use plm_errors, only: finish
     use plm_methods, only: plm_hbm_methods
     use plm_branches, only: plm_branch, measure_of, harmonic_of, get_handles
+    use plm_models, only: plm_model
     use plm_reductions, only: plm_basis
     implicit none
     private
-    public :: plm_hbm
+    public :: plm_hbm, plm_compute_response
 
     type, extends(plm_hbm_methods) :: plm_hbm
     contains
@@ -31,6 +32,50 @@ module plm_responses
     end type plm_hbm
 
 contains
+
+    ! The whole way in one call, for a built model with an excitation: curve around the resonance that the excitation drives
+    ! most, and its peak. measure: PLM_PEAK (if absent), PLM_HALF_PEAK_TO_PEAK, PLM_RMS; accuracy: relative error that the
+    ! peak may have (if absent 1d-3); error: its estimate, NaN where there is none; hbm: what computed it.
+    subroutine plm_compute_response(model, dof, frequency_hz, amplitude, curve, accuracy, measure, error, hbm, stat, errmsg)
+        type(plm_model), intent(in) :: model
+        integer, intent(in) :: dof
+        real(real64), intent(inout) :: frequency_hz, amplitude
+        type(plm_branch), intent(inout), optional :: curve
+        real(real64), intent(in), optional :: accuracy
+        integer(plm_status), intent(in), optional :: measure
+        real(real64), intent(inout), optional :: error
+        type(plm_hbm), intent(inout), optional :: hbm
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        type(c_ptr) :: made_curve, made_hbm
+        real(real64) :: allowed, left
+        integer(plm_status) :: status, gone
+        made_curve = c_null_ptr
+        made_hbm = c_null_ptr
+        allowed = 1d-3
+        if (present(accuracy)) allowed = accuracy
+        left = 0
+        status = plm_model_compute_response(model%handle, int(dof, int64) - 1, measure_of(measure), allowed, &
+            frequency_hz, amplitude, left, made_curve, made_hbm)
+        if (status >= 0) then
+            if (present(error)) error = left
+            if (present(curve)) then
+                curve%context = model%context
+                curve%kind = PLM_KIND_BRANCH
+                curve%handle = made_curve
+            else
+                gone = plm_branch_destroy(made_curve)
+            end if
+            if (present(hbm)) then
+                hbm%context = model%context
+                hbm%kind = PLM_KIND_HBM
+                hbm%handle = made_hbm
+            else
+                gone = plm_hbm_destroy(made_hbm)
+            end if
+        end if
+        call finish(model%context, status, stat, errmsg)
+    end subroutine plm_compute_response
 
     subroutine create(self, basis, stat, errmsg)
         class(plm_hbm), intent(inout) :: self

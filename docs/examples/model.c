@@ -166,10 +166,26 @@ static int results(plm_model *model) {
     return 0;
 }
 
+static int whole_way(plm_context *ctx) {
+    plm_model *model = NULL;
+    TRY(start_model(ctx, &model));
+    TRY(plm_model_build(model));
+
+    /* [plm_model_compute_response] */
+    double hz, amplitude, error; /* of the peak of DOF 1, which may be wrong by one in a thousand */
+    plm_branch *curve = NULL;    /* or NULL instead of &curve, and for the solver */
+    TRY(plm_model_compute_response(model, 1, PLM_PEAK, 1e-3, &hz, &amplitude, &error, &curve, NULL));
+    printf("peak: %.4f mm at %.3f Hz, wrong by about %.0e\n", 1e3 * amplitude, hz, error);
+    /* [plm_model_compute_response] */
+    EXPECT(error < 1e-3 && amplitude > 0.013 && amplitude < 0.014);
+    return 0;
+}
+
 int example(plm_context *ctx) {
     plm_model *model = NULL;
     int line = matrices(ctx);
     if (!line) line = contacts(ctx);
+    if (!line) line = whole_way(ctx);
     if (line) return line;
     TRY(start_model(ctx, &model));
     line = loads_and_options(model);

@@ -10,6 +10,8 @@
  *                  -> plm_branch  the response curve: amplitudes, contact, fields
  *                  -> plm_study   error against run time of several ways to that curve
  *
+ * and plm_model_compute_response goes all that way in one call.
+ *
  * Rules that hold for every function
  *   - It returns a plm_status: 0 done; > 0 done with an outcome to look at (results are valid as far as they go);
  *     < 0 failed, and then nothing has changed and no output has been written. What failed, or what should be looked
@@ -102,7 +104,7 @@ typedef int32_t plm_status;
 #define PLM_REASON_BASIS_TOO_SMALL 12
 #define PLM_REASON_TURNED_BACK 13      /* branch: ran back to where it began without having passed a fold */
 #define PLM_REASON_NO_PEAK 14          /* the highest point stands at an end of the curve */
-#define PLM_REASON_HARMONICS_TOO_FEW 15 /* "harmonic_tolerance" was not reached */
+#define PLM_REASON_HARMONICS_TOO_FEW 15 /* "accuracy" asks for more harmonics than were allowed */
 #define PLM_REASON_OUTSIDE_BASIS 16    /* frequencies, forces or motions the basis was not made for */
 #define PLM_REASON_OTHER_BRANCH 17     /* the solution is not on the branch the start belongs to */
 #define PLM_REASON_NO_CONTRACTION 18   /* the steps of an estimate do not contract: there is no number */
@@ -348,6 +350,19 @@ PLM_API plm_status plm_model_audit(plm_model *model, int64_t *count);
 PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_t *severity, double *value,
                                          int64_t capacity, char *buffer, int64_t *needed);
 
+/* The whole way in one call, for a built model with an excitation: the response curve around the resonance that the
+ * excitation drives most, and its peak at DOF `dof`. measure: PLM_PEAK, PLM_HALF_PEAK_TO_PEAK or PLM_RMS. accuracy: the
+ * relative error that the peak may have, 1e-8 to 0.5 (1e-3 is usual); sampler, window, basis, motion and harmonics follow
+ * from it: the basis grows until the error it makes is estimated (as by plm_hbm_estimate_error) to be within. Outputs:
+ * frequency (Hz) and amplitude of the peak; error: that estimate, NaN where there is none, or NULL; curve: or NULL; hbm:
+ * the solver that computed it, to go on with (other points, isolated branches, stability), with its basis behind it, or
+ * NULL. PLM_WARNING says what of the accuracy was not reached and what else should be looked at, with the reasons of
+ * plm_sampler_run, plm_basis_build, plm_hbm_sweep and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a
+ * sweep. PLM_ERR_STATE before plm_model_build and without contact pairs. */
+PLM_API plm_status plm_model_compute_response(plm_model *model, int64_t dof, int32_t measure, double accuracy,
+                                              double *frequency_hz, double *amplitude, double *error,
+                                              plm_branch **curve, plm_hbm **hbm);
+
 /* ---- Sampler: the evolution of the contact area (paper, 2.3.1 and 2.3.2) ---------------------------------------- */
 
 PLM_API plm_status plm_sampler_create(plm_model *model, plm_sampler **sampler);
@@ -455,8 +470,9 @@ PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *
  * around the highest point of `branch` (which this hbm's basis computed), with twice its harmonics where they are chosen
  * automatically and the next ones would show. peak: that point as a branch, or NULL. PLM_WARNING with
  * PLM_REASON_NO_PEAK when the highest point stands at an end of the curve (also of one that was cut off): frequency and
- * amplitude are those of that point, and the peak lies elsewhere; with PLM_REASON_BASIS_TOO_SMALL as for a sweep. A
- * closed curve has no ends. */
+ * amplitude are those of that point, and the peak lies elsewhere; with PLM_REASON_BASIS_TOO_SMALL when the error that the
+ * basis makes is estimated to be above "accuracy", or, where an estimate would cost more than some points of the curve,
+ * as for a sweep. A closed curve has no ends. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
 

@@ -612,6 +612,7 @@ struct Finding {
     std::string text;
 };
 
+struct Response;
 class Model : public detail::WithOptions<Model, plm_model> {
   public:
     Model(const Context &context, std::int64_t n_dof) : WithOptions(context.state(), nullptr), n_dof_(n_dof) {
@@ -732,6 +733,9 @@ class Model : public detail::WithOptions<Model, plm_model> {
         finished(plm_model_count_modes(handle_, frequency_hz, &n), "count_modes");
         return n;
     }
+    /// The whole way in one call: sampler, basis, curve and peak, as accurate as asked.
+    Response compute_response(std::int64_t dof, std::int32_t measure = PLM_HALF_PEAK_TO_PEAK,
+                              double accuracy = 1e-3) const;
     std::vector<Finding> audit() const {
         std::int64_t n = 0;
         finished(plm_model_audit(handle_, &n), "audit");
@@ -909,6 +913,7 @@ class Branch : public detail::Handle<plm_branch> {
     }
 
   private:
+    friend class Model;
     friend class Hbm;
     friend class Study;
     template <class Curves> friend std::vector<plm_branch *> detail::handles_of(const Curves &);
@@ -1040,6 +1045,9 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
     }
 
   private:
+    friend class Model;
+    Hbm(detail::StatePtr state, plm_hbm *handle, std::int64_t n_dof)
+        : WithOptions(std::move(state), handle), n_dof_(n_dof) {}
     Branch found(std::int64_t i, double *force_range) {
         plm_branch *b = nullptr;
         const plm_status s = plm_hbm_get_found(handle_, i, force_range, &b);
@@ -1062,6 +1070,13 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
         return branch;
     }
     std::int64_t n_dof_;
+};
+
+struct Response {
+    double frequency_hz, amplitude; // of the peak
+    double error;                   // of it by the basis, relative, estimated; NaN: not known
+    Branch curve;
+    Hbm hbm; // that computed it
 };
 
 // ---- Transient -------------------------------------------------------------------------------------------
@@ -1241,6 +1256,17 @@ inline Basis::Basis(const Model &model)
 inline Hbm::Hbm(const Basis &basis)
     : WithOptions(detail::Access<plm_basis>::state(basis), nullptr), n_dof_(basis.n_dof_) {
     check(plm_hbm_create(basis.c_handle(), &handle_), "create");
+}
+inline Response Model::compute_response(std::int64_t dof, std::int32_t measure, double accuracy) const {
+    double hz = 0, amplitude = 0, error = 0;
+    plm_branch *curve = nullptr;
+    plm_hbm *solver = nullptr;
+    const plm_status s =
+        plm_model_compute_response(handle_, dof, measure, accuracy, &hz, &amplitude, &error, &curve, &solver);
+    Response r{hz, amplitude, error, Branch(state_, curve, s),
+               Hbm(state_, solver, n_dof_)}; // check may throw
+    finished(s, "compute_response");
+    return r;
 }
 inline Transient::Transient(const Model &model, plm_basis *basis)
     : WithOptions(detail::Access<plm_model>::state(model), nullptr), n_dof_(model.n_dof()) {

@@ -77,9 +77,6 @@ struct HbmHandle final : HandleOf<plm_hbm, Kind::hbm> {
     HbmOptions hbm_options;
     std::vector<FoundBranch> found; // by the last plm_hbm_find_...
     Warnings warnings;              // of the last call that computed something
-    // the unreduced structure in the contact space of `unreduced_of`, for error estimates
-    std::shared_ptr<const ReducedModel> unreduced;
-    std::shared_ptr<const Basis> unreduced_of;
 };
 
 struct BranchHandle final : HandleOf<plm_branch, Kind::branch> {

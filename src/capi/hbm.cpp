@@ -11,8 +11,7 @@
 namespace plm::capi {
 
 Hbm solver(const HbmHandle &h) {
-    const Basis &basis = *built(*h.basis);
-    return Hbm(basis.reduced(), basis.sweep_range(), h.hbm_options, h.owner->watch());
+    return Hbm(built(*h.basis), h.hbm_options, h.owner->watch());
 }
 
 plm_branch *publish_branch(const HbmHandle &h, BranchPtr core) {
@@ -103,20 +102,6 @@ plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, std::int64_t dof,
     });
 }
 
-namespace {
-
-// The unreduced structure, as accurate as the modes the basis was made from; kept until the basis is built
-// anew.
-std::shared_ptr<const plm::ReducedModel> unreduced(HbmHandle &h) {
-    const std::shared_ptr<const plm::Basis> &basis = built(*h.basis);
-    if (h.unreduced_of == basis) return h.unreduced;
-    h.unreduced = plm::unreduced_basis(basis, h.owner->watch())->reduced();
-    h.unreduced_of = basis;
-    return h.unreduced;
-}
-
-} // namespace
-
 plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, std::int64_t point, std::int64_t dof,
                                   std::int32_t measure, std::int32_t harmonic, double *amplitude,
                                   double *frequency_hz) {
@@ -124,7 +109,8 @@ plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, std::int64_t
         const std::shared_ptr<BranchHandle> curve = own_branch(h, branch, "branch");
         require_point(*curve->core, point);
         require_measure(*curve->core, dof, measure, harmonic);
-        const plm::ErrorEstimator estimator(unreduced(h), *curve->core, h.hbm_options);
+        const plm::ErrorEstimator estimator(
+            plm::unreduced_basis(built(*h.basis), h.owner->watch())->reduced(), *curve->core, h.hbm_options);
         const plm::ErrorEstimate e =
             estimator.estimate(point, dof, static_cast<plm::Measure>(measure), harmonic);
         const auto put = [](const plm::ErrorParts &parts, double *out) {
@@ -165,9 +151,7 @@ plm_status plm_hbm_refine_basis(plm_hbm *hbm, std::int64_t dof, std::int32_t mea
         require_pointer(refined, "refined");
         plm::RefinementOptions o;
         o.hbm = h.hbm_options;
-        o.dof = dof;
-        o.measure = static_cast<plm::Measure>(measure);
-        o.harmonic = harmonic;
+        o.output = {dof, static_cast<plm::Measure>(measure), harmonic};
         o.tolerance = tolerance;
         const plm::Refinement found = plm::refine(basis, o, h.owner->watch());
         if (!found.basis)

@@ -23,10 +23,14 @@ const std::vector<Key> &hbm_keys() {
             "n_harmonics", 0, 1000,
             "harmonics H of the solution, all of the excitation's; 0: as many as each "
             "point needs"),
+        real_option<&O::accuracy>(
+            "accuracy", 1e-12, 0.5,
+            "relative error that results may have; a curve or peak that is estimated to "
+            "miss it warns"),
         int_option<&O::max_harmonics>("max_harmonics", 1, 1000, "with n_harmonics = 0: the most allowed"),
         real_option<&O::harmonic_tolerance>(
-            "harmonic_tolerance", 1e-12, 1,
-            "with n_harmonics = 0: allowed \"harmonic_error\" of a point; where "
+            "harmonic_tolerance", 0, 1,
+            "with n_harmonics = 0: allowed \"harmonic_error\" of a point, 0: half of \"accuracy\"; where "
             "it is not reached, the branch warns"),
         choice_option<&O::tail_correction>("tail_correction", "off,on",
                                            "add the next harmonics that follow from the exact contact force"),
@@ -94,6 +98,8 @@ const std::vector<Key> &branch_keys() {
         result<B>("n_pairs", "contact pairs", [](const B &b) { return built(b)->reduced().n_whole_pairs(); }),
         result<B>("n_dof", "DOFs of the model",
                   [](const B &b) { return built(b)->reduced().model->n_dof(); }),
+        result<B>("basis_size", "columns of the basis that it was computed on",
+                  [](const B &b) { return built(b)->reduced().size(); }),
         result<B>("force_scale", "factor on the excitation",
                   [](const B &b) { return built(b)->force_scale(); }),
         result<B>(

@@ -100,6 +100,7 @@ ValueRange trig_range(const double *x, std::int64_t n_harmonics) {
     range = {left.value, left.value};
     for (std::int64_t i = 0; i < n; ++i) {
         const double t = width * static_cast<double>(i);
+        worked(10.0 * static_cast<double>(n_harmonics));
         const TrigValue right = evaluate_trig(x, n_harmonics, t + width);
         double value = right.value;
         if ((left.slope > 0) != (right.slope > 0)) {

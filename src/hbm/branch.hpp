@@ -16,6 +16,13 @@ enum class Measure {
     harmonic = PLM_HARMONIC
 };
 
+/// Whose amplitude is asked for.
+struct Output {
+    std::int64_t dof = 0; // base 0
+    Measure measure = Measure::half_peak_to_peak;
+    std::int64_t harmonic = 0; // of Measure::harmonic
+};
+
 /// How a branch ended (PLM_REASON_...), in words; `sampled`: its contact forces came from time samples.
 std::string end_text(std::int32_t reason, bool sampled = false);
 

@@ -15,7 +15,8 @@ struct HbmOptions {
         MotionKind::automatic;        // periodic orbits of the exact flow, or harmonic balance: by cost
     std::int64_t n_harmonics = 0;     // 0: as many as each point needs
     std::int64_t max_harmonics = 60;  // n_harmonics = 0 only
-    double harmonic_tolerance = 5e-4; // n_harmonics = 0: allowed harmonic_error of a point
+    double accuracy = 1e-3;           // of results, relative: a peak that misses it says so
+    double harmonic_tolerance = 0;    // n_harmonics = 0: allowed harmonic_error of a point; 0: by accuracy
     bool tail_correction = false;     // adds the next harmonics that follow from the exact force
     std::int64_t period_multiple = 1; // response period over excitation period
     AftKind aft = AftKind::event;
@@ -33,6 +34,11 @@ struct HbmOptions {
            max_step = 0.15; // arc length, where 1 = the window's width or the response's scale
     StabilityKind stability = StabilityKind::automatic; // Floquet multipliers of each point
     bool bifurcations = true;                           // locate folds, branch points, ...
+
+    /// Half of the accuracy, unless set: the basis takes its share.
+    double allowed_harmonic_error() const {
+        return harmonic_tolerance > 0 ? harmonic_tolerance : 0.5 * accuracy;
+    }
 };
 
 } // namespace plm

@@ -244,13 +244,15 @@ void Basis::choose_pairs() {
 std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch,
                                              std::shared_ptr<const Space> known) {
     if (basis->options().kind == &basis_kinds::full && !basis->reduced()->all_pairs) return basis;
-    BasisOptions o = basis->options();
-    o.kind = &basis_kinds::full;
-    o.n_pairs_carried = 0;
-    o.frequency_min_hz = basis->window_min_hz();
-    o.frequency_max_hz = basis->window_max_hz();
-    return std::make_shared<const Basis>(basis->model(), basis->sampler(), basis, o, watch, nullptr,
-                                         std::move(known));
+    return *basis->unreduced_.get([&] {
+        BasisOptions o = basis->options();
+        o.kind = &basis_kinds::full;
+        o.n_pairs_carried = 0;
+        o.frequency_min_hz = basis->window_min_hz();
+        o.frequency_max_hz = basis->window_max_hz();
+        return std::make_shared<const Basis>(basis->model(), basis->sampler(), basis, o, watch, nullptr,
+                                             std::move(known));
+    });
 }
 
 double projection_residual(const Basis &basis, bool is_static, bool use_mass, const Field &q) {

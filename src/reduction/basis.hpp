@@ -1,6 +1,7 @@
 // Reduction bases: piecewise-linear modes, Craig-Bampton and the unreduced reference, each giving a
 // ReducedModel.
 #pragma once
+#include "linalg/kept.hpp"
 #include "reduction/compression.hpp"
 #include "reduction/mode_selection.hpp"
 #include "reduction/sweep_range.hpp"
@@ -56,10 +57,13 @@ class Basis {
     std::shared_ptr<const ReducedModel> reduced_;
     double window_min_hz_ = 0, window_max_hz_ = 0;
     bool estimated_min_ = false, estimated_max_ = false; // ends of the window that are a sampler's estimate
+    Kept<std::shared_ptr<const Basis>> unreduced_;       // unreduced_basis()
+    friend std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &, Watch,
+                                                        std::shared_ptr<const Space>);
 };
 
 /// The basis of kind full for the same frequencies with all pairs carried, in the contact space of `basis`
-/// where that is one, else in `known` where that reaches far enough.
+/// where that is one, else in `known` where that reaches far enough. Made once.
 std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &basis, Watch watch,
                                              std::shared_ptr<const Space> known = nullptr);
 

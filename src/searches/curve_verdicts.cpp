@@ -74,22 +74,49 @@ void check_window(const SweepRange &window, Watch watch, Branch &branch) {
                 branch.points()[static_cast<std::size_t>(worst)].omega / (2 * M_PI), residual));
 }
 
-void check_basis(const SweepRange &window, Watch watch, Branch &branch) {
+namespace {
+
+void warn_of_basis(const BranchPoint &p, const std::string &how_wrong, Watch watch, Branch &branch) {
+    watch.keeping(branch.warnings)
+        .warn(PLM_REASON_BASIS_TOO_SMALL,
+              format("the basis (%lld coordinates) is too small: at %.6g Hz %s. %s",
+                     static_cast<long long>(branch.reduced().size()), p.omega / (2 * M_PI), how_wrong.c_str(),
+                     branch.reduced().all_pairs
+                         ? "Carry more pairs (n_pairs_carried), or raise below_factor of the basis"
+                         : "Raise n_harmonics of sampler and basis or below_factor of the basis, refine the "
+                           "basis for this DOF, or take kind \"full\""));
+}
+
+} // namespace
+
+void check_basis(const SweepRange &window, const std::function<double()> &error, Watch watch,
+                 Branch &branch) {
     if (!branch.reduced().model || branch.points().empty() || !shows_the_basis(branch)) return;
     const std::int64_t top = largest_response(branch);
     const BranchPoint &p = branch.points()[static_cast<std::size_t>(top)];
     if (window.max_hz > 0 && !is_inside(window, p)) return; // check_window() speaks of that
     const double residual = branch.full_residual(top);
     if (residual <= missed) return;
-    watch.keeping(branch.warnings)
-        .warn(PLM_REASON_BASIS_TOO_SMALL,
-              format("the basis (%lld coordinates) is too small: at %.6g Hz the response misses the "
-                     "equations of the whole structure by %.2g of its size (full residual), and amplitudes "
-                     "are in doubt by as much (the error estimate of a point tells). %s",
-                     static_cast<long long>(branch.reduced().size()), p.omega / (2 * M_PI), residual,
-                     branch.reduced().all_pairs
-                         ? "Carry more pairs (n_pairs_carried), or raise below_factor of the basis"
-                         : "Raise below_factor or n_harmonics of the basis, or take kind \"full\""));
+    if (error() <= missed) return; // which NaN is not
+    warn_of_basis(p,
+                  format("the response misses the equations of the whole structure by %.2g of its size (full "
+                         "residual), and amplitudes are in doubt by as much (the error estimate of a point "
+                         "tells)",
+                         residual),
+                  watch, branch);
+}
+
+void check_peak(const SweepRange &window, double accuracy, double error, Watch watch, Branch &peak) {
+    if (!std::isfinite(error))
+        check_basis(
+            window, [=] { return error; }, watch, peak);
+    else if (error > accuracy)
+        warn_of_basis(
+            peak.points()[0],
+            format("the amplitude asked for is wrong by about %.2g of itself, by an estimate (or the "
+                   "frequency is), where \"accuracy\" allows %.2g",
+                   error, accuracy),
+            watch, peak);
 }
 
 void check_switching(Watch watch, Branch &branch) {

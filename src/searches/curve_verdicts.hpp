@@ -3,6 +3,7 @@
 #include "hbm/branch.hpp"
 #include "linalg/monitor.hpp"
 #include "reduction/sweep_range.hpp"
+#include <functional>
 
 namespace plm {
 
@@ -11,8 +12,12 @@ namespace plm {
 void check_window(const SweepRange &window, Watch watch, Branch &branch);
 
 /// A basis may be too small inside its window, too, where the contact is much stiffer than what it touches or
-/// many harmonics are needed: the largest response there is judged in the same way. For a peak found: alone.
-void check_basis(const SweepRange &window, Watch watch, Branch &branch);
+/// many harmonics are needed: the largest response there is judged in the same way, unless `error`, which is
+/// then asked for, knows better: the estimated error (basis_error.hpp), infinite or NaN where there is none.
+void check_basis(const SweepRange &window, const std::function<double()> &error, Watch watch, Branch &branch);
+
+/// The same of a peak and its estimated error, which is to be within the accuracy.
+void check_peak(const SweepRange &window, double accuracy, double error, Watch watch, Branch &peak);
 
 /// A curve on which no pair comes near to opening or closing is a linear response, most often of a gap or a
 /// pre-load in other units than the force.

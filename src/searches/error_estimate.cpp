@@ -154,6 +154,7 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
     BranchPoint from = p;
     if (p.motion) { // no harmonics are missing: what both structures answer with as many differs by the basis
         with_harmonics = false;
+        o.n_harmonics = std::min(o.n_harmonics, options_.max_harmonics);
         e.known = solve_with_harmonics(branch_.reduced_model(), o, from);
     }
     double amplitude = branch_.amplitude(point, dof, measure, harmonic), hz = p.omega / (2 * M_PI);

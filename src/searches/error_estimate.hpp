@@ -29,7 +29,7 @@ struct ErrorEstimate {
 class ErrorEstimator {
   public:
     /// full: the unreduced structure (project_whole of its contact space). The options are those of the
-    /// curve.
+    /// curve; exact motions are compared with at most their max_harmonics.
     ErrorEstimator(std::shared_ptr<const ReducedModel> full, const Branch &branch, const HbmOptions &options);
     /// PLM_ERR_CONVERGENCE when the tangent is singular.
     ErrorEstimate estimate(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic,

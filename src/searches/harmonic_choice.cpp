@@ -57,7 +57,7 @@ HbmOptions with_first_harmonics(const ReducedModel &reduced, const HbmOptions &o
 std::int64_t next_harmonics(const HbmOptions &limits, std::int64_t fewest, std::int64_t now,
                             const HarmonicContent &content, double error) {
     const std::int64_t most = std::max(limits.max_harmonics, now);
-    const double over = std::max(error, content.tail / tail_allowance) / limits.harmonic_tolerance;
+    const double over = std::max(error, content.tail / tail_allowance) / limits.allowed_harmonic_error();
     constexpr double far_too_few = 30; // times the tolerance: below, two fifths more are likely to do
     constexpr double too_many = 0.3;   // of the tolerance: no number is to be taken back at the next point
     if (over > far_too_few) return std::min(most, 2 * now);
@@ -65,7 +65,7 @@ std::int64_t next_harmonics(const HbmOptions &limits, std::int64_t fewest, std::
     // without the upper two fifths the tail would grow from `tail` to `tail + top`, and its effect with it
     const double grows = content.tail > 0 ? 1 + content.top / content.tail : 1;
     if (over * grows < too_many &&
-        content.tail + content.top < too_many * tail_allowance * limits.harmonic_tolerance)
+        content.tail + content.top < too_many * tail_allowance * limits.allowed_harmonic_error())
         return std::max(fewest, now - (2 * now) / 5);
     return now;
 }
@@ -175,7 +175,7 @@ void settle_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOpti
         now.n_harmonics = more;
         if (point.harmonic_error < worthless_error || !solved_with(reduced, now, false, watch, point)) break;
     }
-    if (options.n_harmonics == 0 && !(point.harmonic_error <= options.harmonic_tolerance))
+    if (options.n_harmonics == 0 && !(point.harmonic_error <= options.allowed_harmonic_error()))
         point = most_useful(tried);
     if (options.tail_correction)
         point.eta.append(harmonic_content(*reduced, point, options.period_multiple).tail_response);
@@ -213,9 +213,10 @@ void warn(const HbmOptions &o, std::int64_t over, std::int64_t worst, double err
         PLM_REASON_HARMONICS_TOO_FEW,
         format("harmonic_tolerance (%.2g) was not reached at %lld of %lld points; the largest error is "
                "estimated as %.2g at point %lld (%.6g Hz, %lld harmonics%s): %s",
-               o.harmonic_tolerance, static_cast<long long>(over), static_cast<long long>(points.size()),
-               error, static_cast<long long>(worst), p.omega / (2 * M_PI),
-               static_cast<long long>(p.n_harmonics), most_moved(branch, p).c_str(), remedy(o, p).c_str()));
+               o.allowed_harmonic_error(), static_cast<long long>(over),
+               static_cast<long long>(points.size()), error, static_cast<long long>(worst),
+               p.omega / (2 * M_PI), static_cast<long long>(p.n_harmonics), most_moved(branch, p).c_str(),
+               remedy(o, p).c_str()));
 }
 
 } // namespace
@@ -227,13 +228,14 @@ void warn_of_harmonics(const HbmOptions &options, Branch &branch) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         if (points[i].harmonic_error > points[static_cast<std::size_t>(worst)].harmonic_error)
             worst = static_cast<std::int64_t>(i);
-        over += points[i].harmonic_error > options.harmonic_tolerance;
+        over += points[i].harmonic_error > options.allowed_harmonic_error();
     }
     if (over > 0) warn(options, over, worst, points[static_cast<std::size_t>(worst)].harmonic_error, branch);
 }
 
 void warn_of_harmonics(const HbmOptions &options, double error, Branch &branch) {
-    if (options.n_harmonics == 0 && error > options.harmonic_tolerance) warn(options, 1, 0, error, branch);
+    if (options.n_harmonics == 0 && error > options.allowed_harmonic_error())
+        warn(options, 1, 0, error, branch);
 }
 
 void warn_of_given_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,

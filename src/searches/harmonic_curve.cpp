@@ -111,7 +111,7 @@ class CurveTracer final : public PathOwner {
     // is not made worse, nor slow, by trying them at every point.
     void limit_harmonics(const BranchPoint &first) {
         limits_ = asked_;
-        if (first.harmonic_error > 10 * asked_.harmonic_tolerance)
+        if (first.harmonic_error > 10 * asked_.allowed_harmonic_error())
             limits_.max_harmonics = options_.n_harmonics;
     }
 

@@ -4,6 +4,7 @@
 #include "hbm/make_system.hpp"
 #include "linalg/scale.hpp"
 #include "reduction/widened_model.hpp"
+#include "searches/basis_error.hpp"
 #include "searches/curve.hpp"
 #include "searches/curve_verdicts.hpp"
 #include "searches/follow.hpp"
@@ -55,6 +56,11 @@ Hbm::Hbm(std::shared_ptr<const ReducedModel> reduced, const SweepRange &window, 
     check(options_);
     exact_ = prefers_exact(reduced_, options_);
     if (exact_) reduced_ = widened(reduced_);
+}
+
+Hbm::Hbm(std::shared_ptr<const Basis> basis, const HbmOptions &options, Watch watch)
+    : Hbm(basis->reduced(), basis->sweep_range(), options, watch) {
+    made_as_ = std::move(basis);
 }
 
 Hbm::~Hbm() = default;
@@ -179,7 +185,12 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
     }
     bring_peak_inside(options_, reach_, watch_, *branch);
     check_window(window_, watch_, *branch);
-    check_basis(window_, watch_, *branch);
+    const auto error = [&] {
+        const std::int64_t top = largest_response(*branch);
+        return basis_error_at(made_as_, options_, *branch, top, most_moving(*branch, top), Patience::little,
+                              watch_);
+    };
+    check_basis(window_, error, watch_, *branch);
     check_switching(watch_, *branch);
     finish(*branch, begin);
     return branch;

@@ -14,6 +14,7 @@ struct Peak {
     std::shared_ptr<const Branch> branch; // one point
 };
 
+class Basis;           // reduction/basis.hpp
 struct IsolatedSearch; // isolated.hpp
 struct Backbone;       // phase_resonance.hpp
 
@@ -23,6 +24,8 @@ class Hbm {
     /// past its estimated ends to have the peak inside, and what lies outside it is checked.
     Hbm(std::shared_ptr<const ReducedModel> reduced, const SweepRange &window, const HbmOptions &options,
         Watch watch);
+    /// On a basis whose errors can be estimated, in its window.
+    Hbm(std::shared_ptr<const Basis> basis, const HbmOptions &options, Watch watch);
     /// A range that stays as it is.
     Hbm(std::shared_ptr<const ReducedModel> reduced, double min_hz, double max_hz, const HbmOptions &options,
         Watch watch)
@@ -70,6 +73,7 @@ class Hbm {
     /// The model that a branch of this basis was computed on. PLM_ERR_ARGUMENT for one of another basis.
     std::shared_ptr<const ReducedModel> model_of(const Branch &branch, const char *argument) const;
 
+    std::shared_ptr<const Basis> made_as_;                // null: not known
     std::shared_ptr<const ReducedModel> basis_, reduced_; // as handed over; widened for exact motions
     HbmOptions options_;
     bool exact_ = false;        // curves of exact motions, where their first point is one

@@ -127,12 +127,12 @@ class HillMatrix {
 
 } // namespace
 
-vector<std::complex<double>> hill_multipliers(const FlowModel &flow, const BranchPoint &point,
-                                              std::int64_t period_multiple) {
+vector<std::complex<double>> hill_multipliers(const FlowModel &flow, const ReducedModel &reduced,
+                                              const BranchPoint &point, std::int64_t period_multiple) {
     if (flow.state_size() * (2 * point.n_harmonics + 1) > largest_hill_order) return {};
     const double omega = point.omega / static_cast<double>(period_multiple);
     ContactIndicator indicator;
-    const ContactMotion contact = contact_motion(flow.reduced(), point);
+    const ContactMotion contact = contact_motion(reduced, point);
     make_event_force(point.n_harmonics, contact.u.rows())->indicator(contact.u, indicator);
     const Matrix matrix =
         HillMatrix(flow, point.n_harmonics, omega).build(indicator, flow.contact_stiffness());

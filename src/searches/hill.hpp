@@ -11,8 +11,9 @@ namespace plm {
 constexpr std::int64_t largest_hill_order = 600;
 
 /// FlowModel::state_size() multipliers over one period of the response, largest modulus first; empty where
-/// the eigenproblem, of order (2 H + 1) times as many, would be larger than largest_hill_order.
-vector<std::complex<double>> hill_multipliers(const FlowModel &flow, const BranchPoint &point,
-                                              std::int64_t period_multiple);
+/// the eigenproblem, of order (2 H + 1) times as many, would be larger than largest_hill_order. reduced: what
+/// the point belongs to, which the flow may have widened.
+vector<std::complex<double>> hill_multipliers(const FlowModel &flow, const ReducedModel &reduced,
+                                              const BranchPoint &point, std::int64_t period_multiple);
 
 } // namespace plm

@@ -125,7 +125,7 @@ class ModePath final : public PathOwner {
         for (std::int64_t h = std::min<std::int64_t>(7, options_.hbm.max_harmonics);;
              h = std::min(2 * h, options_.hbm.max_harmonics)) {
             NonlinearMode found = follow(h);
-            if (largest_tail_ <= options_.hbm.harmonic_tolerance) return found;
+            if (largest_tail_ <= options_.hbm.allowed_harmonic_error()) return found;
             if (h < options_.hbm.max_harmonics) continue;
             warn_of_tail(*found.branch);
             return found;
@@ -167,7 +167,7 @@ class ModePath final : public PathOwner {
         std::size_t over = 0, worst = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (points[i].harmonic_tail > points[worst].harmonic_tail) worst = i;
-            over += points[i].harmonic_tail > options_.hbm.harmonic_tolerance;
+            over += points[i].harmonic_tail > options_.hbm.allowed_harmonic_error();
         }
         watch_.keeping(branch.warnings)
             .warn(PLM_REASON_HARMONICS_TOO_FEW,
@@ -175,7 +175,7 @@ class ModePath final : public PathOwner {
                          "mode: at point %zu (%.6g Hz) the next harmonics have a share of %.2g in the "
                          "motion of the gaps. Raise max_harmonics (%lld) or, if that is accurate enough, "
                          "harmonic_tolerance; or end at a smaller amplitude (amplitude_max)",
-                         options_.hbm.harmonic_tolerance, over, points.size(), worst,
+                         options_.hbm.allowed_harmonic_error(), over, points.size(), worst,
                          points[worst].omega / (2 * M_PI), points[worst].harmonic_tail,
                          static_cast<long long>(options_.hbm.max_harmonics)));
     }

@@ -1,6 +1,7 @@
 // The highest point of a curve, found on the curve itself: points on hyperplanes across the chord through the
 // three highest ones, by successive parabolic interpolation.
 #include "hbm/branch_path.hpp"
+#include "searches/basis_error.hpp"
 #include "searches/curve.hpp"
 #include "searches/curve_verdicts.hpp"
 #include "searches/harmonic_choice.hpp"
@@ -190,7 +191,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         // Where harmonics are chosen, an order better than on the curve: one point is cheap, and its
         // amplitude is what people quote.
         const bool automatic = options_.n_harmonics == 0 && !point.motion;
-        const double wanted = 0.1 * options_.harmonic_tolerance;
+        const double wanted = 0.1 * options_.allowed_harmonic_error();
         const auto error_here = [&] { // at the DOF, which need not be that of the motion as a whole
             const MeasuredHarmonics next = measure_harmonics(reduced, options, point);
             return harmonic_error_at(*reduced, point, next.change, dof, measure, harmonic);
@@ -212,7 +213,10 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     warn_of_harmonics(options_, error, *one);
     if (is_peak && options_.n_harmonics != 0 && !one->points()[0].motion)
         warn_of_given_harmonics(reduced, options_, dof, measure, harmonic, *one);
-    check_basis(window_, watch_, *one);
+    check_peak(
+        window_, options_.accuracy,
+        basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic}, Patience::little, watch_),
+        watch_, *one);
     one->unknowns_used = branch.unknowns_used;
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);

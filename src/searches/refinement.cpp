@@ -1,10 +1,9 @@
 #include "searches/refinement.hpp"
 #include "reduction/basis_kind.hpp"
-#include "searches/error_estimate.hpp"
+#include "searches/basis_error.hpp"
 #include "searches/responses.hpp"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace plm {
 namespace {
@@ -51,33 +50,21 @@ class Refiner {
         return branch;
     }
 
-    // Points spread over the curve by their number, which its curvature sets.
-    static vector<std::int64_t> spread(std::int64_t points, std::int64_t wanted) {
-        const std::int64_t n = std::min(points, wanted);
-        vector<std::int64_t> at;
-        for (std::int64_t k = 0; k < n; ++k) at.push_back(n > 1 ? k * (points - 1) / (n - 1) : 0);
-        return at;
-    }
-
     double largest_error(const Branch &branch) const {
-        const std::int64_t top = branch.highest_point(options_.dof, options_.measure, options_.harmonic);
-        const double peak =
-            std::abs(branch.amplitude(top, options_.dof, options_.measure, options_.harmonic));
+        const Output &output = options_.output;
+        const std::int64_t top = branch.highest_point(output.dof, output.measure, output.harmonic);
+        const double peak = std::abs(branch.amplitude(top, output.dof, output.measure, output.harmonic));
         if (!(peak > 0))
             throw Error(PLM_ERR_ARGUMENT, "the DOF does not move on the curve; name one that does")
                 .argument("dof");
-        vector<std::int64_t> at = spread(static_cast<std::int64_t>(branch.points().size()), looked_at);
+        vector<std::int64_t> at = spread_over(branch, looked_at);
         at.push_back(top);
         const ErrorEstimator estimator(full_->reduced(), branch, options_.hbm);
         double worst = 0;
         for (std::int64_t i : at) {
             watch_.step("refinement", 0.5);
-            const ErrorEstimate e =
-                estimator.estimate(i, options_.dof, options_.measure, options_.harmonic, false);
-            if (!e.known) return std::numeric_limits<double>::infinity(); // larger than can be told
-            const double hz = branch.points()[i].omega / (2 * M_PI);
-            worst = std::max({worst, std::abs(e.amplitude.basis + e.amplitude.contact) / peak,
-                              std::abs(e.frequency_hz.basis + e.frequency_hz.contact) / hz});
+            worst = std::max(worst, basis_error(estimator, branch, i, output, peak));
+            if (!std::isfinite(worst)) return worst;
         }
         return worst;
     }
@@ -86,7 +73,7 @@ class Refiner {
         const ErrorEstimator estimator(full_->reduced(), branch, options_.hbm);
         const auto motions =
             std::make_shared<Branch>(full_->reduced(), options_.hbm.force_scale, branch.period_multiple());
-        for (std::int64_t i : spread(static_cast<std::int64_t>(branch.points().size()), corrected)) {
+        for (std::int64_t i : spread_over(branch, corrected)) {
             watch_.step("refinement", 0.7);
             motions->append(estimator.corrected(i));
         }

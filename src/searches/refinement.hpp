@@ -4,15 +4,14 @@
 // curve, other modes, attachment and static vectors. No unreduced curve is computed.
 #pragma once
 #include "reduction/basis.hpp"
+#include "searches/basis_error.hpp"
 #include "searches/hbm.hpp"
 
 namespace plm {
 
 struct RefinementOptions {
     HbmOptions hbm;
-    std::int64_t dof = 0; // whose amplitude counts
-    Measure measure = Measure::half_peak_to_peak;
-    std::int64_t harmonic = 0;
+    Output output; // whose amplitude counts
     double tolerance =
         1e-3; // on the curve: |error of amplitude| over the peak, |error of frequency| over frequency
     std::int64_t max_rounds = 8;

@@ -56,7 +56,7 @@ Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const HbmOptio
 
 vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) {
     const auto flow = flow_ ? flow_ : std::make_shared<FlowModel>(reduced_, point.omega);
-    if (hill_) return hill_multipliers(*flow, point, period_multiple_);
+    if (hill_) return hill_multipliers(*flow, *reduced_, point, period_multiple_);
     const EventSequence sequence = contact_events(*reduced_, point, period_multiple_);
     const Matrix free = free_motion(*reduced_, sequence.acting()),
                  transition = beside_.monodromy(flow, point, sequence, states_beside(free, *flow, false));

@@ -1,4 +1,5 @@
 #include "study/marching.hpp"
+#include "linalg/work.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +15,7 @@ vector<double> coefficients(const vector<double> &value, std::int64_t multiple) 
                        h = std::max<std::int64_t>(1, std::min((n - 1) / 2, most_harmonics * multiple));
     vector<double> c(2 * h + 1, 0.0);
     for (std::int64_t k = 0; k < n; ++k) {
+        worked(40.0 * static_cast<double>(h));
         c[0] += value[k] / static_cast<double>(n);
         for (std::int64_t j = 1; j <= h; ++j) {
             const double angle = 2 * M_PI * static_cast<double>(j * (k + 1) % n) / static_cast<double>(n);

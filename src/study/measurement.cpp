@@ -85,9 +85,7 @@ class Run {
     void refine_basis() {
         RefinementOptions o;
         o.hbm = options_at_level(method_, where_, outermost_levels(where_).back());
-        o.dof = where_.output.dof;
-        o.measure = where_.output.measure;
-        o.harmonic = where_.output.harmonic;
+        o.output = where_.output;
         o.tolerance = method_.tolerance;
         Refinement found = refine(out_.basis, o, watch_);
         if (!found.basis)

@@ -11,13 +11,6 @@ struct PlaneSamples {
     vector<double> hz, amplitude;
 };
 
-/// The motion that a study looks at.
-struct Output {
-    std::int64_t dof = 0; // base 0
-    Measure measure = Measure::half_peak_to_peak;
-    std::int64_t harmonic = 0;
-};
-
 /// Both axes of the plane are divided by these.
 struct PlaneScale {
     double frequency_hz = 1, amplitude = 1;

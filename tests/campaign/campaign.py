@@ -1,6 +1,7 @@
-"""Random models with nothing set, against exact motions: campaign.py [--count N] [--seed S] [--only FAMILY] [--one K] [--limit S] [--markdown FILE]
+"""Random models with nothing set, against exact motions: campaign.py [--count N] [--seed S] [--one_call | --steps] [--only FAMILY] [--one K] [--limit S] [--markdown FILE]
 
-Each model goes through sampler, basis, sweep and peak with defaults. Its peak is then compared with the highest amplitude of the
+Each model goes through compute_response, the whole way in one call, or with --steps through sampler, basis, sweep and peak with
+defaults. Its peak is then compared with the highest amplitude of the
 exact periodic motions of the unreduced model (exact.py) along the curve through it. Ends with 1 when a peak is wrong by more than
 1 % without a status or a warning, a model was refused, its curve stopped, or it did not end within --limit seconds of the
 processor. The seed of model K is S + K: --one K runs that one alone.
@@ -38,20 +39,32 @@ def build(m):
     return model.build()
 
 
-def run_library(m, result):
+def in_steps(m):
+    """The curve, its peak and what was said."""
+    model = build(m)
+    sampler = plm.Sampler(model).run()
+    basis = plm.Basis(model, sampler).build()
+    hbm = plm.Hbm(basis)
+    curve = hbm.sweep()
+    peak = hbm.find_peak(curve, m["out"], "peak")
+    said = [w for w in (sampler.warning, basis.warning, curve.warning, peak.branch.warning, hbm.warning) if w]
+    return curve, peak, "; ".join(dict.fromkeys(said))
+
+
+def in_one_call(m):
+    response = build(m).compute_response(m["out"], measure="peak")
+    said = response.hbm.warning  # before the next call
+    return response.curve, response.hbm.find_peak(response.curve, m["out"], "peak"), said
+
+
+def run_library(m, way, result):
     begin = time.process_time()
     try:
-        model = build(m)
-        sampler = plm.Sampler(model).run()
-        basis = plm.Basis(model, sampler).build()
-        hbm = plm.Hbm(basis)
-        curve = hbm.sweep()
-        peak = hbm.find_peak(curve, m["out"], "peak")
+        curve, peak, said = way(m)
     finally:
         result["seconds"] = time.process_time() - begin
-    said = [w for w in (sampler.warning, basis.warning, curve.warning, peak.branch.warning, hbm.warning) if w]
-    result.update(points=len(curve), status=int(curve.status), end=curve.end_text, said="; ".join(dict.fromkeys(said)),
-                  hz=peak.frequency_hz, amplitude=peak.amplitude, harmonics=int(peak.branch.n_harmonics), r=int(basis.size),
+    result.update(points=len(curve), status=int(curve.status), end=curve.end_text, said=said,
+                  hz=peak.frequency_hz, amplitude=peak.amplitude, harmonics=int(peak.branch.n_harmonics), r=int(curve.basis_size),
                   stable=int(curve.stable[int(np.argmax(curve.amplitude(m["out"], "peak")))]))
     q = peak.branch.coefficients(0)
     h = np.arange(1, (len(q) - 1) // 2 + 1)[:, None]
@@ -72,13 +85,13 @@ def compare(m, x, omega, result):
                   multiplier=float(np.abs(np.linalg.eigvals(phi)).max()))
 
 
-def one(family, seed, keep=lambda result: None):
+def one(family, seed, way, keep=lambda result: None):
     """What came of a model; keep() is handed what is known after the library and again after the exact motion."""
     result = dict(family=family.__name__, seed=seed)
     m = family(np.random.default_rng(seed))
     result["n"], result["pairs"], result["kind"] = len(m["M"]), len(m["B"]), m["kind"]
     try:
-        x, omega = run_library(m, result)
+        x, omega = run_library(m, way, result)
     except plm.PlmError as e:
         result["refused"] = str(e)
         keep(result)
@@ -90,7 +103,7 @@ def one(family, seed, keep=lambda result: None):
     return result
 
 
-def in_child(family, seed, limit):
+def in_child(family, seed, way, limit):
     """The result, from a process of its own: a crash or a run without end is a result, too."""
     read, write = os.pipe()
     child = os.fork()
@@ -98,7 +111,7 @@ def in_child(family, seed, limit):
         os.close(read)
         resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 2))
         with os.fdopen(write, "wb") as out:
-            one(family, seed, lambda so_far: (pickle.dump(so_far, out), out.flush()))
+            one(family, seed, way, lambda so_far: (pickle.dump(so_far, out), out.flush()))
         os._exit(0)
     os.close(write)
     known = None
@@ -195,8 +208,11 @@ def line(r):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--count", type=int, default=150)
+    parser.add_argument("--count", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
+    way = parser.add_mutually_exclusive_group()
+    way.add_argument("--one_call", action="store_true", help="by compute_response (the default)")
+    way.add_argument("--steps", action="store_true", help="sampler, basis, sweep and peak instead")
     parser.add_argument("--only", default="")
     parser.add_argument("--one", type=int, default=-1)
     parser.add_argument("--limit", type=int, default=120, help="seconds of the processor a model may take, exact motion included")
@@ -209,7 +225,8 @@ def main():
         family = families.FAMILIES[k % len(families.FAMILIES)]
         if a.only and family.__name__ != a.only:
             continue
-        r = in_child(family, a.seed + k, a.limit) if a.one < 0 else one(family, a.seed + k)
+        way = in_steps if a.steps else in_one_call
+        r = in_child(family, a.seed + k, way, a.limit) if a.one < 0 else one(family, a.seed + k, way)
         results.append(r)
         print(f"{k:4d} " + line(r), flush=True)
     print(table(results), summary(results), sep="\n\n")

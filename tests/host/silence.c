@@ -115,7 +115,7 @@ static void everything_on_a_plate(ear *e, plm_context *ctx) {
 }
 
 /* Two masses and a stop between them. */
-static plm_hbm *two_masses(plm_context *ctx, double light, int64_t harmonics) {
+static plm_hbm *two_masses(plm_context *ctx, double light, int64_t harmonics, plm_model **made) {
     static const int64_t ptr[] = {0, 2, 4}, row[] = {0, 1, 0, 1}, gap_ptr[] = {0, 2}, i[] = {0, 1};
     static const double k[] = {2e4, -1e4, -1e4, 1e4}, coefficient[] = {1, -1}, k_n = 3e4, gap = 1e-5,
                         f[] = {0, 10};
@@ -141,12 +141,14 @@ static plm_hbm *two_masses(plm_context *ctx, double light, int64_t harmonics) {
     EXPECT(plm_hbm_create(basis, &hbm) == PLM_OK);
     EXPECT(plm_hbm_set_int(hbm, "n_harmonics", harmonics) == PLM_OK);
     EXPECT(plm_hbm_set_string(hbm, "stability", "off") == PLM_OK);
+    *made = model;
     return hbm;
 }
 
 /* 4,000 equations with 1000 harmonics: one factorization has 4e10 flops. */
 static void many_harmonics_can_be_stopped(ear *e, plm_context *ctx) {
-    plm_hbm *hbm = two_masses(ctx, 0.5, 1000);
+    plm_model *model = NULL;
+    plm_hbm *hbm = two_masses(ctx, 0.5, 1000, &model);
     plm_branch *branch = NULL;
     plm_hbm_set_string(hbm, "unknowns", "modal");
     e->stop_after = 0.3 * allowed;
@@ -156,7 +158,8 @@ static void many_harmonics_can_be_stopped(ear *e, plm_context *ctx) {
 
 /* A light mass that still counts as one, at 1e5 Hz: many steps of the exact flow in one period. */
 static void a_defect_can_be_stopped(ear *e, plm_context *ctx) {
-    plm_hbm *hbm = two_masses(ctx, 3e-8, 3);
+    plm_model *model = NULL;
+    plm_hbm *hbm = two_masses(ctx, 3e-8, 3, &model);
     plm_branch *branch = NULL;
     double defect = -1;
     EXPECT(HEARD(plm_hbm_solve(hbm, 7.0, NULL, 0, &branch)) >= 0);
@@ -164,6 +167,24 @@ static void a_defect_can_be_stopped(ear *e, plm_context *ctx) {
     if (branch) EXPECT(HEARD(plm_branch_get_periodicity_defect(branch, 0, &defect)) == PLM_CANCELLED);
     EXPECT(e->stopped && defect == -1);
     e->stop_after = 0;
+}
+
+/* What a marched period holds: 64,000 instants, 800 harmonics. */
+static void a_long_period_is_heard_of(ear *e, plm_context *ctx) {
+    plm_model *model = NULL;
+    plm_hbm *hbm = two_masses(ctx, 0.5, 3, &model);
+    plm_transient *marching = NULL;
+    plm_study *study = NULL;
+    int64_t index;
+    EXPECT(hbm && plm_transient_create(model, NULL, &marching) == PLM_OK);
+    EXPECT(plm_transient_set_int(marching, "periods", 1) == PLM_OK);
+    EXPECT(plm_transient_set_int(marching, "period_multiple", 16) == PLM_OK);
+    EXPECT(plm_transient_set_int(marching, "steps_per_period", 4000) == PLM_OK);
+    EXPECT(plm_study_create(model, &study) == PLM_OK);
+    EXPECT(plm_study_set_output(study, 1, PLM_PEAK, 0) == PLM_OK);
+    EXPECT(plm_study_set_reference(study, hbm) == PLM_OK);
+    EXPECT(plm_study_add_marching(study, "marched", marching, 1, &index) == PLM_OK);
+    DONE(plm_study_run(study));
 }
 
 int main(int argc, char **argv) {
@@ -178,6 +199,7 @@ int main(int argc, char **argv) {
     printf("plate: longest silence %.3f s in %s\n", e.longest, e.worst);
     many_harmonics_can_be_stopped(&e, ctx);
     a_defect_can_be_stopped(&e, ctx);
+    a_long_period_is_heard_of(&e, ctx);
     printf("longest silence %.3f s in %s\n", e.longest, e.worst);
     EXPECT(e.longest < allowed);
     EXPECT(plm_context_destroy(&ctx) == PLM_OK);

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """recipes.py README PREFIX FOLDER: what README.md prints is what runs. Its files (<!-- file: NAME --> before a block) are
 written, then each of its recipes (<!-- run: NAME -->) is run in a folder of its own with the installed library in $PREFIX.
-Every line the programs print must stand in README.md, and they must print one each. With a curve that is cut off after a
-few points they say so."""
+Every line the programs print must stand in README.md, and they must print one each. With a stop that is
+out of reach they say so."""
 import os
 import pathlib
 import re
@@ -49,13 +49,12 @@ for name, script in recipes.items():
     for program in work.rglob("host_static"):
         if "libplm.so" in subprocess.run(["readelf", "-d", program], stdout=subprocess.PIPE, text=True, check=True).stdout:
             failures.append(f"{name}: host_static needs libplm.so")
-SHORT = {"host.c": ("OK(plm_hbm_sweep", 'OK(plm_hbm_set_int(hbm, "max_points", 5)) && OK(plm_hbm_sweep'),
-         "host.f90": ("call hbm%sweep", "call hbm%set('max_points', 5); call hbm%sweep")}
-short = {name: text.replace(*SHORT[name]) if name in SHORT else text for name, text in files.items()}
-done = follow(folder / "short", recipes["pkg-config"], short)
-looks = re.findall(r"(?m)^(?:libplm: )?plm_hbm_find_peak: .*max_points reached; raise it", done.stdout)
-print(f"cut off after five points: {len(looks)} programs say so")
-if done.returncode or any(short[name] == files[name] for name in SHORT) or len(looks) != 3:
-    failures.append(f"a curve cut off: exit code {done.returncode}, {len(looks)} of 3 programs say so\n{done.stdout}")
+FAR = {"host.c": ("stop, NULL", "stop, k"), "host.f90": ("[5000d0])", "[5000d0], [2d4])")}  # gaps of 20 km
+far = {name: text.replace(*FAR[name]) if name in FAR else text for name, text in files.items()}
+done = follow(folder / "far", recipes["pkg-config"], far)
+looks = re.findall(r"(?m)^(?:libplm: )?plm_model_compute_response: no contact pair opens or closes", done.stdout)
+print(f"a stop out of reach: {len(looks)} programs say so")
+if done.returncode or any(far[name] == files[name] for name in FAR) or len(looks) != 3:
+    failures.append(f"a stop out of reach: exit code {done.returncode}, {len(looks)} of 3 programs say so\n{done.stdout}")
 print("\n".join(failures))
 sys.exit(bool(failures))

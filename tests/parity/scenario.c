@@ -255,6 +255,22 @@ static void print_study(plm_model *model, plm_basis *basis, plm_hbm *hbm) {
     must(plm_study_destroy(&study));
 }
 
+static void print_whole_way(plm_model *model) {
+    plm_hbm *hbm = NULL;
+    plm_branch *curve = NULL;
+    double x[3], accuracy = 0;
+    int64_t n = 0;
+    must(plm_model_compute_response(model, WATCHED, PLM_HALF_PEAK_TO_PEAK, 1e-4, &x[0], &x[1], &x[2], &curve,
+                                    &hbm));
+    reals("response", 3, x);
+    must(plm_hbm_get_double(hbm, "accuracy", &accuracy));
+    reals("accuracy", 1, &accuracy);
+    must(plm_branch_get_int(curve, "basis_size", &n));
+    heading("basis_size"), whole(n);
+    must(plm_branch_destroy(&curve));
+    must(plm_hbm_destroy(&hbm));
+}
+
 static void print_response(plm_model *model, plm_basis *basis) {
     plm_hbm *hbm = NULL;
     plm_branch *curve = NULL, *top = NULL;
@@ -276,6 +292,7 @@ static void print_response(plm_model *model, plm_basis *basis) {
     free(x);
     must(plm_hbm_find_peak(hbm, curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, &peak[0], &peak[1], &top));
     reals("peak", 2, peak);
+    print_whole_way(model);
     print_estimate(model, basis, hbm, curve, top);
     print_point(top, 0);
     print_stability(curve, n_points, 5);

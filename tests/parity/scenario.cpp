@@ -162,6 +162,10 @@ void print_response(const plm::Model &model, const plm::Basis &basis) {
     print("amplitude", curve.amplitude(watched));
     const plm::Peak peak = hbm.find_peak(curve, watched);
     print("peak", std::vector{peak.frequency_hz, peak.amplitude});
+    const plm::Response whole = model.compute_response(watched, PLM_HALF_PEAK_TO_PEAK, 1e-4);
+    print("response", std::vector{whole.frequency_hz, whole.amplitude, whole.error});
+    print("accuracy", std::vector{whole.hbm.get_double("accuracy")});
+    print("basis_size", std::vector{whole.curve.get_int("basis_size")});
     print_estimate(model, basis, hbm, curve, peak.branch);
     print_point(peak.branch, 0);
     print_stability(curve, 5);

@@ -205,11 +205,31 @@ C     points count from 1 here.
      1            IERR)
       CALL MUST(IERR)
       CALL SHOW('peak', 2, X)
+      CALL SHOWAY(MODEL)
       CALL SHOEST(MODEL, IBASIS, LHBM, CURVE, PEAK)
       CALL SHOPNT(PEAK, IWATCH)
       CALL SHOSTA(CURVE, 6)
       CALL SHOMOT(MODEL, IBASIS, CURVE, 6)
       CALL SHOSTU(MODEL, IBASIS, LHBM)
+      END
+
+      SUBROUTINE SHOWAY(MODEL)
+      INCLUDE 'plmf.inc'
+      INTEGER*8 MODEL, LHBM, CURVE
+      INTEGER IERR, INTS(1)
+      DOUBLE PRECISION X(3)
+      LHBM = 0
+      CURVE = 0
+      CALL PLMMRP(MODEL, 8, PLMPPM, 1D-4, X(1), X(2), X(3), CURVE,
+     1            LHBM, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('response', 3, X)
+      CALL PLMHGD(LHBM, 'accuracy', X(1), IERR)
+      CALL MUST(IERR)
+      CALL SHOW('accuracy', 1, X)
+      CALL PLMRGI(CURVE, 'basis_size', INTS(1), IERR)
+      CALL MUST(IERR)
+      CALL SHOWI('basis_size', 1, INTS)
       END
 
       SUBROUTINE SHOEST(MODEL, IBASIS, LHBM, CURVE, PEAK)

@@ -120,12 +120,27 @@ contains
         call show('amplitude', values)
         call hbm%find_peak(curve, watched, hz, amplitude, PLM_HALF_PEAK_TO_PEAK, peak=peak)
         call show('peak', [hz, amplitude])
+        call show_whole_way(model)
         call show_estimate(model, basis, hbm, curve, peak)
         call show_point(peak, 1)
         call show_stability(curve, 6)
         call show_motion(model, basis, curve, 6)
         call show_study(model, basis, hbm)
     end subroutine show_response
+
+    subroutine show_whole_way(model)
+        type(plm_model), intent(in) :: model
+        type(plm_hbm) :: hbm
+        type(plm_branch) :: curve
+        real(real64) :: hz, amplitude, error
+        integer :: n
+        call plm_compute_response(model, watched, hz, amplitude, curve, 1e-4_real64, PLM_HALF_PEAK_TO_PEAK, error, hbm)
+        call show('response', [hz, amplitude, error])
+        call hbm%get('accuracy', error)
+        call show('accuracy', [error])
+        call curve%get('basis_size', n)
+        call show_integers('basis_size', [n])
+    end subroutine show_whole_way
 
     subroutine show_estimate(model, basis, hbm, curve, peak)
         type(plm_model), intent(in) :: model

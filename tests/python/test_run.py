@@ -26,6 +26,18 @@ class Run(unittest.TestCase):
         numpy.testing.assert_allclose(shape.T @ mass @ shape, numpy.eye(4), atol=1e-9)
         numpy.testing.assert_allclose(self.model.modes(2, closed=[1, 1]), self.model.modes(2, "sliding"), rtol=1e-6)
 
+    def test_the_whole_way_in_one_call(self):
+        response = models.model().build().compute_response(models.WATCHED, accuracy=1e-3)
+        self.assertLess(response.error, 1e-3)
+        self.assertGreater(len(response.curve), 10)
+        self.assertEqual((response.hbm.accuracy, response.curve.status), (1e-3, plm.OK))
+        again = response.hbm.find_peak(response.curve, models.WATCHED)
+        self.assertEqual((again.frequency_hz, again.amplitude), (response.frequency_hz, response.amplitude))
+        refined = response.hbm.refine_basis(models.WATCHED, 1e-2)  # which knows its model
+        self.assertEqual(refined.basis.model.n_dof, response.curve.n_dof)
+        with self.assertRaisesRegex(plm.PlmError, "measure"):
+            models.model().build().compute_response(models.WATCHED, measure="harmonic")
+
     def test_every_result_is_an_attribute(self):
         self.model.solve_rest()
         for handle in (self.model, self.sampler, self.basis, self.hbm, self.curve):

@@ -40,7 +40,7 @@ Chosen chosen_harmonics() {
     for (const auto &p : a->points()) {
         c.fewest = std::min(c.fewest, p.n_harmonics);
         c.most = std::max(c.most, p.n_harmonics);
-        c.over += p.harmonic_error > automatic.harmonic_tolerance;
+        c.over += p.harmonic_error > automatic.allowed_harmonic_error();
     }
     c.error = std::abs(peak_of(*m, *a, 0) / peak_of(*m, *b, 0) - 1);
     return c;
@@ -90,7 +90,7 @@ void a_single_solution_takes_the_harmonics_it_needs(void **) {
     std::printf("    H = %d: %.1e, H = 5: %.1e, with tail %.1e\n", static_cast<int>(plain.harmonics),
                 plain.error, plain.error_5, corrected.error_5);
     assert_true(plain.harmonics > 5);
-    assert_true(below(plain.left, test::by_harmonics().harmonic_tolerance));
+    assert_true(below(plain.left, test::by_harmonics().allowed_harmonic_error()));
     assert_true(below(plain.error, 0.5 * plain.error_5));
     assert_true(
         below(corrected.error_5, plain.error_5)); // the exact force knows more than the harmonics kept

@@ -3,6 +3,8 @@
 // close.
 #include "contact/trig_polynomial.hpp"
 #include "linalg/work.hpp"
+#include "reduction/basis.hpp"
+#include "sampling/small_models.hpp"
 #include "searches/exact_motion.hpp"
 #include "searches/stability.hpp"
 #include "support/small_solver.hpp"
@@ -466,22 +468,42 @@ void stability_is_that_of_the_exact_motion(void **) {
 }
 
 // Hill's method against the exact flow, for the multipliers that matter (the largest).
-double hill_error(int harmonics) {
-    const Model m = test::reduce_exactly(test::chain(3, 0.02, 5, 0.1, 0.3, 0.2, {0, 2}));
+double hill_error(const Model &m, double omega, int harmonics) {
     HbmOptions o;
     o.n_harmonics = harmonics;
     std::complex<double> largest[2];
     for (int k = 0; k < 2; ++k) {
         o.stability = k == 0 ? plm::StabilityKind::floquet : plm::StabilityKind::hill;
-        largest[k] = solver(m, o, 0.2, 1.5).solve(0.7 / (2 * M_PI), nullptr, 0)->points()[0].multipliers[0];
+        largest[k] = solver(m, o, 0.5 * omega, 2 * omega)
+                         .solve(omega / (2 * M_PI), nullptr, 0)
+                         ->points()[0]
+                         .multipliers[0];
     }
     return std::abs(std::abs(largest[0]) / std::abs(largest[1]) - 1);
 }
 void hills_method_converges_to_the_multipliers_of_the_flow(void **) {
-    const double few = hill_error(5), many = hill_error(30);
+    const Model m = test::reduce_exactly(test::chain(3, 0.02, 5, 0.1, 0.3, 0.2, {0, 2}));
+    const double few = hill_error(m, 0.7, 5), many = hill_error(m, 0.7, 30);
     std::printf("    largest multiplier, Hill against flow: H 5 %.1e, H 30 %.1e\n", few, many);
     assert_true(below(many, 1e-3)); // the stiffness jumps in time: its Fourier series converges slowly
     assert_true(many < few);
+}
+
+// Under a pre-load the mean has a direction of its own (P_0), in which the flow lets motions go, too.
+void hills_method_bears_a_preload(void **) {
+    constexpr int n = 6;
+    exact::Structure s = test::two_chains(n, 2, 3, true);
+    s.force.assign(s.n, 0.0), s.preload.assign(s.n, 0.0);
+    s.force[n - 1] = 0.05;
+    s.preload[n - 1] = 0.02, s.preload[2 * n - 1] = -0.02;
+    const auto model = test::make_model(s, {{}, 0, 0.3, false, 0, {}});
+    const auto sampler = std::make_shared<const plm::Sampler>(model, plm::SamplerOptions(), plm::Watch());
+    plm::BasisOptions few_modes;
+    few_modes.n_harmonics = 1;
+    const plm::Basis basis(model, sampler, nullptr, few_modes, plm::Watch());
+    assert_true(basis.reduced()->static_size() > basis.reduced()->size()); // else this shows nothing
+    const double omega = M_PI * (basis.window_min_hz() + basis.window_max_hz());
+    assert_true(below(hill_error(basis.reduced(), omega, 12), 1e-2)); // as above
 }
 
 // One call of LAPACK cannot be stopped: where it would take seconds, Hill's method leaves stability unknown.
@@ -570,6 +592,7 @@ int main() {
         cmocka_unit_test(stability_is_that_of_the_exact_motion),
         cmocka_unit_test(events_count_in_the_price_of_a_flow),
         cmocka_unit_test(hills_method_converges_to_the_multipliers_of_the_flow),
+        cmocka_unit_test(hills_method_bears_a_preload),
         cmocka_unit_test(hills_method_ends_where_it_would_not_be_heard_of),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -67,7 +67,7 @@ void too_few_harmonics_are_said(void **) {
     const Reduced m = test::reduce_exactly(test::bilinear_oscillator(5e-7, 1e9, 0, 1, 0));
     const BranchPtr b = solver(m, test::by_harmonics(), 1.7, 2.1).solve(1.9 / (2 * M_PI), nullptr, 0);
     const HbmOptions o = test::by_harmonics();
-    const bool missed = b->points()[0].harmonic_error > o.harmonic_tolerance,
+    const bool missed = b->points()[0].harmonic_error > o.allowed_harmonic_error(),
                said = b->warnings.has(PLM_REASON_HARMONICS_TOO_FEW),
                where = b->warnings.text().find("1 of 1 points") != std::string::npos &&
                        b->warnings.text().find("0.302394 Hz") != std::string::npos;
@@ -80,7 +80,7 @@ void too_few_harmonics_are_said(void **) {
     capped.max_harmonics = 4;
     const BranchPtr poor = solver(easy, capped, 0.6, 1.8).sweep();
     std::int64_t over = 0;
-    for (const auto &p : poor->points()) over += p.harmonic_error > capped.harmonic_tolerance;
+    for (const auto &p : poor->points()) over += p.harmonic_error > capped.allowed_harmonic_error();
     const std::string count =
         plm::format("at %d of %d points", static_cast<int>(over), static_cast<int>(poor->points().size()));
     const bool counted = over > 0 && poor->warnings.text().find(count) != std::string::npos,

@@ -266,7 +266,7 @@ Exact exact_motion(const exact::Structure &s, const test::ModelExtras &extras, i
     e.tip = peaks[n_dofs - 1];
     e.multiplier = std::abs(orbit.multipliers.front());
     e.events = multiplier_by_events(*model, fine->points()[0]);
-    e.hill = std::abs(plm::hill_multipliers(*model, fine->points()[0], 1).front());
+    e.hill = std::abs(plm::hill_multipliers(*model, model->reduced(), fine->points()[0], 1).front());
     return e;
 }
 

@@ -208,7 +208,7 @@ plm::Warnings said_with(int most, double &tail) {
 }
 
 void too_few_harmonics_are_said(void **) {
-    const double wanted = plm::HbmOptions().harmonic_tolerance;
+    const double wanted = plm::HbmOptions().allowed_harmonic_error();
     double tail = 0;
     assert_true(said_with(3, tail).has(PLM_REASON_HARMONICS_TOO_FEW) && tail > wanted);
     assert_true(said_with(60, tail).empty() && tail <= wanted);

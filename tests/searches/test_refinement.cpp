@@ -59,7 +59,7 @@ struct Reached {
 
 plm::Peak peak_of(const plm::Basis &basis, const plm::RefinementOptions &o) {
     const plm::Hbm hbm(basis.reduced(), 0, 0, o.hbm, plm::Watch());
-    return hbm.find_peak(*hbm.sweep(), o.dof, o.measure, o.harmonic);
+    return hbm.find_peak(*hbm.sweep(), o.output.dof, o.output.measure, o.output.harmonic);
 }
 
 Reached refined(bool with_preload, int mode, int n_samples, double tolerance) {
@@ -70,7 +70,7 @@ Reached refined(bool with_preload, int mode, int n_samples, double tolerance) {
     o.hbm.stability = plm::StabilityKind::off;
     o.hbm.frequency_min_hz = window->window_min_hz();
     o.hbm.frequency_max_hz = window->window_max_hz();
-    o.dof = plate.host->output_dof;
+    o.output.dof = plate.host->output_dof;
     o.tolerance = tolerance;
     const auto start = plate.basis("plm", mode, n_samples, window->window_min_hz(), window->window_max_hz());
     const plm::Peak truth = peak_of(*window, o), first = peak_of(*start, o);
@@ -116,7 +116,7 @@ void a_dof_that_rests_is_refused(void **) {
     o.hbm.frequency_min_hz = start->window_min_hz();
     o.hbm.frequency_max_hz = start->window_max_hz();
     for (std::int64_t dof = 0; dof < start->model()->n_dof(); ++dof)
-        if (start->model()->free_index(dof) < 0) o.dof = dof; // fixed
+        if (start->model()->free_index(dof) < 0) o.output.dof = dof; // fixed
     bool refused = false;
     try {
         plm::refine(start, o, plm::Watch());

@@ -5,6 +5,7 @@
     model.add_node_pairs(dof_a, dof_b, normal)
     model.set_excitation(force)
     model.build()
+    response = model.compute_response(dof=12)           # peak and curve, as accurate as asked; or step by step:
     sampler = plm.Sampler(model, mode=1, n_samples=4).run()
     basis = plm.Basis(model, sampler).build()
     hbm = plm.Hbm(basis, n_harmonics=7)
@@ -28,12 +29,12 @@ from ._handle import Key, keys
 from ._model import Finding, Model
 from ._motion import MotionState, Transient
 from ._reduction import Basis, Sampler
-from ._response import Bifurcation, Branch, Contact, Energy, ErrorEstimate, ErrorParts, Hbm, Isolated, Peak, Refined
+from ._response import Bifurcation, Branch, Contact, Energy, ErrorEstimate, ErrorParts, Hbm, Isolated, Peak, Refined, Response
 from ._study import Study, StudyPoints
 
 __version__ = "0.1.0"
 __all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Transient", "Study", "Peak", "Isolated", "Bifurcation",
-           "Energy", "ErrorEstimate", "ErrorParts", "Refined", "Contact", "MotionState", "StudyPoints", "Finding", "Key",
+           "Energy", "ErrorEstimate", "ErrorParts", "Refined", "Response", "Contact", "MotionState", "StudyPoints", "Finding", "Key",
            "PlmError", "PlmKeyError", "PlmCancelled", "PlmWarning", "build_info", "default_context", "keys", "plot", "status_text", "version"]
 
 _constants = [name for name, value in vars(_functions).items() if name.isupper() and isinstance(value, (int, float))]

@@ -63,6 +63,7 @@ FUNCTIONS = {
     "plm_model_count_modes": "pdp",
     "plm_model_audit": "pp",
     "plm_model_get_finding": "pqppqpp",
+    "plm_model_compute_response": "pqidppppp",
     "plm_sampler_create": "pp",
     "plm_sampler_destroy": "p",
     "plm_sampler_set_int": "psq",

@@ -167,6 +167,19 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         self._work("solve_rest", progress=progress)
         return self
 
+    def compute_response(self, dof, accuracy=1e-3, measure="half_peak_to_peak", progress=None):
+        """Response(frequency_hz, amplitude, error, curve, hbm): the whole way in one call, from the built model to the curve
+        around the resonance that the excitation drives most and its peak, which may be wrong by `accuracy`. measure: "peak",
+        "half_peak_to_peak" or "rms"."""
+        from ._response import MEASURES, Branch, Hbm, Response  # which need a Model
+        hz, amplitude, error = ctypes.c_double(), ctypes.c_double(), ctypes.c_double()
+        hbm = Hbm._made_by(self)
+        curve = Branch(hbm)
+        curve._status = self._work("compute_response", dof, choice(measure, MEASURES, "measure"), accuracy,
+                                   ctypes.byref(hz), ctypes.byref(amplitude), ctypes.byref(error), ctypes.byref(curve._h),
+                                   ctypes.byref(hbm._h), progress=progress)
+        return Response(hz.value, amplitude.value, error.value, curve, hbm)
+
     def modes(self, n, system="open", closed=None, shapes=False):
         """The n lowest natural frequencies (Hz) of the system "open", "sliding", "rest" or "given" (by closed, n_pairs);
         with shapes also the mass-normalised shapes, n_dof x n."""

@@ -65,11 +65,11 @@ class Basis(BasisMethods, Handle, noun="basis", kind=_c.KIND_BASIS):
         self.set_options(options)
 
     @classmethod
-    def _made_by(cls, other):
-        """One of the same model whose handle the library is about to fill."""
+    def _made_by(cls, model):
+        """One of this model whose handle the library is about to fill."""
         basis = cls.__new__(cls)
-        Handle.__init__(basis, other.context)
-        basis._model = other._model
+        Handle.__init__(basis, model.context)
+        basis._model = model
         return basis
 
     @property

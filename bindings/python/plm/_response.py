@@ -66,6 +66,16 @@ class Refined(NamedTuple):
     error: float
 
 
+class Response(NamedTuple):
+    """Peak, curve and solver of Model.compute_response; error: relative, of the peak by the basis, estimated (NaN: not
+    known)."""
+    frequency_hz: float
+    amplitude: float
+    error: float
+    curve: "Branch"
+    hbm: "Hbm"
+
+
 class Contact(NamedTuple):
     """Contact over the cycle, each n_pairs x n_times; time: fraction of the period."""
     time: numpy.ndarray
@@ -85,6 +95,14 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
         self._basis = basis
         self.context.call("plm_hbm_create", basis._h, ctypes.byref(self._h))
         self.set_options(options)
+
+    @classmethod
+    def _made_by(cls, model):
+        """One of this model whose handle the library is about to fill."""
+        hbm = cls.__new__(cls)
+        Handle.__init__(hbm, model.context)
+        hbm._basis = Basis._made_by(model)
+        return hbm
 
     def sweep(self, progress=None):
         """The response curve over [frequency_min_hz, frequency_max_hz], through its folds. See Branch.status for how it
@@ -117,7 +135,7 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
     def refine_basis(self, dof, tolerance, measure="half_peak_to_peak", harmonic=0, progress=None):
         """Refined(basis, error): a small basis, of kind "pod", on which the curve's error of reduction is estimated to be
         below `tolerance`, whatever the basis of this hbm. Where it cannot be reached, error says what is left."""
-        refined, error = Basis._made_by(self._basis), ctypes.c_double()
+        refined, error = Basis._made_by(self._basis.model), ctypes.c_double()
         self._work("refine_basis", dof, choice(measure, MEASURES, "measure"), harmonic, tolerance, ctypes.byref(refined._h),
                    ctypes.byref(error), progress=progress)
         return Refined(refined, error.value)

@@ -1,0 +1,72 @@
+#include "capi/arguments.hpp"
+#include "capi/barrier.hpp"
+#include "capi/branch_end.hpp"
+#include "capi/handles.hpp"
+#include "capi/outcome.hpp"
+#include "searches/computed_response.hpp"
+
+using namespace plm::capi;
+
+namespace {
+
+/// The handles behind what was computed, as if the host had made one after the other.
+std::shared_ptr<HbmHandle> handles_of(const plm::ComputedResponse &r, std::shared_ptr<ModelHandle> model) {
+    const std::shared_ptr<Context> owner = model->owner;
+    const auto basis = std::make_shared<BasisHandle>(owner, model);
+    basis->basis_options = r.basis->options();
+    basis->core = r.basis;
+    if (r.basis->sampler()) {
+        basis->sampler = std::make_shared<SamplerHandle>(owner, std::move(model));
+        basis->sampler->sampler_options = r.basis->sampler()->options();
+        basis->sampler->core = r.basis->sampler();
+    }
+    const auto hbm = std::make_shared<HbmHandle>(owner, basis);
+    hbm->hbm_options = r.options;
+    hbm->warnings = r.warnings;
+    return hbm;
+}
+
+/// How the curve ended, where that is not as it should be, else what there is to look at.
+Outcome outcome_of(const plm::ComputedResponse &r) {
+    Outcome outcome(r.warnings);
+    const plm_status ended = end_status(r.curve->end_reason);
+    if (ended == PLM_OK) return outcome;
+    return {ended, r.curve->end_reason,
+            plm::end_text(r.curve->end_reason) +
+                (outcome.text.empty() ? "" : "; beside that: " + outcome.text)};
+}
+
+} // namespace
+
+plm_status plm_model_compute_response(plm_model *model, std::int64_t dof, std::int32_t measure,
+                                      double accuracy, double *frequency_hz, double *amplitude, double *error,
+                                      plm_branch **curve, plm_hbm **hbm) {
+    return call<ModelHandle>("plm_model_compute_response", model, [&](ModelHandle &m) {
+        const std::shared_ptr<const plm::Model> &core = built(m);
+        require_range(dof, 0, core->n_dof() - 1, "dof");
+        require_range(measure, PLM_PEAK, PLM_RMS, "measure");
+        require_finite(accuracy, "accuracy");
+        if (!(accuracy >= 1e-8 && accuracy <= 0.5))
+            bad_argument(
+                "accuracy", -1,
+                plm::format("accuracy is %g; a relative error of 1e-8 to 0.5 is wanted, such as 1e-3",
+                            accuracy));
+        require_pointer(frequency_hz, "frequency_hz");
+        require_pointer(amplitude, "amplitude");
+        if (core->n_pairs() == 0)
+            throw plm::Error(PLM_ERR_STATE, "the model has no contact pair: its response is linear, and a "
+                                            "basis of kind full or craig_bampton gives it")
+                .argument("model");
+        const plm::ComputedResponse r = plm::compute_response(
+            core, m.space, {dof, static_cast<plm::Measure>(measure), 0}, accuracy, m.owner->watch());
+        m.space = r.basis->sampler() ? r.basis->sampler()->space() : m.space; // the next one starts from it
+        const double highest[] = {r.peak.frequency_hz, r.peak.amplitude};
+        plm::require_finite_result(highest, 2, "frequency_hz, amplitude");
+        const Outcome outcome = outcome_of(r);
+        if (hbm) *hbm = publish(handles_of(r, find<ModelHandle>(model)));
+        if (curve) *curve = publish(std::make_shared<BranchHandle>(m.owner, r.curve));
+        *frequency_hz = r.peak.frequency_hz, *amplitude = r.peak.amplitude;
+        if (error) *error = r.error;
+        return outcome;
+    });
+}

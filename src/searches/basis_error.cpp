@@ -1,0 +1,97 @@
+#include "searches/basis_error.hpp"
+#include "searches/harmonic_choice.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plm {
+namespace {
+
+// The estimate factors one matrix of all gaps in all harmonics: unknowns that take some tenths of a second,
+// or seconds, and numbers of the unreduced vectors that are at hand for it.
+constexpr std::int64_t few_unknowns = 1400, many_unknowns = 4000;
+constexpr double few_numbers = 3e7, many_numbers = 3e8;
+// An exact motion is compared with fewer harmonics than it has where they are many, but not with fewer.
+constexpr std::int64_t least_harmonics = 5;
+// A point that misses the equations of the whole structure by more of its size is too far from the better
+// solution for steps along tangents to tell how far.
+constexpr double too_far = 0.02;
+
+constexpr double not_judged = std::numeric_limits<double>::quiet_NaN();
+
+// Harmonics to estimate with; 0: too many gaps.
+std::int64_t affordable_harmonics(const Branch &branch, std::int64_t point, Patience patience) {
+    const BranchPoint &p = branch.points()[static_cast<std::size_t>(point)];
+    const std::int64_t has = harmonics_of(p, branch.period_multiple()) * branch.period_multiple(),
+                       most = ((patience == Patience::much ? many_unknowns : few_unknowns) /
+                                   branch.reduced().n_whole_pairs() -
+                               1) /
+                              2;
+    if (has <= most) return std::max<std::int64_t>(has, 1);
+    return p.motion && most >= least_harmonics * branch.period_multiple() ? most : 0;
+}
+
+// Whether the unreduced structure is there to be asked, and what it answers differs by the basis alone:
+// forces from samples miss by themselves, and so does damping by a matrix and by ratios at once.
+bool can_be_judged(const Basis &basis, const Branch &branch, Patience patience) {
+    const Damping &damping = basis.model()->damping();
+    const Space &space = *basis.space();
+    return space.is_contact_space && branch.reduced().n_pairs() > 0 && !branch.sampled && !branch.is_mode &&
+           !(damping.has_matrix && !damping.modal_ratio.empty()) &&
+           static_cast<double>(space.vectors.rows()) * static_cast<double>(space.size()) <
+               (patience == Patience::much ? many_numbers : few_numbers);
+}
+
+} // namespace
+
+Output most_moving(const Branch &branch, std::int64_t point) {
+    const Model &model = *branch.reduced().model;
+    Output most;
+    double largest = -1;
+    for (double fraction : {0.0, 0.25}) { // half a period apart, twice
+        const vector<double> one = model.expanded(branch.field(point, fraction)),
+                             other = model.expanded(branch.field(point, fraction + 0.5));
+        for (std::size_t i = 0; i < one.size(); ++i)
+            if (std::abs(one[i] - other[i]) > largest)
+                largest = std::abs(one[i] - other[i]), most.dof = static_cast<std::int64_t>(i);
+    }
+    return most;
+}
+
+vector<std::int64_t> spread_over(const Branch &branch, std::int64_t wanted) {
+    const std::int64_t points = static_cast<std::int64_t>(branch.points().size()),
+                       n = std::min(points, wanted);
+    vector<std::int64_t> at;
+    for (std::int64_t k = 0; k < n; ++k) at.push_back(n > 1 ? k * (points - 1) / (n - 1) : 0);
+    return at;
+}
+
+double basis_error(const ErrorEstimator &estimator, const Branch &branch, std::int64_t point,
+                   const Output &output, double peak) {
+    const ErrorEstimate e = estimator.estimate(point, output.dof, output.measure, output.harmonic, false);
+    if (!e.known) return std::numeric_limits<double>::infinity();
+    const double hz = branch.points()[static_cast<std::size_t>(point)].omega / (2 * M_PI);
+    return std::max(std::abs(e.amplitude.basis + e.amplitude.contact) / std::abs(peak),
+                    std::abs(e.frequency_hz.basis + e.frequency_hz.contact) / hz);
+}
+
+double basis_error_at(const std::shared_ptr<const Basis> &basis, const HbmOptions &options,
+                      const Branch &branch, std::int64_t point, const Output &output, Patience patience,
+                      Watch watch) {
+    if (!basis || !can_be_judged(*basis, branch, patience)) return not_judged;
+    HbmOptions o = options;
+    o.max_harmonics = affordable_harmonics(branch, point, patience) / branch.period_multiple();
+    const double amplitude = branch.amplitude(point, output.dof, output.measure, output.harmonic);
+    if (o.max_harmonics == 0 || amplitude == 0) return not_judged;
+    if (branch.full_residual(point) > too_far) return std::numeric_limits<double>::infinity();
+    if (basis->reduced()->size() >= basis->space()->size() && !basis->reduced()->all_pairs) return 0;
+    try {
+        const ErrorEstimator estimator(unreduced_basis(basis, watch)->reduced(), branch, o);
+        return basis_error(estimator, branch, point, output, amplitude);
+    } catch (const Error &e) { // a tangent that is singular, motions that nothing holds
+        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
+        return not_judged;
+    }
+}
+
+} // namespace plm

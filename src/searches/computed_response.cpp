@@ -1,0 +1,148 @@
+#include "searches/computed_response.hpp"
+#include "searches/basis_error.hpp"
+#include "searches/refinement.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+// The basis reaches as far as the motion: harmonics of the window below which it has all modes.
+constexpr std::int64_t first_harmonics = 5, most_harmonics = 80;
+// Columns beyond which a compressed basis is the better next step than a larger one.
+constexpr std::int64_t many_columns = 150;
+
+class Chain {
+  public:
+    Chain(std::shared_ptr<const Model> model, std::shared_ptr<const Space> known, const Output &output,
+          double accuracy, Watch watch)
+        : model_(std::move(model)), space_(std::move(known)), output_(output), accuracy_(accuracy),
+          watch_(watch) {
+        options_.accuracy = accuracy;
+    }
+
+    ComputedResponse run() {
+        ComputedResponse best = with_harmonics(first_harmonics);
+        for (std::int64_t h = 2 * first_harmonics;
+             can_improve(best) && best.basis->reduced()->size() < many_columns && h <= most_harmonics; h *= 2)
+            if (!take_better(best, [&] { return with_harmonics(h); })) break;
+        if (can_improve(best) && std::isfinite(best.error)) take_better(best, [&] { return refined(best); });
+        finish(best);
+        return best;
+    }
+
+  private:
+    bool is_met(const ComputedResponse &r) const { return r.error <= accuracy_; }
+    // A larger basis helps where the curve is whole and has its peak inside, and it can be told by how much.
+    bool can_improve(const ComputedResponse &r) const {
+        return !is_met(r) && !std::isnan(r.error) && r.curve->end_reason == PLM_REASON_RANGE_END &&
+               !r.peak.branch->warnings.has(PLM_REASON_NO_PEAK);
+    }
+
+    ComputedResponse with_harmonics(std::int64_t n) {
+        SamplerOptions of_sampler;
+        of_sampler.n_harmonics = n;
+        const auto sampler = std::make_shared<const Sampler>(model_, of_sampler, watch_, space_);
+        space_ = sampler->space();
+        BasisOptions of_basis;
+        of_basis.n_harmonics = n;
+        return on(std::make_shared<const Basis>(model_, sampler, nullptr, of_basis, watch_));
+    }
+
+    // Small, and made of the motions on the last curve, corrected by the whole structure's answer.
+    ComputedResponse refined(const ComputedResponse &last) {
+        RefinementOptions o;
+        o.hbm = last.options;
+        o.output = output_;
+        o.tolerance = accuracy_;
+        const Refinement found = refine(last.basis, o, watch_);
+        if (!found.basis) throw Error(PLM_ERR_CONVERGENCE, "no curve on a compressed basis");
+        return on(found.basis);
+    }
+
+    ComputedResponse on(std::shared_ptr<const Basis> basis) {
+        ComputedResponse r;
+        r.basis = std::move(basis);
+        r.options = options_;
+        r.curve = Hbm(r.basis, r.options, watch_).sweep();
+        require_uncancelled(*r.curve);
+        if (r.curve->end_reason != PLM_REASON_RANGE_END && r.curve->end_reason != PLM_REASON_POINT_LIMIT)
+            go_the_other_way(r);
+        r.peak = Hbm(r.basis, r.options, watch_).find_peak(*r.curve, output_.dof, output_.measure, 0);
+        r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_, Patience::much, watch_);
+        watch_.log(1, format("%lld coordinates: peak %.6g at %.6g Hz, its error by the basis %.2g",
+                             static_cast<long long>(r.basis->reduced()->size()), r.peak.amplitude,
+                             r.peak.frequency_hz, r.error));
+        return r;
+    }
+
+    // A curve that ended early may be whole from its other end.
+    void go_the_other_way(ComputedResponse &r) const {
+        ComputedResponse other = r;
+        other.options.upward = !r.options.upward;
+        try {
+            other.curve = Hbm(r.basis, other.options, watch_).sweep();
+        } catch (const Error &e) {
+            if (e.status() != PLM_ERR_CONVERGENCE) throw;
+            return;
+        }
+        require_uncancelled(*other.curve);
+        if (other.curve->end_reason == PLM_REASON_RANGE_END) r = std::move(other);
+    }
+
+    // False: the attempt failed, or a larger basis brought nothing.
+    template <class Attempt> bool take_better(ComputedResponse &best, Attempt attempt) const {
+        try {
+            ComputedResponse next = attempt();
+            const bool better = !std::isfinite(best.error) || next.error < best.error;
+            if (better) best = std::move(next);
+            return better;
+        } catch (const Error &e) { // what is there already is an answer
+            if (e.status() != PLM_ERR_CONVERGENCE) throw;
+            watch_.log(1, std::string("no curve on the next basis: ") + e.what());
+            return false;
+        }
+    }
+
+    void finish(ComputedResponse &r) const {
+        Warnings all;
+        if (r.basis->sampler()) all.add(r.basis->sampler()->warnings());
+        all.add(r.basis->report().warnings);
+        all.add(r.curve->warnings);
+        all.add(r.peak.branch->warnings);
+        const bool is_peak = !all.has(PLM_REASON_NO_PEAK);
+        for (const Warning &w : all.list())
+            if (!(is_met(r) && is_peak && is_about_the_basis(w))) r.warnings.add(w.reason, w.text);
+        if (!std::isfinite(r.error) && is_peak)
+            r.warnings.add(
+                PLM_REASON_UNVERIFIED,
+                format("how much the basis (%lld coordinates) changes this peak could not be estimated: %s. "
+                       "Compare with a basis of your own that is larger",
+                       static_cast<long long>(r.basis->reduced()->size()),
+                       std::isnan(r.error) ? "there are too many contact pairs for that, or its equations "
+                                             "have no unique solution"
+                                           : "it is too far from a solution for that"));
+    }
+
+    // Signs that it might be unfit, which the estimate of its error outweighs.
+    static bool is_about_the_basis(const Warning &w) {
+        return w.reason == PLM_REASON_LOST_MODE || w.reason == PLM_REASON_BASIS_TOO_SMALL ||
+               w.reason == PLM_REASON_OUTSIDE_BASIS;
+    }
+
+    std::shared_ptr<const Model> model_;
+    std::shared_ptr<const Space> space_;
+    Output output_;
+    double accuracy_;
+    Watch watch_;
+    HbmOptions options_;
+};
+
+} // namespace
+
+ComputedResponse compute_response(std::shared_ptr<const Model> model, std::shared_ptr<const Space> known,
+                                  const Output &output, double accuracy, Watch watch) {
+    return Chain(std::move(model), std::move(known), output, accuracy, watch).run();
+}
+
+} // namespace plm

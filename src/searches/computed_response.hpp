@@ -1,0 +1,22 @@
+// The whole way from a model to its peak for one number, the accuracy: sampler, basis, curve, peak, and again
+// with a larger basis until the error that the basis makes is estimated to be small enough.
+#pragma once
+#include "reduction/basis.hpp"
+#include "searches/hbm.hpp"
+
+namespace plm {
+
+struct ComputedResponse {
+    std::shared_ptr<const Basis> basis;
+    HbmOptions options; // of the curve
+    std::shared_ptr<const Branch> curve;
+    Peak peak;
+    double error = 0;  // of the peak by the basis, relative, estimated; NaN: not known
+    Warnings warnings; // of all steps, as far as the estimate does not know better
+};
+
+/// known: an earlier contact space of the model, or null.
+ComputedResponse compute_response(std::shared_ptr<const Model> model, std::shared_ptr<const Space> known,
+                                  const Output &output, double accuracy, Watch watch);
+
+} // namespace plm
