@@ -63,8 +63,10 @@ plm_status plm_model_compute_response(plm_model *model, std::int64_t dof, std::i
         const double highest[] = {r.peak.frequency_hz, r.peak.amplitude};
         plm::require_finite_result(highest, 2, "frequency_hz, amplitude");
         const Outcome outcome = outcome_of(r);
-        if (hbm) *hbm = publish(handles_of(r, find<ModelHandle>(model)));
-        if (curve) *curve = publish(std::make_shared<BranchHandle>(m.owner, r.curve));
+        plm_hbm *solver = hbm ? publish(handles_of(r, find<ModelHandle>(model))) : nullptr;
+        plm_branch *branch = curve ? publish(std::make_shared<BranchHandle>(m.owner, r.curve)) : nullptr;
+        if (hbm) *hbm = solver;
+        if (curve) *curve = branch;
         *frequency_hz = r.peak.frequency_hz, *amplitude = r.peak.amplitude;
         if (error) *error = r.error;
         return outcome;
