@@ -59,8 +59,9 @@ class PeakSearch {
     // higher side with wider steps.
     void close_in() {
         // Closer, differences of amplitudes drown in the error of their solutions, which corrected() keeps
-        // small.
-        const double closest = 2e-3 * span_, widest = 0.25 * span_;
+        // small; and where contact forces come from samples, in the jumps as a pair switches past one.
+        const double closest = (options_.aft == AftKind::sampled ? 5e-2 : 2e-3) * span_,
+                     widest = 0.25 * span_;
         constexpr int most_rounds = 20; // three when the top is inside from the beginning
         double reach = 0.05 * span_;
         for (int round = 0; round < most_rounds; ++round) {

@@ -83,6 +83,19 @@ void Scenario::read_point() {
         witness_.expect_finite(q.data(), static_cast<std::size_t>(n_dof), "field");
 }
 
+void Scenario::compute_response() {
+    double peak[2], error = 0;
+    plm_branch *curve = nullptr;
+    plm_hbm *hbm = nullptr;
+    if (CALL(witness_,
+             plm_model_compute_response(pick(models_), any_dof(), any_measure(), random_.decades(-4, -1),
+                                        peak, peak + 1, &error, random_.chance(0.7) ? &curve : nullptr,
+                                        random_.chance(0.7) ? &hbm : nullptr)) == PLM_OK)
+        witness_.expect_finite(peak, 2, "peak");
+    if (hbm) hbms_.push_back(hbm);
+    keep(curve);
+}
+
 void Scenario::find_peak() {
     double hz_and_amplitude[2];
     plm_branch *peak = nullptr;

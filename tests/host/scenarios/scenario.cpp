@@ -69,7 +69,8 @@ const std::vector<Scenario::Action> &Scenario::actions() {
                                             &Scenario::run_study,          &Scenario::find_by_marching,
                                             &Scenario::refine_basis,       &Scenario::read_rest_and_modes,
                                             &Scenario::change_options,     &Scenario::read_everything,
-                                            &Scenario::build_model,        &Scenario::destroy_one};
+                                            &Scenario::build_model,        &Scenario::destroy_one,
+                                            &Scenario::compute_response};
     return all;
 }
 

@@ -32,6 +32,7 @@ class Scenario {
     void read_branch();
     void read_point();
     void find_peak();
+    void compute_response();
     void solve();
     void find_isolated();
     void find_backbones();
