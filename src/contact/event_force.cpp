@@ -68,7 +68,7 @@ class EventForce final : public ContactForce {
             twist_ += static_cast<double>(h * h * h) * r;
         }
         roots_.clear();
-        if (std::abs(x_[0]) > wave) return;
+        if (std::abs(x_[0]) >= wave) return; // it touches zero at most, or stays there
         const double *slope = value + n_grid_;
         for (std::int64_t i = 0; i < n_grid_; ++i) {
             const std::int64_t j = i + 1 < n_grid_ ? i + 1 : 0;
@@ -84,6 +84,7 @@ class EventForce final : public ContactForce {
         if (!crosses && std::min(std::abs(left.value), std::abs(right.value)) > sagitta) return;
         if (halvings > 0 && !simple(left, right)) {
             const double t = 0.5 * (left.t + right.t);
+            worked(20.0 * static_cast<double>(h_)); // a gap that hardly opens takes thousands in each cell
             const TrigValue v = evaluate_trig(x_.data(), h_, t);
             const TrigEnd middle{t, v.value, v.slope};
             search(left, middle, halvings - 1);

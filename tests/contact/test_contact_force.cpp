@@ -2,6 +2,7 @@
 // limit.
 #include "contact/contact_force.hpp"
 #include "contact/trig_polynomial.hpp"
+#include "linalg/work.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 #include <random>
@@ -219,6 +220,27 @@ void extrema_of_trigonometric_polynomials_are_exact(void **) {
 
 } // namespace
 
+// A gap that stays at zero has no instants to look for, however many harmonics it might have.
+struct Ear : plm::WorkListener {
+    int heard = 0;
+    bool goes_on() override { return ++heard < 0; }
+};
+void a_gap_that_stays_closed_costs_nothing(void **) {
+    constexpr int h = 100;
+    const auto force = plm::make_event_force(h, 2);
+    Matrix u(2, 2 * h + 1);
+    u(1, 0) = 1, u(1, 7) = 1; // 1 + cos 4 t: touches zero
+    plm::ContactIndicator indicator;
+    Ear ear;
+    {
+        plm::WorkScope scope(&ear);
+        force->indicator(u, indicator);
+    }
+    assert_int_equal(indicator.n_switching, 0);
+    assert_true(indicator.averages(0, 1) == 1); // closed, but for instants
+    assert_in_range(ear.heard, 0, 2);           // 1e9 flops otherwise, told of every 0.1 s
+}
+
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(event_exact_coefficients_equal_quadrature),
@@ -227,6 +249,7 @@ int main() {
         cmocka_unit_test(jacobian_is_the_derivative_of_the_force),
         cmocka_unit_test(sampled_force_converges_to_the_exact_one),
         cmocka_unit_test(extrema_of_trigonometric_polynomials_are_exact),
+        cmocka_unit_test(a_gap_that_stays_closed_costs_nothing),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
