@@ -12,34 +12,57 @@ constexpr double free_rate = 1e-10;      // of the fastest: nothing brings such 
 constexpr std::int64_t worth_it = 40;    // pieces: as much work as the eigenvectors
 constexpr double most_bytes = 1.5e8, most_entries = 4096;
 
-} // namespace
-
-ContactModes::ContactModes(const FlowModel &model, const PairStates &states) : n_(model.size()) {
-    ContactSet set(model);
-    set.assign(states);
-    decompose(model, set.stiffness());
-    if (!usable_) return;
-    constant_ = load_in_coordinates(model.constant_load(model.contact().springs(states)));
-    for (const auto &[harmonic, load] : model.excitation())
-        loads_.push_back({harmonic, load_in_coordinates(load.real),
-                          load.imag.empty() ? vector<double>(2 * n_, 0.0) : load_in_coordinates(load.imag)});
+double own_damping(const FlowModel &model, std::int64_t j) {
+    return model.has_diagonal_damping() ? model.damping_diagonal()[j] : model.damping()(j, j);
 }
 
-void ContactModes::decompose(const FlowModel &model, const Matrix &k) {
-    const std::int64_t n = n_, size = 2 * n;
+} // namespace
+
+ContactModes::ContactModes(const FlowModel &model, const PairStates &states)
+    : moving_(model.n_moving()), massive_(model.n_massive()) {
+    ContactSet set(model);
+    set.assign(states);
+    decompose(system_matrix(model, set.stiffness()));
+    if (!usable_) return;
+    find_displacements(model, set);
+    const vector<double> still(static_cast<std::size_t>(model.n_pairs()), 0.0),
+        none(static_cast<std::size_t>(model.size()), 0.0);
+    constant_ = load_of(model, set, model.preload(), model.initial_gap());
+    for (const auto &[harmonic, load] : model.excitation())
+        loads_.push_back({harmonic, load_of(model, set, load.real, still),
+                          load_of(model, set, load.imag.empty() ? none : load.imag, still)});
+}
+
+// c y' = -K y - C v where there is no mass; its y' acts through the damping on what has mass, too.
+Matrix ContactModes::system_matrix(const FlowModel &model, const Matrix &k) {
+    const std::int64_t n = moving_, size = moving_ + massive_;
+    const bool diagonal = model.has_diagonal_damping();
     root_.resize(n);
     for (std::int64_t j = 0; j < n; ++j) root_[j] = k(j, j) > 0 ? std::sqrt(k(j, j)) : 1.0;
     Matrix a(size, size);
-    for (std::int64_t j = 0; j < n; ++j) {
+    for (std::int64_t j = 0; j < massive_; ++j) {
         a(j, n + j) = root_[j];
-        for (std::int64_t i = 0; i < n; ++i) {
-            a(n + i, j) = -k(i, j) / root_[j];
-            if (!model.has_diagonal_damping()) a(n + i, n + j) = -model.damping()(i, j);
-        }
-        if (model.has_diagonal_damping()) a(n + j, n + j) = -model.damping_diagonal()[j];
+        for (std::int64_t i = 0; i < massive_ && !diagonal; ++i) a(n + i, n + j) = -model.damping()(i, j);
+        if (diagonal) a(n + j, n + j) = -model.damping_diagonal()[j];
     }
+    for (std::int64_t j = 0; j < n; ++j)
+        for (std::int64_t i = 0; i < massive_; ++i) a(n + i, j) = -k(i, j) / root_[j];
+    for (std::int64_t r = massive_; r < n; ++r) {
+        const double c = own_damping(model, r);
+        for (std::int64_t j = 0; j < n; ++j) a(r, j) = -root_[r] * k(r, j) / (root_[j] * c);
+        for (std::int64_t j = 0; j < massive_ && !diagonal; ++j)
+            a(r, n + j) = -root_[r] * model.damping()(r, j) / c;
+        for (std::int64_t j = 0; j < size && !diagonal; ++j)
+            for (std::int64_t i = 0; i < massive_; ++i)
+                a(n + i, j) -= model.damping()(i, r) * a(r, j) / root_[r];
+    }
+    return a;
+}
+
+void ContactModes::decompose(const Matrix &system) {
+    const std::int64_t size = system.rows();
     worked(25.0 * static_cast<double>(size * size * size));
-    const GeneralEigen eigen = general_eigen(a);
+    const GeneralEigen eigen = general_eigen(system);
     Matrix w(size, size), inverse(size, size);
     double fastest = 0, slowest = INFINITY;
     for (std::int64_t j = 0; j < size; ++j) {
@@ -61,10 +84,24 @@ void ContactModes::decompose(const FlowModel &model, const Matrix &k) {
     for (std::int64_t j = 0; j < size; ++j) inverse(j, j) = 1;
     lu.solve(inverse.data(), size, size);
     usable_ = true;
-    displacement_.reset(n, size);
-    for (std::int64_t j = 0; j < size; ++j)
-        for (std::int64_t i = 0; i < n; ++i) displacement_(i, j) = w(i, j) / root_[i];
-    gap_ = model.n_pairs() > 0 ? product('N', 'N', model.gap(), displacement_) : Matrix(0, size);
+    to_state_ = std::move(w);
+    from_state_ = std::move(inverse);
+}
+
+void ContactModes::find_displacements(const FlowModel &model, const ContactSet &set) {
+    displacement_.reset(model.size(), size());
+    for (std::int64_t j = 0; j < size(); ++j)
+        for (std::int64_t i = 0; i < moving_; ++i) displacement_(i, j) = to_state_(i, j) / root_[i];
+    gap_.reset(model.n_pairs(), size());
+    if (model.n_pairs() > 0) gemm('N', 'N', 1.0, model.gap(), displacement_, 0.0, gap_);
+    if (model.n_following() > 0 && model.n_pairs() > 0) {
+        Matrix force;
+        set.add_contact(gap_, force);
+        for (std::int64_t j = 0; j < size(); ++j)
+            for (std::int64_t i = moving_; i < model.size(); ++i)
+                displacement_(i, j) =
+                    -dot(model.n_pairs(), model.gap().col(i), force.col(j)) / model.lambda()[i];
+    }
     reach_.reset(gap_.rows(), static_cast<std::int64_t>(modes_.size()));
     for (std::int64_t k = 0; k < reach_.cols(); ++k) {
         const Mode &m = modes_[static_cast<std::size_t>(k)];
@@ -72,32 +109,52 @@ void ContactModes::decompose(const FlowModel &model, const Matrix &k) {
             reach_(i, k) =
                 m.is_pair ? std::hypot(gap_(i, m.first), gap_(i, m.first + 1)) : std::abs(gap_(i, m.first));
     }
-    to_state_ = std::move(w);
-    from_state_ = std::move(inverse);
 }
 
-vector<double> ContactModes::load_in_coordinates(const vector<double> &force) const {
-    vector<double> c(2 * n_, 0.0);
-    for (std::int64_t j = 0; j < n_; ++j)
-        for (std::int64_t i = 0; i < 2 * n_; ++i) c[i] += from_state_(i, n_ + j) * force[j];
-    return c;
+// What follows is put aside at once, which the contact answers; both act on what moves.
+ContactModes::Load ContactModes::load_of(const FlowModel &model, const ContactSet &set,
+                                         const vector<double> &force, const vector<double> &gap) const {
+    const std::int64_t z = model.n_pairs();
+    vector<double> f(force), aside(force.size(), 0.0);
+    Matrix u(z, 1), contact;
+    if (z > 0) {
+        for (std::int64_t j = moving_; j < model.size(); ++j) aside[j] = f[j] / model.lambda()[j];
+        gemv('N', 1.0, model.gap(), aside.data(), 0.0, u.data());
+        for (std::int64_t i = 0; i < z; ++i) u(i, 0) -= gap[i];
+        set.add_contact(u, contact);
+        gemv('T', -1.0, model.gap(), contact.data(), 1.0, f.data());
+    }
+    vector<double> state(static_cast<std::size_t>(size()), 0.0), following;
+    for (std::int64_t j = 0; j < massive_; ++j) state[moving_ + j] = f[j];
+    for (std::int64_t r = massive_; r < moving_; ++r) {
+        const double rate = f[r] / own_damping(model, r);
+        state[r] = root_[r] * rate;
+        for (std::int64_t j = 0; j < massive_ && !model.has_diagonal_damping(); ++j)
+            state[moving_ + j] -= model.damping()(j, r) * rate;
+    }
+    for (std::int64_t j = moving_; j < model.size(); ++j) following.push_back(f[j] / model.lambda()[j]);
+    Load load{vector<double>(state.size()), vector<double>(u.data(), u.data() + z), std::move(following)};
+    gemv('N', 1.0, from_state_, state.data(), 0.0, load.coordinates.data());
+    return load;
 }
 
 void ContactModes::to_state(const double *c, double *y, double *v) const {
-    vector<double> x(2 * n_);
+    vector<double> x(static_cast<std::size_t>(size()));
     gemv('N', 1.0, to_state_, c, 0.0, x.data());
-    for (std::int64_t j = 0; j < n_; ++j) y[j] = x[j] / root_[j], v[j] = x[n_ + j];
+    for (std::int64_t j = 0; j < moving_; ++j) y[j] = x[j] / root_[j];
+    for (std::int64_t j = 0; j < massive_; ++j) v[j] = x[moving_ + j];
 }
 
 void ContactModes::from_state(const double *y, const double *v, double *c) const {
-    vector<double> x(2 * n_);
-    for (std::int64_t j = 0; j < n_; ++j) x[j] = y[j] * root_[j], x[n_ + j] = v[j];
+    vector<double> x(static_cast<std::size_t>(size()));
+    for (std::int64_t j = 0; j < moving_; ++j) x[j] = y[j] * root_[j];
+    for (std::int64_t j = 0; j < massive_; ++j) x[moving_ + j] = v[j];
     gemv('N', 1.0, from_state_, x.data(), 0.0, c);
 }
 
 void ContactModes::advance(double dt, Matrix &m, Matrix &scratch) const {
     for (std::int64_t j = 0; j < m.cols(); ++j)
-        for (std::int64_t i = 0; i < n_; ++i) m(i, j) *= root_[i];
+        for (std::int64_t i = 0; i < moving_; ++i) m(i, j) *= root_[i];
     scratch.reset(m.rows(), m.cols());
     gemm('N', 'N', 1.0, from_state_, m, 0.0, scratch);
     for (const Mode &mode : modes_) {
@@ -114,8 +171,8 @@ void ContactModes::advance(double dt, Matrix &m, Matrix &scratch) const {
     }
     gemm('N', 'N', 1.0, to_state_, scratch, 0.0, m);
     for (std::int64_t j = 0; j < m.cols(); ++j)
-        for (std::int64_t i = 0; i < n_; ++i) m(i, j) /= root_[i];
-    worked(8 * static_cast<double>(n_ * n_ * m.cols()));
+        for (std::int64_t i = 0; i < moving_; ++i) m(i, j) /= root_[i];
+    worked(2 * static_cast<double>(size() * size() * m.cols()));
 }
 
 double ContactModes::bytes() const {

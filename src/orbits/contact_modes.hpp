@@ -1,6 +1,8 @@
 // The free motions of one contact set: x' = A x of its linear system, x = (root k y, y'), by the
 // eigenvectors of A. They advance a motion over any time at once, however stiff the contact is. Real
 // coordinates c, x = W c: of a complex pair of eigenvalues the two of z = c_1 + i c_2, z' = lambda z.
+// What relaxes without mass has no y' in x; what follows at once is not in x at all, but where the contact
+// and the loads of the moment put it.
 #pragma once
 #include "orbits/flow_model.hpp"
 #include <complex>
@@ -8,9 +10,10 @@
 
 namespace plm {
 
+class ContactSet;
+
 class ContactModes {
   public:
-    /// Of a model in which every coordinate has mass.
     ContactModes(const FlowModel &model, const PairStates &states);
 
     /// False: the eigenvectors are too near to each other, or a motion is free (eigenvalue 0).
@@ -23,40 +26,47 @@ class ContactModes {
         double speed; // |rate|
     };
     const std::vector<Mode> &modes() const { return modes_; }
-    std::int64_t size() const { return to_state_.rows(); } // 2 n
+    std::int64_t size() const { return to_state_.rows(); } // that of the model's state
 
-    /// y and y' (n each) of coordinates, and back.
+    /// y of what moves and y' of what has mass, of coordinates, and back.
     void to_state(const double *c, double *y, double *v) const;
     void from_state(const double *y, const double *v, double *c) const;
-    /// Rows of the displacements, n x 2n, and of the penetrations, Z x 2n, in the coordinates.
+    /// Rows of all displacements, n x size, and of the penetrations, Z x size, in the coordinates.
     const Matrix &displacement() const { return displacement_; }
     const Matrix &gap() const { return gap_; }
     /// Largest effect of a unit of a mode on a pair: Z x modes.
     const Matrix &reach() const { return reach_; }
-    /// Loads in the coordinates: constant ones with the gaps' (they act through the springs), and Re(F_h
-    /// exp(i h w t)) of the excitation, real and imaginary part of F_h.
-    const vector<double> &constant_load() const { return constant_; }
+    /// A load: on the coordinates, and what it does at once to the penetrations (Z) and to the displacements
+    /// of what follows (the model's n_following). Constant ones with the gaps', and Re(F_h exp(i h w t)) of
+    /// the excitation, real and imaginary part of F_h.
     struct Load {
-        int harmonic;
-        vector<double> real, imag;
+        vector<double> coordinates, gap, following;
     };
-    const std::vector<Load> &loads() const { return loads_; }
+    const Load &constant_load() const { return constant_; }
+    struct Harmonic {
+        int number;
+        Load real, imag;
+    };
+    const std::vector<Harmonic> &loads() const { return loads_; }
 
-    /// m (2n x k, rows y and y') becomes exp(A dt) m.
+    /// m (size x k, rows y and y') becomes exp(A dt) m.
     void advance(double dt, Matrix &m, Matrix &scratch) const;
     double bytes() const;
 
   private:
-    void decompose(const FlowModel &model, const Matrix &stiffness);
-    vector<double> load_in_coordinates(const vector<double> &force) const;
+    Matrix system_matrix(const FlowModel &model, const Matrix &stiffness);
+    void decompose(const Matrix &system);
+    void find_displacements(const FlowModel &model, const ContactSet &set);
+    Load load_of(const FlowModel &model, const ContactSet &set, const vector<double> &force,
+                 const vector<double> &gap) const;
 
-    std::int64_t n_;
+    std::int64_t moving_, massive_;
     bool usable_ = false;
-    vector<double> root_; // n
+    vector<double> root_; // of what moves
     std::vector<Mode> modes_;
     Matrix to_state_, from_state_, displacement_, gap_, reach_;
-    vector<double> constant_;
-    std::vector<Load> loads_;
+    Load constant_;
+    std::vector<Harmonic> loads_;
 };
 
 /// Those of the contact sets that a model comes back to. Made when a set has been passed often enough for the

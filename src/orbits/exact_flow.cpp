@@ -56,9 +56,7 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
         const vector<double> still(static_cast<std::size_t>(model_->size()), 0.0);
         change_ = {still, still, begin};
     }
-    // what relaxes or follows at once has no modes; its motion is slow anyhow
-    may_use_modes_ = model_->n_massive() == model_->size() && model_->size() > 0 &&
-                     !(recorder && recorder->only_polynomials());
+    may_use_modes_ = model_->n_moving() > 0 && !(recorder && recorder->only_polynomials());
     if (may_use_modes_ && !modes_) modes_ = std::make_shared<ContactModesKept>(model_);
     if (may_use_modes_) modal_ = std::make_unique<ModalPieces>(*model_, omega_, force_scale_, parameter_);
     fresh_ = true;
@@ -70,6 +68,7 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
         if (may_use_modes_ && !fresh_ && enter_modes(state) && modal_piece(state, left, recorder)) continue;
         series_piece(state, left, recorder);
     }
+    if (may_use_modes_) fill_massless(state);
     require_finite_result(state.y.data(), model_->size(), "displacements of the exact flow");
     require_finite_result(state.v.data(), model_->size(), "velocities of the exact flow");
 }
@@ -184,6 +183,11 @@ void ExactFlow::guess_contact(const FlowState &state) {
 void ExactFlow::complete(FlowState &state) {
     if (model_->n_massive() == model_->size()) return;
     guess_contact(state);
+    fill_massless(state);
+}
+
+void ExactFlow::fill_massless(FlowState &state) {
+    if (model_->n_massive() == model_->size()) return;
     system_.assign(events_.states());
     const double duration = step_length(0.125 * period());
     expand(state, duration, motion_);

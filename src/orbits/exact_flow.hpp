@@ -48,6 +48,7 @@ class ExactFlow {
   private:
     void check(const FlowState &state, double t_end) const;
     void guess_contact(const FlowState &state);
+    void fill_massless(FlowState &state); // in the present contact set
     double step_length(double left);
     double flops_of_piece() const;
     // Taylor series over one piece, in powers of its share.

@@ -18,6 +18,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 bool ModalPieces::enter(const ContactModes &modes, const FlowState &state, const FlowState &change) {
     modes_ = &modes;
+    puts_aside_ = model_.n_following() > 0;
     start_ = now_ = state.time;
     if (!set_steady()) {
         modes_ = nullptr;
@@ -57,27 +58,28 @@ bool ModalPieces::set_steady() {
             if (m.is_pair) to[j + 1] += z.imag();
         }
     };
-    add_constant(modes_->constant_load(), 1.0, constant_);
+    add_constant(modes_->constant_load().coordinates, 1.0, constant_);
     steady_.assign(modes_->loads().size(), {});
     for (std::size_t l = 0; l < steady_.size(); ++l) {
-        const ContactModes::Load &load = modes_->loads()[l];
-        if (load.harmonic == 0) {
-            add_constant(load.real, force_scale_, constant_);
-            if (parameter_ == FlowParameter::force_scale) add_constant(load.real, 1.0, changed_constant_);
+        const ContactModes::Harmonic &load = modes_->loads()[l];
+        const vector<double> &cosine = load.real.coordinates, &sine = load.imag.coordinates;
+        if (load.number == 0) {
+            add_constant(cosine, force_scale_, constant_);
+            if (parameter_ == FlowParameter::force_scale) add_constant(cosine, 1.0, changed_constant_);
             continue;
         }
-        const double w = load.harmonic * omega_;
+        const double w = load.number * omega_;
         for (const ContactModes::Mode &m : modes_->modes()) {
             const std::size_t j = static_cast<std::size_t>(m.first);
-            const Complex real(load.real[j], m.is_pair ? load.real[j + 1] : 0.0),
-                imag(load.imag[j], m.is_pair ? load.imag[j + 1] : 0.0), i(0, 1);
+            const Complex real(cosine[j], m.is_pair ? cosine[j + 1] : 0.0),
+                imag(sine[j], m.is_pair ? sine[j + 1] : 0.0), i(0, 1);
             const Complex up = i * w - m.rate, down = -i * w - m.rate;
             if (std::min(std::abs(up), std::abs(down)) < nearest_resonance * std::abs(m.rate)) return false;
             Steady s;
             s.plus = 0.5 * (real + i * imag) / up;
             s.minus = 0.5 * (real - i * imag) / down;
             if (parameter_ == FlowParameter::frequency) {
-                const Complex turn = i * (load.harmonic * force_scale_);
+                const Complex turn = i * (load.number * force_scale_);
                 s.plus_slope = turn * s.plus;
                 s.minus_slope = -turn * s.minus;
             }
@@ -92,7 +94,7 @@ void ModalPieces::steady_at(double time, vector<double> &motion, vector<double> 
     if (change) *change = changed_constant_;
     for (std::size_t l = 0; l < steady_.size(); ++l) {
         if (steady_[l].empty()) continue;
-        const double w = modes_->loads()[l].harmonic * omega_;
+        const double w = modes_->loads()[l].number * omega_;
         const Complex e = std::polar(1.0, w * time), back = std::conj(e);
         for (std::size_t k = 0; k < steady_[l].size(); ++k) {
             const ContactModes::Mode &m = modes_->modes()[k];
@@ -110,6 +112,34 @@ void ModalPieces::steady_at(double time, vector<double> &motion, vector<double> 
             }
             (*change)[j] += c.real();
             if (m.is_pair) (*change)[j + 1] += c.imag();
+        }
+    }
+}
+
+vector<double> ModalPieces::put_aside(Part part, double time) const {
+    vector<double> sum = modes_->constant_load().*part;
+    for (const ContactModes::Harmonic &load : modes_->loads()) {
+        if (!puts_aside_) break;
+        const Complex z = std::polar(force_scale_, load.number * omega_ * time);
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += z.real() * (load.real.*part)[i] - z.imag() * (load.imag.*part)[i];
+    }
+    return sum;
+}
+
+void ModalPieces::add_put_aside(Part part, Matrix &powers) const {
+    const vector<double> &constant = modes_->constant_load().*part;
+    const std::int64_t n = static_cast<std::int64_t>(constant.size()), first = powers.rows() - n;
+    for (std::int64_t i = 0; i < n; ++i) powers(first + i, 0) += constant[i];
+    for (const ContactModes::Harmonic &load : modes_->loads()) {
+        if (!puts_aside_) break;
+        const double w = load.number * omega_;
+        Complex z = std::polar(force_scale_, w * now_);
+        for (std::int64_t k = 0; k < powers.cols(); ++k) {
+            for (std::int64_t i = 0; i < n; ++i)
+                powers(first + i, k) += z.real() * (load.real.*part)[i] - z.imag() * (load.imag.*part)[i];
+            if (load.number == 0) break;
+            z *= Complex(0, w * duration_ / static_cast<double>(k + 1));
         }
     }
 }
@@ -144,14 +174,15 @@ double ModalPieces::expand(double longest) {
     tiny_.resize(static_cast<std::size_t>(z));
     veil_.resize(static_cast<std::size_t>(z));
     const double size = norm2(modes_->size(), at_now_.data());
+    const vector<double> aside = put_aside(&ContactModes::Load::gap, now_);
     for (std::int64_t i = 0; i < z; ++i) {
-        double u = -model_.initial_gap()[i], row = 0;
+        double u = aside[i], row = 0;
         for (std::int64_t j = 0; j < modes_->size(); ++j) {
             u += modes_->gap()(i, j) * at_now_[j];
             row += modes_->gap()(i, j) * modes_->gap()(i, j);
         }
         distance_[i] = std::abs(u);
-        tiny_[i] = eps * (std::abs(model_.initial_gap()[i]) + std::sqrt(row) * size);
+        tiny_[i] = eps * (std::abs(aside[i]) + std::sqrt(row) * size);
     }
     size_.clear();
     for (const ContactModes::Mode &m : modes_->modes()) {
@@ -164,10 +195,9 @@ double ModalPieces::expand(double longest) {
     fill_powers(duration);
     penetration_.reset(z, n_terms_);
     if (z > 0) gemm('N', 'N', 1.0, modes_->gap(), powers_, 0.0, penetration_);
-    for (std::int64_t i = 0; i < z; ++i) {
-        penetration_(i, 0) -= model_.initial_gap()[i];
+    add_put_aside(&ContactModes::Load::gap, penetration_);
+    for (std::int64_t i = 0; i < z; ++i)
         if (veil_[i] > 0) penetration_(i, 0) -= std::copysign(veil_[i], penetration_(i, 0));
-    }
     return duration;
 }
 
@@ -176,8 +206,8 @@ void ModalPieces::fill_powers(double duration) {
     double turn = 0;
     for (const ContactModes::Mode &m : modes_->modes())
         if (m.speed * duration <= longest_turn) turn = std::max(turn, m.speed * duration);
-    for (const ContactModes::Load &load : modes_->loads())
-        turn = std::max(turn, load.harmonic * omega_ * duration);
+    for (const ContactModes::Harmonic &load : modes_->loads())
+        turn = std::max(turn, load.number * omega_ * duration);
     n_terms_ = std::min(taylor_terms(turn, truncation) + 3, max_polynomial_degree + 1);
     powers_.reset(modes_->size(), n_terms_);
     while (static_cast<std::int64_t>(inverse_.size()) < n_terms_)
@@ -200,7 +230,7 @@ void ModalPieces::fill_powers(double duration) {
             put(m, Complex(present_[m.first], m.is_pair ? present_[m.first + 1] : 0.0), m.rate * duration);
         for (std::size_t l = 0; l < steady_.size(); ++l) {
             if (steady_[l].empty()) continue;
-            const double w = modes_->loads()[l].harmonic * omega_;
+            const double w = modes_->loads()[l].number * omega_;
             const Complex e = std::polar(1.0, w * now_);
             put(m, force_scale_ * steady_[l][k].plus * e, Complex(0, w * duration));
             put(m, force_scale_ * steady_[l][k].minus * std::conj(e), Complex(0, -w * duration));
@@ -210,6 +240,7 @@ void ModalPieces::fill_powers(double duration) {
 
 const Matrix &ModalPieces::coefficient() {
     coefficient_ = product('N', 'N', modes_->displacement(), powers_);
+    add_put_aside(&ContactModes::Load::following, coefficient_);
     keep_fast();
     return coefficient_;
 }
@@ -259,6 +290,13 @@ void ModalPieces::advance(double duration, FlowState &state, FlowState &change) 
         if (changes) changed[j] += changed_free[j];
     }
     modes_->to_state(at_now_.data(), state.y.data(), state.v.data());
+    std::fill(state.v.begin() + model_.n_massive(), state.v.end(), 0.0);
+    if (puts_aside_) {
+        gemv('N', 1.0, modes_->displacement(), at_now_.data(), 0.0, state.y.data());
+        const vector<double> aside = put_aside(&ContactModes::Load::following, now_);
+        for (std::size_t i = 0; i < aside.size(); ++i)
+            state.y[static_cast<std::size_t>(model_.n_moving()) + i] += aside[i];
+    }
     state.time = now_;
     if (!changes) return;
     modes_->to_state(changed.data(), change.y.data(), change.v.data());

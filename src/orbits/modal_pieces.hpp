@@ -28,7 +28,8 @@ class ModalPieces {
     /// Displacements as polynomials, n x terms, and what the fast modes add.
     const Matrix &coefficient();
     const FastMotion &fast() const { return fast_; }
-    /// To `duration` beyond the beginning of the last piece.
+    /// To `duration` beyond the beginning of the last piece. Velocities without mass become zero:
+    /// ExactFlow::complete().
     void advance(double duration, FlowState &state, FlowState &change);
 
   private:
@@ -37,7 +38,12 @@ class ModalPieces {
     struct Steady {
         Complex plus, minus, plus_slope, minus_slope;
     };
+    using Part = vector<double> ContactModes::Load::*; // the gaps' or what follows
     bool set_steady();
+    /// What the loads put aside at once: at a time; as powers of the share of a piece, added to the last
+    /// rows.
+    vector<double> put_aside(Part part, double time) const;
+    void add_put_aside(Part part, Matrix &powers) const;
     void steady_at(double time, vector<double> &motion, vector<double> *change) const;
     void veil(double duration, vector<double> &sum) const;
     bool allows(double duration);
@@ -53,6 +59,7 @@ class ModalPieces {
     std::vector<std::vector<Steady>> steady_;    // by load and mode
     vector<double> free_, changed_free_;         // free part of c at start_
     vector<double> present_, at_now_;            // free part at now_; c there
+    bool puts_aside_ = false;                    // the harmonic loads do, too
     vector<double> veil_, distance_, tiny_;      // of the pairs
     vector<double> size_, inverse_;              // |z| of the modes; 1, 1/2, 1/3, ...
     Matrix powers_, penetration_, coefficient_;

@@ -168,13 +168,12 @@ Matrix monodromy(const FlowModel &model, const std::vector<ContactInterval> &int
                  Watch watch, ContactModesKept *modes) {
     Exponential exponential(model, tolerance);
     Matrix m, scratch;
-    const bool have_modes = modes && model.n_massive() == model.size();
     exponential.set_identity(m);
     const std::int64_t n = static_cast<std::int64_t>(intervals.size());
     for (std::int64_t i = 0; i < n; ++i) {
         check(model, intervals[i], i);
         if (i % 16 == 0) watch.step("monodromy", static_cast<double>(i) / static_cast<double>(n));
-        const ContactModes *known = have_modes ? modes->find(intervals[i].states, 0) : nullptr;
+        const ContactModes *known = modes ? modes->find(intervals[i].states, 0) : nullptr;
         if (known)
             known->advance(intervals[i].duration, m, scratch);
         else

@@ -31,8 +31,19 @@ class RunRecorder final : public FlowRecorder {
                 now_.y[j] += c;
                 now_.v[j] += static_cast<double>(k) * c / piece.duration;
             }
+        for (std::size_t k = 0; piece.fast && k < piece.fast->rate.size(); ++k) {
+            const std::complex<double> rate = piece.fast->rate[k], turn = std::exp(rate * piece.duration);
+            const double *a = piece.fast->cosine.col(static_cast<std::int64_t>(k)),
+                         *b = piece.fast->sine.col(static_cast<std::int64_t>(k));
+            for (std::int64_t j = 0; j < n; ++j) {
+                const std::complex<double> q = std::complex<double>(a[j], b[j]) * turn;
+                now_.y[j] += q.real();
+                now_.v[j] += (rate * q).real();
+            }
+        }
         size_ = std::max(size_, norm_.distance(now_, start_));
     }
+    bool only_polynomials() const override { return false; }
     double size() const { return size_; }
     const std::vector<ContactInterval> &intervals() const { return history_.intervals(); }
 

@@ -7,7 +7,7 @@ namespace plm {
 namespace {
 
 constexpr double least_damping = 1.0 / 64;
-constexpr std::int64_t first_march = 4; // periods; doubled each time
+constexpr std::int64_t first_march = 4, longest_march = 512; // periods; doubled each time
 
 // Whole periods do not matter to the excitation: times are kept small, and with them their rounding.
 double phase_time(const ExactFlow &flow, double time) {
@@ -61,7 +61,7 @@ PeriodicOrbit periodic_orbit(ExactFlow &flow, const FlowState &start, const Shoo
         if (!improve(flow, orbit.period_multiple, state, run)) {
             if (!options.march_when_stuck) break;
             march(flow, state, patience * orbit.period_multiple);
-            patience *= 2;
+            patience = std::min(2 * patience, longest_march);
             run = run_periods(flow, state, orbit.period_multiple);
         }
         keep_closer(run, state, best, orbit);

@@ -19,31 +19,18 @@ namespace {
 // whose local motion hardly acts back, more.
 constexpr double of_solution = 0.1, of_coefficients = 0.01, at_gaps_more = 20;
 constexpr std::int64_t harmonics_at_once = 8;
-constexpr double largest_flow = 300; // coordinates: beyond, no flow is cheap, and none is made to see that
-
-double fastest_rate(const std::shared_ptr<const ReducedModel> &reduced) {
-    const FlowModel model(reduced, 1.0);
-    ContactSet stiffest(model);
-    stiffest.assign_stiffest();
-    return stiffest.rate();
-}
 
 // A step of Newton's method for an exact motion, in flops: every pair switches a few times in a period, and
 // each event costs a product with the propagator of its contact set, now and then the modes of a new one, and
-// some pieces of the flow. Without mass somewhere, the pieces are as short as the fastest motion.
-double exact_step_flops(const std::shared_ptr<const ReducedModel> &reduced, const HbmOptions &o) {
+// some pieces of the flow.
+double exact_step_flops(const ReducedModel &m, const HbmOptions &o) {
     // measured at 37 coordinates and 15 pairs, 47 and 90, 110 and 32: 6, 84 and 100 ms at 3 Gflop/s
     constexpr double events_per_pair = 3, pieces_per_event = 5, terms = 6, cubes = 2;
     constexpr double least_piece = 3e4; // what a piece of the smallest system takes, in time
-    const double n = static_cast<double>(reduced->static_size()), z = static_cast<double>(reduced->n_pairs()),
+    const double n = static_cast<double>(m.static_size()), z = static_cast<double>(m.n_pairs()),
                  events = events_per_pair * z * static_cast<double>(o.period_multiple),
                  per_event = cubes * n * n * n, per_piece = least_piece + 4 * terms * n * (n + z);
-    double pieces = pieces_per_event * events;
-    if (reduced->n_massless_0 > 0 && n < largest_flow) {
-        const double omega = M_PI * (o.frequency_min_hz + o.frequency_max_hz);
-        pieces += fastest_rate(reduced) * M_PI / omega * static_cast<double>(o.period_multiple);
-    }
-    return events * per_event + pieces * per_piece;
+    return events * (per_event + pieces_per_event * per_piece);
 }
 
 // The same of harmonic balance with as many harmonics as points near a resonance ask for.
@@ -215,7 +202,7 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
     if (o.n_harmonics != 0 || o.tail_correction || o.unknowns != NonlinearUnknowns::automatic ||
         o.formulation != FormulationKind::automatic || reduced->n_pairs() == 0)
         return false;
-    return exact_step_flops(reduced, o) < std::max(cheap_step, harmonic_step_flops(*reduced));
+    return exact_step_flops(*reduced, o) < std::max(cheap_step, harmonic_step_flops(*reduced));
 }
 
 bool march_to_orbit(OrbitEquations &equations, const HbmOptions &options, double omega,
