@@ -102,7 +102,7 @@ typedef int32_t plm_status;
 #define PLM_REASON_NO_EQUILIBRIUM 10 /* pre-load drives an unsupported rigid-body motion */
 #define PLM_REASON_LOOP_CLOSED 11    /* branch: came back to its first point */
 #define PLM_REASON_BASIS_TOO_SMALL 12
-#define PLM_REASON_TURNED_BACK 13      /* branch: ran back to where it began without having passed a fold */
+#define PLM_REASON_TURNED_BACK 13      /* branch: ran back to where it began, or to that end of its range */
 #define PLM_REASON_NO_PEAK 14          /* the highest point stands at an end of the curve */
 #define PLM_REASON_HARMONICS_TOO_FEW 15 /* "accuracy" asks for more harmonics than were allowed */
 #define PLM_REASON_OUTSIDE_BASIS 16    /* frequencies, forces or motions the basis was not made for */
@@ -457,10 +457,11 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
  * one and a half times the window at most; PLM_WARNING with PLM_REASON_NO_PEAK when no peak comes inside. An end that
  * the host gave (frequency_min_hz, frequency_max_hz here or of the basis, window_min_hz, window_max_hz of the sampler)
  * stays. PLM_WARNING with PLM_REASON_OUTSIDE_BASIS when the largest response outside the basis' window misses the
- * equations of the whole structure by more than 1 % (plm_branch_get_full_residual), with PLM_REASON_BASIS_TOO_SMALL when
- * the largest inside it does, with PLM_REASON_NO_SWITCHING when no pair would open or close under a hundred times the
- * motion. A structure in free flight, or free along a rail:
- * mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
+ * equations of the whole structure by more than 1 % (plm_branch_get_full_residual); with PLM_REASON_BASIS_TOO_SMALL when
+ * the largest inside it does, unless the error that the basis makes there can be estimated at little cost and is below
+ * 1 %; with PLM_REASON_NO_SWITCHING when no pair would open or close under a hundred times the motion; with
+ * PLM_REASON_TURNED_BACK when a fold led back to the end where the curve began. A structure in free flight, or free along
+ * a rail: mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
  * start. PLM_ERR_CONVERGENCE when no strategy converges; PLM_WARNING with PLM_REASON_OUTSIDE_BASIS as for a sweep. */

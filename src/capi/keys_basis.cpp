@@ -93,7 +93,8 @@ void add_options(std::vector<Key> &keys) {
                 "selection", "bands,below",
                 "modes kept of each sample or linear system: inside the bands [h f_min, h f_max] (paper), or "
                 "all below the highest"),
-            int_option<&O::n_harmonics>("n_harmonics", 1, 1000, "harmonics h of the bands"),
+            int_option<&O::n_harmonics>("n_harmonics", 0, 1000,
+                                        "harmonics h of the bands; 0: the sampler's, 5 without one"),
             real_option<&O::frequency_min_hz>("frequency_min_hz", 0, huge,
                                               "lower end of the window (Hz); 0: the sampler's"),
             real_option<&O::frequency_max_hz>("frequency_max_hz", 0, huge,
@@ -173,6 +174,8 @@ void add_results(std::vector<Key> &keys) {
                       [](const H &h) { return report(h).setup_seconds; }),
             result<H>("highest_frequency_hz", "modes are taken up to here (Hz)",
                       [](const H &h) { return report(h).highest_frequency_hz; }),
+            result<H>("n_harmonics_used", "harmonics h of the bands",
+                      [](const H &h) { return report(h).n_harmonics; }),
             result<H>("pairs_carried", "contact pairs in the equations, from 0", pairs_carried),
             result<H>("window_low_hz", "lower end of the window used (Hz)",
                       [](const H &h) { return core(h).window_min_hz(); }),

@@ -92,8 +92,10 @@ void add_options(std::vector<Key> &keys) {
                                            "lower end of the window (Hz); 0: estimated"),
             real_option<&O::window_max_hz>("window_max_hz", 0, huge,
                                            "upper end of the window (Hz); 0: estimated"),
-            int_option<&O::n_harmonics>("n_harmonics", 1, 1000,
-                                        "harmonics of the window up to which the contact space is accurate"),
+            int_option<&O::n_harmonics>(
+                "n_harmonics", 0, 1000,
+                "harmonics of the window up to which the contact space is accurate; 0: from 5 to 15, as far "
+                "as the modes reach that are computed anyhow"),
         });
 }
 
@@ -110,6 +112,8 @@ void add_sweep_results(std::vector<Key> &keys) {
             result<H>("dominant_participation",
                       "share of the dominant mode in the drive-point response, 0..1",
                       [](const H &h) { return main_mode(h).participation; }),
+            result<H>("n_harmonics_used", "harmonics of the window up to which the contact space is accurate",
+                      [](const H &h) { return core(h).n_harmonics(); }),
             result<H>("n_dominant", "dominant modes swept",
                       [](const H &h) { return static_cast<std::int64_t>(core(h).dominant().size()); }),
             result<H>("dominant_systems", "PLM_SYSTEM_OPEN or _SLIDING of every dominant mode",

@@ -3,6 +3,15 @@
 #include <cmath>
 
 namespace plm {
+namespace {
+
+// Coordinates up to so many times the excitation's frequency count with their energy in lengths along a path;
+// faster ones, of which a stiff contact leaves some ringing at the beginning of the period that turns with
+// every change of the frequency, with the less the faster they are.
+constexpr double slow_enough = 10;
+
+} // namespace
+
 OrbitEquations::OrbitEquations(std::shared_ptr<const FlowModel> model, FlowState rest,
                                const OrbitConditions &conditions, FlowParameter parameter)
     : model_(std::move(model)), rest_(std::move(rest)), conditions_(conditions), parameter_(parameter),
@@ -12,6 +21,12 @@ OrbitEquations::OrbitEquations(std::shared_ptr<const FlowModel> model, FlowState
     for (std::int64_t j = 0; j < moving; ++j)
         weight_[j] = std::sqrt(model_->lambda()[j] + model_->mass(j) * conditions_.omega * conditions_.omega);
     std::fill(weight_.begin() + moving, weight_.end(), 1.0);
+    const double reach = slow_enough * slow_enough * conditions_.omega * conditions_.omega;
+    for (std::int64_t j = 0; j < moving; ++j) {
+        const double share = std::min(1.0, reach / (weight_[j] * weight_[j]));
+        share_.push_back(share * share);
+    }
+    for (std::int64_t j = 0; j < model_->n_massive(); ++j) share_.push_back(share_[j]);
 }
 
 OrbitConditions OrbitEquations::conditions(double p) const {

@@ -29,6 +29,8 @@ class OrbitEquations final : public Residual {
     void solve(double *b, std::int64_t n) override;
     int determinant_sign() const override { return lu_.determinant_sign(); }
     void parameter_derivative(double *r) override;
+    /// What rings for a moment must not dictate the steps.
+    const vector<double> *weights() const override { return &share_; }
     double residual_scale() const override { return size_; }
     bool is_cheap_to_linearize() const override { return true; } // beside a run of the flow
     std::int64_t piece() const override { return static_cast<std::int64_t>(intervals_.size()); }
@@ -56,8 +58,8 @@ class OrbitEquations final : public Residual {
     OrbitConditions conditions_;
     FlowParameter parameter_;
     std::shared_ptr<ContactModesKept> modes_;
-    vector<double> weight_, x_, end_,
-        change_; // of the unknowns; the last run: from, to, and by the parameter
+    vector<double> weight_, share_;   // of the unknowns
+    vector<double> x_, end_, change_; // the last run: from, to, and by the parameter
     double p_ = 0, size_ = 0;
     bool known_ = false, failed_ = false;
     std::vector<ContactInterval> intervals_;

@@ -20,9 +20,15 @@ void scale_by(double factor, PathState &a) {
     a.parameter *= factor;
 }
 
+double Metric::dot(const vector<double> &a, const vector<double> &b) const {
+    if (!weights) return plm::dot(static_cast<std::int64_t>(a.size()), a.data(), b.data());
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (*weights)[i] * a[i] * b[i];
+    return sum;
+}
+
 double Metric::product(const PathState &a, const PathState &b) const {
-    return dot(static_cast<std::int64_t>(a.x.size()), a.x.data(), b.x.data()) / (scale * scale) +
-           a.parameter * b.parameter / (width * width);
+    return dot(a.x, b.x) / (scale * scale) + a.parameter * b.parameter / (width * width);
 }
 
 double Metric::length(const PathState &a) const {

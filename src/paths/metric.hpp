@@ -16,9 +16,12 @@ PathState difference(const PathState &a, const PathState &b);
 void add(double factor, const PathState &b, PathState &a);
 void scale_by(double factor, PathState &a);
 
-/// A length of 1 is `scale` of the unknowns or `width` of the parameter.
+/// A length of 1 is `scale` of the unknowns, counted by Residual::weights(), or `width` of the parameter.
 struct Metric {
     double scale = 1, width = 1;
+    const vector<double> *weights = nullptr;
+    /// Of unknowns alone, without the scale.
+    double dot(const vector<double> &a, const vector<double> &b) const;
     double product(const PathState &a, const PathState &b) const;
     double length(const PathState &a) const;
     double distance(const PathState &a, const PathState &b) const;

@@ -195,7 +195,8 @@ NewtonOutcome newton_at(Residual &system, const NewtonLimits &limits, vector<dou
 NewtonOutcome newton_across(Residual &system, const Metric &metric, const PathState &direction,
                             NewtonLimits limits, PathState &at) {
     vector<double> weight(direction.x);
-    for (double &w : weight) w /= metric.scale * metric.scale;
+    for (std::size_t i = 0; i < weight.size(); ++i)
+        weight[i] *= (metric.weights ? (*metric.weights)[i] : 1) / (metric.scale * metric.scale);
     limits.parameter_scale = metric.width;
     return newton(system, {&weight, direction.parameter / (metric.width * metric.width)}, limits, at.x,
                   at.parameter);

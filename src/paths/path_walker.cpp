@@ -12,7 +12,7 @@ constexpr std::int64_t most_iterations_across = 12; // a shorter step is cheaper
 
 PathWalker::PathWalker(Residual &system, const PathOptions &options, PathOwner &owner)
     : system_(system), options_(options), owner_(owner),
-      n_(system.size()), metric_{0, options.high - options.low}, scratch_(n_) {
+      n_(system.size()), metric_{0, options.high - options.low, system.weights()}, scratch_(n_) {
     kinds_ = {PLM_BIFURCATION_FOLD, PLM_BIFURCATION_BRANCH_POINT};
     for (std::int32_t kind : owner.test_kinds()) kinds_.push_back(kind);
 }
@@ -20,7 +20,10 @@ PathWalker::PathWalker(Residual &system, const PathOptions &options, PathOwner &
 bool PathWalker::grow_scale(double least) {
     const double before = metric_.scale;
     const std::int64_t s = system_.static_size();
-    metric_.scale = std::max({before, least, norm2(n_ - s, now_.x.data() + s)});
+    const vector<double> moving(now_.x.begin() + s, now_.x.end());
+    metric_.scale = std::max(
+        {before, least,
+         std::sqrt(s > 0 ? dot(n_ - s, moving.data(), moving.data()) : metric_.dot(moving, moving))});
     if (metric_.scale == 0) metric_.scale = norm2(n_, now_.x.data());
     if (metric_.scale == 0) metric_.scale = 1; // nothing moves and nothing rests: any measure will do
     return metric_.scale != before;
@@ -98,8 +101,7 @@ double PathWalker::branch_test() {
     system_.solve(a.data(), 1);
     system_.parameter_derivative(border.data());
     system_.solve(border.data(), 1);
-    const double along =
-        tangent_.parameter * dot(n_, tangent_.x.data(), a.data()) / (metric_.scale * metric_.scale);
+    const double along = tangent_.parameter * metric_.dot(tangent_.x, a) / (metric_.scale * metric_.scale);
     for (std::int64_t i = 0; i < n_; ++i) a[i] += along * border[i];
     const double size = norm2(n_, a.data());
     return size > 0 && std::isfinite(size) ? orientation() / size : 0;

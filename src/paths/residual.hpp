@@ -1,6 +1,7 @@
 // Equations R(x, p) = 0, as many as unknowns x, with one parameter p (a frequency, a force, the logarithm of
 // an amplitude): all that Newton's method and the continuation know of them.
 #pragma once
+#include "linalg/memory.hpp"
 #include <cstdint>
 
 namespace plm {
@@ -27,6 +28,8 @@ class Residual {
     virtual bool in_balance() const { return true; }
     /// A new tangent costs little beside a residual: none is used twice.
     virtual bool is_cheap_to_linearize() const { return false; }
+    /// How much the square of each unknown counts in a length along the path; null: all alike.
+    virtual const vector<double> *weights() const { return nullptr; }
     /// A number for the smooth piece of R at the last residual(): where it goes to and fro, Newton's method
     /// cycles.
     virtual std::int64_t piece() const { return 0; }

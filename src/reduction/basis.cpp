@@ -46,7 +46,8 @@ void check_parents(const Model &model, const Sampler *sampler, const Basis *pare
 SelectionRule make_rule(const BasisOptions &o, const Sampler *sampler) {
     SelectionRule rule;
     rule.selection = o.kind->is_collected() ? o.selection : ModeSelection::below;
-    rule.n_harmonics = o.n_harmonics;
+    if (o.n_harmonics > 0 || sampler)
+        rule.n_harmonics = o.n_harmonics > 0 ? o.n_harmonics : sampler->n_harmonics();
     rule.below_factor = o.below_factor;
     rule.min_hz = o.frequency_min_hz > 0 || !sampler ? o.frequency_min_hz : sampler->window().min_hz;
     rule.max_hz = o.frequency_max_hz > 0 || !sampler ? o.frequency_max_hz : sampler->window().max_hz;
@@ -187,6 +188,7 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
     }
     choose_pairs();
     report_.highest_frequency_hz = modes_hz;
+    report_.n_harmonics = rule.n_harmonics;
     report_.warnings = std::move(warnings);
     report_.setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -220,6 +222,7 @@ void Basis::compress_parent(const Basis *parent, const Responses *responses) {
     report_.singular_values = std::move(c.singular_values);
     report_.n_collected = parent->reduced()->size();
     report_.highest_frequency_hz = parent->report().highest_frequency_hz;
+    report_.n_harmonics = parent->report().n_harmonics;
 }
 
 // Half as much again in either direction: a resonance further off is not that of the dominant mode. Upwards

@@ -21,6 +21,7 @@ struct BasisReport {
     Warnings warnings;
     double setup_seconds = 0;
     double highest_frequency_hz = 0; // upper end of the rule
+    std::int64_t n_harmonics = 0;    // of the rule
 };
 
 class Basis {

@@ -16,7 +16,7 @@ enum class PairRule { effective_independence, mdof }; // pair_sampling.hpp
 struct BasisOptions {
     const BasisKind *kind = &basis_kinds::plm;
     ModeSelection selection = ModeSelection::below;
-    std::int64_t n_harmonics = 5;                      // windows h = 1..n_harmonics
+    std::int64_t n_harmonics = 0; // windows h = 1..n_harmonics; 0: the sampler's, 5 without one
     double frequency_min_hz = 0, frequency_max_hz = 0; // f_i, f_f; 0: the sampler's window
     double below_factor = 1.1;          // rule "below": all modes below below_factor * n_harmonics * f_f
     double svd_tolerance = 1e-6;        // singular values relative to the largest (paper, 2.3.3)

@@ -14,9 +14,25 @@ namespace {
 
 constexpr double space_margin = 1.1; // accurate this far beyond the highest harmonic of the window
 
+// The paper's harmonics at least. A motion in time has more of them, which cost nothing where few modes reach
+// that far.
+constexpr std::int64_t least_harmonics = 5, most_harmonics = 15;
+constexpr std::int64_t modes_anyhow = 30;
+
+// Whatever else is known of the structure, so that the answer does not hang on what was asked before.
+std::int64_t harmonics_within_reach(const Space &space, double window_max_hz) {
+    if (space.n_exact_modes < modes_anyhow) return most_harmonics; // these are all
+    const double reach =
+                     std::sqrt(space.lambda[modes_anyhow - 1]) / space.model->space_options().cutoff_factor,
+                 n = reach / (2 * M_PI * space_margin * window_max_hz);
+    return static_cast<std::int64_t>(
+        std::clamp(n, static_cast<double>(least_harmonics), static_cast<double>(most_harmonics)));
+}
+
 // Highest frequency (rad/s) that one can tell before the dominant mode is known; 0: none.
 double first_guess(const SamplerOptions &o) {
-    const double factor = 2 * M_PI * space_margin * static_cast<double>(o.n_harmonics);
+    const double n = static_cast<double>(o.n_harmonics > 0 ? o.n_harmonics : least_harmonics),
+                 factor = 2 * M_PI * space_margin * n;
     if (o.window_max_hz > 0) return factor * o.window_max_hz;
     if (o.mode == 0 && o.mode_frequency_hz > 0)
         return factor * o.mode_frequency_hz * (1 + 2 * o.window_half_width);
@@ -26,7 +42,7 @@ double first_guess(const SamplerOptions &o) {
 std::int64_t least_modes(const SamplerOptions &o) {
     std::int64_t highest = o.mode;
     for (const SamplerOptions::Extra &e : o.extra) highest = std::max(highest, e.mode);
-    return std::max<std::int64_t>(30, highest + 10);
+    return std::max<std::int64_t>(modes_anyhow, highest + 10);
 }
 
 std::vector<DominantMode> find_dominant_modes(const Space &space, const RestState &rest, bool homogeneous,
@@ -81,7 +97,7 @@ ContactSweep sweep_of(const Space &space, const RestState &rest, bool homogeneou
 
 Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &options, Watch host,
                  std::shared_ptr<const Space> known)
-    : options_(options), space_(std::move(known)) {
+    : options_(options), space_(std::move(known)), n_harmonics_(options.n_harmonics) {
     check_options(options);
     if (model->n_pairs() == 0) throw Error(PLM_ERR_STATE, "the model has no contact pair to sample");
     const bool homogeneous = is_homogeneous(*model);
@@ -98,8 +114,8 @@ Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &optio
         for (const DominantMode &d : dominant_)
             sweeps_.push_back(sweep_of(*space_, *rest_, homogeneous, d, watch));
         window_ = find_window(*space_, dominant_.front(), sweeps_.front(), *rest_, options, watch);
-        const double needed =
-            2 * M_PI * space_margin * static_cast<double>(options.n_harmonics) * window_.max_hz;
+        if (n_harmonics_ == 0) n_harmonics_ = harmonics_within_reach(*space_, window_.max_hz);
+        const double needed = 2 * M_PI * space_margin * static_cast<double>(n_harmonics_) * window_.max_hz;
         if (space_->highest_frequency >= needed) break;
         highest = 1.01 * needed; // the frequencies move a little in the better space
     }

@@ -22,6 +22,8 @@ class Sampler {
         return samples_;
     } // selected, complements after, no duplicate
     const FrequencyWindow &window() const { return window_; }
+    /// Of the window, up to which the space is accurate: as asked for, or as far as it reaches anyhow.
+    std::int64_t n_harmonics() const { return n_harmonics_; }
     const Warnings &warnings() const { return warnings_; }
 
   private:
@@ -32,6 +34,7 @@ class Sampler {
     std::vector<ContactSweep> sweeps_;
     std::vector<SelectedSample> samples_;
     FrequencyWindow window_;
+    std::int64_t n_harmonics_;
     Warnings warnings_;
 };
 

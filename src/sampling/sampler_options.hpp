@@ -19,7 +19,8 @@ struct SamplerOptions {
     bool include_rest = true;        // with pre-load: the contact set at rest is among the samples
     double window_half_width = 0.05; // of the estimated resonance frequency
     double window_min_hz = 0, window_max_hz = 0; // > 0: the caller's window instead
-    std::int64_t n_harmonics = 5;                // the space must be accurate up to n_harmonics x window
+    std::int64_t n_harmonics = 0; // the space must be accurate up to n_harmonics x window; 0: 5, and up to
+                                  // 15 as far as the modes reach that are computed anyhow
     struct Extra {
         LinearSystem system; // open or sliding
         std::int64_t mode;   // 1, 2, ...

@@ -8,7 +8,10 @@ namespace plm {
 namespace {
 
 // The basis reaches as far as the motion: harmonics of the window below which it has all modes.
-constexpr std::int64_t first_harmonics = 5, most_harmonics = 80;
+constexpr std::int64_t more_harmonics[] = {10, 20, 40, 80};
+// Points after which a curve is left for that on a larger basis: where one is too small its contact may
+// bounce as the structure's does not.
+constexpr std::int64_t few_points = 400;
 // Columns beyond which a compressed basis is the better next step than a larger one.
 constexpr std::int64_t many_columns = 150;
 
@@ -22,10 +25,13 @@ class Chain {
     }
 
     ComputedResponse run() {
-        ComputedResponse best = with_harmonics(first_harmonics);
-        for (std::int64_t h = 2 * first_harmonics;
-             can_improve(best) && best.basis->reduced()->size() < many_columns && h <= most_harmonics; h *= 2)
-            if (!take_better(best, [&] { return with_harmonics(h); })) break;
+        ComputedResponse best = on(basis_for(0), few_points);
+        for (std::int64_t h : more_harmonics) {
+            if (h <= best.basis->sampler()->n_harmonics()) continue;
+            if (!can_improve(best) || best.basis->reduced()->size() >= many_columns) break;
+            if (!take_better(best, [&] { return on(basis_for(h), few_points); })) break;
+        }
+        if (is_cut(best)) best = on(best.basis, options_.max_points);
         if (can_improve(best) && std::isfinite(best.error)) take_better(best, [&] { return refined(best); });
         finish(best);
         return best;
@@ -33,20 +39,22 @@ class Chain {
 
   private:
     bool is_met(const ComputedResponse &r) const { return r.error <= accuracy_; }
+    // Given up for its many points: there is no peak yet.
+    static bool is_cut(const ComputedResponse &r) { return !r.peak.branch; }
     // A larger basis helps where the curve is whole and has its peak inside, and it can be told by how much.
     bool can_improve(const ComputedResponse &r) const {
+        if (is_cut(r)) return true;
         return !is_met(r) && !std::isnan(r.error) && r.curve->end_reason == PLM_REASON_RANGE_END &&
                !r.peak.branch->warnings.has(PLM_REASON_NO_PEAK);
     }
 
-    ComputedResponse with_harmonics(std::int64_t n) {
+    // n = 0: as far as the modes reach that are known anyhow.
+    std::shared_ptr<const Basis> basis_for(std::int64_t n) {
         SamplerOptions of_sampler;
         of_sampler.n_harmonics = n;
         const auto sampler = std::make_shared<const Sampler>(model_, of_sampler, watch_, space_);
         space_ = sampler->space();
-        BasisOptions of_basis;
-        of_basis.n_harmonics = n;
-        return on(std::make_shared<const Basis>(model_, sampler, nullptr, of_basis, watch_));
+        return std::make_shared<const Basis>(model_, sampler, nullptr, BasisOptions(), watch_);
     }
 
     // Small, and made of the motions on the last curve, corrected by the whole structure's answer.
@@ -57,23 +65,30 @@ class Chain {
         o.tolerance = accuracy_;
         const Refinement found = refine(last.basis, o, watch_);
         if (!found.basis) throw Error(PLM_ERR_CONVERGENCE, "no curve on a compressed basis");
-        return on(found.basis);
+        return on(found.basis, options_.max_points);
     }
 
-    ComputedResponse on(std::shared_ptr<const Basis> basis) {
+    ComputedResponse on(std::shared_ptr<const Basis> basis, std::int64_t max_points) {
         ComputedResponse r;
         r.basis = std::move(basis);
         r.options = options_;
-        r.curve = Hbm(r.basis, r.options, watch_).sweep();
+        r.error = INFINITY;
+        HbmOptions limited = options_;
+        limited.max_points = max_points;
+        r.curve = Hbm(r.basis, limited, watch_).sweep();
         require_uncancelled(*r.curve);
-        if (r.curve->end_reason != PLM_REASON_RANGE_END && r.curve->end_reason != PLM_REASON_POINT_LIMIT)
-            go_the_other_way(r);
+        if (r.curve->end_reason == PLM_REASON_POINT_LIMIT && max_points < options_.max_points) return r;
+        if (!spans(*r.curve) && r.curve->end_reason != PLM_REASON_POINT_LIMIT) go_the_other_way(r);
         r.peak = Hbm(r.basis, r.options, watch_).find_peak(*r.curve, output_.dof, output_.measure, 0);
         r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_, Patience::much, watch_);
         watch_.log(1, format("%lld coordinates: peak %.6g at %.6g Hz, its error by the basis %.2g",
                              static_cast<long long>(r.basis->reduced()->size()), r.peak.amplitude,
                              r.peak.frequency_hz, r.error));
         return r;
+    }
+
+    static bool spans(const Branch &curve) {
+        return curve.end_reason == PLM_REASON_RANGE_END && !curve.warnings.has(PLM_REASON_TURNED_BACK);
     }
 
     // A curve that ended early may be whole from its other end.
@@ -87,14 +102,15 @@ class Chain {
             return;
         }
         require_uncancelled(*other.curve);
-        if (other.curve->end_reason == PLM_REASON_RANGE_END) r = std::move(other);
+        if (spans(*other.curve)) r = std::move(other);
     }
 
     // False: the attempt failed, or a larger basis brought nothing.
     template <class Attempt> bool take_better(ComputedResponse &best, Attempt attempt) const {
         try {
             ComputedResponse next = attempt();
-            const bool better = !std::isfinite(best.error) || next.error < best.error;
+            const bool larger = next.basis->reduced()->size() > best.basis->reduced()->size(),
+                       better = next.error < best.error || (larger && !std::isfinite(best.error));
             if (better) best = std::move(next);
             return better;
         } catch (const Error &e) { // what is there already is an answer

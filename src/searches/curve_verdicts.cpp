@@ -119,6 +119,24 @@ void check_peak(const SweepRange &window, double accuracy, double error, Watch w
             watch, peak);
 }
 
+void check_span(Watch watch, Branch &branch) {
+    if (branch.end_reason != PLM_REASON_RANGE_END || branch.points().size() < 3) return;
+    constexpr double same = 1e-9; // of the frequency: the boundary of the range
+    const double begin = branch.points().front().omega, end = branch.points().back().omega;
+    if (std::abs(end - begin) > same * begin) return;
+    double farthest = begin;
+    for (const BranchPoint &p : branch.points())
+        if (std::abs(p.omega - begin) > std::abs(farthest - begin)) farthest = p.omega;
+    const bool above = farthest < begin;
+    watch.keeping(branch.warnings)
+        .warn(
+            PLM_REASON_TURNED_BACK,
+            format("the curve began at %.6g Hz, folded at %.6g Hz and came back: it says nothing of what is "
+                   "%s. Sweep from the other end, too (\"direction\"), and over a wider range, and look for "
+                   "motions of other periods (\"period_multiple\") where it is not stable",
+                   begin / (2 * M_PI), farthest / (2 * M_PI), above ? "below" : "above"));
+}
+
 void check_switching(Watch watch, Branch &branch) {
     if (branch.reduced().n_pairs() == 0) return;
     for (const BranchPoint &p : branch.points())

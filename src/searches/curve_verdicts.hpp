@@ -19,6 +19,9 @@ void check_basis(const SweepRange &window, const std::function<double()> &error,
 /// The same of a peak and its estimated error, which is to be within the accuracy.
 void check_peak(const SweepRange &window, double accuracy, double error, Watch watch, Branch &peak);
 
+/// A curve that folds and comes back to the end of the range where it began says nothing of the rest.
+void check_span(Watch watch, Branch &branch);
+
 /// A curve on which no pair comes near to opening or closing is a linear response, most often of a gap or a
 /// pre-load in other units than the force.
 void check_switching(Watch watch, Branch &branch);

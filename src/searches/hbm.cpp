@@ -191,6 +191,7 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
                               watch_);
     };
     check_basis(window_, error, watch_, *branch);
+    check_span(watch_, *branch);
     check_switching(watch_, *branch);
     finish(*branch, begin);
     return branch;

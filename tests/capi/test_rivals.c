@@ -104,12 +104,13 @@ static void results_by_kind(void **state) {
 }
 
 static void a_window_serves_without_a_sampler(void **state) {
-    int64_t with = 0, without = 0;
+    int64_t with = 0, without = 0, n_harmonics = 0;
     double low = 0, high = 0;
     int i;
     (void)state;
     plm_sampler_get_double(sampler, "window_low_hz", &low);
     plm_sampler_get_double(sampler, "window_high_hz", &high);
+    plm_sampler_get_int(sampler, "n_harmonics_used", &n_harmonics);
     for (i = 0; i < N_RIVALS; ++i) {
         plm_basis *basis = NULL;
         assert_int_equal(plm_basis_get_int(built(rivals[i]), "size", &with), PLM_OK);
@@ -119,6 +120,7 @@ static void a_window_serves_without_a_sampler(void **state) {
                             "frequency_max_hz", -1, "no sampler"));
         assert_int_equal(plm_basis_set_double(basis, "frequency_min_hz", low), PLM_OK);
         assert_int_equal(plm_basis_set_double(basis, "frequency_max_hz", high), PLM_OK);
+        assert_int_equal(plm_basis_set_int(basis, "n_harmonics", n_harmonics), PLM_OK);
         assert_true(done(ctx, plm_basis_build(basis)));
         assert_int_equal(plm_basis_get_int(basis, "size", &without), PLM_OK);
         assert_int_equal(with, without);

@@ -156,17 +156,14 @@ static void many_harmonics_can_be_stopped(ear *e, plm_context *ctx) {
     e->stop_after = 0;
 }
 
-/* A light mass that still counts as one, at 1e5 Hz: many steps of the exact flow in one period. */
-static void a_defect_can_be_stopped(ear *e, plm_context *ctx) {
+/* A light mass that still counts as one, at 1e5 Hz: its modes are known, and no step waits for it. */
+static void a_defect_is_quick(ear *e, plm_context *ctx) {
     plm_model *model = NULL;
     plm_hbm *hbm = two_masses(ctx, 3e-8, 3, &model);
     plm_branch *branch = NULL;
     double defect = -1;
     EXPECT(HEARD(plm_hbm_solve(hbm, 7.0, NULL, 0, &branch)) >= 0);
-    e->stop_after = 0.01;
-    if (branch) EXPECT(HEARD(plm_branch_get_periodicity_defect(branch, 0, &defect)) == PLM_CANCELLED);
-    EXPECT(e->stopped && defect == -1);
-    e->stop_after = 0;
+    if (branch) EXPECT(HEARD(plm_branch_get_periodicity_defect(branch, 0, &defect)) >= 0 && defect >= 0);
 }
 
 /* What a marched period holds: 64,000 instants, 800 harmonics. */
@@ -198,7 +195,7 @@ int main(int argc, char **argv) {
     everything_on_a_plate(&e, ctx);
     printf("plate: longest silence %.3f s in %s\n", e.longest, e.worst);
     many_harmonics_can_be_stopped(&e, ctx);
-    a_defect_can_be_stopped(&e, ctx);
+    a_defect_is_quick(&e, ctx);
     a_long_period_is_heard_of(&e, ctx);
     printf("longest silence %.3f s in %s\n", e.longest, e.worst);
     EXPECT(e.longest < allowed);

@@ -79,6 +79,7 @@ Curve parent_curve(std::shared_ptr<const plm::Model> model) {
     so.system = plm::LinearSystem::open;
     so.mode = 2;
     so.n_samples = 2;
+    so.n_harmonics = 5; // those of the curve
     const auto sampler = std::make_shared<const plm::Sampler>(model, so, plm::Watch());
     return curve_on(
         std::make_shared<const Basis>(std::move(model), sampler, nullptr, BasisOptions(), plm::Watch()));

@@ -130,6 +130,24 @@ Vec errors_of_harmonics(std::initializer_list<int> harmonics) {
     }
     return errors;
 }
+// A light mass on a stiff spring behind the contact, 1 % of modal damping: at the resonance the contact closes
+// where the period begins, and the state there turns with what rings for a moment.
+std::size_t points_with_ringing(double light) {
+    exact::Structure s = test::chain(4, 0.01, 10, 0, 0.01, 0, {3});
+    s.mass[3] = light;
+    for (int i : {2, 3})
+        for (int j : {2, 3}) s.stiffness[static_cast<std::size_t>(i * s.n + j)] += i == j ? 9.0 : -9.0;
+    const auto m = test::reduce_exactly(s);
+    m->damping = plm::Matrix();
+    m->damping_diagonal.clear();
+    for (double l : m->lambda) m->damping_diagonal.push_back(2 * 0.01 * std::sqrt(l));
+    const auto curve = solver(m, HbmOptions(), 0.44, 0.56).sweep();
+    return curve->end_reason == PLM_REASON_RANGE_END ? curve->points().size() : 99999;
+}
+void what_rings_does_not_dictate_the_steps(void **) {
+    for (double light : {1e-2, 1e-4, 1e-6}) assert_true(points_with_ringing(light) < 200);
+}
+
 void harmonics_come_to_the_exact_motion(void **) {
     const Vec e = errors_of_harmonics({5, 10, 20, 40, 80});
     assert_true(e[0] < 1e-2 && e[1] < 0.5 * e[0]);
@@ -187,6 +205,7 @@ int main() {
         cmocka_unit_test(every_point_is_an_orbit),
         cmocka_unit_test(hard_stops_are_no_exception),
         cmocka_unit_test(curves_turn_where_impacts_begin),
+        cmocka_unit_test(what_rings_does_not_dictate_the_steps),
         cmocka_unit_test(harmonics_come_to_the_exact_motion),
         cmocka_unit_test(coefficients_are_those_of_the_motion),
         cmocka_unit_test(what_has_no_exact_motion_is_refused),

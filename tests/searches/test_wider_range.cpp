@@ -201,7 +201,9 @@ void a_linear_response_is_said_where_contact_is_out_of_reach(void **) {
     };
     assert_true(said(1e-5).has(PLM_REASON_NO_SWITCHING));
     assert_true(said(1e-5).text().find("2e+03") != std::string::npos);
-    assert_true(said(1e-3).empty() && said(0.05).empty() && said(0).empty());
+    assert_true(said(1e-3).empty() && said(0).empty());
+    // the resonance of the struck mass leaves the range above: the curve from there folds and goes back
+    assert_true(!said(0.05).has(PLM_REASON_NO_SWITCHING) && said(0.05).has(PLM_REASON_TURNED_BACK));
 }
 
 } // namespace
