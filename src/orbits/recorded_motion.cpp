@@ -62,37 +62,56 @@ vector<double> polynomial_between(const vector<double> &c, double a, double b) {
 constexpr double resolved_turn = 3.0; // rad of a fast motion that the added powers describe
 constexpr std::size_t resolved_terms = 32;
 
-void widen_between(const vector<double> &slow, const FastRow &fast, double duration, double a, double b,
-                   ValueRange &range) {
+constexpr double not_worth_finding = 1e-8; // of the motion: what a crest of fast motion may be higher
+
+// Raises `highest` to the largest value between a and b. Where what is fast turns often, the half in which
+// the slow part is higher comes first: its crests leave next to nothing to look for in all other turns.
+void raise_between(const vector<double> &slow, const FastRow &fast, double duration, double a, double b,
+                   double tolerance, double &highest) {
     double most = 0, turn = 0;
     for (const FastTerm &f : fast) {
-        most += std::abs(f.size) * std::exp(f.rate.real() * (f.rate.real() > 0 ? b : a) * duration);
-        turn = std::max(turn, std::abs(f.rate) * (b - a) * duration);
+        const double size =
+            std::abs(f.size) * std::exp(f.rate.real() * (f.rate.real() > 0 ? b : a) * duration);
+        most += size;
+        if (size > tolerance) turn = std::max(turn, std::abs(f.rate) * (b - a) * duration);
     }
+    const bool resolved = turn <= resolved_turn;
     vector<double> p = a == 0 && b == 1 ? slow : polynomial_between(slow, a, b);
     double reach = most;
     for (std::size_t k = 1; k < p.size(); ++k) reach += std::abs(p[k]);
-    if (p[0] + reach <= range.maximum && p[0] - reach >= range.minimum) return;
-    if (fast.empty() || turn <= resolved_turn) {
-        p.resize(std::max(p.size(), fast.empty() ? p.size() : resolved_terms), 0.0);
-        for (const FastTerm &f : fast) {
-            Complex term = f.size * std::exp(f.rate * (a * duration));
-            for (std::size_t k = 0; k < resolved_terms; ++k) {
-                p[k] += term.real();
-                term *= f.rate * ((b - a) * duration) / static_cast<double>(k + 1);
-            }
-        }
-        widen_range(p.data(), static_cast<std::int64_t>(p.size()) - 1, range.minimum, range.maximum);
+    if (p[0] + reach <= highest + (resolved ? 0 : tolerance)) return;
+    if (!resolved) {
+        const double middle = 0.5 * (a + b), quarter = 0.25 * (b - a);
+        const std::int64_t n = static_cast<std::int64_t>(slow.size()) - 1;
+        const bool later = evaluate_polynomial(slow.data(), n, b - quarter) >
+                           evaluate_polynomial(slow.data(), n, a + quarter);
+        raise_between(slow, fast, duration, later ? middle : a, later ? b : middle, tolerance, highest);
+        raise_between(slow, fast, duration, later ? a : middle, later ? middle : b, tolerance, highest);
         return;
     }
-    ValueRange bare = range; // of the slow part: if it stays this far inside, the fast one changes nothing
-    bare.maximum -= most, bare.minimum += most;
-    const ValueRange before = bare;
-    widen_range(p.data(), static_cast<std::int64_t>(p.size()) - 1, bare.minimum, bare.maximum);
-    if (bare.maximum <= before.maximum && bare.minimum >= before.minimum) return;
-    const double middle = 0.5 * (a + b);
-    widen_between(slow, fast, duration, a, middle, range);
-    widen_between(slow, fast, duration, middle, b, range);
+    p.resize(std::max(p.size(), fast.empty() ? p.size() : resolved_terms), 0.0);
+    for (const FastTerm &f : fast) {
+        if (std::abs(f.rate) * (b - a) * duration > resolved_turn) continue; // has died away
+        Complex term = f.size * std::exp(f.rate * (a * duration));
+        for (std::size_t k = 0; k < resolved_terms; ++k) {
+            p[k] += term.real();
+            term *= f.rate * ((b - a) * duration) / static_cast<double>(k + 1);
+        }
+    }
+    double lowest = -INFINITY; // of no interest
+    widen_range(p.data(), static_cast<std::int64_t>(p.size()) - 1, lowest, highest);
+}
+
+void widen_between(vector<double> slow, FastRow fast, double duration, ValueRange &range) {
+    double size = 0;
+    for (std::size_t k = 1; k < slow.size(); ++k) size += std::abs(slow[k]);
+    for (const FastTerm &f : fast) size += std::abs(f.size);
+    raise_between(slow, fast, duration, 0, 1, not_worth_finding * size, range.maximum);
+    for (double &c : slow) c = -c;
+    for (FastTerm &f : fast) f.size = -f.size;
+    double lowest = -range.minimum;
+    raise_between(slow, fast, duration, 0, 1, not_worth_finding * size, lowest);
+    range.minimum = -lowest;
 }
 
 } // namespace
@@ -227,7 +246,7 @@ void RecordedMotion::widen_by_piece(const Piece &piece, const double *row, Value
             {piece.fast.rate[k],
              {dot(n, row, piece.fast.cosine.col(column)), dot(n, row, piece.fast.sine.col(column))}});
     }
-    widen_between(slow, fast, piece.duration, 0.0, 1.0, range);
+    widen_between(std::move(slow), std::move(fast), piece.duration, range);
 }
 
 std::vector<ValueRange> RecordedMotion::ranges(const Matrix &rows) const {

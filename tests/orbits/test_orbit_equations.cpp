@@ -329,6 +329,24 @@ void readings_are_those_of_dense_samples(void **) {
     }
 }
 
+// A parabola from 1 over 1.5 back to 1, ripples of 1e9 rad on it, and what dies away as fast.
+void crests_of_fast_motion_are_found_at_once(void **) {
+    Matrix slow(1, 3);
+    slow(0, 0) = 1, slow(0, 1) = 2, slow(0, 2) = -2;
+    plm::FastMotion fast;
+    fast.rate = {{0, 1e9}, {-1e-3, 2.7e8}, {-1e9, 0}};
+    fast.cosine.reset(1, 3), fast.sine.reset(1, 3);
+    fast.cosine(0, 0) = 0.01, fast.sine(0, 1) = 1e-4, fast.cosine(0, 2) = 0.1;
+    const plm::PairStates none;
+    plm::RecordedMotion motion;
+    motion.record({0, 1, slow, none, &fast});
+    Matrix row(1, 1);
+    row(0, 0) = -3;
+    const plm::ValueRange range = motion.ranges(row)[0];
+    assert_true(below(std::abs(range.minimum + 3 * 1.5101), 1e-5));
+    assert_true(below(std::abs(range.maximum + 3 * 0.9899), 1e-5));
+}
+
 } // namespace
 
 int main() {
@@ -339,6 +357,7 @@ int main() {
         cmocka_unit_test(modes_give_the_motion_of_the_series),
         cmocka_unit_test(a_mode_that_hardly_moves_does_not_dictate_the_pieces),
         cmocka_unit_test(modes_know_what_has_no_mass),
+        cmocka_unit_test(crests_of_fast_motion_are_found_at_once),
         cmocka_unit_test(readings_are_those_of_dense_samples),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
