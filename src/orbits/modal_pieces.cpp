@@ -116,15 +116,14 @@ void ModalPieces::steady_at(double time, vector<double> &motion, vector<double> 
     }
 }
 
-vector<double> ModalPieces::put_aside(Part part, double time) const {
-    vector<double> sum = modes_->constant_load().*part;
+void ModalPieces::put_aside(Part part, double time, vector<double> &sum) const {
+    sum = modes_->constant_load().*part;
     for (const ContactModes::Harmonic &load : modes_->loads()) {
         if (!puts_aside_) break;
         const Complex z = std::polar(force_scale_, load.number * omega_ * time);
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] += z.real() * (load.real.*part)[i] - z.imag() * (load.imag.*part)[i];
     }
-    return sum;
 }
 
 void ModalPieces::add_put_aside(Part part, Matrix &powers) const {
@@ -174,15 +173,15 @@ double ModalPieces::expand(double longest) {
     tiny_.resize(static_cast<std::size_t>(z));
     veil_.resize(static_cast<std::size_t>(z));
     const double size = norm2(modes_->size(), at_now_.data());
-    const vector<double> aside = put_aside(&ContactModes::Load::gap, now_);
+    put_aside(&ContactModes::Load::gap, now_, aside_);
     for (std::int64_t i = 0; i < z; ++i) {
-        double u = aside[i], row = 0;
+        double u = aside_[i], row = 0;
         for (std::int64_t j = 0; j < modes_->size(); ++j) {
             u += modes_->gap()(i, j) * at_now_[j];
             row += modes_->gap()(i, j) * modes_->gap()(i, j);
         }
         distance_[i] = std::abs(u);
-        tiny_[i] = eps * (std::abs(aside[i]) + std::sqrt(row) * size);
+        tiny_[i] = eps * (std::abs(aside_[i]) + std::sqrt(row) * size);
     }
     size_.clear();
     for (const ContactModes::Mode &m : modes_->modes()) {
@@ -293,9 +292,9 @@ void ModalPieces::advance(double duration, FlowState &state, FlowState &change) 
     std::fill(state.v.begin() + model_.n_massive(), state.v.end(), 0.0);
     if (puts_aside_) {
         gemv('N', 1.0, modes_->displacement(), at_now_.data(), 0.0, state.y.data());
-        const vector<double> aside = put_aside(&ContactModes::Load::following, now_);
-        for (std::size_t i = 0; i < aside.size(); ++i)
-            state.y[static_cast<std::size_t>(model_.n_moving()) + i] += aside[i];
+        put_aside(&ContactModes::Load::following, now_, aside_);
+        for (std::size_t i = 0; i < aside_.size(); ++i)
+            state.y[static_cast<std::size_t>(model_.n_moving()) + i] += aside_[i];
     }
     state.time = now_;
     if (!changes) return;

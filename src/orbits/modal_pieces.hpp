@@ -42,7 +42,7 @@ class ModalPieces {
     bool set_steady();
     /// What the loads put aside at once: at a time; as powers of the share of a piece, added to the last
     /// rows.
-    vector<double> put_aside(Part part, double time) const;
+    void put_aside(Part part, double time, vector<double> &sum) const;
     void add_put_aside(Part part, Matrix &powers) const;
     void steady_at(double time, vector<double> &motion, vector<double> *change) const;
     void veil(double duration, vector<double> &sum) const;
@@ -61,6 +61,7 @@ class ModalPieces {
     vector<double> present_, at_now_;            // free part at now_; c there
     bool puts_aside_ = false;                    // the harmonic loads do, too
     vector<double> veil_, distance_, tiny_;      // of the pairs
+    vector<double> aside_;                       // of the pairs or of what follows
     vector<double> size_, inverse_;              // |z| of the modes; 1, 1/2, 1/3, ...
     Matrix powers_, penetration_, coefficient_;
     FastMotion fast_;

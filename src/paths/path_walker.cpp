@@ -20,10 +20,9 @@ PathWalker::PathWalker(Residual &system, const PathOptions &options, PathOwner &
 bool PathWalker::grow_scale(double least) {
     const double before = metric_.scale;
     const std::int64_t s = system_.static_size();
-    const vector<double> moving(now_.x.begin() + s, now_.x.end());
-    metric_.scale = std::max(
-        {before, least,
-         std::sqrt(s > 0 ? dot(n_ - s, moving.data(), moving.data()) : metric_.dot(moving, moving))});
+    const double size =
+        metric_.weights ? std::sqrt(metric_.dot(now_.x, now_.x)) : norm2(n_ - s, now_.x.data() + s);
+    metric_.scale = std::max({before, least, size});
     if (metric_.scale == 0) metric_.scale = norm2(n_, now_.x.data());
     if (metric_.scale == 0) metric_.scale = 1; // nothing moves and nothing rests: any measure will do
     return metric_.scale != before;

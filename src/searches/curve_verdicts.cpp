@@ -127,14 +127,14 @@ void check_span(Watch watch, Branch &branch) {
     double farthest = begin;
     for (const BranchPoint &p : branch.points())
         if (std::abs(p.omega - begin) > std::abs(farthest - begin)) farthest = p.omega;
-    const bool above = farthest < begin;
+    const bool from_above = farthest < begin;
     watch.keeping(branch.warnings)
         .warn(
             PLM_REASON_TURNED_BACK,
             format("the curve began at %.6g Hz, folded at %.6g Hz and came back: it says nothing of what is "
                    "%s. Sweep from the other end, too (\"direction\"), and over a wider range, and look for "
                    "motions of other periods (\"period_multiple\") where it is not stable",
-                   begin / (2 * M_PI), farthest / (2 * M_PI), above ? "below" : "above"));
+                   begin / (2 * M_PI), farthest / (2 * M_PI), from_above ? "below" : "above"));
 }
 
 void check_switching(Watch watch, Branch &branch) {

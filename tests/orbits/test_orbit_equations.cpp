@@ -36,6 +36,7 @@ plm::vector<double> solution(OrbitEquations &e, double p) {
     plm::ExactFlow flow(e.shared_model(), c.omega, c.force_scale);
     plm::ShootingOptions options;
     options.transient_periods = 40;
+    options.max_iterations = 6;
     x = e.unknowns(plm::periodic_orbit(flow, e.state(x.data()), options).state);
     plm::NewtonLimits limits;
     limits.tolerance = 1e-12;
@@ -176,7 +177,7 @@ std::shared_ptr<const plm::FlowModel> massless_model(Massless kind, double k_n) 
     m->lambda = m->lambda_0 = {1, 2.5, 6, 5, 9, 14};
     m->n_massless = m->n_massless_0 = 3;
     if (kind == Massless::relax) {
-        m->damping_diagonal = {0.05, 0.06, 0.07, 0.3, 0, 0.002};
+        m->damping_diagonal = {0.05, 0.06, 0.07, 0.3, 0, 0.03};
     } else {
         m->damping_diagonal = {0.05, 0.06, 0.07, 0, 0, 0};
     }
@@ -250,7 +251,7 @@ Run run_massless(const std::shared_ptr<const plm::FlowModel> &model, FlowParamet
 }
 void modes_know_what_has_no_mass(void **) {
     for (Massless kind : {Massless::follow, Massless::relax, Massless::dashpot})
-        for (double k_n : {3.0, 1e3})
+        for (double k_n : {3.0, 1e2})
             for (FlowParameter by : {FlowParameter::frequency, FlowParameter::force_scale}) {
                 const auto model = massless_model(kind, k_n);
                 const Run series = run_massless(model, by, false), modes = run_massless(model, by, true);
