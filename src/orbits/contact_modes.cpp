@@ -12,10 +12,6 @@ constexpr double free_rate = 1e-10;      // of the fastest: nothing brings such 
 constexpr std::int64_t worth_it = 40;    // pieces: as much work as the eigenvectors
 constexpr double most_bytes = 1.5e8, most_entries = 4096;
 
-double own_damping(const FlowModel &model, std::int64_t j) {
-    return model.has_diagonal_damping() ? model.damping_diagonal()[j] : model.damping()(j, j);
-}
-
 } // namespace
 
 ContactModes::ContactModes(const FlowModel &model, const PairStates &states)
@@ -48,7 +44,7 @@ Matrix ContactModes::system_matrix(const FlowModel &model, const Matrix &k) {
     for (std::int64_t j = 0; j < n; ++j)
         for (std::int64_t i = 0; i < massive_; ++i) a(n + i, j) = -k(i, j) / root_[j];
     for (std::int64_t r = massive_; r < n; ++r) {
-        const double c = own_damping(model, r);
+        const double c = model.own_damping(r);
         for (std::int64_t j = 0; j < n; ++j) a(r, j) = -root_[r] * k(r, j) / (root_[j] * c);
         for (std::int64_t j = 0; j < massive_ && !diagonal; ++j)
             a(r, n + j) = -root_[r] * model.damping()(r, j) / c;
@@ -127,7 +123,7 @@ ContactModes::Load ContactModes::load_of(const FlowModel &model, const ContactSe
     vector<double> state(static_cast<std::size_t>(size()), 0.0), following;
     for (std::int64_t j = 0; j < massive_; ++j) state[moving_ + j] = f[j];
     for (std::int64_t r = massive_; r < moving_; ++r) {
-        const double rate = f[r] / own_damping(model, r);
+        const double rate = f[r] / model.own_damping(r);
         state[r] = root_[r] * rate;
         for (std::int64_t j = 0; j < massive_ && !model.has_diagonal_damping(); ++j)
             state[moving_ + j] -= model.damping()(j, r) * rate;

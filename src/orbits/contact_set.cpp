@@ -54,13 +54,9 @@ void ContactSet::find_rate() {
     Matrix relaxing = square_block(stiffness_, massive_, moving_);
     for (std::int64_t j = 0; j < relaxing.cols(); ++j)
         for (std::int64_t i = 0; i < relaxing.rows(); ++i)
-            relaxing(i, j) /= std::sqrt(own_damping(massive_ + i) * own_damping(massive_ + j));
+            relaxing(i, j) /= std::sqrt(model_.own_damping(massive_ + i) * model_.own_damping(massive_ + j));
     const double oscillating = std::sqrt(spectral_bound(square_block(stiffness_, 0, massive_)));
     rate_ = 2 * (oscillating + damping_bound_ + spectral_bound(relaxing));
-}
-
-double ContactSet::own_damping(std::int64_t j) const {
-    return model_.has_diagonal_damping() ? model_.damping_diagonal()[j] : model_.damping()(j, j);
 }
 
 // c k y_k = dt (f - K y)_(k-1) - k C y_k of what has mass.
@@ -71,7 +67,7 @@ void ContactSet::relax(std::int64_t k, double dt, const double *before, const do
         double f = force ? force[j] : 0.0;
         f = step * (f - dot(moving_, relaxing_.col(j - massive_), before));
         if (!model_.has_diagonal_damping()) f -= dot(massive_, model_.damping().col(j), next);
-        next[j] = f / own_damping(j);
+        next[j] = f / model_.own_damping(j);
     }
 }
 

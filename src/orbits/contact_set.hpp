@@ -29,7 +29,6 @@ class ContactSet {
 
   private:
     double spectral_bound(const Matrix &symmetric);
-    double own_damping(std::int64_t j) const;
     void find_rate();
 
     const FlowModel &model_;

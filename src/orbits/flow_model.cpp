@@ -94,7 +94,7 @@ double FlowModel::least_damping() const {
     const double reach = std::sqrt(lambda_.back()); // sqrt(k m) to compare with, for a mass of 1
     double least = 0, largest = 0;
     for (std::int64_t j = 0; j < size(); ++j) {
-        const double c = damping_.empty() ? damping_diagonal_[j] : damping_(j, j);
+        const double c = own_damping(j);
         largest = std::max(largest, c);
         if (j >= massive || !(lambda_[j] > 0) || lambda_[j] > lambda_.back() || !(c > 0)) continue;
         const double ratio = c / std::sqrt(lambda_[j]);

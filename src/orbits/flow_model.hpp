@@ -37,7 +37,11 @@ class FlowModel {
     bool has_diagonal_damping() const { return damping_.empty(); }
     const vector<double> &damping_diagonal() const { return damping_diagonal_; } // n, when diagonal
     const Matrix &damping() const { return damping_; }                           // n x n, when not
-    const Matrix &gap() const { return gap_; }                                   // Z x n
+    /// Diagonal entry of the damping, whichever of the two it is.
+    double own_damping(std::int64_t j) const {
+        return damping_.empty() ? damping_diagonal_[j] : damping_(j, j);
+    }
+    const Matrix &gap() const { return gap_; } // Z x n
     /// What the coordinates that follow do at the contact: Z x Z, empty without them.
     const Matrix &flexibility() const { return flexibility_; }
     const vector<double> &preload() const { return preload_; }

@@ -130,8 +130,8 @@ Vec errors_of_harmonics(std::initializer_list<int> harmonics) {
     }
     return errors;
 }
-// A light mass on a stiff spring behind the contact, 1 % of modal damping: at the resonance the contact closes
-// where the period begins, and the state there turns with what rings for a moment.
+// A light mass on a stiff spring behind the contact, 1 % of modal damping: at the resonance the contact
+// closes where the period begins, and the state there turns with what rings for a moment.
 std::size_t points_with_ringing(double light) {
     exact::Structure s = test::chain(4, 0.01, 10, 0, 0.01, 0, {3});
     s.mass[3] = light;
