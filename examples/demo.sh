@@ -26,9 +26,9 @@ find_python() {
     return 1
 }
 
-packages="g++ cmake ninja-build libopenblas-dev liblapack-dev libarpack2-dev libfftw3-dev libsuitesparse-dev libeigen3-dev"
+packages=$plm_build_packages
 find_python || packages="$packages python3-numpy python3-matplotlib"
-# shellcheck disable=SC2086
+# shellcheck disable=SC2086,SC2154
 need_packages $packages
 
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"

@@ -19,9 +19,9 @@ case ${1-} in
 '') set -- dev ;;
 esac
 
-need_packages g++ gfortran cmake ninja-build pkg-config libopenblas-dev libopenblas-serial-dev liblapack-dev libarpack2-dev libfftw3-dev \
-    libsuitesparse-dev libeigen3-dev libcmocka-dev python3 python3-numpy python3-scipy python3-matplotlib \
-    python3-pip calculix-ccx abigail-tools valgrind doxygen clang libclang-rt-dev make ccache
+# shellcheck disable=SC2086,SC2154
+need_packages $plm_build_packages gfortran pkg-config libcmocka-dev python3 python3-numpy python3-scipy \
+    python3-matplotlib python3-pip calculix-ccx abigail-tools valgrind doxygen clang libclang-rt-dev make ccache
 
 jobs=2
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"

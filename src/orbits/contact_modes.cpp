@@ -1,6 +1,5 @@
 #include "orbits/contact_modes.hpp"
 #include "linalg/work.hpp"
-#include "orbits/contact_set.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -10,23 +9,22 @@ namespace {
 constexpr double worst_condition = 1e-8; // reciprocal, of the eigenvectors: digits lost on the way to and fro
 constexpr double free_rate = 1e-10;      // of the fastest: nothing brings such a motion back
 constexpr std::int64_t worth_it = 40;    // pieces: as much work as the eigenvectors
-constexpr double most_bytes = 1.5e8, most_entries = 4096;
+constexpr double most_bytes = 1.5e8, most_transition_bytes = 1e8, most_entries = 4096;
 
 } // namespace
 
 ContactModes::ContactModes(const FlowModel &model, const PairStates &states)
-    : moving_(model.n_moving()), massive_(model.n_massive()) {
-    ContactSet set(model);
-    set.assign(states);
-    decompose(system_matrix(model, set.stiffness()));
+    : set_(model), moving_(model.n_moving()), massive_(model.n_massive()) {
+    set_.assign(states);
+    decompose(system_matrix(model, set_.stiffness()));
     if (!usable_) return;
-    find_displacements(model, set);
+    find_displacements(model);
     const vector<double> still(static_cast<std::size_t>(model.n_pairs()), 0.0),
         none(static_cast<std::size_t>(model.size()), 0.0);
-    constant_ = load_of(model, set, model.preload(), model.initial_gap());
+    constant_ = load_of(model, model.preload(), model.initial_gap());
     for (const auto &[harmonic, load] : model.excitation())
-        loads_.push_back({harmonic, load_of(model, set, load.real, still),
-                          load_of(model, set, load.imag.empty() ? none : load.imag, still)});
+        loads_.push_back({harmonic, load_of(model, load.real, still),
+                          load_of(model, load.imag.empty() ? none : load.imag, still)});
 }
 
 // c y' = -K y - C v where there is no mass; its y' acts through the damping on what has mass, too.
@@ -84,7 +82,7 @@ void ContactModes::decompose(const Matrix &system) {
     from_state_ = std::move(inverse);
 }
 
-void ContactModes::find_displacements(const FlowModel &model, const ContactSet &set) {
+void ContactModes::find_displacements(const FlowModel &model) {
     displacement_.reset(model.size(), size());
     for (std::int64_t j = 0; j < size(); ++j)
         for (std::int64_t i = 0; i < moving_; ++i) displacement_(i, j) = to_state_(i, j) / root_[i];
@@ -92,12 +90,14 @@ void ContactModes::find_displacements(const FlowModel &model, const ContactSet &
     if (model.n_pairs() > 0) gemm('N', 'N', 1.0, model.gap(), displacement_, 0.0, gap_);
     if (model.n_following() > 0 && model.n_pairs() > 0) {
         Matrix force;
-        set.add_contact(gap_, force);
+        set_.add_contact(gap_, force);
         for (std::int64_t j = 0; j < size(); ++j)
             for (std::int64_t i = moving_; i < model.size(); ++i)
                 displacement_(i, j) =
                     -dot(model.n_pairs(), model.gap().col(i), force.col(j)) / model.lambda()[i];
     }
+    gap_by_pair_ = gap_.transposed();
+    for (std::int64_t i = 0; i < gap_.rows(); ++i) gap_size_.push_back(norm2(size(), gap_by_pair_.col(i)));
     reach_.reset(gap_.rows(), static_cast<std::int64_t>(modes_.size()));
     for (std::int64_t k = 0; k < reach_.cols(); ++k) {
         const Mode &m = modes_[static_cast<std::size_t>(k)];
@@ -108,8 +108,8 @@ void ContactModes::find_displacements(const FlowModel &model, const ContactSet &
 }
 
 // What follows is put aside at once, which the contact answers; both act on what moves.
-ContactModes::Load ContactModes::load_of(const FlowModel &model, const ContactSet &set,
-                                         const vector<double> &force, const vector<double> &gap) const {
+ContactModes::Load ContactModes::load_of(const FlowModel &model, const vector<double> &force,
+                                         const vector<double> &gap) const {
     const std::int64_t z = model.n_pairs();
     vector<double> f(force), aside(force.size(), 0.0);
     Matrix u(z, 1), contact;
@@ -117,7 +117,7 @@ ContactModes::Load ContactModes::load_of(const FlowModel &model, const ContactSe
         for (std::int64_t j = moving_; j < model.size(); ++j) aside[j] = f[j] / model.lambda()[j];
         gemv('N', 1.0, model.gap(), aside.data(), 0.0, u.data());
         for (std::int64_t i = 0; i < z; ++i) u(i, 0) -= gap[i];
-        set.add_contact(u, contact);
+        set_.add_contact(u, contact);
         gemv('T', -1.0, model.gap(), contact.data(), 1.0, f.data());
     }
     vector<double> state(static_cast<std::size_t>(size()), 0.0), following;
@@ -148,43 +148,61 @@ void ContactModes::from_state(const double *y, const double *v, double *c) const
     gemv('N', 1.0, from_state_, x.data(), 0.0, c);
 }
 
-void ContactModes::advance(double dt, Matrix &m, Matrix &scratch) const {
+void ContactModes::enter(Matrix &m) const {
     for (std::int64_t j = 0; j < m.cols(); ++j)
         for (std::int64_t i = 0; i < moving_; ++i) m(i, j) *= root_[i];
-    scratch.reset(m.rows(), m.cols());
-    gemm('N', 'N', 1.0, from_state_, m, 0.0, scratch);
+    m = product('N', 'N', from_state_, m);
+    worked(static_cast<double>(size() * size() * m.cols()));
+}
+
+void ContactModes::turn(double dt, Matrix &coordinates) const {
     for (const Mode &mode : modes_) {
         const std::complex<double> factor = std::exp(mode.rate * dt);
-        for (std::int64_t j = 0; j < m.cols(); ++j) {
-            double *c = scratch.col(j) + mode.first;
-            if (mode.is_pair) {
-                const std::complex<double> z = factor * std::complex<double>(c[0], c[1]);
-                c[0] = z.real(), c[1] = z.imag();
-            } else {
-                c[0] *= factor.real();
-            }
+        const double re = factor.real(), im = factor.imag();
+        for (std::int64_t j = 0; j < coordinates.cols(); ++j) {
+            double *c = coordinates.col(j) + mode.first;
+            const double first = c[0];
+            c[0] *= re;
+            if (!mode.is_pair) continue;
+            c[0] -= im * c[1];
+            c[1] = re * c[1] + im * first;
         }
     }
-    gemm('N', 'N', 1.0, to_state_, scratch, 0.0, m);
-    for (std::int64_t j = 0; j < m.cols(); ++j)
-        for (std::int64_t i = 0; i < moving_; ++i) m(i, j) /= root_[i];
-    worked(2 * static_cast<double>(size() * size() * m.cols()));
+}
+
+void ContactModes::leave(Matrix &coordinates) const {
+    coordinates = product('N', 'N', to_state_, coordinates);
+    for (std::int64_t j = 0; j < coordinates.cols(); ++j)
+        for (std::int64_t i = 0; i < moving_; ++i) coordinates(i, j) /= root_[i];
+    worked(static_cast<double>(size() * size() * coordinates.cols()));
+}
+
+Matrix ContactModes::transition(const ContactModes &to) const {
+    Matrix state = to_state_;
+    for (std::int64_t j = 0; j < state.cols(); ++j)
+        for (std::int64_t i = 0; i < moving_; ++i) state(i, j) *= to.root_[i] / root_[i];
+    return product('N', 'N', to.from_state_, state);
 }
 
 double ContactModes::bytes() const {
-    return 8.0 * static_cast<double>(2 * to_state_.rows() * to_state_.cols() +
-                                     displacement_.rows() * displacement_.cols() + gap_.rows() * gap_.cols() +
-                                     reach_.rows() * reach_.cols());
+    return 8.0 * static_cast<double>(2 * to_state_.rows() * to_state_.cols() + 3 * moving_ * moving_ +
+                                     displacement_.rows() * displacement_.cols() +
+                                     2 * gap_.rows() * gap_.cols() + reach_.rows() * reach_.cols());
 }
 
-const ContactModes *ContactModesKept::find(const PairStates &states, std::int64_t effort) {
+std::shared_ptr<const ContactModes> ContactModesKept::known(const PairStates &states) const {
+    const auto found = entries_.find(states);
+    return found != entries_.end() ? found->second.modes : nullptr;
+}
+
+std::shared_ptr<const ContactModes> ContactModesKept::find(const PairStates &states, std::int64_t effort) {
     Entry &entry = entries_[states];
     entry.last_use = ++clock_;
     entry.effort += effort;
-    if (entry.tried) return entry.modes && entry.modes->usable() ? entry.modes.get() : nullptr;
+    if (entry.tried) return entry.modes;
     if (entry.effort < worth_it) return nullptr;
     entry.tried = true;
-    auto modes = std::make_unique<ContactModes>(*model_, states);
+    auto modes = std::make_shared<const ContactModes>(*model_, states);
     if (!modes->usable()) return nullptr;
     make_room(modes->bytes());
     Entry &now = entries_[states]; // room may have been made by dropping all others
@@ -192,12 +210,22 @@ const ContactModes *ContactModesKept::find(const PairStates &states, std::int64_
     now.last_use = clock_;
     now.modes = std::move(modes);
     bytes_ += now.modes->bytes();
-    return now.modes.get();
+    return now.modes;
+}
+
+const Matrix &ContactModesKept::transition(const std::shared_ptr<const ContactModes> &from,
+                                           const std::shared_ptr<const ContactModes> &to) {
+    const auto found = transitions_.find({from, to});
+    if (found != transitions_.end()) return found->second;
+    const double bytes = 8.0 * static_cast<double>(to->size() * to->size());
+    if (bytes * static_cast<double>(transitions_.size() + 1) > most_transition_bytes) transitions_.clear();
+    return transitions_[{from, to}] = from->transition(*to);
 }
 
 // The sets not seen for the longest time go, half of them at once.
 void ContactModesKept::make_room(double bytes) {
     if (bytes_ + bytes < most_bytes && static_cast<double>(entries_.size()) < most_entries) return;
+    transitions_.clear(); // they hold what is to go
     vector<std::int64_t> uses;
     for (const auto &[states, entry] : entries_) uses.push_back(entry.last_use);
     std::nth_element(uses.begin(), uses.begin() + static_cast<std::ptrdiff_t>(uses.size() / 2), uses.end());

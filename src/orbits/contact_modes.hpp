@@ -4,18 +4,18 @@
 // What relaxes without mass has no y' in x; what follows at once is not in x at all, but where the contact
 // and the loads of the moment put it.
 #pragma once
-#include "orbits/flow_model.hpp"
+#include "orbits/contact_set.hpp"
 #include <complex>
 #include <map>
+#include <memory>
 
 namespace plm {
-
-class ContactSet;
 
 class ContactModes {
   public:
     ContactModes(const FlowModel &model, const PairStates &states);
 
+    const ContactSet &set() const { return set_; }
     /// False: the eigenvectors are too near to each other, or a motion is free (eigenvalue 0).
     bool usable() const { return usable_; }
 
@@ -34,6 +34,8 @@ class ContactModes {
     /// Rows of all displacements, n x size, and of the penetrations, Z x size, in the coordinates.
     const Matrix &displacement() const { return displacement_; }
     const Matrix &gap() const { return gap_; }
+    const Matrix &gap_by_pair() const { return gap_by_pair_; }   // its transpose
+    const vector<double> &gap_size() const { return gap_size_; } // norms of its rows
     /// Largest effect of a unit of a mode on a pair: Z x modes.
     const Matrix &reach() const { return reach_; }
     /// A load: on the coordinates, and what it does at once to the penetrations (Z) and to the displacements
@@ -49,44 +51,57 @@ class ContactModes {
     };
     const std::vector<Harmonic> &loads() const { return loads_; }
 
-    /// m (size x k, rows y and y') becomes exp(A dt) m.
-    void advance(double dt, Matrix &m, Matrix &scratch) const;
+    /// m (size x k, rows y and y') becomes the coordinates that belong to it; these, exp(A dt) times them;
+    /// and back.
+    void enter(Matrix &m) const;
+    void turn(double dt, Matrix &coordinates) const;
+    void leave(Matrix &coordinates) const;
+    /// From these coordinates into those of another set's modes, at the same state: size x size.
+    Matrix transition(const ContactModes &to) const;
     double bytes() const;
 
   private:
     Matrix system_matrix(const FlowModel &model, const Matrix &stiffness);
     void decompose(const Matrix &system);
-    void find_displacements(const FlowModel &model, const ContactSet &set);
-    Load load_of(const FlowModel &model, const ContactSet &set, const vector<double> &force,
-                 const vector<double> &gap) const;
+    void find_displacements(const FlowModel &model);
+    Load load_of(const FlowModel &model, const vector<double> &force, const vector<double> &gap) const;
 
+    ContactSet set_;
     std::int64_t moving_, massive_;
     bool usable_ = false;
     vector<double> root_; // of what moves
     std::vector<Mode> modes_;
-    Matrix to_state_, from_state_, displacement_, gap_, reach_;
+    Matrix to_state_, from_state_, displacement_, gap_, gap_by_pair_, reach_;
+    vector<double> gap_size_;
     Load constant_;
     std::vector<Harmonic> loads_;
 };
 
-/// Those of the contact sets that a model comes back to. Made when a set has been passed often enough for the
-/// eigenvectors to be cheaper than what goes on without them.
+/// Those of the contact sets that a model comes back to, and the ways from one to the next. Made when a set
+/// has been passed often enough for the eigenvectors to be cheaper than what goes on without them.
 class ContactModesKept {
   public:
     explicit ContactModesKept(std::shared_ptr<const FlowModel> model) : model_(std::move(model)) {}
-    /// Null: not (yet). `effort`: pieces of a Taylor series that the last visit took.
-    const ContactModes *find(const PairStates &states, std::int64_t effort);
+    /// Null: not (yet). `effort`: pieces of a Taylor series that the visit takes without them.
+    std::shared_ptr<const ContactModes> find(const PairStates &states, std::int64_t effort);
+    /// Without any effort: null where they have not been made, or are not usable.
+    std::shared_ptr<const ContactModes> known(const PairStates &states) const;
+    /// ContactModes::transition(), kept. Valid until the next call of any of these.
+    const Matrix &transition(const std::shared_ptr<const ContactModes> &from,
+                             const std::shared_ptr<const ContactModes> &to);
 
   private:
     struct Entry {
         std::int64_t effort = 0, last_use = 0;
-        std::unique_ptr<ContactModes> modes;
+        std::shared_ptr<const ContactModes> modes; // null: not made, or not usable
         bool tried = false;
     };
     void make_room(double bytes);
 
     std::shared_ptr<const FlowModel> model_;
     std::map<PairStates, Entry> entries_;
+    using Way = std::pair<std::shared_ptr<const ContactModes>, std::shared_ptr<const ContactModes>>;
+    std::map<Way, Matrix> transitions_;
     std::int64_t clock_ = 0;
     double bytes_ = 0;
 };

@@ -20,15 +20,15 @@ constexpr int side_corrections = 8; // one is usual; more when pairs that rest a
 
 ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, double force_scale, Watch watch,
                      std::shared_ptr<ContactModesKept> modes)
-    : model_(std::move(model)), omega_(omega), force_scale_(force_scale), watch_(watch), system_(*model_),
+    : model_(std::move(model)), omega_(omega), force_scale_(force_scale), watch_(watch), own_set_(*model_),
       events_(model_->contact(), model_->gap()), modes_(std::move(modes)), following_(model_->size()) {
     if (!(omega > 0 && std::isfinite(omega) && std::isfinite(force_scale)))
         throw Error(PLM_ERR_ARGUMENT, "the flow needs a positive, finite frequency and a finite force scale")
             .argument("omega");
     for (const auto &entry : model_->excitation())
         fastest_force_ = std::max(fastest_force_, static_cast<double>(entry.first) * omega);
-    system_.assign_stiffest();
-    const double pairs = static_cast<double>(model_->n_pairs()), switches = system_.rate() * period() / M_PI;
+    own_set_.assign_stiffest();
+    const double pairs = static_cast<double>(model_->n_pairs()), switches = own_set_.rate() * period() / M_PI;
     event_limit_ = static_cast<std::int64_t>(std::min(1000 + pairs * (100 + switches), 1e15));
 }
 
@@ -76,7 +76,7 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
 void ExactFlow::series_piece(FlowState &state, double left, FlowRecorder *recorder) {
     double duration = 0;
     for (int attempt = 0;; ++attempt) {
-        system_.assign(events_.states());
+        take_set();
         duration = step_length(left);
         expand(state, duration, motion_);
         if (attempt == side_corrections || !correct_sides(state, duration, motion_.penetration)) break;
@@ -94,10 +94,17 @@ void ExactFlow::series_piece(FlowState &state, double left, FlowRecorder *record
     if (pair >= 0) switch_pair(pair, fraction, state.time);
 }
 
+// The linear system of the present contact set, assembled anew where its modes are not known.
+void ExactFlow::take_set() {
+    taken_ = modes_ ? modes_->known(events_.states()) : nullptr;
+    set_ = taken_ ? &taken_->set() : &own_set_;
+    if (!taken_) own_set_.assign(events_.states());
+}
+
 bool ExactFlow::enter_modes(const FlowState &state) {
     if (modal_->inside()) return true;
-    const ContactModes *modes = modes_->find(events_.states(), 1);
-    return modes && modal_->enter(*modes, state, change_);
+    auto modes = modes_->find(events_.states(), 1);
+    return modes && modal_->enter(std::move(modes), state, change_);
 }
 
 // False: a pair stands at zero, and the series has to say on which side it leaves; nothing has moved.
@@ -133,7 +140,7 @@ bool ExactFlow::modal_piece(FlowState &state, double left, FlowRecorder *recorde
 }
 
 vector<double> ExactFlow::acceleration(const FlowState &state) {
-    system_.assign(events_.states());
+    take_set();
     const double duration = step_length(0.125 * period());
     expand(state, duration, motion_);
     vector<double> a(static_cast<std::size_t>(model_->n_massive()));
@@ -188,7 +195,7 @@ void ExactFlow::complete(FlowState &state) {
 
 void ExactFlow::fill_massless(FlowState &state) {
     if (model_->n_massive() == model_->size()) return;
-    system_.assign(events_.states());
+    take_set();
     const double duration = step_length(0.125 * period());
     expand(state, duration, motion_);
     for (std::int64_t j = model_->n_massive(); j < model_->size(); ++j) {
@@ -204,7 +211,7 @@ double ExactFlow::flops_of_piece() const {
 }
 
 double ExactFlow::step_length(double left) {
-    const double rate = std::max(system_.rate(), fastest_force_);
+    const double rate = std::max(set_->rate(), fastest_force_);
     double duration = std::min(left, 0.125 * period());
     if (rate * duration > longest_step) duration = longest_step / rate;
     n_terms_ = std::min(taylor_terms(rate * duration, truncation) + 3, max_polynomial_degree + 1);
@@ -221,33 +228,63 @@ void ExactFlow::expand(const FlowState &state, double duration, Series &series) 
         y(j, 0) = state.y[j];
         if (j < n) y(j, 1) = duration * state.v[j];
     }
-    system_.relax(1, duration, y.col(0), series.force.col(0), y.col(1));
+    set_->relax(1, duration, y.col(0), series.force.col(0), y.col(1));
     for (std::int64_t k = 2; k < n_terms_; ++k) {
         const double order = static_cast<double>(k), factor = duration * duration / (order * (order - 1));
         const double *before = y.col(k - 1);
         double *next = y.col(k);
         std::copy_n(series.force.col(k - 2), moving, next);
-        gemv('N', -factor, system_.stiffness(), y.col(k - 2), factor, next);
+        gemv('N', -factor, set_->stiffness(), y.col(k - 2), factor, next);
         if (model_->has_diagonal_damping()) {
             const vector<double> &c = model_->damping_diagonal();
             for (std::int64_t j = 0; j < n; ++j) next[j] -= duration / order * c[j] * before[j];
         } else {
             gemv('N', -duration / order, model_->damping(), before, 1.0, next);
         }
-        system_.relax(k, duration, before, series.force.col(k - 1), next);
+        set_->relax(k, duration, before, series.force.col(k - 1), next);
     }
     if (&series == &derivative_ && model_->n_following() == 0)
         return; // what it does to the gaps is not asked
     series.penetration = series.offset;
-    if (model_->n_pairs() > 0) gemm('N', 'N', 1.0, model_->gap(), y, 1.0, series.penetration);
-    follow(series);
+    if (model_->n_following() > 0) {
+        if (model_->n_pairs() > 0) gemm('N', 'N', 1.0, model_->gap(), y, 1.0, series.penetration);
+        follow(series);
+    } else {
+        add_penetrations(y, series.penetration);
+    }
+}
+
+// As polynomials where a pair might come to zero; of others it is enough to know on which side they are.
+void ExactFlow::add_penetrations(const Matrix &y, Matrix &penetration) {
+    const std::int64_t n = model_->size(), z = model_->n_pairs();
+    if (z == 0) return;
+    const Matrix &gap = model_->gap();
+    gemv('N', 1.0, gap, y.col(0), 1.0, penetration.col(0));
+    travel_.assign(static_cast<std::size_t>(z), 0.0);
+    for (std::int64_t j = 0; j < n; ++j) {
+        double way = 0;
+        for (std::int64_t k = 1; k < n_terms_; ++k) way += std::abs(y(j, k));
+        const double *row = gap.col(j);
+        for (std::int64_t i = 0; i < z; ++i) travel_[i] += std::abs(row[i]) * way;
+    }
+    candidates_.clear();
+    for (std::int64_t i = 0; i < z; ++i)
+        if (!(std::abs(penetration(i, 0)) > 2 * travel_[i])) candidates_.push_back(i);
+    const std::int64_t count = static_cast<std::int64_t>(candidates_.size());
+    if (count == 0) return;
+    rows_.reset(count, n);
+    for (std::int64_t j = 0; j < n; ++j)
+        for (std::int64_t c = 0; c < count; ++c) rows_(c, j) = gap(candidates_[c], j);
+    moved_.reset(count, n_terms_);
+    gemm('N', 'N', 1.0, rows_, y, 0.0, moved_);
+    for (std::int64_t k = 1; k < n_terms_; ++k)
+        for (std::int64_t c = 0; c < count; ++c) penetration(candidates_[c], k) += moved_(c, k);
 }
 
 // What has neither mass nor damping: y = (f - G^T N) / k.
 void ExactFlow::follow(Series &series) {
     const std::int64_t moving = model_->n_moving(), n = model_->n_following();
-    if (n == 0) return;
-    system_.add_contact(series.penetration, contact_force_);
+    set_->add_contact(series.penetration, contact_force_);
     for (std::int64_t k = 0; k < n_terms_; ++k) {
         double *f = following_.data();
         std::copy_n(series.force.col(k) + moving, n, f + moving);
@@ -273,7 +310,7 @@ void ExactFlow::expand_forces(double time, double duration, Series &series) {
     series.still.reset(model_->n_pairs(), model_->n_following() > 0 ? n_terms_ : 1);
     if (model_->n_pairs() == 0) return;
     std::copy_n(series.offset.data(), series.still.rows() * series.still.cols(), series.still.data());
-    system_.add_contact(series.still, contact_force_);
+    set_->add_contact(series.still, contact_force_);
     for (std::int64_t k = 0; k < series.still.cols(); ++k) {
         gemv('T', -1.0, model_->gap(), contact_force_.col(k), 0.0, following_.data());
         for (std::int64_t j = 0; j < model_->n_moving(); ++j) series.force(j, k) += following_[j];

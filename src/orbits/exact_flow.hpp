@@ -62,6 +62,7 @@ class ExactFlow {
     std::int64_t n_force_terms() const;
     void expand_offsets(Series &series);
     void follow(Series &series);
+    void add_penetrations(const Matrix &y, Matrix &penetration);
     bool correct_sides(const FlowState &state, double duration, const Matrix &penetration);
     void switch_pair(std::int64_t pair, double fraction, double time);
     void move_to(FlowState &state, double fraction, double duration, const Matrix &coefficient) const;
@@ -70,19 +71,23 @@ class ExactFlow {
     void series_piece(FlowState &state, double left, FlowRecorder *recorder);
     bool modal_piece(FlowState &state, double left, FlowRecorder *recorder);
     bool enter_modes(const FlowState &state);
+    void take_set();
 
     std::shared_ptr<const FlowModel> model_;
     double omega_, force_scale_, fastest_force_ = 0;
     Watch watch_;
-    ContactSet system_;
+    ContactSet own_set_;
+    std::shared_ptr<const ContactModes> taken_;
+    const ContactSet *set_ = &own_set_; // of the last take_set(): that of taken_, or the own one
     PieceEvents events_;
     std::shared_ptr<ContactModesKept> modes_;
     FlowParameter parameter_ = FlowParameter::none;
     FlowState change_;
     Series motion_, derivative_;
-    Matrix contact_force_, shortened_;
+    Matrix contact_force_, shortened_, rows_, moved_;
     const Matrix nothing_;
-    vector<double> following_;
+    vector<double> following_, travel_;
+    vector<std::int64_t> candidates_; // pairs that might come to zero within a piece
     std::unique_ptr<ModalPieces> modal_;
     bool may_use_modes_ = false, fresh_ = true; // fresh_: the states at hand are still to be confirmed
     std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_ = 0, stalled_ = 0;

@@ -16,22 +16,23 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 } // namespace
 
-bool ModalPieces::enter(const ContactModes &modes, const FlowState &state, const FlowState &change) {
-    modes_ = &modes;
+bool ModalPieces::enter(std::shared_ptr<const ContactModes> modes, const FlowState &state,
+                        const FlowState &change) {
+    modes_ = std::move(modes);
     puts_aside_ = model_.n_following() > 0;
     start_ = now_ = state.time;
     if (!set_steady()) {
         modes_ = nullptr;
         return false;
     }
-    const std::size_t size = static_cast<std::size_t>(modes.size());
+    const std::size_t size = static_cast<std::size_t>(modes_->size());
     const bool changes = parameter_ != FlowParameter::none;
     vector<double> motion(size), changed(size);
     free_.resize(size);
-    modes.from_state(state.y.data(), state.v.data(), free_.data());
+    modes_->from_state(state.y.data(), state.v.data(), free_.data());
     if (changes) {
         changed_free_.resize(size);
-        modes.from_state(change.y.data(), change.v.data(), changed_free_.data());
+        modes_->from_state(change.y.data(), change.v.data(), changed_free_.data());
     }
     steady_at(start_, motion, changes ? &changed : nullptr);
     for (std::size_t i = 0; i < size; ++i) {
@@ -83,6 +84,7 @@ bool ModalPieces::set_steady() {
                 s.plus_slope = turn * s.plus;
                 s.minus_slope = -turn * s.minus;
             }
+            s.size = std::abs(s.plus) + std::abs(s.minus);
             steady_[l].push_back(s);
         }
     }
@@ -174,14 +176,11 @@ double ModalPieces::expand(double longest) {
     veil_.resize(static_cast<std::size_t>(z));
     const double size = norm2(modes_->size(), at_now_.data());
     put_aside(&ContactModes::Load::gap, now_, aside_);
+    now_penetration_ = aside_;
+    if (z > 0) gemv('N', 1.0, modes_->gap(), at_now_.data(), 1.0, now_penetration_.data());
     for (std::int64_t i = 0; i < z; ++i) {
-        double u = aside_[i], row = 0;
-        for (std::int64_t j = 0; j < modes_->size(); ++j) {
-            u += modes_->gap()(i, j) * at_now_[j];
-            row += modes_->gap()(i, j) * modes_->gap()(i, j);
-        }
-        distance_[i] = std::abs(u);
-        tiny_[i] = eps * (std::abs(aside_[i]) + std::sqrt(row) * size);
+        distance_[i] = std::abs(now_penetration_[i]);
+        tiny_[i] = eps * (std::abs(aside_[i]) + modes_->gap_size()[i] * size);
     }
     size_.clear();
     for (const ContactModes::Mode &m : modes_->modes()) {
@@ -192,12 +191,59 @@ double ModalPieces::expand(double longest) {
     while (!allows(duration)) duration *= 0.5; // at the end all modes are resolved
     duration_ = duration;
     fill_powers(duration);
-    penetration_.reset(z, n_terms_);
-    if (z > 0) gemm('N', 'N', 1.0, modes_->gap(), powers_, 0.0, penetration_);
-    add_put_aside(&ContactModes::Load::gap, penetration_);
-    for (std::int64_t i = 0; i < z; ++i)
-        if (veil_[i] > 0) penetration_(i, 0) -= std::copysign(veil_[i], penetration_(i, 0));
+    find_penetrations();
     return duration;
+}
+
+// As polynomials where a pair might come to zero; of others it is enough to know on which side they are.
+void ModalPieces::find_penetrations() {
+    find_candidates();
+    const std::int64_t z = modes_->gap().rows(), n = static_cast<std::int64_t>(candidates_.size());
+    rows_.reset(modes_->size(), n);
+    for (std::int64_t c = 0; c < n; ++c)
+        std::copy_n(modes_->gap_by_pair().col(candidates_[c]), modes_->size(), rows_.col(c));
+    moved_.reset(n_terms_, n);
+    if (n > 0) gemm('N', 'N', 1.0, powers_, rows_, 0.0, moved_);
+    penetration_.reset(z, n_terms_);
+    add_put_aside(&ContactModes::Load::gap, penetration_);
+    std::int64_t c = 0;
+    for (std::int64_t i = 0; i < z; ++i) {
+        if (c < n && candidates_[c] == i) {
+            for (std::int64_t k = 0; k < n_terms_; ++k) penetration_(i, k) += moved_(k, c);
+            ++c;
+        } else {
+            for (std::int64_t k = 1; puts_aside_ && k < n_terms_; ++k) penetration_(i, k) = 0;
+            penetration_(i, 0) = now_penetration_[i];
+        }
+        if (veil_[i] > 0) penetration_(i, 0) -= std::copysign(veil_[i], penetration_(i, 0));
+    }
+}
+
+// By how far each mode may move its coordinates: |exp(rate t) - 1| and |exp(iht) - 1| of their sizes.
+void ModalPieces::find_candidates() {
+    travel_.assign(static_cast<std::size_t>(modes_->gap().rows()), 0.0);
+    const Matrix &reach = modes_->reach();
+    const auto turned = [&](double speed) { return std::min(2.0, speed * duration_); };
+    for (std::int64_t k = 0; k < reach.cols(); ++k) {
+        const ContactModes::Mode &m = modes_->modes()[static_cast<std::size_t>(k)];
+        const double grows = m.rate.real() > 0 ? std::exp(m.rate.real() * duration_) : 1.0;
+        double way = size_[static_cast<std::size_t>(k)] * grows * turned(m.speed);
+        for (std::size_t l = 0; l < steady_.size(); ++l)
+            if (!steady_[l].empty())
+                way += std::abs(force_scale_) * steady_[l][static_cast<std::size_t>(k)].size *
+                       turned(modes_->loads()[l].number * omega_);
+        const double *row = reach.col(k);
+        for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i] += row[i] * way;
+    }
+    for (const ContactModes::Harmonic &load : modes_->loads())
+        for (std::size_t i = 0; puts_aside_ && i < travel_.size(); ++i)
+            travel_[i] += std::abs(force_scale_) * turned(load.number * omega_) *
+                          (std::abs(load.real.gap[i]) + std::abs(load.imag.gap[i]));
+    candidates_.clear();
+    constexpr double rounding = 1e3; // of the bound's own sums, in tiny_
+    for (std::size_t i = 0; i < travel_.size(); ++i)
+        if (distance_[i] <= travel_[i] + veil_[i] + rounding * tiny_[i])
+            candidates_.push_back(static_cast<std::int64_t>(i));
 }
 
 // Coordinates as powers of s: the free motion of the modes that are resolved, and all that is steady.
@@ -208,21 +254,22 @@ void ModalPieces::fill_powers(double duration) {
     for (const ContactModes::Harmonic &load : modes_->loads())
         turn = std::max(turn, load.number * omega_ * duration);
     n_terms_ = std::min(taylor_terms(turn, truncation) + 3, max_polynomial_degree + 1);
-    powers_.reset(modes_->size(), n_terms_);
+    powers_.reset(n_terms_, modes_->size());
     while (static_cast<std::int64_t>(inverse_.size()) < n_terms_)
         inverse_.push_back(1 / static_cast<double>(inverse_.size() + 1));
     const auto put = [&](const ContactModes::Mode &m, Complex value, Complex ratio) {
-        double re = value.real(), im = value.imag(), *c = powers_.data() + m.first;
-        for (std::int64_t k = 0; k < n_terms_; ++k, c += powers_.rows()) {
-            c[0] += re;
-            if (m.is_pair) c[1] += im;
+        double re = value.real(), im = value.imag();
+        double *first = powers_.col(m.first), *second = m.is_pair ? first + n_terms_ : nullptr;
+        for (std::int64_t k = 0; k < n_terms_; ++k) {
+            first[k] += re;
+            if (second) second[k] += im;
             const double a = ratio.real() * inverse_[k], b = ratio.imag() * inverse_[k],
                          turned = re * a - im * b;
             im = re * b + im * a;
             re = turned;
         }
     };
-    for (std::size_t j = 0; j < constant_.size(); ++j) powers_.data()[j] = constant_[j];
+    for (std::int64_t j = 0; j < powers_.cols(); ++j) powers_(0, j) = constant_[j];
     for (std::size_t k = 0; k < modes_->modes().size(); ++k) {
         const ContactModes::Mode &m = modes_->modes()[k];
         if (m.speed * duration <= longest_turn)
@@ -238,7 +285,7 @@ void ModalPieces::fill_powers(double duration) {
 }
 
 const Matrix &ModalPieces::coefficient() {
-    coefficient_ = product('N', 'N', modes_->displacement(), powers_);
+    coefficient_ = product('N', 'T', modes_->displacement(), powers_);
     add_put_aside(&ContactModes::Load::following, coefficient_);
     keep_fast();
     return coefficient_;

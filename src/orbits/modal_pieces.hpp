@@ -14,7 +14,7 @@ class ModalPieces {
 
     /// Goes on from a state (and its change) in the linear system of these modes. False: a load is in
     /// resonance with one of them, by which would be divided.
-    bool enter(const ContactModes &modes, const FlowState &state, const FlowState &change);
+    bool enter(std::shared_ptr<const ContactModes> modes, const FlowState &state, const FlowState &change);
     bool inside() const { return modes_ != nullptr; }
     void leave() { modes_ = nullptr; }
 
@@ -37,6 +37,7 @@ class ModalPieces {
     // Response of one mode to one load: (plus (t) e^{iht} + minus (t) e^{-iht}), linear in t for the change.
     struct Steady {
         Complex plus, minus, plus_slope, minus_slope;
+        double size; // |plus| + |minus|
     };
     using Part = vector<double> ContactModes::Load::*; // the gaps' or what follows
     bool set_steady();
@@ -47,13 +48,15 @@ class ModalPieces {
     void steady_at(double time, vector<double> &motion, vector<double> *change) const;
     void veil(double duration, vector<double> &sum) const;
     bool allows(double duration);
+    void find_candidates();
+    void find_penetrations();
     void fill_powers(double duration);
     void keep_fast();
 
     const FlowModel &model_;
     double omega_, force_scale_;
     FlowParameter parameter_;
-    const ContactModes *modes_ = nullptr;
+    std::shared_ptr<const ContactModes> modes_;
     double start_ = 0, now_ = 0;                 // of the stay in the set; of the last piece
     vector<double> constant_, changed_constant_; // c, steady under the constant loads
     std::vector<std::vector<Steady>> steady_;    // by load and mode
@@ -61,9 +64,12 @@ class ModalPieces {
     vector<double> present_, at_now_;            // free part at now_; c there
     bool puts_aside_ = false;                    // the harmonic loads do, too
     vector<double> veil_, distance_, tiny_;      // of the pairs
+    vector<double> now_penetration_, travel_;    // of the pairs; how far each may go within the piece
+    vector<std::int64_t> candidates_;            // pairs that might come to zero within the piece
     vector<double> aside_;                       // of the pairs or of what follows
     vector<double> size_, inverse_;              // |z| of the modes; 1, 1/2, 1/3, ...
-    Matrix powers_, penetration_, coefficient_;
+    Matrix powers_;                              // terms x size
+    Matrix penetration_, coefficient_, rows_, moved_;
     FastMotion fast_;
     double duration_ = 0;
     std::int64_t n_terms_ = 0;

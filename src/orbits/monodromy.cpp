@@ -15,6 +15,9 @@ namespace {
 // here.
 constexpr double longest_series = 3.0;
 
+// What the series of a contact set is worth in pieces of the flow, by time (ContactModesKept::find).
+constexpr std::int64_t effort_of_series = 4;
+
 // The exponential of [0 I; -K -C] applied to matrices [Y; V] of n + m rows and n + m columns, n displacements
 // of which the first m have mass and a velocity. With T_k the Taylor terms of Y, T_{k+2} = -dt^2 / ((k + 1)(k
 // + 2)) K T_k - dt / (k + 2) C T_{k+1}: one n x n by n x 2n product a term, two when C is not diagonal, that
@@ -162,6 +165,10 @@ void check(const FlowModel &model, const ContactInterval &interval, std::int64_t
             .index(index);
 }
 
+double cube_of(const Matrix &m) {
+    return static_cast<double>(m.rows()) * static_cast<double>(m.rows()) * static_cast<double>(m.cols());
+}
+
 } // namespace
 
 Matrix monodromy(const FlowModel &model, const std::vector<ContactInterval> &intervals, double tolerance,
@@ -169,16 +176,30 @@ Matrix monodromy(const FlowModel &model, const std::vector<ContactInterval> &int
     Exponential exponential(model, tolerance);
     Matrix m, scratch;
     exponential.set_identity(m);
+    std::shared_ptr<const ContactModes> at; // in whose coordinates m is; null: in those of the state
     const std::int64_t n = static_cast<std::int64_t>(intervals.size());
     for (std::int64_t i = 0; i < n; ++i) {
         check(model, intervals[i], i);
         if (i % 16 == 0) watch.step("monodromy", static_cast<double>(i) / static_cast<double>(n));
-        const ContactModes *known = modes ? modes->find(intervals[i].states, 0) : nullptr;
-        if (known)
-            known->advance(intervals[i].duration, m, scratch);
+        const auto next = modes ? modes->find(intervals[i].states, effort_of_series) : nullptr;
+        if (at && next) {
+            const Matrix &way = modes->transition(at, next);
+            scratch.reset(m.rows(), m.cols());
+            gemm('N', 'N', 1.0, way, m, 0.0, scratch);
+            std::swap(m, scratch);
+            worked(cube_of(m));
+        } else if (at) {
+            at->leave(m);
+        } else if (next) {
+            next->enter(m);
+        }
+        at = next;
+        if (at)
+            at->turn(intervals[i].duration, m);
         else
             exponential.apply(intervals[i], m);
     }
+    if (at) at->leave(m);
     return m;
 }
 

@@ -1,5 +1,6 @@
 #include "orbits/recorded_motion.hpp"
 #include "contact/polynomial.hpp"
+#include "orbits/exponential_integrals.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -7,41 +8,6 @@ namespace plm {
 namespace {
 
 using Complex = std::complex<double>;
-
-// m_k = integral of s^k exp(rate s) over [0, 1], k = 0 .. degree. By parts, m_k = (exp(rate) - k m_(k-1)) /
-// rate: forward as long as k < |rate|, from beyond the degree backward for the rest, so that errors shrink.
-void moments(Complex rate, std::int64_t degree, vector<Complex> &m) {
-    constexpr std::int64_t run_up = 60; // the guess at its far end is forgotten like |rate|^k / k!
-    const Complex end = std::exp(rate), inverse = 1.0 / rate;
-    const double a = std::abs(rate), real = end.real(), imag = end.imag();
-    const std::int64_t turn = a > static_cast<double>(degree) ? degree + 1 : static_cast<std::int64_t>(a);
-    m.resize(static_cast<std::size_t>(degree + 1));
-    double re = 0, im = 0;
-    for (std::int64_t k = 0; k < turn; ++k) {
-        const double x = real - (k > 0 ? static_cast<double>(k) * re : 1.0),
-                     y = imag - static_cast<double>(k) * im;
-        re = x * inverse.real() - y * inverse.imag(), im = x * inverse.imag() + y * inverse.real();
-        m[k] = {re, im};
-    }
-    if (turn > degree) return;
-    const double far = static_cast<double>(degree + run_up + 1);
-    re = real / far, im = imag / far;
-    for (std::int64_t k = degree + run_up;; --k) { // m_(k-1) = (exp(rate) - rate m_k) / k
-        if (k <= degree) m[k] = {re, im};
-        if (k == turn) return;
-        const double share = 1 / static_cast<double>(k),
-                     x = (real - rate.real() * re + rate.imag() * im) * share;
-        im = (imag - rate.real() * im - rate.imag() * re) * share;
-        re = x;
-    }
-}
-
-// Integral of exp(rate t) over [0, duration].
-Complex growth(Complex rate, double duration) {
-    constexpr double still = 1e-8; // hardly changes
-    if (std::abs(rate) * duration < still) return duration;
-    return (std::exp(rate * duration) - 1.0) / rate;
-}
 
 struct FastTerm {
     Complex rate, size; // Re(size exp(rate t)), t in s from the beginning of the piece
@@ -131,7 +97,8 @@ vector<double> RecordedMotion::mean() const {
         }
     for (const Piece &p : pieces_)
         for (std::size_t k = 0; k < p.fast.rate.size(); ++k) {
-            const Complex w = growth(p.fast.rate[k], p.duration) / duration_;
+            const Complex rate = p.fast.rate[k],
+                          w = exponential_integral(rate, p.duration, std::exp(rate * p.duration)) / duration_;
             const std::int64_t column = static_cast<std::int64_t>(k);
             for (std::size_t j = 0; j < sum.size(); ++j)
                 sum[j] += (w * Complex(p.fast.cosine.col(column)[j], p.fast.sine.col(column)[j])).real();
@@ -148,25 +115,27 @@ double square_of(const Matrix &powers, const FastMotion &fast, double duration) 
     for (std::int64_t k = 0; k < inner.cols(); ++k)
         for (std::int64_t i = 0; i < inner.rows(); ++i) sum += inner(i, k) / static_cast<double>(i + k + 1);
     sum *= duration;
-    const std::int64_t n = powers.rows();
-    vector<Complex> m;
-    for (std::size_t k = 0; k < fast.rate.size(); ++k) {
-        const double *a = fast.cosine.col(static_cast<std::int64_t>(k)),
-                     *b = fast.sine.col(static_cast<std::int64_t>(k));
-        moments(fast.rate[k] * duration, powers.cols() - 1, m);
+    const std::int64_t n = static_cast<std::int64_t>(fast.rate.size());
+    if (n == 0) return sum;
+    const Matrix a = product('T', 'N', powers, fast.cosine), b = product('T', 'N', powers, fast.sine),
+                 aa = product('T', 'N', fast.cosine, fast.cosine),
+                 bb = product('T', 'N', fast.sine, fast.sine), ab = product('T', 'N', fast.cosine, fast.sine);
+    vector<Complex> m, end;
+    for (std::int64_t k = 0; k < n; ++k) {
+        const Complex rate = fast.rate[k];
+        end.push_back(std::exp(rate * duration));
+        exponential_moments(rate * duration, end[k], powers.cols() - 1, m);
         for (std::int64_t i = 0; i < powers.cols(); ++i)
-            sum +=
-                2 * duration *
-                (Complex(dot(n, powers.col(i), a), dot(n, powers.col(i), b)) * m[static_cast<std::size_t>(i)])
-                    .real();
-        for (std::size_t l = 0; l < fast.rate.size(); ++l) {
-            const double *c = fast.cosine.col(static_cast<std::int64_t>(l)),
-                         *d = fast.sine.col(static_cast<std::int64_t>(l));
-            const double ac = dot(n, a, c), bd = dot(n, b, d), ad = dot(n, a, d), bc = dot(n, b, c);
-            sum +=
-                0.5 * (Complex(ac - bd, ad + bc) * growth(fast.rate[k] + fast.rate[l], duration) +
-                       Complex(ac + bd, bc - ad) * growth(fast.rate[k] + std::conj(fast.rate[l]), duration))
-                          .real();
+            sum += 2 * duration * (Complex(a(i, k), b(i, k)) * m[i]).real();
+        for (std::int64_t l = 0; l <= k; ++l) { // both orders are the same
+            const double twice = l < k ? 1.0 : 0.5;
+            const Complex other = fast.rate[l],
+                          same = exponential_integral(rate + other, duration, end[k] * end[l]),
+                          against = exponential_integral(rate + std::conj(other), duration,
+                                                         end[k] * std::conj(end[l]));
+            sum += twice * (Complex(aa(k, l) - bb(k, l), ab(k, l) + ab(l, k)) * same +
+                            Complex(aa(k, l) + bb(k, l), ab(l, k) - ab(k, l)) * against)
+                               .real();
         }
     }
     return sum;
@@ -195,40 +164,58 @@ double RecordedMotion::mean_square(const Matrix &a) const {
 
 Matrix RecordedMotion::harmonics(std::int64_t first, std::int64_t count) const {
     const std::int64_t n = pieces_.empty() ? 0 : pieces_[0].coefficient.rows();
-    Matrix found(n, 2 * count), weight;
-    vector<Complex> m;
+    Matrix found(n, 2 * count), weight(0, 2 * count), of_sine;
     for (const Piece &p : pieces_) {
-        const std::int64_t terms = p.coefficient.cols();
-        weight.reset(terms, 2 * count);
-        for (std::int64_t h = 0; h < count; ++h) {
-            const double per_time = 2 * M_PI * static_cast<double>(first + h) / duration_;
-            moments(Complex(0, -per_time * p.duration), terms - 1, m);
-            const Complex phase = std::polar(2 * p.duration / duration_, -per_time * p.start);
-            for (std::int64_t k = 0; k < terms; ++k) {
-                const Complex w = phase * m[k]; // y = Re(Y exp(i h w t)): a = Re Y, b = -Im Y
-                weight(k, 2 * h) = w.real();
-                weight(k, 2 * h + 1) = -w.imag();
-            }
-        }
+        weigh_powers(p, first, weight);
         gemm('N', 'N', 1.0, p.coefficient, weight, 1.0, found);
-        for (std::size_t k = 0; k < p.fast.rate.size(); ++k) add_fast(p, k, first, found);
+        if (p.fast.rate.empty()) continue;
+        weigh_fast(p, first, weight, of_sine);
+        gemm('N', 'N', 1.0, p.fast.cosine, weight, 1.0, found);
+        gemm('N', 'N', 1.0, p.fast.sine, of_sine, 1.0, found);
     }
     return found;
 }
 
-// y = Re(q exp(rate t)) = (q exp(rate t) + its conjugate) / 2.
-void RecordedMotion::add_fast(const Piece &p, std::size_t k, std::int64_t first, Matrix &found) const {
-    const std::int64_t column = static_cast<std::int64_t>(k);
-    for (std::int64_t h = 0; 2 * h < found.cols(); ++h) {
+// What each power of a piece adds to harmonic h, y = Re(Y exp(i h w t)): a = Re Y, b = -Im Y.
+void RecordedMotion::weigh_powers(const Piece &p, std::int64_t first, Matrix &weight) const {
+    const std::int64_t terms = p.coefficient.cols(), count = weight.cols() / 2;
+    const double turn = 2 * M_PI * p.duration / duration_; // of the first harmonic during the piece
+    vector<Complex> m;
+    weight.reset(terms, weight.cols());
+    for (std::int64_t h = 0; h < count; ++h) {
+        const double number = static_cast<double>(first + h);
+        exponential_moments({0, -number * turn}, std::polar(1.0, -number * turn), terms - 1, m);
+        const Complex phase =
+            std::polar(2 * p.duration / duration_, -2 * M_PI * number * p.start / duration_);
+        for (std::int64_t k = 0; k < terms; ++k) {
+            const Complex w = phase * m[k];
+            weight(k, 2 * h) = w.real();
+            weight(k, 2 * h + 1) = -w.imag();
+        }
+    }
+}
+
+// The same of fast motions, y = Re(q exp(rate t)) = (q exp(rate t) + its conjugate) / 2, q = cosine + i sine.
+void RecordedMotion::weigh_fast(const Piece &p, std::int64_t first, Matrix &of_cosine,
+                                Matrix &of_sine) const {
+    const std::int64_t n = static_cast<std::int64_t>(p.fast.rate.size());
+    vector<Complex> end;
+    for (const Complex &rate : p.fast.rate) end.push_back(std::exp(rate * p.duration));
+    of_cosine.reset(n, of_cosine.cols());
+    of_sine.reset(n, of_cosine.cols());
+    for (std::int64_t h = 0; 2 * h < of_cosine.cols(); ++h) {
         const double per_time = 2 * M_PI * static_cast<double>(first + h) / duration_;
-        const Complex turn(0, per_time), phase = std::polar(1 / duration_, -per_time * p.start),
-                                         w = phase * growth(p.fast.rate[k] - turn, p.duration),
-                                         back = phase * growth(std::conj(p.fast.rate[k]) - turn, p.duration);
-        for (std::int64_t j = 0; j < found.rows(); ++j) {
-            const Complex q(p.fast.cosine(j, column), p.fast.sine(j, column)),
-                y = w * q + back * std::conj(q);
-            found(j, 2 * h) += y.real();
-            found(j, 2 * h + 1) -= y.imag();
+        const Complex turn(0, per_time), turned = std::polar(1.0, -per_time * p.duration),
+                                         phase = std::polar(1 / duration_, -per_time * p.start);
+        for (std::int64_t k = 0; k < n; ++k) {
+            const Complex rate = p.fast.rate[k],
+                          w = phase * exponential_integral(rate - turn, p.duration, end[k] * turned),
+                          back = phase * exponential_integral(std::conj(rate) - turn, p.duration,
+                                                              std::conj(end[k]) * turned);
+            of_cosine(k, 2 * h) = w.real() + back.real();
+            of_cosine(k, 2 * h + 1) = -w.imag() - back.imag();
+            of_sine(k, 2 * h) = back.imag() - w.imag();
+            of_sine(k, 2 * h + 1) = back.real() - w.real();
         }
     }
 }

@@ -34,7 +34,8 @@ class RecordedMotion final : public FlowRecorder {
         PairStates states;
         FastMotion fast;
     };
-    void add_fast(const Piece &piece, std::size_t mode, std::int64_t first, Matrix &found) const;
+    void weigh_powers(const Piece &piece, std::int64_t first, Matrix &weight) const;
+    void weigh_fast(const Piece &piece, std::int64_t first, Matrix &of_cosine, Matrix &of_sine) const;
     static void widen_by_piece(const Piece &piece, const double *row, ValueRange &range);
     std::vector<Piece> pieces_;
     double duration_ = 0;

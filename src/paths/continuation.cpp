@@ -26,6 +26,9 @@ constexpr double shortest_move = 0.3, longest_move = 2; // of the step
 constexpr double longest_last_move = 4;                 // of the largest step, to the boundary of the range
 constexpr double across_damping = 0.2; // a step that Newton's method must damp more than this is too long
 
+// A factorization so near to a point, also beside the step that led there, has its tangent and its tests.
+constexpr double at_the_point = 1e-6, share_of_step = 1e-3;
+
 // A step that turned sharply or seems to have crossed to another curve is tried again, shorter, while it is
 // longer than so many of the smallest: three failures away from it.
 constexpr double shortenable = 20;
@@ -115,7 +118,7 @@ class Continuation {
         const PathState before = walker_.now(), old_tangent = walker_.tangent();
         walker_.move(std::move(next));
         walker_.set_factored(true);
-        if (!out.factored_here) walker_.linearize_here();
+        if (!(out.factored_away < std::min(at_the_point, share_of_step * moved))) walker_.linearize_here();
         walker_.make_tangent(&old_tangent);
         const double cosine = walker_.cosine_with_tangent(old_tangent),
                      angle = std::acos(std::min(1.0, std::max(-1.0, cosine)));

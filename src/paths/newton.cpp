@@ -15,10 +15,10 @@ constexpr double bold_growth = 4, careful_growth = 1.5; // of the damping factor
 // made much smaller than the estimate, from one trial alone, is worth.
 constexpr double strongest_cut = 0.1, weakest_cut = 0.5;
 constexpr double rounding = 1e-14; // of the whole solution, static part included: what a correction can be
-// A last correction so small moves the tangent matrix by as little: tangents and tests may be taken from it.
-constexpr double at_the_solution = 1e-6;
 constexpr std::size_t least_pieces =
     6; // factorizations after which coming back to the same pieces is no chance
+
+constexpr double negligible = 1e-3; // of the tolerance: as small as a last correction leaves the next one
 
 class Newton {
   public:
@@ -50,6 +50,10 @@ class Newton {
             if (std::isfinite(contraction) && contraction <= 1 - damping / 4) { // natural monotonicity
                 x_ = trial_;
                 parameter_ = trial_parameter;
+                if (fresh_ && next_size <= nothing()) { // a correction was found, and is not worth making
+                    ++out_.iterations;
+                    return finish(damping * size);
+                }
                 fresh_ = false;
                 if (damping == 1 && contraction <= fast_contraction && !system_.is_cheap_to_linearize()) {
                     step_.swap(next_);
@@ -114,7 +118,10 @@ class Newton {
     }
 
     // Rounding of the static part bounds what can be reached.
-    double allowed() const { return limits_.tolerance + rounding * norm2(n_, x_.data()) / scale(); }
+    double allowed() const { return limits_.tolerance + smallest(); }
+    double smallest() const { return rounding * norm2(n_, x_.data()) / scale(); }
+    // A correction not worth making.
+    double nothing() const { return negligible * limits_.tolerance + smallest(); }
 
     double propose(double damping) {
         for (std::int64_t i = 0; i < n_; ++i) trial_[i] = x_[i] + damping * step_[i];
@@ -148,7 +155,7 @@ class Newton {
         const double scale = system_.residual_scale();
         out_.residual = scale > 0 ? norm2(n_, r_.data()) / scale : norm2(n_, r_.data());
         out_.converged = std::isfinite(out_.residual) && system_.in_balance();
-        out_.factored_here = fresh_ && size < at_the_solution;
+        if (fresh_) out_.factored_away = size;
         return out_;
     }
 

@@ -5,6 +5,7 @@
 #pragma once
 #include "paths/metric.hpp"
 #include "plm/plm.h"
+#include <cmath>
 
 namespace plm {
 
@@ -33,7 +34,7 @@ struct NewtonOutcome : NewtonWork {
     bool converged = false;
     std::int32_t reason = PLM_REASON_NONE; // why not
     double residual = 0;                   // |R| over residual_scale()
-    bool factored_here = false;            // the system's factorization belongs to (nearly) the solution
+    double factored_away = INFINITY; // how far from the solution the system was factored, as steps count
 };
 
 NewtonOutcome newton(Residual &system, const SideCondition &side, const NewtonLimits &limits,
