@@ -160,10 +160,19 @@ double Branch::amplitude(std::int64_t point, std::int64_t dof, Measure measure, 
     return amplitude_of(coefficients(point, dof), measure, harmonic);
 }
 
+// An exact motion takes a run through its period, which its harmonics spare those that are far from the top.
 std::int64_t Branch::highest_point(std::int64_t dof, Measure measure, std::int64_t harmonic) const {
+    constexpr double near_the_top = 0.9;
+    vector<double> by_harmonics;
+    double most = 0;
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(points_.size()); ++i) {
+        by_harmonics.push_back(std::abs(amplitude_of(coefficients(i, dof), measure, harmonic)));
+        most = std::max(most, by_harmonics.back());
+    }
     std::int64_t top = 0;
     double highest = -1;
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(points_.size()); ++i) {
+        if (by_harmonics[i] < near_the_top * most) continue;
         const double a = std::abs(amplitude(i, dof, measure, harmonic));
         if (a > highest) highest = a, top = i;
     }

@@ -1,5 +1,7 @@
 #include "searches/computed_response.hpp"
+#include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"
+#include "searches/orbit_points.hpp"
 #include "searches/refinement.hpp"
 #include <algorithm>
 #include <cmath>
@@ -8,10 +10,15 @@ namespace plm {
 namespace {
 
 // The basis reaches as far as the motion: harmonics of the window below which it has all modes.
-constexpr std::int64_t more_harmonics[] = {10, 20, 40, 80};
+constexpr std::int64_t more_harmonics[] = {10, 20, 40, 80}, // when a whole curve is followed on each
+    looked_at[] = {10, 14, 20, 28, 40, 57, 80};             // when one motion tells
 // Points after which a curve is left for that on a larger basis: where one is too small its contact may
 // bounce as the structure's does not.
 constexpr std::int64_t few_points = 400;
+// Where a curve of exact motions takes seconds, one of few harmonics says first whether the basis is worth
+// it: products of pairs and columns squared from which that is so, harmonics, and the points it may take.
+constexpr double worth_a_look = 5000;
+constexpr std::int64_t harmonics_of_look = 5, points_of_look = 250;
 // Columns beyond which a compressed basis is the better next step than a larger one.
 constexpr std::int64_t many_columns = 150;
 
@@ -25,7 +32,7 @@ class Chain {
     }
 
     ComputedResponse run() {
-        ComputedResponse best = on(basis_for(0), few_points);
+        ComputedResponse best = on(first_basis(), few_points);
         for (std::int64_t h : more_harmonics) {
             if (h <= best.basis->sampler()->n_harmonics()) continue;
             if (!can_improve(best) || best.basis->reduced()->size() >= many_columns) break;
@@ -48,6 +55,46 @@ class Chain {
         if (is_cut(r)) return true;
         return !is_met(r) && !std::isnan(r.error) && r.curve->end_reason == PLM_REASON_RANGE_END &&
                !r.peak.branch->warnings.has(PLM_REASON_NO_PEAK);
+    }
+
+    // The first that is not too small by what a curve of few harmonics tells.
+    std::shared_ptr<const Basis> first_basis() {
+        std::shared_ptr<const Basis> basis = basis_for(0);
+        for (std::int64_t h : looked_at) {
+            if (h <= basis->sampler()->n_harmonics()) continue;
+            if (basis->reduced()->size() >= many_columns || !looks_too_small(basis)) break;
+            basis = basis_for(h);
+        }
+        return basis;
+    }
+
+    bool looks_too_small(const std::shared_ptr<const Basis> &basis) const {
+        const double r = static_cast<double>(basis->reduced()->size());
+        if (static_cast<double>(basis->reduced()->n_pairs()) * r * r < worth_a_look) return false;
+        HbmOptions o = options_;
+        o.motion = MotionKind::harmonics;
+        o.n_harmonics = harmonics_of_look;
+        o.max_points = points_of_look;
+        o.stability = StabilityKind::off;
+        try {
+            const auto reduced = widened(basis->reduced());
+            const auto curve = Hbm(reduced, basis->sweep_range(), o, watch_).sweep();
+            require_uncancelled(*curve);
+            if (!spans(*curve)) return false;
+            const std::int64_t top = curve->highest_point(output_.dof, output_.measure, 0);
+            BranchPoint point = curve->points()[static_cast<std::size_t>(top)];
+            NewtonWork work;
+            if (!make_exact(reduced, options_, watch_, point, work)) return false;
+            Branch one(reduced, curve->force_scale());
+            one.append(std::move(point));
+            const double error = basis_error_at(basis, options_, one, 0, output_, Patience::much, watch_);
+            watch_.log(1, format("%lld coordinates: error by the basis %.2g near the peak",
+                                 static_cast<long long>(basis->reduced()->size()), error));
+            return std::isfinite(error) && error > accuracy_;
+        } catch (const Error &e) {
+            if (e.status() != PLM_ERR_CONVERGENCE) throw;
+            return false;
+        }
     }
 
     // n = 0: as far as the modes reach that are known anyhow.
