@@ -15,9 +15,9 @@ namespace {
 constexpr double space_margin = 1.1; // accurate this far beyond the highest harmonic of the window
 
 // The paper's harmonics at least. A motion in time has more of them, which cost nothing where few modes reach
-// that far.
-constexpr std::int64_t least_harmonics = 5, most_harmonics = 15;
-constexpr std::int64_t modes_anyhow = 30;
+// that far, and little where the structure is small enough for more modes.
+constexpr std::int64_t least_harmonics = 5, least_of_small = 10, most_harmonics = 15;
+constexpr std::int64_t modes_anyhow = 30, small_structure = 10000; // DOFs
 
 // Whatever else is known of the structure, so that the answer does not hang on what was asked before.
 std::int64_t harmonics_within_reach(const Space &space, double window_max_hz) {
@@ -25,8 +25,9 @@ std::int64_t harmonics_within_reach(const Space &space, double window_max_hz) {
     const double reach =
                      std::sqrt(space.lambda[modes_anyhow - 1]) / space.model->space_options().cutoff_factor,
                  n = reach / (2 * M_PI * space_margin * window_max_hz);
+    const std::int64_t least = space.model->n_free() <= small_structure ? least_of_small : least_harmonics;
     return static_cast<std::int64_t>(
-        std::clamp(n, static_cast<double>(least_harmonics), static_cast<double>(most_harmonics)));
+        std::clamp(n, static_cast<double>(least), static_cast<double>(most_harmonics)));
 }
 
 // Highest frequency (rad/s) that one can tell before the dominant mode is known; 0: none.

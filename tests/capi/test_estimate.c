@@ -38,6 +38,7 @@ static plm_sampler *sampler_of(const plate *p, int64_t n_samples) {
     DONE(plm_sampler_set_int(s, "mode", p->host->dominant_mode));
     DONE(plm_sampler_set_string(s, "system", "open"));
     DONE(plm_sampler_set_int(s, "n_samples", n_samples));
+    DONE(plm_sampler_set_int(s, "n_harmonics", 5)); /* the paper's: a small basis */
     DONE(plm_sampler_run(s));
     return s;
 }

@@ -86,8 +86,9 @@ double selection_error(const Case &c, ModeSelection selection) {
     const auto basis = build(c, rule(selection));
     double worst = 0;
     for (std::size_t i = 0; i < c.sampler->samples().size(); ++i) {
-        const auto want = dense_selection(c, c.sampler->samples()[i].states, selection,
-                                          basis->window_min_hz(), basis->window_max_hz(), 5);
+        const auto want =
+            dense_selection(c, c.sampler->samples()[i].states, selection, basis->window_min_hz(),
+                            basis->window_max_hz(), static_cast<int>(basis->report().n_harmonics));
         const plm::SampleSelection &s = basis->report().samples[i];
         std::vector<double> got;
         for (std::size_t j = 0; j < s.kept.size(); ++j)

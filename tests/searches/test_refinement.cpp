@@ -37,6 +37,7 @@ struct Plate {
         must(context, plm_sampler_set_string(sampler, "system", "open"), "system");
         must(context, plm_sampler_set_int(sampler, "mode", host->dominant_mode + mode), "mode");
         must(context, plm_sampler_set_int(sampler, "n_samples", n_samples), "n_samples");
+        must(context, plm_sampler_set_int(sampler, "n_harmonics", 5), "n_harmonics"); // a small one
         must(context, plm_sampler_run(sampler), "sampler run");
         must(context, plm_basis_create(model, &b), "basis");
         must(context, plm_basis_set_string(b, "kind", kind), "kind");
