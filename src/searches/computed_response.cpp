@@ -32,7 +32,8 @@ class Chain {
     }
 
     ComputedResponse run() {
-        ComputedResponse best = on(first_basis(), few_points);
+        const auto first = first_basis();
+        ComputedResponse best = on(first, is_complete(*first) ? options_.max_points : few_points);
         for (std::int64_t h : more_harmonics) {
             if (h <= best.basis->sampler()->n_harmonics()) continue;
             if (!can_improve(best) || best.basis->reduced()->size() >= many_columns) break;
@@ -50,6 +51,8 @@ class Chain {
     bool is_met(const ComputedResponse &r) const { return r.error <= accuracy_; }
     // Given up for its many points: there is no peak yet.
     static bool is_cut(const ComputedResponse &r) { return !r.peak.branch; }
+    // No other basis knows more.
+    bool is_complete(const Basis &basis) const { return basis.reduced()->size() >= model_->n_free(); }
     // A larger basis helps where the curve is whole and has its peak inside, and it can be told by how much.
     bool can_improve(const ComputedResponse &r) const {
         if (is_cut(r)) return true;
