@@ -89,6 +89,8 @@ class ContactModesKept {
     /// ContactModes::transition(), kept. Valid until the next call of any of these.
     const Matrix &transition(const std::shared_ptr<const ContactModes> &from,
                              const std::shared_ptr<const ContactModes> &to);
+    /// Where single motions are looked at from now on.
+    void forget_transitions() { transitions_.clear(); }
 
   private:
     struct Entry {

@@ -25,6 +25,7 @@ class ExactTracer final : public PathOwner {
             if (e.status() != PLM_CANCELLED || branch_.points().empty()) throw;
             branch_.end_reason = PLM_REASON_CANCELLED;
         }
+        equations_.modes()->forget_transitions(); // the points of the branch keep the modes
     }
 
     void record(const PathPoint &p) override {
