@@ -137,6 +137,11 @@ double amplitude_of(const ValueRange &range, Measure measure) {
     return std::max(std::abs(range.maximum), std::abs(range.minimum));
 }
 
+// Beyond what its harmonics say.
+bool has_own_extrema(const BranchPoint &p, Measure measure) {
+    return p.motion && (measure == Measure::peak || measure == Measure::half_peak_to_peak);
+}
+
 } // namespace
 
 double amplitude_of(const vector<double> &c, Measure measure, std::int64_t harmonic) {
@@ -155,28 +160,33 @@ double amplitude_of(const vector<double> &c, Measure measure, std::int64_t harmo
 
 double Branch::amplitude(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
     const BranchPoint &p = points_[static_cast<std::size_t>(point)];
-    if (p.motion && (measure == Measure::peak || measure == Measure::half_peak_to_peak))
-        return amplitude_of(p.motion->range(dof), measure);
+    if (has_own_extrema(p, measure)) return amplitude_of(p.motion->range(dof), measure);
     return amplitude_of(coefficients(point, dof), measure, harmonic);
 }
 
-// An exact motion takes a run through its period, which its harmonics spare those that are far from the top.
+// Extrema of an exact motion take a run through its period. Its harmonics spare that where they tell that it
+// is far from the top: by a tenth, and by what the upper half of them adds.
 std::int64_t Branch::highest_point(std::int64_t dof, Measure measure, std::int64_t harmonic) const {
-    constexpr double near_the_top = 0.9;
-    vector<double> by_harmonics;
+    constexpr double far_below = 0.9;
+    vector<double> height, reach;
     double most = 0;
-    for (std::int64_t i = 0; i < static_cast<std::int64_t>(points_.size()); ++i) {
-        by_harmonics.push_back(std::abs(amplitude_of(coefficients(i, dof), measure, harmonic)));
-        most = std::max(most, by_harmonics.back());
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        const vector<double> c = coefficients(static_cast<std::int64_t>(i), dof);
+        height.push_back(std::abs(amplitude_of(c, measure, harmonic)));
+        most = std::max(most, height[i]);
+        reach.push_back(height[i]);
+        for (std::int64_t h = points_[i].n_harmonics / 2 + 1; h <= n_harmonics_; ++h)
+            reach[i] += std::hypot(c[2 * h - 1], c[2 * h]);
     }
-    std::int64_t top = 0;
+    std::size_t top = 0;
     double highest = -1;
-    for (std::int64_t i = 0; i < static_cast<std::int64_t>(points_.size()); ++i) {
-        if (by_harmonics[i] < near_the_top * most) continue;
-        const double a = std::abs(amplitude(i, dof, measure, harmonic));
-        if (a > highest) highest = a, top = i;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        if (reach[i] < far_below * most) continue;
+        if (has_own_extrema(points_[i], measure))
+            height[i] = std::abs(amplitude(static_cast<std::int64_t>(i), dof, measure, harmonic));
+        if (height[i] > highest) highest = height[i], top = i;
     }
-    return top;
+    return static_cast<std::int64_t>(top);
 }
 
 Field Branch::field(std::int64_t point, double fraction) const {

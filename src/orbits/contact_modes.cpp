@@ -86,24 +86,24 @@ void ContactModes::find_displacements(const FlowModel &model) {
     displacement_.reset(model.size(), size());
     for (std::int64_t j = 0; j < size(); ++j)
         for (std::int64_t i = 0; i < moving_; ++i) displacement_(i, j) = to_state_(i, j) / root_[i];
-    gap_.reset(model.n_pairs(), size());
-    if (model.n_pairs() > 0) gemm('N', 'N', 1.0, model.gap(), displacement_, 0.0, gap_);
+    Matrix gap(model.n_pairs(), size());
+    if (model.n_pairs() > 0) gemm('N', 'N', 1.0, model.gap(), displacement_, 0.0, gap);
     if (model.n_following() > 0 && model.n_pairs() > 0) {
         Matrix force;
-        set_.add_contact(gap_, force);
+        set_.add_contact(gap, force);
         for (std::int64_t j = 0; j < size(); ++j)
             for (std::int64_t i = moving_; i < model.size(); ++i)
                 displacement_(i, j) =
                     -dot(model.n_pairs(), model.gap().col(i), force.col(j)) / model.lambda()[i];
     }
-    gap_by_pair_ = gap_.transposed();
-    for (std::int64_t i = 0; i < gap_.rows(); ++i) gap_size_.push_back(norm2(size(), gap_by_pair_.col(i)));
-    reach_.reset(gap_.rows(), static_cast<std::int64_t>(modes_.size()));
+    gap_by_pair_ = gap.transposed();
+    for (std::int64_t i = 0; i < gap.rows(); ++i) gap_size_.push_back(norm2(size(), gap_by_pair_.col(i)));
+    reach_.reset(gap.rows(), static_cast<std::int64_t>(modes_.size()));
     for (std::int64_t k = 0; k < reach_.cols(); ++k) {
         const Mode &m = modes_[static_cast<std::size_t>(k)];
         for (std::int64_t i = 0; i < reach_.rows(); ++i)
             reach_(i, k) =
-                m.is_pair ? std::hypot(gap_(i, m.first), gap_(i, m.first + 1)) : std::abs(gap_(i, m.first));
+                m.is_pair ? std::hypot(gap(i, m.first), gap(i, m.first + 1)) : std::abs(gap(i, m.first));
     }
 }
 
@@ -181,13 +181,15 @@ Matrix ContactModes::transition(const ContactModes &to) const {
     Matrix state = to_state_;
     for (std::int64_t j = 0; j < state.cols(); ++j)
         for (std::int64_t i = 0; i < moving_; ++i) state(i, j) *= to.root_[i] / root_[i];
+    worked(static_cast<double>(size() * size() * size()));
     return product('N', 'N', to.from_state_, state);
 }
 
 double ContactModes::bytes() const {
-    return 8.0 * static_cast<double>(2 * to_state_.rows() * to_state_.cols() + 3 * moving_ * moving_ +
-                                     displacement_.rows() * displacement_.cols() +
-                                     2 * gap_.rows() * gap_.cols() + reach_.rows() * reach_.cols());
+    return 8.0 *
+           static_cast<double>(2 * to_state_.rows() * to_state_.cols() + 3 * moving_ * moving_ +
+                               displacement_.rows() * displacement_.cols() +
+                               gap_by_pair_.rows() * gap_by_pair_.cols() + reach_.rows() * reach_.cols());
 }
 
 std::shared_ptr<const ContactModes> ContactModesKept::known(const PairStates &states) const {

@@ -31,11 +31,11 @@ class ContactModes {
     /// y of what moves and y' of what has mass, of coordinates, and back.
     void to_state(const double *c, double *y, double *v) const;
     void from_state(const double *y, const double *v, double *c) const;
-    /// Rows of all displacements, n x size, and of the penetrations, Z x size, in the coordinates.
+    /// Rows of all displacements, n x size, and of the penetrations, as columns, size x Z, in the
+    /// coordinates.
     const Matrix &displacement() const { return displacement_; }
-    const Matrix &gap() const { return gap_; }
-    const Matrix &gap_by_pair() const { return gap_by_pair_; }   // its transpose
-    const vector<double> &gap_size() const { return gap_size_; } // norms of its rows
+    const Matrix &gap_by_pair() const { return gap_by_pair_; }
+    const vector<double> &gap_size() const { return gap_size_; } // norms of its columns
     /// Largest effect of a unit of a mode on a pair: Z x modes.
     const Matrix &reach() const { return reach_; }
     /// A load: on the coordinates, and what it does at once to the penetrations (Z) and to the displacements
@@ -71,7 +71,7 @@ class ContactModes {
     bool usable_ = false;
     vector<double> root_; // of what moves
     std::vector<Mode> modes_;
-    Matrix to_state_, from_state_, displacement_, gap_, gap_by_pair_, reach_;
+    Matrix to_state_, from_state_, displacement_, gap_by_pair_, reach_;
     vector<double> gap_size_;
     Load constant_;
     std::vector<Harmonic> loads_;

@@ -14,6 +14,7 @@ constexpr double truncation = 1e-17;
 constexpr std::int64_t watch_interval = 64;                  // pieces
 constexpr double least_advance = 0.05, shorter_piece = 0.25; // of a piece, in the modes of its contact set
 constexpr double no_progress = 1e-12;                        // fraction of a piece
+constexpr double spare = 2;         // of the way of a pair: the bound itself is rounded
 constexpr int side_corrections = 8; // one is usual; more when pairs that rest at zero act on each other
 
 } // namespace
@@ -250,35 +251,23 @@ void ExactFlow::expand(const FlowState &state, double duration, Series &series) 
         if (model_->n_pairs() > 0) gemm('N', 'N', 1.0, model_->gap(), y, 1.0, series.penetration);
         follow(series);
     } else {
-        add_penetrations(y, series.penetration);
+        find_penetrations(series);
     }
 }
 
-// As polynomials where a pair might come to zero; of others it is enough to know on which side they are.
-void ExactFlow::add_penetrations(const Matrix &y, Matrix &penetration) {
-    const std::int64_t n = model_->size(), z = model_->n_pairs();
-    if (z == 0) return;
-    const Matrix &gap = model_->gap();
-    gemv('N', 1.0, gap, y.col(0), 1.0, penetration.col(0));
-    travel_.assign(static_cast<std::size_t>(z), 0.0);
-    for (std::int64_t j = 0; j < n; ++j) {
+// What the loads put aside has no powers where nothing follows at once.
+void ExactFlow::find_penetrations(Series &series) {
+    const Matrix &y = series.coefficient, &gap = model_->gap();
+    if (model_->n_pairs() == 0) return;
+    now_.assign(series.offset.data(), series.offset.col(1));
+    gemv('N', 1.0, gap, y.col(0), 1.0, now_.data());
+    travel_.assign(now_.size(), 0.0);
+    for (std::int64_t j = 0; j < y.rows(); ++j) {
         double way = 0;
         for (std::int64_t k = 1; k < n_terms_; ++k) way += std::abs(y(j, k));
-        const double *row = gap.col(j);
-        for (std::int64_t i = 0; i < z; ++i) travel_[i] += std::abs(row[i]) * way;
+        for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i] += spare * std::abs(gap.col(j)[i]) * way;
     }
-    candidates_.clear();
-    for (std::int64_t i = 0; i < z; ++i)
-        if (!(std::abs(penetration(i, 0)) > 2 * travel_[i])) candidates_.push_back(i);
-    const std::int64_t count = static_cast<std::int64_t>(candidates_.size());
-    if (count == 0) return;
-    rows_.reset(count, n);
-    for (std::int64_t j = 0; j < n; ++j)
-        for (std::int64_t c = 0; c < count; ++c) rows_(c, j) = gap(candidates_[c], j);
-    moved_.reset(count, n_terms_);
-    gemm('N', 'N', 1.0, rows_, y, 0.0, moved_);
-    for (std::int64_t k = 1; k < n_terms_; ++k)
-        for (std::int64_t c = 0; c < count; ++c) penetration(candidates_[c], k) += moved_(c, k);
+    near_.expand(now_, travel_, model_->gap_by_pair(), 'T', y, series.penetration);
 }
 
 // What has neither mass nor damping: y = (f - G^T N) / k.

@@ -62,7 +62,7 @@ class ExactFlow {
     std::int64_t n_force_terms() const;
     void expand_offsets(Series &series);
     void follow(Series &series);
-    void add_penetrations(const Matrix &y, Matrix &penetration);
+    void find_penetrations(Series &series);
     bool correct_sides(const FlowState &state, double duration, const Matrix &penetration);
     void switch_pair(std::int64_t pair, double fraction, double time);
     void move_to(FlowState &state, double fraction, double duration, const Matrix &coefficient) const;
@@ -84,10 +84,11 @@ class ExactFlow {
     FlowParameter parameter_ = FlowParameter::none;
     FlowState change_;
     Series motion_, derivative_;
-    Matrix contact_force_, shortened_, rows_, moved_;
+    Matrix contact_force_, shortened_;
     const Matrix nothing_;
-    vector<double> following_, travel_;
-    vector<std::int64_t> candidates_; // pairs that might come to zero within a piece
+    vector<double> following_, now_,
+        travel_; // now_: penetrations at the beginning of a piece, travel_: how far they may go
+    NearPairs near_;
     std::unique_ptr<ModalPieces> modal_;
     bool may_use_modes_ = false, fresh_ = true; // fresh_: the states at hand are still to be confirmed
     std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_ = 0, stalled_ = 0;

@@ -7,7 +7,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// The standard's quotient looks after overflow that cannot happen here, at several times the price.
+// The standard's quotient looks after squares that vanish or overflow, at several times the price.
 Complex quotient(Complex a, Complex b) {
     const double share = 1 / std::norm(b);
     return {(a.real() * b.real() + a.imag() * b.imag()) * share,
@@ -50,7 +50,7 @@ Complex exponential_integral(Complex rate, double duration, Complex end) {
     constexpr double slow = 0.03; // below, the difference of the exponentials loses digits
     constexpr int terms = 8;      // slow^8 / 9! is nothing
     const Complex x = rate * duration;
-    if (std::norm(x) > slow * slow) return quotient(end - 1.0, rate);
+    if (std::norm(x) > slow * slow) return duration * quotient(end - 1.0, x);
     Complex sum = 1;
     for (int k = terms; k > 1; --k) sum = 1.0 + sum * x / static_cast<double>(k);
     return duration * sum;

@@ -30,6 +30,7 @@ FlowModel::FlowModel(std::shared_ptr<const ReducedModel> reduced, double omega) 
     damping_ = reduced_->damping;
     if (reduced_->structural != 0) add_structural_damping(omega);
     if (reduced_->n_massless > 0) sort_massless();
+    gap_by_pair_ = gap_.transposed();
 }
 
 void FlowModel::add_structural_damping(double omega) {

@@ -41,7 +41,8 @@ class FlowModel {
     double own_damping(std::int64_t j) const {
         return damping_.empty() ? damping_diagonal_[j] : damping_(j, j);
     }
-    const Matrix &gap() const { return gap_; } // Z x n
+    const Matrix &gap() const { return gap_; }                 // Z x n
+    const Matrix &gap_by_pair() const { return gap_by_pair_; } // its transpose
     /// What the coordinates that follow do at the contact: Z x Z, empty without them.
     const Matrix &flexibility() const { return flexibility_; }
     const vector<double> &preload() const { return preload_; }
@@ -73,7 +74,7 @@ class FlowModel {
     std::shared_ptr<const ReducedModel> reduced_; // widened
     Matrix to_flow_;                              // T: n x r; empty when the coordinates are the dynamic ones
     Matrix turn_; // of the last coordinates: those of P_0 = turn times the flow's; empty: they all have mass
-    Matrix gap_, flexibility_, damping_;
+    Matrix gap_, gap_by_pair_, flexibility_, damping_;
     vector<double> lambda_, damping_diagonal_, preload_;
     std::int64_t n_relaxing_ = 0, n_following_ = 0;
     std::map<int, HarmonicLoad> excitation_;

@@ -163,25 +163,22 @@ bool ModalPieces::allows(double duration) {
     for (std::size_t i = 0; i < veil_.size(); ++i) {
         if (veil_[i] <= tiny_[i])
             veil_[i] = 0;
-        else if (!(distance_[i] > clear_of_zero * veil_[i]))
+        else if (!(std::abs(now_penetration_[i]) > clear_of_zero * veil_[i]))
             return false;
     }
     return true;
 }
 
 double ModalPieces::expand(double longest) {
-    const std::int64_t z = modes_->gap().rows();
-    distance_.resize(static_cast<std::size_t>(z));
+    const std::int64_t z = modes_->gap_by_pair().cols();
     tiny_.resize(static_cast<std::size_t>(z));
     veil_.resize(static_cast<std::size_t>(z));
     const double size = norm2(modes_->size(), at_now_.data());
     put_aside(&ContactModes::Load::gap, now_, aside_);
     now_penetration_ = aside_;
-    if (z > 0) gemv('N', 1.0, modes_->gap(), at_now_.data(), 1.0, now_penetration_.data());
-    for (std::int64_t i = 0; i < z; ++i) {
-        distance_[i] = std::abs(now_penetration_[i]);
+    if (z > 0) gemv('T', 1.0, modes_->gap_by_pair(), at_now_.data(), 1.0, now_penetration_.data());
+    for (std::int64_t i = 0; i < z; ++i)
         tiny_[i] = eps * (std::abs(aside_[i]) + modes_->gap_size()[i] * size);
-    }
     size_.clear();
     for (const ContactModes::Mode &m : modes_->modes()) {
         const double re = present_[m.first], im = m.is_pair ? present_[m.first + 1] : 0.0;
@@ -195,33 +192,21 @@ double ModalPieces::expand(double longest) {
     return duration;
 }
 
-// As polynomials where a pair might come to zero; of others it is enough to know on which side they are.
 void ModalPieces::find_penetrations() {
-    find_candidates();
-    const std::int64_t z = modes_->gap().rows(), n = static_cast<std::int64_t>(candidates_.size());
-    rows_.reset(modes_->size(), n);
-    for (std::int64_t c = 0; c < n; ++c)
-        std::copy_n(modes_->gap_by_pair().col(candidates_[c]), modes_->size(), rows_.col(c));
-    moved_.reset(n_terms_, n);
-    if (n > 0) gemm('N', 'N', 1.0, powers_, rows_, 0.0, moved_);
+    const std::int64_t z = modes_->gap_by_pair().cols();
+    bound_travel();
     penetration_.reset(z, n_terms_);
     add_put_aside(&ContactModes::Load::gap, penetration_);
-    std::int64_t c = 0;
-    for (std::int64_t i = 0; i < z; ++i) {
-        if (c < n && candidates_[c] == i) {
-            for (std::int64_t k = 0; k < n_terms_; ++k) penetration_(i, k) += moved_(k, c);
-            ++c;
-        } else {
-            for (std::int64_t k = 1; puts_aside_ && k < n_terms_; ++k) penetration_(i, k) = 0;
-            penetration_(i, 0) = now_penetration_[i];
-        }
+    near_.expand(now_penetration_, travel_, modes_->gap_by_pair(), 'N', powers_, penetration_);
+    for (std::int64_t i = 0; i < z; ++i)
         if (veil_[i] > 0) penetration_(i, 0) -= std::copysign(veil_[i], penetration_(i, 0));
-    }
 }
 
 // By how far each mode may move its coordinates: |exp(rate t) - 1| and |exp(iht) - 1| of their sizes.
-void ModalPieces::find_candidates() {
-    travel_.assign(static_cast<std::size_t>(modes_->gap().rows()), 0.0);
+void ModalPieces::bound_travel() {
+    constexpr double rounding = 1e3; // of the sums, in tiny_
+    travel_ = veil_;
+    for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i] += rounding * tiny_[i];
     const Matrix &reach = modes_->reach();
     const auto turned = [&](double speed) { return std::min(2.0, speed * duration_); };
     for (std::int64_t k = 0; k < reach.cols(); ++k) {
@@ -239,11 +224,6 @@ void ModalPieces::find_candidates() {
         for (std::size_t i = 0; puts_aside_ && i < travel_.size(); ++i)
             travel_[i] += std::abs(force_scale_) * turned(load.number * omega_) *
                           (std::abs(load.real.gap[i]) + std::abs(load.imag.gap[i]));
-    candidates_.clear();
-    constexpr double rounding = 1e3; // of the bound's own sums, in tiny_
-    for (std::size_t i = 0; i < travel_.size(); ++i)
-        if (distance_[i] <= travel_[i] + veil_[i] + rounding * tiny_[i])
-            candidates_.push_back(static_cast<std::int64_t>(i));
 }
 
 // Coordinates as powers of s: the free motion of the modes that are resolved, and all that is steady.

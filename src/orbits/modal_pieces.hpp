@@ -2,6 +2,7 @@
 // its polynomials describe; the free motion of the fast ones is known by its exponentials, and as long as it
 // is too small to bring a pair to zero nothing has to resolve it.
 #pragma once
+#include "contact/near_pairs.hpp"
 #include "orbits/contact_modes.hpp"
 #include "orbits/flow_piece.hpp"
 
@@ -48,7 +49,7 @@ class ModalPieces {
     void steady_at(double time, vector<double> &motion, vector<double> *change) const;
     void veil(double duration, vector<double> &sum) const;
     bool allows(double duration);
-    void find_candidates();
+    void bound_travel();
     void find_penetrations();
     void fill_powers(double duration);
     void keep_fast();
@@ -63,13 +64,13 @@ class ModalPieces {
     vector<double> free_, changed_free_;         // free part of c at start_
     vector<double> present_, at_now_;            // free part at now_; c there
     bool puts_aside_ = false;                    // the harmonic loads do, too
-    vector<double> veil_, distance_, tiny_;      // of the pairs
+    vector<double> veil_, tiny_;                 // of the pairs
     vector<double> now_penetration_, travel_;    // of the pairs; how far each may go within the piece
-    vector<std::int64_t> candidates_;            // pairs that might come to zero within the piece
-    vector<double> aside_;                       // of the pairs or of what follows
-    vector<double> size_, inverse_;              // |z| of the modes; 1, 1/2, 1/3, ...
-    Matrix powers_;                              // terms x size
-    Matrix penetration_, coefficient_, rows_, moved_;
+    NearPairs near_;
+    vector<double> aside_;          // of the pairs or of what follows
+    vector<double> size_, inverse_; // |z| of the modes; 1, 1/2, 1/3, ...
+    Matrix powers_;                 // terms x size
+    Matrix penetration_, coefficient_;
     FastMotion fast_;
     double duration_ = 0;
     std::int64_t n_terms_ = 0;

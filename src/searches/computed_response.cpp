@@ -15,9 +15,9 @@ constexpr std::int64_t more_harmonics[] = {10, 20, 40, 80}, // when a whole curv
 // Points after which a curve is left for that on a larger basis: where one is too small its contact may
 // bounce as the structure's does not.
 constexpr std::int64_t few_points = 400;
-// Where a curve of exact motions takes seconds, one of few harmonics says first whether the basis is worth
-// it: products of pairs and columns squared from which that is so, harmonics, and the points it may take.
-constexpr double worth_a_look = 5000;
+// Where exact motions cost so many flops a step, one of them, found by a curve of few harmonics that takes a
+// fraction of theirs, says first whether the basis is worth a curve.
+constexpr double worth_a_look = 1e7;
 constexpr std::int64_t harmonics_of_look = 5, points_of_look = 250;
 // Columns beyond which a compressed basis is the better next step than a larger one.
 constexpr std::int64_t many_columns = 150;
@@ -72,32 +72,37 @@ class Chain {
     }
 
     bool looks_too_small(const std::shared_ptr<const Basis> &basis) const {
-        const double r = static_cast<double>(basis->reduced()->size());
-        if (static_cast<double>(basis->reduced()->n_pairs()) * r * r < worth_a_look) return false;
+        const auto reduced = widened(basis->reduced());
+        if (!prefers_exact(reduced, options_) || exact_step_flops(*reduced, options_) < worth_a_look)
+            return false;
+        Branch one(reduced, options_.force_scale);
+        try {
+            if (!find_motion_near_peak(*basis, one)) return false;
+        } catch (const Error &e) {
+            if (e.status() != PLM_ERR_CONVERGENCE) throw;
+            return false;
+        }
+        const double error = basis_error_at(basis, options_, one, 0, output_, Patience::much, watch_);
+        watch_.log(1, format("%lld coordinates: error by the basis %.2g near the peak",
+                             static_cast<long long>(basis->reduced()->size()), error));
+        return std::isfinite(error) && error > accuracy_;
+    }
+
+    bool find_motion_near_peak(const Basis &basis, Branch &one) const {
         HbmOptions o = options_;
         o.motion = MotionKind::harmonics;
         o.n_harmonics = harmonics_of_look;
         o.max_points = points_of_look;
         o.stability = StabilityKind::off;
-        try {
-            const auto reduced = widened(basis->reduced());
-            const auto curve = Hbm(reduced, basis->sweep_range(), o, watch_).sweep();
-            require_uncancelled(*curve);
-            if (!spans(*curve)) return false;
-            const std::int64_t top = curve->highest_point(output_.dof, output_.measure, 0);
-            BranchPoint point = curve->points()[static_cast<std::size_t>(top)];
-            NewtonWork work;
-            if (!make_exact(reduced, options_, watch_, point, work)) return false;
-            Branch one(reduced, curve->force_scale());
-            one.append(std::move(point));
-            const double error = basis_error_at(basis, options_, one, 0, output_, Patience::much, watch_);
-            watch_.log(1, format("%lld coordinates: error by the basis %.2g near the peak",
-                                 static_cast<long long>(basis->reduced()->size()), error));
-            return std::isfinite(error) && error > accuracy_;
-        } catch (const Error &e) {
-            if (e.status() != PLM_ERR_CONVERGENCE) throw;
-            return false;
-        }
+        const auto curve = Hbm(one.reduced_model(), basis.sweep_range(), o, watch_).sweep();
+        require_uncancelled(*curve);
+        if (!spans(*curve)) return false;
+        BranchPoint point =
+            curve->points()[static_cast<std::size_t>(curve->highest_point(output_.dof, output_.measure, 0))];
+        NewtonWork work;
+        if (!make_exact(one.reduced_model(), options_, watch_, point, work)) return false;
+        one.append(std::move(point));
+        return true;
     }
 
     // n = 0: as far as the modes reach that are known anyhow.

@@ -14,6 +14,9 @@ namespace plm {
 /// the model, speak against it.
 bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
 
+/// What a step of Newton's method for an exact motion costs, estimated.
+double exact_step_flops(const ReducedModel &model, const HbmOptions &options);
+
 /// Unknowns are measured at `omega`, where the flow's model is made, too.
 OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                                double omega, FlowParameter parameter);
