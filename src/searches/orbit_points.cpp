@@ -20,7 +20,7 @@ namespace {
 constexpr double of_solution = 0.1, of_coefficients = 0.01, at_gaps_more = 20;
 constexpr std::int64_t harmonics_at_once = 8;
 
-// A step of harmonic balance in flops, with as many harmonics as points near a resonance ask for.
+// A step of harmonic balance with as many harmonics as points near a resonance ask for, in flops.
 double harmonic_step_flops(const ReducedModel &m) {
     constexpr double usual_harmonics = 20;
     const double unknowns = static_cast<double>(std::min(m.size(), m.n_pairs())) * (2 * usual_harmonics + 1);
@@ -171,9 +171,8 @@ bool solve_exact(OrbitEquations &equations, const HbmOptions &options, Watch wat
 
 } // namespace
 
-// Every pair switches a few times in a period, and
-// each event costs a product with the propagator of its contact set, now and then the modes of a new one, and
-// some pieces of the flow.
+// Every pair switches a few times in a period, and each event costs a product with the propagator of its
+// contact set, now and then the modes of a new one, and some pieces of the flow.
 double exact_step_flops(const ReducedModel &m, const HbmOptions &o) {
     // measured at 37 coordinates and 15 pairs, 47 and 90, 110 and 32: 6, 84 and 100 ms at 3 Gflop/s
     constexpr double events_per_pair = 3, pieces_per_event = 5, terms = 6, cubes = 2;
