@@ -4,6 +4,7 @@
 #include "capi/handles.hpp"
 #include "capi/outcome.hpp"
 #include "searches/computed_response.hpp"
+#include <cmath>
 
 using namespace plm::capi;
 
@@ -31,9 +32,15 @@ Outcome outcome_of(const plm::ComputedResponse &r) {
     Outcome outcome(r.warnings);
     const plm_status ended = end_status(r.curve->end_reason);
     if (ended == PLM_OK) return outcome;
-    return {ended, r.curve->end_reason,
-            plm::end_text(r.curve->end_reason) +
-                (outcome.text.empty() ? "" : "; beside that: " + outcome.text)};
+    const plm::BranchPoint &last = r.curve->points().back();
+    return {
+        ended, r.curve->end_reason,
+        plm::format("the curve ended early, at %.6g Hz after %zu points (%s): frequency_hz and amplitude are "
+                    "those of the highest point so far, and a higher one may follow. Sweep with "
+                    "the hbm of this call and other options of it",
+                    last.omega / (2 * M_PI), r.curve->points().size(),
+                    plm::end_text(r.curve->end_reason).c_str()) +
+            (outcome.text.empty() ? "" : "; beside that: " + outcome.text)};
 }
 
 } // namespace

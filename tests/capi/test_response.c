@@ -16,7 +16,7 @@ static int close_context(void **state) {
 
 /* A row of `n` masses of 1 on springs of 1e4, the last one beside a stop of `k_n` at `gap`, pushed by 1 at
  * it. */
-static plm_model *row_of_masses(int32_t n, double k_n, double gap) {
+static plm_model *damped_row(int32_t n, double k_n, double gap, double beta) {
     int32_t i[200], j[200], m = 0, row[] = {0, 1};
     double k[200], one[100], force[100] = {0};
     const double along[] = {1};
@@ -34,11 +34,15 @@ static plm_model *row_of_masses(int32_t n, double k_n, double gap) {
                                                    diagonal, diagonal, one)));
     assert_true(done(ctx, plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY,
                                                    m, i, j, k)));
-    assert_true(done(ctx, plm_model_set_rayleigh_damping(model, 0, 2e-4)));
+    assert_true(done(ctx, plm_model_set_rayleigh_damping(model, 0, beta)));
     assert_true(done(ctx, plm_model_add_gap_rows_i32(model, 0, 1, row, last, along, &k_n, &gap)));
     assert_true(done(ctx, plm_model_set_excitation(model, 1, n, force, NULL)));
     assert_true(done(ctx, plm_model_build(model)));
     return model;
+}
+
+static plm_model *row_of_masses(int32_t n, double k_n, double gap) {
+    return damped_row(n, k_n, gap, 2e-4);
 }
 
 /* The same in steps, on a basis of the kind, by exact motions: what there is to be compared with. */
@@ -171,12 +175,28 @@ static void refusals_change_nothing(void **state) {
     assert_true(hz == -7 && a == -7 && e == -7 && !curve && !hbm);
 }
 
+/* Nearly undamped, beside a hard stop: its motions bounce without end. */
+static void a_curve_that_ends_early_says_where_and_what_the_amplitude_is(void **state) {
+    double hz = 0, amplitude = 0;
+    char text[1024];
+    plm_model *model = damped_row(3, 1e8, 2e-5, 1e-5);
+    (void)state;
+    assert_int_equal(plm_model_compute_response(model, 2, PLM_PEAK, 1e-3, &hz, &amplitude, NULL, NULL, NULL),
+                     PLM_TRUNCATED);
+    assert_int_equal(plm_context_get_error_text(ctx, sizeof text, text, NULL), PLM_OK);
+    assert_non_null(strstr(text, "the curve ended early, at "));
+    assert_non_null(strstr(text, "max_points reached"));
+    assert_non_null(strstr(text, "a higher one may follow"));
+    assert_true(hz > 0 && amplitude > 0);
+}
+
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, open_context, close_context)
     const struct CMUnitTest tests[] = {
         TEST(the_basis_grows_to_the_accuracy),
         TEST(outputs_may_be_left_out),
         TEST(what_should_be_looked_at_is_said),
+        TEST(a_curve_that_ends_early_says_where_and_what_the_amplitude_is),
         TEST(refusals_change_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
