@@ -22,7 +22,7 @@ void Combination::take(double factor, const SparseMatrix &a) {
 }
 
 void Combination::factor() {
-    factor_ = make_factor(sum_, FactorKind::positive_definite, solver_);
+    factor_ = make_factor(sum_, solver_);
 }
 
 } // namespace plm

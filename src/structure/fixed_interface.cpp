@@ -89,14 +89,14 @@ class FixedInterface::Interior {
     // M_ii.
     void factor_interior() {
         try {
-            factor_ = make_factor(k_, FactorKind::positive_definite, solver_);
+            factor_ = make_factor(k_, solver_);
             if (model_shift_ == 0 || factor_->reciprocal_condition() > 1e-12) return;
         } catch (const Error &e) {
             if (model_shift_ == 0) throw;
             if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE && e.status() != PLM_ERR_SINGULAR) throw;
         }
         shift_ = model_shift_;
-        factor_ = make_factor(add(1.0, k_, shift_, m_), FactorKind::positive_definite, solver_);
+        factor_ = make_factor(add(1.0, k_, shift_, m_), solver_);
     }
 
     static Matrix columns_of(const SparseMatrix &a, std::int64_t first, std::int64_t count) {

@@ -21,7 +21,6 @@ class RigidFactor final : public Factor {
             for (std::int64_t j = 0; j < b.cols(); ++j) std::copy_n(b.col(j), n, x + (first + j) * ldx);
         }
     }
-    std::int64_t negative_eigenvalues() const override { return factor_->negative_eigenvalues(); }
     double reciprocal_condition() const override { return factor_->reciprocal_condition(); }
     std::int64_t factor_nonzeros() const override { return factor_->factor_nonzeros(); }
 

@@ -30,7 +30,7 @@ std::unique_ptr<Factor> factor_regular(const SparseMatrix &k, const Solver &solv
     for (double d : diagonal(k))
         if (!(d > 0)) return nullptr; // no need to try
     try {
-        std::unique_ptr<Factor> factor = make_factor(k, FactorKind::positive_definite, solver);
+        std::unique_ptr<Factor> factor = make_factor(k, solver);
         const double condition = factor->reciprocal_condition();
         if (condition < 1e-14) return nullptr;
         if ((solver.serving_host() || condition < 1e-9) && !solves(k, *factor)) return nullptr;
@@ -223,7 +223,7 @@ class RigidModeSearch {
         for (;; shift = std::min(100 * shift, largest)) {
             watch_.step("factorization", 0.2);
             try {
-                return make_factor(add(1.0, k_, shift, m_), FactorKind::positive_definite, solver_);
+                return make_factor(add(1.0, k_, shift, m_), solver_);
             } catch (const Error &e) {
                 if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE && e.status() != PLM_ERR_SINGULAR) throw;
                 if (!(shift < largest)) throw not_positive_definite(e, shift);

@@ -18,19 +18,18 @@ vector<double> values_of(const SparseMatrix &k, const plm::Factor &factor,
         .values;
 }
 vector<double> plain_values(const SparseMatrix &k) {
-    return values_of(k, *plm::make_factor(k, plm::FactorKind::positive_definite));
+    return values_of(k, *plm::make_factor(k));
 }
 
 /// A factor that passes on to another and does something in the middle of the iteration.
 class Intruder : public plm::Factor {
   public:
-    Intruder(const SparseMatrix &k) : inner_(plm::make_factor(k, plm::FactorKind::positive_definite)) {}
+    Intruder(const SparseMatrix &k) : inner_(plm::make_factor(k)) {}
     void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const override {
         ++calls;
         inner_->solve(x, nrhs, ldx);
         if (calls == act_at) act(x);
     }
-    std::int64_t negative_eigenvalues() const override { return 0; }
     double reciprocal_condition() const override { return 1; }
     std::int64_t factor_nonzeros() const override { return -1; }
     bool calls_host() const override { return true; }
@@ -101,8 +100,7 @@ void cancelling_stops_between_operations(void **) {
     const auto o = outcome_of([&] { values_of(k, Intruder(k), options); });
     int at_once = 0;
     options.cancelled = [&] { return ++at_once == 1; }; // what takes an instant is asked for once, before
-    const auto quick =
-        outcome_of([&] { values_of(k, *plm::make_factor(k, plm::FactorKind::positive_definite), options); });
+    const auto quick = outcome_of([&] { values_of(k, *plm::make_factor(k), options); });
     const vector<double> reference = plain_values(k);
     assert_int_equal(o.status, PLM_CANCELLED);
     assert_int_equal(o.reason, PLM_REASON_CANCELLED);
@@ -115,11 +113,10 @@ void too_few_restarts_are_made_up_for_or_reported(void **) {
     const SparseMatrix k = membrane(60, 60), m = diagonal(vector<double>(k.cols, 1.0));
     plm::EigsOptions options;
     options.max_restarts = 1; // too few at first; the retry takes more Lanczos vectors
-    const auto retried =
-        outcome_of([&] { values_of(k, *plm::make_factor(k, plm::FactorKind::positive_definite), options); });
+    const auto retried = outcome_of([&] { values_of(k, *plm::make_factor(k), options); });
     // seen from far below all eigenvalues (0 < lambda < 8) are the same to six digits
     const double shift = -1e7;
-    const auto far = plm::make_factor(plm::add(1, k, -shift, m), plm::FactorKind::positive_definite);
+    const auto far = plm::make_factor(plm::add(1, k, -shift, m));
     const auto hopeless = outcome_of([&] { plm::lowest_eigenpairs(k, m, *far, shift, wanted, options); });
     assert_int_equal(retried.status, PLM_OK);
     assert_int_equal(hopeless.status, PLM_ERR_EIGENSOLVER);

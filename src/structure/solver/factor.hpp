@@ -1,5 +1,5 @@
-// Sparse symmetric factorization behind one seam: CHOLMOD, Eigen's LDLT, or the host's own through callbacks,
-// chosen by name at run time. Nothing above this header knows which one serves.
+// Factorization of sparse symmetric positive definite matrices behind one seam: CHOLMOD, Eigen's LDLT, or the
+// host's own through callbacks, chosen by name at run time. Nothing above this header knows which one serves.
 #pragma once
 #include "structure/sparse.hpp"
 #include <memory>
@@ -7,25 +7,17 @@
 
 namespace plm {
 
-/// A factorization of one symmetric matrix; read-only after construction, except for its workspace.
+/// A factorization of one such matrix; read-only after construction, except for its workspace.
 class Factor {
   public:
     virtual ~Factor() = default;
     /// X = A^-1 X in place; X is n x nrhs column-major with leading dimension ldx.
     virtual void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const = 0;
-    /// Number of negative eigenvalues of A (Sylvester's law of inertia), or -1 when the solver cannot tell.
-    virtual std::int64_t negative_eigenvalues() const = 0;
     /// Rough reciprocal condition number from the factor's diagonal; 1 when the solver cannot tell.
     virtual double reciprocal_condition() const = 0;
     virtual std::int64_t factor_nonzeros() const = 0; // -1 when unknown
     virtual bool calls_host() const { return false; } // solve() does
     void solve(Matrix &x) const { solve(x.data(), x.cols(), x.rows()); }
-};
-
-enum class FactorKind {
-    positive_definite, // L L^T, supernodal; PLM_ERR_NOT_POSITIVE_DEFINITE with index() = column otherwise
-    indefinite         // L D L^T without pivoting (shifted K - sigma M): inertia, no definiteness demanded;
-                       // PLM_ERR_SINGULAR with index() = column at a zero pivot
 };
 
 /// The host's own solver: status 0 is success, anything else fails with that code (PLM_ERR_CALLBACK). The
@@ -55,7 +47,7 @@ struct Solver {
     Solver(const HostSolver *given) : Solver(SolverName::automatic, given) {}
     /// The host's, if it is to serve; throws where it is asked for and there is none.
     const HostSolver *serving_host() const;
-    /// False: a factorization for the sake of its negative_eigenvalues() would be made in vain.
+    /// False: count_negative() cannot tell, and factors in vain.
     bool tells_inertia() const { return !serving_host() || serving_host()->inertia; }
 
     SolverName name = SolverName::automatic;

@@ -8,10 +8,12 @@ namespace plm {
 
 struct Builtin {
     SolverName name;
-    std::unique_ptr<Factor> (*factor)(const SparseMatrix &a, FactorKind kind);
+    std::unique_ptr<Factor> (*factor)(const SparseMatrix &a);
+    std::int64_t (*count_negative)(const SparseMatrix &a);
     std::string (*version)(); // "CHOLMOD 3.0.14"
 };
 
-std::unique_ptr<Factor> make_host_factor(const SparseMatrix &a, FactorKind kind, const HostSolver &host);
+std::unique_ptr<Factor> make_host_factor(const SparseMatrix &a, const HostSolver &host);
+std::int64_t count_negative_by_host(const SparseMatrix &a, const HostSolver &host);
 
 } // namespace plm

@@ -2,6 +2,7 @@
 #include "linalg/blas_lapack.hpp"
 #include "linalg/memory_count.hpp"
 #include "structure/solver/factor_builtin.hpp"
+#include "structure/solver/multifrontal_inertia.hpp"
 #include <algorithm>
 #include <cholmod.h>
 #include <new>
@@ -13,46 +14,6 @@ static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t), "cholmod_l_ must
 
 /// Right-hand sides solved at once: enough for BLAS 3 speed, and bounds the workspace to 2 n x 32.
 constexpr std::int64_t solve_block = 32;
-
-/// Everything CHOLMOD allocates for one factor, with a cholmod_common of its own: no state is shared.
-struct Cholmod {
-    cholmod_common common;
-    cholmod_factor *factor = nullptr;
-    cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr; // kept by cholmod_l_solve2 between calls
-    ForeignMemory memory;
-
-    Cholmod() {
-        cholmod_l_start(&common);
-        common.print = 0; // it would print its warnings to stdout
-        common.error_handler = nullptr;
-    }
-    ~Cholmod() {
-        cholmod_l_free_dense(&x, &common);
-        cholmod_l_free_dense(&y, &common);
-        cholmod_l_free_dense(&e, &common);
-        cholmod_l_free_factor(&factor, &common);
-        cholmod_l_finish(&common);
-    }
-    Cholmod(const Cholmod &) = delete;
-    Cholmod &operator=(const Cholmod &) = delete;
-
-    void note_memory() { memory.holds(common.memory_inuse, common.memory_usage); }
-
-    /// As cholmod_l_ensure_dense, but a failure is seen.
-    void shape(cholmod_dense *&block, std::size_t rows, std::size_t cols) {
-        if (block && block->nrow == rows && block->ncol == cols && block->d == rows) return;
-        cholmod_l_free_dense(&block, &common);
-        block = cholmod_l_allocate_dense(rows, cols, rows, CHOLMOD_REAL, &common);
-        check("workspace");
-    }
-
-    void check(const char *step) const {
-        if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-        if (common.status < 0)
-            throw Error(PLM_ERR_INTERNAL, format("CHOLMOD, %s: status %d", step, common.status))
-                .library_code(common.status);
-    }
-};
 
 /// CHOLMOD's view of our arrays; it reads one triangle of them and never writes.
 cholmod_sparse view(const SparseMatrix &a) {
@@ -84,25 +45,84 @@ cholmod_dense view(double *x, std::int64_t rows, std::int64_t cols, std::int64_t
     return v;
 }
 
+/// Everything CHOLMOD allocates for one factor, with a cholmod_common of its own: no state is shared.
+struct Cholmod {
+    cholmod_common common;
+    cholmod_factor *factor = nullptr;
+    cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr; // kept by cholmod_l_solve2 between calls
+    ForeignMemory memory;
+
+    Cholmod() {
+        cholmod_l_start(&common);
+        common.print = 0; // it would print its warnings to stdout
+        common.error_handler = nullptr;
+    }
+    ~Cholmod() {
+        cholmod_l_free_dense(&x, &common);
+        cholmod_l_free_dense(&y, &common);
+        cholmod_l_free_dense(&e, &common);
+        cholmod_l_free_factor(&factor, &common);
+        cholmod_l_finish(&common);
+    }
+    Cholmod(const Cholmod &) = delete;
+    Cholmod &operator=(const Cholmod &) = delete;
+
+    /// Ordering and supernodes, without numbers.
+    void analyze(const SparseMatrix &a) {
+        set_ordering();
+        common.supernodal = CHOLMOD_SUPERNODAL;
+        cholmod_sparse matrix = view(a);
+        factor = cholmod_l_analyze(&matrix, &common);
+        check("analyze");
+    }
+
+    void note_memory() { memory.holds(common.memory_inuse, common.memory_usage); }
+
+    /// As cholmod_l_ensure_dense, but a failure is seen.
+    void shape(cholmod_dense *&block, std::size_t rows, std::size_t cols) {
+        if (block && block->nrow == rows && block->ncol == cols && block->d == rows) return;
+        cholmod_l_free_dense(&block, &common);
+        block = cholmod_l_allocate_dense(rows, cols, rows, CHOLMOD_REAL, &common);
+        check("workspace");
+    }
+
+    void check(const char *step) const {
+        if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
+        if (common.status < 0)
+            throw Error(PLM_ERR_INTERNAL, format("CHOLMOD, %s: status %d", step, common.status))
+                .library_code(common.status);
+    }
+
+  private:
+    /// AMD only. METIS orders three-dimensional bodies better, but METIS_NodeND of METIS 5.1 re-seeds the
+    /// host's rand(), installs handlers for SIGTERM and SIGABRT while it runs and long-jumps from them, and
+    /// what it returns depends on who else calls rand(). No host has to put up with that from a library.
+    void set_ordering() {
+        common.nmethods = 1;
+        common.method[0].ordering = CHOLMOD_AMD;
+        common.postorder = 1;
+    }
+};
+
+const std::int64_t *indices(const void *array) {
+    return static_cast<const std::int64_t *>(array);
+}
+
 class CholmodFactor final : public Factor {
   public:
-    CholmodFactor(const SparseMatrix &a, FactorKind kind) : n_(a.cols) {
+    explicit CholmodFactor(const SparseMatrix &a) : n_(a.cols) {
         if (n_ == 0) return;
+        lib_.analyze(a);
         cholmod_common &c = lib_.common;
-        set_ordering(c);
-        const bool definite = kind == FactorKind::positive_definite;
-        c.supernodal = definite ? CHOLMOD_SUPERNODAL : CHOLMOD_SIMPLICIAL; // CHOLMOD has no supernodal LDL^T
-        c.final_ll = definite;
+        nonzeros_ = static_cast<std::int64_t>(c.lnz);
+        c.final_ll = 1;
         c.quick_return_if_not_posdef = 1;
         cholmod_sparse matrix = view(a);
-        lib_.factor = cholmod_l_analyze(&matrix, &c);
-        lib_.check("analyze");
-        nonzeros_ = static_cast<std::int64_t>(c.lnz);
         cholmod_l_factorize(&matrix, lib_.factor, &c);
         lib_.check("factorize");
         lib_.note_memory();
-        if (static_cast<std::int64_t>(lib_.factor->minor) < n_) break_down(definite, lib_.factor->minor);
-        if (!definite) inspect_diagonal();
+        const auto reached = static_cast<std::int64_t>(lib_.factor->minor);
+        if (reached < n_) throw_not_positive_definite(indices(lib_.factor->Perm)[reached]);
         const double rcond = cholmod_l_rcond(lib_.factor, &c);
         reciprocal_condition_ = rcond >= 0 ? rcond : 0; // NaN gives 0
     }
@@ -113,41 +133,10 @@ class CholmodFactor final : public Factor {
         for (std::int64_t first = 0; first < nrhs; first += solve_block)
             solve_some(x + first * ldx, std::min(solve_block, nrhs - first), ldx);
     }
-    std::int64_t negative_eigenvalues() const override { return negative_; }
     double reciprocal_condition() const override { return reciprocal_condition_; }
     std::int64_t factor_nonzeros() const override { return nonzeros_; }
 
   private:
-    /// AMD only. METIS orders three-dimensional bodies better, but METIS_NodeND of METIS 5.1 re-seeds the
-    /// host's rand(), installs handlers for SIGTERM and SIGABRT while it runs and long-jumps from them, and
-    /// what it returns depends on who else calls rand(). No host has to put up with that from a library.
-    static void set_ordering(cholmod_common &c) {
-        c.nmethods = 1;
-        c.method[0].ordering = CHOLMOD_AMD;
-        c.postorder = 1;
-    }
-
-    std::int64_t original(std::size_t column) const {
-        return static_cast<const std::int64_t *>(lib_.factor->Perm)[column];
-    }
-
-    [[noreturn]] void break_down(bool definite, std::size_t column) const {
-        if (definite) throw_not_positive_definite(original(column));
-        throw_singular(original(column));
-    }
-
-    /// Inertia from D of the simplicial L D L^T, whose entries stand first in each column of L.
-    void inspect_diagonal() {
-        const cholmod_factor &f = *lib_.factor;
-        const auto *ptr = static_cast<const std::int64_t *>(f.p);
-        const auto *val = static_cast<const double *>(f.x);
-        for (std::int64_t j = 0; j < n_; ++j) {
-            const double d = val[ptr[j]];
-            if (d == 0 || !std::isfinite(d)) break_down(false, static_cast<std::size_t>(j));
-            negative_ += d < 0;
-        }
-    }
-
     void solve_some(double *x, std::int64_t nrhs, std::int64_t ldx) const {
         cholmod_dense rhs = view(x, n_, nrhs, ldx);
         const cholmod_factor &f = *lib_.factor;
@@ -164,13 +153,24 @@ class CholmodFactor final : public Factor {
         for (std::int64_t j = 0; j < nrhs; ++j) std::copy_n(result + j * lib_.x->d, n_, x + j * ldx);
     }
 
-    std::int64_t n_, negative_ = 0, nonzeros_ = 0;
+    std::int64_t n_, nonzeros_ = 0;
     double reciprocal_condition_ = 1;
     mutable Cholmod lib_; // CHOLMOD's solve takes its factor and its workspace by non-const pointer
 };
 
-std::unique_ptr<Factor> factor_by_cholmod(const SparseMatrix &a, FactorKind kind) {
-    return std::make_unique<CholmodFactor>(a, kind);
+std::unique_ptr<Factor> factor_by_cholmod(const SparseMatrix &a) {
+    return std::make_unique<CholmodFactor>(a);
+}
+
+/// CHOLMOD finds the supernodes; its own L D L^T knows none, and takes ten times as long on solids and more.
+std::int64_t count_negative_by_cholmod(const SparseMatrix &a) {
+    if (a.cols == 0) return 0;
+    Cholmod lib;
+    lib.analyze(a);
+    lib.note_memory();
+    const cholmod_factor &f = *lib.factor;
+    return count_negative_pivots(a, {static_cast<std::int64_t>(f.nsuper), indices(f.super), indices(f.pi),
+                                     indices(f.s), indices(f.Perm)});
 }
 
 std::string cholmod_version() {
@@ -182,6 +182,7 @@ std::string cholmod_version() {
 } // namespace
 
 extern const Builtin solver_cholmod;
-const Builtin solver_cholmod{SolverName::cholmod, factor_by_cholmod, cholmod_version};
+const Builtin solver_cholmod{SolverName::cholmod, factor_by_cholmod, count_negative_by_cholmod,
+                             cholmod_version};
 
 } // namespace plm

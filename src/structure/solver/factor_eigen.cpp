@@ -17,15 +17,19 @@ using Ldlt = Eigen::SimplicialLDLT<EigenMatrix, Eigen::Lower, Eigen::AMDOrdering
 /// Right-hand sides solved by one pass over L, packed side by side: the pass is bound by reading L.
 constexpr std::int64_t panel = 8;
 
-/// One class serves both kinds: L D L^T tells where D stops being positive, which Eigen's L L^T does not.
+void decompose(const SparseMatrix &a, Ldlt &ldlt) {
+    const Eigen::Map<const EigenMatrix> matrix(a.rows, a.cols, a.nnz(), a.ptr.data(), a.idx.data(),
+                                               a.val.data());
+    ldlt.compute(matrix);
+}
+
+/// Not L L^T: L D L^T tells where D stops being positive, which Eigen's L L^T does not.
 class EigenFactor final : public Factor {
   public:
-    EigenFactor(const SparseMatrix &a, FactorKind kind) : n_(a.cols) {
+    explicit EigenFactor(const SparseMatrix &a) : n_(a.cols) {
         if (n_ == 0) return;
-        const Eigen::Map<const EigenMatrix> matrix(a.rows, a.cols, a.nnz(), a.ptr.data(), a.idx.data(),
-                                                   a.val.data());
-        ldlt_.compute(matrix);
-        inspect_diagonal(kind);
+        decompose(a, ldlt_);
+        inspect_diagonal();
     }
 
     void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const override {
@@ -36,23 +40,19 @@ class EigenFactor final : public Factor {
             solve_panel<panel>(x + first * ldx, std::min(panel, nrhs - first), ldx);
         if (first < nrhs) solve_panel<1>(x + first * ldx, 1, ldx);
     }
-    std::int64_t negative_eigenvalues() const override { return negative_; }
     double reciprocal_condition() const override { return reciprocal_condition_; }
     std::int64_t factor_nonzeros() const override { return nonzeros_; }
 
   private:
     /// Eigen's factorization stops at a zero pivot, leaving it in D.
-    void inspect_diagonal(FactorKind kind) {
+    void inspect_diagonal() {
         double smallest = std::numeric_limits<double>::infinity(), largest = 0;
         const auto &d = ldlt_.vectorD();
         const auto &original = ldlt_.permutationPinv().indices();
         for (std::int64_t j = 0; j < n_; ++j) {
-            if (kind == FactorKind::positive_definite && !(d[j] > 0))
-                throw_not_positive_definite(original[j]);
-            if (d[j] == 0 || !std::isfinite(d[j])) throw_singular(original[j]);
-            negative_ += d[j] < 0;
-            smallest = std::min(smallest, std::fabs(d[j]));
-            largest = std::max(largest, std::fabs(d[j]));
+            if (!(d[j] > 0)) throw_not_positive_definite(original[j]);
+            smallest = std::min(smallest, d[j]);
+            largest = std::max(largest, d[j]);
         }
         reciprocal_condition_ = smallest / largest;
         nonzeros_ = lower().nonZeros() + n_;
@@ -99,13 +99,27 @@ class EigenFactor final : public Factor {
     }
 
     Ldlt ldlt_;
-    std::int64_t n_, negative_ = 0, nonzeros_ = 0;
+    std::int64_t n_, nonzeros_ = 0;
     double reciprocal_condition_ = 1;
     mutable vector<double> work_;
 };
 
-std::unique_ptr<Factor> factor_by_eigen(const SparseMatrix &a, FactorKind kind) {
-    return std::make_unique<EigenFactor>(a, kind);
+std::unique_ptr<Factor> factor_by_eigen(const SparseMatrix &a) {
+    return std::make_unique<EigenFactor>(a);
+}
+
+/// Eigen's factorization stops at a zero pivot, leaving it in D.
+std::int64_t count_negative_by_eigen(const SparseMatrix &a) {
+    if (a.cols == 0) return 0;
+    Ldlt ldlt;
+    decompose(a, ldlt);
+    std::int64_t negative = 0;
+    const auto &d = ldlt.vectorD();
+    for (std::int64_t j = 0; j < a.cols; ++j) {
+        if (d[j] == 0 || !std::isfinite(d[j])) throw_singular(ldlt.permutationPinv().indices()[j]);
+        negative += d[j] < 0;
+    }
+    return negative;
 }
 
 std::string eigen_version() {
@@ -115,6 +129,6 @@ std::string eigen_version() {
 } // namespace
 
 extern const Builtin solver_eigen;
-const Builtin solver_eigen{SolverName::eigen, factor_by_eigen, eigen_version};
+const Builtin solver_eigen{SolverName::eigen, factor_by_eigen, count_negative_by_eigen, eigen_version};
 
 } // namespace plm

@@ -24,12 +24,13 @@ SparseMatrix lower_triangle(const SparseMatrix &a) {
 
 class HostFactor final : public Factor {
   public:
-    HostFactor(const SparseMatrix &a, FactorKind kind, const HostSolver &host)
-        : host_(host), n_(a.cols), kind_(kind) {
+    HostFactor(const SparseMatrix &a, bool positive_definite, const HostSolver &host)
+        : host_(host), n_(a.cols) {
+        if (!host.factor || !host.solve)
+            throw Error(PLM_ERR_ARGUMENT, "a host solver needs both a factor and a solve function");
         const SparseMatrix l = lower_triangle(a);
-        const int definite = kind == FactorKind::positive_definite;
-        const int status =
-            host_.factor(n_, l.ptr.data(), l.idx.data(), l.val.data(), definite, &handle_, host_.user);
+        const int status = host_.factor(n_, l.ptr.data(), l.idx.data(), l.val.data(), positive_definite,
+                                        &handle_, host_.user);
         if (status != 0) // nothing was made, so the destructor (which would release it) need not run
             throw Error(PLM_ERR_CALLBACK, format("the host's factorization failed with code %d", status))
                 .library_code(status);
@@ -50,9 +51,7 @@ class HostFactor final : public Factor {
             if (!finite(x + j * ldx, n_))
                 throw Error(PLM_ERR_CALLBACK, "the host's solve returned NaN or Inf").index(j);
     }
-    // A factorization that was asked to be definite and succeeded leaves no other number.
-    std::int64_t negative_eigenvalues() const override {
-        if (kind_ == FactorKind::positive_definite) return 0;
+    std::int64_t negative_eigenvalues() const {
         if (!host_.inertia) return -1;
         std::int64_t negative = -1;
         const int status = host_.inertia(handle_, &negative, host_.user);
@@ -73,16 +72,17 @@ class HostFactor final : public Factor {
   private:
     HostSolver host_;
     std::int64_t n_;
-    FactorKind kind_;
     void *handle_ = nullptr;
 };
 
 } // namespace
 
-std::unique_ptr<Factor> make_host_factor(const SparseMatrix &a, FactorKind kind, const HostSolver &host) {
-    if (!host.factor || !host.solve)
-        throw Error(PLM_ERR_ARGUMENT, "a host solver needs both a factor and a solve function");
-    return std::make_unique<HostFactor>(a, kind, host);
+std::unique_ptr<Factor> make_host_factor(const SparseMatrix &a, const HostSolver &host) {
+    return std::make_unique<HostFactor>(a, true, host);
+}
+
+std::int64_t count_negative_by_host(const SparseMatrix &a, const HostSolver &host) {
+    return HostFactor(a, false, host).negative_eigenvalues();
 }
 
 } // namespace plm

@@ -35,6 +35,16 @@ const Builtin &builtin(SolverName name) {
         .argument("solver");
 }
 
+void require_matrix(const SparseMatrix &a) {
+    require(a.rows == a.cols && static_cast<std::int64_t>(a.ptr.size()) == a.cols + 1, "make_factor: shape");
+    // NaN passes through a Cholesky factorization unnoticed (no comparison with it is true).
+    if (finite(a.val.data(), a.nnz())) return;
+    std::int64_t j = 0, p = 0;
+    while (std::isfinite(a.val[p])) ++p;
+    while (a.ptr[j + 1] <= p) ++j;
+    throw Error(PLM_ERR_MATRIX, "NaN or Inf in the matrix to factor").index(j);
+}
+
 } // namespace
 
 const HostSolver *Solver::serving_host() const {
@@ -46,17 +56,16 @@ const HostSolver *Solver::serving_host() const {
     return host && (name == SolverName::automatic || name == SolverName::host) ? &*host : nullptr;
 }
 
-std::unique_ptr<Factor> make_factor(const SparseMatrix &a, FactorKind kind, const Solver &solver) {
-    require(a.rows == a.cols && static_cast<std::int64_t>(a.ptr.size()) == a.cols + 1, "make_factor: shape");
-    // NaN passes through a Cholesky factorization unnoticed (no comparison with it is true).
-    if (!finite(a.val.data(), a.nnz())) {
-        std::int64_t j = 0, p = 0;
-        while (std::isfinite(a.val[p])) ++p;
-        while (a.ptr[j + 1] <= p) ++j;
-        throw Error(PLM_ERR_MATRIX, "NaN or Inf in the matrix to factor").index(j);
-    }
-    if (const HostSolver *host = solver.serving_host()) return make_host_factor(a, kind, *host);
-    return builtin(solver.name).factor(a, kind);
+std::unique_ptr<Factor> make_factor(const SparseMatrix &a, const Solver &solver) {
+    require_matrix(a);
+    if (const HostSolver *host = solver.serving_host()) return make_host_factor(a, *host);
+    return builtin(solver.name).factor(a);
+}
+
+std::int64_t count_negative(const SparseMatrix &a, const Solver &solver) {
+    require_matrix(a);
+    if (const HostSolver *host = solver.serving_host()) return count_negative_by_host(a, *host);
+    return builtin(solver.name).count_negative(a);
 }
 
 std::string factor_backends() {
