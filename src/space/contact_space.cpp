@@ -44,6 +44,7 @@ class ContactSpaceBuilder {
         exact_modes();
         static_block();
         const SpaceOptions &options = model_->space_options();
+        if (highest_ > 0) choose_probes();
         double error = highest_ > 0 ? receptance_error() : 0;
         std::int64_t blocks = 1;
         while (highest_ > 0 && error > options.tolerance && blocks < options.max_blocks) {
@@ -145,133 +146,154 @@ class ContactSpaceBuilder {
         for (int pass = 0; pass < 2; ++pass) add_combination(-1.0, modes_.vectors, gram(mass_modes_, x), x);
     }
 
-    Field load_responses() const {
-        Field loads = load_columns(model_->preload(), model_->excitation(), model_->n_free());
-        if (!loads.empty()) model_->solve(loads);
-        return loads;
-    }
-
     // Columns scaled to unit energy; those that the exact modes already contain are dropped.
     void static_block() {
         watch_.step("contact space", 0.4);
-        Field x = model_->attachment();
-        x.append(load_responses());
+        const auto [x, before] = static_responses();
         if (x.empty()) return;
-        const vector<double> before = energies(x);
-        deflate(x);
-        const vector<double> after = energies(x);
-        vector<std::int64_t> kept;
-        vector<double> scale;
-        for (std::int64_t j = 0; j < x.cols(); ++j) {
-            if (after[j] <= 1e-20 * before[j]) continue;
-            kept.push_back(j);
-            scale.push_back(1 / std::sqrt(after[j]));
-        }
-        x = x.columns(kept);
-        x.scale(scale);
-        add_orthonormal(x, 1e-13);
+        Matrix energy = gram(x, model_->shifted_times(x));
+        vector<double> scale(x.cols());
+        for (std::int64_t j = 0; j < x.cols(); ++j)
+            scale[j] = energy(j, j) <= 1e-20 * before[j] ? 0 : 1 / std::sqrt(energy(j, j));
+        for (std::int64_t j = 0; j < x.cols(); ++j)
+            for (std::int64_t i = 0; i < x.cols(); ++i) energy(i, j) *= scale[i] * scale[j];
+        Matrix t = unit_energy(energy, 1e-13);
+        for (std::int64_t j = 0; j < t.cols(); ++j)
+            for (std::int64_t i = 0; i < t.rows(); ++i) t(i, j) *= scale[i];
+        append(combine(x, t));
     }
 
-    vector<double> energies(const Field &x) const {
-        vector<double> e = column_products(x, model_->shifted_times(x));
-        for (double &v : e) v = std::max(0.0, v);
-        return e;
+    // What contact forces and loads do statically, less the exact modes, and their energies before that.
+    std::pair<Field, vector<double>> static_responses() const {
+        const Field loads = load_columns(model_->preload(), model_->excitation(), model_->n_free());
+        Field x = loads;
+        if (!x.empty()) model_->solve(x);
+        vector<double> of_loads = column_products(x, loads);
+        vector<double> energies = column_products(model_->attachment(), model_->gap_rows().columns());
+        energies.insert(energies.end(), of_loads.begin(), of_loads.end());
+        Field all = model_->attachment();
+        all.append(x);
+        deflate(all);
+        return {std::move(all), std::move(energies)};
     }
 
-    // Appends to basis_ a K-orthonormal basis of the columns of x, leaving out what weighs less than `drop`
-    // (squared).
-    bool add_orthonormal(Field &x, double drop) {
-        if (x.cols() == 0) return false;
-        for (int pass = 0; pass < 2 && basis_.cols() > 0; ++pass)
-            add_combination(-1.0, basis_, gram(stiff_basis_, x), x);
-        Field y = x;
-        for (int pass = 0; pass < 2; ++pass) { // the second pass repairs what the first lost to rounding
-            const SymmetricEigen energy = symmetric_eigen(gram(y, model_->shifted_times(y)));
-            const double largest = energy.values.back();
-            const double least = pass == 0 ? std::max(drop, 1e-14 * largest) : 0.1;
-            Matrix t(y.cols(), 0);
-            for (std::int64_t j = 0; j < y.cols(); ++j) {
-                if (energy.values[j] < least) continue;
-                Matrix column = energy.vectors.columns(j, 1);
-                for (std::int64_t i = 0; i < y.cols(); ++i) column(i, 0) /= std::sqrt(energy.values[j]);
-                t.append(column);
-            }
-            if (t.cols() == 0) return false;
-            y = combine(y, t);
-        }
-        newest_ = y;
+    // The combinations of unit energy that are orthogonal to one another, by the energies of what they
+    // combine; those of less energy than `least` are left out.
+    static Matrix unit_energy(const Matrix &energies, double least) {
+        const SymmetricEigen e = symmetric_eigen(energies);
+        least = std::max(least, 1e-14 * e.values.back());
+        const std::int64_t n = energies.cols();
+        const std::int64_t first =
+            std::lower_bound(e.values.begin(), e.values.end(), least) - e.values.begin(); // ascending
+        Matrix t = e.vectors.columns(first, n - first);
+        for (std::int64_t j = 0; j < t.cols(); ++j)
+            for (std::int64_t i = 0; i < n; ++i) t(i, j) /= std::sqrt(e.values[first + j]);
+        return t;
+    }
+
+    // A block that is K-orthonormal but for rounding, which is repaired here. False where nothing is left.
+    bool append(Field y) {
+        if (y.cols() == 0) return false;
+        Field stiff = model_->shifted_times(y);
+        const Matrix t = unit_energy(gram(y, stiff), 0.1);
+        if (t.cols() == 0) return false;
+        y = combine(y, t);
+        stiff = combine(stiff, t); // t hardly differs from a rotation: no digits are lost
+        newest_momenta_ = model_->mass_times(y);
+        append_inertia(y);
         basis_.append(y);
-        stiff_basis_.append(model_->shifted_times(y));
+        stiff_basis_.append(stiff);
         rayleigh_ritz();
         return true;
     }
 
-    // -Y^T M Y: the slowest come first among its eigenvalues.
-    Matrix negative_inertia(const Field &y) const {
-        Matrix inertia = gram(y, model_->mass_times(y));
+    // The rows and columns of the newest block y in Y^T M Y.
+    void append_inertia(const Field &y) {
+        const std::int64_t a = basis_.cols(), b = y.cols();
+        const Matrix own = gram(y, newest_momenta_);
+        const Matrix before = a > 0 ? gram(basis_, newest_momenta_) : Matrix(0, b);
+        Matrix whole(a + b, a + b);
+        for (std::int64_t j = 0; j < a; ++j) std::copy_n(inertia_.col(j), a, whole.col(j));
+        for (std::int64_t j = 0; j < b; ++j) {
+            std::copy_n(own.col(j), b, whole.col(a + j) + a);
+            for (std::int64_t i = 0; i < a; ++i) whole(i, a + j) = whole(a + j, i) = before(i, j);
+        }
+        inertia_ = std::move(whole);
+    }
+
+    // The slowest come first.
+    static SymmetricEigen by_inertia(Matrix inertia) {
         for (std::int64_t k = 0; k < inertia.rows() * inertia.cols(); ++k) inertia.data()[k] *= -1;
-        return inertia;
+        SymmetricEigen e = symmetric_eigen(inertia);
+        for (double &mu : e.values) mu = std::max(-mu, 0.0); // 0: no mass
+        return e;
     }
 
     // Diagonalises M in the K-orthonormal basis: compliances mu = 1 / (lambda + sigma), descending.
-    void rayleigh_ritz() {
-        ritz_ = symmetric_eigen(negative_inertia(basis_));
-        for (double &mu : ritz_.values) mu = std::max(-mu, 0.0); // 0: no mass
-    }
+    void rayleigh_ritz() { ritz_ = by_inertia(inertia_); }
 
     // The next Krylov block from those directions that are slow enough to matter at the highest frequency.
     bool next_block() {
         const double reach = highest_ * highest_ + sigma_;
         const double least = 0.03 * std::sqrt(model_->space_options().tolerance);
-        const SymmetricEigen slow = symmetric_eigen(negative_inertia(newest_));
+        const std::int64_t newest = newest_momenta_.cols();
+        const SymmetricEigen slow = by_inertia(newest_inertia());
         std::int64_t count = 0;
-        while (count < newest_.cols() && -slow.values[count] * reach > least) ++count;
+        while (count < newest && slow.values[count] * reach > least) ++count;
         if (count == 0) return false;
-        Field x = model_->mass_times(combine(newest_, slow.vectors.columns(0, count)));
+        Field x = combine(newest_momenta_, slow.vectors.columns(0, count));
         x.scale(vector<double>(count, reach));
         model_->solve(x);
         deflate(x);
-        return add_orthonormal(x, least * least);
+        for (int pass = 0; pass < 2; ++pass) add_combination(-1.0, basis_, gram(stiff_basis_, x), x);
+        return append(combine(x, unit_energy(gram(x, model_->shifted_times(x)), least * least)));
     }
 
-    // Largest relative error of the receptances at the highest frequency over a few fixed combinations of the
-    // contact rows and the loads: with r the full residual, the Galerkin receptance is off by r' (K - w^2
-    // M)^-1 r.
-    double receptance_error() const {
-        if (basis_.cols() == 0) return 0;
-        double worst = 0;
+    Matrix newest_inertia() const {
+        const std::int64_t b = newest_momenta_.cols(), a = inertia_.cols() - b;
+        Matrix own(b, b);
+        for (std::int64_t j = 0; j < b; ++j) std::copy_n(inertia_.col(a + j) + a, b, own.col(j));
+        return own;
+    }
+
+    // A few fixed combinations of the contact rows, and the loads.
+    void choose_probes() {
         std::uint64_t state = 88172645463325252ull;
-        for (int p = 0; p < 3 && model_->n_pairs() > 0; ++p) {
-            Matrix signs(model_->gap_rows().n_rows(), 1);
-            for (std::int64_t i = 0; i < signs.rows(); ++i) {
-                state ^= state << 13, state ^= state >> 7, state ^= state << 17;
-                signs(i, 0) = (state >> 40) & 1 ? 1.0 : -1.0;
-            }
-            worst = std::max(worst, probe_error(model_->gap_rows().forces(signs)));
+        Matrix signs(model_->gap_rows().n_rows(), model_->n_pairs() > 0 ? 3 : 0);
+        for (std::int64_t k = 0; k < signs.rows() * signs.cols(); ++k) {
+            state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+            signs.data()[k] = (state >> 40) & 1 ? 1.0 : -1.0;
         }
-        for (const auto &entry : model_->excitation())
-            worst = std::max(worst, probe_error(entry.second.real));
-        return worst;
+        probes_ = model_->gap_rows().forces(signs);
+        for (const auto &entry : model_->excitation()) probes_.append(entry.second.real);
+        Field whole = probes_;
+        if (!whole.empty()) model_->solve(whole);
+        probe_compliance_ = column_products(probes_, whole);
+        // Only the part outside the exact modes can be wrong.
+        add_combination(-1.0, mass_modes_, gram(modes_.vectors, probes_), probes_);
     }
 
-    double probe_error(Field b) const {
-        Field whole = b;
-        model_->solve(whole);
-        const double compliance = column_products(b, whole)[0];
-        if (!(compliance > 0)) return 0;
-        // Only the part outside the exact modes can be wrong.
-        add_combination(-1.0, mass_modes_, gram(modes_.vectors, b), b);
-        const double w2 = highest_ * highest_;
-        Matrix z = product('T', 'N', ritz_.vectors, gram(basis_, b));
-        for (std::int64_t k = 0; k < z.rows(); ++k) z(k, 0) /= 1 - (w2 + sigma_) * ritz_.values[k];
+    // Largest relative error of the probes' receptances at the highest frequency: with r the full residual,
+    // the Galerkin receptance is off by r' (K - w^2 M)^-1 r.
+    double receptance_error() const {
+        if (basis_.cols() == 0 || probes_.empty()) return 0;
+        const double square = highest_ * highest_ + sigma_;
+        Matrix z = product('T', 'N', ritz_.vectors, gram(basis_, probes_));
+        for (std::int64_t j = 0; j < z.cols(); ++j)
+            for (std::int64_t k = 0; k < z.rows(); ++k) z(k, j) /= 1 - square * ritz_.values[k];
         const Field x = combine(basis_, product('N', 'N', ritz_.vectors, z));
-        Field r = b;
+        Field r = probes_;
         add(-1.0, model_->shifted_times(x), r);
-        add(w2 + sigma_, model_->mass_times(x), r);
+        add(square, model_->mass_times(x), r);
         Field e = r;
         model_->solve(e);
-        const double amplification = 1 / std::max(1e-3, 1 - (w2 + sigma_) * ritz_.values.front());
-        return std::abs(column_products(r, e)[0]) * amplification / compliance;
+        const vector<double> missing = column_products(r, e);
+        const double amplification = 1 / std::max(1e-3, 1 - square * ritz_.values.front());
+        double worst = 0;
+        for (std::size_t p = 0; p < missing.size(); ++p)
+            if (probe_compliance_[p] > 0)
+                worst = std::max(worst, std::abs(missing[p]) * amplification / probe_compliance_[p]);
+        return worst;
     }
 
     // Exact modes and attachment vectors by frequency, then what has no mass.
@@ -333,8 +355,12 @@ class ContactSpaceBuilder {
     StructureModes modes_;
     Field mass_modes_;                   // M Phi
     double next_lambda_ = 0, reach_ = 0; // reach_: rad/s, of the highest frequency of interest
-    Field basis_, stiff_basis_, newest_; // K-orthonormal attachment vectors Y, K Y, the last block
+    Field basis_, stiff_basis_;          // K-orthonormal attachment vectors Y, K Y
+    Field newest_momenta_;               // M times the last block of them
+    Matrix inertia_;                     // Y^T M Y
     SymmetricEigen ritz_;                // of M in basis_: compliances and vectors
+    Field probes_;                       // loads by which the error is measured, outside the exact modes
+    vector<double> probe_compliance_;    // of the whole loads
 };
 
 } // namespace

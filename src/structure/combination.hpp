@@ -15,7 +15,9 @@ class Combination {
 
     bool is_zero() const { return sum_.rows == 0; }
     /// y = A x, one column.
-    void apply(const Field &x, Field &y) const { multiply(sum_, x.in_core().data(), y.in_core().data()); }
+    void apply(const Field &x, Field &y) const {
+        multiply_transposed(sum_, x.in_core().data(), y.in_core().data());
+    }
     /// PLM_ERR_NOT_POSITIVE_DEFINITE where it is not.
     void factor();
     /// X becomes A^-1 X; after factor().

@@ -68,7 +68,8 @@ class FixedInterface::Interior {
             Matrix column = x.columns(j, 1);
             to_unit_energy(shifted, column.data());
             for (int pass = 0; pass < 2; ++pass) // twice is enough
-                gemm('N', 'N', -1.0, basis, product('T', 'N', basis, multiply(shifted, column)), 1.0, column);
+                gemm('N', 'N', -1.0, basis, product('T', 'N', basis, multiply_transposed(shifted, column)),
+                     1.0, column);
             if (!(to_unit_energy(shifted, column.data()) > 1e-8)) continue;
             basis.append(column);
         }
@@ -79,7 +80,7 @@ class FixedInterface::Interior {
     // The root of what its energy was.
     double to_unit_energy(const SparseMatrix &stiffness, double *x) const {
         vector<double> force(n_);
-        multiply(stiffness, x, force.data());
+        multiply_transposed(stiffness, x, force.data());
         const double size = std::sqrt(std::max(0.0, dot(n_, x, force.data())));
         for (std::int64_t i = 0; i < n_ && size > 0; ++i) x[i] /= size;
         return size;
@@ -113,7 +114,7 @@ class FixedInterface::Interior {
         Matrix x = loads;
         factor_->solve(x);
         for (int step = 0; shift_ > 0 && step < 10; ++step) {
-            Matrix residual = multiply(k_, x);
+            Matrix residual = multiply_transposed(k_, x);
             for (std::int64_t k = 0; k < residual.rows() * residual.cols(); ++k)
                 residual.data()[k] = loads.data()[k] - residual.data()[k];
             factor_->solve(residual);

@@ -8,7 +8,7 @@ class RigidFactor final : public Factor {
   public:
     RigidFactor(std::unique_ptr<Factor> factor, const Matrix &rigid_modes, const SparseMatrix &mass,
                 double sigma)
-        : factor_(std::move(factor)), modes_(rigid_modes), momenta_(multiply(mass, rigid_modes)),
+        : factor_(std::move(factor)), modes_(rigid_modes), momenta_(multiply_transposed(mass, rigid_modes)),
           sigma_(sigma) {}
 
     void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const override {

@@ -18,7 +18,7 @@ using Int = long long; // for printf
 bool solves(const SparseMatrix &k, const Factor &factor) {
     vector<double> x(k.cols), y(k.cols);
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = 1 + 0.5 * std::sin(static_cast<double>(i));
-    multiply(k, x.data(), y.data());
+    multiply_transposed(k, x.data(), y.data());
     factor.solve(y.data(), 1, k.cols);
     for (std::size_t i = 0; i < x.size(); ++i)
         if (!(std::abs(y[i] - x[i]) < 1e-3)) return false;
@@ -55,8 +55,8 @@ struct LowModes {
         pairs = std::move(found);
         if (pairs.values.empty()) return;
         // A shift far above the values leaves them no digits: again in the space of the vectors.
-        const Matrix stiffness = product('T', 'N', pairs.vectors, multiply(k, pairs.vectors));
-        const Matrix mass = product('T', 'N', pairs.vectors, multiply(m, pairs.vectors));
+        const Matrix stiffness = product('T', 'N', pairs.vectors, multiply_transposed(k, pairs.vectors));
+        const Matrix mass = product('T', 'N', pairs.vectors, multiply_transposed(m, pairs.vectors));
         SymmetricEigen ritz = symmetric_eigen_general(stiffness, mass);
         pairs.vectors = product('N', 'N', pairs.vectors, ritz.vectors);
         pairs.values = std::move(ritz.values);

@@ -22,7 +22,7 @@ SparseMatrix add(double alpha, const SparseMatrix &a, double beta, const SparseM
 /// A(rows, cols) where keep_row[i] / keep_col[j] is the new index or -1 to drop.
 SparseMatrix submatrix(const SparseMatrix &a, const vector<std::int64_t> &keep_row, std::int64_t n_rows,
                        const vector<std::int64_t> &keep_col, std::int64_t n_cols);
-/// y = A x (x: cols, y: rows) and y = A^T x.
+/// y = A x (x: cols, y: rows) and y = A^T x, which gathers and so is the faster one where A is symmetric.
 void multiply(const SparseMatrix &a, const double *x, double *y);
 void multiply_transposed(const SparseMatrix &a, const double *x, double *y);
 /// A X for a block of columns; one pass over A for several columns at a time.
