@@ -25,6 +25,17 @@ Matrix Matrix::columns(std::int64_t first, std::int64_t count) const {
     return result;
 }
 
+void Matrix::reserve(std::int64_t rows, std::int64_t cols) {
+    require(rows >= 0 && cols >= 0 && (rows == 0 || cols <= INT64_MAX / rows), "Matrix::reserve: shape");
+    data_.reserve(static_cast<std::size_t>(rows * cols));
+}
+
+void Matrix::cut(std::int64_t cols) {
+    require(cols >= 0 && cols <= cols_, "Matrix::cut: number of columns");
+    data_.resize(static_cast<std::size_t>(rows_ * cols));
+    cols_ = cols;
+}
+
 void Matrix::append(const Matrix &other) {
     if (cols_ == 0) {
         if (&other != this) *this = other;

@@ -26,6 +26,11 @@ class Matrix {
     Matrix columns(std::int64_t first, std::int64_t count) const;
     /// Appends the columns of `other` (same number of rows; an empty matrix takes its shape).
     void append(const Matrix &other);
+    /// Storage for so many columns in all: they are appended without a move, and what is not yet there has
+    /// touched no memory.
+    void reserve(std::int64_t rows, std::int64_t cols);
+    /// The first so many columns stay.
+    void cut(std::int64_t cols);
     Matrix transposed() const;
 
   private:

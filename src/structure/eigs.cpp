@@ -80,6 +80,8 @@ EigenPairs finite_ones(const Pencil &pencil, EigenPairs pairs, std::int64_t n_wa
     return pairs;
 }
 
+constexpr std::int64_t widest_block = 8; // columns that a solve takes at once
+
 /// ARPACK holds its lock for the whole problem, so that it gets those of an instant only: some 0.1 s, most
 /// far less (about five solutions per Lanczos vector at 1e9 operations a second).
 bool suits_arpack(const Pencil &pencil, const KrylovRequest &request) {
@@ -90,8 +92,11 @@ bool suits_arpack(const Pencil &pencil, const KrylovRequest &request) {
 }
 
 /// ARPACK within few restarts where it suits; else, and where it did not converge, the Lanczos method of our
-/// own.
-KrylovResult run(const Pencil &pencil, const KrylovRequest &request) {
+/// own. `times`: as large a space as usual.
+KrylovResult run(const Pencil &pencil, std::int64_t n_wanted, std::int64_t times) {
+    KrylovRequest request{n_wanted, 0, pencil.options.tolerance, pencil.options.max_restarts, 1};
+    const auto dimension = [&](std::int64_t usual) { return std::min(times * usual, pencil.rank()); };
+    request.n_lanczos = dimension(std::max(2 * n_wanted + 1, n_wanted + 20));
     if (suits_arpack(pencil, request)) {
         pencil.poll();
         KrylovRequest quick = request;
@@ -99,6 +104,10 @@ KrylovResult run(const Pencil &pencil, const KrylovRequest &request) {
         KrylovResult result = run_arpack(pencil, quick);
         if (result.end == KrylovEnd::converged) return result;
     }
+    // Eight columns at once cost a solve what two or three cost one by one. But a block takes about as many
+    // steps whatever its width, so that a few pairs are found sooner by a narrow one.
+    request.width = std::clamp<std::int64_t>(n_wanted / 2, 1, widest_block);
+    request.n_lanczos = dimension(2 * n_wanted + 20 * request.width);
     return run_lanczos(pencil, request);
 }
 
@@ -109,12 +118,9 @@ const char *meaning(KrylovEnd end) {
 }
 
 EigenPairs search(const Pencil &pencil, std::int64_t n_wanted) {
-    KrylovRequest request{n_wanted, std::max(2 * n_wanted + 1, n_wanted + 20), pencil.options.tolerance,
-                          pencil.options.max_restarts, 1};
     KrylovResult result{};
-    for (int attempt = 0; attempt < pencil.options.max_attempts; ++attempt, request.n_lanczos *= 2) {
-        request.n_lanczos = std::min(request.n_lanczos, pencil.rank());
-        result = run(pencil, request);
+    for (std::int64_t attempt = 0, times = 1; attempt < pencil.options.max_attempts; ++attempt, times *= 2) {
+        result = run(pencil, n_wanted, times);
         if (result.end == KrylovEnd::converged) return finite_ones(pencil, std::move(result.pairs), n_wanted);
         if (result.end == KrylovEnd::exhausted) break;
     }
@@ -126,39 +132,27 @@ EigenPairs search(const Pencil &pencil, std::int64_t n_wanted) {
         .library_code(result.end == KrylovEnd::too_few ? eigs_too_few : 0);
 }
 
-/// The best pair M-orthogonal to those known, or none if the search does not converge.
-EigenPairs best_of_the_rest(const Pencil &pencil, const Matrix &known, const Matrix &m_known,
-                            double tolerance, std::int64_t n_lanczos, std::int64_t max_restarts) {
-    KrylovRequest request{1, std::min(n_lanczos, pencil.rank() - known.cols()), tolerance, max_restarts, 2};
-    request.known = &known;
-    request.m_known = &m_known;
-    KrylovResult result = run(pencil, request);
-    if (result.end != KrylovEnd::converged) return {};
-    return std::move(result.pairs);
-}
-
-/// Nothing real lies below the shift: a negative distance is rounding noise around theta = 0.
-bool lies_below(const EigenPairs &others, double shift, double distance) {
-    return !others.values.empty() && others.values[0] > shift && others.values[0] - shift < distance;
-}
-
-/// A Lanczos process from one vector sees further copies of a multiple eigenvalue by its rounding errors
-/// only, so that it may end without one. A short search in the M-complement of what was found shows a missing
-/// one as an eigenvalue below the largest kept; it is then computed and put in, until nothing is missing.
-/// Returns M X.
+/// A block Lanczos process sees as many copies of a multiple eigenvalue as it has columns, and more by its
+/// rounding errors only, so that it may end without one. A search in the M-complement of what was found shows
+/// a missing one as an eigenvalue below the largest kept; it is put in, until nothing is missing. What is
+/// above need not be exact. Returns M X.
 Matrix add_missed(const Pencil &pencil, EigenPairs &pairs) {
     Matrix m_vectors = orthonormalize(pencil.m, pairs.vectors);
     const auto wanted = static_cast<std::int64_t>(pairs.values.size());
-    constexpr double glance = 1e-2;
-    for (std::int64_t round = 0; round < wanted && pencil.rank() - wanted >= 3; ++round) {
-        const double largest = pairs.values.back() - pencil.shift;
-        EigenPairs others = best_of_the_rest(pencil, pairs.vectors, m_vectors, glance, 16, 10);
-        if (!lies_below(others, pencil.shift, (1 + 2 * glance) * largest)) break;
-        others = best_of_the_rest(pencil, pairs.vectors, m_vectors, pencil.options.tolerance, 40,
-                                  pencil.options.max_restarts);
-        if (!lies_below(others, pencil.shift, (1 - 1e-9) * largest)) break;
-        pairs.values.push_back(others.values[0]);
-        pairs.vectors.append(others.vectors);
+    KrylovRequest request{1, std::min<std::int64_t>(64, pencil.rank() - wanted), pencil.options.tolerance,
+                          pencil.options.max_restarts, 2};
+    request.known = &pairs.vectors;
+    request.m_known = &m_vectors;
+    request.width = widest_block;
+    for (std::int64_t round = 0; round < wanted && request.n_lanczos >= 3; ++round) {
+        const double missed = (1 - 1e-9) * (pairs.values.back() - pencil.shift);
+        request.of_interest = 1 / missed;
+        const KrylovResult others = run_lanczos(pencil, request);
+        if (others.end != KrylovEnd::converged) break;
+        const double distance = others.pairs.values[0] - pencil.shift;
+        if (!(distance > 0 && distance < missed)) break; // below the shift: rounding noise around theta = 0
+        pairs.values.push_back(others.pairs.values[0]);
+        pairs.vectors.append(others.pairs.vectors);
         sort_and_cut(pairs, wanted);
         m_vectors = orthonormalize(pencil.m, pairs.vectors);
     }

@@ -33,9 +33,8 @@ class Arpack {
     Arpack(const Pencil &pencil, const KrylovRequest &request)
         : pencil_(pencil), request_(request), n_(to_blas(pencil.size())), nev_(to_blas(request.n_wanted)),
           ncv_(to_blas(request.n_lanczos)), lworkl_(to_blas(request.n_lanczos * (request.n_lanczos + 8))),
-          tol_(request.tolerance), v_(n_, ncv_), resid_(n_), workd_(3 * static_cast<std::size_t>(n_)),
-          workl_(lworkl_), projection_(request.known ? request.known->cols() : 0), select_(ncv_),
-          lambda_(nev_) {
+          tol_(request.tolerance), v_(n_, ncv_), resid_(n_, 1), workd_(3 * static_cast<std::size_t>(n_)),
+          workl_(lworkl_), select_(ncv_), lambda_(nev_) {
         pseudo_random(resid_, request.seed);
         iparam_[0] = 1; // exact shifts
         iparam_[2] = to_blas(request.max_restarts);
@@ -79,10 +78,6 @@ class Arpack {
         else
             multiply_transposed(pencil_.m, x, y);
         pencil_.factor.solve(y, 1, n_);
-        if (request_.known) { // y -= X X^T M y: stay M-orthogonal to the known vectors
-            gemv('T', 1, *request_.m_known, y, 0, projection_.data());
-            gemv('N', -1, *request_.known, projection_.data(), 1, y);
-        }
         if (!finite(y, n_)) // NaN in the Lanczos basis would go round until the last restart
             throw Error(PLM_ERR_EIGENSOLVER, "the factorization's solve returned NaN or Inf");
     }
@@ -99,8 +94,8 @@ class Arpack {
     const KrylovRequest &request_;
     blas_int n_, nev_, ncv_, lworkl_;
     double tol_;
-    Matrix v_;
-    vector<double> resid_, workd_, workl_, projection_;
+    Matrix v_, resid_;
+    vector<double> workd_, workl_;
     vector<blas_int> select_;
     vector<double> lambda_;
     blas_int iparam_[11] = {}, ipntr_[11] = {};

@@ -27,9 +27,11 @@ struct KrylovRequest {
     std::int64_t n_wanted, n_lanczos; // pairs, and the largest dimension of the space: more than n_wanted
     double tolerance;                 // of theta, relative; 0: machine precision
     std::int64_t max_restarts;
-    std::int64_t seed; // of the start vector
+    std::int64_t seed;      // of the start vectors
+    std::int64_t width = 1; // of a block of the Lanczos method of our own
     /// Columns (M-orthonormal) and M times them that the search is kept away from; null for none.
     const Matrix *known = nullptr, *m_known = nullptr;
+    double of_interest = 0; // a pair counts as converged once its theta is certainly smaller
 };
 enum class KrylovEnd {
     converged,
@@ -40,12 +42,12 @@ struct KrylovResult {
     KrylovEnd end;
     EigenPairs pairs; // the converged ones
 };
-/// A start vector: the same in every run, on every machine.
-void pseudo_random(vector<double> &x, std::int64_t seed);
-/// By a Lanczos method of our own: nothing is shared, the host is asked whether to go on.
+/// Start vectors: the same in every run, on every machine.
+void pseudo_random(Matrix &x, std::int64_t seed);
+/// By a block Lanczos method of our own: nothing is shared, the host is asked whether to go on.
 KrylovResult run_lanczos(const Pencil &pencil, const KrylovRequest &request);
 /// By ARPACK, whose state is the process's: others wait meanwhile, and nothing of the host may be called. For
-/// problems of an instant with a factorization of ours.
+/// problems of an instant with a factorization of ours, without known columns.
 KrylovResult run_arpack(const Pencil &pencil, const KrylovRequest &request);
 
 } // namespace plm

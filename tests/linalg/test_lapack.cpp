@@ -63,6 +63,14 @@ void append_and_columns_keep_the_data(void **) {
     Matrix none;
     none.append(original);
     assert_true(max_difference(none, original) == 0);
+    Matrix grown;
+    grown.reserve(6, 6);
+    const double *storage = grown.data();
+    grown.append(original);
+    grown.append(original);
+    assert_true(grown.data() == storage && max_difference(grown, a) == 0);
+    grown.cut(3);
+    assert_true(max_difference(grown, original) == 0);
     const double huge[] = {3e200, 4e200};
     assert_true(std::fabs(plm::norm2(2, huge) / 5e200 - 1) < 1e-14);
 }
