@@ -3,6 +3,7 @@
 #include "capi/handles.hpp"
 #include "linalg/scale.hpp"
 #include "reduction/basis_kind.hpp"
+#include "reduction/compression.hpp"
 #include "searches/responses.hpp"
 
 namespace plm::capi {
@@ -77,7 +78,8 @@ plm_status plm_basis_set_responses(plm_basis *basis, std::int64_t n, plm_branch 
         std::vector<std::shared_ptr<const plm::Branch>> curves;
         for (std::int64_t i = 0; i < n; ++i) {
             const std::shared_ptr<BranchHandle> curve = same_context<BranchHandle>(b, branch[i], "branch", i);
-            if (i > 0 && curve->core->reduced_model() != curves[0]->reduced_model())
+            if (i > 0 && plm::uncompressed(curve->core->reduced_model()) !=
+                             plm::uncompressed(curves[0]->reduced_model()))
                 bad_argument("branch", i,
                              "all branches must have been computed on one basis, this one was on another");
             curves.push_back(curve->core);

@@ -39,7 +39,8 @@ const std::vector<Key> &hbm_keys() {
         choice_option<&O::motion>(
             "motion", "auto,exact,harmonics",
             "curves and their points: exact motions of the reduced model, or harmonic balance; auto: exact "
-            "where that is cheaper and no option of harmonic balance is set"),
+            "where that is cheaper and no option of harmonic balance is set, and where each point would take "
+            "long, on the basis compressed to what its motions need, to a third of accuracy"),
         choice_option<&O::aft>(
             "aft", "event,sampled",
             "contact forces integrated between exact switching instants, or from time samples"),

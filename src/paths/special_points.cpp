@@ -8,11 +8,14 @@ namespace {
 
 // Where a zero is looked for in an interval when the test function has no value at the best place.
 constexpr std::array<double, 5> elsewhere = {0.5, 0.75, 0.25, 0.9, 0.1};
-constexpr double vanishes = 1e-9;        // of the smaller value at the ends: found
-constexpr double nearly_vanishes = 1e-3; // at the end of the search: the function is continuous there
-constexpr int most_places = 60;          // more than bisection needs to the narrowest interval
-constexpr double narrowest = 1e-10;      // interval, of the step: what is left is rounding
-constexpr int bisection_every = 4;       // so that a function that bends hard is enclosed all the same
+constexpr double vanishes = 1e-9; // of the smaller value at the ends: found
+// At the end of the search: the function is continuous there. Where two special points stand side by side, as
+// on structures with pairs of equal modes, the points of the path between them are no more exact than that; a
+// jump leaves the function at its size on both sides.
+constexpr double nearly_vanishes = 1e-2;
+constexpr int most_places = 60;     // more than bisection needs to the narrowest interval
+constexpr double narrowest = 1e-10; // interval, of the step: what is left is rounding
+constexpr int bisection_every = 4;  // so that a function that bends hard is enclosed all the same
 constexpr double off_the_ends =
     1e-3; // of the interval: places where the function is known need no second look
 constexpr double least_damping = 1e-3; // between two known points Newton's method may take its time

@@ -6,6 +6,7 @@
 #include "reduction/pair_sampling.hpp"
 #include "reduction/projection.hpp"
 #include "reduction/static_basis.hpp"
+#include "reduction/widened_model.hpp"
 #include "space/massless.hpp"
 #include <algorithm>
 #include <chrono>
@@ -202,7 +203,7 @@ void Basis::compress_parent(const Basis *parent, const Responses *responses) {
     if (!responses)
         throw Error(PLM_ERR_STATE, "a basis of kind pod needs responses; set those of its parent first")
             .argument("responses");
-    if (responses->of != parent->reduced())
+    if (!of_one_basis(responses->of, parent->reduced()))
         throw Error(PLM_ERR_ARGUMENT,
                     "the responses were computed on another basis than the parent, or it was "
                     "built anew in between; set both from one build")

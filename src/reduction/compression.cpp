@@ -1,8 +1,10 @@
 #include "reduction/compression.hpp"
+#include "linalg/blas_lapack.hpp"
 #include "linalg/lapack.hpp"
 #include "reduction/basis_kind.hpp"
 #include "reduction/basis_options.hpp"
 #include "reduction/projection.hpp"
+#include "space/linear_contact.hpp"
 #include "space/massless.hpp"
 #include <algorithm>
 #include <cmath>
@@ -138,6 +140,72 @@ Compressed compress(const Responses &responses, double tolerance, std::int64_t s
     c.reduced = reduced;
     for (double s : dynamic.svd.values) c.singular_values.push_back(s / largest);
     return c;
+}
+
+namespace {
+
+double energy_of(const vector<double> &weight, const double *motion) {
+    double energy = 0;
+    for (std::size_t j = 0; j < weight.size(); ++j) energy += std::pow(weight[j] * motion[j], 2);
+    return energy;
+}
+
+// The modes below a frequency with all pairs closed, each of the same energy.
+Matrix modes_in_contact(const ReducedModel &from, const vector<double> &weight, double kept, double energy) {
+    Matrix modes =
+        modes_with_springs(from.lambda, from.n_massless, from.gap, from.contact.stiffness, kept * kept)
+            .vectors;
+    for (std::int64_t k = 0; k < modes.cols(); ++k) {
+        const double factor = std::sqrt(energy / energy_of(weight, modes.col(k)));
+        for (std::int64_t j = 0; j < modes.rows(); ++j) modes(j, k) *= factor;
+    }
+    return modes;
+}
+
+// The modes below a frequency, as unit vectors, and the best directions for the rest of the motions and of
+// the modes with closed contact.
+Matrix modes_and_directions(const ReducedModel &from, Matrix motions, double omega, double tolerance,
+                            double kept) {
+    const vector<double> weight = energy_weights(from.lambda, from.n_massless, omega);
+    const std::int64_t r = from.size();
+    std::int64_t slow = 0;
+    while (slow < r - from.n_massless && from.lambda[slow] < kept * kept) ++slow;
+    double energy = 0, largest = 0;
+    for (std::int64_t k = 0; k < motions.cols(); ++k) {
+        const double one = energy_of(weight, motions.col(k));
+        energy += one, largest = std::max(largest, one);
+    }
+    motions.append(modes_in_contact(from, weight, kept, largest));
+    for (std::int64_t k = 0; k < motions.cols(); ++k) std::fill_n(motions.col(k), slow, 0.0);
+    Matrix y(r, slow);
+    for (std::int64_t j = 0; j < slow; ++j) y(j, j) = 1;
+    const Decomposition rest(motions, weight);
+    y.append(rest.directions(rest.needed(tolerance * tolerance * energy, rounding * std::sqrt(energy))));
+    return y;
+}
+
+} // namespace
+
+std::shared_ptr<const ReducedModel> compress_beside_modes(std::shared_ptr<const ReducedModel> from,
+                                                          const Matrix &motions, double omega,
+                                                          double tolerance, double kept) {
+    require(from->same_static && !from->all_pairs, "compress_beside_modes: the model's statics");
+    const Space space = as_space(*from);
+    Coordinates coordinates =
+        diagonalise(space, modes_and_directions(*from, motions, omega, tolerance, kept));
+    const auto reduced = std::make_shared<ReducedModel>(*project(space, coordinates, StaticBasis()));
+    reduce_statics(*from, coordinates.y, Matrix(from->size(), 0), *reduced);
+    reduced->from =
+        std::make_shared<const CompressedFrom>(CompressedFrom{std::move(from), std::move(coordinates.y)});
+    return reduced;
+}
+
+Matrix uncompressed(const ReducedModel &m, const Matrix &coordinates) {
+    return m.from ? product('N', 'N', m.from->coordinates, coordinates) : coordinates;
+}
+
+std::shared_ptr<const ReducedModel> uncompressed(const std::shared_ptr<const ReducedModel> &m) {
+    return m->from ? m->from->model : m;
 }
 
 namespace {

@@ -23,4 +23,17 @@ struct Compressed {
 /// of them when size > 0. P' = P Y, P_0' = P_0 Y_0 with P' in its span, each diagonalised.
 Compressed compress(const Responses &responses, double tolerance, std::int64_t size);
 
+/// The model of one curve: its motions (r x n in the coordinates of `from`, which has P_0 = P, mean parts
+/// among them) compressed as above beside the modes of `from` below `kept` (rad/s), with open contact and
+/// with closed. Those stay, however little they move: it is by them that a motion loses its stability.
+std::shared_ptr<const ReducedModel> compress_beside_modes(std::shared_ptr<const ReducedModel> from,
+                                                          const Matrix &motions, double omega,
+                                                          double tolerance, double kept);
+
+/// Coordinates (r' x k) of a compressed model in those of the model it is made from; of any other as they
+/// are.
+Matrix uncompressed(const ReducedModel &m, const Matrix &coordinates);
+/// The model that a compressed one is made from; any other itself.
+std::shared_ptr<const ReducedModel> uncompressed(const std::shared_ptr<const ReducedModel> &m);
+
 } // namespace plm

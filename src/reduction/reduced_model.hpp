@@ -15,6 +15,14 @@ struct AllPairs {
 
 struct StaticState; // space/rest.hpp
 
+struct ReducedModel;
+
+/// What a model is made from that serves one curve of another (compression.hpp).
+struct CompressedFrom {
+    std::shared_ptr<const ReducedModel> model; // with P_0 = P
+    Matrix coordinates;                        // its, of the compressed model's: r x r'
+};
+
 struct ReducedModel {
     std::shared_ptr<const Model> model;
     // dynamic coordinates, h >= 1
@@ -37,8 +45,9 @@ struct ReducedModel {
     // includes that of the pairs left out, and all_pairs has the model's own. Null: all pairs are carried
     vector<std::int64_t> carried;
     std::shared_ptr<const AllPairs> all_pairs;
-    Kept<StaticState> rest;     // rest_of(), reduced_rest.hpp
-    Kept<ReducedModel> widened; // widened(), widened_model.hpp
+    Kept<StaticState> rest;                     // rest_of(), reduced_rest.hpp
+    Kept<ReducedModel> widened;                 // widened(), widened_model.hpp
+    std::shared_ptr<const CompressedFrom> from; // null: of a basis as it was built
     // recovery: q = P eta
     Field vectors;   // n_free x r
     Field vectors_0; // n_free x r_0, empty when same_static

@@ -1,5 +1,6 @@
 #include "reduction/widened_model.hpp"
 #include "linalg/lapack.hpp"
+#include "reduction/compression.hpp"
 #include <algorithm>
 
 namespace plm {
@@ -75,7 +76,8 @@ std::shared_ptr<const ReducedModel> widened(const std::shared_ptr<const ReducedM
 
 bool of_one_basis(const std::shared_ptr<const ReducedModel> &a,
                   const std::shared_ptr<const ReducedModel> &b) {
-    return a == b || widened(a) == b || widened(b) == a;
+    const auto one = uncompressed(a), other = uncompressed(b);
+    return one == other || widened(one) == other || widened(other) == one;
 }
 
 } // namespace plm

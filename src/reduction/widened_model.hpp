@@ -13,7 +13,7 @@ std::shared_ptr<const ReducedModel> widened(const std::shared_ptr<const ReducedM
 /// the damping takes energy at all: their rows and columns of c become zero.
 void clear_massless(std::int64_t n, Matrix &c);
 
-/// Of one basis: one is the other, or the other widened.
+/// Of one basis: one is the other, or the other widened, or compressed from either.
 bool of_one_basis(const std::shared_ptr<const ReducedModel> &a, const std::shared_ptr<const ReducedModel> &b);
 
 } // namespace plm

@@ -3,6 +3,7 @@
 // first point of the other one.
 #include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
+#include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/harmonic_choice.hpp"
 #include "searches/hbm.hpp"
@@ -102,9 +103,11 @@ class Switch {
 
 } // namespace
 
-std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &branch, std::int64_t point,
+std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &given, std::int64_t point,
                                                  bool mirrored) const {
     const Clock::time_point begin = Clock::now();
+    const auto on_basis = on_whole_basis(given, options_, point - 1, point + 1);
+    const Branch &branch = *on_basis;
     const std::shared_ptr<const ReducedModel> reduced = model_of(branch, "branch");
     const BranchPoint &origin = branch.points().at(static_cast<std::size_t>(point));
     if (origin.bifurcation != PLM_BIFURCATION_BRANCH_POINT &&

@@ -1,5 +1,6 @@
 #include "searches/curve_verdicts.hpp"
 #include "contact/contact_measures.hpp"
+#include "reduction/compression.hpp"
 #include "searches/wider_range.hpp"
 #include <algorithm>
 #include <cmath>
@@ -80,7 +81,8 @@ void warn_of_basis(const BranchPoint &p, const std::string &how_wrong, Watch wat
     watch.keeping(branch.warnings)
         .warn(PLM_REASON_BASIS_TOO_SMALL,
               format("the basis (%lld coordinates) is too small: at %.6g Hz %s. %s",
-                     static_cast<long long>(branch.reduced().size()), p.omega / (2 * M_PI), how_wrong.c_str(),
+                     static_cast<long long>(uncompressed(branch.reduced_model())->size()),
+                     p.omega / (2 * M_PI), how_wrong.c_str(),
                      branch.reduced().all_pairs
                          ? "Carry more pairs (n_pairs_carried), or raise below_factor of the basis"
                          : "Raise n_harmonics of sampler and basis or below_factor of the basis, refine the "

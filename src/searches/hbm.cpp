@@ -5,6 +5,7 @@
 #include "linalg/scale.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"
+#include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/curve_verdicts.hpp"
 #include "searches/follow.hpp"
@@ -148,7 +149,38 @@ std::shared_ptr<Branch> Hbm::by_harmonics(double omega) const {
     return branch;
 }
 
+// The curve on a model that has what its motions need of the basis; null: such a model would not be much
+// smaller, or a curve on it is not what the whole basis says.
+std::shared_ptr<const Branch> Hbm::sweep_compressed() const {
+    constexpr std::int64_t points_of_look = 250;
+    constexpr int most_curves = 3;
+    CurveCompression compression(reduced_, options_, 2 * M_PI * options_.frequency_max_hz, watch_);
+    Hbm look(*this), curve(*this);
+    look.made_as_ = nullptr;
+    look.exact_ = false;
+    look.options_.motion = MotionKind::harmonics;
+    look.options_.n_harmonics = compression.harmonics_of_look();
+    look.options_.max_points = points_of_look;
+    look.options_.stability = StabilityKind::off;
+    look.options_.bifurcations = false;
+    try {
+        const auto first = look.sweep();
+        require_uncancelled(*first);
+        if (!compression.begin_with(*first)) return nullptr;
+        for (int k = 0; k < most_curves; ++k) {
+            curve.reduced_ = compression.model();
+            const auto branch = curve.sweep();
+            if (branch->end_reason == PLM_REASON_CANCELLED || compression.confirms(*branch)) return branch;
+        }
+    } catch (const Error &e) {
+        if (e.status() != PLM_ERR_CONVERGENCE) throw;
+    }
+    return nullptr;
+}
+
 std::shared_ptr<const Branch> Hbm::sweep() const {
+    if (exact_ && options_.motion == MotionKind::automatic && worth_compressing(*reduced_, options_))
+        if (const auto branch = sweep_compressed()) return branch;
     const Clock::time_point begin = Clock::now();
     auto branch = new_branch();
     const double low = 2 * M_PI * options_.frequency_min_hz, high = 2 * M_PI * options_.frequency_max_hz;
@@ -211,6 +243,8 @@ BranchPoint Hbm::first_guess(const Branch &start, std::int64_t point) const {
 
 std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *start, std::int64_t point) const {
     const Clock::time_point begin = Clock::now();
+    std::shared_ptr<const Branch> on_basis;
+    if (start) start = (on_basis = on_whole_basis(*start, options_, point, point)).get();
     if (start && model_of(*start, "start") != reduced_) { // its coordinates are those of that model
         Hbm there(*this);
         there.reduced_ = model_of(*start, "start");

@@ -1,4 +1,5 @@
 // The searches of Hbm: checks, and the options they run with.
+#include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/fold_tracking.hpp"
 #include "searches/harmonic_choice.hpp"
@@ -11,7 +12,9 @@
 
 namespace plm {
 
-IsolatedSearch Hbm::find_isolated(const Branch &main, double force_max) const {
+IsolatedSearch Hbm::find_isolated(const Branch &given, double force_max) const {
+    const auto on_basis = on_whole_basis(given, options_, 0, -1);
+    const Branch &main = *on_basis;
     const std::shared_ptr<const ReducedModel> reduced = model_of(main, "main_branch");
     HbmOptions options = options_;
     options.period_multiple = main.period_multiple();
@@ -30,8 +33,10 @@ std::vector<Backbone> Hbm::find_backbones(double force_max) const {
     return PhaseResonance(reduced_, options, watch_).backbones();
 }
 
-std::shared_ptr<const Branch> Hbm::track_fold(const Branch &branch, std::int64_t point, double force_min,
+std::shared_ptr<const Branch> Hbm::track_fold(const Branch &given, std::int64_t point, double force_min,
                                               double force_max) const {
+    const auto on_basis = on_whole_basis(given, options_, point, point);
+    const Branch &branch = *on_basis;
     const BranchPoint &fold = branch.points().at(static_cast<std::size_t>(point));
     const std::shared_ptr<const ReducedModel> reduced = model_of(branch, "branch");
     if (fold.bifurcation != PLM_BIFURCATION_FOLD)
@@ -57,8 +62,11 @@ std::shared_ptr<const Branch> Hbm::track_fold(const Branch &branch, std::int64_t
 }
 
 std::vector<std::shared_ptr<Branch>>
-Hbm::find_by_marching(const std::vector<std::shared_ptr<const Branch>> &known, std::int64_t n_frequencies,
+Hbm::find_by_marching(const std::vector<std::shared_ptr<const Branch>> &given, std::int64_t n_frequencies,
                       std::int64_t n_states) const {
+    std::vector<std::shared_ptr<const Branch>> known;
+    for (const auto &branch : given)
+        known.push_back(branch->reduced().from ? on_whole_basis(*branch, options_, 0, -1) : branch);
     MarchingOptions options;
     options.hbm = options_;
     options.n_frequencies = n_frequencies;

@@ -3,6 +3,7 @@
 #include "hbm/free_motion.hpp"
 #include "orbits/recorded_motion.hpp"
 #include "orbits/shooting.hpp"
+#include "reduction/compression.hpp"
 #include "reduction/reduced_rest.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/exact_motion.hpp"
@@ -238,7 +239,17 @@ FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_
 PointStart start_of(const Branch &branch, std::int64_t point) {
     const BranchPoint &p = branch.points()[static_cast<std::size_t>(point)];
     const FlowModel model(branch.reduced_model(), p.omega);
-    return {branch.reduced_model(), start_of(model, p, branch.period_multiple())};
+    FlowState state = start_of(model, p, branch.period_multiple());
+    if (!branch.reduced().from) return {branch.reduced_model(), state};
+    const auto whole = uncompressed(branch.reduced_model());
+    const FlowModel flow_model(whole, p.omega);
+    for (vector<double> *y : {&state.y, &state.v}) {
+        vector<double> in_whole(flow_model.size(), 0.0);
+        gemv('N', 1.0, branch.reduced().from->coordinates, model.in_static_coordinates(*y).data(), 0.0,
+             in_whole.data());
+        *y = flow_model.from_static_coordinates(in_whole);
+    }
+    return {whole, state};
 }
 
 vector<double> orbit_unknowns(const OrbitEquations &equations, const BranchPoint &point,

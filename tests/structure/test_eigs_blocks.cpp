@@ -15,9 +15,8 @@ constexpr double pi = 3.141592653589793238463;
 /// A factor that says that it calls the host: all problems go to the Lanczos method.
 class HostLike : public plm::Factor {
   public:
-    HostLike(const SparseMatrix &k) : inner_(plm::make_factor(k, plm::FactorKind::positive_definite)) {}
+    HostLike(const SparseMatrix &k) : inner_(plm::make_factor(k)) {}
     void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const override { inner_->solve(x, nrhs, ldx); }
-    std::int64_t negative_eigenvalues() const override { return 0; }
     double reciprocal_condition() const override { return 1; }
     std::int64_t factor_nonzeros() const override { return -1; }
     bool calls_host() const override { return true; }

@@ -175,9 +175,9 @@ typedef void (*plm_log_fn)(plm_context *ctx, int32_t level, const char *text, vo
 /* stage: a word such as "modes" or "sweep"; fraction in [0, 1]. Return non-zero to cancel. Between two calls passes less
  * than about half a second of the processor's time, but for what cannot be interrupted: one sparse factorization or one
  * dense eigenvalue problem of the libraries below, announced by its stage. On solids of 70,000 DOFs the factorization
- * of K takes 1.5 s; the count of the modes below the cutoff ("verify_counts", an indefinite factorization without
- * supernodes) takes minutes and grows with the square of the DOFs. Dense eigenvalues of order n take 0.3 (n / 1000)^3 s,
- * those of Hill's method, of order 2 n (2 H + 1), three times as long. */
+ * of K takes 1.5 s (the count of the modes below the cutoff, "verify_counts", takes little more, and is interrupted
+ * unless Eigen's solver or the host's counts). Dense eigenvalues of order n take 0.3 (n / 1000)^3 s, those of Hill's
+ * method, of order 2 n (2 H + 1), three times as long. */
 typedef int32_t (*plm_progress_fn)(plm_context *ctx, const char *stage, double fraction, void *user);
 /* allocate returns NULL on failure; any alignment (at least that of void*) will do. */
 typedef void *(*plm_allocate_fn)(int64_t bytes, void *user);

@@ -1,0 +1,63 @@
+// The model that a curve of exact motions is followed on where each step on the basis itself would cost too
+// much: the basis compressed to what its motions need. They come from a curve of few harmonics, and are
+// enriched by what the whole basis answers to the contact forces of the exact motions beside it, until that
+// changes these no more.
+#pragma once
+#include "hbm/branch.hpp"
+#include "hbm/options.hpp"
+#include "linalg/monitor.hpp"
+#include "searches/basis_error.hpp"
+
+namespace plm {
+
+/// Whether a curve of exact motions on this model (P_0 = P) is to be followed on a compressed one.
+bool worth_compressing(const ReducedModel &whole, const HbmOptions &options);
+
+class CurveCompression {
+  public:
+    /// highest: angular frequency where the range ends.
+    CurveCompression(std::shared_ptr<const ReducedModel> whole, const HbmOptions &options, double highest,
+                     Watch watch);
+
+    /// Harmonics of a curve to begin with.
+    std::int64_t harmonics_of_look() const;
+    /// Takes motions of that curve, solved on the whole basis, and the exact ones beside some of them. False:
+    /// these do not settle on a model that is much smaller.
+    bool begin_with(const Branch &look);
+    /// To follow the curve on.
+    const std::shared_ptr<const ReducedModel> &model() const { return model_; }
+    /// Whether the highest motion of the curve on that model is as the whole basis has it; if not, model() is
+    /// a better one.
+    bool confirms(const Branch &curve);
+
+  private:
+    struct Point {
+        BranchPoint motion; // in the coordinates of the whole basis, without the motion itself
+        double amplitude = -1;
+    };
+
+    double tolerance() const;
+    std::shared_ptr<const ReducedModel> compressed() const;
+    double settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points);
+    bool make_exact_on(const std::shared_ptr<const ReducedModel> &model, BranchPoint &point) const;
+    void take(const BranchPoint &point);
+    BranchPoint corrected(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &exact) const;
+    double amplitude(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &point) const;
+
+    std::shared_ptr<const ReducedModel> whole_, model_;
+    HbmOptions options_;
+    double highest_, left_out_, omega_ = 0;
+    Watch watch_;
+    Matrix motions_; // of the whole basis, mean parts among them, as shares of the largest
+    double scale_ = 0;
+    Output output_;
+    double peak_ = 0;
+};
+
+/// A curve on a compressed model as one of the whole basis, where what goes beyond the curve belongs: exact
+/// motions at its points [first, last], Fourier coefficients at the others. Any other branch as it is; it has
+/// to live as long then.
+std::shared_ptr<const Branch> on_whole_basis(const Branch &branch, const HbmOptions &options,
+                                             std::int64_t first, std::int64_t last);
+
+} // namespace plm
