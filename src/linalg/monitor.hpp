@@ -20,8 +20,14 @@ class Watch {
     explicit Watch(Monitor *monitor = nullptr) : monitor_(monitor) {}
     /// The same host; what is warned of is kept in `warnings`, too, which must outlive the watch.
     Watch keeping(Warnings &warnings) const {
-        Watch watch(monitor_);
+        Watch watch(*this);
         watch.kept_ = &warnings;
+        return watch;
+    }
+    /// The same host, asked whether to go on and told nothing: of steps whose results are not delivered.
+    Watch quiet() const {
+        Watch watch(monitor_);
+        watch.quiet_ = true;
         return watch;
     }
     /// Something to look at with a result that is delivered: to the log and, where one is kept, to the list.
@@ -30,7 +36,7 @@ class Watch {
         if (kept_) kept_->add(reason, text);
     }
     void log(int level, const std::string &text) const {
-        if (monitor_) monitor_->log(level, text);
+        if (monitor_ && !quiet_) monitor_->log(level, text);
     }
     bool cancelled(const char *stage, double fraction) const {
         return monitor_ && monitor_->progress(stage, fraction);
@@ -44,6 +50,7 @@ class Watch {
   private:
     Monitor *monitor_;
     Warnings *kept_ = nullptr;
+    bool quiet_ = false;
 };
 
 } // namespace plm

@@ -164,11 +164,11 @@ std::shared_ptr<const ReducedModel> CurveCompression::compressed() const {
 }
 
 // point: in the coordinates of the whole basis.
-void CurveCompression::take(const BranchPoint &point) {
+void CurveCompression::take(const BranchPoint &point, Matrix &motions) const {
     Matrix columns = mean_of(point);
     columns.append(point.eta);
     for (std::int64_t k = 0; k < columns.rows() * columns.cols(); ++k) columns.data()[k] /= scale_;
-    motions_.append(columns);
+    motions.append(columns);
 }
 
 double CurveCompression::amplitude(const std::shared_ptr<const ReducedModel> &model,
@@ -184,7 +184,7 @@ bool CurveCompression::make_exact_on(const std::shared_ptr<const ReducedModel> &
     if (!nearest.known()) return false;
     BranchPoint guess = with_coordinates(point, nearest.of(mean_of(point)), nearest.of(point.eta));
     NewtonWork work;
-    if (!make_exact(model, options_, watch_, guess, work)) return false;
+    if (!make_exact(model, options_, watch_.quiet(), guess, work)) return false;
     point = std::move(guess);
     return true;
 }
@@ -214,28 +214,23 @@ BranchPoint CurveCompression::corrected(const std::shared_ptr<const ReducedModel
     return p;
 }
 
-// Exact motions on a model beside the points, which become theirs. With their corrections they take the place
-// of all motions taken before, which know less. Returns the largest change of an amplitude since the last
-// call, over the peak; infinite the first time.
-double CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model,
-                                std::vector<Point> &points) {
-    double change = 0;
-    std::size_t found = 0;
-    const Matrix before = std::move(motions_);
-    motions_ = Matrix();
+// Exact motions on a model beside the points, which become theirs, and their corrections: what a model needs
+// to have. Returns the largest change of an amplitude since the last call, over the peak; infinite where none
+// can be compared.
+double CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points,
+                                Matrix &motions) const {
+    double change = -1;
     for (Point &point : points) {
         BranchPoint exact = point.motion;
         if (!make_exact_on(model, exact)) continue;
-        ++found;
         const double now = amplitude(model, exact);
-        change = std::max(change, point.amplitude < 0 ? INFINITY : std::abs(now - point.amplitude) / peak_);
+        if (point.amplitude >= 0) change = std::max(change, std::abs(now - point.amplitude) / peak_);
         point.amplitude = now;
-        take(in_whole(*model, exact));
+        take(in_whole(*model, exact), motions);
         point.motion = corrected(model, exact);
-        take(point.motion);
+        take(point.motion, motions);
     }
-    if (2 * found < points.size()) motions_.append(before);
-    return found > 0 ? change : INFINITY;
+    return change >= 0 ? change : INFINITY;
 }
 
 bool CurveCompression::begin_with(const Branch &look) {
@@ -246,18 +241,24 @@ bool CurveCompression::begin_with(const Branch &look) {
     for (const BranchPoint &p : look.points())
         scale_ = std::max(scale_, norm2(p.eta.rows() * p.eta.cols(), p.eta.data()));
     if (!(peak_ > 0 && scale_ > 0)) return false;
-    for (const BranchPoint &p : look.points()) take(p);
+    for (const BranchPoint &p : look.points()) take(p, motions_);
     std::vector<Point> points;
     vector<std::int64_t> at = spread_over(look, motions_looked_at);
     at.push_back(top);
     for (std::int64_t i : at) points.push_back({look.points()[static_cast<std::size_t>(i)]});
+    const auto is_found = [](const Point &p) { return p.amplitude >= 0; };
     std::shared_ptr<const ReducedModel> before;
     for (std::int64_t round = 0; round < most_rounds; ++round) {
         const auto smaller = compressed();
         if (static_cast<double>(smaller->size()) > much_smaller * static_cast<double>(whole_->size()))
             return false;
-        const double change = settle(smaller, points);
-        watch_.log(2, format("compressed to %lld of %lld coordinates: amplitudes change by %.2g of the peak",
+        Matrix motions;
+        const double change = settle(smaller, points, motions);
+        // they know more than those before, unless they are few
+        if (2 * std::count_if(points.begin(), points.end(), is_found) < motions_looked_at)
+            motions.append(motions_);
+        motions_ = std::move(motions);
+        watch_.log(1, format("compressed to %lld of %lld coordinates: amplitudes change by %.2g of the peak",
                              static_cast<long long>(smaller->size()), static_cast<long long>(whole_->size()),
                              change));
         // the change is what the model before made wrong, this one's error is a part of it
@@ -277,13 +278,13 @@ bool CurveCompression::confirms(const Branch &curve) {
     const BranchPoint &exact = curve.points()[static_cast<std::size_t>(top)];
     if (!exact.motion) return false;
     std::vector<Point> one{{in_whole(curve.reduced(), exact), amplitude(curve.reduced_model(), exact)}};
-    take(one[0].motion);
+    take(one[0].motion, motions_);
     one[0].motion = corrected(curve.reduced_model(), exact);
-    take(one[0].motion);
+    take(one[0].motion, motions_);
     left_out_ *= less;
     const auto better = compressed();
-    const double change = settle(better, one);
-    watch_.log(2, format("whole basis: the highest motion changes by %.2g of itself", change));
+    const double change = settle(better, one, motions_);
+    watch_.log(1, format("whole basis: the highest motion changes by %.2g of itself", change));
     if (change <= tolerance()) return true;
     model_ = better;
     return false;

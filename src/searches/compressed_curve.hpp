@@ -38,9 +38,10 @@ class CurveCompression {
 
     double tolerance() const;
     std::shared_ptr<const ReducedModel> compressed() const;
-    double settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points);
+    double settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points,
+                  Matrix &motions) const;
     bool make_exact_on(const std::shared_ptr<const ReducedModel> &model, BranchPoint &point) const;
-    void take(const BranchPoint &point);
+    void take(const BranchPoint &point, Matrix &motions) const;
     BranchPoint corrected(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &exact) const;
     double amplitude(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &point) const;
 

@@ -151,12 +151,13 @@ std::shared_ptr<Branch> Hbm::by_harmonics(double omega) const {
 
 // The curve on a model that has what its motions need of the basis; null: such a model would not be much
 // smaller, or a curve on it is not what the whole basis says.
-std::shared_ptr<const Branch> Hbm::sweep_compressed() const {
+std::shared_ptr<Branch> Hbm::sweep_compressed() const {
     constexpr std::int64_t points_of_look = 250;
     constexpr int most_curves = 3;
     CurveCompression compression(reduced_, options_, 2 * M_PI * options_.frequency_max_hz, watch_);
     Hbm look(*this), curve(*this);
     look.made_as_ = nullptr;
+    look.watch_ = watch_.quiet();
     look.exact_ = false;
     look.options_.motion = MotionKind::harmonics;
     look.options_.n_harmonics = compression.harmonics_of_look();
@@ -164,23 +165,32 @@ std::shared_ptr<const Branch> Hbm::sweep_compressed() const {
     look.options_.stability = StabilityKind::off;
     look.options_.bifurcations = false;
     try {
-        const auto first = look.sweep();
+        const auto first = look.sweep_whole();
         require_uncancelled(*first);
         if (!compression.begin_with(*first)) return nullptr;
         for (int k = 0; k < most_curves; ++k) {
             curve.reduced_ = compression.model();
-            const auto branch = curve.sweep();
+            const auto branch = curve.sweep_whole();
+            if (is_stuck(*branch)) return nullptr;
             if (branch->end_reason == PLM_REASON_CANCELLED || compression.confirms(*branch)) return branch;
         }
     } catch (const Error &e) {
-        if (e.status() != PLM_ERR_CONVERGENCE) throw;
+        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
     }
     return nullptr;
 }
 
 std::shared_ptr<const Branch> Hbm::sweep() const {
+    const Clock::time_point begin = Clock::now();
+    std::shared_ptr<Branch> branch;
     if (exact_ && options_.motion == MotionKind::automatic && worth_compressing(*reduced_, options_))
-        if (const auto branch = sweep_compressed()) return branch;
+        branch = sweep_compressed();
+    if (!branch) branch = sweep_whole();
+    branch->seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    return branch;
+}
+
+std::shared_ptr<Branch> Hbm::sweep_whole() const {
     const Clock::time_point begin = Clock::now();
     auto branch = new_branch();
     const double low = 2 * M_PI * options_.frequency_min_hz, high = 2 * M_PI * options_.frequency_max_hz;

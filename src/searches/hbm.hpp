@@ -68,7 +68,8 @@ class Hbm {
     bool solve_by_harmonics_at(double omega, const BranchPoint *guess, Branch &branch,
                                BranchPoint &point) const;
     std::shared_ptr<Branch> by_harmonics(double omega) const;
-    std::shared_ptr<const Branch> sweep_compressed() const;
+    std::shared_ptr<Branch> sweep_whole() const;
+    std::shared_ptr<Branch> sweep_compressed() const;
     BranchPoint first_guess(const Branch &start, std::int64_t point) const;
 
     /// The model that a branch of this basis was computed on. PLM_ERR_ARGUMENT for one of another basis.
