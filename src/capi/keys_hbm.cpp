@@ -40,7 +40,7 @@ const std::vector<Key> &hbm_keys() {
             "motion", "auto,exact,harmonics",
             "curves and their points: exact motions of the reduced model, or harmonic balance; auto: exact "
             "where that is cheaper and no option of harmonic balance is set, and where each point would take "
-            "long, on the basis compressed to what its motions need, to a third of accuracy"),
+            "long, on the basis compressed to what its motions need within accuracy"),
         choice_option<&O::aft>(
             "aft", "event,sampled",
             "contact forces integrated between exact switching instants, or from time samples"),

@@ -2,6 +2,7 @@
 #include "contact/contact_measures.hpp"
 #include "contact/trig_polynomial.hpp"
 #include "hbm/formulation.hpp"
+#include "linalg/blas_lapack.hpp"
 #include "linalg/scale.hpp"
 #include <algorithm>
 #include <cmath>
@@ -107,6 +108,8 @@ void Branch::continue_with(const Branch &piece) {
 }
 
 void Branch::append(BranchPoint point) {
+    require(point.eta.rows() == reduced_->size() || point.eta.cols() == 0,
+            "append: coordinates of the branch");
     drop_what_is_not_finite(point, warnings);
     const std::int64_t n = point.eta.cols() / 2;
     if (n > n_harmonics_) {

@@ -1,6 +1,7 @@
 // Eigenproblems of real matrices without symmetry: dgeev.
 #include "blas_lapack.hpp"
 #include "lapack.hpp"
+#include "work.hpp"
 #include <algorithm>
 #include <numeric>
 
@@ -29,6 +30,7 @@ RawEigen run_dgeev(Matrix a, bool with_vectors) {
     require_valid(info, "dgeev");
     const blas_int lwork = std::max(to_blas(static_cast<std::int64_t>(best)), to_blas(4 * a.rows()));
     vector<double> work(lwork);
+    worked((with_vectors ? 25.0 : 10.0) * n * n * n);
     dgeev_("N", job, &n, a.data(), &n, e.real.data(), e.imag.data(), nullptr, &one, vectors, &ldv,
            work.data(), &lwork, &info, 1, 1);
     require_valid(info, "dgeev");

@@ -150,11 +150,12 @@ double energy_of(const vector<double> &weight, const double *motion) {
     return energy;
 }
 
-// The modes below a frequency with all pairs closed, each of the same energy.
-Matrix modes_in_contact(const ReducedModel &from, const vector<double> &weight, double kept, double energy) {
-    Matrix modes =
-        modes_with_springs(from.lambda, from.n_massless, from.gap, from.contact.stiffness, kept * kept)
-            .vectors;
+// The modes below a frequency in contact, each of the same energy.
+Matrix modes_in_contact(const ReducedModel &from, const std::vector<vector<double>> &springs,
+                        const vector<double> &weight, double kept, double energy) {
+    Matrix modes(from.size(), 0);
+    for (const vector<double> &spring : springs)
+        modes.append(modes_with_springs(from.lambda, from.n_massless, from.gap, spring, kept * kept).vectors);
     for (std::int64_t k = 0; k < modes.cols(); ++k) {
         const double factor = std::sqrt(energy / energy_of(weight, modes.col(k)));
         for (std::int64_t j = 0; j < modes.rows(); ++j) modes(j, k) *= factor;
@@ -164,7 +165,8 @@ Matrix modes_in_contact(const ReducedModel &from, const vector<double> &weight, 
 
 // The modes below a frequency, as unit vectors, and the best directions for the rest of the motions and of
 // the modes with closed contact.
-Matrix modes_and_directions(const ReducedModel &from, Matrix motions, double omega, double tolerance,
+Matrix modes_and_directions(const ReducedModel &from, Matrix motions,
+                            const std::vector<vector<double>> &springs, double omega, double tolerance,
                             double kept) {
     const vector<double> weight = energy_weights(from.lambda, from.n_massless, omega);
     const std::int64_t r = from.size();
@@ -175,7 +177,7 @@ Matrix modes_and_directions(const ReducedModel &from, Matrix motions, double ome
         const double one = energy_of(weight, motions.col(k));
         energy += one, largest = std::max(largest, one);
     }
-    motions.append(modes_in_contact(from, weight, kept, largest));
+    motions.append(modes_in_contact(from, springs, weight, kept, largest));
     for (std::int64_t k = 0; k < motions.cols(); ++k) std::fill_n(motions.col(k), slow, 0.0);
     Matrix y(r, slow);
     for (std::int64_t j = 0; j < slow; ++j) y(j, j) = 1;
@@ -187,12 +189,13 @@ Matrix modes_and_directions(const ReducedModel &from, Matrix motions, double ome
 } // namespace
 
 std::shared_ptr<const ReducedModel> compress_beside_modes(std::shared_ptr<const ReducedModel> from,
-                                                          const Matrix &motions, double omega,
-                                                          double tolerance, double kept) {
+                                                          const Matrix &motions,
+                                                          const std::vector<vector<double>> &springs,
+                                                          double omega, double tolerance, double kept) {
     require(from->same_static && !from->all_pairs, "compress_beside_modes: the model's statics");
     const Space space = as_space(*from);
     Coordinates coordinates =
-        diagonalise(space, modes_and_directions(*from, motions, omega, tolerance, kept));
+        diagonalise(space, modes_and_directions(*from, motions, springs, omega, tolerance, kept));
     const auto reduced = std::make_shared<ReducedModel>(*project(space, coordinates, StaticBasis()));
     reduce_statics(*from, coordinates.y, Matrix(from->size(), 0), *reduced);
     reduced->from =

@@ -23,6 +23,8 @@ constexpr double share_of_accuracy = 0.3;
 constexpr double slow = 3;
 // A model that is not smaller than this share of the whole saves nothing.
 constexpr double much_smaller = 0.7;
+// Nor one of this share where contact bounces: its motions need more of the basis as they are followed.
+constexpr double much_smaller_where_unstable = 0.5;
 constexpr std::int64_t motions_looked_at = 6; // of the first curve, besides its highest
 constexpr std::int64_t most_rounds = 6;
 constexpr std::int64_t corrected_harmonics = 24; // those above hardly move
@@ -30,6 +32,10 @@ constexpr std::int64_t corrected_harmonics = 24; // those above hardly move
 constexpr double flops_of_look = 1e9;
 
 constexpr double negligible = 1e-6; // stiffness, of omega^2
+// Of the multipliers, on the curves of cracked plates; on those that change their stability more often, where
+// contact bounces, they are no longer so near.
+constexpr double multiplier_error = 1e-4;
+constexpr std::int64_t most_changes = 40;
 
 using complex = std::complex<double>;
 
@@ -53,8 +59,13 @@ BranchPoint with_coordinates(const BranchPoint &p, const Matrix &mean, Matrix et
     return out;
 }
 
-BranchPoint in_whole(const ReducedModel &m, const BranchPoint &p) {
-    return with_coordinates(p, uncompressed(m, mean_of(p)), uncompressed(m, p.eta));
+// In the coordinates of the whole basis, without the motion itself.
+BranchPoint uncompressed(const ReducedModel &m, const BranchPoint &p) {
+    BranchPoint q = p;
+    q.motion = nullptr;
+    q.eta_0 = as_vector(uncompressed(m, mean_of(p)));
+    q.eta = uncompressed(m, p.eta);
+    return q;
 }
 
 // The coordinates of a compressed model that come nearest to motions of the whole one, by their energy.
@@ -82,13 +93,19 @@ class NearestCoordinates {
     bool known_ = false;
 };
 
-// B^T diag(s) B of the pairs' springs weighted by the share of the period in which they act.
-Matrix mean_springs(const ReducedModel &m, const vector<double> &closed_shares) {
+// The pairs' springs, weighted by the share of the period in which they act.
+vector<double> mean_springs(const ReducedModel &m, const BranchPoint &exact) {
+    vector<double> spring = m.contact.stiffness;
+    const vector<double> &share = exact.motion->closed_shares();
+    for (std::size_t i = 0; i < spring.size(); ++i) spring[i] *= share[i];
+    return spring;
+}
+
+// B^T diag(spring) B.
+Matrix stiffness_of(const ReducedModel &m, const vector<double> &spring) {
     Matrix weighted = m.gap;
-    for (std::int64_t i = 0; i < weighted.rows(); ++i) {
-        const double s = m.contact.stiffness[i] * closed_shares[i];
-        for (std::int64_t j = 0; j < weighted.cols(); ++j) weighted(i, j) *= s;
-    }
+    for (std::int64_t j = 0; j < weighted.cols(); ++j)
+        for (std::int64_t i = 0; i < weighted.rows(); ++i) weighted(i, j) *= spring[i];
     return product('T', 'N', m.gap, weighted);
 }
 
@@ -119,8 +136,8 @@ vector<complex> motion_of(const BranchPoint &p, std::int64_t h) {
 vector<complex> missing_force(const ReducedModel &m, const BranchPoint &p, const Matrix &contact,
                               std::int64_t h) {
     const std::int64_t r = m.size();
-    const vector<complex> x = motion_of(p, h),
-                          open = dynamic_stiffness(m, Matrix(r, r), static_cast<double>(h) * p.omega);
+    const double omega = static_cast<double>(h) * p.omega;
+    const vector<complex> x = motion_of(p, h);
     vector<complex> f(r);
     for (std::int64_t i = 0; i < r; ++i)
         f[i] = h == 0 ? complex(m.preload_0[i] - contact(i, 0))
@@ -129,9 +146,31 @@ vector<complex> missing_force(const ReducedModel &m, const BranchPoint &p, const
         for (std::int64_t i = 0; i < r; ++i)
             f[i] += p.force_scale *
                     complex(load->second.real[i], load->second.imag.empty() ? 0 : load->second.imag[i]);
-    for (std::int64_t j = 0; j < r; ++j)
-        for (std::int64_t i = 0; i < r; ++i) f[i] -= open[i + j * r] * x[j];
+    for (std::int64_t j = 0; j < r; ++j) {
+        f[j] -= (m.lambda[j] - omega * omega * m.mass(j)) * x[j];
+        if (m.damping.empty()) f[j] -= complex(0, omega * m.damping_diagonal[j]) * x[j];
+        for (std::int64_t i = 0; i < m.damping.rows(); ++i)
+            f[i] -= complex(0, omega * m.damping(i, j)) * x[j];
+    }
     return f;
+}
+
+bool changes_stability(const BranchPoint &p) {
+    return p.bifurcation != PLM_BIFURCATION_NONE && p.bifurcation != PLM_BIFURCATION_FOLD;
+}
+
+// Half-way between special points, of which one is no fold.
+vector<std::size_t> beside_changes(const std::vector<BranchPoint> &points) {
+    vector<std::size_t> at;
+    std::size_t before = 0;
+    bool changed = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (points[i].bifurcation == PLM_BIFURCATION_NONE && i + 1 < points.size()) continue;
+        const bool change = changes_stability(points[i]);
+        if ((changed || change) && i > before + 1) at.push_back((before + i) / 2);
+        before = i, changed = change;
+    }
+    return at;
 }
 
 } // namespace
@@ -160,7 +199,9 @@ double CurveCompression::tolerance() const {
 }
 
 std::shared_ptr<const ReducedModel> CurveCompression::compressed() const {
-    return compress_beside_modes(whole_, motions_, omega_, left_out_, slow * highest_);
+    std::vector<vector<double>> springs = needs_.springs;
+    springs.push_back(whole_->contact.stiffness);
+    return compress_beside_modes(whole_, needs_.motions, springs, omega_, left_out_, slow * highest_);
 }
 
 // point: in the coordinates of the whole basis.
@@ -193,10 +234,10 @@ bool CurveCompression::make_exact_on(const std::shared_ptr<const ReducedModel> &
 // (the mean first), answers with the contact's springs at their mean over the period.
 BranchPoint CurveCompression::corrected(const std::shared_ptr<const ReducedModel> &model,
                                         const BranchPoint &exact) const {
-    BranchPoint p = in_whole(*model, exact);
+    BranchPoint p = uncompressed(*model, exact);
     const std::int64_t n = std::min(p.eta.cols() / 2, corrected_harmonics), r = whole_->size();
     const Matrix forces = product('T', 'N', whole_->gap, exact.motion->contact_forces(n)),
-                 springs = mean_springs(*whole_, exact.motion->closed_shares());
+                 springs = stiffness_of(*whole_, mean_springs(*whole_, exact));
     ComplexLu lu;
     for (std::int64_t h = 0; h <= n; ++h) {
         vector<complex> change = missing_force(*whole_, p, forces, h),
@@ -218,7 +259,7 @@ BranchPoint CurveCompression::corrected(const std::shared_ptr<const ReducedModel
 // to have. Returns the largest change of an amplitude since the last call, over the peak; infinite where none
 // can be compared.
 double CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points,
-                                Matrix &motions) const {
+                                Needs &needs) const {
     double change = -1;
     for (Point &point : points) {
         BranchPoint exact = point.motion;
@@ -226,45 +267,60 @@ double CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model
         const double now = amplitude(model, exact);
         if (point.amplitude >= 0) change = std::max(change, std::abs(now - point.amplitude) / peak_);
         point.amplitude = now;
-        take(in_whole(*model, exact), motions);
+        point.unstable = stability_of(exact) == 0;
+        needs.springs.push_back(mean_springs(*model, exact));
+        take(uncompressed(*model, exact), needs.motions);
         point.motion = corrected(model, exact);
-        take(point.motion, motions);
+        take(point.motion, needs.motions);
     }
     return change >= 0 ? change : INFINITY;
 }
 
-bool CurveCompression::begin_with(const Branch &look) {
+// Motions of the first curve and, of some points of it, what is to settle.
+std::vector<CurveCompression::Point> CurveCompression::points_of(const Branch &look) {
+    std::vector<Point> points;
     const std::int64_t top = largest_response(look);
     output_ = most_moving(look, top);
     peak_ = look.amplitude(top, output_.dof, Measure::peak, 0);
     omega_ = look.points()[static_cast<std::size_t>(top)].omega;
     for (const BranchPoint &p : look.points())
         scale_ = std::max(scale_, norm2(p.eta.rows() * p.eta.cols(), p.eta.data()));
-    if (!(peak_ > 0 && scale_ > 0)) return false;
-    for (const BranchPoint &p : look.points()) take(p, motions_);
-    std::vector<Point> points;
+    if (!(peak_ > 0 && scale_ > 0)) return points;
+    for (const BranchPoint &p : look.points()) take(p, needs_.motions);
     vector<std::int64_t> at = spread_over(look, motions_looked_at);
     at.push_back(top);
     for (std::int64_t i : at) points.push_back({look.points()[static_cast<std::size_t>(i)]});
+    return points;
+}
+
+bool CurveCompression::saves(const ReducedModel &smaller, const std::vector<Point> &points) const {
+    const auto is_unstable = [](const Point &p) { return p.unstable; };
+    const bool bounces = std::count_if(points.begin(), points.end(), is_unstable) > 1;
+    return static_cast<double>(smaller.size()) <=
+           (bounces ? much_smaller_where_unstable : much_smaller) * static_cast<double>(whole_->size());
+}
+
+bool CurveCompression::begin_with(const Branch &look) {
+    std::vector<Point> points = points_of(look);
+    if (points.empty()) return false;
     const auto is_found = [](const Point &p) { return p.amplitude >= 0; };
     std::shared_ptr<const ReducedModel> before;
     for (std::int64_t round = 0; round < most_rounds; ++round) {
         const auto smaller = compressed();
-        if (static_cast<double>(smaller->size()) > much_smaller * static_cast<double>(whole_->size()))
-            return false;
-        Matrix motions;
-        const double change = settle(smaller, points, motions);
+        if (!saves(*smaller, points)) return false;
+        Needs needs;
+        const double change = settle(smaller, points, needs);
         // they know more than those before, unless they are few
         if (2 * std::count_if(points.begin(), points.end(), is_found) < motions_looked_at)
-            motions.append(motions_);
-        motions_ = std::move(motions);
+            needs.motions.append(needs_.motions);
+        needs_ = std::move(needs);
         watch_.log(1, format("compressed to %lld of %lld coordinates: amplitudes change by %.2g of the peak",
                              static_cast<long long>(smaller->size()), static_cast<long long>(whole_->size()),
                              change));
         // the change is what the model before made wrong, this one's error is a part of it
         if (change <= options_.accuracy) {
             model_ = change <= tolerance() ? before : smaller;
-            return true;
+            return saves(*model_, points);
         }
         before = smaller;
         if (round > 0 && !std::isfinite(change)) return false;
@@ -277,17 +333,41 @@ bool CurveCompression::confirms(const Branch &curve) {
     const std::int64_t top = largest_response(curve);
     const BranchPoint &exact = curve.points()[static_cast<std::size_t>(top)];
     if (!exact.motion) return false;
-    std::vector<Point> one{{in_whole(curve.reduced(), exact), amplitude(curve.reduced_model(), exact)}};
-    take(one[0].motion, motions_);
+    std::vector<Point> one{{uncompressed(curve.reduced(), exact), amplitude(curve.reduced_model(), exact)}};
+    take(one[0].motion, needs_.motions);
     one[0].motion = corrected(curve.reduced_model(), exact);
-    take(one[0].motion, motions_);
+    take(one[0].motion, needs_.motions);
     left_out_ *= less;
     const auto better = compressed();
-    const double change = settle(better, one, motions_);
+    const double change = settle(better, one, needs_);
     watch_.log(1, format("whole basis: the highest motion changes by %.2g of itself", change));
     if (change <= tolerance()) return true;
     model_ = better;
     return false;
+}
+
+bool CurveCompression::agrees_on_stability(const Branch &curve, const BranchPoint &point) const {
+    BranchPoint p = uncompressed(curve.reduced(), point);
+    NewtonWork work;
+    if (!make_exact(whole_, options_, watch_.quiet(), p, work) || p.multipliers.empty()) return false;
+    const double outside = std::abs(p.multipliers[0]) - 1,
+                 moved = std::abs(amplitude(whole_, p) - amplitude(curve.reduced_model(), point));
+    return std::abs(outside) <= multiplier_error || (outside < 0) == (stability_of(point) == 1) ||
+           moved > options_.accuracy * peak_; // beside a fold there is another motion of the same frequency
+}
+
+bool CurveCompression::confirms_stability(const Branch &curve) const {
+    const auto &points = curve.points();
+    vector<std::size_t> at = beside_changes(points);
+    at.push_back(static_cast<std::size_t>(largest_response(curve)));
+    for (std::size_t i : at) {
+        if (!points[i].motion || stability_of(points[i]) < 0 || agrees_on_stability(curve, points[i]))
+            continue;
+        watch_.log(1, format("whole basis: stability at %.6g Hz is not as on the compressed one",
+                             points[i].omega / (2 * M_PI)));
+        return false;
+    }
+    return true;
 }
 
 std::shared_ptr<const Branch> on_whole_basis(const Branch &branch, const HbmOptions &options,
@@ -298,10 +378,7 @@ std::shared_ptr<const Branch> on_whole_basis(const Branch &branch, const HbmOpti
     whole->end_reason = branch.end_reason;
     for (std::int64_t i = 0; i < static_cast<std::int64_t>(branch.points().size()); ++i) {
         const BranchPoint &p = branch.points()[static_cast<std::size_t>(i)];
-        BranchPoint q = p;
-        q.motion = nullptr;
-        q.eta_0 = as_vector(uncompressed(m, mean_of(p)));
-        q.eta = uncompressed(m, p.eta);
+        BranchPoint q = uncompressed(m, p);
         if (p.motion && i >= first && i <= last) {
             const HbmOptions o = options_at(p, branch.period_multiple(), options);
             const OrbitEquations equations =

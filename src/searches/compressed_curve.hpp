@@ -29,27 +29,40 @@ class CurveCompression {
     /// Whether the highest motion of the curve on that model is as the whole basis has it; if not, model() is
     /// a better one.
     bool confirms(const Branch &curve);
+    /// Whether the curve is stable on the whole basis where it is on that model: at its highest motion, and
+    /// between the points where it becomes stable or unstable.
+    bool confirms_stability(const Branch &curve) const;
 
   private:
     struct Point {
         BranchPoint motion; // in the coordinates of the whole basis, without the motion itself
         double amplitude = -1;
+        bool unstable = false;
     };
 
+    /// What the model is made from.
+    struct Needs {
+        Matrix motions; // of the whole basis, mean parts among them, as shares of the largest
+        std::vector<vector<double>> springs; // in the place of the pairs, at their mean over a period
+    };
+
+    std::vector<Point> points_of(const Branch &look);
+    bool saves(const ReducedModel &smaller, const std::vector<Point> &points) const;
     double tolerance() const;
     std::shared_ptr<const ReducedModel> compressed() const;
     double settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points,
-                  Matrix &motions) const;
+                  Needs &needs) const;
     bool make_exact_on(const std::shared_ptr<const ReducedModel> &model, BranchPoint &point) const;
     void take(const BranchPoint &point, Matrix &motions) const;
     BranchPoint corrected(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &exact) const;
+    bool agrees_on_stability(const Branch &curve, const BranchPoint &point) const;
     double amplitude(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &point) const;
 
     std::shared_ptr<const ReducedModel> whole_, model_;
     HbmOptions options_;
     double highest_, left_out_, omega_ = 0;
     Watch watch_;
-    Matrix motions_; // of the whole basis, mean parts among them, as shares of the largest
+    Needs needs_;
     double scale_ = 0;
     Output output_;
     double peak_ = 0;

@@ -171,8 +171,9 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
         for (int k = 0; k < most_curves; ++k) {
             curve.reduced_ = compression.model();
             const auto branch = curve.sweep_whole();
-            if (is_stuck(*branch)) return nullptr;
-            if (branch->end_reason == PLM_REASON_CANCELLED || compression.confirms(*branch)) return branch;
+            if (branch->end_reason == PLM_REASON_CANCELLED) return branch;
+            if (is_stuck(*branch) || !compression.confirms_stability(*branch)) return nullptr;
+            if (compression.confirms(*branch)) return branch;
         }
     } catch (const Error &e) {
         if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;

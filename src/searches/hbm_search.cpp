@@ -18,6 +18,17 @@ IsolatedSearch Hbm::find_isolated(const Branch &given, double force_max) const {
     const std::shared_ptr<const ReducedModel> reduced = model_of(main, "main_branch");
     HbmOptions options = options_;
     options.period_multiple = main.period_multiple();
+    if (!reduced
+             ->same_static) { // exact motions have other coordinates, and what is found is held against main
+        if (options.motion == MotionKind::exact)
+            throw Error(
+                PLM_ERR_ARGUMENT,
+                "the main branch has solutions of harmonic balance, and exact motions differ from them "
+                "on a basis with a pre-load; hand over a curve of exact motions, or set motion to "
+                "harmonics")
+                .argument("main_branch");
+        if (options.n_harmonics == 0) options.n_harmonics = main.n_harmonics() / options.period_multiple;
+    }
     // the curve may have gone on past the window to its peak
     for (const BranchPoint &p : main.points()) {
         options.frequency_min_hz = std::min(options.frequency_min_hz, p.omega / (2 * M_PI));

@@ -42,7 +42,8 @@ class Search {
            double force_max, Watch watch)
         : reduced_(std::move(reduced)), options_(options), main_(main), watch_(watch),
           force_max_(force_max > 0 ? force_max : backbone_reach * options.force_scale),
-          resonance_(reduced_, backbone_options(), watch), exact_(prefers_exact(reduced_, options)) {}
+          resonance_(reduced_, backbone_options(), watch),
+          exact_(reduced_->same_static && prefers_exact(reduced_, options)) {}
 
     IsolatedSearch run() {
         const auto begin = std::chrono::steady_clock::now();

@@ -13,18 +13,10 @@ namespace test {
 class Host {
   public:
     Host(const char *name, bool with_preload, int n_samples) {
-        if (scene_create(name, "quick", with_preload, &host_) ||
-            plm_context_create(PLM_API_VERSION, &context_))
-            return;
-        plm_model *model = nullptr;
-        must(context_, scene_to_model(context_, host_, &model), "model");
-        model_ = plm::capi::find<plm::capi::ModelHandle>(model)->core;
-        plm::SamplerOptions o;
-        o.system = host_->dominant_system ? plm::LinearSystem::sliding : plm::LinearSystem::open;
-        o.mode = host_->dominant_mode;
-        o.n_samples = n_samples;
-        sampler_ = std::make_shared<plm::Sampler>(model_, o, plm::Watch());
+        if (!scene_create(name, "quick", with_preload, &host_)) sample(n_samples);
     }
+    /// Owns the scene.
+    Host(scene *host, int n_samples) : host_(host) { sample(n_samples); }
     ~Host() {
         model_ = nullptr;
         sampler_ = nullptr;
@@ -52,6 +44,18 @@ class Host {
     std::int64_t output_dof() const { return host_->output_dof; }
 
   private:
+    void sample(int n_samples) {
+        if (plm_context_create(PLM_API_VERSION, &context_)) return;
+        plm_model *model = nullptr;
+        must(context_, scene_to_model(context_, host_, &model), "model");
+        model_ = plm::capi::find<plm::capi::ModelHandle>(model)->core;
+        plm::SamplerOptions o;
+        o.system = host_->dominant_system ? plm::LinearSystem::sliding : plm::LinearSystem::open;
+        o.mode = host_->dominant_mode;
+        o.n_samples = n_samples;
+        sampler_ = std::make_shared<plm::Sampler>(model_, o, plm::Watch());
+    }
+
     scene *host_ = nullptr;
     plm_context *context_ = nullptr;
     std::shared_ptr<const plm::Model> model_;

@@ -148,6 +148,34 @@ void the_plates_isola_is_found(void **) {
     assert_true(f.unborn == 0);
 }
 
+// The main curve is of harmonic balance on a basis with statics of its own. Exact motions widen such a basis:
+// what a solver finds beside the curve has the curve's coordinates, and its harmonics.
+void a_solver_with_nothing_set_searches_beside_that_curve(void **) {
+    const Isola &all = isola();
+    assert_true(all.built && !all.plate.reduced->same_static);
+    plm::HbmOptions o = options();
+    o.n_harmonics = 0;
+    const plm::Hbm solver(all.plate.reduced, 0, 0, o, plm::Watch());
+    const plm::IsolatedSearch search = solver.find_isolated(*all.main, 0);
+    assert_int_equal(search.branches.size(), 1);
+    const plm::Branch &b = *search.branches[0].branch;
+    double hz = 0, of_nine = 0;
+    const double top = highest(b, all.plate.host->output_dof, hz);
+    of_nine = highest(*all.search.branches[0].branch, all.plate.host->output_dof, hz);
+    std::printf("    its loop reaches %.4e mm, that of nine harmonics %.4e mm\n", top, of_nine);
+    assert_true(std::abs(top - of_nine) < 1e-6 * of_nine);
+    assert_true(b.full_residual(static_cast<std::int64_t>(b.points().size() / 2)) < 1);
+    o.motion = plm::MotionKind::exact;
+    const plm::Hbm exact(all.plate.reduced, 0, 0, o, plm::Watch());
+    plm_status refusal = PLM_OK;
+    try {
+        exact.find_isolated(*all.main, 0);
+    } catch (const plm::Error &e) {
+        refusal = e.status();
+    }
+    assert_int_equal(refusal, PLM_ERR_ARGUMENT);
+}
+
 // --- against the full-order loop
 
 struct Curve {
@@ -300,6 +328,7 @@ void stable_points_persist_in_time(void **) {
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(the_plates_isola_is_found),
+        cmocka_unit_test(a_solver_with_nothing_set_searches_beside_that_curve),
         cmocka_unit_test(its_loop_is_that_of_the_full_order),
         cmocka_unit_test(stable_points_persist_in_time),
     };
