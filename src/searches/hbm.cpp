@@ -227,6 +227,10 @@ std::shared_ptr<Branch> Hbm::sweep_whole() const {
         }
     }
     bring_peak_inside(options_, reach_, watch_, *branch);
+    if (branch->end_reason == PLM_REASON_CANCELLED) { // what is found is delivered at once
+        finish(*branch, begin);
+        return branch;
+    }
     check_window(window_, watch_, *branch);
     const auto error = [&] {
         const std::int64_t top = largest_response(*branch);
