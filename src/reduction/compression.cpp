@@ -164,7 +164,7 @@ Matrix modes_in_contact(const ReducedModel &from, const std::vector<vector<doubl
 }
 
 // The modes below a frequency, as unit vectors, and the best directions for the rest of the motions and of
-// the modes with closed contact.
+// the modes in contact.
 Matrix modes_and_directions(const ReducedModel &from, Matrix motions,
                             const std::vector<vector<double>> &springs, double omega, double tolerance,
                             double kept) {

@@ -32,10 +32,8 @@ constexpr std::int64_t corrected_harmonics = 24; // those above hardly move
 constexpr double flops_of_look = 1e9;
 
 constexpr double negligible = 1e-6; // stiffness, of omega^2
-// Of the multipliers, on the curves of cracked plates; on those that change their stability more often, where
-// contact bounces, they are no longer so near.
+// Of multipliers near the unit circle, on curves of cracked plates.
 constexpr double multiplier_error = 1e-4;
-constexpr std::int64_t most_changes = 40;
 
 using complex = std::complex<double>;
 

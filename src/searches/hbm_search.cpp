@@ -18,8 +18,8 @@ IsolatedSearch Hbm::find_isolated(const Branch &given, double force_max) const {
     const std::shared_ptr<const ReducedModel> reduced = model_of(main, "main_branch");
     HbmOptions options = options_;
     options.period_multiple = main.period_multiple();
-    if (!reduced
-             ->same_static) { // exact motions have other coordinates, and what is found is held against main
+    // exact motions have other coordinates there, and what is found is held against the main branch
+    if (!reduced->same_static) {
         if (options.motion == MotionKind::exact)
             throw Error(
                 PLM_ERR_ARGUMENT,
