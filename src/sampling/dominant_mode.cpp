@@ -2,6 +2,7 @@
 #include "sampling/mode_match.hpp"
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <utility>
 
@@ -36,22 +37,40 @@ SpaceModes lowest_modes(const Space &space, LinearSystem system, std::int64_t co
     return modes_of_contact_set(space, states, std::numeric_limits<double>::infinity());
 }
 
+// phi . F, F the first harmonic of the excitation (or its lowest one).
+std::complex<double> modal_force(const Space &space, const double *phi) {
+    const auto load = space.excitation.upper_bound(0);
+    if (load == space.excitation.end()) return 0;
+    const auto modal = [&](const vector<double> &f) {
+        return f.empty() ? 0.0 : dot(space.size(), phi, f.data());
+    };
+    return {modal(load->second.real), modal(load->second.imag)};
+}
+
 // |phi . F|^2 / omega^4: the squared resonance amplitude of each mode at equal Q, up to a common factor; 0
-// for rigid-body modes. F is the first harmonic of the excitation (or its lowest one).
+// for rigid-body modes.
 vector<double> responses(const Space &space, const SpaceModes &modes) {
     vector<double> response(modes.values.size(), 0.0);
-    const auto load = space.excitation.upper_bound(0);
-    if (load == space.excitation.end()) return response;
-    const auto modal = [&](const vector<double> &f, std::int64_t j) {
-        return f.empty() ? 0.0 : dot(space.size(), modes.vectors.col(j), f.data());
-    };
-    for (std::size_t j = 0; j < response.size(); ++j) {
-        if (modes.values[j] <= 0) continue;
-        const double re = modal(load->second.real, static_cast<std::int64_t>(j)) / modes.values[j];
-        const double im = modal(load->second.imag, static_cast<std::int64_t>(j)) / modes.values[j];
-        response[j] = re * re + im * im;
-    }
+    for (std::size_t j = 0; j < response.size(); ++j)
+        if (modes.values[j] > 0)
+            response[j] = std::norm(modal_force(space, modes.vectors.col(static_cast<std::int64_t>(j))) /
+                                    modes.values[j]);
     return response;
+}
+
+// The sign of a mode is an eigensolver's whim, and the samples of a sweep are taken from one end to the
+// other: it moves along the load, or, where that does not move it, first closes the pair on which it acts
+// most.
+bool points_backwards(const Space &space, const DominantMode &mode) {
+    const std::complex<double> force = modal_force(space, mode.coordinates.data());
+    const double along = std::abs(force.imag()) > std::abs(force.real()) ? force.imag() : force.real();
+    if (along != 0) return along < 0;
+    constexpr double as_much = 1 - 1e-9; // pairs that mirror each other: the first one
+    double most = 0;
+    for (double v : mode.mode_penetration) most = std::max(most, std::abs(v));
+    const auto first = std::find_if(mode.mode_penetration.begin(), mode.mode_penetration.end(),
+                                    [&](double v) { return std::abs(v) >= as_much * most; });
+    return first != mode.mode_penetration.end() && *first < 0;
 }
 
 // Flexible modes in the range searched, or the lowest ones.
@@ -138,6 +157,9 @@ DominantMode find_dominant_mode(const Space &space, const ModeRequest &request, 
     dominant.coordinates.assign(modes.vectors.col(chosen), modes.vectors.col(chosen) + space.size());
     dominant.mode_penetration.assign(space.n_pairs(), 0.0);
     gemv('N', 1.0, space.gap, dominant.coordinates.data(), 0.0, dominant.mode_penetration.data());
+    if (points_backwards(space, dominant))
+        for (vector<double> *values : {&dominant.coordinates, &dominant.mode_penetration})
+            for (double &v : *values) v = -v;
     return dominant;
 }
 

@@ -13,11 +13,12 @@ void add_unless_present(std::vector<SelectedSample> &samples, SelectedSample sam
     samples.push_back(std::move(sample));
 }
 
-// The ends stay where they are as long as there is an inner position to move.
+// The ends stay where they are as long as there is an inner position to move; of two as near, as around the
+// middle of a sweep, the later one moves.
 void move_nearest(vector<std::int64_t> &chosen, std::int64_t target) {
     if (chosen.empty() || std::find(chosen.begin(), chosen.end(), target) != chosen.end()) return;
     const bool inner = chosen.size() > 2;
-    *std::min_element(chosen.begin() + inner, chosen.end() - inner, [&](std::int64_t a, std::int64_t b) {
+    *std::min_element(chosen.rbegin() + inner, chosen.rend() - inner, [&](std::int64_t a, std::int64_t b) {
         return std::abs(a - target) < std::abs(b - target);
     }) = target;
     std::sort(chosen.begin(), chosen.end());

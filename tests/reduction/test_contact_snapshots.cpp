@@ -106,6 +106,11 @@ void static_contact_solutions_lie_in_the_basis(void **) {
     const double omega = 2 * M_PI * d.frequency_hz;
     plm::vector<double> v(c.model->n_free());
     gemv('N', 1.0, c.sampler->space()->vectors.in_core(), d.coordinates.data(), 0.0, v.data());
+    BasisOptions modal;
+    modal.kind = &basis_kinds::snapshots;
+    modal.snapshot_tolerance = 0.49; // next to no snapshot is left: the solutions are not there then
+    const auto without = build(c, modal);
+    double outside = 0;
     for (double alpha : {-30.0, -0.3, 0.3, 30.0}) {
         plm::vector<double> load(c.structure.n);
         for (int i = 0; i < c.structure.n; ++i)
@@ -114,12 +119,10 @@ void static_contact_solutions_lie_in_the_basis(void **) {
         const plm::vector<double> q = dense_static(c.structure, load);
         assert_int_equal(q.size(), c.structure.n);
         assert_true(below(plm::projection_residual(*basis, true, true, plm::Field(q)), space_error));
-        BasisOptions modal;
-        modal.kind = &basis_kinds::snapshots;
-        modal.snapshot_tolerance = 0.49; // next to no snapshot is left: the solutions are not there then
-        if (alpha == 30.0)
-            assert_true(plm::projection_residual(*build(c, modal), true, true, plm::Field(q)) > space_error);
+        if (std::abs(alpha) == 30.0)
+            outside = std::max(outside, plm::projection_residual(*without, true, true, plm::Field(q)));
     }
+    assert_true(outside > space_error);
 }
 
 // Without pre-load and gap only the sign of alpha counts: further snapshots would repeat the two there are.

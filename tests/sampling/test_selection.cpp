@@ -61,12 +61,22 @@ void several_dominant_modes_share_their_samples(void **) {
     assert_int_equal(samples[3].dominant, 1);
 }
 
+// Five sets, the one at rest in the middle: it takes the place of the later of the two beside it.
+void the_set_at_rest_takes_the_nearest_place(void **) {
+    const std::vector<ContactSweep> one(
+        1, plm::sweep_contact(numbers({2, 1, -1, -2}), true, numbers({1, 1, 1, 1})));
+    assert_string_equal(text(plm::select_samples(one, 2, false, false, false)).c_str(), "x... xxx.");
+    assert_string_equal(text(plm::select_samples(one, 2, false, false, true)).c_str(), "x... xx..");
+    assert_string_equal(text(plm::select_samples(one, 3, true, false, true)).c_str(), ".... xx.. xxxx");
+}
+
 } // namespace
 
 int main() {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(samples_are_equally_spaced),
         cmocka_unit_test(complements_come_after_and_only_when_new),
+        cmocka_unit_test(the_set_at_rest_takes_the_nearest_place),
         cmocka_unit_test(several_dominant_modes_share_their_samples),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
