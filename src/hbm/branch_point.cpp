@@ -21,9 +21,11 @@ void set_harmonics(Matrix &eta, std::int64_t n) {
 BranchPoint between(const BranchPoint &a, const BranchPoint &b, double t) {
     BranchPoint p = a;
     p.motion.reset();
+    Matrix towards = b.eta;
+    set_harmonics(towards, p.eta.cols() / 2);
     for (std::size_t j = 0; j < p.eta_0.size(); ++j) p.eta_0[j] += t * (b.eta_0[j] - a.eta_0[j]);
     for (std::int64_t j = 0; j < p.eta.rows() * p.eta.cols(); ++j)
-        p.eta.data()[j] += t * (b.eta.data()[j] - a.eta.data()[j]);
+        p.eta.data()[j] += t * (towards.data()[j] - a.eta.data()[j]);
     p.omega += t * (b.omega - a.omega);
     return p;
 }

@@ -35,6 +35,12 @@ OrbitConditions OrbitEquations::conditions(double p) const {
     return now;
 }
 
+void OrbitEquations::set_other(double value) {
+    double &other = parameter_ == FlowParameter::force_scale ? conditions_.omega : conditions_.force_scale;
+    known_ = known_ && other == value;
+    other = value;
+}
+
 FlowState OrbitEquations::state(const double *x) const {
     FlowState state = rest_;
     state.time = 0;
@@ -90,16 +96,20 @@ void OrbitEquations::residual(const double *x, double p, double *r) {
 
 void OrbitEquations::linearize() {
     const std::int64_t n = size();
-    Matrix a(n, n);
-    for (std::int64_t j = 0; j < n; ++j) a(j, j) = 1;
+    monodromy_.reset(n, n);
     if (!failed_) {
         monodromy_ = plm::monodromy(*model_, intervals_, 1e-15, Watch(), modes_.get());
         for (std::int64_t j = 0; j < n; ++j)
             for (std::int64_t i = 0; i < n; ++i) monodromy_(i, j) *= weight_[i] / weight_[j];
-        for (std::int64_t j = 0; j < n; ++j)
-            for (std::int64_t i = 0; i < n; ++i) a(i, j) = monodromy_(i, j) - a(i, j);
     }
+    Matrix a = tangent();
     lu_.factor(a);
+}
+
+Matrix OrbitEquations::tangent() const {
+    Matrix a = monodromy_;
+    for (std::int64_t j = 0; j < size(); ++j) a(j, j) -= 1;
+    return a;
 }
 
 void OrbitEquations::solve(double *b, std::int64_t n) {

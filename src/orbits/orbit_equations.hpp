@@ -35,6 +35,9 @@ class OrbitEquations final : public Residual {
     bool is_cheap_to_linearize() const override { return true; } // beside a run of the flow
     std::int64_t piece() const override { return static_cast<std::int64_t>(intervals_.size()); }
 
+    /// The one of frequency and force scale that is not the parameter, from the next residual() on.
+    void set_other(double value);
+
     const FlowModel &model() const { return *model_; }
     const std::shared_ptr<const FlowModel> &shared_model() const { return model_; }
     FlowState state(const double *x) const;
@@ -44,6 +47,9 @@ class OrbitEquations final : public Residual {
     OrbitConditions conditions(double p) const;
     /// Of the last linearize(): d(state at the end) / d(state at the beginning), in the unknowns.
     const Matrix &monodromy() const { return monodromy_; }
+    /// The matrix of that linearize(): dR/dx.
+    Matrix tangent() const;
+    void solve_transposed(double *b) const { lu_.solve_transposed(b, 1, size()); }
     /// Of the tangent of the last linearize(): of the order of rounding where a motion is free to go
     /// anywhere.
     double reciprocal_condition() const { return lu_.reciprocal_condition(); }

@@ -13,13 +13,18 @@ namespace {
 
 constexpr double same_resonance = 1e-5;      // relative distance of phase-resonant points
 constexpr std::int64_t largest_system = 400; // unknowns of the backbone when harmonics are chosen by point
-constexpr double weakest_resonance = 0.05;   // of the main branch, against its largest response
-constexpr double backbone_reach = 8; // times the force: where it ends unless the caller says otherwise
-constexpr double met_there = 1e-3;   // relative distance of a crossing, before it is corrected
-constexpr double of_the_loop = 0.3;  // largest step on a loop, which must not be stepped over
-constexpr double at_first = 0.1;     // of the largest step: the top of a loop is where it bends most
-// The fold's extremum of the force lies near that of the backbone; one farther away belongs to another loop.
-constexpr double same_extremum = 0.3;
+// Of the backbone and of the folds where harmonics are chosen; an exact motion that is not found from as many
+// is looked for from twice and four times as many.
+constexpr std::int64_t few_enough = 9;
+constexpr int most_doublings = 2;
+constexpr double weakest_resonance = 0.05; // of the main branch, against its largest response
+constexpr double backbone_reach = 8;       // times the force: where it ends unless the caller says otherwise
+constexpr double met_there = 1e-3;         // relative distance of a crossing, before it is corrected
+constexpr double of_the_loop = 0.3;        // largest step on a loop, which must not be stepped over
+constexpr double at_first = 0.1;           // of the largest step: the top of a loop is where it bends most
+// The fold's extremum of the force lies near that of the backbone, or two folds of the loop meet there; one
+// farther away belongs to another loop.
+constexpr double same_extremum = 0.3, same_turn = 1e-4;
 // Where the folds are followed: from half the force on one side to twice the force on the other.
 constexpr double less_force = 0.5, more_force = 2;
 // Beyond a swallowtail: few leaps, each a small part of the force, as long as the folds go on as they went.
@@ -73,7 +78,7 @@ class Search {
         std::int64_t most = 0;
         for (const BranchPoint &p : main_.points())
             most = std::max(most, p.n_harmonics / options_.period_multiple);
-        o.hbm.n_harmonics = std::max(first, std::min(room, most));
+        o.hbm.n_harmonics = std::max({first, few_enough, std::min(room, most)});
         return o;
     }
 
@@ -137,6 +142,27 @@ class Search {
         return best;
     }
 
+    // A seed as a point of the curve asked for: the exact motion beside it, or, where none is found,
+    // settled harmonics. False: it vanishes with more harmonics, or becomes a point of a known branch.
+    bool enter(const HbmOptions &options, BranchPoint &start) const {
+        BackboneOptions o = backbone_options();
+        BranchPoint near = start;
+        for (int doublings = 0; exact_ && doublings <= most_doublings; ++doublings) {
+            NewtonWork work;
+            if (make_exact_nearest(reduced_, options, near, work)) {
+                start = near;
+                return true;
+            }
+            o.hbm.n_harmonics *= 2;
+            set_harmonics(near.eta, o.hbm.n_harmonics * options.period_multiple);
+            near.n_harmonics = near.eta.cols() / 2;
+            if (!PhaseResonance(reduced_, o, watch_).correct(options.force_scale, near) || is_known(near))
+                return false;
+        }
+        settle_harmonics(reduced_, options, start, watch_);
+        return true;
+    }
+
     void trace(const Seed &seed) {
         HbmOptions options = options_;
         if (seed.reach > 0)
@@ -144,9 +170,7 @@ class Search {
                 std::max(10 * options.min_step, std::min(options.max_step, of_the_loop * seed.reach));
         options.initial_step = at_first * options.max_step;
         BranchPoint start = seed.point;
-        NewtonWork work;
-        if (!exact_ || !make_exact(reduced_, options, watch_, start, work))
-            settle_harmonics(reduced_, options, start, watch_);
+        if (!enter(options, start)) return;
         IsolatedBranch found;
         found.branch = trace_through(reduced_, options, start, watch_);
         found.closed = found.branch->end_reason == PLM_REASON_LOOP_CLOSED;
@@ -172,18 +196,24 @@ class Search {
         force = NAN;
         if (at < 0) return false;
         const BranchPoint &extremum = seed.backbone->points()[at];
-        force = extremum.force_scale;
+        // with the few harmonics of its backbone it says nothing of exact motions
+        if (!found.branch->points().front().motion) force = extremum.force_scale;
         std::vector<BranchPoint> folds;
         for (const BranchPoint &p : found.branch->points())
             if (p.bifurcation == PLM_BIFURCATION_FOLD) folds.push_back(p);
         std::sort(folds.begin(), folds.end(), [&](const BranchPoint &a, const BranchPoint &b) {
             return std::abs(a.omega - extremum.omega) < std::abs(b.omega - extremum.omega);
         });
+        vector<double> turns;
         for (const BranchPoint &fold : folds) {
             const double turn = first_turn(fold, upward, extremum.force_scale);
-            if (!(std::abs(turn / extremum.force_scale - 1) < same_extremum)) continue;
-            force = turn;
-            return true;
+            const auto is_this = [turn](double t) { return std::abs(t / turn - 1) < same_turn; };
+            if (std::abs(turn / extremum.force_scale - 1) < same_extremum ||
+                std::any_of(turns.begin(), turns.end(), is_this)) {
+                force = turn;
+                return true;
+            }
+            turns.push_back(turn);
         }
         return false;
     }
@@ -222,7 +252,7 @@ class Search {
             const double force = points[last].force_scale * (upward ? 1 + step : 1 - step),
                          t = (force - near.force_scale) / run;
             BranchPoint guess = between(near, far, -t);
-            if (!correct_fold(reduced_, options_, force, guess)) continue;
+            if (!correct_fold(reduced_, options_, force, near, guess)) continue;
             if (solution_distance(guess, near) > straight_on * std::abs(t) * apart) continue;
             guess.force_scale = force;
             beyond = guess;

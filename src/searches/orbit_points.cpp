@@ -155,16 +155,17 @@ bool moves_freely(const OrbitEquations &equations, const ReducedModel &reduced) 
     return free_motion(reduced, acting).cols() > 0;
 }
 
+constexpr double near_enough = 0.3; // of its size: farther away it is another one
+
 // By Newton's method from the point; by marching where that does not contract.
 bool solve_exact(OrbitEquations &equations, const HbmOptions &options, Watch watch, const BranchPoint &point,
                  vector<double> &x, NewtonOutcome &out) {
     x = orbit_unknowns(equations, point, options.period_multiple);
     const vector<double> guess = x;
-    constexpr double same_motion = 0.3; // of its size: farther away it is another one
     out = newton_at(equations, newton_limits(options), x, point.omega);
     double far = 0;
     for (std::size_t i = 0; i < x.size(); ++i) far = std::hypot(far, x[i] - guess[i]);
-    if (out.converged && far <= same_motion * norm2(equations.size(), x.data())) return true;
+    if (out.converged && far <= near_enough * norm2(equations.size(), x.data())) return true;
     constexpr std::int64_t settling = 20; // periods: on a stable branch, as most of the starts are
     x = guess;
     return march_to_orbit(equations, options, point.omega, settling, watch, x, out);
@@ -296,21 +297,52 @@ BranchPoint whole_point(OrbitEquations &equations, const HbmOptions &options, co
     return point;
 }
 
+// Where no pair ever holds a rigid-body motion.
+bool has_no_place(const ReducedModel &reduced, const HbmOptions &options, const BranchPoint &point) {
+    const EventSequence sequence = contact_events(reduced, point, options.period_multiple);
+    return free_motion(reduced, sequence.acting()).cols() > 0;
+}
+
+// The solution as the point, if it is one that stays where it is.
+bool take_exact(OrbitEquations &equations, const HbmOptions &options, const PathState &at, NewtonOutcome out,
+                const ReducedModel &reduced, BranchPoint &point) {
+    if (moves_freely(equations, reduced) || !holds(equations, at)) return false;
+    out.iterations += point.iterations;
+    point = whole_point(equations, options, at, out);
+    return true;
+}
+
 } // namespace
 
 bool make_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, Watch watch,
                 BranchPoint &point, NewtonWork &work) {
-    const EventSequence sequence = contact_events(*reduced, point, options.period_multiple);
-    if (free_motion(*reduced, sequence.acting()).cols() > 0) return false; // its place is arbitrary
+    if (has_no_place(*reduced, options, point)) return false;
     OrbitEquations equations = orbit_equations(reduced, options, point.omega, FlowParameter::frequency);
     vector<double> x;
     NewtonOutcome out;
     const bool found = solve_exact(equations, options, watch, point, x, out);
     work += out;
-    if (!found || moves_freely(equations, *reduced) || !holds(equations, {x, point.omega})) return false;
-    out.iterations += point.iterations;
-    point = whole_point(equations, options, {x, point.omega}, out);
-    return true;
+    return found && take_exact(equations, options, {x, point.omega}, out, *reduced, point);
+}
+
+bool make_exact_nearest(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                        BranchPoint &point, NewtonWork &work) {
+    if (has_no_place(*reduced, options, point)) return false;
+    OrbitEquations equations = orbit_equations(reduced, options, point.omega, FlowParameter::frequency);
+    const PathState from = {orbit_unknowns(equations, point, options.period_multiple), point.omega};
+    vector<double> r(from.x.size());
+    equations.residual(from.x.data(), from.parameter, r.data());
+    equations.linearize();
+    const Metric metric = {size_of(equations, from.x),
+                           2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz),
+                           equations.weights()};
+    if (!(metric.scale > 0 && metric.width > 0)) return false;
+    PathState at = from, direction = tangent_at(equations);
+    scale_by(1 / metric.length(direction), direction);
+    const NewtonOutcome out = newton_across(equations, metric, direction, newton_limits(options), at);
+    work += out;
+    return out.converged && metric.distance(at, from) <= near_enough &&
+           take_exact(equations, options, at, out, *reduced, point);
 }
 
 bool follow_exactly_to(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,

@@ -41,6 +41,10 @@ BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &optio
 /// was found; `point` has not changed.
 bool make_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, Watch watch,
                 BranchPoint &point, NewtonWork &work);
+/// The same at the frequency that goes with it, by the shortest way: where a fold is near, and another motion
+/// or none may have the point's frequency.
+bool make_exact_nearest(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                        BranchPoint &point, NewtonWork &work);
 
 /// Along the exact motions from a point that is one to another frequency; short of folds only.
 bool follow_exactly_to(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
