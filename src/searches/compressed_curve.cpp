@@ -1,4 +1,5 @@
 #include "searches/compressed_curve.hpp"
+#include "hbm/branch_path.hpp"
 #include "linalg/lapack.hpp"
 #include "reduction/compression.hpp"
 #include "searches/harmonic_choice.hpp"
@@ -32,8 +33,10 @@ constexpr std::int64_t corrected_harmonics = 24; // those above hardly move
 constexpr double flops_of_look = 1e9;
 
 constexpr double negligible = 1e-6; // stiffness, of omega^2
-// Of multipliers near the unit circle, on curves of cracked plates.
-constexpr double multiplier_error = 1e-4;
+// Of multipliers near the unit circle, on curves of cracked plates; and of motions whose multipliers are
+// right to that.
+constexpr double multiplier_error = 1e-4, motion_error = 1e-5;
+constexpr double same_motion = 0.1; // of its size: farther away it is another one
 
 using complex = std::complex<double>;
 
@@ -344,14 +347,34 @@ bool CurveCompression::confirms(const Branch &curve) {
     return false;
 }
 
-bool CurveCompression::agrees_on_stability(const Branch &curve, const BranchPoint &point) const {
-    BranchPoint p = uncompressed(curve.reduced(), point);
-    NewtonWork work;
-    if (!make_exact(whole_, options_, watch_.quiet(), p, work) || p.multipliers.empty()) return false;
-    const double outside = std::abs(p.multipliers[0]) - 1,
-                 moved = std::abs(amplitude(whole_, p) - amplitude(curve.reduced_model(), point));
-    return std::abs(outside) <= multiplier_error || (outside < 0) == (stability_of(point) == 1) ||
-           moved > options_.accuracy * peak_; // beside a fold there is another motion of the same frequency
+// The whole basis beside a point of the curve: the motion found from the point's own state, or by other ways.
+bool CurveCompression::agrees_on_stability(const Branch &curve, std::int64_t point) const {
+    const BranchPoint &on_curve = curve.points()[static_cast<std::size_t>(point)];
+    const auto agrees = [&](const vector<std::complex<double>> &multipliers) {
+        const double outside = std::abs(multipliers[0]) - 1;
+        return std::abs(outside) <= multiplier_error || (outside < 0) == (stability_of(on_curve) == 1);
+    };
+    HbmOptions nearly = options_;
+    nearly.tolerance = std::max(options_.tolerance, motion_error);
+    OrbitEquations equations = orbit_equations(whole_, nearly, on_curve.omega, FlowParameter::frequency);
+    PathState at = {equations.unknowns(start_of(curve, point).state), on_curve.omega};
+    const vector<double> start = at.x;
+    const NewtonOutcome out = newton_at(equations, newton_limits(nearly), at.x, at.parameter);
+    double moved = 0;
+    for (std::size_t i = 0; i < start.size(); ++i) moved = std::hypot(moved, at.x[i] - start[i]);
+    BranchPoint p;
+    if (out.converged && moved <= same_motion * norm2(equations.size(), at.x.data())) {
+        if (agrees(multipliers(equations.monodromy()))) return true;
+        p = orbit_point(equations, nearly, at, out.residual, out.iterations);
+    } else {
+        p = uncompressed(curve.reduced(), on_curve);
+        NewtonWork work;
+        if (!make_exact(whole_, nearly, watch_.quiet(), p, work) || p.multipliers.empty()) return false;
+        if (agrees(p.multipliers)) return true;
+    }
+    // beside a fold there is another motion of the same frequency
+    return std::abs(amplitude(whole_, p) - amplitude(curve.reduced_model(), on_curve)) >
+           options_.accuracy * peak_;
 }
 
 bool CurveCompression::confirms_stability(const Branch &curve) const {
@@ -359,7 +382,8 @@ bool CurveCompression::confirms_stability(const Branch &curve) const {
     vector<std::size_t> at = beside_changes(points);
     at.push_back(static_cast<std::size_t>(largest_response(curve)));
     for (std::size_t i : at) {
-        if (!points[i].motion || stability_of(points[i]) < 0 || agrees_on_stability(curve, points[i]))
+        if (!points[i].motion || stability_of(points[i]) < 0 ||
+            agrees_on_stability(curve, static_cast<std::int64_t>(i)))
             continue;
         watch_.log(1, format("whole basis: stability at %.6g Hz is not as on the compressed one",
                              points[i].omega / (2 * M_PI)));

@@ -55,7 +55,7 @@ class CurveCompression {
     bool make_exact_on(const std::shared_ptr<const ReducedModel> &model, BranchPoint &point) const;
     void take(const BranchPoint &point, Matrix &motions) const;
     BranchPoint corrected(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &exact) const;
-    bool agrees_on_stability(const Branch &curve, const BranchPoint &point) const;
+    bool agrees_on_stability(const Branch &curve, std::int64_t point) const;
     double amplitude(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &point) const;
 
     std::shared_ptr<const ReducedModel> whole_, model_;
