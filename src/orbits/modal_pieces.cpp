@@ -250,18 +250,31 @@ void ModalPieces::fill_powers(double duration) {
         }
     };
     for (std::int64_t j = 0; j < powers_.cols(); ++j) powers_(0, j) = constant_[j];
-    for (std::size_t k = 0; k < modes_->modes().size(); ++k) {
-        const ContactModes::Mode &m = modes_->modes()[k];
+    for (const ContactModes::Mode &m : modes_->modes())
         if (m.speed * duration <= longest_turn)
             put(m, Complex(present_[m.first], m.is_pair ? present_[m.first + 1] : 0.0), m.rate * duration);
-        for (std::size_t l = 0; l < steady_.size(); ++l) {
-            if (steady_[l].empty()) continue;
-            const double w = modes_->loads()[l].number * omega_;
-            const Complex e = std::polar(1.0, w * now_);
-            put(m, force_scale_ * steady_[l][k].plus * e, Complex(0, w * duration));
-            put(m, force_scale_ * steady_[l][k].minus * std::conj(e), Complex(0, -w * duration));
-        }
+    for (std::size_t l = 0; l < steady_.size(); ++l)
+        if (!steady_[l].empty()) add_steady_powers(l, duration);
+}
+
+// plus exp(iwt) + minus exp(-iwt) of all modes: (iw duration)^k / k! is real for even k, imaginary for odd.
+void ModalPieces::add_steady_powers(std::size_t load, double duration) {
+    const double w = modes_->loads()[load].number * omega_;
+    const Complex turned = force_scale_ * std::polar(1.0, w * now_);
+    power_.assign(static_cast<std::size_t>(n_terms_), 1.0);
+    for (std::size_t k = 1; k < power_.size(); ++k)
+        power_[k] = power_[k - 1] * w * duration * inverse_[k - 1] * (k % 2 == 0 ? -1 : 1);
+    for (std::size_t j = 0; j < modes_->modes().size(); ++j) {
+        const ContactModes::Mode &m = modes_->modes()[j];
+        const Complex a = steady_[load][j].plus * turned, b = steady_[load][j].minus * std::conj(turned),
+                      even = a + b, odd = Complex(0, 1) * (a - b);
+        add_alternating(even.real(), odd.real(), powers_.col(m.first));
+        if (m.is_pair) add_alternating(even.imag(), odd.imag(), powers_.col(m.first + 1));
     }
+}
+
+void ModalPieces::add_alternating(double even, double odd, double *powers) const {
+    for (std::size_t k = 0; k < power_.size(); ++k) powers[k] += power_[k] * (k % 2 == 0 ? even : odd);
 }
 
 const Matrix &ModalPieces::coefficient() {

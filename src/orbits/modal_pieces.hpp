@@ -52,6 +52,8 @@ class ModalPieces {
     void bound_travel();
     void find_penetrations();
     void fill_powers(double duration);
+    void add_steady_powers(std::size_t load, double duration);
+    void add_alternating(double even, double odd, double *powers) const;
     void keep_fast();
 
     const FlowModel &model_;
@@ -69,7 +71,8 @@ class ModalPieces {
     NearPairs near_;
     vector<double> aside_;          // of the pairs or of what follows
     vector<double> size_, inverse_; // |z| of the modes; 1, 1/2, 1/3, ...
-    Matrix powers_;                 // terms x size
+    vector<double> power_; // of a load's turn over the piece, over k!; odd ones stand for i times that
+    Matrix powers_;        // terms x size
     Matrix penetration_, coefficient_;
     FastMotion fast_;
     double duration_ = 0;
