@@ -109,7 +109,8 @@ contains
     end subroutine model_count_modes
 
     ! Looks the built model over: mass per direction, rigid-body modes, symmetry, definiteness, gap signs, contact
-    ! stiffness against local stiffness, units that look off. count: number of findings, read one by one below.
+    ! stiffness against local stiffness, units that look off, an excitation that moves no low mode, gaps that the
+    ! linear response never closes. count: number of findings, read one by one below.
     subroutine model_audit(self, count, stat, errmsg)
         class(plm_model_methods), intent(in) :: self
         integer, intent(inout) :: count

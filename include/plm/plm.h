@@ -344,7 +344,8 @@ PLM_API plm_status plm_model_get_modes(plm_model *model, int32_t system, const i
 PLM_API plm_status plm_model_count_modes(plm_model *model, double frequency_hz, int64_t *count);
 
 /* Looks the built model over: mass per direction, rigid-body modes, symmetry, definiteness, gap signs, contact
- * stiffness against local stiffness, units that look off. count: number of findings, read one by one below. */
+ * stiffness against local stiffness, units that look off, an excitation that moves no low mode, gaps that the linear
+ * response never closes. count: number of findings, read one by one below. */
 PLM_API plm_status plm_model_audit(plm_model *model, int64_t *count);
 /* severity: 0 fact, 1 worth a look, 2 probably wrong. value: the number the finding is about. */
 PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_t *severity, double *value,

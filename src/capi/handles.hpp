@@ -36,7 +36,8 @@ struct ModelHandle final : HandleOf<plm_model, Kind::model> {
     std::shared_ptr<const Space> space; // for modes and rest, made when first needed
     std::shared_ptr<const RestState> rest;
     std::vector<Finding> findings;
-    Warnings warnings; // of the build
+    std::int64_t n_findings = 0; // worth a look, of the build or of the last audit
+    Warnings warnings;           // of the build
 };
 
 struct SamplerHandle final : HandleOf<plm_sampler, Kind::sampler> {

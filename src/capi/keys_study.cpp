@@ -19,23 +19,28 @@ template <class Out, class Member> Key per_method(const char *name, const char *
 
 void add_options(std::vector<Key> &keys) {
     using O = StudyOptions;
-    keys.insert(keys.end(),
-                {
-                    int_option<&O::repeats>("repeats", 0, 1000,
-                                            "timed runs of each method, after one to warm up; 0: that one"),
-                    int_option<&O::curve_samples>(
-                        "curve_samples", 2, 1e7,
-                        "points of the reference's curve, equally spaced in arc length, whose "
-                        "distance to a method's curve is taken"),
-                    real_option<&O::curve_tolerance>(
-                        "curve_tolerance", 1e-10, 1e-2,
-                        "further points are computed on each curve until its interpolation "
-                        "is nearer than this, in the scale of the errors of curves"),
-                    int_option<&O::share_space>(
-                        "share_space", 0, 1,
-                        "1: the contact space of the model is made once, and its time added to "
-                        "the set-up of each method that uses it; 0: each run makes its own"),
-                });
+    keys.insert(
+        keys.end(),
+        {
+            int_option<&O::repeats>("repeats", 0, 1000,
+                                    "timed runs of each method, after one to warm up; 0: that one"),
+            real_option<&O::accuracy>(
+                "accuracy", 1e-12, 0.5,
+                "relative error that a method's curve may have, where its hbm has none of its own set; "
+                "of the reference: a tenth of it"),
+            int_option<&O::curve_samples>(
+                "curve_samples", 2, 1e7,
+                "points of the reference's curve, equally spaced in arc length, whose "
+                "distance to a method's curve is taken"),
+            real_option<&O::curve_tolerance>(
+                "curve_tolerance", 0, 1e-2,
+                "further points are computed on each curve until its interpolation "
+                "is nearer than this, in the scale of the errors of curves; 0: 5e-4 of \"accuracy\""),
+            int_option<&O::share_space>(
+                "share_space", 0, 1,
+                "1: the contact space of the model is made once, and its time added to "
+                "the set-up of each method that uses it; 0: each run makes its own"),
+        });
 }
 
 void add_times(std::vector<Key> &keys) {

@@ -30,11 +30,17 @@ std::shared_ptr<const Model> build(ModelHandle &m) {
     return std::shared_ptr<const Model>(model.release(), [binding](const Model *p) { delete p; });
 }
 
+constexpr int worth_a_look = 1, probably_wrong = 2;
+
+std::int64_t n_worth_a_look(const std::vector<Finding> &findings) {
+    return std::count_if(findings.begin(), findings.end(),
+                         [](const Finding &f) { return f.severity >= worth_a_look; });
+}
+
 // Who never asks for the audit hears the worst of it all the same, and the rest in the log.
-Warnings look_over(const Model &model, Watch watch) {
-    constexpr int worth_a_look = 1, probably_wrong = 2;
+Warnings look_over(const std::vector<Finding> &findings, Watch watch) {
     Warnings warnings;
-    for (const Finding &f : quick_audit(model)) {
+    for (const Finding &f : findings) {
         if (f.severity >= worth_a_look) watch.log(2, f.text);
         if (f.severity >= probably_wrong) warnings.add(PLM_REASON_MODEL, f.text);
     }
@@ -130,7 +136,9 @@ plm_status plm_model_build(plm_model *model) {
     return call<ModelHandle>("plm_model_build", model, [&](ModelHandle &m) {
         require_open(m);
         std::shared_ptr<const plm::Model> core = build(m);
-        m.warnings = look_over(*core, m.owner->watch());
+        const std::vector<plm::Finding> findings = plm::quick_audit(*core);
+        m.warnings = look_over(findings, m.owner->watch());
+        m.n_findings = n_worth_a_look(findings);
         m.core = std::move(core);
         const std::int64_t n_dof = m.input.n_dof;
         m.input =
@@ -188,6 +196,7 @@ plm_status plm_model_audit(plm_model *model, std::int64_t *count) {
     return call<ModelHandle>("plm_model_audit", model, [&](ModelHandle &m) {
         require_pointer(count, "count");
         m.findings = plm::audit(*built(m));
+        m.n_findings = n_worth_a_look(m.findings);
         *count = static_cast<std::int64_t>(m.findings.size());
         return PLM_OK;
     });

@@ -76,6 +76,20 @@ void estimate(double half_width, FrequencyWindow &w) {
         .argument("mode");
 }
 
+// A window without the dominant mode that would hold it if its limits were angular frequencies.
+void check_unit(const FrequencyWindow &w, Watch watch) {
+    const auto holds = [&](double hz) { return hz >= w.min_hz && hz <= w.max_hz; };
+    for (double hz : {w.f1_hz, w.f2_hz, w.rest_hz, w.blf_hz})
+        if (hz > 0 && holds(hz)) return;
+    const double resonance = w.blf_hz > 0 ? w.blf_hz : w.rest_hz;
+    if (!holds(2 * M_PI * resonance) && !holds(2 * M_PI * w.rest_hz)) return;
+    watch.warn(PLM_REASON_OUTSIDE_BASIS,
+               format("the window, %.6g to %.6g Hz, does not hold the resonance of the dominant mode, near "
+                      "%.6g Hz, but would if its limits were in rad/s, which are wanted in Hz. Divide them "
+                      "by 2 pi; or, if another mode is meant, name it (\"mode\" or \"mode_frequency_hz\")",
+                      w.min_hz, w.max_hz, resonance));
+}
+
 } // namespace
 
 FrequencyWindow find_window(const Space &space, const DominantMode &dominant, const ContactSweep &sweep,
@@ -93,6 +107,7 @@ FrequencyWindow find_window(const Space &space, const DominantMode &dominant, co
         w.max_hz = options.window_max_hz;
         w.why = format("given by the caller; the bilinear frequency is %.6g Hz", w.blf_hz);
         if (w.preload_case) w.why += format(", that with the contact as at rest %.6g Hz", w.rest_hz);
+        check_unit(w, watch);
     } else {
         estimate(options.window_half_width, w);
     }

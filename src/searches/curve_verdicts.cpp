@@ -40,6 +40,18 @@ bool is_beside_the_point(const SweepRange &window, const Branch &branch) {
     return branch.points().size() > 1 && branch.reduced().n_pairs() > 0;
 }
 
+// All of it outside a window that it would hold if its frequencies were rad/s.
+bool looks_like_rad_s(const SweepRange &window, const Branch &branch) {
+    double low = INFINITY, high = 0;
+    for (const BranchPoint &p : branch.points()) {
+        if (is_inside(window, p)) return false;
+        low = std::min(low, p.omega), high = std::max(high, p.omega);
+    }
+    // as rad/s its frequencies would be what they are now in Hz
+    const double middle = 0.5 * (window.min_hz + window.max_hz), hz = 2 * M_PI;
+    return low / hz <= hz * middle && high / hz >= hz * middle;
+}
+
 // Whether what the full residual shows is the basis alone: forces from samples miss by themselves, and of
 // damping by a matrix and by ratios at once it sees the matrix only.
 bool shows_the_basis(const Branch &branch) {
@@ -70,9 +82,11 @@ void check_window(const SweepRange &window, Watch watch, Branch &branch) {
                 "the basis is made for %.6g to %.6g Hz; at %.6g Hz the response misses the equations of the "
                 "whole structure by %.2g of its size (full residual). Build a basis for these frequencies: "
                 "frequency_min_hz and frequency_max_hz of the basis, or window_min_hz and window_max_hz of "
-                "the sampler",
+                "the sampler%s",
                 window.min_hz, window.max_hz,
-                branch.points()[static_cast<std::size_t>(worst)].omega / (2 * M_PI), residual));
+                branch.points()[static_cast<std::size_t>(worst)].omega / (2 * M_PI), residual,
+                looks_like_rad_s(window, branch) ? "; or are the limits in rad/s? They are wanted in Hz"
+                                                 : ""));
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #include "space/audit.hpp"
 #include "linalg/lapack.hpp"
+#include "space/modal_audit.hpp"
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -19,7 +20,8 @@ class Audit {
         rigid_modes();
         conditioning();
         rounding();
-        if (!quick) frequencies();
+        if (!quick)
+            for (Finding &f : modal_audit(m_)) findings_.push_back(std::move(f));
         damping();
         loads();
         if (m_.n_pairs() == 0) {
@@ -29,6 +31,7 @@ class Audit {
         gaps();
         opened_by_preload();
         rotations();
+        mixed_components();
         repeated_rows();
         row_balance();
         contact_stiffness();
@@ -138,20 +141,6 @@ class Audit {
                 uncertain));
     }
 
-    void frequencies() {
-        const std::int64_t rigid = m_.n_rigid();
-        if (rigid >= m_.n_free()) return;
-        const StructureModes pairs = m_.lowest_modes(rigid + 1);
-        if (static_cast<std::int64_t>(pairs.values.size()) <= rigid) return;
-        const double hz = std::sqrt(std::max(0.0, pairs.values[rigid])) / (2 * M_PI);
-        const bool odd = !(hz >= 1e-3 && hz <= 1e7);
-        add(odd ? 2 : 0, hz,
-            format("lowest elastic frequency of the open structure: %.6g Hz%s", hz,
-                   odd ? "; outside 1e-3..1e7 Hz: do the units of mass and stiffness belong "
-                         "together (mm-N-t or m-N-kg)?"
-                       : ""));
-    }
-
     void damping() {
         const Damping &d = m_.damping();
         const bool modal =
@@ -246,6 +235,33 @@ class Audit {
                        "counted from 0",
                        Int(turned), Int(one), Int(m_.dof(rows[static_cast<std::size_t>(one)].front().dof)),
                        Int(known.front().first), Int(known.front().first + known.front().step)));
+    }
+
+    // Two nodes touch along an axis by one component, the same on both sides, unless their DOFs were counted
+    // with another number of them per node.
+    void mixed_components() {
+        const vector<Translation> &known = m_.translations();
+        if (known.empty() || known.front().step < 2) return;
+        const std::int64_t step = known.front().step;
+        const auto is_mixed = [&](const vector<GapRows::Term> &row) {
+            if (row.size() != 2) return false;
+            const std::int64_t a = m_.dof(row[0].dof), b = m_.dof(row[1].dof);
+            const bool opposed =
+                std::abs(row[0].coefficient + row[1].coefficient) < 1e-6 * std::abs(row[0].coefficient);
+            return opposed && a / step != b / step && a % step != b % step;
+        };
+        const auto rows = m_.gap_rows().rows();
+        std::int64_t mixed = 0, one = -1;
+        for (std::int64_t i = 0; i < m_.n_pairs(); ++i)
+            if (is_mixed(rows[Contact::normal_row(i)]) && mixed++ == 0) one = i;
+        if (mixed == 0) return;
+        const auto &row = rows[Contact::normal_row(one)];
+        const std::int64_t a = m_.dof(row[0].dof), b = m_.dof(row[1].dof);
+        add(1, static_cast<double>(mixed),
+            format("%lld pairs of two DOFs (the first: pair %lld, DOFs %lld and %lld) join component %lld of "
+                   "one node to component %lld of another: the stiffness matrix has %lld DOFs per node; were "
+                   "they counted with another number of them?",
+                   Int(mixed), Int(one), Int(a), Int(b), Int(a % step), Int(b % step), Int(step)));
     }
 
     // Rows as (DOF, coefficient) lists; equal ones share a key.

@@ -1,18 +1,14 @@
 // Looks a built model over for what engineers get wrong: units, missing mass, loose bodies, gap signs,
 // contact stiffness. Every finding is a fact with a number; its severity says whether to worry.
 #pragma once
+#include "space/finding.hpp"
 #include "space/model.hpp"
+#include <vector>
 
 namespace plm {
 
-struct Finding {
-    int severity = 0; // 0 fact, 1 worth a look, 2 probably wrong
-    double value = 0; // the number the finding is about
-    std::string text;
-};
-
 std::vector<Finding> audit(const Model &model);
-/// What costs next to nothing: without the lowest frequency.
+/// What costs next to nothing: without the lowest modes.
 std::vector<Finding> quick_audit(const Model &model);
 
 } // namespace plm

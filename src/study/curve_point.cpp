@@ -9,7 +9,7 @@ Metric curve_metric(const PathState &at, const HbmOptions &o) {
     return {size > 0 ? size : 1, 2 * M_PI * (o.frequency_max_hz - o.frequency_min_hz)};
 }
 
-bool correct_across(HbmSystem &system, const Metric &metric, const HbmOptions &options,
+bool correct_across(Residual &system, const Metric &metric, const HbmOptions &options,
                     const PathState &direction, PathState &point, bool factored) {
     NewtonLimits limits = newton_limits(options);
     limits.tolerance *= 1e-3; // the distances looked for are small differences

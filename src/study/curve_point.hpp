@@ -11,7 +11,7 @@ Metric curve_metric(const PathState &at, const HbmOptions &options);
 
 /// Moves the point to the curve of `system` within the plane across `direction`. `factored`: the system was
 /// linearized near it. False: Newton's method did not converge, or went far; the point is as it was.
-bool correct_across(HbmSystem &system, const Metric &metric, const HbmOptions &options,
+bool correct_across(Residual &system, const Metric &metric, const HbmOptions &options,
                     const PathState &direction, PathState &point, bool factored = false);
 
 PathState load(HbmSystem &system, const BranchPoint &point);

@@ -9,8 +9,14 @@ namespace plm {
 struct StudyOptions {
     std::int64_t repeats = 3;          // timed runs of each method, after one to warm up; 0: that one
     std::int64_t curve_samples = 1000; // points of the reference, equally spaced in arc length
-    double curve_tolerance = 5e-7;     // distance of a curve from its cubic pieces
+    double accuracy = 1e-3;            // of the methods' curves; the reference is better by a decade
+    double curve_tolerance = 0;        // distance of a curve from its cubic pieces; 0: by accuracy
     bool share_space = true; // the contact space is made once; its time is added to every method that uses it
+
+    /// Far below the errors looked for, unless set.
+    double resolved_curve_tolerance() const {
+        return curve_tolerance > 0 ? curve_tolerance : 5e-4 * accuracy;
+    }
 };
 
 enum class MethodKind { response, compressed, refined, marching };

@@ -1,8 +1,7 @@
 #include "study/plane_curve.hpp"
 #include "hbm/harmonic_tail.hpp"
-#include "hbm/make_system.hpp"
-#include "searches/curve.hpp"
 #include "searches/harmonic_choice.hpp"
+#include "searches/point_equations.hpp"
 #include "study/curve_point.hpp"
 #include <algorithm>
 #include <cmath>
@@ -30,13 +29,19 @@ class Step {
          const PlaneScale &scale)
         : branch_(branch), output_(output), scale_(scale),
           options_(options_of(branch.points()[first], branch.points()[first + 1], options)),
-          system_(make_system(branch.reduced_model(), options_)),
-          ends_{load(*system_, branch.points()[first]), load(*system_, branch.points()[first + 1])},
+          equations_(equations_of(branch.reduced_model(), options_, branch.points()[first])),
+          ends_{state_of(branch.points()[first]), state_of(branch.points()[first + 1])},
           metric_(curve_metric(ends_[1], options_)) {
-        if (branch.points()[first].n_harmonics != branch.points()[first + 1].n_harmonics) {
+        if (!have_same_equations(branch.points()[first], branch.points()[first + 1])) {
             set_chord(ends_[0], ends_[1]);
-            for (PathState &end : ends_) correct_across(*system_, metric_, options_, chord_, end);
+            for (PathState &end : ends_) correct_across(system(), metric_, options_, chord_, end);
         }
+    }
+
+    // Harmonics differ in number, or a point is an exact motion and its neighbour is none.
+    static bool have_same_equations(const BranchPoint &a, const BranchPoint &b) {
+        if (a.motion || b.motion) return a.motion && b.motion;
+        return a.n_harmonics == b.n_harmonics;
     }
 
     // known: what the piece before has made of the point between them, if that had as many harmonics. Becomes
@@ -50,6 +55,9 @@ class Step {
     }
 
   private:
+    Residual &system() { return equations_->residual(); }
+    PathState state_of(const BranchPoint &point) const { return {equations_->unknowns(point), point.omega}; }
+
     static HbmOptions options_of(const BranchPoint &a, const BranchPoint &b, const HbmOptions &options) {
         return options_at(a.n_harmonics >= b.n_harmonics ? a : b, options.period_multiple, options);
     }
@@ -60,8 +68,7 @@ class Step {
     }
 
     double amplitude(const PathState &at) {
-        BranchPoint point;
-        system_->to_point(at.x.data(), at.parameter, point);
+        BranchPoint point = equations_->solved_point(at, 0, 0);
         if (options_.tail_correction)
             point.eta.append(
                 harmonic_content(branch_.reduced(), point, options_.period_multiple).tail_response);
@@ -77,9 +84,9 @@ class Step {
     // Tangent from the linearised equations, of length 1, along the chord.
     void set_direction(Node &n) {
         vector<double> r(n.point.x.size());
-        system_->residual(n.point.x.data(), n.point.parameter, r.data());
-        system_->linearize();
-        const PathState along = tangent_at(*system_);
+        system().residual(n.point.x.data(), n.point.parameter, r.data());
+        system().linearize();
+        const PathState along = tangent_at(system());
         const double length = metric_.length(along) * (metric_.product(along, chord_) < 0 ? -1 : 1);
         n.direction = std::isfinite(length) ? along : chord_; // exactly at a fold: the chord
         scale_by(1 / (std::isfinite(length) ? length : chord_length_), n.direction);
@@ -120,7 +127,7 @@ class Step {
         add(0.5, chord_, m);
         add(chord_length_ / 8, difference(a.direction, b.direction), m);
         const bool factored = true; // at the node made last
-        return correct_across(*system_, metric_, options_, chord_, m, factored);
+        return correct_across(system(), metric_, options_, chord_, m, factored);
     }
 
     // By the distance of the curve's middle, and by how its direction differs there.
@@ -161,7 +168,7 @@ class Step {
     const Output &output_;
     const PlaneScale &scale_;
     HbmOptions options_;
-    std::unique_ptr<HbmSystem> system_;
+    std::unique_ptr<PointEquations> equations_;
     PathState ends_[2];
     Metric metric_;
     PathState chord_;
@@ -182,8 +189,9 @@ PlaneCurve plane_curve(const Branch &branch, const HbmOptions &options, const Ou
         if (i % steps_between_polls == 0)
             watch.step("between the points", static_cast<double>(i) / static_cast<double>(n));
         Step(branch, i, own, output, scale).append_to(curve, tolerance, known);
-        if (i + 2 < n && (points[i].n_harmonics != points[i + 1].n_harmonics ||
-                          points[i + 1].n_harmonics != points[i + 2].n_harmonics))
+        // the unknowns of exact motions are measured at the piece's own frequency
+        if (i + 2 < n && (points[i + 1].motion || !Step::have_same_equations(points[i], points[i + 1]) ||
+                          !Step::have_same_equations(points[i + 1], points[i + 2])))
             known.reset();
     }
     return curve;

@@ -28,6 +28,10 @@ BasisOptions with_window(const std::shared_ptr<const Model> &model, BasisOptions
 
 } // namespace
 
+void take_accuracy(double accuracy, HbmOptions &hbm) {
+    if (hbm.accuracy == HbmOptions().accuracy) hbm.accuracy = accuracy;
+}
+
 Recipe with_window(const std::shared_ptr<const Model> &model, const Recipe &recipe, Watch watch,
                    KnownSpace &space) {
     Recipe r = recipe;

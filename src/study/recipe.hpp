@@ -20,6 +20,9 @@ struct Recipe {
     HbmOptions hbm;
 };
 
+/// The study's accuracy for a solver whose host has set none.
+void take_accuracy(double accuracy, HbmOptions &hbm);
+
 struct FrequencyRange {
     double low_hz = 0, high_hz = 0;
 };

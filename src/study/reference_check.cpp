@@ -16,6 +16,7 @@ constexpr std::int64_t beside = 3; // points on either side of the highest one
 HarmonicCheck check_harmonics(const Branch &branch, const Peak &peak, const HbmOptions &options,
                               const Output &output, Watch watch) {
     const BranchPoint &summit = peak.branch->points()[0];
+    if (summit.motion) return {}; // an exact motion: nothing is cut off
     HbmOptions finer = options_at(summit, branch.period_multiple(), options);
     finer.n_harmonics *= 2;
     const auto system = make_system(branch.reduced_model(), finer);

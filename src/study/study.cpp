@@ -11,6 +11,7 @@ namespace plm {
 namespace {
 
 constexpr double smallest_error = 1e-9; // below it an amplitude's error is the solver's tolerance
+constexpr double of_reference = 0.1;    // of the accuracy: its own error must not show
 
 double worse(double a, double b) {
     return std::isnan(a) || b > a ? b : a;
@@ -122,6 +123,7 @@ class Study {
         MethodPlan plan = reference_plan();
         plan.name = "reference";
         plan.recipe = windowed(plan.recipe);
+        take_accuracy(of_reference * plan_.options.accuracy, plan.recipe.hbm);
         KnownSpace space = where_.space;
         where_.range = range_of(where_.model, plan.recipe, watch_, space);
         keep(space);
@@ -137,6 +139,7 @@ class Study {
         out_.space_error = m.basis->space()->error_estimate;
         out_.range = where_.range;
         out_.levels = plan_.levels;
+        note_harmonics(plan, r);
         r.failed = false;
         ++n_done_;
         watch_.log(1, format("study: reference with %lld coordinates, peak %.6g at %.6g Hz",
@@ -153,7 +156,8 @@ class Study {
                         "the DOF of the output does not move on the reference's curve; name one that does")
                 .argument("dof");
         t.scale = {where_.range.high_hz - where_.range.low_hz, std::abs(t.peak.amplitude)};
-        t.curve = plane_curve(branch, o, where_.output, t.scale, plan_.options.curve_tolerance, watch_);
+        t.curve =
+            plane_curve(branch, o, where_.output, t.scale, plan_.options.resolved_curve_tolerance(), watch_);
         t.samples = equally_spaced(t.curve.pieces, plan_.options.curve_samples);
         note_resolution(t.curve);
         out_.reference.samples.push_back(samples_of(t.curve, t.scale));
@@ -188,6 +192,16 @@ class Study {
     static void note_peak(const Peak &peak, std::size_t level, MethodResult &r) {
         const std::string text = unmeasured_text(peak.branch->warnings);
         if (!text.empty()) r.outcome += format("; level %zu: ", level) + text;
+    }
+
+    // Harmonics that the host gave are its own affair, and may be those of all methods.
+    void note_harmonics(const MethodPlan &plan, MethodResult &r) const {
+        if (plan.recipe.hbm.n_harmonics > 0 || !(out_.harmonic_error > plan_.options.accuracy)) return;
+        r.outcome +=
+            format("; its peak moves by %.2g with twice the harmonics, where \"accuracy\" is %.2g: raise "
+                   "max_harmonics of the reference",
+                   out_.harmonic_error, plan_.options.accuracy);
+        r.complete = false;
     }
 
     void note_resolution(const PlaneCurve &curve) {
@@ -252,6 +266,7 @@ class Study {
             watch_.step("study", progress());
             MethodPlan method = planned;
             method.recipe = windowed(method.recipe);
+            take_accuracy(plan_.options.accuracy, method.recipe.hbm);
             const Measurement first = measured_once(method, r);
             describe(first, r);
             repeat(method, first, r);
@@ -315,7 +330,7 @@ class Study {
             const double amplitude = compare_peaks(peak.frequency_hz, peak.amplitude, truth, level, r);
             if (amplitude > worst_amplitude) worst_amplitude = amplitude, worst = level;
             const PlaneCurve curve = plane_curve(*m.curves[level], o, where_.output, truth.scale,
-                                                 plan_.options.curve_tolerance, watch_);
+                                                 plan_.options.resolved_curve_tolerance(), watch_);
             note_resolution(curve);
             r.samples.push_back(samples_of(curve, truth.scale));
             add_distance(curve_distance(truth.samples, curve.pieces), r);

@@ -132,6 +132,28 @@ static void no_contact_is_a_linear_model(void **state) {
                         "no contact pair"));
 }
 
+/* The build counts what is worth a look, the audit all that it tells of it. */
+static void findings_are_counted(void **state) {
+    plm_model *m = NULL;
+    int64_t built = 0, audited = 0, n = 0, k;
+    int32_t severity;
+    double value;
+    (void)state;
+    assert_int_equal(plm_model_create(ctx, 4, &m), PLM_OK);
+    assert_true(refused(ctx, plm_model_get_int(m, "n_findings", &n), PLM_ERR_STATE, "plm_model_get_int",
+                        "model", -1, "not built"));
+    assert_true(done(ctx, loose_bodies(1, &m)));
+    assert_int_equal(plm_model_get_int(m, "n_findings", &built), PLM_OK);
+    assert_int_equal(built, 2); /* neither damping nor excitation */
+    assert_true(done(ctx, plm_model_audit(m, &n)));
+    for (k = 0; k < n; ++k) {
+        assert_true(done(ctx, plm_model_get_finding(m, k, &severity, &value, 0, NULL, NULL)));
+        if (severity > 0) --built;
+    }
+    assert_int_equal(plm_model_get_int(m, "n_findings", &audited), PLM_OK);
+    assert_int_equal(audited, 2 - built);
+}
+
 /* The library's own solvers by name are those of the default; one that was not built, or the host's where the
  * host has none, is refused by the build with its name, and nothing is lost: another is chosen and the model
  * is built. */
@@ -217,9 +239,13 @@ static void a_number_of_dofs_takes_no_memory(void **state) {
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(all_kinds_of_input_make_one_model), TEST(loose_bodies_held_by_contact),
-        TEST(no_contact_is_a_linear_model),      TEST(results_wait_for_their_computation),
-        TEST(solvers_are_chosen_by_name),        TEST(modes_are_counted),
+        TEST(all_kinds_of_input_make_one_model),
+        TEST(loose_bodies_held_by_contact),
+        TEST(no_contact_is_a_linear_model),
+        TEST(findings_are_counted),
+        TEST(results_wait_for_their_computation),
+        TEST(solvers_are_chosen_by_name),
+        TEST(modes_are_counted),
         TEST(a_number_of_dofs_takes_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

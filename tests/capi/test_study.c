@@ -178,6 +178,64 @@ static void a_method_keeps_the_options_it_was_added_with(void **state) {
     }
 }
 
+/* Harmonics and interpolation follow from one number, and the reference is a decade better; a method whose
+ * solver has an accuracy of its own keeps it. */
+static void one_number_is_the_accuracy(void **state) {
+    const double accuracy[] = {1e-3, 1e-6};
+    int64_t n[2], of_reference[2], of_own[2];
+    int k;
+    (void)state;
+    DONE(plm_hbm_set_int(c.hbm, "n_harmonics", 0));
+    DONE(plm_hbm_set_string(c.hbm, "motion", "harmonics"));
+    DONE(plm_study_add_response(c.study, "as the study", c.hbm, NULL));
+    DONE(plm_hbm_set_double(c.hbm, "accuracy", 1e-2));
+    DONE(plm_study_add_response(c.study, "its own", c.hbm, NULL));
+    for (k = 0; k < 2; ++k) {
+        plm_branch *curve[3] = {NULL, NULL, NULL};
+        DONE(plm_study_set_double(c.study, "accuracy", accuracy[k]));
+        DONE(plm_study_run(c.study));
+        DONE(plm_study_get_curve(c.study, 0, 0, &curve[0]));
+        DONE(plm_study_get_curve(c.study, 1, 0, &curve[1]));
+        DONE(plm_study_get_curve(c.study, -1, 0, &curve[2]));
+        DONE(plm_branch_get_int(curve[0], "n_harmonics", &n[k]));
+        DONE(plm_branch_get_int(curve[1], "n_harmonics", &of_own[k]));
+        DONE(plm_branch_get_int(curve[2], "n_harmonics", &of_reference[k]));
+        print_message("accuracy %.0e: %d harmonics, %d of the reference, error %.1e, resolution %.1e\n",
+                      accuracy[k], (int)n[k], (int)of_reference[k], study_real(c.study, "amplitude_error", 0),
+                      study_scalar(c.study, "curve_resolution_error"));
+        assert_true(of_reference[k] >= n[k]);
+        assert_true(study_real(c.study, "amplitude_error", 0) < accuracy[k]);
+        assert_true(study_scalar(c.study, "curve_resolution_error") <= 5e-4 * accuracy[k]);
+    }
+    assert_true(n[1] > n[0] && of_reference[1] > n[1] && of_own[1] == of_own[0]);
+}
+
+/* With nothing set the curves are of exact motions, which lack no harmonic. */
+static void exact_motions_are_their_own_reference(void **state) {
+    (void)state;
+    DONE(plm_hbm_set_int(c.hbm, "n_harmonics", 0));
+    DONE(plm_study_add_response(c.study, "same", c.hbm, NULL));
+    DONE(plm_study_run(c.study));
+    assert_true(study_scalar(c.study, "reference_harmonic_error") == 0);
+    assert_true(study_real(c.study, "amplitude_error", 0) < 1e-8 &&
+                study_real(c.study, "curve_error_max", 0) < 1e-8);
+    assert_true(study_scalar(c.study, "curve_resolution_error") <= 5e-7);
+}
+
+/* A reference that is cut off short of the accuracy says so. */
+static void a_reference_short_of_harmonics_is_told(void **state) {
+    char text[400];
+    (void)state;
+    DONE(plm_hbm_set_int(c.hbm, "n_harmonics", 0));
+    DONE(plm_hbm_set_int(c.hbm, "max_harmonics", 3));
+    DONE(plm_hbm_set_string(c.hbm, "motion", "harmonics"));
+    DONE(plm_study_add_response(c.study, "cut off", c.hbm, NULL));
+    DONE(plm_study_set_double(c.study, "accuracy", 1e-6));
+    assert_int_equal(plm_study_run(c.study), PLM_WARNING);
+    DONE(plm_study_get_outcome(c.study, -1, sizeof text, text, NULL));
+    assert_true(strstr(text, "max_harmonics of the reference") != NULL);
+}
+
 /* Steady states by marching against 40 harmonics, at the same frequencies: the exact flow of the reduced
  * model to the truncation of the harmonics, Newmark's steps to their own second order. */
 static void marching_finds_what_harmonic_balance_finds(void **state) {
@@ -500,6 +558,9 @@ int main(void) {
         TEST(several_levels_give_the_worst_error_and_the_whole_time),
         TEST(one_level_compresses_for_all_where_the_response_is_proportional),
         TEST(a_method_keeps_the_options_it_was_added_with),
+        TEST(one_number_is_the_accuracy),
+        TEST(exact_motions_are_their_own_reference),
+        TEST(a_reference_short_of_harmonics_is_told),
         TEST(marching_finds_what_harmonic_balance_finds),
         TEST(a_method_that_fails_is_a_row),
         TEST(a_small_basis_has_the_error_computed_by_hand),

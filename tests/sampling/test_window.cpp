@@ -118,6 +118,20 @@ void the_callers_window_takes_precedence(void **) {
     assert_true(close_to(w.blf_hz, 1.5 * hz, 1e-12));
 }
 
+void a_window_in_rad_s_is_told(void **) {
+    const exact::Structure s = test::bilinear_oscillator(0.01, 8, 0, 1, 0);
+    const auto said = [&](double low, double high) {
+        SamplerOptions o;
+        o.window_min_hz = low, o.window_max_hz = high;
+        return plm::Sampler(test::make_model(s), o, plm::Watch()).warnings();
+    };
+    const double resonance = 2 * M_PI * 1.5 * hz; // rad/s
+    assert_true(said(0.9 * resonance, 1.1 * resonance).has(PLM_REASON_OUTSIDE_BASIS));
+    assert_true(said(0.9 * 1.5 * hz, 1.1 * 1.5 * hz).empty());
+    assert_true(said(0.9 * 1.5 * hz, 1.1 * resonance).empty());  // wide, with the resonance inside
+    assert_true(said(0.5 * resonance, 0.7 * resonance).empty()); // elsewhere, as a host may ask for
+}
+
 // A mass held by nothing but its contact, pressed by a weight: the open half cycle has no frequency.
 void a_rigid_half_cycle_leaves_the_frequency_at_rest(void **) {
     exact::Structure s = test::bilinear_oscillator(0, 9, 0, 1, 2);
@@ -138,6 +152,7 @@ int main() {
         cmocka_unit_test(case_b_covers_rest_and_bilinear_frequency),
         cmocka_unit_test(rest_frequency_equals_the_dense_one),
         cmocka_unit_test(the_callers_window_takes_precedence),
+        cmocka_unit_test(a_window_in_rad_s_is_told),
         cmocka_unit_test(a_rigid_half_cycle_leaves_the_frequency_at_rest),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -155,6 +155,9 @@ void responses_outside_the_basis_are_said(void **) {
     const auto far = solve(3 * basis->window_max_hz());
     assert_true(far->full_residual(0) > 0.1);
     assert_true(far->warnings.has(PLM_REASON_OUTSIDE_BASIS));
+    assert_true(far->warnings.text().find("rad/s") == std::string::npos);
+    const auto angular = solve(M_PI * (basis->window_min_hz() + basis->window_max_hz()));
+    assert_true(angular->warnings.text().find("rad/s") != std::string::npos);
     // the unreduced structure serves anywhere: outside its window nothing is cried
     const auto fine = plm::Hbm(whole.basis->reduced(), whole.basis->sweep_range(), five(), plm::Watch())
                           .solve(2.2, nullptr, 0);

@@ -163,6 +163,90 @@ void reversed_signs_show(void **) {
     assert_true(with(findings(in), "under the pre-load") == nullptr);
 }
 
+// A chain of six masses with its pair near the tip, which the force moves by how_far gaps at the lowest
+// resonance.
+ModelInput driven(double how_far) {
+    ModelInput in = sound();
+    in.gap_coefficient = {-1, 1}, in.gap_dof = {4, 5}, in.gap_row = {0, 0};
+    in.contact.initial_gap[0] = 0.1;
+    const double k = 1e4, m = 0.5, theta = M_PI / 13; // of the lowest mode: sin((i + 1) theta) at mass i
+    const double omega = 2 * std::sqrt(k / m) * std::sin(theta / 2), zeta = 0.5 * in.damping.beta * omega;
+    double norm = 0;
+    for (int i = 0; i < 6; ++i) norm += m * std::pow(std::sin((i + 1) * theta), 2);
+    const double tip = std::sin(6 * theta), moved = std::sin(6 * theta) - std::sin(5 * theta);
+    const double amplitude = tip * moved / norm / (2 * zeta * omega * omega); // of the gap, for a unit force
+    in.excitation[1].real[5] = how_far * 0.1 / std::abs(amplitude);
+    return in;
+}
+
+// The linear response of one mode in closed form says how much of the gap a force takes up; the other modes
+// add some to it.
+void gaps_that_never_close_are_told(void **) {
+    for (double part : {1e-6, 0.5}) {
+        assert_true(warns(driven(part), "no gap closes", 1));
+        assert_true(close_to(with(findings(driven(part)), "no gap closes")->value, part, 0.02));
+    }
+    assert_true(with(findings(driven(1.05)), "no gap closes") == nullptr);
+    ModelInput in = driven(0.5); // closed by a pre-load, or without a gap, every motion switches
+    in.preload = {0, 0, 0, 0, 0, 1e4};
+    assert_true(with(findings(in), "no gap closes") == nullptr);
+    in.preload = {0, 0, 0, 0, 0, 0.07 * 1e4}; // a gap of 0.1 less 0.07
+    assert_true(with(findings(in), "no gap closes") == nullptr);
+    in = driven(1e-6), in.contact.initial_gap[0] = 0;
+    assert_true(with(findings(in), "no gap closes") == nullptr);
+    in = driven(1e-6), in.damping.beta = 0; // without damping nothing bounds the motion
+    assert_true(with(findings(in), "no gap closes") == nullptr);
+    in = driven(0.5), in.excitation[3] = in.excitation[1]; // harmonics add up
+    assert_true(with(findings(in), "no gap closes")->value > 0.5);
+}
+
+void excitation_of_no_low_mode_is_told(void **) {
+    ModelInput in = beam(12); // ten modes of bending below the first of a stiff spring beside it
+    in.fixed = {0, 1};
+    touch(in, 24, 1, 0.1);
+    assert_true(warns(in, "elastic modes of the open structure the excitation moves the one at", 0));
+    // the beam's matrices with a mass on a spring, which no motion of the beam reaches
+    test::Dense k = test::diagonal(13, 1e4), m = test::diagonal(13, 1);
+    for (int i = 0; i + 1 < 12; ++i)
+        k[i][i] += 1e4, k[i + 1][i + 1] += 1e4, k[i][i + 1] -= 1e4, k[i + 1][i] -= 1e4;
+    k[12][12] = 1e9;
+    in = test::input(m, k);
+    in.damping.beta = 1e-5;
+    test::add_pair(in, {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, PLM_AUTO_STIFFNESS, 0.1);
+    in.excitation[1].real.assign(13, 0.0);
+    in.excitation[1].real[12] = 1;
+    assert_true(warns(in, "the excitation moves none of the 10 lowest elastic modes", 1));
+    in.excitation[1].real[12] = 0, in.excitation[1].imag.assign(13, 0.0), in.excitation[1].imag[3] = 1;
+    assert_true(with(findings(in), "moves none of") == nullptr);
+    // a force on a mass so large that its acceleration is given drives the rest all the same
+    k = test::free_chain(6, 1e4), m = test::diagonal(6, 0.5);
+    m[0][0] = 1e7;
+    in = test::input(m, k);
+    in.damping.beta = 1e-5;
+    test::add_pair(in, {0, 0, 1, 0, 0, -1}, PLM_AUTO_STIFFNESS, 1e-3);
+    in.excitation[1].real = {1e7, 0, 0, 0, 0, 0};
+    assert_true(with(findings(in), "moves none of") == nullptr);
+}
+
+// Three DOFs per node, as the matrix has them, and a pair that was counted with two.
+void pairs_of_mixed_components_are_told(void **) {
+    test::Dense k = test::diagonal(30, 0);
+    for (int i = 0; i + 3 < 30; ++i) k[i][i] += 2, k[i + 3][i + 3] += 2, k[i + 3][i] -= 2, k[i][i + 3] -= 2;
+    ModelInput in = test::input(test::diagonal(30, 0.5), k);
+    in.fixed = {0, 1, 2};
+    in.damping.beta = 1e-5;
+    const auto join = [&](std::int64_t a, std::int64_t b) {
+        std::vector<double> row(30, 0.0);
+        row[static_cast<std::size_t>(a)] = 1, row[static_cast<std::size_t>(b)] = -1;
+        test::add_pair(in, row, PLM_AUTO_STIFFNESS, 0.1);
+    };
+    join(3 * 2 + 1, 3 * 9 + 1);
+    assert_true(with(findings(in), "were they counted") == nullptr);
+    join(2 * 2 + 1, 2 * 9 + 1); // DOFs 5 and 19
+    assert_true(
+        warns(in, "(the first: pair 1, DOFs 5 and 19) join component 2 of one node to component 1", 1));
+}
+
 } // namespace
 
 int main() {
@@ -172,6 +256,9 @@ int main() {
         cmocka_unit_test(translations_are_what_the_matrices_tell),
         cmocka_unit_test(loose_structures_are_told_from_held_ones),
         cmocka_unit_test(reversed_signs_show),
+        cmocka_unit_test(gaps_that_never_close_are_told),
+        cmocka_unit_test(excitation_of_no_low_mode_is_told),
+        cmocka_unit_test(pairs_of_mixed_components_are_told),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

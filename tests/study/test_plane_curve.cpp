@@ -83,12 +83,31 @@ void the_steps_of_the_sweep_do_not_matter(void **) {
     assert_true(below(apart, 2 * 5.5e-7)); // both resolutions; they are estimates
 }
 
+// Exact motions have no harmonics by which points between them could be found: they follow from the flow,
+// too.
+void between_exact_motions_points_are_exact_motions(void **) {
+    Traced a, b;
+    double apart = 1;
+    {
+        const Structure s(5);
+        plm::HbmOptions coarse = options_for(0.3), fine = options_for(0.03);
+        for (plm::HbmOptions *o : {&coarse, &fine}) o->n_harmonics = 0, o->motion = plm::MotionKind::exact;
+        a = trace(s, coarse, 5e-7), b = trace(s, fine, 5e-8);
+        apart = plm::curve_distance(plm::equally_spaced(a.curve.pieces, 3000), b.curve.pieces).max;
+    }
+    print_message("%zu and %zu points; resolution %.1e and %.1e; apart %.1e\n", a.points, b.points,
+                  a.curve.resolution, b.curve.resolution, apart);
+    assert_true(a.points < b.points && a.curve.unresolved == 0 && a.curve.resolution <= 5e-7);
+    assert_true(below(apart, 2 * 5.5e-7));
+}
+
 } // namespace
 
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(between_coarse_points_a_linear_response_is_the_closed_form),
         cmocka_unit_test(the_steps_of_the_sweep_do_not_matter),
+        cmocka_unit_test(between_exact_motions_points_are_exact_motions),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

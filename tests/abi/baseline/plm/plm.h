@@ -344,7 +344,8 @@ PLM_API plm_status plm_model_get_modes(plm_model *model, int32_t system, const i
 PLM_API plm_status plm_model_count_modes(plm_model *model, double frequency_hz, int64_t *count);
 
 /* Looks the built model over: mass per direction, rigid-body modes, symmetry, definiteness, gap signs, contact
- * stiffness against local stiffness, units that look off. count: number of findings, read one by one below. */
+ * stiffness against local stiffness, units that look off, an excitation that moves no low mode, gaps that the linear
+ * response never closes. count: number of findings, read one by one below. */
 PLM_API plm_status plm_model_audit(plm_model *model, int64_t *count);
 /* severity: 0 fact, 1 worth a look, 2 probably wrong. value: the number the finding is about. */
 PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_t *severity, double *value,
@@ -485,7 +486,9 @@ PLM_API plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, int64
 /* Isolated branches at "force_scale" beside the curve `main_branch` (of plm_hbm_sweep with the same options over the
  * whole range), without a hint: where the phase-resonant backbone (displacement in quadrature to the force) needs a
  * force that falls with growing amplitude, a closed branch exists; it is entered there and traced. force_max: largest
- * force scale looked at, 0: eight times "force_scale". count: branches found, read by plm_hbm_get_found. */
+ * force scale looked at, 0: eight times "force_scale". count: branches found, read by plm_hbm_get_found. Where curves are
+ * made of exact motions ("motion"), backbones have few harmonics, branches and the forces between which they exist are
+ * exact, and what exists only with few harmonics is left out. */
 PLM_API plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double force_max, int64_t *count);
 /* The phase-resonant backbones in the frequency range: frequency and amplitude of the resonance against the force. The
  * points of each carry their own "point_force_scale". None without pre-load and gap (the force changes nothing then). */
@@ -495,7 +498,8 @@ PLM_API plm_status plm_hbm_find_backbones(plm_hbm *hbm, double force_max, int64_
 PLM_API plm_status plm_hbm_get_found(plm_hbm *hbm, int64_t index, double *force_range, plm_branch **branch);
 /* The curve of folds over (frequency, force) through a located fold of `branch`, to both sides of it as far as the range
  * of force scales given goes; the side that begins towards smaller forces comes first. Its points of "bifurcation"
- * PLM_BIFURCATION_FOLD are extrema of the force: an isolated branch is born or merges there. */
+ * PLM_BIFURCATION_FOLD are extrema of the force: an isolated branch is born or merges there. Folds of exact motions where
+ * the point is one, else of as many harmonics as it has. */
 PLM_API plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, int64_t point, double force_min,
                                       double force_max, plm_branch **folds);
 
