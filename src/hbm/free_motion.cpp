@@ -7,18 +7,12 @@
 namespace plm {
 namespace {
 
-bool acts_along(const Matrix &directions, const vector<double> &load) {
-    const std::int64_t n = static_cast<std::int64_t>(load.size());
-    if (n == 0 || directions.cols() == 0) return false;
-    vector<double> along(directions.cols(), 0.0);
-    gemv('T', 1.0, directions, load.data(), 0.0, along.data());
-    return norm2(directions.cols(), along.data()) > 1e-8 * norm2(n, load.data());
-}
-
-vector<char> acting_pairs(const ContactIndicator &indicator, std::int64_t n_pairs) {
-    vector<char> acting(n_pairs);
-    for (std::int64_t i = 0; i < n_pairs; ++i) acting[i] = indicator.acts(i);
-    return acting;
+bool acts_along(const Matrix &directions, const double *load) {
+    if (directions.cols() == 0) return false;
+    double along = 0;
+    for (std::int64_t k = 0; k < directions.cols(); ++k)
+        along = std::hypot(along, dot(directions.rows(), directions.col(k), load));
+    return along > 1e-8 * norm2(directions.rows(), load);
 }
 
 } // namespace
@@ -59,15 +53,15 @@ void MeanHold::assign(const ReducedModel &m, Matrix directions) {
     for (std::int64_t k = 0; k < columns_.rows() * columns_.cols(); ++k) columns_.data()[k] *= root;
 }
 
-bool MeanHold::set(const ReducedModel &m, const ContactIndicator &indicator,
-                   const vector<double> &mean_load) {
+bool MeanHold::set(const ReducedModel &m, const ContactIndicator &indicator, const double *mean_load) {
     if (!depends_) return false;
-    vector<char> holding = acting_pairs(indicator, m.n_pairs());
-    const bool others = holding != holding_;
-    if (others) directions_ = free_motion(m, holding);
+    now_.resize(m.n_pairs());
+    for (std::int64_t i = 0; i < m.n_pairs(); ++i) now_[i] = indicator.acts(i);
+    const bool others = now_ != holding_;
+    if (others) directions_ = free_motion(m, now_);
     const bool pushed = acts_along(directions_, mean_load);
     if (!others && pushed == pushed_) return false;
-    holding_ = std::move(holding);
+    holding_ = now_;
     pushed_ = pushed;
     assign(m, pushed ? always_ : directions_);
     return true;
@@ -76,8 +70,8 @@ bool MeanHold::set(const ReducedModel &m, const ContactIndicator &indicator,
 void require_balanced(const ReducedModel &m) {
     const Matrix free = free_motion(m);
     const auto mean = m.excitation.find(0);
-    if (acts_along(free, m.preload_0)) throw no_equilibrium("pre-load");
-    if (mean != m.excitation.end() && acts_along(free, mean->second.real))
+    if (acts_along(free, m.preload_0.data())) throw no_equilibrium("pre-load");
+    if (mean != m.excitation.end() && acts_along(free, mean->second.real.data()))
         throw no_equilibrium("mean of the excitation");
 }
 

@@ -21,7 +21,7 @@ class MeanHold {
     MeanHold() = default;
     explicit MeanHold(const ReducedModel &reduced);
     /// mean_load: r_0. True: columns() are others than before.
-    bool set(const ReducedModel &reduced, const ContactIndicator &indicator, const vector<double> &mean_load);
+    bool set(const ReducedModel &reduced, const ContactIndicator &indicator, const double *mean_load);
     const Matrix &columns() const { return columns_; }
     /// Whether the mean of the loads acts along a motion that no acting pair holds: no periodic one is here,
     /// however small a residual is beside the distance that has been gone.
@@ -33,7 +33,7 @@ class MeanHold {
     void assign(const ReducedModel &reduced, Matrix directions);
 
     Matrix always_, directions_, columns_; // what no pair holds; what no acting pair holds; S
-    vector<char> holding_;
+    vector<char> holding_, now_;
     bool depends_ = false, pushed_ = false;
 };
 

@@ -32,13 +32,13 @@ void GapResponse::write_gaps(const vector<Complex> &v, double factor, double *ou
 }
 
 void GapResponse::receptance_of(std::int64_t h, const vector<std::int64_t> &pairs, Matrix &real,
-                                Matrix &imag) const {
-    const Matrix rows = select_rows(h == 0 ? m_->gap_0 : m_->gap, pairs);
+                                Matrix &imag) {
+    select_rows(h == 0 ? m_->gap_0 : m_->gap, pairs, rows_);
     if (h > 0) {
-        harmonic_[h].contact_receptance(rows, real, imag);
+        harmonic_[h].contact_receptance(rows_, real, imag);
     } else {
-        real = mean_.receptance(rows);
-        imag.reset(rows.rows(), rows.rows());
+        mean_.receptance(rows_, real);
+        imag.reset(rows_.rows(), rows_.rows());
     }
     for (std::size_t p = 0; p < pairs.size(); ++p) real(p, p) -= slack_[pairs[p]];
 }
@@ -46,20 +46,21 @@ void GapResponse::receptance_of(std::int64_t h, const vector<std::int64_t> &pair
 void GapResponse::subtract(std::int64_t h, const vector<double> &c, const vector<double> &s, double *b) {
     const std::int64_t z = m_->n_pairs();
     if (h == 0) {
-        vector<double> v(m_->static_size());
+        vector<double> &v = mean_response_;
+        v.resize(m_->static_size());
         gemv('T', 1.0, m_->gap_0, c.data(), 0.0, v.data());
         mean_.apply(v.data());
         gemv('N', -1.0, m_->gap_0, v.data(), 1.0, b);
         for (std::int64_t i = 0; i < z; ++i) b[i] += slack_[i] * c[i];
         return;
     }
-    vector<Complex> v;
+    vector<Complex> &v = response_;
     gather(c.data(), s.data(), 1.0, v);
     harmonic_[h].apply(v.data());
-    vector<double> gaps(2 * z);
-    write_gaps(v, 1.0, gaps.data());
+    gaps_.resize(2 * z);
+    write_gaps(v, 1.0, gaps_.data());
     double *cosine = b + (2 * h - 1) * z, *sine = cosine + z;
-    for (std::int64_t k = 0; k < 2 * z; ++k) cosine[k] -= gaps[k];
+    for (std::int64_t k = 0; k < 2 * z; ++k) cosine[k] -= gaps_[k];
     for (std::int64_t i = 0; i < z; ++i) {
         cosine[i] += slack_[i] * c[i];
         sine[i] += slack_[i] * s[i];

@@ -26,7 +26,7 @@ class GapResponse {
     void write_gaps(const vector<Complex> &v, double factor, double *out);
 
     /// Of these pairs among themselves.
-    void receptance_of(std::int64_t h, const vector<std::int64_t> &pairs, Matrix &real, Matrix &imag) const;
+    void receptance_of(std::int64_t h, const vector<std::int64_t> &pairs, Matrix &real, Matrix &imag);
     /// Takes the answer to the forces c - i s of all pairs in harmonic h from b (Z x (2H + 1)).
     void subtract(std::int64_t h, const vector<double> &c, const vector<double> &s, double *b);
 
@@ -36,7 +36,10 @@ class GapResponse {
     StaticReference mean_;
     std::vector<Receptance> harmonic_; // the first is not used
     double omega_ = -1;
-    vector<double> real_, imag_;
+    // of one call to the next: no iteration allocates
+    vector<double> real_, imag_, mean_response_, gaps_;
+    vector<Complex> response_;
+    Matrix rows_;
 };
 
 } // namespace plm

@@ -6,7 +6,7 @@
 #include "hbm/formulation.hpp"
 #include "hbm/gap_response.hpp"
 #include "hbm/make_system.hpp"
-#include "hbm/pair_elimination.hpp"
+#include "hbm/moving_pairs.hpp"
 #include "hbm/system.hpp"
 #include "linalg/work.hpp"
 #include <algorithm>
@@ -30,11 +30,11 @@ void write(Complex value, std::int64_t stride, std::int64_t h, std::int64_t i, d
     }
 }
 
-// The pairs whose tangent in one harmonic is kappa != 0, constant in time, and their elimination.
+// The pairs whose tangent in one harmonic is kappa != 0, constant in time: they are eliminated.
 struct Constant {
     vector<std::int64_t> pairs;
     vector<double> kappa;
-    PairElimination elimination;
+    vector<Complex> held; // the displacements of one solution
 };
 
 class GapSystem final : public HbmSystem {
@@ -43,7 +43,8 @@ class GapSystem final : public HbmSystem {
         : m_(std::move(reduced)), h_(options.n_harmonics), n_(2 * h_ + 1), z_(m_->n_pairs()), r_(m_->size()),
           r0_(m_->static_size()), force_(make_contact_force(options, z_)),
           form_(make_formulation(*m_, options)), response_(m_, form_, h_), gap_(m_->contact.initial_gap),
-          u_(z_, n_), contact_(z_, n_), constant_(h_ + 1), eta_(h_ + 1), force_scale_(options.force_scale) {
+          u_(z_, n_), contact_(z_, n_), constant_(h_ + 1), eta_(h_ + 1), force_scale_(options.force_scale),
+          equations_(h_), cosine_(z_), sine_(z_), response_of_load_(r_) {
         if (form_.compliant) law_ = std::make_shared<const vector<double>>(form_.stiffness);
     }
 
@@ -55,12 +56,13 @@ class GapSystem final : public HbmSystem {
         for (const auto &[h, load] : m_->excitation) {
             if (h > h_) continue;
             if (h == 0) {
-                vector<double> v(load.real);
+                vector<double> &v = mean_;
+                v = load.real;
                 response_.mean().apply(v.data());
                 gemv('N', -1.0, m_->gap_0, v.data(), 0.0, r);
                 continue;
             }
-            vector<Complex> v(r_);
+            vector<Complex> &v = response_of_load_;
             for (std::int64_t j = 0; j < r_; ++j) v[j] = Complex(load.real[j], load.imag[j]);
             response_.harmonic(h).apply(v.data());
             response_.write_gaps(v, -1.0, r + (2 * h - 1) * z_);
@@ -71,7 +73,8 @@ class GapSystem final : public HbmSystem {
 
     void contact_force_change(const Matrix &force, double *r) override { // B D B' N - slack N
         std::fill(r, r + size(), 0.0);
-        vector<double> c(z_), q(z_, 0.0);
+        vector<double> &c = cosine_, &q = sine_;
+        std::fill(q.begin(), q.end(), 0.0);
         for (std::int64_t h = 0; h <= h_; ++h) {
             for (std::int64_t i = 0; i < z_; ++i) {
                 c[i] = force(i, h == 0 ? 0 : 2 * h - 1);
@@ -122,19 +125,18 @@ class GapSystem final : public HbmSystem {
             if (indicator_.varies(i)) moving_.push_back(i);
         for (std::int64_t h = 0; h <= h_; ++h) eliminate(h);
         const std::int64_t s = n_moving();
-        if (s == 0) return;
-        tangent_.reset(n_ * n_, s);
+        Matrix &tangent = equations_.tangent();
+        tangent.reset(n_ * n_, s);
         for (std::int64_t p = 0; p < s; ++p) {
             const double *average = indicator_.averages.col(moving_[p]);
             for (std::int64_t c = 0; c < n_; ++c)
                 for (std::int64_t row = 0; row < n_; ++row)
-                    tangent_(row + c * n_, p) =
+                    tangent(row + c * n_, p) =
                         stiffness_factor_ * form_.stiffness[moving_[p]] * indicator_entry(average, row, c);
-            tangent_(0, p) -= response_.mean().stiffness()[moving_[p]];
+            tangent(0, p) -= response_.mean().stiffness()[moving_[p]];
             worked(12.0 * static_cast<double>(n_ * n_));
         }
-        assemble();
-        lu_.factor(jacobian_);
+        equations_.factor();
     }
 
     void solve(double *b, std::int64_t n) override {
@@ -142,11 +144,11 @@ class GapSystem final : public HbmSystem {
     }
 
     // The eliminated parts do not change the sign: complex for h >= 1, positive definite for h = 0.
-    int determinant_sign() const override { return n_moving() == 0 ? 1 : lu_.determinant_sign(); }
+    int determinant_sign() const override { return equations_.determinant_sign(); }
 
     void parameter_derivative(double *r) override {
         std::fill(r, r + size(), 0.0);
-        vector<Complex> v(r_);
+        vector<Complex> &v = response_of_load_;
         for (std::int64_t h = 1; h <= h_; ++h) { // d/d omega of -B D f = B D (dD^-1) D f
             response_.harmonic(h).derivative(eta_[h].data(), v.data());
             response_.harmonic(h).apply(v.data());
@@ -201,14 +203,15 @@ class GapSystem final : public HbmSystem {
 
   private:
     void hold_mean() {
-        if (response_.mean().depends_on_contact()) response_.mean().hold(indicator_, mean_load());
+        if (!response_.mean().depends_on_contact()) return;
+        fill_mean_load(mean_);
+        response_.mean().hold(indicator_, mean_.data());
     }
 
-    vector<double> mean_load() const {
-        vector<double> load = m_->preload_0;
+    void fill_mean_load(vector<double> &load) const {
+        load = m_->preload_0;
         if (const HarmonicLoad *mean = excitation(0))
             for (std::int64_t j = 0; j < r0_; ++j) load[j] += force_scale_ * mean->real[j];
-        return load;
     }
 
     const HarmonicLoad *excitation(std::int64_t h) const {
@@ -218,8 +221,8 @@ class GapSystem final : public HbmSystem {
 
     // eta = D (F - B' N) for every harmonic, from contact_.
     void respond() {
-        eta_0_ = mean_load();
-        vector<double> n(z_);
+        fill_mean_load(eta_0_);
+        vector<double> &n = cosine_;
         for (std::int64_t i = 0; i < z_; ++i)
             n[i] = contact_(i, 0) - response_.mean().stiffness()[i] * (u_(i, 0) + gap_[i]);
         gemv('T', -1.0, m_->gap_0, n.data(), 1.0, eta_0_.data());
@@ -267,71 +270,45 @@ class GapSystem final : public HbmSystem {
             e.pairs.push_back(i);
             e.kappa.push_back(kappa);
         }
-        vector<std::int64_t> all = moving_;
-        all.insert(all.end(), e.pairs.begin(), e.pairs.end());
-        Matrix real, imag;
-        response_.receptance_of(h, all, real, imag);
-        e.elimination.build(real, imag, n_moving(), e.kappa);
-    }
-
-    // I + G J over the moving pairs; unknown (coefficient c, moving pair p) at c s + p.
-    void assemble() {
-        const std::int64_t s = n_moving();
-        jacobian_.reset(s * n_, s * n_);
-        for (std::int64_t c = 0; c < n_; ++c) {
-            worked(8.0 * static_cast<double>(s * s * n_));
-            for (std::int64_t q = 0; q < s; ++q) {
-                double *column = jacobian_.col(c * s + q);
-                const double *tangent = tangent_.col(q) + c * n_; // J(:, c) of pair q
-                const double *g0 = constant_[0].elimination.real().col(q);
-                for (std::int64_t p = 0; p < s; ++p) column[p] = g0[p] * tangent[0];
-                for (std::int64_t h = 1; h <= h_; ++h) {
-                    const double *gr = constant_[h].elimination.real().col(q),
-                                 *gi = constant_[h].elimination.imag().col(q);
-                    const double yc = tangent[2 * h - 1], ys = tangent[2 * h];
-                    double *cosine = column + (2 * h - 1) * s, *sine = cosine + s;
-                    for (std::int64_t p = 0; p < s; ++p) { // u_c - i u_s = G (y_c - i y_s)
-                        cosine[p] = gr[p] * yc + gi[p] * ys;
-                        sine[p] = gr[p] * ys - gi[p] * yc;
-                    }
-                }
-                column[c * s + q] += 1;
-            }
-        }
+        coupled_ = moving_;
+        coupled_.insert(coupled_.end(), e.pairs.begin(), e.pairs.end());
+        response_.receptance_of(h, coupled_, real_, imag_);
+        equations_.elimination(h).build(real_, imag_, n_moving(), e.kappa);
     }
 
     void solve_one(double *b) {
         const std::int64_t s = n_moving();
-        vector<double> moving(s * n_), y(s * n_);
-        std::vector<vector<Complex>> held(h_ + 1);
-        for (std::int64_t h = 0; h <= h_; ++h) condense(h, b, held[h], moving.data());
-        if (s > 0) lu_.solve(moving.data(), 1, s * n_);
-        for (std::int64_t p = 0; p < s; ++p) // y = J du
-            for (std::int64_t c = 0; c < n_; ++c) {
-                const double *tangent = tangent_.col(p) + c * n_;
-                for (std::int64_t row = 0; row < n_; ++row)
-                    y[row * s + p] += tangent[row] * moving[c * s + p];
-            }
-        for (std::int64_t h = 0; h <= h_; ++h) expand(h, held[h], moving.data(), y.data(), b);
+        vector<double> &moving = motion_, &y = force_of_motion_;
+        moving.resize(s * n_);
+        y.resize(s * n_);
+        for (std::int64_t h = 0; h <= h_; ++h) condense(h, b, moving.data());
+        equations_.solve(moving.data());
+        equations_.force(moving.data(), y.data());
+        for (std::int64_t h = 0; h <= h_; ++h) expand(h, moving.data(), y.data(), b);
     }
 
-    // Right-hand side of the moving pairs in harmonic h; `held` keeps what expand() needs.
-    void condense(std::int64_t h, const double *b, vector<Complex> &held, double *moving) const {
-        const Constant &e = constant_[h];
-        for (std::int64_t i : e.pairs) held.push_back(read(b, z_, h, i));
-        vector<Complex> v;
+    // Right-hand side of the moving pairs in harmonic h; e.held keeps what expand() needs.
+    void condense(std::int64_t h, const double *b, double *moving) {
+        Constant &e = constant_[h];
+        e.held.clear();
+        for (std::int64_t i : e.pairs) e.held.push_back(read(b, z_, h, i));
+        vector<Complex> &v = of_moving_;
+        v.clear();
         for (std::int64_t i : moving_) v.push_back(read(b, z_, h, i));
-        e.elimination.condense(held, v.data());
+        equations_.elimination(h).condense(e.held, v.data());
         for (std::int64_t p = 0; p < n_moving(); ++p) write(v[p], n_moving(), h, p, moving);
     }
 
     // Writes du of harmonic h for all pairs: moving and eliminated ones as solved, the others from B D B' y.
-    void expand(std::int64_t h, vector<Complex> &held, const double *moving, const double *y, double *b) {
-        const Constant &e = constant_[h];
-        vector<Complex> forces;
+    void expand(std::int64_t h, const double *moving, const double *y, double *b) {
+        Constant &e = constant_[h];
+        vector<Complex> &held = e.held, &forces = of_moving_;
+        forces.clear();
         for (std::int64_t p = 0; p < n_moving(); ++p) forces.push_back(read(y, n_moving(), h, p));
-        e.elimination.expand(forces, held);
-        vector<double> c(z_, 0.0), q(z_, 0.0); // contact force y = c - i q of all pairs
+        equations_.elimination(h).expand(forces, held);
+        vector<double> &c = cosine_, &q = sine_; // contact force y = c - i q of all pairs
+        std::fill(c.begin(), c.end(), 0.0);
+        std::fill(q.begin(), q.end(), 0.0);
         for (std::int64_t p = 0; p < n_moving(); ++p)
             c[moving_[p]] = forces[p].real(), q[moving_[p]] = -forces[p].imag();
         for (std::size_t j = 0; j < e.pairs.size(); ++j)
@@ -357,8 +334,12 @@ class GapSystem final : public HbmSystem {
     vector<double> eta_0_;
     double force_scale_, stiffness_factor_ = 1;
     vector<std::int64_t> moving_;
-    Matrix tangent_, jacobian_;
-    RealLu lu_;
+    mutable MovingPairs equations_; // its sign may take a solution
+    // of one call to the next: no iteration allocates
+    vector<std::int64_t> coupled_;
+    vector<double> mean_, cosine_, sine_, motion_, force_of_motion_;
+    vector<Complex> response_of_load_, of_moving_;
+    Matrix real_, imag_;
 };
 
 } // namespace

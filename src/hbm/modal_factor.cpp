@@ -85,14 +85,15 @@ bool ModalFactor::invert_linear_part() {
 // T R: R couples cosine and sine of harmonic h, as [real, imaginary; -imaginary, real].
 void ModalFactor::add_contact_columns(std::int64_t h) {
     const std::int64_t z = jacobian_.n_acting(), n = jacobian_.n_coefficients();
-    Matrix real, imaginary;
+    Matrix &real = real_, &imaginary = imaginary_;
     if (h > 0) {
         receptance_[h].contact_receptance(jacobian_.gap(), real, imaginary);
     } else {
-        Matrix scaled = jacobian_.gap_0();
-        for (std::int64_t j = 0; j < scaled.cols(); ++j)
-            for (std::int64_t i = 0; i < z; ++i) scaled(i, j) /= jacobian_.model().lambda_0[j];
-        real = plm::product('N', 'T', scaled, jacobian_.gap_0());
+        scaled_ = jacobian_.gap_0();
+        for (std::int64_t j = 0; j < scaled_.cols(); ++j)
+            for (std::int64_t i = 0; i < z; ++i) scaled_(i, j) /= jacobian_.model().lambda_0[j];
+        real.reset(z, z);
+        gemm('N', 'T', 1.0, scaled_, jacobian_.gap_0(), 0.0, real);
     }
     worked(16.0 * static_cast<double>(n * z * z));
     for (std::int64_t c = 0; c < n; ++c) {
@@ -115,8 +116,8 @@ void ModalFactor::add_contact_columns(std::int64_t h) {
 
 void ModalFactor::add_borders() {
     const std::int64_t n = inner_size(), forces = n_forces(), k = n_borders();
-    Matrix gaps, force;
-    vector<double> v(n);
+    Matrix &gaps = gaps_, &force = force_;
+    vector<double> &v = v_;
     for (std::int64_t j = 0; j < k; ++j) {
         v.assign(border_.columns.col(j), border_.columns.col(j) + n);
         apply_inverse(false, v.data());
@@ -147,12 +148,13 @@ void ModalFactor::scale_borders() {
 
 // --- solutions
 
-void ModalFactor::apply_inverse(bool transposed, double *v) const {
+void ModalFactor::apply_inverse(bool transposed, double *v) {
     const ReducedModel &m = jacobian_.model();
     const std::int64_t r = m.size();
     const double sign = transposed ? 1.0 : -1.0; // D' is D conjugated: its blocks are complex symmetric
     for (std::int64_t j = 0; j < m.static_size(); ++j) v[j] /= m.lambda_0[j];
-    vector<Complex> q(r);
+    vector<Complex> &q = q_;
+    q.resize(r);
     for (std::int64_t h = 1; h <= jacobian_.n_harmonics(); ++h) {
         double *a = v + jacobian_.cosine_at(h), *b = a + r;
         for (std::int64_t j = 0; j < r; ++j) q[j] = Complex(a[j], sign * b[j]);
@@ -161,7 +163,7 @@ void ModalFactor::apply_inverse(bool transposed, double *v) const {
     }
 }
 
-void ModalFactor::product(bool transposed, const double *x, double *y) const {
+void ModalFactor::product(bool transposed, const double *x, double *y) {
     const std::int64_t n = inner_size(), k = n_borders();
     const Matrix &columns = transposed ? border_.rows : border_.columns;
     const Matrix &rows = transposed ? border_.columns : border_.rows;
@@ -185,10 +187,12 @@ void ModalFactor::solve(bool transposed, double *b, std::int64_t n) {
 }
 
 // False: the corrections do not shrink; b is kept.
-bool ModalFactor::solve_refined(bool transposed, double *b) const {
+bool ModalFactor::solve_refined(bool transposed, double *b) {
     const std::int64_t n = size();
     const auto once = [&](double *v) { transposed ? solve_once_transposed(v) : solve_once(v); };
-    vector<double> x(b, b + n), change(n);
+    vector<double> &x = x_, &change = change_;
+    x.assign(b, b + n);
+    change.resize(n);
     once(x.data());
     for (int k = 0; k < 3; ++k) {
         product(transposed, x.data(), change.data());
@@ -203,10 +207,12 @@ bool ModalFactor::solve_refined(bool transposed, double *b) const {
     return true;
 }
 
-void ModalFactor::solve_once(double *b) const {
+void ModalFactor::solve_once(double *b) {
     const std::int64_t n = inner_size(), forces = n_forces(), k = n_borders();
-    vector<double> v(b, b + n), ys(forces + k);
-    Matrix gaps, force;
+    vector<double> &v = v_, &ys = forces_;
+    Matrix &gaps = gaps_, &force = force_;
+    v.assign(b, b + n);
+    ys.resize(forces + k);
     apply_inverse(false, v.data());
     jacobian_.to_gaps(v.data(), gaps);
     jacobian_.apply_tangent(false, gaps, force);
@@ -222,10 +228,12 @@ void ModalFactor::solve_once(double *b) const {
 }
 
 // The same equations transposed, for (-G z, t).
-void ModalFactor::solve_once_transposed(double *b) const {
+void ModalFactor::solve_once_transposed(double *b) {
     const std::int64_t n = inner_size(), forces = n_forces(), k = n_borders();
-    vector<double> v(b, b + n), wt(forces + k);
-    Matrix gaps, force;
+    vector<double> &v = v_, &wt = forces_;
+    Matrix &gaps = gaps_, &force = force_;
+    v.assign(b, b + n);
+    wt.resize(forces + k);
     apply_inverse(true, v.data());
     jacobian_.to_gaps(v.data(), gaps);
     for (std::int64_t i = 0; i < forces; ++i) wt[i] = -gaps.data()[i];

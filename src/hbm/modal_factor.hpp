@@ -46,12 +46,12 @@ class ModalFactor {
     void scale_borders();
     void factor_dense();
 
-    void apply_inverse(bool transposed, double *v) const; // D^-1 or D^-T
-    void product(bool transposed, const double *x, double *y) const;
+    void apply_inverse(bool transposed, double *v); // D^-1 or D^-T
+    void product(bool transposed, const double *x, double *y);
     void solve(bool transposed, double *b, std::int64_t n);
-    bool solve_refined(bool transposed, double *b) const;
-    void solve_once(double *b) const;
-    void solve_once_transposed(double *b) const;
+    bool solve_refined(bool transposed, double *b);
+    void solve_once(double *b);
+    void solve_once_transposed(double *b);
 
     ModalJacobian jacobian_;
     Border border_;
@@ -61,6 +61,10 @@ class ModalFactor {
     vector<double> scale_; // of the last k condensed equations
     Matrix matrix_;
     RealLu lu_;
+    // of one call to the next: no iteration allocates
+    Matrix real_, imaginary_, scaled_, gaps_, force_;
+    vector<double> x_, change_, v_, forces_;
+    vector<std::complex<double>> q_;
 };
 
 } // namespace plm

@@ -22,26 +22,18 @@ Matrix row_products(const Matrix &left, const Matrix &right, bool symmetric) {
 } // namespace
 
 void gaps_of_coordinates(const Matrix &gap_0, const Matrix &gap, const double *x, Matrix &u) {
-    const std::int64_t z = gap.rows(), r = gap.cols(), n = u.cols() - 1;
+    const std::int64_t z = gap.rows(), n = u.cols() - 1;
     if (z == 0) return;
     gemv('N', 1.0, gap_0, x, 0.0, u.col(0));
-    if (n == 0) return;
-    Matrix eta(r, n), dynamic(z, n);
-    std::copy(x + gap_0.cols(), x + gap_0.cols() + n * r, eta.data());
-    gemm('N', 'N', 1.0, gap, eta, 0.0, dynamic);
-    std::copy(dynamic.data(), dynamic.data() + z * n, u.col(1));
+    gemm('N', 1.0, gap, x + gap_0.cols(), n, 0.0, u.col(1));
 }
 
 void add_coordinates_of_gaps(const Matrix &gap_0, const Matrix &gap, double factor, const Matrix &f,
                              double *y) {
-    const std::int64_t z = gap.rows(), r = gap.cols(), n = f.cols() - 1;
+    const std::int64_t z = gap.rows(), n = f.cols() - 1;
     if (z == 0) return;
     gemv('T', factor, gap_0, f.col(0), 1.0, y);
-    if (n == 0) return;
-    Matrix eta(r, n);
-    gemm('T', 'N', factor, gap, f.columns(1, n), 0.0, eta);
-    y += gap_0.cols();
-    for (std::int64_t k = 0; k < n * r; ++k) y[k] += eta.data()[k];
+    gemm('T', factor, gap, f.col(1), n, 1.0, y + gap_0.cols());
 }
 
 // Made when the dense form is first asked for.
@@ -58,28 +50,27 @@ struct ModalJacobian::Products {
 
 ModalJacobian::ModalJacobian(std::shared_ptr<const ReducedModel> reduced, std::int64_t n_harmonics)
     : m_(std::move(reduced)), products_(std::make_shared<Products>()), h_(n_harmonics), r_(m_->size()),
-      r0_(m_->static_size()), weights_(m_->n_pairs(), 4 * h_ + 1), hold_(*m_) {}
+      r0_(m_->static_size()), weights_(4 * h_ + 1, m_->n_pairs()), hold_(*m_) {}
 
 void ModalJacobian::set_tangent(const ContactIndicator &indicator, const vector<double> &stiffness) {
     acting_.clear();
     for (std::int64_t i = 0; i < m_->n_pairs(); ++i) {
         const double *average = indicator.averages.col(i);
-        for (std::int64_t k = 0; k <= 4 * h_; ++k) weights_(i, k) = stiffness[i] * average[k];
+        double *weights = weights_.col(i);
+        for (std::int64_t k = 0; k <= 4 * h_; ++k) weights[k] = stiffness[i] * average[k];
         if (indicator.acts(i)) acting_.push_back(i);
     }
 }
 
 void ModalJacobian::expand_tangent() {
     const std::int64_t n = n_coefficients();
-    gap_ = select_rows(m_->gap, acting_);
-    gap_0_ = select_rows(m_->gap_0, acting_);
+    select_rows(m_->gap, acting_, gap_);
+    select_rows(m_->gap_0, acting_, gap_0_);
     tangent_.reset(n_acting(), n * n);
-    vector<double> weights(4 * h_ + 1);
     for (std::int64_t p = 0; p < n_acting(); ++p) {
-        for (std::int64_t k = 0; k <= 4 * h_; ++k) weights[k] = weights_(acting_[p], k);
+        const double *weights = weights_.col(acting_[p]);
         for (std::int64_t d = 0; d < n; ++d)
-            for (std::int64_t c = 0; c < n; ++c)
-                tangent_(p, c + d * n) = indicator_entry(weights.data(), c, d);
+            for (std::int64_t c = 0; c < n; ++c) tangent_(p, c + d * n) = indicator_entry(weights, c, d);
         worked(10.0 * static_cast<double>(n * n));
     }
 }
@@ -95,10 +86,10 @@ std::complex<double> ModalJacobian::dynamic_stiffness(std::int64_t h, std::int64
 
 void ModalJacobian::add_linear_product(const double *x, double *y) const {
     for (std::int64_t j = 0; j < r0_; ++j) y[j] += m_->lambda_0[j] * x[j];
-    if (const Matrix &hold = hold_.columns(); hold.cols() > 0) {
-        vector<double> held(hold.cols(), 0.0);
-        gemv('T', 1.0, hold, x, 0.0, held.data());
-        gemv('N', 1.0, hold, held.data(), 1.0, y);
+    const Matrix &hold = hold_.columns();
+    for (std::int64_t k = 0; k < hold.cols(); ++k) {
+        const double held = dot(r0_, hold.col(k), x);
+        for (std::int64_t j = 0; j < r0_; ++j) y[j] += held * hold(j, k);
     }
     for (std::int64_t h = 1; h <= h_; ++h) {
         const double *a = x + cosine_at(h), *b = a + r_;
@@ -114,10 +105,11 @@ void ModalJacobian::add_linear_product(const double *x, double *y) const {
     }
 }
 
-void ModalJacobian::product(bool transposed, const double *x, double *y) const {
+void ModalJacobian::product(bool transposed, const double *x, double *y) {
     std::fill(y, y + size(), 0.0);
     if (transposed) { // D' = S D S with S = diag(1, -1) on (cosine, sine): its blocks are complex symmetric
-        vector<double> mirrored(x, x + size());
+        vector<double> &mirrored = scratch_.mirrored;
+        mirrored.assign(x, x + size());
         const auto mirror = [this](double *v) {
             for (std::int64_t h = 1; h <= h_; ++h)
                 for (std::int64_t j = 0; j < r_; ++j) v[cosine_at(h) + r_ + j] *= -1;
@@ -128,10 +120,9 @@ void ModalJacobian::product(bool transposed, const double *x, double *y) const {
     } else {
         add_linear_product(x, y);
     }
-    Matrix u, f;
-    to_gaps(x, u);
-    apply_tangent(transposed, u, f);
-    add_from_gaps(1.0, f, y);
+    to_gaps(x, scratch_.gaps);
+    apply_tangent(transposed, scratch_.gaps, scratch_.force);
+    add_from_gaps(1.0, scratch_.force, y);
 }
 
 void ModalJacobian::to_gaps(const double *x, Matrix &u) const {
@@ -156,7 +147,7 @@ void ModalJacobian::apply_tangent(bool transposed, const Matrix &u, Matrix &f) c
 
 // --- the dense form
 
-void ModalJacobian::add_to(Matrix &out) const {
+void ModalJacobian::add_to(Matrix &out) {
     if (n_acting() > 0) add_contact(out);
     add_linear(out);
 }
@@ -187,30 +178,31 @@ void ModalJacobian::add_linear(Matrix &out) const {
 }
 
 // Contact matrices A_k = G' diag(weights_k) G, one per average of the indicator.
-void ModalJacobian::add_contact(Matrix &out) const {
+void ModalJacobian::add_contact(Matrix &out) {
     products_->make(*m_);
-    Matrix dynamic, constant;
+    Matrix &dynamic = scratch_.dynamic, &other = scratch_.other;
     expand_symmetric(products_->dynamic, r_, dynamic);
     if (m_->same_static) {
         add_static(dynamic, r_, out);
         add_mixed(dynamic, r_, out);
     } else {
-        expand_symmetric(products_->constant, r0_, constant);
-        add_static(constant, r0_, out);
-        Matrix mixed(r0_ * r_, weights_.cols());
-        gemm('N', 'N', 1.0, products_->mixed, weights_, 0.0, mixed);
-        add_mixed(mixed, r0_, out);
+        expand_symmetric(products_->constant, r0_, other);
+        add_static(other, r0_, out);
+        other.reset(r0_ * r_, weights_.rows());
+        gemm('N', 'T', 1.0, products_->mixed, weights_, 0.0, other);
+        add_mixed(other, r0_, out);
     }
     for (std::int64_t n = 1; n <= h_; ++n)
         for (std::int64_t m = 1; m <= h_; ++m) add_dynamic(dynamic, m, n, out);
 }
 
 // One column per average: the packed upper triangles, unpacked to full n x n blocks.
-void ModalJacobian::expand_symmetric(const Matrix &products, std::int64_t n, Matrix &blocks) const {
-    Matrix packed(products.rows(), weights_.cols());
-    gemm('N', 'N', 1.0, products, weights_, 0.0, packed);
-    blocks.reset(n * n, weights_.cols());
-    for (std::int64_t k = 0; k < weights_.cols(); ++k) {
+void ModalJacobian::expand_symmetric(const Matrix &products, std::int64_t n, Matrix &blocks) {
+    Matrix &packed = scratch_.packed;
+    packed.reset(products.rows(), weights_.rows());
+    gemm('N', 'T', 1.0, products, weights_, 0.0, packed);
+    blocks.reset(n * n, weights_.rows());
+    for (std::int64_t k = 0; k < weights_.rows(); ++k) {
         const double *in = packed.col(k);
         double *out = blocks.col(k);
         for (std::int64_t j = 0; j < n; ++j)

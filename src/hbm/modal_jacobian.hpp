@@ -19,7 +19,7 @@ class ModalJacobian {
     void set_self_excitation(double xi) { self_excitation_ = xi; }
     void set_tangent(const ContactIndicator &indicator, const vector<double> &stiffness);
     /// What holds the mean position of motion that no contact holds: before add_linear_product().
-    void set_hold(const ContactIndicator &indicator, const vector<double> &mean_load) {
+    void set_hold(const ContactIndicator &indicator, const double *mean_load) {
         hold_.set(*m_, indicator, mean_load);
     }
     /// Call it before product() and what stands below add_to(), which does without.
@@ -39,9 +39,9 @@ class ModalJacobian {
     /// y += D x
     void add_linear_product(const double *x, double *y) const;
     /// y = J x or J' x
-    void product(bool transposed, const double *x, double *y) const;
+    void product(bool transposed, const double *x, double *y);
     /// Adds J to the leading rows and columns of `out`.
-    void add_to(Matrix &out) const;
+    void add_to(Matrix &out);
 
     std::int64_t n_acting() const { return static_cast<std::int64_t>(acting_.size()); }
     /// Rows of the pairs that act at some time.
@@ -57,21 +57,29 @@ class ModalJacobian {
 
   private:
     struct Products;
+    struct Scratch { // of one call to the next: no iteration allocates
+        Matrix gaps, force, packed, dynamic, other;
+        vector<double> mirrored;
+        Scratch() = default;
+        Scratch(const Scratch &) {}
+        Scratch &operator=(const Scratch &) { return *this; } // nothing of it belongs to the value
+    };
     void add_linear(Matrix &out) const;
-    void add_contact(Matrix &out) const;
+    void add_contact(Matrix &out);
     void add_static(const Matrix &blocks, std::int64_t ld, Matrix &out) const;
     void add_mixed(const Matrix &blocks, std::int64_t ld, Matrix &out) const;
     void add_dynamic(const Matrix &blocks, std::int64_t m, std::int64_t n, Matrix &out) const;
-    void expand_symmetric(const Matrix &products, std::int64_t n, Matrix &blocks) const;
+    void expand_symmetric(const Matrix &products, std::int64_t n, Matrix &blocks);
 
     std::shared_ptr<const ReducedModel> m_;
     std::shared_ptr<Products> products_; // the same for all copies
     std::int64_t h_ = 0, r_ = 0, r0_ = 0;
     double omega_ = 0, self_excitation_ = 0;
     vector<std::int64_t> acting_;
-    Matrix weights_; // Z x (4H + 1): stiffness times the averages of the indicator
+    Matrix weights_; // (4H + 1) x Z: stiffness times the averages of the indicator
     Matrix gap_, gap_0_, tangent_;
     MeanHold hold_;
+    Scratch scratch_;
 };
 
 /// u (one column per coefficient) = gap_0 eta_0, gap a_1, gap b_1, ...

@@ -150,7 +150,7 @@ class ModalSystem final : public HbmSystem {
         omega_ = omega;
         jacobian_.set_omega(omega);
     }
-    void hold_mean() { jacobian_.set_hold(indicator_, {load_.begin(), load_.begin() + r0_}); }
+    void hold_mean() { jacobian_.set_hold(indicator_, load_.data()); }
     std::int64_t cosine_at(std::int64_t h) const { return jacobian_.cosine_at(h); }
 
     void fill_excitation() {

@@ -33,11 +33,11 @@ void Receptance::update(const ReducedModel &m, std::int64_t h, double omega, dou
         }
         return;
     }
-    vector<Complex> full(r * r);
+    full_.resize(r * r);
     for (std::int64_t j = 0; j < r; ++j)
         for (std::int64_t i = 0; i < r; ++i)
-            full[i + j * r] = Complex(0, w * m.damping(i, j)) + (i == j ? diagonal_[j] : Complex(0));
-    lu_.factor(r, full);
+            full_[i + j * r] = Complex(0, w * m.damping(i, j)) + (i == j ? diagonal_[j] : Complex(0));
+    lu_.factor(r, full_);
 }
 
 void Receptance::apply(Complex *v) const {
@@ -53,30 +53,32 @@ void Receptance::derivative(const Complex *v, Complex *out) const {
         for (std::int64_t i = 0; i < r; ++i) out[i] += Complex(0, harmonic_ * model_->damping(i, j)) * v[j];
 }
 
-void Receptance::contact_receptance(const Matrix &rows, Matrix &real, Matrix &imag) const {
+void Receptance::contact_receptance(const Matrix &rows, Matrix &real, Matrix &imag) {
     const std::int64_t n = rows.rows(), r = rows.cols();
-    Matrix scaled_real(n, r), scaled_imag(n, r);
+    scaled_real_.reset(n, r);
+    scaled_imag_.reset(n, r);
     if (model_->damping.empty()) {
         for (std::int64_t j = 0; j < r; ++j)
             for (std::int64_t i = 0; i < n; ++i) {
-                scaled_real(i, j) = rows(i, j) * diagonal_[j].real();
-                scaled_imag(i, j) = rows(i, j) * diagonal_[j].imag();
+                scaled_real_(i, j) = rows(i, j) * diagonal_[j].real();
+                scaled_imag_(i, j) = rows(i, j) * diagonal_[j].imag();
             }
     } else {
-        vector<Complex> x(r * n);
+        vector<Complex> &x = solved_;
+        x.resize(r * n);
         for (std::int64_t j = 0; j < r; ++j)
             for (std::int64_t i = 0; i < n; ++i) x[j + i * r] = rows(i, j);
         lu_.solve(x.data(), n, r);
         for (std::int64_t j = 0; j < r; ++j)
             for (std::int64_t i = 0; i < n; ++i) {
-                scaled_real(i, j) = x[j + i * r].real();
-                scaled_imag(i, j) = x[j + i * r].imag();
+                scaled_real_(i, j) = x[j + i * r].real();
+                scaled_imag_(i, j) = x[j + i * r].imag();
             }
     }
     real.reset(n, n);
     imag.reset(n, n);
-    gemm('N', 'T', 1.0, scaled_real, rows, 0.0, real);
-    gemm('N', 'T', 1.0, scaled_imag, rows, 0.0, imag);
+    gemm('N', 'T', 1.0, scaled_real_, rows, 0.0, real);
+    gemm('N', 'T', 1.0, scaled_imag_, rows, 0.0, imag);
 }
 
 } // namespace plm

@@ -15,13 +15,15 @@ class Receptance {
     /// out = d(D^-1)/d omega v
     void derivative(const std::complex<double> *v, std::complex<double> *out) const;
     /// Real and imaginary part of rows D rows'; rows is n x r.
-    void contact_receptance(const Matrix &rows, Matrix &real, Matrix &imag) const;
+    void contact_receptance(const Matrix &rows, Matrix &real, Matrix &imag);
 
   private:
     const ReducedModel *model_ = nullptr;
     double harmonic_ = 0;
     vector<std::complex<double>> diagonal_, derivative_;
     ComplexLu lu_;
+    vector<std::complex<double>> full_, solved_; // no iteration allocates
+    Matrix scaled_real_, scaled_imag_;
 };
 
 } // namespace plm

@@ -37,7 +37,7 @@ void StaticReference::factor() {
             .reason(PLM_REASON_SINGULAR);
 }
 
-void StaticReference::hold(const ContactIndicator &indicator, const vector<double> &mean_load) {
+void StaticReference::hold(const ContactIndicator &indicator, const double *mean_load) {
     if (hold_.set(*m_, indicator, mean_load) && is_dense_) factor();
 }
 
@@ -47,16 +47,19 @@ void StaticReference::apply(double *v) const {
     for (std::int64_t j = 0; j < r0; ++j) v[j] /= m_->lambda_0[j];
 }
 
-Matrix StaticReference::receptance(const Matrix &rows) const {
-    const std::int64_t r0 = m_->static_size();
-    Matrix solved = rows.transposed();
+void StaticReference::receptance(const Matrix &rows, Matrix &out) {
+    const std::int64_t n = rows.rows(), r0 = m_->static_size();
+    solved_.reset(r0, n);
+    for (std::int64_t j = 0; j < n; ++j)
+        for (std::int64_t i = 0; i < r0; ++i) solved_(i, j) = rows(j, i);
     if (is_dense_) {
-        cholesky_.solve(solved.data(), solved.cols(), r0);
+        cholesky_.solve(solved_.data(), n, r0);
     } else {
-        for (std::int64_t j = 0; j < solved.cols(); ++j)
-            for (std::int64_t i = 0; i < r0; ++i) solved(i, j) /= m_->lambda_0[i];
+        for (std::int64_t j = 0; j < n; ++j)
+            for (std::int64_t i = 0; i < r0; ++i) solved_(i, j) /= m_->lambda_0[i];
     }
-    return product('N', 'N', rows, solved);
+    out.reset(n, n);
+    gemm('N', 'N', 1.0, rows, solved_, 0.0, out);
 }
 
 } // namespace plm

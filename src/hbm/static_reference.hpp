@@ -17,12 +17,12 @@ class StaticReference {
     const vector<double> &stiffness() const { return stiffness_; }
     /// v (r_0) becomes the displacement under it.
     void apply(double *v) const;
-    /// rows S^-1 rows'; rows is n x r_0.
-    Matrix receptance(const Matrix &rows) const;
+    /// out = rows S^-1 rows'; rows is n x r_0.
+    void receptance(const Matrix &rows, Matrix &out);
 
     /// Whether the reference is another one for other acting pairs; then hold() follows them. mean_load: r_0.
     bool depends_on_contact() const { return hold_.depends_on_contact(); }
-    void hold(const ContactIndicator &indicator, const vector<double> &mean_load);
+    void hold(const ContactIndicator &indicator, const double *mean_load);
     /// As MeanHold::carried_away().
     bool carried_away() const { return hold_.carried_away(); }
 
@@ -35,6 +35,7 @@ class StaticReference {
     MeanHold hold_;
     DenseCholesky cholesky_;
     bool is_dense_ = false;
+    Matrix solved_;
 };
 
 } // namespace plm

@@ -68,10 +68,16 @@ bool is_transpose(char op) {
 } // namespace
 
 Matrix select_rows(const Matrix &a, const vector<std::int64_t> &rows) {
-    Matrix s(static_cast<std::int64_t>(rows.size()), a.cols());
-    for (std::int64_t j = 0; j < a.cols(); ++j)
-        for (std::int64_t i = 0; i < s.rows(); ++i) s(i, j) = a(rows[i], j);
+    Matrix s;
+    select_rows(a, rows, s);
     return s;
+}
+
+void select_rows(const Matrix &a, const vector<std::int64_t> &rows, Matrix &out) {
+    require(&out != &a, "select_rows: the result must not be A");
+    out.reset(static_cast<std::int64_t>(rows.size()), a.cols());
+    for (std::int64_t j = 0; j < a.cols(); ++j)
+        for (std::int64_t i = 0; i < out.rows(); ++i) out(i, j) = a(rows[i], j);
 }
 
 void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c) {
@@ -84,6 +90,15 @@ void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, 
     const blas_int m = to_blas(c.rows()), n = to_blas(c.cols()), k = to_blas(inner);
     const blas_int lda = leading(a.rows()), ldb = leading(b.rows()), ldc = leading(c.rows());
     dgemm_(&op_a, &op_b, &m, &n, &k, &alpha, a.data(), &lda, b.data(), &ldb, &beta, c.data(), &ldc, 1, 1);
+}
+
+void gemm(char op, double alpha, const Matrix &a, const double *b, std::int64_t n, double beta, double *c) {
+    const bool transposed = is_transpose(op);
+    const std::int64_t rows = transposed ? a.cols() : a.rows(), inner = transposed ? a.rows() : a.cols();
+    if (rows == 0 || n == 0) return;
+    const blas_int m = to_blas(rows), count = to_blas(n), k = to_blas(inner);
+    const blas_int lda = leading(a.rows()), ldb = leading(inner);
+    dgemm_(&op, "N", &m, &count, &k, &alpha, a.data(), &lda, b, &ldb, &beta, c, &m, 1, 1);
 }
 
 Matrix product(char op_a, char op_b, const Matrix &a, const Matrix &b) {

@@ -55,8 +55,11 @@ class Matrix {
 
 /// A(rows, :)
 Matrix select_rows(const Matrix &a, const vector<std::int64_t> &rows);
+void select_rows(const Matrix &a, const vector<std::int64_t> &rows, Matrix &out);
 /// C = alpha op(A) op(B) + beta C; op is 'N' or 'T'. Shapes are checked (PLM_ERR_INTERNAL on mismatch).
 void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c);
+/// C = alpha op(A) B + beta C with n columns of B and C that follow one another in larger arrays.
+void gemm(char op, double alpha, const Matrix &a, const double *b, std::int64_t n, double beta, double *c);
 /// op(A) op(B) as a new matrix.
 Matrix product(char op_a, char op_b, const Matrix &a, const Matrix &b);
 /// y = alpha op(A) x + beta y

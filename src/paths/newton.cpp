@@ -25,7 +25,9 @@ class Newton {
     Newton(Residual &system, const SideCondition &side, const NewtonLimits &limits, vector<double> &x,
            double &parameter)
         : system_(system), side_(side), limits_(limits), x_(x), parameter_(parameter), n_(system.size()),
-          r_(n_), step_(n_), border_(n_), trial_(n_), next_(n_) {}
+          r_(n_), step_(n_), border_(n_), trial_(n_), next_(n_) {
+        pieces_.reserve(limits.max_iterations + 1); // no iteration allocates
+    }
 
     NewtonOutcome run() {
         const bool kept = limits_.factored && !system_.is_cheap_to_linearize();
