@@ -72,8 +72,21 @@ def run_library(m, way, result):
     return np.concatenate([q[0] + q[1::2].sum(0), omega * (h * q[2::2]).sum(0)]), omega
 
 
+def condensed(m, x):
+    """A mesh and a state of it in so few coordinates that its exact motion can be had: the DOFs of contact, force and output
+    first. The peak moves by less than 1e-5 when the modes kept reach twice as far."""
+    kept = np.flatnonzero(np.abs(m["B"]).sum(axis=0) + np.abs(m["F"]) + (np.arange(len(m["M"])) == m["out"]))
+    T = exact.condensation(m["M"], m["K"], kept)
+    small = dict(m, out=int(np.flatnonzero(kept == m["out"])[0]), B=m["B"] @ T, P=T.T @ m["P"], F=T.T @ m["F"])
+    small.update((name, T.T @ m[name] @ T) for name in "MCK")
+    state = np.linalg.solve(small["M"], T.T @ m["M"] @ x.reshape(2, -1).T)
+    return small, state.T.ravel()
+
+
 def compare(m, x, omega, result):
     """The exact peak nearest that of the library."""
+    if m.get("condense"):
+        m, x = condensed(m, x)
     s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], m["F"].astype(complex), m["out"])
     try:
         w, amplitude, phi, moved = s.peak_near(x, omega)

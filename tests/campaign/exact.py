@@ -6,6 +6,7 @@ contact force is continuous, so nothing jumps). Periodic motions are zeros of fl
 highest amplitude along a curve of them by steps in (state, frequency).
 """
 import numpy as np
+import scipy.linalg
 from scipy.optimize import brentq
 
 
@@ -35,6 +36,19 @@ class Piece:
     def forced(self, omega):
         """Complex amplitude of the forced motion."""
         return self.vectors @ (self.drive / (1j * omega - self.values))
+
+
+def condensation(M, K, kept, reach=40.0, fewest=20):
+    """T of Hurty, Craig and Bampton: the DOFs `kept`, statically, and the modes of the rest up to `reach` times its lowest
+    frequency. For meshes whose stiffest modes would dictate every step of the flow."""
+    rest = np.setdiff1d(np.arange(len(M)), kept)
+    w2, phi = scipy.linalg.eigh(K[np.ix_(rest, rest)], M[np.ix_(rest, rest)])
+    phi = phi[:, :max(fewest, np.count_nonzero(w2 < reach**2 * w2[0]))]
+    T = np.zeros((len(M), len(kept) + phi.shape[1]))
+    T[kept, np.arange(len(kept))] = 1.0
+    T[np.ix_(rest, np.arange(len(kept)))] = -np.linalg.solve(K[np.ix_(rest, rest)], K[np.ix_(rest, kept)])
+    T[np.ix_(rest, np.arange(len(kept), T.shape[1]))] = phi
+    return T
 
 
 class Structure:

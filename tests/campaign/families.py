@@ -259,5 +259,61 @@ def rotations(rng):
     return finish(rng, M, K, B, out=n - 2)
 
 
+def membrane_matrices(nodes, elements, modulus=2.1e5, poisson=0.3, density=7.8e-9):
+    """Plane stress of unit thickness by bilinear quadrilaterals: DOFs (x, y) a node; N-mm-t."""
+    n = 2 * len(nodes)
+    M, K = np.zeros((n, n)), np.zeros((n, n))
+    elastic = modulus / (1 - poisson**2) * np.array([[1, poisson, 0], [poisson, 1, 0], [0, 0, (1 - poisson) / 2]])
+    corner = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    for e in elements:
+        m, k = np.zeros((8, 8)), np.zeros((8, 8))
+        for gauss in corner / np.sqrt(3):
+            shape = (1 + corner[:, 0] * gauss[0]) * (1 + corner[:, 1] * gauss[1]) / 4
+            slope = np.array([corner[:, 0] * (1 + corner[:, 1] * gauss[1]), corner[:, 1] * (1 + corner[:, 0] * gauss[0])]) / 4
+            jacobian = slope @ nodes[e]
+            slope = np.linalg.solve(jacobian, slope)
+            strain = np.zeros((3, 8))
+            strain[0, 0::2], strain[1, 1::2], strain[2, 0::2], strain[2, 1::2] = slope[0], slope[1], slope[1], slope[0]
+            area = np.linalg.det(jacobian)
+            k += area * strain.T @ elastic @ strain
+            m += area * density * np.kron(np.outer(shape, shape), np.eye(2))
+        dofs = np.stack([2 * np.array(e), 2 * np.array(e) + 1], axis=1).ravel()
+        M[np.ix_(dofs, dofs)] += m
+        K[np.ix_(dofs, dofs)] += k
+    return M, K
+
+
+def cracked_mesh(rng):
+    """A cantilever of plane elements, cracked across from its upper face, or along (delaminated): a crack of two to eight pairs."""
+    nx, ny = int(rng.integers(8, 15)), int(rng.integers(3, 6))
+    length, height = 100.0, 100.0 * rng.uniform(0.08, 0.2)
+    at = lambda i, j: i * (ny + 1) + j
+    nodes = [[length * i / nx, height * j / ny] for i in range(nx + 1) for j in range(ny + 1)]
+    if rng.uniform() < 0.5:  # across: the elements on the right have nodes of their own
+        i = int(rng.integers(1, nx // 2))
+        faces, normal = [at(i, j) for j in range(ny, ny - int(rng.integers(2, ny)), -1)], 0
+        is_other = lambda x, y: x >= i
+    else:  # along: those above
+        j, first = int(rng.integers(1, ny)), int(rng.integers(1, nx // 2))
+        faces, normal = [at(i, j) for i in range(first, min(nx, first + int(rng.integers(2, 8))))], 1
+        is_other = lambda x, y: y >= j
+    twin = {}
+    for node in faces:
+        twin[node] = len(nodes)
+        nodes.append(nodes[node])
+    elements = []
+    for x in range(nx):
+        for y in range(ny):
+            corners = [at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)]
+            elements.append([twin.get(c, c) if is_other(x, y) else c for c in corners])
+    M, K = membrane_matrices(np.array(nodes), elements)
+    held = 2 * (ny + 1)
+    M, K = M[held:, held:], K[held:, held:]
+    # positive: the faces press, the other one lies to the right or above
+    B = [gap_row(len(M), (2 * a + normal - held, 1.0), (2 * b + normal - held, -1.0)) for a, b in twin.items()]
+    tip = 2 * at(nx, ny) + 1 - held
+    return finish(rng, M, K, B, out=tip, drive=tip, stiffness=(0, 2), condense=True)
+
+
 FAMILIES = (chains, breathing, beam_with_stops, cracked_beam, plate, pressed_bodies, shrouds, massless, penalty_held, close_modes,
-            stiff, rotations)
+            stiff, rotations, cracked_mesh)

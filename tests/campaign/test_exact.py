@@ -1,7 +1,9 @@
 """The exact motions of exact.py against closed forms."""
 import numpy as np
+import scipy.linalg
 
-from exact import Structure
+import families
+from exact import Structure, condensation
 
 
 def bilinear(zeta, ratio):
@@ -54,6 +56,19 @@ def monodromy_is_the_derivative():
         assert np.allclose((s.flow(x + d, omega) - s.flow(x - d, omega)) / 2e-6, phi[:, j], atol=1e-6)
 
 
-for test in (linear_response, bilinear_resonance, monodromy_is_the_derivative):
+def condensation_keeps_statics_and_low_modes():
+    """A mesh in few coordinates: what forces at the kept DOFs do there is exact, low modes nearly."""
+    m = families.cracked_mesh(np.random.default_rng(7))
+    kept = np.flatnonzero(np.abs(m["B"]).sum(axis=0) + np.abs(m["F"]))
+    T = condensation(m["M"], m["K"], kept)
+    M, K = T.T @ m["M"] @ T, T.T @ m["K"] @ T
+    assert len(K) < len(m["K"]) / 2
+    flexibility = np.linalg.inv(m["K"])[np.ix_(kept, kept)]
+    assert np.allclose(np.linalg.inv(K)[:len(kept), :len(kept)], flexibility, rtol=1e-8, atol=1e-10 * np.abs(flexibility).max())
+    few, all_of_them = scipy.linalg.eigh(K, M, eigvals_only=True), scipy.linalg.eigh(m["K"], m["M"], eigvals_only=True)
+    assert np.allclose(few[:3], all_of_them[:3], rtol=1e-5)
+
+
+for test in (linear_response, bilinear_resonance, monodromy_is_the_derivative, condensation_keeps_statics_and_low_modes):
     test()
     print(test.__name__, "ok")
