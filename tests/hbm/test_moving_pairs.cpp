@@ -3,7 +3,7 @@
 #include "contact/contact_force.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/moving_pairs.hpp"
-#include "searches/start.hpp"
+#include "searches/hbm.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"
 #include <cmath>
@@ -144,6 +144,47 @@ void a_failure_is_remembered(void **) {
     assert_false(pairs.is_iterated());
 }
 
+// 16 pairs without pre-load, so that all of them switch: at 40 harmonics their equations are iterated
+// (large_equations_are_iterated). The points of a curve are solutions of the equations in reduced
+// coordinates, which have another Jacobian.
+struct Curve {
+    std::size_t n_points = 0;
+    std::int64_t fewest_switching = 1000;
+    double worst = 0; // residual over the excitation
+};
+Curve curve_in_gaps() {
+    std::vector<int> pairs;
+    for (int i = 1; i < 32; i += 2) pairs.push_back(i);
+    const auto m = test::reduce_exactly(test::chain(32, 0.02, 1, 0, 0.4, 0, pairs));
+    plm::HbmOptions o;
+    o.n_harmonics = 40;
+    o.motion = plm::MotionKind::harmonics;
+    o.unknowns = plm::NonlinearUnknowns::gaps;
+    o.stability = plm::StabilityKind::off;
+    o.frequency_min_hz = 0.035 / (2 * M_PI);
+    o.frequency_max_hz = 0.07 / (2 * M_PI);
+    o.max_points = 25;
+    const auto branch = plm::Hbm(m, 0, 0, o, plm::Watch()).sweep();
+    const auto modal = plm::make_modal_system(m, o);
+    plm::vector<double> x(modal->size()), r(x.size());
+    Curve all;
+    for (const plm::BranchPoint &point : branch->points()) {
+        modal->from_point(point, x.data());
+        modal->residual(x.data(), point.omega, r.data());
+        all.worst = std::max(all.worst, plm::norm2(modal->size(), r.data()) / modal->residual_scale());
+        all.fewest_switching = std::min(all.fewest_switching, modal->indicator().n_switching);
+        ++all.n_points;
+    }
+    return all;
+}
+void curves_by_iteration_solve_the_equations(void **) {
+    const Curve all = curve_in_gaps();
+    assert_int_equal(all.n_points, 25);
+    assert_int_equal(all.fewest_switching, 16);
+    assert_true(is_iterated(40, 16));
+    assert_true(below(all.worst, 1e-8)); // tolerance 1e-9 of the motion, whose stiffness is larger here
+}
+
 } // namespace
 
 int main() {
@@ -152,6 +193,7 @@ int main() {
         cmocka_unit_test(the_whole_matrix_takes_over_where_iteration_fails),
         cmocka_unit_test(large_equations_are_iterated),
         cmocka_unit_test(a_failure_is_remembered),
+        cmocka_unit_test(curves_by_iteration_solve_the_equations),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
