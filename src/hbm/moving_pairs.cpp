@@ -10,7 +10,8 @@ using Complex = PairElimination::Complex;
 
 constexpr std::int64_t low_harmonics = 5;
 constexpr double exact = 1e-11; // residual of a solution by GMRES: below the tolerance of Newton's method
-constexpr std::int64_t most_steps = 80;
+constexpr double most_of_whole = 0.5; // of the whole factorization's time, for all its solutions: then that
+constexpr std::int64_t least_steps = 60, most_steps = 250;
 constexpr int refusals = 10; // factorizations of the whole matrix before GMRES is tried again
 // What is expected of a factorization by blocks: the solutions it serves, their steps, and how many times
 // longer a flop takes in products with vectors than in the factorization of a matrix.
@@ -22,14 +23,24 @@ double cube(double x) {
 
 } // namespace
 
-bool MovingPairs::pays() const {
-    if (h_ <= low_harmonics) return false;
+MovingPairs::Costs MovingPairs::costs() const {
     const double s = static_cast<double>(n_pairs()), n = static_cast<double>(n_), h = static_cast<double>(h_),
                  low = s * (2 * low_harmonics + 1), above = h - low_harmonics;
-    const double blocks = 2.0 / 3 * cube(low) + 8.0 / 3 * above * cube(s),
-                 step = 2 * low * low + 8 * above * s * s + 8 * h * s * s + 2 * s * n * n +
-                        2 * expected_steps * s * n;
-    return blocks + slowness * solutions * expected_steps * step < 2.0 / 3 * cube(s * n);
+    return {2.0 / 3 * cube(s * n), 2.0 / 3 * cube(low) + 8.0 / 3 * above * cube(s),
+            slowness * (2 * low * low + 8 * above * s * s + 8 * h * s * s + 2 * s * n * n +
+                        2 * expected_steps * s * n)};
+}
+
+bool MovingPairs::pays() const {
+    const Costs c = costs();
+    return h_ > low_harmonics && c.blocks + solutions * expected_steps * c.step < c.whole;
+}
+
+// What GMRES may take before the whole matrix is the cheaper way.
+std::int64_t MovingPairs::allowed_steps() const {
+    const Costs c = costs();
+    const double steps = most_of_whole * c.whole / (solutions * c.step);
+    return std::max(least_steps, static_cast<std::int64_t>(std::min<double>(most_steps, steps)));
 }
 
 void MovingPairs::factor(Method method) {
@@ -105,7 +116,7 @@ void MovingPairs::solve(double *b) {
     const std::int64_t n = n_pairs() * n_;
     if (n == 0) return;
     if (iterated_) {
-        if (gmres_.solve(*this, n, b, exact, most_steps)) return keep_sign();
+        if (gmres_.solve(*this, n, b, exact, allowed_steps())) return keep_sign();
         refused_ = refusals;
         factor_whole();
     }

@@ -31,7 +31,12 @@ class MovingPairs final : private LinearEquations {
     bool is_iterated() const { return iterated_; }
 
   private:
+    struct Costs { // flops; of a step as if they were those of a factorization
+        double whole, blocks, step;
+    };
+    Costs costs() const;
     bool pays() const;
+    std::int64_t allowed_steps() const;
     bool factor_blocks();
     void factor_whole();
     void keep_sign();

@@ -31,7 +31,10 @@ class Newton {
 
     NewtonOutcome run() {
         const bool kept = limits_.factored && !system_.is_cheap_to_linearize();
-        if (kept) make_border(); // at the point the factorization belongs to, before residual() moves it
+        if (kept && limits_.slope)
+            border_ = *limits_.slope;
+        else if (kept)
+            make_border(); // at the point the factorization belongs to, before residual() moves it
         system_.residual(x_.data(), parameter_, r_.data());
         if (!kept) refactor();
         double size = correction(r_, step_, step_parameter_);

@@ -21,6 +21,7 @@ struct NewtonLimits {
     double min_damping = 1e-4;  // smaller: give up
     double parameter_scale = 1; // what a change of p is measured by
     bool factored = false;      // the system is factored near the first guess: use it as long as it serves
+    const vector<double> *slope = nullptr; // dx/dp along the path where it is factored; null: not known
 };
 
 /// What the solutions of equations have cost.

@@ -69,6 +69,12 @@ NewtonOutcome PathWalker::correct(PathState &at, const PathState &direction, dou
     limits.max_iterations = std::min(options_.max_iterations, most_iterations_across);
     limits.min_damping = min_damping;
     limits.factored = factored;
+    vector<double> slope;
+    if (factored && tangent_.parameter != 0) {
+        slope = tangent_.x;
+        for (double &v : slope) v /= tangent_.parameter;
+        limits.slope = &slope;
+    }
     const NewtonOutcome out = newton_across(system_, metric_, direction, limits, at);
     work += out;
     return out;
@@ -94,14 +100,13 @@ vector<double> PathWalker::tests() {
 }
 
 // sign(det) of the tangent bordered by the path's direction, over the size of its solution for a fixed
-// right-hand side: passes through zero like the smallest singular value.
+// right-hand side: passes through zero like the smallest singular value. What p contributes to the solution
+// goes along the tangent, the present factorization's own.
 double PathWalker::branch_test() {
-    vector<double> a = patternless_vector(n_), border(n_);
+    vector<double> a = patternless_vector(n_);
     system_.solve(a.data(), 1);
-    system_.parameter_derivative(border.data());
-    system_.solve(border.data(), 1);
-    const double along = tangent_.parameter * metric_.dot(tangent_.x, a) / (metric_.scale * metric_.scale);
-    for (std::int64_t i = 0; i < n_; ++i) a[i] += along * border[i];
+    const double along = metric_.dot(tangent_.x, a) / (metric_.scale * metric_.scale);
+    for (std::int64_t i = 0; i < n_; ++i) a[i] -= along * tangent_.x[i];
     const double size = norm2(n_, a.data());
     return size > 0 && std::isfinite(size) ? orientation() / size : 0;
 }

@@ -44,7 +44,8 @@ class PathWalker {
     /// The tangent on the side with this orientation.
     void orient(double wanted);
     void restore(const PathState &at, const PathState &tangent);
-    /// Back to the path in the plane across `direction` through the first guess.
+    /// Back to the path in the plane across `direction` through the first guess; factored: by the present
+    /// factorization, of which the tangent is, as long as it serves.
     NewtonOutcome correct(PathState &at, const PathState &direction, double min_damping, bool factored);
     NewtonOutcome correct_at_parameter(PathState &at);
     /// Test functions at the present point: the tangent's share of p (fold), the smallest stretch of the
