@@ -2,6 +2,7 @@
 // object.
 #pragma once
 #include "capi/context.hpp"
+#include "capi/recovery.hpp"
 #include "orbits/transient.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/sampler.hpp"
@@ -37,6 +38,7 @@ struct ModelHandle final : HandleOf<plm_model, Kind::model> {
     std::shared_ptr<const RestState> rest;
     std::vector<Finding> findings;
     Warnings warnings; // of the build
+    Recovery recovery; // of a superelement
 };
 
 struct SamplerHandle final : HandleOf<plm_sampler, Kind::sampler> {
