@@ -6,6 +6,7 @@ module plm_branches
     use plm_c
     use plm_errors, only: finish
     use plm_methods, only: plm_branch_methods
+    use plm_models, only: plm_model
     implicit none
     private
     public :: plm_branch, measure_of, harmonic_of, get_handles
@@ -14,6 +15,7 @@ module plm_branches
     contains
         procedure :: destroy => branch_destroy
         procedure :: amplitude
+        procedure :: recovered_amplitude
         procedure :: coefficients
         procedure :: contact
         procedure :: closed_share
@@ -62,6 +64,27 @@ contains
         if (status >= 0) call move_alloc(found, value)
         call finish(self%context, status, stat, errmsg)
     end subroutine amplitude
+
+    ! The same of a DOF of the structure that the model, a superelement with a recovery, was reduced from.
+    subroutine recovered_amplitude(self, model, full_dof, value, measure, harmonic, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        type(plm_model), intent(in) :: model
+        integer, intent(in) :: full_dof
+        real(real64), allocatable, intent(inout) :: value(:)
+        integer(plm_status), intent(in), optional :: measure
+        integer, intent(in), optional :: harmonic
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        real(real64), allocatable :: found(:)
+        integer(plm_status) :: status
+        integer(int64) :: n
+        status = size_by_key(self, 'n_points', n)
+        allocate (found(n))
+        if (status >= 0) status = plm_model_recover_amplitude(model%handle, self%handle, int(full_dof, int64) - 1, &
+            measure_of(measure), harmonic_of(harmonic), n, found, n)
+        if (status >= 0) call move_alloc(found, value)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine recovered_amplitude
 
     ! value(2 H + 1, n): a0, a1, b1, ..., aH, bH of the DOFs first_dof, ..., first_dof + n - 1 (n is 1 if absent)
     subroutine coefficients(self, point, first_dof, value, n, stat, errmsg)

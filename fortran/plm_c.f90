@@ -51,6 +51,7 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_REASON_NO_SWITCHING = 21_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_LOST_MODE = 22_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_MODEL = 23_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_HOST_REDUCTION = 24_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_NONE = 0_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_FOLD = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_BRANCH_POINT = 2_c_int32_t
@@ -172,6 +173,18 @@ module plm_c
             type(c_ptr), value :: user
             integer(c_int32_t) :: code
         end function plm_inertia_fn
+        function plm_recover_fn(ctx, n_dof, n_columns, reduced, n_full, full, user) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: ctx
+            integer(c_int64_t), value :: n_dof
+            integer(c_int64_t), value :: n_columns
+            real(c_double), intent(in) :: reduced(*)
+            integer(c_int64_t), value :: n_full
+            real(c_double), intent(inout) :: full(*)
+            type(c_ptr), value :: user
+            integer(c_int32_t) :: code
+        end function plm_recover_fn
     end interface
 
     interface
@@ -268,6 +281,13 @@ module plm_c
             type(c_ptr), value :: user
             integer(plm_status) :: code
         end function plm_context_set_progress
+        function plm_context_set_threads(ctx, n) bind(c) result(code)
+            import :: c_int32_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: ctx
+            integer(c_int32_t), value :: n
+            integer(plm_status) :: code
+        end function plm_context_set_threads
         function plm_context_set_solver(ctx, factor, solve, release, user) bind(c) result(code)
             import :: c_funptr, c_ptr, plm_status
             implicit none
@@ -509,6 +529,60 @@ module plm_c
             real(c_double), intent(in), optional :: imag(*)
             integer(plm_status) :: code
         end function plm_model_set_excitation
+        function plm_model_set_dense_matrix(model, which, part, value, ld) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: which
+            integer(c_int32_t), value :: part
+            real(c_double), intent(in) :: value(*)
+            integer(c_int64_t), value :: ld
+            integer(plm_status) :: code
+        end function plm_model_set_dense_matrix
+        function plm_model_add_dense_gap_rows(model, n, row, ld, stiffness, gap) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int64_t), value :: n
+            real(c_double), intent(in) :: row(*)
+            integer(c_int64_t), value :: ld
+            real(c_double), intent(in) :: stiffness(*)
+            real(c_double), intent(in), optional :: gap(*)
+            integer(plm_status) :: code
+        end function plm_model_add_dense_gap_rows
+        function plm_model_set_recovery(model, n_full, fn, user) bind(c) result(code)
+            import :: c_funptr, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int64_t), value :: n_full
+            type(c_funptr), value :: fn
+            type(c_ptr), value :: user
+            integer(plm_status) :: code
+        end function plm_model_set_recovery
+        function plm_model_recover(model, n_columns, reduced, n_full, full) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int64_t), value :: n_columns
+            real(c_double), intent(in) :: reduced(*)
+            integer(c_int64_t), value :: n_full
+            real(c_double), intent(inout) :: full(*)
+            integer(plm_status) :: code
+        end function plm_model_recover
+        function plm_model_recover_amplitude(model, branch, full_dof, measure, harmonic, capacity, amplitude, &
+            count) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: full_dof
+            integer(c_int32_t), value :: measure
+            integer(c_int32_t), value :: harmonic
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout) :: amplitude(*)
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_model_recover_amplitude
         function plm_model_set_int(model, key, value) bind(c) result(code)
             import :: c_char, c_int64_t, c_ptr, plm_status
             implicit none

@@ -1,15 +1,16 @@
-! plm_context.f90: the context, and the host's listeners on it.
+! plm_context.f90: the context, the host's listeners on it, and what else of the host is called.
 module plm_contexts
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_null_funptr, c_char, c_double, c_int32_t, &
+    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_null_funptr, c_char, c_double, c_int32_t, c_int64_t, &
         c_null_char, c_loc, c_funloc, c_f_pointer, c_associated
     use, intrinsic :: iso_fortran_env, only: real64
     use plm_constants
     use plm_c, only: plm_context_create, plm_context_destroy, plm_context_set_log, plm_context_set_progress, &
+        plm_context_set_threads, &
         plm_context_get_error_info
     use plm_errors, only: finish
     implicit none
     private
-    public :: plm_context, plm_logger, plm_watcher
+    public :: plm_context, plm_logger, plm_watcher, plm_recoverer, recoverer_box, forward_recovery
 
     ! Extend it to receive the library's remarks. It must not call the library.
     type, abstract :: plm_logger
@@ -22,6 +23,13 @@ module plm_contexts
     contains
         procedure(progress_procedure), deferred :: progress
     end type plm_watcher
+
+    ! Extend it by the way from a superelement to the structure it was reduced from: full = T reduced, one column per
+    ! motion; failed is .false. on entry. It must not call the library.
+    type, abstract :: plm_recoverer
+    contains
+        procedure(recover_procedure), deferred :: recover
+    end type plm_recoverer
 
     abstract interface
         ! level: 0 detail, 1 information, 2 warning
@@ -41,6 +49,14 @@ module plm_contexts
             real(real64), intent(in) :: fraction
             logical, intent(inout) :: cancel
         end subroutine progress_procedure
+        subroutine recover_procedure(self, reduced, full, failed)
+            import :: plm_recoverer, real64
+            implicit none
+            class(plm_recoverer), intent(inout) :: self
+            real(real64), intent(in) :: reduced(:, :)
+            real(real64), intent(inout) :: full(:, :)
+            logical, intent(inout) :: failed
+        end subroutine recover_procedure
     end interface
 
     ! What the C side holds as `user`: C knows no polymorphic pointers.
@@ -48,6 +64,9 @@ module plm_contexts
         class(plm_logger), pointer :: logger => null()
         class(plm_watcher), pointer :: watcher => null()
     end type listener_box
+    type :: recoverer_box
+        class(plm_recoverer), pointer :: recoverer => null()
+    end type recoverer_box
 
     ! Copies by assignment are the same context; destroy one of them, once.
     type :: plm_context
@@ -58,6 +77,7 @@ module plm_contexts
         procedure :: destroy
         procedure :: set_log
         procedure :: set_progress
+        procedure :: set_threads
         procedure :: error_reason
     end type plm_context
 
@@ -114,6 +134,15 @@ contains
         call finish(self%handle, status, stat, errmsg)
     end subroutine set_progress
 
+    ! that a call may use; results are the same for any number
+    subroutine set_threads(self, n, stat, errmsg)
+        class(plm_context), intent(inout) :: self
+        integer, intent(in) :: n
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%handle, plm_context_set_threads(self%handle, int(n, c_int32_t)), stat, errmsg)
+    end subroutine set_threads
+
     ! PLM_REASON_... of the last failure or outcome
     integer function error_reason(self)
         class(plm_context), intent(in) :: self
@@ -146,6 +175,22 @@ contains
         call box%watcher%progress(collected(stage), real(fraction, real64), cancel)
         code = merge(1_c_int32_t, 0_c_int32_t, cancel)
     end function forward_progress
+
+    integer(c_int32_t) function forward_recovery(ctx, n_dof, n_columns, reduced, n_full, full, user) &
+        bind(c, name='') result(code)
+        type(c_ptr), value :: ctx, user
+        integer(c_int64_t), value :: n_dof, n_columns, n_full
+        real(c_double), intent(in) :: reduced(n_dof, n_columns)
+        real(c_double), intent(inout) :: full(n_full, n_columns)
+        type(recoverer_box), pointer :: box
+        logical :: failed
+        code = 0
+        if (.not. c_associated(ctx)) return
+        call c_f_pointer(user, box)
+        failed = .false.
+        call box%recoverer%recover(reduced, full, failed)
+        code = merge(1_c_int32_t, 0_c_int32_t, failed)
+    end function forward_recovery
 
     pure function collected(characters) result(text)
         character(kind=c_char), intent(in) :: characters(*)

@@ -6,14 +6,14 @@
 ! pairs, points, columns and compressed pointers count from 1; 0 is "no DOF". The last argument IERR is the plm_status:
 ! 0 done, > 0 done with an outcome to look at, < 0 failed; PLMCET has the text after both.
 module plm_f77_support
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_null_ptr, c_char, c_double, c_int32_t, c_null_char, &
-        c_f_procpointer
+    use, intrinsic :: iso_c_binding, only: c_ptr, c_funptr, c_null_ptr, c_char, c_double, c_int32_t, c_int64_t, &
+        c_null_char, c_f_procpointer
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_constants
     implicit none
     private
     public :: as_pointer, as_handle, c_text, to_blanks, narrow, narrow_array, forward_log, forward_progress
-    public :: log_subroutine, progress_subroutine
+    public :: forward_recovery, log_subroutine, progress_subroutine, recover_subroutine
 
     abstract interface
         subroutine log_subroutine(level, text)
@@ -28,6 +28,14 @@ module plm_f77_support
             real(real64), intent(in) :: fraction
             integer, intent(inout) :: cancel
         end subroutine progress_subroutine
+        subroutine recover_subroutine(ndof, ncol, q, nfull, full, ifail)
+            import :: real64
+            implicit none
+            integer, intent(in) :: ndof, ncol, nfull
+            real(real64), intent(in) :: q(ndof, *)
+            real(real64), intent(inout) :: full(nfull, *)
+            integer, intent(inout) :: ifail
+        end subroutine recover_subroutine
     end interface
 
 contains
@@ -103,6 +111,22 @@ contains
         if (cancel /= 0) code = 1
     end function forward_progress
 
+    integer(c_int32_t) function forward_recovery(ctx, n_dof, n_columns, reduced, n_full, full, user) &
+        bind(c, name='') result(code)
+        type(c_ptr), value :: ctx, user
+        integer(c_int64_t), value :: n_dof, n_columns, n_full
+        real(c_double), intent(in) :: reduced(*)
+        real(c_double), intent(inout) :: full(*)
+        procedure(recover_subroutine), pointer :: host
+        integer :: failed
+        code = 0
+        if (as_handle(ctx) == 0) return
+        call c_f_procpointer(transfer(user, as_function()), host)
+        failed = 0
+        call host(int(n_dof), int(n_columns), reduced, int(n_full), full, failed)
+        code = int(failed, c_int32_t)
+    end function forward_recovery
+
     pure type(c_funptr) function as_function()
         use, intrinsic :: iso_c_binding, only: c_null_funptr
         as_function = c_null_funptr
@@ -171,6 +195,31 @@ subroutine plmcnp(handle, ierr)
     integer, intent(out) :: ierr
     ierr = int(plm_context_set_progress(as_pointer(handle), c_null_funptr, c_null_ptr))
 end subroutine plmcnp
+
+subroutine plmmrv(handle, nfull, host, ierr)
+    use, intrinsic :: iso_c_binding, only: c_funloc, c_null_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_model_set_recovery
+    use plm_f77_support, only: as_pointer, forward_recovery, recover_subroutine
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: nfull
+    procedure(recover_subroutine) :: host
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_set_recovery(as_pointer(handle), int(nfull, int64), c_funloc(forward_recovery), &
+        transfer(c_funloc(host), c_null_ptr)))
+end subroutine plmmrv
+
+subroutine plmmnv(handle, ierr)
+    use, intrinsic :: iso_c_binding, only: c_null_funptr, c_null_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_model_set_recovery
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_set_recovery(as_pointer(handle), 0_int64, c_null_funptr, c_null_ptr))
+end subroutine plmmnv
 
 ! DIMAG is not read for harmonic 0, where C wants NULL
 subroutine plmmex(handle, iharm, ndof, dreal, dimag, ierr)

@@ -205,6 +205,18 @@ subroutine plmcei(handle, istat, ireasn, index, icode, ierr)
     call narrow(c_icode, icode, ierr)
 end subroutine plmcei
 
+subroutine plmcth(handle, n, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_context_set_threads
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    integer, intent(out) :: ierr
+    ierr = int(plm_context_set_threads(as_pointer(handle), int(n, c_int32_t)))
+end subroutine plmcth
+
 subroutine plmmcr(parent, ndof, handle, ierr)
     use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
     use, intrinsic :: iso_fortran_env, only: int64
@@ -368,6 +380,74 @@ subroutine plmmpl(handle, ndof, force, ierr)
     integer, intent(out) :: ierr
     ierr = int(plm_model_set_preload(as_pointer(handle), int(ndof, int64), force))
 end subroutine plmmpl
+
+subroutine plmmdm(handle, iwhich, ipart, value, ld, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_set_dense_matrix
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: iwhich
+    integer, intent(in) :: ipart
+    real(real64), intent(in) :: value(*)
+    integer, intent(in) :: ld
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_set_dense_matrix(as_pointer(handle), int(iwhich, c_int32_t), int(ipart, c_int32_t), value, &
+        int(ld, int64)))
+end subroutine plmmdm
+
+subroutine plmmdg(handle, n, row, ld, stiff, gap, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_add_dense_gap_rows
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    real(real64), intent(in) :: row(*)
+    integer, intent(in) :: ld
+    real(real64), intent(in) :: stiff(*)
+    real(real64), intent(in) :: gap(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_add_dense_gap_rows(as_pointer(handle), int(n, int64), row, int(ld, int64), stiff, gap))
+end subroutine plmmdg
+
+subroutine plmmrc(handle, ncol, q, nfull, full, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_recover
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: ncol
+    real(real64), intent(in) :: q(*)
+    integer, intent(in) :: nfull
+    real(real64), intent(inout) :: full(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_recover(as_pointer(handle), int(ncol, int64), q, int(nfull, int64), full))
+end subroutine plmmrc
+
+subroutine plmmra(handle, branch, ifull, imeas, iharm, n, ampl, count, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_recover_amplitude
+    use plm_f77_support, only: as_pointer, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer(int64), intent(in) :: branch
+    integer, intent(in) :: ifull
+    integer, intent(in) :: imeas
+    integer, intent(in) :: iharm
+    integer, intent(in) :: n
+    real(real64), intent(inout) :: ampl(*)
+    integer, intent(inout) :: count
+    integer, intent(out) :: ierr
+    integer(int64) :: c_count
+    c_count = 0
+    ierr = int(plm_model_recover_amplitude(as_pointer(handle), as_pointer(branch), int(ifull - 1, int64), &
+        int(imeas, c_int32_t), int(iharm, c_int32_t), int(n, int64), ampl, c_count))
+    if (ierr < 0) return
+    call narrow(c_count, count, ierr)
+end subroutine plmmra
 
 subroutine plmmbu(handle, ierr)
     use, intrinsic :: iso_fortran_env, only: int64

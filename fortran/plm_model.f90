@@ -1,11 +1,11 @@
 ! plm_model.f90: the finite-element model: matrices, supports, contact pairs, loads. DOFs count from 1.
 module plm_models
-    use, intrinsic :: iso_c_binding, only: c_char, c_int32_t
+    use, intrinsic :: iso_c_binding, only: c_char, c_funloc, c_int32_t, c_loc, c_null_funptr, c_null_ptr
     use, intrinsic :: iso_fortran_env, only: int32, int64, real64
     use plm_constants
     use plm_c
     use plm_errors, only: finish, refuse, f_text
-    use plm_contexts, only: plm_context
+    use plm_contexts, only: plm_context, plm_recoverer, recoverer_box, forward_recovery
     use plm_methods, only: plm_model_methods
     implicit none
     private
@@ -14,6 +14,7 @@ module plm_models
     ! Integer arrays may be of either kind. Everything is copied: no argument needs to outlive its call.
     type, extends(plm_model_methods) :: plm_model
         integer, private :: n_dof = 0 ! as given to create
+        type(recoverer_box), pointer, private :: box => null()
     contains
         procedure :: create
         procedure :: destroy
@@ -30,6 +31,10 @@ module plm_models
         generic :: add_node_pairs => add_node_pairs_int32, add_node_pairs_int64
         generic :: add_ground_contacts => add_ground_contacts_int32, add_ground_contacts_int64
         generic :: add_gap_rows => add_gap_rows_int32, add_gap_rows_int64
+        procedure :: set_dense_matrix
+        procedure :: add_dense_gap_rows
+        procedure :: set_recovery
+        procedure :: recover
         procedure :: set_preload
         generic :: set_excitation => set_excitation_real, set_excitation_complex
         procedure :: build
@@ -56,7 +61,10 @@ contains
         class(plm_model), intent(inout) :: self
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
-        call finish(self%context, plm_model_destroy(self%handle), stat, errmsg)
+        integer(plm_status) :: status
+        status = plm_model_destroy(self%handle)
+        if (status >= 0 .and. associated(self%box)) deallocate (self%box)
+        call finish(self%context, status, stat, errmsg)
     end subroutine destroy
 
     ! which: PLM_MASS, PLM_STIFFNESS, PLM_DAMPING; part: PLM_FULL, PLM_LOWER, PLM_UPPER; col_ptr(n_dof + 1), row(nnz)
@@ -205,6 +213,77 @@ contains
                 row_ptr, dof, coefficient, stiffness), stat, errmsg)
         end if
     end subroutine add_gap_rows_int32
+
+    ! which, part: as in set_csc; value(ld, n_dof), ld >= n_dof
+    subroutine set_dense_matrix(self, which, part, value, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(plm_status), intent(in) :: which, part
+        real(real64), intent(in), contiguous :: value(:, :)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(value, 2) /= self%n_dof) then
+            call refuse('set_dense_matrix: the matrix has not n_dof columns', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_set_dense_matrix(self%handle, which, part, value, &
+            size(value, 1, kind=int64)), stat, errmsg)
+    end subroutine set_dense_matrix
+
+    ! Rows of the gap matrix, row(n, n_dof): u = row q - gap, u > 0 closed.
+    subroutine add_dense_gap_rows(self, row, stiffness, gap, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        real(real64), intent(in), contiguous :: row(:, :), stiffness(:)
+        real(real64), intent(in), contiguous, optional :: gap(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(int64) :: n
+        n = size(stiffness, kind=int64)
+        if (size(row, 1) /= n .or. size(row, 2) /= self%n_dof) then
+            call refuse('add_dense_gap_rows: row is not n x n_dof', stat, errmsg)
+            return
+        end if
+        if (present(gap)) then
+            if (size(gap) /= n) then
+                call refuse('add_dense_gap_rows: gap has the wrong length', stat, errmsg)
+                return
+            end if
+        end if
+        call finish(self%context, plm_model_add_dense_gap_rows(self%handle, n, row, max(n, 1_int64), stiffness, gap), &
+            stat, errmsg)
+    end subroutine add_dense_gap_rows
+
+    ! recoverer must live (target or pointer) as long as the model; absent: none
+    subroutine set_recovery(self, n_full, recoverer, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(in) :: n_full
+        class(plm_recoverer), intent(inout), target, optional :: recoverer
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(plm_status) :: status
+        if (present(recoverer)) then
+            if (.not. associated(self%box)) allocate (self%box)
+            self%box%recoverer => recoverer
+            status = plm_model_set_recovery(self%handle, int(n_full, int64), c_funloc(forward_recovery), c_loc(self%box))
+        else
+            status = plm_model_set_recovery(self%handle, int(n_full, int64), c_null_funptr, c_null_ptr)
+        end if
+        call finish(self%context, status, stat, errmsg)
+    end subroutine set_recovery
+
+    ! reduced(n_dof, k), motions in the model's DOFs; full(n_full, k), the same on the whole structure
+    subroutine recover(self, reduced, full, stat, errmsg)
+        class(plm_model), intent(in) :: self
+        real(real64), intent(in), contiguous :: reduced(:, :)
+        real(real64), intent(inout), contiguous :: full(:, :)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(reduced, 1) /= self%n_dof .or. size(reduced, 2) /= size(full, 2)) then
+            call refuse('recover: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_recover(self%handle, size(full, 2, kind=int64), reduced, &
+            size(full, 1, kind=int64), full), stat, errmsg)
+    end subroutine recover
 
     ! absent: none
     subroutine set_preload(self, force, stat, errmsg)

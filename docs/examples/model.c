@@ -88,6 +88,58 @@ static int contacts(plm_context *ctx) {
     return 0;
 }
 
+/* [plm_recover_fn] */
+/* both masses of the rod move with the one DOF that the host kept: T = (0.5, 1) */
+static int32_t whole_motion(plm_context *ctx, int64_t n_dof, int64_t n_columns, const double *reduced,
+                            int64_t n_full, double *full, void *user) {
+    const double *t = user;
+    (void)ctx;
+    for (int64_t j = 0; j < n_columns; ++j)
+        for (int64_t i = 0; i < n_full; ++i) full[i + j * n_full] = t[i] * reduced[j * n_dof];
+    return 0;
+}
+/* [plm_recover_fn] */
+
+static int superelement(plm_context *ctx) {
+    static double t[] = {0.5, 1};
+    plm_model *model = NULL;
+    TRY(plm_model_create(ctx, 1, &model));
+    /* [plm_model_set_dense_matrix] */
+    const double m[] = {1.25}, k[] = {5000}; /* T^T M T and T^T K T, n_dof x n_dof by columns */
+    TRY(plm_model_set_dense_matrix(model, PLM_MASS, PLM_FULL, m, 1));
+    TRY(plm_model_set_dense_matrix(model, PLM_STIFFNESS, PLM_LOWER, k, 1));
+    TRY(plm_model_set_double(model, "reduction_error", 0.01)); /* what the host knows of its reduction */
+    /* [plm_model_set_dense_matrix] */
+    /* [plm_model_add_dense_gap_rows] */
+    const double row[] = {1}, k_n[] = {5000}, gap[] = {1e-5}; /* B T */
+    TRY(plm_model_add_dense_gap_rows(model, 1, row, 1, k_n, gap));
+    /* [plm_model_add_dense_gap_rows] */
+    /* [plm_model_set_recovery] */
+    TRY(plm_model_set_recovery(model, 2, whole_motion, t)); /* t must live as long as the model */
+    /* [plm_model_set_recovery] */
+    const double force[] = {1};
+    TRY(plm_model_set_excitation(model, 1, 1, force, NULL));
+    TRY(plm_model_set_rayleigh_damping(model, 0, 5e-4));
+    TRY(plm_model_build(model));
+
+    /* [plm_model_recover] */
+    double hz[1], shape[1], whole_shape[2];
+    TRY(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 1, hz, shape));
+    TRY(plm_model_recover(model, 1, shape, 2, whole_shape)); /* on both masses */
+    /* [plm_model_recover] */
+    EXPECT(whole_shape[0] == 0.5 * whole_shape[1]);
+
+    plm_branch *curve = NULL;
+    double peak_hz, peak;
+    TRY(plm_model_compute_response(model, 0, PLM_PEAK, 0.05, &peak_hz, &peak, NULL, &curve, NULL));
+    /* [plm_model_recover_amplitude] */
+    int64_t count;
+    double amplitude[1000]; /* of the first mass, at every point of the curve */
+    TRY(plm_model_recover_amplitude(model, curve, 0, PLM_PEAK, 0, 1000, amplitude, &count));
+    /* [plm_model_recover_amplitude] */
+    return 0;
+}
+
 static int loads_and_options(plm_model *model) {
     /* [plm_model_set_preload] */
     const double pressing[] = {0, 3};
@@ -185,6 +237,7 @@ int example(plm_context *ctx) {
     plm_model *model = NULL;
     int line = matrices(ctx);
     if (!line) line = contacts(ctx);
+    if (!line) line = superelement(ctx);
     if (!line) line = whole_way(ctx);
     if (line) return line;
     TRY(start_model(ctx, &model));

@@ -177,6 +177,15 @@ struct LowerTriangle {
     bool positive_definite;
 };
 
+/// A superelement's way to the structure it was reduced from: column-major, without padding, full = T
+/// reduced.
+struct Recovery {
+    std::int64_t n_dof, n_columns;
+    const double *reduced; // n_dof x n_columns
+    std::int64_t n_full;
+    double *full; // n_full x n_columns, to be filled
+};
+
 // ---- The machinery ---------------------------------------------------------------------------------------
 
 namespace detail {
@@ -203,6 +212,7 @@ class State {
     using Progress = std::function<bool(std::string_view, double)>;
     using Outcome = std::function<void(plm_status, std::string_view)>;
     using Factor = std::function<std::unique_ptr<Factorization>(const LowerTriangle &)>;
+    using Recover = std::function<void(const Recovery &)>;
 
     State() = default;
     State(const State &) = delete;
@@ -265,6 +275,13 @@ class State {
         if (factor) check(plm_context_set_inertia(context, on_inertia), "plm_context_set_inertia");
     }
 
+    /// Kept as long as the context, for models may outlive their C++ objects.
+    void install_recovery(plm_model *model, std::int64_t n_full, Recover f) {
+        recoveries.push_back(std::make_unique<OwnRecovery>(OwnRecovery{this, std::move(f)}));
+        check(plm_model_set_recovery(model, n_full, on_recover, recoveries.back().get()),
+              "plm_model_set_recovery");
+    }
+
     plm_context *context = nullptr;
     Log log;
     Progress progress;
@@ -273,6 +290,12 @@ class State {
     std::exception_ptr thrown; // by a callback, to be thrown again after the call
 
   private:
+    struct OwnRecovery {
+        State *state;
+        Recover run;
+    };
+    std::vector<std::unique_ptr<OwnRecovery>> recoveries;
+
     /// Runs a callback; keeps its exception. False when there is one, of this or of an earlier callback.
     template <class F> bool guarded(F f) noexcept {
         if (thrown) return false;
@@ -312,6 +335,12 @@ class State {
         auto *s = static_cast<State *>(user);
         return s->guarded([&] { *negative = static_cast<Factorization *>(f)->negative_eigenvalues(); }) ? 0
                                                                                                         : 1;
+    }
+    static std::int32_t on_recover(plm_context *, std::int64_t n_dof, std::int64_t n_columns,
+                                   const double *reduced, std::int64_t n_full, double *full,
+                                   void *user) noexcept {
+        const auto *r = static_cast<const OwnRecovery *>(user);
+        return r->state->guarded([&] { r->run(Recovery{n_dof, n_columns, reduced, n_full, full}); }) ? 0 : 1;
     }
     static void on_free(plm_context *, void *f, void *) noexcept { delete static_cast<Factorization *>(f); }
 };
@@ -573,6 +602,10 @@ class Context {
         state()->progress = nullptr;
         state()->install();
     }
+    /// How many threads a call may use; results are the same for any number.
+    void set_threads(std::int32_t n) {
+        state()->check(plm_context_set_threads(c_handle(), n), "plm_context_set_threads");
+    }
     /// f(const LowerTriangle &) returns a std::unique_ptr<Factorization>; for models built afterwards.
     template <class F> void set_solver(F f) {
         state()->factor = std::move(f);
@@ -613,6 +646,7 @@ struct Finding {
 };
 
 struct Response;
+class Branch;
 class Model : public detail::WithOptions<Model, plm_model> {
   public:
     Model(const Context &context, std::int64_t n_dof) : WithOptions(context.state(), nullptr), n_dof_(n_dof) {
@@ -633,6 +667,11 @@ class Model : public detail::WithOptions<Model, plm_model> {
                    : plm_model_set_matrix_i32(handle_, which, m.storage, m.part, m.index_base, m.ownership,
                                               nnz, m.a.narrow(), m.b.narrow(), m.value.data()),
               verb);
+    }
+    /// A superelement's: n_dof x n_dof, column-major; part: PLM_FULL, PLM_LOWER or PLM_UPPER of it is read.
+    void set_dense_matrix(std::int32_t which, Reals value, std::int32_t part = PLM_FULL) {
+        require_size(value.size(), n_dof_ * n_dof_, "set_dense_matrix", "value");
+        check(plm_model_set_dense_matrix(handle_, which, part, value.data(), n_dof_), "set_dense_matrix");
     }
     void set_mass(const Sparse &m) { set_matrix(PLM_MASS, m); }
     void set_stiffness(const Sparse &k) { set_matrix(PLM_STIFFNESS, k); }
@@ -698,6 +737,32 @@ class Model : public detail::WithOptions<Model, plm_model> {
                                                 coefficient.data(), stiffness.data(), gap.data()),
               verb);
     }
+
+    /// Rows of B, n x n_dof, column-major; stiffness: n.
+    void add_dense_gap_rows(Reals row, Reals stiffness, Reals gap = {}) {
+        const std::int64_t n = stiffness.size();
+        require_size(row.size(), n * n_dof_, "add_dense_gap_rows", "row");
+        if (gap.data()) require_size(gap.size(), n, "add_dense_gap_rows", "gap");
+        check(
+            plm_model_add_dense_gap_rows(handle_, n, row.data(), n > 0 ? n : 1, stiffness.data(), gap.data()),
+            "add_dense_gap_rows");
+    }
+    /// f(const Recovery &) fills n_full x n_columns; before the build. Throw on failure.
+    template <class F> void set_recovery(std::int64_t n_full, F f) {
+        living().install_recovery(handle_, n_full, std::move(f));
+    }
+    /// Motions in the model's DOFs (n_dof x k) on the whole structure.
+    Dense<double> recover(Reals reduced) const {
+        const std::int64_t n_full = get_int("n_full"), n = reduced.size() / n_dof_;
+        require_size(reduced.size(), n * n_dof_, "recover", "reduced");
+        Dense<double> full{n_full, n, std::vector<double>(detail::index(n_full * n))};
+        finished(plm_model_recover(handle_, n, reduced.data(), n_full, full.values.data()), "recover");
+        return full;
+    }
+    /// Amplitude of a DOF of the whole structure at every point of a branch of this model.
+    std::vector<double> recover_amplitude(const Branch &branch, std::int64_t full_dof,
+                                          std::int32_t measure = PLM_HALF_PEAK_TO_PEAK,
+                                          std::int32_t harmonic = 0) const;
 
     /// nullptr removes it.
     void set_preload(Reals force) {
@@ -781,7 +846,6 @@ class Sampler : public detail::WithOptions<Sampler, plm_sampler> {
     plm_status run() { return finished(plm_sampler_run(handle_), "run"); }
 };
 
-class Branch;
 namespace detail {
 /// Of a range of Branch or of std::reference_wrapper<const Branch>.
 template <class Curves> std::vector<plm_branch *> handles_of(const Curves &curves);
@@ -1267,6 +1331,15 @@ inline Response Model::compute_response(std::int64_t dof, std::int32_t measure, 
                Hbm(state_, solver, n_dof_)}; // check may throw
     finished(s, "compute_response");
     return r;
+}
+inline std::vector<double> Model::recover_amplitude(const Branch &branch, std::int64_t full_dof,
+                                                    std::int32_t measure, std::int32_t harmonic) const {
+    std::int64_t n = branch.size();
+    std::vector<double> a(detail::index(n));
+    finished(
+        plm_model_recover_amplitude(handle_, branch.c_handle(), full_dof, measure, harmonic, n, a.data(), &n),
+        "recover_amplitude");
+    return a;
 }
 inline Transient::Transient(const Model &model, plm_basis *basis)
     : WithOptions(detail::Access<plm_model>::state(model), nullptr), n_dof_(model.n_dof()) {

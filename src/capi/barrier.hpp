@@ -1,9 +1,10 @@
 // The exception barrier through which every exported body goes. It also looks up the handle, holds the host's
-// floating-point environment, refuses re-entry, and sets the context's allocator.
+// floating-point environment, refuses re-entry, and sets the context's allocator and threads.
 #pragma once
 #include "capi/context.hpp"
 #include "capi/outcome.hpp"
 #include "linalg/blas_host.hpp"
+#include "linalg/parallel.hpp"
 #include "linalg/work.hpp"
 
 namespace plm::capi {
@@ -69,6 +70,7 @@ plm_status call(const char *function, typename H::Opaque *handle, Body body) noe
         if (!running) return running.refusal();
         const AllocatorScope scope(&context.allocator);
         const WorkScope work(context.listener());
+        const ThreadsScope threads(context.threads);
         try {
             const BlasBuffer buffer;
             return finished(function, context, body(*object));

@@ -52,6 +52,7 @@ struct Context final : Object {
     plm_progress_fn progress = nullptr;
     void *log_user = nullptr, *progress_user = nullptr;
     SolverBinding solver;
+    std::int64_t threads = 1; // that a call may use
 
     ErrorDetails error;                      // of the last call that did not return PLM_OK
     std::atomic<bool> running{false};        // a call is under way

@@ -66,6 +66,14 @@ plm_status plm_context_destroy(plm_context **ctx) {
     }
 }
 
+plm_status plm_context_set_threads(plm_context *ctx, std::int32_t n) {
+    return call<Context>("plm_context_set_threads", ctx, [&](Context &c) {
+        require_range(n, 1, 1024, "n");
+        c.threads = n;
+        return PLM_OK;
+    });
+}
+
 plm_status plm_context_set_log(plm_context *ctx, plm_log_fn fn, void *user) {
     return call<Context>("plm_context_set_log", ctx, [&](Context &c) {
         c.log = fn, c.log_user = user;

@@ -2,6 +2,7 @@
 // object.
 #pragma once
 #include "capi/context.hpp"
+#include "capi/recovery.hpp"
 #include "orbits/transient.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/sampler.hpp"
@@ -38,6 +39,7 @@ struct ModelHandle final : HandleOf<plm_model, Kind::model> {
     std::vector<Finding> findings;
     std::int64_t n_findings = 0; // worth a look, of the build or of the last audit
     Warnings warnings;           // of the build
+    Recovery recovery;           // of a superelement
 };
 
 struct SamplerHandle final : HandleOf<plm_sampler, Kind::sampler> {

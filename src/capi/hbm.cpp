@@ -161,8 +161,8 @@ plm_status plm_hbm_refine_basis(plm_hbm *hbm, std::int64_t dof, std::int32_t mea
         made->basis_options = found.basis->options();
         made->core = found.basis;
         *refined = publish(made);
-        if (error) *error = found.error;
-        if (found.met) return Outcome(PLM_OK);
+        if (error) *error = found.error + basis->model()->space_options().reduction_error;
+        if (found.met) return Outcome(found.warnings);
         return Outcome(
             PLM_NOT_CONVERGED, PLM_REASON_BASIS_TOO_SMALL,
             plm::format("after %lld curves the estimated error is still %.1e, above the tolerance %g; "

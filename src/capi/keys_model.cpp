@@ -38,10 +38,19 @@ const std::vector<Key> &model_keys() {
         choice_option<&O::solver>(
             "solver", "auto,cholmod,eigen,host",
             "who factors sparse matrices; auto: the host's solver where the context has "
-            "one, else cholmod where it was built, else eigen"),
+            "one, else LAPACK where every entry is stored (superelements), else cholmod where it was built, "
+            "else "
+            "eigen"),
+
+        real_option<&O::reduction_error>(
+            "reduction_error", 0, 1,
+            "a superelement's own error, as the host that reduced the structure estimates it (relative, of "
+            "amplitudes at resonance); added to estimated errors"),
 
         result<H>("n_dof", "DOFs of the model",
                   [](const H &h) { return h.core ? h.core->n_dof() : h.input.n_dof; }),
+        result<H>("n_full", "DOFs of the structure a superelement was reduced from; 0 without a recovery",
+                  [](const H &h) { return h.recovery.n_full; }),
         result<H>("n_free", "DOFs that are not fixed", [](const H &h) { return built(h)->n_free(); }),
         result<H>("n_pairs", "contact pairs",
                   [](const H &h) { return h.core ? h.core->n_pairs() : h.input.contact.n_pairs(); }),

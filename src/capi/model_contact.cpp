@@ -174,6 +174,27 @@ void take_rows(NewPairs &pairs, std::int64_t n, std::int64_t base, std::int64_t 
     }
 }
 
+void take_dense_rows(NewPairs &pairs, std::int64_t n, std::int64_t n_dof, const double *row,
+                     std::int64_t ld) {
+    for (std::int64_t i = 0; i < n; ++i) {
+        const std::size_t before = pairs.row.size();
+        for (std::int64_t j = 0; j < n_dof; ++j) {
+            const double coefficient = row[i + j * ld];
+            if (!std::isfinite(coefficient) || too_large(coefficient))
+                bad_argument("row", i + j * ld,
+                             format("row[%lld], gap row %lld at DOF %lld (both counted from 0), is %g: no "
+                                    "number, or beyond %g where squares and products overflow",
+                                    Int(i + j * ld), Int(i), Int(j), coefficient, largest_scale));
+            if (coefficient == 0) continue;
+            pairs.row.push_back(plm::Contact::normal_row(i));
+            pairs.dof.push_back(j);
+            pairs.coefficient.push_back(coefficient);
+        }
+        if (pairs.row.size() == before)
+            bad_argument("row", i, format("gap row %lld is zero; its penetration can never change", Int(i)));
+    }
+}
+
 template <class Index>
 plm_status add_rows(const char *function, plm_model *model, std::int32_t index_base, std::int64_t n,
                     const Index *row_ptr, const Index *dof, const double *coefficient,
@@ -236,4 +257,19 @@ plm_status plm_model_add_gap_rows_i64(plm_model *model, std::int32_t index_base,
                                       const double *coefficient, const double *stiffness, const double *gap) {
     return add_rows("plm_model_add_gap_rows_i64", model, index_base, n, row_ptr, dof, coefficient, stiffness,
                     gap);
+}
+
+plm_status plm_model_add_dense_gap_rows(plm_model *model, std::int64_t n, const double *row, std::int64_t ld,
+                                        const double *stiffness, const double *gap) {
+    return call<ModelHandle>("plm_model_add_dense_gap_rows", model, [&](ModelHandle &m) {
+        require_open(m);
+        require_range(n, 0, INT64_MAX / 64, "n");
+        require_range(ld, std::max<std::int64_t>(n, 1), INT32_MAX, "ld");
+        if (n > 0) require_pointer(row, "row");
+        NewPairs pairs;
+        take_dense_rows(pairs, n, m.input.n_dof, row, ld);
+        take_stiffness_and_gap(pairs, n, stiffness, gap);
+        add_to(m.input, pairs);
+        return PLM_OK;
+    });
 }

@@ -8,6 +8,9 @@ namespace plm::capi {
 /// PLM_ERR_STATE once the model is built.
 void require_open(const ModelHandle &m);
 
+/// Where PLM_MASS, PLM_STIFFNESS or PLM_DAMPING goes.
+std::shared_ptr<const MatrixInput> &matrix_of(ModelInput &input, std::int32_t which);
+
 /// A DOF number in the caller's base.
 inline void require_dof(std::int64_t dof, std::int64_t base, std::int64_t n_dof, const char *name,
                         std::int64_t index) {

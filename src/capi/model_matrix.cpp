@@ -12,6 +12,10 @@ void require_open(const ModelHandle &m) {
     if (const char *why = m.frozen()) throw Error(PLM_ERR_STATE, why);
 }
 
+std::shared_ptr<const MatrixInput> &matrix_of(ModelInput &input, std::int32_t which) {
+    return which == PLM_MASS ? input.mass : which == PLM_STIFFNESS ? input.stiffness : input.damping_matrix;
+}
+
 namespace {
 
 template <class Index> struct MatrixArguments {
@@ -41,9 +45,7 @@ plm_status set_matrix(const char *function, plm_model *model, const MatrixArgume
         MatrixInput(layout, x.a, x.b, x.value).check(); // before anything is copied
         layout.copy = x.ownership == PLM_COPY;
         auto matrix = std::make_shared<const MatrixInput>(layout, x.a, x.b, x.value);
-        (x.which == PLM_MASS        ? m.input.mass
-         : x.which == PLM_STIFFNESS ? m.input.stiffness
-                                    : m.input.damping_matrix) = std::move(matrix);
+        matrix_of(m.input, x.which) = std::move(matrix);
         return PLM_OK;
     });
 }

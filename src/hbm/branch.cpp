@@ -122,11 +122,15 @@ void Branch::append(BranchPoint point) {
 }
 
 vector<double> Branch::coefficients(std::int64_t point, std::int64_t dof) const {
-    const BranchPoint &p = points_[point];
-    vector<double> c(2 * n_harmonics_ + 1, 0.0);
     const std::int64_t row = reduced_->model->free_index(dof);
-    if (row < 0) return c;
-    const vector<double> v = reduced_->vectors.row(row), v0 = reduced_->static_vectors().row(row);
+    if (row < 0) return vector<double>(2 * n_harmonics_ + 1, 0.0);
+    return coefficients(point, {reduced_->vectors.row(row), reduced_->static_vectors().row(row)});
+}
+
+vector<double> Branch::coefficients(std::int64_t point, const DofInBasis &dof) const {
+    const BranchPoint &p = points_[point];
+    const vector<double> &v = dof.of_dynamic, &v0 = dof.of_static;
+    vector<double> c(2 * n_harmonics_ + 1, 0.0);
     for (std::size_t j = 0; j < v0.size(); ++j) c[0] += v0[j] * p.eta_0[j];
     for (std::int64_t k = 0; k < 2 * n_harmonics_; ++k)
         for (std::int64_t j = 0; j < reduced_->size(); ++j) c[k + 1] += v[j] * p.eta(j, k);
@@ -164,6 +168,13 @@ double amplitude_of(const vector<double> &c, Measure measure, std::int64_t harmo
 double Branch::amplitude(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
     const BranchPoint &p = points_[static_cast<std::size_t>(point)];
     if (has_own_extrema(p, measure)) return amplitude_of(p.motion->range(dof), measure);
+    return amplitude_of(coefficients(point, dof), measure, harmonic);
+}
+
+double Branch::amplitude(std::int64_t point, const DofInBasis &dof, Measure measure,
+                         std::int64_t harmonic) const {
+    const BranchPoint &p = points_[static_cast<std::size_t>(point)];
+    if (has_own_extrema(p, measure)) return amplitude_of(p.motion->range_of(dof.of_static), measure);
     return amplitude_of(coefficients(point, dof), measure, harmonic);
 }
 

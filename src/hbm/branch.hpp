@@ -30,6 +30,11 @@ std::string end_text(std::int32_t reason, bool sampled = false);
 /// H are zero.
 double amplitude_of(const vector<double> &coefficient, Measure measure, std::int64_t harmonic);
 
+/// A number that is linear in the motion, such as a DOF: what each column of P and of P_0 makes of it.
+struct DofInBasis {
+    vector<double> of_dynamic, of_static; // r, r_0
+};
+
 class Branch {
   public:
     Branch(std::shared_ptr<const ReducedModel> reduced, double force_scale, std::int64_t period_multiple = 1)
@@ -69,6 +74,7 @@ class Branch {
     /// (2H + 1) coefficients a0, a1, b1, ... of a full-model DOF (base 0; zeros when fixed) at a point.
     vector<double> coefficients(std::int64_t point, std::int64_t dof) const;
     double amplitude(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic) const;
+    double amplitude(std::int64_t point, const DofInBasis &dof, Measure measure, std::int64_t harmonic) const;
     /// The point where the amplitude is largest; 0 on an empty branch.
     std::int64_t highest_point(std::int64_t dof, Measure measure, std::int64_t harmonic) const;
     /// q on the free DOFs at t = fraction x period, one column.
@@ -81,6 +87,8 @@ class Branch {
     double full_residual(std::int64_t point) const;
 
   private:
+    vector<double> coefficients(std::int64_t point, const DofInBasis &dof) const;
+
     std::shared_ptr<const ReducedModel> reduced_;
     std::int64_t n_harmonics_ = 0;
     double force_scale_;

@@ -11,6 +11,8 @@ class PointMotion {
     virtual ~PointMotion() = default;
     /// Extrema over a period of the response of a DOF of the full model (base 0; zeros when fixed).
     virtual ValueRange range(std::int64_t dof) const = 0;
+    /// The same of row . static coordinates.
+    virtual ValueRange range_of(const vector<double> &row) const = 0;
     /// Static coordinates (r_0) at t = fraction x period of the response.
     virtual vector<double> displacement(double fraction) const = 0;
     /// Fourier coefficients of the forces of the pairs in the equations: Z x (2H + 1), a_0, a_1, b_1, ...

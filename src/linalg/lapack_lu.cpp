@@ -150,6 +150,7 @@ bool DenseCholesky::factor(Matrix &a) {
     dpotrf_("L", &n, l_.data(), &lda, &info, 1);
     require_valid(info, "dpotrf");
     worked(1e4 + static_cast<double>(n) * n * n / 3);
+    broke_at_ = info - 1;
     if (info > 0) l_.reset(0, 0);
     return info == 0;
 }

@@ -1,4 +1,5 @@
 #include "reduction/mode_selection.hpp"
+#include "linalg/parallel.hpp"
 #include "reduction/static_basis.hpp"
 #include "sampling/mode_match.hpp"
 #include <algorithm>
@@ -67,6 +68,14 @@ bool is_lost(const SampleSelection &s) {
     return s.matched >= 0 && !s.matched_kept;
 }
 
+/// The next sample and what is kept of its modes.
+void add_sample(const MatchedModes &found, const SelectionRule &rule, CollectedModes &collected) {
+    collected.samples.push_back(select_modes(found, rule));
+    const SampleSelection &sample = collected.samples.back();
+    collected.columns.append(kept_columns(found.modes, sample.kept));
+    if (is_lost(sample)) collected.lost.append(found.modes.vectors.columns(sample.matched, 1));
+}
+
 std::string remedy(const SelectionRule &rule) {
     if (rule.selection == ModeSelection::bands)
         return format("the resonance may be lost: widen the window [%.6g, %.6g] Hz or choose selection "
@@ -101,14 +110,16 @@ CollectedModes collect_modes(const Space &space, const std::vector<SelectedSampl
                              const std::vector<vector<double>> &dominant, const SelectionRule &rule,
                              Watch watch) {
     CollectedModes collected;
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-        watch.step("modes", static_cast<double>(i) / static_cast<double>(samples.size()));
-        const MatchedModes found =
-            match_modes(space, samples[i].states, dominant[samples[i].dominant], rule.highest_eigenvalue());
-        collected.samples.push_back(select_modes(found, rule));
-        const SampleSelection &sample = collected.samples.back();
-        collected.columns.append(kept_columns(found.modes, sample.kept));
-        if (is_lost(sample)) collected.lost.append(found.modes.vectors.columns(sample.matched, 1));
+    const auto count = static_cast<std::int64_t>(samples.size());
+    for (std::int64_t first = 0; first < count; first += threads_at_hand()) { // the host is heard between
+        watch.step("modes", static_cast<double>(first) / static_cast<double>(count));
+        std::vector<MatchedModes> found(static_cast<std::size_t>(std::min(threads_at_hand(), count - first)));
+        parallel_for(static_cast<std::int64_t>(found.size()), [&](std::int64_t k) {
+            const SelectedSample &sample = samples[static_cast<std::size_t>(first + k)];
+            found[static_cast<std::size_t>(k)] =
+                match_modes(space, sample.states, dominant[sample.dominant], rule.highest_eigenvalue());
+        });
+        for (const MatchedModes &modes : found) add_sample(modes, rule, collected);
     }
     if (collected.columns.cols() == 0) throw no_mode_kept(rule, "no sample");
     return collected;

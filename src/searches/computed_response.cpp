@@ -1,6 +1,7 @@
 #include "searches/computed_response.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"
+#include "searches/curve_verdicts.hpp"
 #include "searches/orbit_points.hpp"
 #include "searches/refinement.hpp"
 #include <algorithm>
@@ -29,6 +30,8 @@ class Chain {
         : model_(std::move(model)), space_(std::move(known)), output_(output), accuracy_(accuracy),
           watch_(watch) {
         options_.accuracy = accuracy;
+        const double of_host = model_->space_options().reduction_error;
+        if (of_host <= allowed_of_host * accuracy) accuracy_ -= of_host; // else check_host_reduction() speaks
     }
 
     ComputedResponse run() {
@@ -178,6 +181,11 @@ class Chain {
     }
 
     void finish(ComputedResponse &r) const {
+        tell(r);
+        r.error += model_->space_options().reduction_error;
+    }
+
+    void tell(ComputedResponse &r) const {
         Warnings all;
         if (r.basis->sampler()) all.add(r.basis->sampler()->warnings());
         all.add(r.basis->report().warnings);
@@ -206,7 +214,7 @@ class Chain {
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const Space> space_;
     Output output_;
-    double accuracy_;
+    double accuracy_; // of the basis
     Watch watch_;
     HbmOptions options_;
 };

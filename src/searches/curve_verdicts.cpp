@@ -135,6 +135,17 @@ void check_peak(const SweepRange &window, double accuracy, double error, Watch w
             watch, peak);
 }
 
+void check_host_reduction(const Model &model, double accuracy, double error, Watch watch) {
+    const double of_host = model.space_options().reduction_error;
+    if (of_host <= allowed_of_host * accuracy || error + of_host <= accuracy) return;
+    watch.warn(
+        PLM_REASON_HOST_REDUCTION,
+        format("the model is a superelement whose own error is stated to be %.2g (\"reduction_error\"): "
+               "of the accuracy %.2g that takes more than half, whatever the basis. Reduce the structure "
+               "with more modes or contact attachment vectors, or ask for less accuracy",
+               of_host, accuracy));
+}
+
 void check_span(Watch watch, Branch &branch) {
     if (branch.end_reason != PLM_REASON_RANGE_END || branch.points().size() < 3) return;
     constexpr double same = 1e-9; // of the frequency: the boundary of the range

@@ -19,6 +19,11 @@ void check_basis(const SweepRange &window, const std::function<double()> &error,
 /// The same of a peak and its estimated error, which is to be within the accuracy.
 void check_peak(const SweepRange &window, double accuracy, double error, Watch watch, Branch &peak);
 
+/// What a host's own reduction (a superelement) may take of the accuracy; the rest is the basis'.
+constexpr double allowed_of_host = 0.5;
+/// Where it takes more, no basis can mend it. error: of the basis, as estimated.
+void check_host_reduction(const Model &model, double accuracy, double error, Watch watch);
+
 /// A curve that folds and comes back to the end of the range where it began says nothing of the rest.
 void check_span(Watch watch, Branch &branch);
 

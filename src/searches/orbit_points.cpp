@@ -40,15 +40,14 @@ class OrbitMotion final : public PointMotion {
 
     ValueRange range(std::int64_t dof) const override {
         if (dof != known_dof_) {
-            RecordedMotion motion;
-            run(1, &motion);
-            const vector<double> row = model_->dof_row(dof);
-            Matrix rows(1, model_->size());
-            std::copy(row.begin(), row.end(), rows.data());
-            known_range_ = motion.ranges(rows)[0];
+            known_range_ = range_of_flow(model_->dof_row(dof));
             known_dof_ = dof;
         }
         return known_range_;
+    }
+
+    ValueRange range_of(const vector<double> &row) const override {
+        return range_of_flow(model_->from_static_coordinates(row));
     }
 
     vector<double> displacement(double fraction) const override {
@@ -70,6 +69,14 @@ class OrbitMotion final : public PointMotion {
     const vector<double> &closed_shares() const override { return closed_shares_; }
 
   private:
+    ValueRange range_of_flow(const vector<double> &row) const {
+        RecordedMotion motion;
+        run(1, &motion);
+        Matrix rows(1, model_->size());
+        std::copy(row.begin(), row.end(), rows.data());
+        return motion.ranges(rows)[0];
+    }
+
     FlowState run(double periods, FlowRecorder *recorder) const {
         ExactFlow flow(model_, conditions_.omega, conditions_.force_scale, Watch(), modes_);
         FlowState state = start_;

@@ -214,10 +214,12 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     warn_of_harmonics(options_, error, *one);
     if (is_peak && options_.n_harmonics != 0 && !one->points()[0].motion)
         warn_of_given_harmonics(reduced, options_, dof, measure, harmonic, *one);
-    check_peak(
-        window_, options_.accuracy,
-        basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic}, Patience::little, watch_),
-        watch_, *one);
+    const double by_basis =
+        basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic}, Patience::little, watch_);
+    check_peak(window_, options_.accuracy, by_basis, watch_, *one);
+    if (one->reduced().model)
+        check_host_reduction(*one->reduced().model, options_.accuracy, by_basis,
+                             watch_.keeping(one->warnings));
     one->unknowns_used = branch.unknowns_used;
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);

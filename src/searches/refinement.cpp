@@ -1,6 +1,7 @@
 #include "searches/refinement.hpp"
 #include "reduction/basis_kind.hpp"
 #include "searches/basis_error.hpp"
+#include "searches/curve_verdicts.hpp"
 #include "searches/responses.hpp"
 #include <algorithm>
 #include <cmath>
@@ -34,6 +35,8 @@ class Refiner {
                 best = {basis, branch, error, round, false};
             if (compressed && error <= options_.tolerance) {
                 best.met = true;
+                check_host_reduction(*start_->model(), options_.tolerance, error,
+                                     watch_.keeping(best.warnings));
                 return best;
             }
             best.rounds = round;

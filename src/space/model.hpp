@@ -20,6 +20,7 @@ struct SpaceOptions {
     std::int64_t max_blocks = 4;
     bool verify_counts = true;                 // Sturm count of the modes below the cutoff
     SolverName solver = SolverName::automatic; // of the sparse factorizations
+    double reduction_error = 0; // of the matrices themselves, as the host states it; relative, of amplitudes
 };
 
 class Model : public Structure {

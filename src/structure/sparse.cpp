@@ -139,6 +139,11 @@ Matrix to_dense(const SparseMatrix &a) {
     return d;
 }
 
+bool is_dense(const SparseMatrix &a) {
+    constexpr std::int64_t few = 64; // rows or columns, below which a pass over a sparse matrix is as fast
+    return a.rows >= few && a.cols >= few && a.nnz() == a.rows * a.cols;
+}
+
 double norm_inf(const SparseMatrix &a) {
     vector<double> sum(a.rows, 0.0);
     for (std::int64_t p = 0; p < a.nnz(); ++p) sum[a.idx[p]] += std::fabs(a.val[p]);

@@ -29,6 +29,9 @@ void multiply_transposed(const SparseMatrix &a, const double *x, double *y);
 Matrix multiply(const SparseMatrix &a, const Matrix &x);
 Matrix multiply_transposed(const SparseMatrix &a, const Matrix &x);
 Matrix to_dense(const SparseMatrix &a);
+/// Every entry is stored, and there are so many of them that BLAS and LAPACK are the faster ones: the values
+/// are a dense matrix, column-major.
+bool is_dense(const SparseMatrix &a);
 double norm_inf(const SparseMatrix &a); // largest absolute row sum
 vector<double> diagonal(const SparseMatrix &a);
 double trace(const SparseMatrix &a);

@@ -1,5 +1,6 @@
 // Sparse matrix times vector and times a block of columns.
 #include "linalg/blas_lapack.hpp"
+#include "linalg/parallel.hpp"
 #include "structure/sparse.hpp"
 #include <algorithm>
 
@@ -20,9 +21,39 @@ void unpack(const double *packed, std::int64_t rows, std::int64_t width, double 
         for (std::int64_t i = 0; i < rows; ++i) y[i + c * ld] = packed[i * panel + c];
 }
 
+/// columns(first, width, packed) for each panel of a product, with room for a packed panel of so many rows;
+/// shared out where that is worth a thread.
+template <class Columns>
+void for_panels(const SparseMatrix &a, std::int64_t cols, std::int64_t packed_rows, Columns columns) {
+    constexpr double worth_a_thread = 2e6; // flops of a panel, about a millisecond
+    const std::int64_t panels = (cols + panel - 1) / panel;
+    const bool worth = 2.0 * panel * static_cast<double>(a.nnz()) > worth_a_thread;
+    const std::int64_t runs = std::min(panels, worth ? threads_at_hand() : 1);
+    parallel_for(runs, [&](std::int64_t run) {
+        vector<double> packed(packed_rows * panel);
+        for (std::int64_t k = run * panels / runs; k < (run + 1) * panels / runs; ++k)
+            columns(k * panel, std::min(panel, cols - k * panel), packed);
+    });
+}
+
+/// op(A) x and op(A) X by BLAS, for a matrix that is dense.
+void dense_times(char op, const SparseMatrix &a, const double *x, double *y) {
+    const blas_int rows = to_blas(a.rows), cols = to_blas(a.cols), step = 1;
+    const double one = 1, zero = 0;
+    dgemv_(&op, &rows, &cols, &one, a.val.data(), &rows, x, &step, &zero, y, &step, 1);
+}
+Matrix dense_times(char op, const SparseMatrix &a, const Matrix &x) {
+    Matrix y(op == 'N' ? a.rows : a.cols, x.cols());
+    const blas_int m = to_blas(y.rows()), n = to_blas(y.cols()), k = to_blas(x.rows()), lda = to_blas(a.rows);
+    const double one = 1, zero = 0;
+    dgemm_(&op, "N", &m, &n, &k, &one, a.val.data(), &lda, x.data(), &k, &zero, y.data(), &m, 1, 1);
+    return y;
+}
+
 } // namespace
 
 void multiply(const SparseMatrix &a, const double *x, double *y) {
+    if (is_dense(a)) return dense_times('N', a, x, y);
     std::fill_n(y, a.rows, 0.0);
     for (std::int64_t j = 0; j < a.cols; ++j) {
         const double factor = x[j];
@@ -31,6 +62,7 @@ void multiply(const SparseMatrix &a, const double *x, double *y) {
 }
 
 void multiply_transposed(const SparseMatrix &a, const double *x, double *y) {
+    if (is_dense(a)) return dense_times('T', a, x, y);
     const std::int64_t *idx = a.idx.data();
     const double *val = a.val.data();
     for (std::int64_t j = 0; j < a.cols; ++j) {
@@ -48,11 +80,10 @@ void multiply_transposed(const SparseMatrix &a, const double *x, double *y) {
 
 Matrix multiply(const SparseMatrix &a, const Matrix &x) {
     require(a.cols == x.rows(), "sparse multiply: shapes differ");
+    if (is_dense(a) && x.cols() > 1) return dense_times('N', a, x);
     Matrix y(a.rows, x.cols());
     if (x.cols() == 1) return multiply(a, x.data(), y.data()), y;
-    vector<double> packed(a.rows * panel);
-    for (std::int64_t first = 0; first < x.cols(); first += panel) {
-        const std::int64_t width = std::min(panel, x.cols() - first);
+    for_panels(a, x.cols(), a.rows, [&](std::int64_t first, std::int64_t width, vector<double> &packed) {
         std::fill(packed.begin(), packed.end(), 0.0);
         for (std::int64_t j = 0; j < a.cols; ++j) {
             if (a.ptr[j] == a.ptr[j + 1]) continue; // most columns of a gap matrix are empty
@@ -64,17 +95,16 @@ Matrix multiply(const SparseMatrix &a, const Matrix &x) {
             }
         }
         unpack(packed.data(), a.rows, width, y.col(first), a.rows);
-    }
+    });
     return y;
 }
 
 Matrix multiply_transposed(const SparseMatrix &a, const Matrix &x) {
     require(a.rows == x.rows(), "sparse multiply: shapes differ");
+    if (is_dense(a) && x.cols() > 1) return dense_times('T', a, x);
     Matrix y(a.cols, x.cols());
     if (x.cols() == 1) return multiply_transposed(a, x.data(), y.data()), y;
-    vector<double> packed(a.rows * panel);
-    for (std::int64_t first = 0; first < x.cols(); first += panel) {
-        const std::int64_t width = std::min(panel, x.cols() - first);
+    for_panels(a, x.cols(), a.rows, [&](std::int64_t first, std::int64_t width, vector<double> &packed) {
         pack(x.col(first), a.rows, a.rows, width, packed.data());
         for (std::int64_t j = 0; j < a.cols; ++j) {
             double sum[panel] = {};
@@ -84,7 +114,7 @@ Matrix multiply_transposed(const SparseMatrix &a, const Matrix &x) {
             }
             for (std::int64_t c = 0; c < width; ++c) y(j, first + c) = sum[c];
         }
-    }
+    });
     return y;
 }
 

@@ -348,6 +348,36 @@ void memory_of_the_host() {
     CHECK(blocks == 0);
 }
 
+// One coordinate of two masses, T = (0.5, 1), and the way back.
+void superelements() {
+    plm::Context context;
+    context.set_threads(2);
+    CHECK(caught([&] { context.set_threads(0); }).status() == PLM_ERR_ARGUMENT);
+    plm::Model model(context, 1);
+    const std::vector<double> m{1.25}, k{5000}, row{1};
+    bool fails = false;
+    model.set_dense_matrix(PLM_MASS, m);
+    model.set_dense_matrix(PLM_STIFFNESS, k, PLM_UPPER);
+    model.add_dense_gap_rows(row, k, {1e-5});
+    model.set_excitation(1, row);
+    model.set_rayleigh_damping(0, 5e-4);
+    model.set_recovery(2, [&](const plm::Recovery &r) {
+        if (fails) throw std::runtime_error("of the host");
+        for (std::int64_t j = 0; j < r.n_columns; ++j)
+            r.full[2 * j] = 0.5 * r.reduced[j], r.full[2 * j + 1] = r.reduced[j];
+    });
+    CHECK(caught([&] { model.set_dense_matrix(PLM_MASS, std::vector<double>(4)); }).status() ==
+          PLM_ERR_ARGUMENT);
+    model.build();
+    const auto full = model.recover(std::vector<double>{2, 3});
+    CHECK(full.rows == 2 && full.cols == 2 && full(0, 1) == 1.5 && full(1, 1) == 3);
+    const auto r = model.compute_response(0, PLM_PEAK, 1e-2);
+    const auto half = model.recover_amplitude(r.curve, 0), same = r.curve.amplitude(0);
+    CHECK(half.size() == same.size() && std::abs(half[1] - 0.5 * same[1]) < 1e-12 * same[1]);
+    fails = true;
+    CHECK(std::string(caught<std::runtime_error>([&] { model.recover(row); }).what()) == "of the host");
+}
+
 } // namespace
 
 int main() {
@@ -360,6 +390,7 @@ int main() {
     callbacks();
     solver_of_the_host();
     memory_of_the_host();
+    superelements();
     std::printf("%d failure(s)\n", failures);
     return failures != 0;
 }

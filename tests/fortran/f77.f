@@ -7,6 +7,7 @@ C     and remarks. Prints what fails; STOP 1.
       NFAIL = 0
       CALL FACTS
       CALL RUN
+      CALL SUPER
       IF (NFAIL .GT. 0) STOP 1
       WRITE (*, *) 'ALL PROPERTIES HOLD'
       END
@@ -41,6 +42,62 @@ C     and remarks. Prints what fails; STOP 1.
       CALL PLMKIN(PLMKHB, 1, ITYPE, ISOPT, DMIN, DMAX, IERR)
       CALL CHECK(ITYPE .EQ. 1 .AND. ISOPT .EQ. 1 .AND. DMIN .LE. 1.0D0,
      1           'first key')
+      END
+
+C     a superelement: one coordinate of two masses, T = (0.5, 1)
+      SUBROUTINE SUPER
+      INCLUDE 'plmf.inc'
+      INTEGER*8 LCTX, MODEL, CURVE, LHBM
+      INTEGER IERR, N
+      DOUBLE PRECISION X(1), F(1), Q(3), FULL(2, 3), AMPL(4000)
+      DOUBLE PRECISION FREQ, PEAK, ERR, A1
+      EXTERNAL BACK
+      CALL PLMCCR(LCTX, IERR)
+      CALL PLMCTH(LCTX, 2, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'threads')
+      CALL PLMMCR(LCTX, 1, MODEL, IERR)
+      X(1) = 1.25D0
+      CALL PLMMDM(MODEL, PLMMAS, PLMFUL, X, 1, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'dense mass')
+      X(1) = 5D3
+      CALL PLMMDM(MODEL, PLMSTF, PLMLOW, X, 1, IERR)
+      F(1) = 1D0
+      Q(1) = 1D-5
+      CALL PLMMDG(MODEL, 1, F, 1, X, Q, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'dense gap row')
+      CALL PLMMEX(MODEL, 1, 1, F, F, IERR)
+      CALL PLMMRD(MODEL, 0D0, 5D-4, IERR)
+      CALL PLMMNV(MODEL, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'no recovery')
+      CALL PLMMRV(MODEL, 2, BACK, IERR)
+      CALL PLMMBU(MODEL, IERR)
+      CALL CHECK(IERR .EQ. PLMOK, 'superelement is built')
+      Q(1) = 1D0
+      Q(2) = 2D0
+      Q(3) = 4D0
+      CALL PLMMRC(MODEL, 3, Q, 2, FULL, IERR)
+      CALL CHECK(IERR .EQ. PLMOK .AND. FULL(1, 3) .EQ. 2D0 .AND.
+     1           FULL(2, 3) .EQ. 4D0, 'motions are recovered')
+      CALL PLMMRP(MODEL, 1, PLMPKM, 1D-2, FREQ, PEAK, ERR, CURVE, LHBM,
+     1            IERR)
+      CALL PLMMRA(MODEL, CURVE, 1, PLMPKM, 0, 4000, AMPL, N, IERR)
+      A1 = AMPL(N / 2)
+      CALL PLMMRA(MODEL, CURVE, 2, PLMPKM, 0, 4000, AMPL, N, IERR)
+      CALL CHECK(ABS(AMPL(N / 2) - 2 * A1) .LE. 1D-12 * AMPL(N / 2),
+     1           'amplitudes are recovered')
+      CALL PLMMRC(MODEL, 1, -1D0, 2, FULL, IERR)
+      CALL CHECK(IERR .EQ. PLMECB, 'a failed recovery')
+      CALL PLMCDE(LCTX, IERR)
+      END
+
+      SUBROUTINE BACK(NDOF, NCOL, Q, NFULL, FULL, IFAIL)
+      INTEGER NDOF, NCOL, NFULL, IFAIL, I
+      DOUBLE PRECISION Q(NDOF, NCOL), FULL(NFULL, NCOL)
+      DO 10 I = 1, NCOL
+          FULL(1, I) = 0.5D0 * Q(1, I)
+          FULL(2, I) = Q(1, I)
+   10 CONTINUE
+      IF (Q(1, 1) .EQ. -1D0) IFAIL = 1
       END
 
 C     two nodes that clap: each on its own spring, three DOFs, a pair

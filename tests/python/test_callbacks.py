@@ -202,6 +202,34 @@ class Callbacks(unittest.TestCase):
             plm.Sampler(models.model(context=self.context).build()).run()
         self.context.set_solver(None)
 
+    def test_a_superelement_and_the_way_back(self):
+        t = numpy.array([[0.5], [1.0]])
+        raised = []
+
+        def recover(q):
+            if raised:
+                raise raised[0]
+            return t @ q
+        self.context.set_threads(2)
+        m = plm.Model(numpy.array([[1.25]]), numpy.array([[5000.0]]), reduction_error=1e-4, context=self.context)
+        m.add_gap_rows(numpy.array([[1.0]]), 5000.0, 1e-5)
+        m.set_rayleigh_damping(0, 5e-4)
+        m.set_excitation([1.0])
+        with self.assertRaisesRegex(plm.PlmError, "recovery"):
+            m.recover([1.0])
+        m.set_recovery(recover, 2)
+        m.build()
+        numpy.testing.assert_array_equal(m.recover([2.0]), [1.0, 2.0])
+        numpy.testing.assert_array_equal(m.recover([[1.0, 2.0, 3.0]]), [[0.5, 1.0, 1.5], [1.0, 2.0, 3.0]])
+        with self.assertRaisesRegex(ValueError, "n_dof"):
+            m.recover([1.0, 2.0])
+        response = m.compute_response(0, accuracy=1e-2)
+        self.assertGreaterEqual(response.error, 1e-4)
+        numpy.testing.assert_allclose(m.recover_amplitude(response.curve, 0), 0.5 * response.curve.amplitude(0), rtol=1e-12)
+        raised.append(OfTheUser("recover"))
+        with self.assertRaisesRegex(OfTheUser, "recover"):
+            m.recover([1.0])
+
     def test_a_context_goes_with_its_last_user(self):
         import weakref
         context = plm.Context()

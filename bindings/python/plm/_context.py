@@ -34,10 +34,10 @@ class _Host:
         self.factors = {}
 
     def on_log(self, _ctx, level, text, _user):
-        self._guarded(lambda: self.log(level, text.decode("utf-8", "replace")))
+        self.guarded(lambda: self.log(level, text.decode("utf-8", "replace")))
 
     def on_progress(self, _ctx, stage, fraction, _user):
-        stop = self._guarded(lambda: self._progress_now(stage.decode("utf-8", "replace"), fraction))
+        stop = self.guarded(lambda: self._progress_now(stage.decode("utf-8", "replace"), fraction))
         return int(bool(stop) or self.raised is not None or self.interrupted)
 
     def _progress_now(self, stage, fraction):
@@ -45,7 +45,7 @@ class _Host:
             return self.bar(stage, fraction)
         return self.progress(stage, fraction) if callable(self.progress) else False
 
-    def _guarded(self, function):
+    def guarded(self, function):
         """Calls a function of the user; keeps the first exception for the end of the call under way."""
         if self.raised is not None:
             return None
@@ -57,31 +57,31 @@ class _Host:
 
     def on_factor(self, _ctx, n, col_ptr, row, value, positive_definite, out, _user):
         def factor():
-            starts = _look(col_ptr, n + 1, ctypes.c_int64).copy()
+            starts = look(col_ptr, n + 1, ctypes.c_int64).copy()
             nnz = int(starts[n])
-            lower = scipy.sparse.csc_matrix((_look(value, nnz, ctypes.c_double).copy(),
-                                             _look(row, nnz, ctypes.c_int64).copy(), starts), shape=(n, n))
+            lower = scipy.sparse.csc_matrix((look(value, nnz, ctypes.c_double).copy(),
+                                             look(row, nnz, ctypes.c_int64).copy(), starts), shape=(n, n))
             matrix = (lower + scipy.sparse.tril(lower, -1).T).tocsc()
             solve = self.solver(matrix, bool(positive_definite))
             key = max(self.factors, default=0) + 1
             self.factors[key] = (solve, n)
             out[0] = key
             return True
-        return 0 if self._guarded(factor) else 1
+        return 0 if self.guarded(factor) else 1
 
     def on_solve(self, _ctx, key, n_rhs, x, ld, _user):
         def run():
             solve, n = self.factors[key]
-            columns = _look(x, ld * n_rhs, ctypes.c_double).reshape((ld, n_rhs), order="F")[:n]
+            columns = look(x, ld * n_rhs, ctypes.c_double).reshape((ld, n_rhs), order="F")[:n]
             columns[...] = real_parts(solve(columns.copy(order="F")), "the solution").reshape(columns.shape)
             return True
-        return 0 if self._guarded(run) else 1
+        return 0 if self.guarded(run) else 1
 
     def on_inertia(self, _ctx, key, negative, _user):
         def count():
             negative[0] = int(self.inertia(self.factors[key][0]))
             return True
-        return 0 if self._guarded(count) else 1
+        return 0 if self.guarded(count) else 1
 
     def on_free(self, _ctx, key, _user):
         self.factors.pop(key, None)
@@ -142,6 +142,10 @@ class Context:
     @progress.setter
     def progress(self, progress):
         self._host.progress = progress
+
+    def set_threads(self, n):
+        """How many threads a call may use, 1 by default; results are the same for any number."""
+        self.call("plm_context_set_threads", self._h, n)
 
     # ---- the user's own solver ----
 
@@ -285,7 +289,7 @@ def _depth_of_caller():
     return level
 
 
-def _look(address, n, kind):
+def look(address, n, kind):
     """A NumPy array over n values in memory of the library."""
     if n == 0:
         return numpy.empty(0, dtype=kind)

@@ -12,6 +12,7 @@ FACTOR_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, ctypes.c_int64, pointer, p
 SOLVE_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, pointer, ctypes.c_int64, pointer, ctypes.c_int64, pointer)
 FREE_FACTOR_FN = ctypes.CFUNCTYPE(None, pointer, pointer, pointer)
 INERTIA_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, pointer, ctypes.POINTER(ctypes.c_int64), pointer)
+RECOVER_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, ctypes.c_int64, ctypes.c_int64, pointer, ctypes.c_int64, pointer, pointer)
 
 # One letter per argument: i int32_t, q int64_t, d double, s text in, p any other pointer.
 FUNCTIONS = {
@@ -26,6 +27,7 @@ FUNCTIONS = {
     "plm_context_destroy": "p",
     "plm_context_set_log": "ppp",
     "plm_context_set_progress": "ppp",
+    "plm_context_set_threads": "pi",
     "plm_context_set_solver": "ppppp",
     "plm_context_set_inertia": "pp",
     "plm_context_get_error_text": "pqpp",
@@ -49,6 +51,11 @@ FUNCTIONS = {
     "plm_model_add_gap_rows_i64": "piqppppp",
     "plm_model_set_preload": "pqp",
     "plm_model_set_excitation": "piqpp",
+    "plm_model_set_dense_matrix": "piipq",
+    "plm_model_add_dense_gap_rows": "pqpqpp",
+    "plm_model_set_recovery": "pqpp",
+    "plm_model_recover": "pqpqp",
+    "plm_model_recover_amplitude": "ppqiiqpp",
     "plm_model_set_int": "psq",
     "plm_model_set_double": "psd",
     "plm_model_set_string": "pss",
@@ -215,6 +222,7 @@ REASON_UNVERIFIED = 20
 REASON_NO_SWITCHING = 21
 REASON_LOST_MODE = 22
 REASON_MODEL = 23
+REASON_HOST_REDUCTION = 24
 BIFURCATION_NONE = 0
 BIFURCATION_FOLD = 1
 BIFURCATION_BRANCH_POINT = 2

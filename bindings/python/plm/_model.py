@@ -6,7 +6,7 @@ import numpy
 import scipy.sparse
 
 from . import _c
-from ._context import default_context
+from ._context import default_context, look
 from ._handle import Handle, address, alike, integers, real_parts, reals
 from ._methods import ModelMethods
 
@@ -75,10 +75,14 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
     def _set_matrix(self, which, matrix, part):
         name = f"the {MATRICES[which]} matrix"
         if not scipy.sparse.issparse(matrix):
-            matrix = scipy.sparse.csc_matrix(numpy.asarray(matrix))
+            matrix = numpy.asfortranarray(real_parts(numpy.asarray(matrix), name, COMPLEX_MATRIX))
         if matrix.shape != (self.n_dof, self.n_dof):
             raise ValueError(f"{name} is {matrix.shape[0]} x {matrix.shape[1]}, but the model has {self.n_dof} DOFs; hand over "
                              f"all matrices as {self.n_dof} x {self.n_dof}, with the same numbering of the DOFs")
+        if not scipy.sparse.issparse(matrix):
+            self._call("set_dense_matrix", which, choice(part, PARTS, "part"), address(matrix), self.n_dof)
+            self._borrowed.pop(which, None)
+            return
         if matrix.format == "coo":
             storage, a, b = _c.TRIPLETS, matrix.row, matrix.col
         else:
@@ -136,6 +140,43 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
     def _pairs(n, normal, stiffness, gap):
         stiffness = _c.AUTO_STIFFNESS if stiffness is None else stiffness
         return reals(normal, (n, 3), "normal"), reals(stiffness, (n,), "stiffness"), reals(gap, (n,), "gap")
+
+    # ---- superelements ----
+
+    def set_recovery(self, recover, n_full):
+        """The way from a superelement to the structure it was reduced from, before build: recover(q) of motions n_dof x k
+        returns n_full x k, as T @ q. None: there is none."""
+        host = self.context._host  # not self: no cycle
+
+        def on_recover(_ctx, n_dof, n_columns, reduced, size, full, _user):
+            def run():
+                q = look(reduced, n_dof * n_columns).reshape((n_dof, n_columns), order="F")
+                whole = real_parts(recover(q.copy(order="F")), "the recovered motion").reshape((size, n_columns))
+                look(full, size * n_columns).reshape((size, n_columns), order="F")[...] = whole
+                return True
+            return 0 if host.guarded(run) else 1
+        function = _c.RECOVER_FN(on_recover) if recover else None
+        self._call("set_recovery", n_full, ctypes.cast(function, ctypes.c_void_p) if function else None, None)
+        self._recovery = function  # kept alive here: ctypes does not
+
+    def recover(self, q):
+        """Motions in the model's DOFs (n_dof, or n_dof x k) on the whole structure: n_full, or n_full x k."""
+        q = numpy.asarray(real_parts(numpy.asarray(q), "q"), dtype=float)
+        columns = numpy.asfortranarray(q.reshape((len(q), -1)))
+        if len(columns) != self.n_dof:
+            raise ValueError(f"q has {len(columns)} rows; needed is n_dof = {self.n_dof}")
+        full = numpy.empty((self.n_full, columns.shape[1]), order="F")
+        self._work("recover", columns.shape[1], address(columns), self.n_full, address(full))
+        return full[:, 0] if q.ndim == 1 else full
+
+    def recover_amplitude(self, branch, full_dof, measure="half_peak_to_peak", harmonic=0):
+        """As Branch.amplitude, of a DOF of the whole structure."""
+        from ._response import MEASURES  # which needs a Model
+        count = ctypes.c_int64(branch.n_points)
+        values = numpy.empty(count.value)
+        self._work("recover_amplitude", branch._h, full_dof, choice(measure, MEASURES, "measure"), harmonic, values.size,
+                   address(values), ctypes.byref(count))
+        return values
 
     # ---- loads ----
 

@@ -38,7 +38,8 @@ struct HostSolver {
 /// In the order of the choices of the option "solver".
 enum class SolverName { automatic, cholmod, eigen, host };
 
-/// Who factors. automatic: the host's where there is one, else the first of the library's own that was built.
+/// Who factors. automatic: the host's where there is one, else LAPACK where every entry is stored, else the
+/// first of the library's own that was built.
 struct Solver {
     /// given: the host's own, or null.
     Solver(SolverName asked = SolverName::automatic, const HostSolver *given = nullptr) : name(asked) {

@@ -13,6 +13,8 @@ struct Builtin {
     std::string (*version)(); // "CHOLMOD 3.0.14"
 };
 
+/// Of a matrix that is_dense().
+std::unique_ptr<Factor> make_dense_factor(const SparseMatrix &a);
 std::unique_ptr<Factor> make_host_factor(const SparseMatrix &a, const HostSolver &host);
 std::int64_t count_negative_by_host(const SparseMatrix &a, const HostSolver &host);
 

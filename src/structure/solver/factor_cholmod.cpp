@@ -1,10 +1,12 @@
 // CHOLMOD with 64-bit indices behind the seam of factor.hpp.
 #include "linalg/blas_lapack.hpp"
 #include "linalg/memory_count.hpp"
+#include "linalg/parallel.hpp"
 #include "structure/solver/factor_builtin.hpp"
 #include "structure/solver/multifrontal_inertia.hpp"
 #include <algorithm>
 #include <cholmod.h>
+#include <mutex>
 #include <new>
 
 namespace plm {
@@ -45,7 +47,8 @@ cholmod_dense view(double *x, std::int64_t rows, std::int64_t cols, std::int64_t
     return v;
 }
 
-/// Everything CHOLMOD allocates for one factor, with a cholmod_common of its own: no state is shared.
+/// Everything CHOLMOD allocates for one factor, or for the solutions of one thread with it, with a
+/// cholmod_common of its own: no state is shared.
 struct Cholmod {
     cholmod_common common;
     cholmod_factor *factor = nullptr;
@@ -130,32 +133,55 @@ class CholmodFactor final : public Factor {
     void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const override {
         if (n_ == 0) return;
         require(ldx >= n_, "Factor::solve: leading dimension");
-        for (std::int64_t first = 0; first < nrhs; first += solve_block)
-            solve_some(x + first * ldx, std::min(solve_block, nrhs - first), ldx);
+        parallel_for((nrhs + solve_block - 1) / solve_block, [&](std::int64_t k) {
+            const std::int64_t first = k * solve_block;
+            std::unique_ptr<Cholmod> workspace = take_workspace();
+            solve_some(x + first * ldx, std::min(solve_block, nrhs - first), ldx, *workspace);
+            give_back(std::move(workspace));
+        });
     }
     double reciprocal_condition() const override { return reciprocal_condition_; }
     std::int64_t factor_nonzeros() const override { return nonzeros_; }
 
   private:
-    void solve_some(double *x, std::int64_t nrhs, std::int64_t ldx) const {
+    // One for each thread that solves at once; the factor is only read.
+    std::unique_ptr<Cholmod> take_workspace() const {
+        {
+            const std::lock_guard<std::mutex> lock(idle_mutex_);
+            if (!idle_.empty()) {
+                std::unique_ptr<Cholmod> one = std::move(idle_.back());
+                idle_.pop_back();
+                return one;
+            }
+        }
+        return std::make_unique<Cholmod>();
+    }
+    void give_back(std::unique_ptr<Cholmod> one) const {
+        const std::lock_guard<std::mutex> lock(idle_mutex_);
+        idle_.push_back(std::move(one));
+    }
+
+    void solve_some(double *x, std::int64_t nrhs, std::int64_t ldx, Cholmod &w) const {
         cholmod_dense rhs = view(x, n_, nrhs, ldx);
         const cholmod_factor &f = *lib_.factor;
         if (f.is_super) { // cholmod_l_solve2 forgets that it got no Y once it got E, and writes to it
-            lib_.shape(lib_.y, f.n, static_cast<std::size_t>(nrhs));
-            lib_.shape(lib_.e, static_cast<std::size_t>(nrhs), f.maxesize);
+            w.shape(w.y, f.n, static_cast<std::size_t>(nrhs));
+            w.shape(w.e, static_cast<std::size_t>(nrhs), f.maxesize);
         }
-        const int ok = cholmod_l_solve2(CHOLMOD_A, lib_.factor, &rhs, nullptr, &lib_.x, nullptr, &lib_.y,
-                                        &lib_.e, &lib_.common);
-        lib_.check("solve");
-        lib_.note_memory();
-        require(ok && lib_.x, "cholmod_l_solve2 failed");
-        const auto *result = static_cast<const double *>(lib_.x->x);
-        for (std::int64_t j = 0; j < nrhs; ++j) std::copy_n(result + j * lib_.x->d, n_, x + j * ldx);
+        const int ok =
+            cholmod_l_solve2(CHOLMOD_A, lib_.factor, &rhs, nullptr, &w.x, nullptr, &w.y, &w.e, &w.common);
+        w.check("solve");
+        w.note_memory();
+        require(ok && w.x, "cholmod_l_solve2 failed");
+        const auto *result = static_cast<const double *>(w.x->x);
+        for (std::int64_t j = 0; j < nrhs; ++j) std::copy_n(result + j * w.x->d, n_, x + j * ldx);
     }
 
     std::int64_t n_, nonzeros_ = 0;
     double reciprocal_condition_ = 1;
-    mutable Cholmod lib_; // CHOLMOD's solve takes its factor and its workspace by non-const pointer
+    Cholmod lib_;
+    mutable std::mutex idle_mutex_;
+    mutable std::vector<std::unique_ptr<Cholmod>> idle_; // workspaces
 };
 
 std::unique_ptr<Factor> factor_by_cholmod(const SparseMatrix &a) {

@@ -59,6 +59,7 @@ const HostSolver *Solver::serving_host() const {
 std::unique_ptr<Factor> make_factor(const SparseMatrix &a, const Solver &solver) {
     require_matrix(a);
     if (const HostSolver *host = solver.serving_host()) return make_host_factor(a, *host);
+    if (solver.name == SolverName::automatic && is_dense(a)) return make_dense_factor(a);
     return builtin(solver.name).factor(a);
 }
 

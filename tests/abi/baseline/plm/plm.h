@@ -113,6 +113,7 @@ typedef int32_t plm_status;
 #define PLM_REASON_NO_SWITCHING 21     /* no pair opens or closes: this is a linear response */
 #define PLM_REASON_LOST_MODE 22        /* a contact sample lost the mode that matches the dominant one */
 #define PLM_REASON_MODEL 23            /* the model is probably not meant so, see plm_model_audit */
+#define PLM_REASON_HOST_REDUCTION 24   /* what the host states of its superelement is too much for the accuracy */
 
 /* What a point of a branch is ("bifurcation" of a branch). */
 #define PLM_BIFURCATION_NONE 0
@@ -193,6 +194,11 @@ typedef void (*plm_free_factor_fn)(plm_context *ctx, void *factor, void *user);
  * when this factorization cannot tell. */
 typedef int32_t (*plm_inertia_fn)(plm_context *ctx, void *factor, int64_t *negative, void *user);
 
+/* From the DOFs of a superelement to those of the structure it was reduced from: full (n_full x n_columns) = T reduced
+ * (n_dof x n_columns), both column-major without padding. It must be linear. Return 0 for success. */
+typedef int32_t (*plm_recover_fn)(plm_context *ctx, int64_t n_dof, int64_t n_columns, const double *reduced,
+                                  int64_t n_full, double *full, void *user);
+
 /* api_version: PLM_API_VERSION. */
 PLM_API plm_status plm_context_create(int32_t api_version, plm_context **ctx);
 /* All arrays of the library made for this context come from `allocate`, which must be able to serve until the context
@@ -205,6 +211,14 @@ PLM_API plm_status plm_context_destroy(plm_context **ctx);
 /* fn NULL: silence, the default. */
 PLM_API plm_status plm_context_set_log(plm_context *ctx, plm_log_fn fn, void *user);
 PLM_API plm_status plm_context_set_progress(plm_context *ctx, plm_progress_fn fn, void *user);
+/* How many threads a call in this context may use, the calling one among them: 1, the default, to 1024. Results are the same
+ * to the last digit for any number. Shared out are solutions with the factored matrices and products with them, by blocks
+ * of columns, and the modes of the contact samples of a basis. Other threads exist during a call alone, receive no signals
+ * and call nothing of the host's: callbacks stay on the calling thread, so that with the host's allocator one thread does
+ * everything, and with the host's solver one solves. Where the system refuses a thread there are fewer. The BLAS is apart
+ * from this: that of a self-contained libplm.so works on the thread that calls it, one that is shared with the host as the
+ * host has set it (OPENBLAS_NUM_THREADS; to 1 where this number is more). */
+PLM_API plm_status plm_context_set_threads(plm_context *ctx, int32_t n);
 /* All three or none (NULL, NULL, NULL: the built-in solver). Takes effect for models built afterwards. */
 PLM_API plm_status plm_context_set_solver(plm_context *ctx, plm_factor_fn factor, plm_solve_fn solve,
                                           plm_free_factor_fn release, void *user);
@@ -305,6 +319,38 @@ PLM_API plm_status plm_model_set_preload(plm_model *model, int64_t n, const doub
  * real = NULL removes harmonic h. */
 PLM_API plm_status plm_model_set_excitation(plm_model *model, int32_t harmonic, int64_t n, const double *real,
                                             const double *imag);
+
+/* Superelements: a structure that the host has reduced already (Craig and Bampton's method in any code, or modes and
+ * contact attachment vectors, the columns of T) is a model like any other, whose DOFs are the coordinates of the
+ * reduction: T^T M T, T^T K T, the gap rows B T, the loads T^T F. Small dense matrices go in as they are, and are factored
+ * and multiplied as dense ones. Contact at retained DOFs needs no gap rows: plm_model_add_node_pairs takes them. All
+ * results are in these DOFs; the recovery leads back to the structure. What the reduction itself leaves out this library
+ * cannot see: state it by the option "reduction_error", and it is added to every estimated error that is a bound (of
+ * plm_model_compute_response, plm_hbm_find_peak and plm_hbm_refine_basis), with PLM_WARNING and
+ * PLM_REASON_HOST_REDUCTION where it takes more than half of the accuracy asked for and the sum is above. (The parts of
+ * plm_hbm_estimate_error have signs, and this one has none.) */
+
+/* M, K (positive semi-definite, checked) or C (symmetric), n_dof x n_dof, dense, column-major, ld >= n_dof; copied. part:
+ * what of it is read. PLM_ERR_MATRIX with the position in value as index; PLM_ERR_NOT_POSITIVE_DEFINITE with the DOF where
+ * a Cholesky factorization of M or K, scaled to unit diagonal, meets a pivot below -1e-8. Replaces an earlier matrix of
+ * whatever form. n_dof <= 46340. */
+PLM_API plm_status plm_model_set_dense_matrix(plm_model *model, int32_t which, int32_t part, const double *value,
+                                              int64_t ld);
+/* Raw rows of the gap matrix as plm_model_add_gap_rows, dense: row is n x n_dof, column-major, ld >= n. */
+PLM_API plm_status plm_model_add_dense_gap_rows(plm_model *model, int64_t n, const double *row, int64_t ld,
+                                                const double *stiffness, const double *gap);
+/* The host's way from the model's DOFs to the n_full of the structure, before the build; fn NULL: none, the default. fn and
+ * user must live as long as the model. It is called by the two functions below, on the calling thread. */
+PLM_API plm_status plm_model_set_recovery(plm_model *model, int64_t n_full, plm_recover_fn fn, void *user);
+/* Any motions in the model's DOFs (fields of branches, vectors of a basis, modes, the state at rest or of a transient) on
+ * the whole structure: reduced is n_dof x n_columns, full n_full x n_columns. PLM_ERR_STATE without a recovery;
+ * PLM_ERR_CALLBACK when it reports a failure (library_code: its number) or returns NaN. */
+PLM_API plm_status plm_model_recover(plm_model *model, int64_t n_columns, const double *reduced, int64_t n_full,
+                                     double *full);
+/* As plm_branch_get_amplitude, of a DOF of the whole structure, 0 <= full_dof < n_full. branch: of this model. The
+ * recovery is asked for the columns of the basis, not for every point. */
+PLM_API plm_status plm_model_recover_amplitude(plm_model *model, plm_branch *branch, int64_t full_dof, int32_t measure,
+                                               int32_t harmonic, int64_t capacity, double *amplitude, int64_t *count);
 
 PLM_API plm_status plm_model_set_int(plm_model *model, const char *key, int64_t value);
 PLM_API plm_status plm_model_set_double(plm_model *model, const char *key, double value);
