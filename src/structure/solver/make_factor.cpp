@@ -59,13 +59,18 @@ const HostSolver *Solver::serving_host() const {
 std::unique_ptr<Factor> make_factor(const SparseMatrix &a, const Solver &solver) {
     require_matrix(a);
     if (const HostSolver *host = solver.serving_host()) return make_host_factor(a, *host);
-    return builtin(solver.name).factor(a);
+    return builtin(solver.name).factor(a, solver);
 }
 
 std::int64_t count_negative(const SparseMatrix &a, const Solver &solver) {
     require_matrix(a);
     if (const HostSolver *host = solver.serving_host()) return count_negative_by_host(a, *host);
-    return builtin(solver.name).count_negative(a);
+    return builtin(solver.name).count_negative(a, solver);
+}
+
+std::optional<FactorEstimate> estimate_factor(const SparseMatrix &a, const Solver &solver) {
+    if (solver.serving_host()) return {};
+    return builtin(solver.name).estimate(a, solver);
 }
 
 std::string factor_backends() {
