@@ -9,11 +9,11 @@ namespace plm {
 /// The lower triangle of a symmetric matrix, in half the memory.
 struct HalfMatrix {
     explicit HalfMatrix(const SparseMatrix &a);
-    /// r -= A x, and s += |A| |x|.
-    void residual(const double *x, double *r, double *s) const;
+    std::int64_t size() const { return static_cast<std::int64_t>(first.size()) - 1; }
     vector<std::int64_t> first; // of each column, n + 1
     vector<std::int32_t> row;
     vector<double> value;
+    vector<double> row_sum; // of |A|
 };
 
 class RefinedFactor final : public Factor {
@@ -25,9 +25,6 @@ class RefinedFactor final : public Factor {
     std::int64_t factor_nonzeros() const override { return factor_.nonzeros(); }
 
   private:
-    void solve_some(double *x, std::int64_t nrhs, std::int64_t ldx) const;
-    double set_residual(const double *b, const double *x, double *r) const;
-
     PanelFactor factor_;
     HalfMatrix matrix_;
 };
