@@ -1,5 +1,6 @@
-// Parts of our own in the carried SCOTCH: it prints nothing, reads neither the environment nor a clock, works on the
-// calling thread, and does not end the process. It asks for its number of threads where it reads the environment.
+// Parts of our own in the carried SCOTCH: it prints nothing, reads neither the environment nor a clock, works
+// on the calling thread, and does not end the process. It asks for its number of threads where it reads the
+// environment.
 #include <cerrno>
 #include <cstdio>
 #include <cstring>

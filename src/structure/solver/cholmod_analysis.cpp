@@ -60,9 +60,9 @@ Cholmod::~Cholmod() {
     cholmod_l_finish(&common);
 }
 
-/// METIS is never asked: METIS_NodeND of METIS 5.1 re-seeds the host's rand(), installs handlers for SIGTERM and
-/// SIGABRT while it runs and long-jumps from them, and what it returns depends on who else calls rand(). No host
-/// has to put up with that from a library.
+/// METIS is never asked: METIS_NodeND of METIS 5.1 re-seeds the host's rand(), installs handlers for SIGTERM
+/// and SIGABRT while it runs and long-jumps from them, and what it returns depends on who else calls rand().
+/// No host has to put up with that from a library.
 void Cholmod::order(const SparseMatrix &a, const vector<std::int64_t> &given, bool try_minimum_degree) {
     common.nmethods = 0;
     if (!given.empty()) common.method[common.nmethods++].ordering = CHOLMOD_GIVEN;
@@ -101,6 +101,7 @@ FactorEstimate Cholmod::estimate(const SparseMatrix &a) const {
     e.peak_full = e.kept_full + 16 * entries + 8.0 * static_cast<double>(factor->maxcsize);
     // single panels come with half of the matrix, for the refinement
     e.kept_single = 4.0 * static_cast<double>(sizes.panels) + integers + 6 * (entries + n);
+    e.at_work = 8.0 * static_cast<double>(sizes.at_work) + integers;
     e.peak_single = e.kept_single + 8.0 * static_cast<double>(sizes.at_work);
     return e;
 }

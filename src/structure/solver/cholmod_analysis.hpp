@@ -1,5 +1,5 @@
-// Private to structure/solver: CHOLMOD's objects with 64-bit indices, and its symbolic analysis, which serves its own
-// numbers and those of fronts.hpp alike.
+// Private to structure/solver: CHOLMOD's objects with 64-bit indices, and its symbolic analysis, which serves
+// its own numbers and those of fronts.hpp alike.
 #pragma once
 #include "linalg/memory_count.hpp"
 #include "structure/solver/factor.hpp"
@@ -24,8 +24,8 @@ struct Cholmod {
     Cholmod(const Cholmod &) = delete;
     Cholmod &operator=(const Cholmod &) = delete;
 
-    /// Ordering and supernodes, without numbers: by the host's order where it gave one for as many rows, else by the
-    /// one of nested dissection and approximate minimum degree that leaves fewer entries in L.
+    /// Ordering and supernodes, without numbers: by the host's order where it gave one for as many rows, else
+    /// by the one of nested dissection and approximate minimum degree that leaves fewer entries in L.
     void analyze(const SparseMatrix &a, const Solver &solver);
     /// Valid until the numbers come, or the object goes.
     Supernodes supernodes() const;

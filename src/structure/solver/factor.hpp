@@ -40,15 +40,17 @@ struct HostSolver {
 /// In the order of the choices of the option "solver".
 enum class SolverName { automatic, cholmod, eigen, host };
 
-/// Of the numbers that a factorization keeps. automatic: double, unless only single fits the limit of memory. Single
-/// ones are the double ones rounded, and every solve is refined by them until its residual is one of double precision.
-enum class FactorPrecision { automatic, full, single };
+/// Of the numbers that a factorization keeps. Single ones are the double ones rounded, and every solve is
+/// refined until its residual is one of double precision.
+enum class FactorPrecision { full, single };
 
-/// What a factorization takes, known from the pattern alone. Bytes: kept, and at most at once while it is made.
+/// What a factorization takes, known from the pattern alone. Bytes: kept, and at most at once while it is
+/// made.
 struct FactorEstimate {
     double nonzeros = 0, flops = 0; // of L; of its computation
     double kept_full = 0, peak_full = 0;
     double kept_single = 0, peak_single = 0; // infinite: the solver has none
+    double at_work = 0;                      // of a count of negative eigenvalues, which keeps nothing
 };
 
 /// Who factors. automatic: the host's where there is one, else the first of the library's own that was built.
@@ -65,15 +67,11 @@ struct Solver {
 
     SolverName name = SolverName::automatic;
     std::optional<HostSolver> host;
-    // of the library's own factorizations by CHOLMOD:
-    FactorPrecision precision = FactorPrecision::automatic;
-    double memory_limit = 0;            // bytes that one of them may take at once; 0: no limit
+    // of factorizations by CHOLMOD:
+    FactorPrecision precision = FactorPrecision::full; // the others have one alone, and refuse single
     vector<std::int64_t> order;         // the host's: a row for each in the new order; empty: the library's
     std::shared_ptr<KeptOrders> orders; // of the library, found once for each pattern; null: found again
 };
-
-/// The precision that serves; PLM_ERR_MEMORY with what would fit where none does.
-FactorPrecision fitting_precision(const FactorEstimate &estimate, const Solver &solver);
 
 /// The two ways in which a factorization breaks down; `column` is the DOF in the order of the caller.
 [[noreturn]] void throw_not_positive_definite(std::int64_t column);

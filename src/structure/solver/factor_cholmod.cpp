@@ -2,6 +2,7 @@
 #include "linalg/blas_lapack.hpp"
 #include "structure/solver/cholmod_analysis.hpp"
 #include "structure/solver/factor_builtin.hpp"
+#include "structure/solver/ordering.hpp"
 #include "structure/solver/refined_factor.hpp"
 #include <algorithm>
 
@@ -77,9 +78,9 @@ std::unique_ptr<Factor> factor_by_cholmod(const SparseMatrix &a, const Solver &s
     if (a.cols == 0) return std::make_unique<NoFactor>();
     auto lib = std::make_unique<Cholmod>();
     lib->analyze(a, solver);
-    if (fitting_precision(lib->estimate(a), solver) == FactorPrecision::full)
-        return std::make_unique<CholmodFactor>(a, std::move(lib));
-    return std::make_unique<RefinedFactor>(a, lib->supernodes());
+    if (solver.precision == FactorPrecision::single)
+        return std::make_unique<RefinedFactor>(a, lib->supernodes());
+    return std::make_unique<CholmodFactor>(a, std::move(lib));
 }
 
 /// CHOLMOD finds the supernodes; its own L D L^T knows none, and takes ten times as long on solids and more.
@@ -101,7 +102,7 @@ FactorEstimate estimate_for_cholmod(const SparseMatrix &a, const Solver &solver)
 std::string cholmod_version() {
     int version[3];
     cholmod_l_version(version);
-    return format("CHOLMOD %d.%d.%d", version[0], version[1], version[2]);
+    return format("CHOLMOD %d.%d.%d", version[0], version[1], version[2]) + ordering_backend();
 }
 
 } // namespace

@@ -120,13 +120,11 @@ FactorEstimate estimate_for_eigen(const SparseMatrix &a, const Solver &) {
         e.flops += (below + 1) * (below + 1);
     }
     e.kept_full = 16 * e.nonzeros + 48 * n; // values and indices
-    e.peak_full = e.kept_full + 16 * static_cast<double>(a.nnz());
+    e.peak_full = e.at_work = e.kept_full + 16 * static_cast<double>(a.nnz());
     return e;
 }
 
-std::unique_ptr<Factor> factor_by_eigen(const SparseMatrix &a, const Solver &solver) {
-    if (solver.memory_limit > 0 || solver.precision == FactorPrecision::single)
-        fitting_precision(estimate_for_eigen(a, solver), solver);
+std::unique_ptr<Factor> factor_by_eigen(const SparseMatrix &a, const Solver &) {
     return std::make_unique<EigenFactor>(a);
 }
 
@@ -151,6 +149,7 @@ std::string eigen_version() {
 } // namespace
 
 extern const Builtin solver_eigen;
-const Builtin solver_eigen{SolverName::eigen, factor_by_eigen, count_negative_by_eigen, estimate_for_eigen, eigen_version};
+const Builtin solver_eigen{SolverName::eigen, factor_by_eigen, count_negative_by_eigen, estimate_for_eigen,
+                           eigen_version};
 
 } // namespace plm

@@ -1,6 +1,7 @@
-// L D L^T of a sparse symmetric matrix without pivoting, front by front (Duff and Reid, ACM Trans. Math. Softw. 9,
-// 1983), at the price of a supernodal Cholesky factorization, whatever the signs of D. An eliminated front leaves its
-// Schur complement to its parent; who wants the factor takes its columns as they come.
+// L D L^T of a sparse symmetric matrix without pivoting, front by front (Duff and Reid, ACM Trans. Math.
+// Softw. 9, 1983), at the price of a supernodal Cholesky factorization, whatever the signs of D. An
+// eliminated front leaves its Schur complement to its parent; who wants the factor takes its columns as they
+// come.
 #pragma once
 #include "structure/sparse.hpp"
 
@@ -27,9 +28,10 @@ class PanelTaker {
     virtual void take(std::int64_t node, const double *panel, const double *pivots) = 0;
 };
 
-/// Eliminates all of `a` (both triangles stored); returns how many eigenvalues are negative. PLM_ERR_SINGULAR with
-/// index() = column where a pivot is nothing but rounding, so that its sign tells nothing.
-std::int64_t eliminate_fronts(const SparseMatrix &a, const Supernodes &supernodes, PanelTaker *taker = nullptr);
+/// Eliminates all of `a` (both triangles stored); returns how many eigenvalues are negative. PLM_ERR_SINGULAR
+/// with index() = column where a pivot is nothing but rounding, so that its sign tells nothing.
+std::int64_t eliminate_fronts(const SparseMatrix &a, const Supernodes &supernodes,
+                              PanelTaker *taker = nullptr);
 
 /// Entries of all panels, and of what the elimination holds beside them at once.
 struct FrontSizes {

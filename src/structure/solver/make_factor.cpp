@@ -58,7 +58,14 @@ const HostSolver *Solver::serving_host() const {
 
 std::unique_ptr<Factor> make_factor(const SparseMatrix &a, const Solver &solver) {
     require_matrix(a);
-    if (const HostSolver *host = solver.serving_host()) return make_host_factor(a, *host);
+    const HostSolver *host = solver.serving_host();
+    if (solver.precision == FactorPrecision::single &&
+        (host || builtin(solver.name).name != SolverName::cholmod))
+        throw Error(PLM_ERR_ARGUMENT,
+                    "\"factor_precision\" is single, which the solver cholmod alone offers; leave it at "
+                    "auto or double, or choose that solver")
+            .argument("factor_precision");
+    if (host) return make_host_factor(a, *host);
     return builtin(solver.name).factor(a, solver);
 }
 

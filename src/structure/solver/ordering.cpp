@@ -74,8 +74,17 @@ vector<std::int64_t> nested_dissection(const SparseMatrix &a) {
     vector<std::int64_t> order;
     order.reserve(nodes.empty() ? 0 : a.cols);
     for (std::int64_t v : nodes)
-        order.insert(order.end(), graph.row.begin() + graph.first_row[v], graph.row.begin() + graph.first_row[v + 1]);
+        order.insert(order.end(), graph.row.begin() + graph.first_row[v],
+                     graph.row.begin() + graph.first_row[v + 1]);
     return order;
+#else
+    return {};
+#endif
+}
+
+std::string ordering_backend() {
+#ifdef PLM_WITH_SCOTCH
+    return " with SCOTCH " + scotch_version();
 #else
     return {};
 #endif
@@ -84,7 +93,8 @@ vector<std::int64_t> nested_dissection(const SparseMatrix &a) {
 const vector<std::int64_t> *KeptOrders::find(const SparseMatrix &a) const {
     const std::uint64_t pattern = pattern_of(a);
     for (const Kept &one : kept_)
-        if (one.pattern == pattern && static_cast<std::int64_t>(one.order.size()) == a.cols) return &one.order;
+        if (one.pattern == pattern && static_cast<std::int64_t>(one.order.size()) == a.cols)
+            return &one.order;
     return nullptr;
 }
 

@@ -1,7 +1,8 @@
-// Orders of elimination by nested dissection, found on the graph of nodes: rows of one pattern, such as the DOFs of
-// one node of a finite-element mesh, are one vertex of their number's weight.
+// Orders of elimination by nested dissection, found on the graph of nodes: rows of one pattern, such as the
+// DOFs of one node of a finite-element mesh, are one vertex of their number's weight.
 #pragma once
 #include "structure/sparse.hpp"
+#include <string>
 
 namespace plm {
 
@@ -13,9 +14,12 @@ struct NodeGraph {
 };
 NodeGraph node_graph(const SparseMatrix &a);
 
-/// The row of `a` (both triangles stored) for each one in the new order; empty where SCOTCH was left out of the
-/// build, or could not serve. Deterministic.
+/// The row of `a` (both triangles stored) for each one in the new order; empty where SCOTCH was left out of
+/// the build, or could not serve. Deterministic.
 vector<std::int64_t> nested_dissection(const SparseMatrix &a);
+
+/// " with SCOTCH 7.0.3", or nothing.
+std::string ordering_backend();
 
 /// Orders found for patterns met before: the matrices K, K + sigma M and K - w^2 M share one or two.
 class KeptOrders {

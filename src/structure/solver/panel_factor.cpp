@@ -16,8 +16,8 @@ void triangular_solve(char op, std::int64_t n, std::int64_t nrhs, const float *l
 }
 
 /// C = beta C + alpha op(A) B, where op(A) is m x k.
-void multiply(char op, std::int64_t m, std::int64_t nrhs, std::int64_t k, float alpha, const float *a, std::int64_t lda,
-              const float *b, std::int64_t ldb, float beta, float *c, std::int64_t ldc) {
+void multiply(char op, std::int64_t m, std::int64_t nrhs, std::int64_t k, float alpha, const float *a,
+              std::int64_t lda, const float *b, std::int64_t ldb, float beta, float *c, std::int64_t ldc) {
     const blas_int rows = to_blas(m), cols = to_blas(nrhs), inner = to_blas(k);
     const blas_int ld_a = leading(lda), ld_b = leading(ldb), ld_c = leading(ldc);
     sgemm_(&op, "N", &rows, &cols, &inner, &alpha, a, &ld_a, b, &ld_b, &beta, c, &ld_c, 1, 1);
@@ -64,7 +64,8 @@ void PanelFactor::take(std::int64_t node, const double *panel, const double *piv
 void PanelFactor::solve(double *x, std::int64_t nrhs) const {
     require(nrhs <= widest_solve, "PanelFactor::solve: too many right-hand sides");
     work_.resize(n_ * nrhs);
-    double size[widest_solve]; // of each right-hand side: the largest entry becomes one, whatever the units are
+    double
+        size[widest_solve]; // of each right-hand side: the largest entry becomes one, whatever the units are
     for (std::int64_t j = 0; j < nrhs; ++j) {
         const double *column = x + j * n_;
         size[j] = 0;

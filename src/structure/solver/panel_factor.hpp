@@ -1,5 +1,6 @@
-// L D L^T of a positive definite matrix with the columns of L rounded to single precision front by front, while they
-// are computed in double: half the memory, and far nearer to A than a factorization in single precision.
+// L D L^T of a positive definite matrix with the columns of L rounded to single precision front by front,
+// while they are computed in double: half the memory, and far nearer to A than a factorization in single
+// precision.
 #pragma once
 #include "structure/solver/fronts.hpp"
 
@@ -13,7 +14,8 @@ class PanelFactor final : PanelTaker {
 
     /// Right-hand sides at once: enough for the speed of BLAS 3.
     static constexpr std::int64_t widest_solve = 64;
-    /// X becomes about A^-1 X, to single precision; X is n x nrhs with leading dimension n, nrhs <= widest_solve.
+    /// X becomes about A^-1 X, to single precision; X is n x nrhs with leading dimension n, nrhs <=
+    /// widest_solve.
     void solve(double *x, std::int64_t nrhs) const;
     double reciprocal_condition() const { return reciprocal_condition_; }
     std::int64_t nonzeros() const { return nonzeros_; }
@@ -34,7 +36,8 @@ class PanelFactor final : PanelTaker {
     vector<float> panels_;
     vector<double> pivots_;
     double largest_pivot_ = 1, reciprocal_condition_ = 1;
-    mutable vector<float> work_, rows_below_; // n x nrhs in the new order; what one panel reads or adds below it
+    mutable vector<float> work_,
+        rows_below_; // n x nrhs in the new order; what one panel reads or adds below it
 };
 
 } // namespace plm

@@ -15,10 +15,12 @@ constexpr double least_gain = 0.5;
 constexpr int most_refinements = 10;
 
 [[noreturn]] void throw_no_contraction(double residual) {
-    throw Error(PLM_ERR_CONVERGENCE,
-                format("a factorization kept in single precision does not serve this structure: refined solves keep a "
-                       "residual of %.1e; set factor_precision to double, with the memory it needs",
-                       residual))
+    throw Error(
+        PLM_ERR_CONVERGENCE,
+        format(
+            "a factorization kept in single precision does not serve this structure: refined solves keep a "
+            "residual of %.1e; set factor_precision to double, with the memory it needs",
+            residual))
         .reason(PLM_REASON_NO_CONTRACTION)
         .argument("factor_precision");
 }
@@ -54,8 +56,8 @@ class Refinement {
   public:
     /// B is x's contents, which becomes zero: X so far.
     Refinement(const HalfMatrix &a, const PanelFactor &factor, double *x, std::int64_t nrhs, std::int64_t ldx)
-        : a_(a), factor_(factor), n_(a.size()), x_(x), ldx_(ldx), b_(n_, nrhs), r_(n_, nrhs),
-          column_(nrhs), before_(nrhs, std::numeric_limits<double>::infinity()) {
+        : a_(a), factor_(factor), n_(a.size()), x_(x), ldx_(ldx), b_(n_, nrhs), r_(n_, nrhs), column_(nrhs),
+          before_(nrhs, std::numeric_limits<double>::infinity()) {
         for (std::int64_t j = 0; j < nrhs; ++j) {
             column_[j] = j;
             std::copy_n(x + j * ldx, n_, b_.col(j));
@@ -101,7 +103,8 @@ class Refinement {
         for (std::int64_t i = 0; i < n_; ++i) most = std::max(most, std::fabs(x[i]));
         for (std::int64_t i = 0; i < n_; ++i) {
             if (!std::isfinite(r[i])) return std::numeric_limits<double>::infinity();
-            if (r[i] != 0) largest = std::max(largest, std::fabs(r[i]) / (a_.row_sum[i] * most + std::fabs(b[i])));
+            if (r[i] != 0)
+                largest = std::max(largest, std::fabs(r[i]) / (a_.row_sum[i] * most + std::fabs(b[i])));
         }
         return largest;
     }
@@ -152,7 +155,8 @@ HalfMatrix::HalfMatrix(const SparseMatrix &a) : first(a.cols + 1, 0), row_sum(a.
 
 void RefinedFactor::solve(double *x, std::int64_t nrhs, std::int64_t ldx) const {
     for (std::int64_t first = 0; first < nrhs; first += PanelFactor::widest_solve)
-        Refinement(matrix_, factor_, x + first * ldx, std::min(PanelFactor::widest_solve, nrhs - first), ldx).run();
+        Refinement(matrix_, factor_, x + first * ldx, std::min(PanelFactor::widest_solve, nrhs - first), ldx)
+            .run();
 }
 
 } // namespace plm

@@ -1,5 +1,5 @@
-// A factor whose panels are kept in single precision, and whose solves are refined with the matrix in double until
-// they are as good as those of a factor in double.
+// A factor whose panels are kept in single precision, and whose solves are refined with the matrix in double
+// until they are as good as those of a factor in double.
 #pragma once
 #include "structure/solver/factor.hpp"
 #include "structure/solver/panel_factor.hpp"
@@ -19,7 +19,8 @@ struct HalfMatrix {
 class RefinedFactor final : public Factor {
   public:
     RefinedFactor(const SparseMatrix &a, const Supernodes &supernodes) : factor_(a, supernodes), matrix_(a) {}
-    /// PLM_ERR_CONVERGENCE with PLM_REASON_NO_CONTRACTION where a right-hand side cannot be solved for in that way.
+    /// PLM_ERR_CONVERGENCE with PLM_REASON_NO_CONTRACTION where a right-hand side cannot be solved for in
+    /// that way.
     void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const override;
     double reciprocal_condition() const override { return factor_.reciprocal_condition(); }
     std::int64_t factor_nonzeros() const override { return factor_.nonzeros(); }

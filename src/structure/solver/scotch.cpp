@@ -1,4 +1,5 @@
 #include "structure/solver/scotch.hpp"
+#include "linalg/error.hpp"
 #include <cstdio> // scotch.h uses FILE without it
 #include <limits>
 #include <mutex>
@@ -55,6 +56,12 @@ vector<std::int64_t> order_by_scotch(const NodeGraph &graph) {
         SCOTCH_graphOrder(&its_graph.it, &strategy.it, nullptr, order.data(), nullptr, nullptr, nullptr) != 0)
         return {};
     return vector<std::int64_t>(order.begin(), order.end());
+}
+
+std::string scotch_version() {
+    int version, release, patch;
+    SCOTCH_version(&version, &release, &patch);
+    return format("%d.%d.%d", version, release, patch);
 }
 
 } // namespace plm
