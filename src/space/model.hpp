@@ -12,6 +12,9 @@ struct ModelInput : StructureInput {
     Contact contact;
 };
 
+/// Of a factorization's numbers. automatic: double, unless only single fits the limit of memory.
+enum class PrecisionChoice { automatic, full, single };
+
 /// How the contact space (contact_space.hpp) is built; options of the model.
 struct SpaceOptions {
     double tolerance = 1e-7; // relative error of the contact receptances at the highest frequency asked for
@@ -21,6 +24,8 @@ struct SpaceOptions {
     bool verify_counts = true;                 // Sturm count of the modes below the cutoff
     SolverName solver = SolverName::automatic; // of the sparse factorizations
     double reduction_error = 0; // of the matrices themselves, as the host states it; relative, of amplitudes
+    PrecisionChoice precision = PrecisionChoice::automatic;
+    double memory_limit = 0; // MiB for the model and all that is made of it at once; 0: no limit
 };
 
 class Model : public Structure {
@@ -41,6 +46,7 @@ class Model : public Structure {
     const SpaceOptions &space_options() const { return space_options_; }
 
   private:
+    Model(const ModelInput &input, const SpaceOptions &options, const Solver &solver, Watch watch);
     void solve_attachment(Watch watch);
     vector<double> elastic_flexibility() const;
     void resolve_contact_stiffness();
