@@ -53,7 +53,7 @@ if(PLM_CARRIED_CHOLMOD)
     list(APPEND plm_carried_parts cholmod_parts.cpp openmp_parts.cpp)
 endif()
 if(PLM_CARRIED_SCOTCH)
-    foreach(name graphInit graphExit graphBuild graphOrder stratInit stratExit stratGraphOrder randomReset version)
+    foreach(name graphInit graphBuild graphOrder stratInit stratExit stratGraphOrderBuild randomReset version)
         list(APPEND plm_carried_names SCOTCH_${name})
     endforeach()
     list(APPEND plm_carried_parts scotch_parts.cpp)
@@ -91,18 +91,28 @@ endif()
 
 set(plm_carried_folder ${PROJECT_BINARY_DIR}/carried)
 string(REPLACE ";" "\n" plm_kept "${plm_carried_names}")
-file(WRITE ${plm_carried_folder}/kept "${plm_kept}\ncarried_fftw_may_work\n")
+file(WRITE ${plm_carried_folder}/kept "${plm_kept}\ncarried_fftw_may_work\ncarried_scotch_scans\ncarried_scotch_release\n")
 file(WRITE ${plm_carried_folder}/renamed "${plm_new_names}")
 list(TRANSFORM plm_carried_names PREPEND LINKER:--undefined= OUTPUT_VARIABLE plm_wanted)
 list(TRANSFORM plm_wanted REPLACE "^LINKER:" "-Wl,")
+# SCOTCH does not bear a malloc that fails: it gets one that throws, and that knows what is to be given back then.
+set(plm_scotch)
+if(PLM_CARRIED_SCOTCH)
+    set(plm_scotch ${plm_carried_folder}/libscotch.a)
+    add_custom_command(
+        OUTPUT ${plm_scotch}
+        COMMAND ${CMAKE_OBJCOPY} --redefine-sym malloc=carried_scotch_malloc --redefine-sym realloc=carried_scotch_realloc
+                --redefine-sym free=carried_scotch_free ${PLM_CARRIED_SCOTCH} ${plm_scotch}
+        DEPENDS ${PLM_CARRIED_SCOTCH} VERBATIM COMMENT "SCOTCH with the library's malloc")
+endif()
 set(PLM_CARRIED_OBJECT ${plm_carried_folder}/carried.o)
 add_custom_command(
     OUTPUT ${PLM_CARRIED_OBJECT}
     COMMAND ${CMAKE_C_COMPILER} -r -nostdlib -Wl,--force-group-allocation -o ${plm_carried_folder}/all.o $<TARGET_OBJECTS:plm_carried_parts> ${plm_wanted}
-            ${PLM_CARRIED_CHOLMOD} ${PLM_CARRIED_SCOTCH} ${PLM_CARRIED_FFTW}
+            ${PLM_CARRIED_CHOLMOD} ${plm_scotch} ${PLM_CARRIED_FFTW}
     COMMAND ${CMAKE_OBJCOPY} --keep-global-symbols=${plm_carried_folder}/kept ${plm_carried_folder}/all.o
     COMMAND ${CMAKE_OBJCOPY} --redefine-syms=${plm_carried_folder}/renamed ${plm_carried_folder}/all.o ${PLM_CARRIED_OBJECT}
-    DEPENDS plm_carried_parts $<TARGET_OBJECTS:plm_carried_parts> ${PLM_CARRIED_CHOLMOD} ${PLM_CARRIED_SCOTCH}
+    DEPENDS plm_carried_parts $<TARGET_OBJECTS:plm_carried_parts> ${PLM_CARRIED_CHOLMOD} ${plm_scotch}
             ${PLM_CARRIED_FFTW} ${plm_carried_folder}/kept ${plm_carried_folder}/renamed
     COMMAND_EXPAND_LISTS VERBATIM
     COMMENT "Carrying CHOLMOD, SCOTCH and FFTW")

@@ -14,8 +14,7 @@ const RestState &rest(const H &h) {
 
 const MemoryEstimate &estimated(const H &h) {
     if (!h.memory)
-        throw Error(PLM_ERR_STATE,
-                    "the memory is not estimated; call plm_model_estimate_memory before the build")
+        throw Error(PLM_ERR_STATE, "the memory is not estimated; estimate it before the build")
             .argument("key");
     return *h.memory;
 }
@@ -53,10 +52,10 @@ const std::vector<Key> &model_keys() {
                                      "numbers kept of a factorization by cholmod; single: half the memory, "
                                      "every solve refined to the residual "
                                      "of double; auto: double, unless only single fits memory_limit"),
-        real_option<&O::memory_limit>("memory_limit", 0, 1e9,
-                                      "MiB that the model and what is made of it may take at once by "
-                                      "plm_model_estimate_memory, without what "
-                                      "the host's solver takes; 0: no limit"),
+        real_option<&O::memory_limit>(
+            "memory_limit", 0, 1e9,
+            "MiB that the model and what is made of it may take at once, as estimated before the build, the "
+            "host's solver not counted; 0: no limit"),
 
         real_option<&O::reduction_error>(
             "reduction_error", 0, 1,
@@ -88,8 +87,8 @@ const std::vector<Key> &model_keys() {
         result<H>("initial_gap", "initial gap of every pair (length)",
                   [](const H &h) { return built(h)->initial_gap(); }),
 
-        result<H>("memory_matrices", "bytes of the matrices on the free DOFs",
-                  [](const H &h) { return estimated(h).matrices; }),
+        result<H>("memory_matrices", "bytes of the structure on its free DOFs: M, K, C, gap rows",
+                  [](const H &h) { return estimated(h).structure; }),
         result<H>("memory_factorization", "bytes of the factorization while it is made",
                   [](const H &h) { return estimated(h).factorization; }),
         result<H>("memory_factor", "bytes that are kept of it",

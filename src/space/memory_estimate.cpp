@@ -53,14 +53,14 @@ Fit fit(const StructureEstimate &structure, std::int64_t n_pairs, const SpaceOpt
 } // namespace
 
 double MemoryEstimate::peak() const {
-    return matrices + std::max(factorization, factor + std::max({modes, contact_space, basis}));
+    return structure + std::max(factorization, factor + std::max({modes, contact_space, basis}));
 }
 
 MemoryEstimate estimate_memory(const StructureEstimate &s, std::int64_t n_pairs, FactorPrecision precision) {
     const double column = 8.0 * static_cast<double>(s.n_free), z = static_cast<double>(n_pairs);
     const bool single = precision == FactorPrecision::single;
     MemoryEstimate e;
-    e.matrices = s.matrices;
+    e.structure = s.bytes;
     if (s.factor) {
         e.factor = single ? s.factor->kept_single : s.factor->kept_full;
         e.factorization = single ? s.factor->peak_single : s.factor->peak_full;

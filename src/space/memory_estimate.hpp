@@ -1,14 +1,14 @@
 // How much memory a model will take, phase by phase, before it is built; and with what precision its factor
 // fits.
 #pragma once
-#include "space/model.hpp"
+#include "space/model_input.hpp"
 
 namespace plm {
 
 /// Bytes. Matrices stay; the factorization holds more while it is made than is kept of it; the others are
 /// what a phase holds at most beside the matrices and the factor.
 struct MemoryEstimate {
-    double matrices = 0;
+    double structure = 0;
     double factorization = 0, factor = 0; // at most; kept
     double modes = 0, contact_space = 0, basis = 0;
     double peak() const;

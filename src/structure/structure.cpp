@@ -77,7 +77,7 @@ StructureEstimate Structure::estimate(const StructureInput &input, GapSize gap, 
     e.n_free = structure.n_free();
     for (const SparseMatrix *a :
          {&structure.mass_, &structure.stiffness_, &structure.damping_, &structure.gap_rows_.matrix()})
-        e.matrices += bytes_of(*a);
+        e.bytes += bytes_of(*a);
     e.shifted = bytes_of(sum);
     e.factor = estimate_factor(sum, solver);
     return e;

@@ -47,7 +47,7 @@ struct StructureModes {
 /// What a structure takes before anything is factored: bytes, and the factor.
 struct StructureEstimate {
     std::int64_t n_free = 0;
-    double matrices = 0;                  // M, K, C and the gap rows
+    double bytes = 0;                     // of M, K, C and the gap rows
     double shifted = 0;                   // one sum of K and M
     std::optional<FactorEstimate> factor; // of such a sum; none: the host's solver alone knows
 };

@@ -243,7 +243,7 @@ static void memory_is_estimated_and_limited(void **state) {
     size_t k;
     (void)state;
     assert_true(refused(ctx, plm_model_get_double(m, "memory_factor", &one), PLM_ERR_STATE,
-                        "plm_model_get_double", "key", -1, "plm_model_estimate_memory"));
+                        "plm_model_get_double", "key", -1, "before the build"));
     assert_true(refused(ctx, plm_model_estimate_memory(m, NULL), PLM_ERR_ARGUMENT,
                         "plm_model_estimate_memory", "bytes", -1, "NULL"));
     assert_true(done(ctx, plm_model_estimate_memory(m, &bytes)));

@@ -11,10 +11,6 @@ static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t), "cholmod_l_ must
 /// Below it nested dissection costs more time than it saves (measured on bricks and on plates).
 constexpr std::int64_t small = 4000;
 
-const std::int64_t *indices(const void *array) {
-    return static_cast<const std::int64_t *>(array);
-}
-
 } // namespace
 
 cholmod_sparse view(const SparseMatrix &a) {
@@ -78,8 +74,8 @@ void Cholmod::order(const SparseMatrix &a, const vector<std::int64_t> &given, bo
 void Cholmod::analyze(const SparseMatrix &a, const Solver &solver) {
     if (static_cast<std::int64_t>(solver.order.size()) == a.cols) return order(a, solver.order, false);
     if (a.cols < small) return order(a, {}, true);
-    if (const vector<std::int64_t> *known = solver.orders ? solver.orders->find(a) : nullptr)
-        return order(a, *known, false);
+    const vector<std::int64_t> known = solver.orders ? solver.orders->find(a) : vector<std::int64_t>();
+    if (!known.empty()) return order(a, known, false);
     order(a, nested_dissection(a), true);
     if (solver.orders) solver.orders->keep(a, indices(factor->Perm));
 }

@@ -12,6 +12,11 @@ namespace plm {
 cholmod_sparse view(const SparseMatrix &a);
 cholmod_dense view(double *x, std::int64_t rows, std::int64_t cols, std::int64_t ld);
 
+/// Its arrays of 64-bit indices.
+inline const std::int64_t *indices(const void *array) {
+    return static_cast<const std::int64_t *>(array);
+}
+
 /// Everything CHOLMOD allocates for one factor, with a cholmod_common of its own: no state is shared.
 struct Cholmod {
     cholmod_common common;

@@ -14,10 +14,6 @@ namespace {
 /// Right-hand sides solved at once: enough for BLAS 3 speed, and bounds the workspace to 2 n x 64.
 constexpr std::int64_t solve_block = 64;
 
-const std::int64_t *indices(const void *array) {
-    return static_cast<const std::int64_t *>(array);
-}
-
 class CholmodFactor final : public Factor {
   public:
     /// The numbers for an analysis; `a` has rows.

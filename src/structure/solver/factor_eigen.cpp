@@ -17,12 +17,12 @@ using Ldlt = Eigen::SimplicialLDLT<EigenMatrix, Eigen::Lower, Eigen::AMDOrdering
 /// Right-hand sides solved by one pass over L, packed side by side: the pass is bound by reading L.
 constexpr std::int64_t panel = 8;
 
-Eigen::Map<const EigenMatrix> view(const SparseMatrix &a) {
+Eigen::Map<const EigenMatrix> mapped(const SparseMatrix &a) {
     return {a.rows, a.cols, a.nnz(), a.ptr.data(), a.idx.data(), a.val.data()};
 }
 
 void decompose(const SparseMatrix &a, Ldlt &ldlt) {
-    ldlt.compute(view(a));
+    ldlt.compute(mapped(a));
 }
 
 /// Not L L^T: L D L^T tells where D stops being positive, which Eigen's L L^T does not.
@@ -111,7 +111,7 @@ FactorEstimate estimate_for_eigen(const SparseMatrix &a, const Solver &) {
     e.kept_single = e.peak_single = std::numeric_limits<double>::infinity();
     if (a.cols == 0) return e;
     Ldlt ldlt;
-    ldlt.analyzePattern(view(a));
+    ldlt.analyzePattern(mapped(a));
     const EigenMatrix &l = ldlt.matrixL().nestedExpression();
     const double n = static_cast<double>(a.cols);
     for (std::int64_t j = 0; j < a.cols; ++j) {

@@ -1,4 +1,5 @@
 #include "structure/solver/scotch.hpp"
+#include "linalg/carried/scotch_parts.hpp"
 #include "linalg/error.hpp"
 #include <cstdio> // scotch.h uses FILE without it
 #include <limits>
@@ -13,24 +14,30 @@ vector<SCOTCH_Num> narrowed(const vector<std::int64_t> &from) {
     return vector<SCOTCH_Num>(from.begin(), from.end());
 }
 
-struct Graph {
-    SCOTCH_Graph it;
-    Graph() {
-        if (SCOTCH_graphInit(&it) != 0) throw std::bad_alloc();
-    }
-    ~Graph() { SCOTCH_graphExit(&it); }
-    Graph(const Graph &) = delete;
-    Graph &operator=(const Graph &) = delete;
-};
-
+/// SCOTCH's default.
 struct Strategy {
     SCOTCH_Strat it;
     Strategy() {
-        if (SCOTCH_stratInit(&it) != 0) throw std::bad_alloc();
+        carried_scotch_scans(true);
+        SCOTCH_stratInit(&it);
+        const int failed = SCOTCH_stratGraphOrderBuild(&it, SCOTCH_STRATQUALITY, 0, 0.2);
+        carried_scotch_scans(false);
+        if (failed) {
+            SCOTCH_stratExit(&it);
+            throw std::bad_alloc();
+        }
     }
     ~Strategy() { SCOTCH_stratExit(&it); }
     Strategy(const Strategy &) = delete;
     Strategy &operator=(const Strategy &) = delete;
+};
+
+/// What its functions hold until the end, however they end.
+struct Holdings {
+    Holdings() = default;
+    ~Holdings() { carried_scotch_release(); }
+    Holdings(const Holdings &) = delete;
+    Holdings &operator=(const Holdings &) = delete;
 };
 
 } // namespace
@@ -48,12 +55,14 @@ vector<std::int64_t> order_by_scotch(const NodeGraph &graph) {
         weight[v] = static_cast<SCOTCH_Num>(graph.first_row[v + 1] - graph.first_row[v]);
 
     const std::lock_guard<std::mutex> lock(one_at_a_time);
-    Graph its_graph;
     Strategy strategy;
+    const Holdings holdings;
+    SCOTCH_Graph its_graph;
+    SCOTCH_graphInit(&its_graph);
     SCOTCH_randomReset(); // the same order in every run
-    if (SCOTCH_graphBuild(&its_graph.it, 0, size, first.data(), nullptr, weight.data(), nullptr,
+    if (SCOTCH_graphBuild(&its_graph, 0, size, first.data(), nullptr, weight.data(), nullptr,
                           static_cast<SCOTCH_Num>(edges), neighbour.data(), nullptr) != 0 ||
-        SCOTCH_graphOrder(&its_graph.it, &strategy.it, nullptr, order.data(), nullptr, nullptr, nullptr) != 0)
+        SCOTCH_graphOrder(&its_graph, &strategy.it, nullptr, order.data(), nullptr, nullptr, nullptr) != 0)
         return {};
     return vector<std::int64_t>(order.begin(), order.end());
 }

@@ -1,7 +1,8 @@
 // Private to structure/solver: SCOTCH (Pellegrini and Roman, 1996), as it is carried:
 // linalg/carried/scotch_parts.cpp.
 #pragma once
-#include "structure/solver/ordering.hpp"
+#include "structure/solver/node_graph.hpp"
+#include <string>
 
 namespace plm {
 
