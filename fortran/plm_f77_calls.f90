@@ -461,6 +461,7 @@ subroutine plmmra(handle, branch, ifull, imeas, iharm, n, ampl, count, ierr)
     if (ierr < 0) return
     call narrow(c_count, count, ierr)
 end subroutine plmmra
+
 subroutine plmmem(handle, bytes, ierr)
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_c, only: plm_model_estimate_memory
