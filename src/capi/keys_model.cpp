@@ -71,11 +71,10 @@ const std::vector<Key> &model_keys() {
                   [](const H &h) { return h.core ? h.core->n_pairs() : h.input.contact.n_pairs(); }),
         warning_text<H>([](const H &h) -> const Warnings & { return built_warnings(h); }),
         warning_reasons<H>([](const H &h) -> const Warnings & { return built_warnings(h); }),
-        result<H>(
-            "n_findings",
-            "what the build found that is worth a look (severity 1 and 2 of plm_model_audit, each in the "
-            "log); after plm_model_audit: what that found",
-            [](const H &h) { return built(h), h.n_findings; }),
+        result<H>("n_findings",
+                  "findings of the build that are worth a look (each is in the log); after an audit: of all "
+                  "its findings",
+                  [](const H &h) { return built(h), h.n_findings; }),
         result<H>("n_rigid_modes", "rigid-body modes of the open structure",
                   [](const H &h) { return built(h)->n_rigid(); }),
         result<H>("shift", "sigma of the factored K + sigma M (rad^2/time^2); 0 when K is positive definite",

@@ -33,7 +33,7 @@ class ModalAudit {
                 drives_.push_back(drive_of(harmonic, load));
         if (drives_.empty()) return findings_;
         driven_modes();
-        if (m_.n_pairs() > 0) gaps_never_closed();
+        if (m_.n_pairs() > 0) motion_within_gaps();
         return findings_;
     }
 
@@ -139,7 +139,7 @@ class ModalAudit {
 
     // Of the linear response at every resonance of the open structure: while nothing touches it is the
     // answer.
-    void gaps_never_closed() {
+    void motion_within_gaps() {
         const vector<double> gap = gap_at_rest();
         if (gap.empty() || *std::min_element(gap.begin(), gap.end()) <= 0) return;
         double most = 0, where = 0;
@@ -167,15 +167,15 @@ class ModalAudit {
     // Without contact: initial gaps less what static loads take; empty where rigid-body modes leave it open.
     vector<double> gap_at_rest() const {
         vector<double> gap = m_.initial_gap();
-        const auto closed_by = [&](const Field &load) {
+        const auto take_off = [&](const Field &load) {
             const vector<double> u = projected(m_.attachment(), load);
             for (std::int64_t i = 0; i < m_.n_pairs(); ++i) gap[i] -= u[Contact::normal_row(i)];
         };
         const auto still = m_.excitation().find(0);
         const bool loaded = m_.has_preload() || still != m_.excitation().end();
         if (loaded && rigid_ > 0) return {};
-        if (m_.has_preload()) closed_by(m_.preload());
-        if (still != m_.excitation().end()) closed_by(still->second.real);
+        if (m_.has_preload()) take_off(m_.preload());
+        if (still != m_.excitation().end()) take_off(still->second.real);
         return gap;
     }
 
