@@ -130,13 +130,17 @@ class EventForce final : public ContactForce {
                 const double next = c * c1 - s * s1;
                 s = s * c1 + c * s1;
                 c = next;
-                average[2 * k - 1] += sign * s / static_cast<double>(k);
-                average[2 * k] -= sign * c / static_cast<double>(k);
+                average[2 * k - 1] += sign * s;
+                average[2 * k] -= sign * c;
             }
             sign = -sign;
         }
-        average[0] = closed_time;
-        for (std::int64_t k = 0; k <= 4 * h_; ++k) average[k] /= 2 * M_PI;
+        average[0] = closed_time / (2 * M_PI);
+        for (std::int64_t k = 1; k <= 2 * h_; ++k) {
+            const double scale = 1 / (2 * M_PI * static_cast<double>(k));
+            average[2 * k - 1] *= scale;
+            average[2 * k] *= scale;
+        }
     }
 
     std::int64_t h_, n_grid_;

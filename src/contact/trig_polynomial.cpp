@@ -45,9 +45,12 @@ Matrix trig_grid(std::int64_t n_harmonics, std::int64_t n) {
 
 namespace {
 
+// The last step, rad: the next one would be below rounding.
+constexpr double last_newton = 1e-9, last_halley = 1e-6;
+
 // Newton from `t` kept inside a bracket that shrinks; falls back to bisection when a step leaves it.
-// Convergence is quadratic, so the step after a change below 1e-9 is below rounding and is not taken. `order`
-// 0: zero of x, 1: of x'.
+// Convergence is quadratic, so the step after a change below 1e-9 is below rounding and is not taken; for a
+// zero of x (order 0; 1: of x') the curvature is at hand and makes it cubic (Halley).
 double safeguarded_newton(const double *x, std::int64_t n_harmonics, double low, double high, double t,
                           bool low_positive, int order) {
     for (int k = 0; k < 60; ++k) {
@@ -55,8 +58,10 @@ double safeguarded_newton(const double *x, std::int64_t n_harmonics, double low,
         const double f = order == 0 ? v.value : v.slope, df = order == 0 ? v.slope : v.curvature;
         if (f == 0) return t;
         ((f > 0) == low_positive ? low : high) = t;
-        const double step = f / df;
-        if (std::abs(step) <= 1e-9) return t - step;
+        const double newton = f / df;
+        const double bend = order == 0 ? 0.5 * newton * v.curvature / df : 0.0;
+        const double step = std::abs(bend) < 0.5 ? newton / (1 - bend) : newton;
+        if (std::abs(step) <= (order == 0 ? last_halley : last_newton)) return t - step;
         const double next = t - step;
         t = next > low && next < high ? next : 0.5 * (low + high);
         if (high - low <= 4e-16 * high) break;

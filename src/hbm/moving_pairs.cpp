@@ -12,7 +12,9 @@ constexpr std::int64_t low_harmonics = 5;
 constexpr double exact = 1e-11; // residual of a solution by GMRES: below the tolerance of Newton's method
 constexpr double most_of_whole = 0.5; // of the whole factorization's time, for all its solutions: then that
 constexpr std::int64_t least_steps = 60, most_steps = 250;
-constexpr int refusals = 10; // factorizations of the whole matrix before GMRES is tried again
+// Factorizations of the whole matrix before GMRES is tried again: after the first failure, and at the most,
+// as they double from one failure to the next.
+constexpr int first_refusals = 10, most_refusals = 1000;
 // What is expected of a factorization by blocks: the solutions it serves, their steps, and how many times
 // longer a flop takes in products with vectors than in the factorization of a matrix.
 constexpr double solutions = 6, expected_steps = 40, slowness = 8;
@@ -22,6 +24,9 @@ double cube(double x) {
 }
 
 } // namespace
+
+MovingPairs::MovingPairs(std::int64_t n_harmonics)
+    : h_(n_harmonics), n_(2 * n_harmonics + 1), elimination_(n_harmonics + 1), patience_(first_refusals) {}
 
 MovingPairs::Costs MovingPairs::costs() const {
     const double s = static_cast<double>(n_pairs()), n = static_cast<double>(n_), h = static_cast<double>(h_),
@@ -116,8 +121,12 @@ void MovingPairs::solve(double *b) {
     const std::int64_t n = n_pairs() * n_;
     if (n == 0) return;
     if (iterated_) {
-        if (gmres_.solve(*this, n, b, exact, allowed_steps())) return keep_sign();
-        refused_ = refusals;
+        if (gmres_.solve(*this, n, b, exact, allowed_steps())) {
+            patience_ = first_refusals;
+            return keep_sign();
+        }
+        refused_ = patience_;
+        patience_ = std::min(2 * patience_, most_refusals);
         factor_whole();
     }
     lu_.solve(b, 1, n);

@@ -14,8 +14,7 @@ class MovingPairs final : private LinearEquations {
   public:
     enum class Method { automatic, whole, iterated };
 
-    explicit MovingPairs(std::int64_t n_harmonics)
-        : h_(n_harmonics), n_(2 * n_harmonics + 1), elimination_(n_harmonics + 1) {}
+    explicit MovingPairs(std::int64_t n_harmonics);
     /// G of a harmonic h: it must live as long as this.
     PairElimination &elimination(std::int64_t h) { return elimination_[h]; }
     /// T: column p holds the (2H + 1) x (2H + 1) block of pair p.
@@ -48,8 +47,9 @@ class MovingPairs final : private LinearEquations {
     std::vector<PairElimination> elimination_;
     Matrix tangent_;
     bool iterated_ = false;
-    int refused_ = 0; // times that the whole matrix is factored without a trial
-    Matrix matrix_;   // of the harmonics up to low_, or of all
+    int refused_ = 0, patience_; // times that the whole matrix is factored without a trial, now and after the
+                                 // next failure
+    Matrix matrix_;              // of the harmonics up to low_, or of all
     RealLu lu_;
     std::int64_t low_ = 0;
     std::vector<ComplexLu> above_; // of the harmonics above low_

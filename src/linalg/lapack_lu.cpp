@@ -46,6 +46,28 @@ bool factor_panels(Matrix &lu, vector<int> &pivots) {
     return regular;
 }
 
+struct ColumnSize {
+    double sum, largest; // of the absolute values
+};
+
+// In four sums side by side: one alone waits for each addition, as long as a small matrix takes to factor.
+ColumnSize column_size(const double *c, std::int64_t n) {
+    constexpr std::int64_t lanes = 4;
+    double sum[lanes] = {}, largest[lanes] = {};
+    std::int64_t i = 0;
+    for (; i + lanes <= n; i += lanes)
+        for (std::int64_t k = 0; k < lanes; ++k) {
+            const double value = std::fabs(c[i + k]);
+            sum[k] += value;
+            largest[k] = value > largest[k] ? value : largest[k];
+        }
+    for (; i < n; ++i) {
+        sum[0] += std::fabs(c[i]);
+        largest[0] = std::max(largest[0], std::fabs(c[i]));
+    }
+    return {sum[0] + sum[1] + (sum[2] + sum[3]), std::max({largest[0], largest[1], largest[2], largest[3]})};
+}
+
 } // namespace
 
 void RealLu::factor(Matrix &a) {
@@ -54,15 +76,10 @@ void RealLu::factor(Matrix &a) {
     double norm1 = 0, largest = 0;
     bool ok = true;
     for (std::int64_t j = 0; j < size; ++j) {
-        const double *c = a.col(j);
-        double sum = 0;
-        for (std::int64_t i = 0; i < size; ++i) {
-            const double value = std::fabs(c[i]);
-            sum += value;
-            largest = value > largest ? value : largest;
-        }
-        ok = ok && std::isfinite(sum); // a sum that overflows is no matrix to solve with either
-        norm1 = std::max(norm1, sum);
+        const ColumnSize c = column_size(a.col(j), size);
+        ok = ok && std::isfinite(c.sum); // a sum that overflows is no matrix to solve with either
+        norm1 = std::max(norm1, c.sum);
+        largest = std::max(largest, c.largest);
     }
     if (!ok) throw Error(PLM_ERR_MATRIX, "dgetrf: NaN or Inf in the matrix");
 
