@@ -98,7 +98,6 @@ static int contacts(plm_context *ctx) {
     return 0;
 }
 
-/* [plm_recover_fn] */
 /* both masses of the rod move with the one DOF that the host kept: T = (0.5, 1) */
 static int32_t whole_motion(plm_context *ctx, int64_t n_dof, int64_t n_columns, const double *reduced,
                             int64_t n_full, double *full, void *user) {
@@ -108,7 +107,6 @@ static int32_t whole_motion(plm_context *ctx, int64_t n_dof, int64_t n_columns, 
         for (int64_t i = 0; i < n_full; ++i) full[i + j * n_full] = t[i] * reduced[j * n_dof];
     return 0;
 }
-/* [plm_recover_fn] */
 
 static int superelement(plm_context *ctx) {
     static double t[] = {0.5, 1};

@@ -75,7 +75,8 @@ class DenseCholesky {
   public:
     bool factor(Matrix &a); // by swap; lower triangle read
     void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const;
-    std::int64_t broke_at() const { return broke_at_; } // column of the first pivot that is not positive, or -1
+    /// Column of the first pivot that is not positive, or -1.
+    std::int64_t broke_at() const { return broke_at_; }
     const Matrix &lower() const { return l_; }
 
   private:

@@ -11,8 +11,9 @@ struct ComputedResponse {
     HbmOptions options; // of the curve
     std::shared_ptr<const Branch> curve;
     Peak peak;
-    double error = 0;  // of the peak by the basis, relative, estimated, and that which a host states of its own
-                       // reduction; NaN: not known
+    /// Of the peak, relative: by the basis, as estimated, and what the host states of its own reduction; NaN:
+    /// not known.
+    double error = 0;
     Warnings warnings; // of all steps, as far as the estimate does not know better
 };
 

@@ -76,8 +76,8 @@ C     a superelement: one coordinate of two masses, T = (0.5, 1)
       Q(2) = 2D0
       Q(3) = 4D0
       CALL PLMMRC(MODEL, 3, Q, 2, FULL, IERR)
-      CALL CHECK(IERR .EQ. PLMOK .AND. FULL(1, 3) .EQ. 2D0 .AND.
-     1           FULL(2, 3) .EQ. 4D0, 'motions are recovered')
+      CALL CHECK(IERR .EQ. PLMOK .AND. ABS(FULL(1, 3) - 2D0) .LT. 1D-12
+     1           .AND. ABS(FULL(2, 3) - 4D0) .LT. 1D-12, 'recovered')
       CALL PLMMRP(MODEL, 1, PLMPKM, 1D-2, FREQ, PEAK, ERR, CURVE, LHBM,
      1            IERR)
       CALL PLMMRA(MODEL, CURVE, 1, PLMPKM, 0, 4000, AMPL, N, IERR)
@@ -85,7 +85,8 @@ C     a superelement: one coordinate of two masses, T = (0.5, 1)
       CALL PLMMRA(MODEL, CURVE, 2, PLMPKM, 0, 4000, AMPL, N, IERR)
       CALL CHECK(ABS(AMPL(N / 2) - 2 * A1) .LE. 1D-12 * AMPL(N / 2),
      1           'amplitudes are recovered')
-      CALL PLMMRC(MODEL, 1, -1D0, 2, FULL, IERR)
+      Q(1) = -1D9
+      CALL PLMMRC(MODEL, 1, Q, 2, FULL, IERR)
       CALL CHECK(IERR .EQ. PLMECB, 'a failed recovery')
       CALL PLMCDE(LCTX, IERR)
       END
@@ -97,7 +98,7 @@ C     a superelement: one coordinate of two masses, T = (0.5, 1)
           FULL(1, I) = 0.5D0 * Q(1, I)
           FULL(2, I) = Q(1, I)
    10 CONTINUE
-      IF (Q(1, 1) .EQ. -1D0) IFAIL = 1
+      IF (Q(1, 1) .LT. -1D8) IFAIL = 1
       END
 
 C     two nodes that clap: each on its own spring, three DOFs, a pair

@@ -29,6 +29,30 @@ void solves_leave_a_residual_of_rounding(void **) {
     }
 }
 
+/// Dense, positive definite but for the pivot of column `bad`; -1: none.
+SparseMatrix dense_matrix(std::int64_t n, std::int64_t bad) {
+    const Matrix k = random_definite_dense(n, 5);
+    vector<std::int64_t> i, j;
+    vector<double> v;
+    for (std::int64_t c = 0; c < n; ++c)
+        for (std::int64_t r = 0; r < n; ++r)
+            i.push_back(r), j.push_back(c), v.push_back(r == c && r == bad ? -k(r, c) : k(r, c));
+    return plm::from_triplets(n, n, i, j, v);
+}
+
+// A matrix that stores every entry, as those of superelements do, goes to LAPACK, unless a solver is named.
+void dense_matrices_are_factored_as_such(void **) {
+    const SparseMatrix a = dense_matrix(100, -1);
+    for (std::int64_t nrhs : {1, 40}) assert_true(solve_residual(a, nrhs) < 1e-10);
+    const auto factor = plm::make_factor(a);
+    assert_int_equal(factor->factor_nonzeros(), 100 * 101 / 2);
+    assert_true(factor->reciprocal_condition() > 1e-8 && factor->reciprocal_condition() < 1);
+    const auto o = outcome_of([] { plm::make_factor(dense_matrix(100, 70)); });
+    assert_int_equal(o.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+    assert_int_equal(o.index, 70);
+    assert_int_equal(plm::count_negative(dense_matrix(100, 70)), 1);
+}
+
 // The library's own by name: each that was built serves, the others say so, and the host's needs a host.
 void solvers_are_chosen_by_name(void **) {
     const SparseMatrix a = membrane(30, 20);
@@ -208,6 +232,7 @@ void the_hosts_failures_are_reported_with_their_code(void **) {
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(solves_leave_a_residual_of_rounding),
+        cmocka_unit_test(dense_matrices_are_factored_as_such),
         cmocka_unit_test(solvers_are_chosen_by_name),
         cmocka_unit_test(one_factor_serves_blocks_and_single_solves_alike),
         cmocka_unit_test(inertia_counts_the_eigenvalues_below_the_shift),

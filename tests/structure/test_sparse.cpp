@@ -77,6 +77,30 @@ void norm_and_trace_match_their_definitions(void **) {
     assert_true(plm::norm_inf(plm::from_triplets(0, 0, {}, {}, {})) == 0);
 }
 
+/// All entries of a dense matrix.
+SparseMatrix with_all_entries(const Matrix &d) {
+    vector<std::int64_t> i, j;
+    vector<double> v(d.data(), d.data() + d.rows() * d.cols());
+    for (std::int64_t column = 0; column < d.cols(); ++column)
+        for (std::int64_t row = 0; row < d.rows(); ++row) i.push_back(row), j.push_back(column);
+    return plm::from_triplets(d.rows(), d.cols(), i, j, v);
+}
+
+// Superelements: BLAS multiplies what stores every entry, with the same result.
+void matrices_that_store_every_entry_are_dense(void **) {
+    const Matrix d = random_matrix(70, 90, 1);
+    const SparseMatrix a = with_all_entries(d);
+    SparseMatrix one_less = a;
+    --one_less.ptr.back(), one_less.idx.pop_back(), one_less.val.pop_back();
+    assert_true(plm::is_dense(a) && !plm::is_dense(one_less) &&
+                !plm::is_dense(with_all_entries(random_matrix(9, 9, 2))));
+    for (std::int64_t columns : {1, 13}) {
+        const Matrix x = random_matrix(90, columns, 3), y = random_matrix(70, columns, 4);
+        assert_true(max_difference(plm::multiply(a, x), plm::product('N', 'N', d, x)) < 1e-13);
+        assert_true(max_difference(plm::multiply_transposed(a, y), plm::product('T', 'N', d, y)) < 1e-13);
+    }
+}
+
 } // namespace
 
 int main() {
@@ -85,6 +109,7 @@ int main() {
         cmocka_unit_test(transpose_and_sum_match_dense),
         cmocka_unit_test(submatrix_drops_and_permutes),
         cmocka_unit_test(block_products_match_dense_for_any_number_of_columns),
+        cmocka_unit_test(matrices_that_store_every_entry_are_dense),
         cmocka_unit_test(norm_and_trace_match_their_definitions),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -155,9 +155,9 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
 
         def on_recover(_ctx, n_dof, n_columns, reduced, size, full, _user):
             def run():
-                q = look(reduced, n_dof * n_columns).reshape((n_dof, n_columns), order="F")
+                q = look(reduced, n_dof * n_columns, ctypes.c_double).reshape((n_dof, n_columns), order="F")
                 whole = real_parts(recover(q.copy(order="F")), "the recovered motion").reshape((size, n_columns))
-                look(full, size * n_columns).reshape((size, n_columns), order="F")[...] = whole
+                look(full, size * n_columns, ctypes.c_double).reshape((size, n_columns), order="F")[...] = whole
                 return True
             return 0 if host.guarded(run) else 1
         function = _c.RECOVER_FN(on_recover) if recover else None
