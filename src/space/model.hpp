@@ -2,7 +2,8 @@
 // read-only.
 #pragma once
 #include "contact/contact.hpp"
-#include "structure/structure.hpp"
+#include "linalg/kept.hpp"
+#include "space/static_responses.hpp"
 
 namespace plm {
 
@@ -12,11 +13,14 @@ struct ModelInput : StructureInput {
     Contact contact;
 };
 
+/// Exact modes that are found anyhow: what is asked of the structure later seldom needs fewer.
+constexpr std::int64_t usual_open_modes = 30;
+
 /// How the contact space (contact_space.hpp) is built; options of the model.
 struct SpaceOptions {
     double tolerance = 1e-7; // relative error of the contact receptances at the highest frequency asked for
     double cutoff_factor = 2.0; // exact modes up to this multiple of the highest frequency
-    /// Attachment vectors (K + sigma M)^-1 [M (K + sigma M)^-1]^j B^T, j < max_blocks.
+    /// Attachment vectors [(K + sigma M)^-1 M]^j (K + sigma M)^-1 B^T, j < max_blocks.
     std::int64_t max_blocks = 4;
     bool verify_counts = true;                 // Sturm count of the modes below the cutoff
     SolverName solver = SolverName::automatic; // of the sparse factorizations
@@ -34,19 +38,22 @@ class Model : public Structure {
     const vector<double> &initial_gap() const { return contact_.initial_gap; }
     /// 1 / median of the contact flexibility diag(B K^-1 B^T), rigid-body motion left out; 0 without pairs.
     double local_stiffness() const { return local_stiffness_; }
-    /// (K + shift M)^-1 B^T, n_free x Z: computed once, at the build (auto stiffness and every space need
-    /// it).
-    const Field &attachment() const { return attachment_; }
+    /// What contact forces and loads do statically outside the lowest modes: computed once, at the build
+    /// where there are pairs (auto stiffness and every space need it).
+    std::shared_ptr<const StaticResponses> responses(Watch watch) const;
+    /// As lowest_modes(): `wanted` of them, or as many as there are, and those after them until one is not
+    /// below `cutoff` (rad/s).
+    std::shared_ptr<const ExactModes> exact_modes_up_to(std::int64_t wanted, double cutoff,
+                                                        Watch watch) const;
     const SpaceOptions &space_options() const { return space_options_; }
 
   private:
-    void solve_attachment(Watch watch);
-    vector<double> elastic_flexibility() const;
-    void resolve_contact_stiffness();
+    vector<double> elastic_flexibility(Watch watch) const;
+    void resolve_contact_stiffness(Watch watch);
 
     Contact contact_;
     double local_stiffness_ = 0;
-    Field attachment_;
+    Kept<StaticResponses> responses_;
     SpaceOptions space_options_;
 };
 
