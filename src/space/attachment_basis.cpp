@@ -51,7 +51,7 @@ Matrix chosen_columns(const Matrix &a, const vector<std::int64_t> &columns) {
 
 constexpr double nothing_left = 1e-20; // of the energy: the modes contain all of it
 constexpr double independent = 1e-12;  // least share of energy that others do not have
-constexpr double negligible = 1e-11;   // energy of a further vector beside that it started with
+constexpr double negligible = 1e-9;    // energy of a further vector beside that it started with
 
 } // namespace
 
@@ -94,9 +94,10 @@ std::int64_t AttachmentBasis::n_blocks() const {
 bool AttachmentBasis::refine(double error, std::int64_t most, Watch watch) {
     vector<std::int64_t> some = unfinished(error, most);
     if (some.empty()) return false;
-    begin(some);
     for (; !some.empty(); some = unfinished(error, most)) {
         watch.step("contact space", 0.5);
+        some.resize(std::min<std::size_t>(some.size(), solved_at_once));
+        begin(some);
         advance(some);
     }
     rayleigh_ritz();

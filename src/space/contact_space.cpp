@@ -17,9 +17,9 @@ namespace {
 // precision is left out, since a soft support may stand between them.
 constexpr double far_above_the_first = 3e4;
 
-// Few probes see little of any one direction: what is measured is so much smaller than the largest share of
-// inertia left alone tells.
-constexpr double seen_of_a_direction = 0.01;
+// What is asked of each direction at first (AttachmentBasis::refine): the error of all of them together is
+// some hundred to a million times smaller, and told by measuring alone.
+constexpr double asked_at_first = 1e-2;
 
 class ContactSpaceBuilder {
   public:
@@ -45,11 +45,9 @@ class ContactSpaceBuilder {
     void refine(AttachmentBasis &attached) {
         const SpaceOptions &options = model_->space_options();
         choose_probes();
-        double error = receptance_error(attached), asked = options.tolerance / seen_of_a_direction;
-        while (error > options.tolerance && asked > 1e-16) {
+        double error = receptance_error(attached);
+        for (double asked = asked_at_first; error > options.tolerance && asked > 1e-16; asked *= 0.1)
             if (attached.refine(asked, options.max_blocks, watch_)) error = receptance_error(attached);
-            asked *= 0.1;
-        }
         if (error > options.tolerance)
             watch_.warn(
                 PLM_REASON_BASIS_TOO_SMALL,

@@ -35,6 +35,7 @@ void respond_outside(const Structure &structure, const ExactModes &modes, Field 
     if (f.empty()) return;
     structure.solve(f);
     modes.take_from_motions(f);
+    if (structure.n_rigid() > 0) modes.take_from_motions(f); // of these, a soft shift makes much of little
 }
 
 } // namespace plm
