@@ -94,7 +94,8 @@ std::vector<vector<double>> dominant_coordinates(const Sampler &sampler, const S
             result.push_back(d.coordinates);
             continue;
         }
-        const Matrix c = coordinates_of(*space.model, combine(source.vectors, d.coordinates), space.vectors,
+        const auto works = [&](const Field &forces) { return gram(space.vectors, forces); };
+        const Matrix c = coordinates_of(*space.model, combine(source.vectors, d.coordinates), works,
                                         space.lambda, space.n_massless);
         result.emplace_back(c.data(), c.data() + space.size());
     }

@@ -16,7 +16,7 @@ namespace {
 Space as_space(const ReducedModel &m) {
     Space s;
     s.model = m.model;
-    s.vectors = m.vectors;
+    s.vectors = SpaceVectors(m.vectors);
     s.lambda = m.lambda;
     s.n_massless = m.n_massless;
     s.gap = m.whole_gap();

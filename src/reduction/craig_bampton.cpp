@@ -80,7 +80,9 @@ std::shared_ptr<const Space> make_craig_bampton_space(std::shared_ptr<const Mode
 
     auto space = std::make_shared<Space>();
     space->model = model;
-    space->vectors = combined(t, ritz.vectors, watch);
+    Field vectors = combined(t, ritz.vectors, watch);
+    space->gap = model->gap_rows().of(vectors);
+    space->vectors = SpaceVectors(std::move(vectors));
     space->lambda = std::move(ritz.lambda);
     space->n_massless = ritz.n_massless;
     clear_rigid_values(model->n_rigid(), space->lambda);

@@ -95,7 +95,7 @@ std::shared_ptr<const ReducedModel> project_whole(const Space &space) {
     reduced->lambda = space.lambda;
     reduced->n_massless = space.n_massless;
     reduced->gap = space.gap;
-    reduced->vectors = space.vectors;
+    reduced->vectors = all_columns(space.vectors);
     if (space.damping.empty())
         reduced->damping_diagonal = space.damping_diagonal;
     else

@@ -4,7 +4,8 @@
 namespace plm {
 
 Matrix static_coordinates_of(const ReducedModel &m, const Field &motions) {
-    return coordinates_of(*m.model, motions, m.static_vectors(), m.lambda_0, m.n_massless_0);
+    const auto works = [&](const Field &forces) { return gram(m.static_vectors(), forces); };
+    return coordinates_of(*m.model, motions, works, m.lambda_0, m.n_massless_0);
 }
 
 } // namespace plm

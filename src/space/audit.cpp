@@ -196,11 +196,10 @@ class Audit {
                       strongest.coefficient > 0 ? "positive" : "negative");
     }
 
-    // The linear answer of the open structure to the pre-load; B K^-1 f from the attachment vectors that are
-    // there.
+    // The linear answer of the open structure to the pre-load.
     void opened_by_preload() {
         if (!m_.has_preload() || m_.n_rigid() > 0) return;
-        const vector<double> answer = projected(m_.attachment(), m_.preload());
+        const vector<double> answer = m_.static_gaps(m_.preload());
         vector<double> u(m_.initial_gap().size());
         for (std::int64_t i = 0; i < m_.n_pairs(); ++i)
             u[i] = answer[Contact::normal_row(i)] - m_.initial_gap()[i];

@@ -32,14 +32,14 @@ RitzVectors ritz_vectors(const vector<double> &mu, const Matrix &y, double sigma
     return r;
 }
 
-Matrix coordinates_of(const Structure &structure, const Field &motions, const Field &basis,
-                      const vector<double> &lambda, std::int64_t n_massless) {
-    Matrix c = gram(basis, structure.mass_times(motions));
+Matrix coordinates_of(const Structure &structure, const Field &motions,
+                      const std::function<Matrix(const Field &)> &works, const vector<double> &lambda,
+                      std::int64_t n_massless) {
+    Matrix c = works(structure.mass_times(motions));
     if (n_massless == 0) return c;
-    const std::int64_t first = basis.cols() - n_massless;
-    const Matrix elastic = gram(basis.columns(first, n_massless), structure.stiffness_times(motions));
+    const Matrix elastic = works(structure.stiffness_times(motions));
     for (std::int64_t k = 0; k < c.cols(); ++k)
-        for (std::int64_t j = 0; j < n_massless; ++j) c(first + j, k) = elastic(j, k) / lambda[first + j];
+        for (std::int64_t j = c.rows() - n_massless; j < c.rows(); ++j) c(j, k) = elastic(j, k) / lambda[j];
     return c;
 }
 

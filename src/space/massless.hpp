@@ -4,6 +4,7 @@
 // which is what static condensation makes of it.
 #pragma once
 #include "structure/structure.hpp"
+#include <functional>
 
 namespace plm {
 
@@ -26,8 +27,10 @@ RitzVectors ritz_vectors(const vector<double> &mu, const Matrix &y, double sigma
 
 /// Of motions in a basis with M = diag(1, ..., 0), K = diag(lambda): by their momentum where there is mass,
 /// by their elastic forces where there is none.
-Matrix coordinates_of(const Structure &structure, const Field &motions, const Field &basis,
-                      const vector<double> &lambda, std::int64_t n_massless);
+/// works: V^T F for forces F.
+Matrix coordinates_of(const Structure &structure, const Field &motions,
+                      const std::function<Matrix(const Field &)> &works, const vector<double> &lambda,
+                      std::int64_t n_massless);
 
 /// A Euclidean orthonormal basis of the span of independent columns; the columns themselves when the last
 /// n_massless of the rows of their space are none, since then mass-orthonormal ones are that already.

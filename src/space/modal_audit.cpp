@@ -83,7 +83,7 @@ class ModalAudit {
         d.harmonic = harmonic;
         d.force = joined(projected(modes_.vectors, load.real), projected(modes_.vectors, load.imag));
         if (m_.n_pairs() == 0) return d;
-        d.residual = joined(projected(m_.attachment(), load.real), projected(m_.attachment(), load.imag));
+        d.residual = joined(m_.static_gaps(load.real), m_.static_gaps(load.imag));
         for (std::int64_t j = 0; j < n_; ++j)
             for (std::int64_t row = 0; row < gap_.rows(); ++row)
                 d.residual[row] -= gap_(row, j) * d.force[j] / (modes_.values[j] + m_.shift());
@@ -168,7 +168,7 @@ class ModalAudit {
     vector<double> gap_at_rest() const {
         vector<double> gap = m_.initial_gap();
         const auto take_off = [&](const Field &load) {
-            const vector<double> u = projected(m_.attachment(), load);
+            const vector<double> u = m_.static_gaps(load);
             for (std::int64_t i = 0; i < m_.n_pairs(); ++i) gap[i] -= u[Contact::normal_row(i)];
         };
         const auto still = m_.excitation().find(0);

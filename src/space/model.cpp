@@ -28,44 +28,47 @@ Model::Model(const ModelInput &input, const SpaceOptions &options, const Solver 
     : Structure(input, {input.contact.n_pairs(), Contact::n_directions},
                 largest_given(input.contact.stiffness), solver, watch),
       contact_(input.contact), space_options_(options) {
-    solve_attachment(watch);
-    resolve_contact_stiffness();
+    resolve_contact_stiffness(watch);
 }
 
-// By blocks of columns: the host is heard between them.
-void Model::solve_attachment(Watch watch) {
-    constexpr std::int64_t block = 64;
-    attachment_ = gap_rows().columns();
-    const std::int64_t n = attachment_.cols();
-    for (std::int64_t first = 0; first < n; first += block) {
-        watch.step("contact flexibility", 0.8 + 0.2 * static_cast<double>(first) / static_cast<double>(n));
-        Field some = attachment_.columns(first, std::min(block, n - first));
-        solve(some);
-        attachment_.put(first, some);
+std::shared_ptr<const ExactModes> Model::exact_modes_up_to(std::int64_t wanted, double cutoff,
+                                                           Watch watch) const {
+    watch.step("open modes", 0.0);
+    const auto cancelled = [watch] { return watch.cancelled("open modes", 0.3); };
+    wanted = std::min(wanted, n_free());
+    for (;;) {
+        StructureModes found = lowest_modes(wanted, cancelled);
+        const std::int64_t count = static_cast<std::int64_t>(found.values.size());
+        const bool are_all = count < wanted || wanted == n_free();
+        if (are_all || found.values.back() >= cutoff * cutoff)
+            return std::make_shared<const ExactModes>(exact_modes(*this, std::move(found), are_all));
+        wanted = std::min(n_free(), wanted + wanted / 2 + 10);
     }
 }
 
+std::shared_ptr<const StaticResponses> Model::responses(Watch watch) const {
+    return responses_.get([&] {
+        const std::int64_t wanted = std::max(usual_open_modes, n_rigid() + 1);
+        return static_responses(*this, exact_modes_up_to(wanted, 0, watch), watch);
+    });
+}
+
 // diag(B K^-1 B^T) without rigid-body motion, of the pairs that see more than that.
-vector<double> Model::elastic_flexibility() const {
-    const Matrix rigid_gap = n_rigid() > 0 ? gap_rows().of(rigid_modes()) : Matrix(gap_rows().n_rows(), 0);
-    const auto rows = gap_rows().rows();
+vector<double> Model::elastic_flexibility(Watch watch) const {
+    const std::shared_ptr<const StaticResponses> r = responses(watch);
+    const vector<double> elastic = r->elastic_energies(shift()), whole = r->whole_energies(shift());
     vector<double> flexibility;
     for (std::int64_t i = 0; i < n_pairs(); ++i) {
         const std::int64_t row = Contact::normal_row(i);
-        double whole = 0, rigid = 0;
-        for (const GapRows::Term &t : rows[static_cast<std::size_t>(row)])
-            whole += t.coefficient * attachment_.at(t.dof, row);
-        for (std::int64_t j = 0; j < rigid_gap.cols(); ++j)
-            rigid += rigid_gap(row, j) * rigid_gap(row, j) / shift();
         // below 1e-13 the difference is rounding: this pair sees rigid motion only
-        if (whole - rigid > 1e-13 * whole) flexibility.push_back(whole - rigid);
+        if (elastic[row] > 1e-13 * whole[row]) flexibility.push_back(elastic[row]);
     }
     return flexibility;
 }
 
-void Model::resolve_contact_stiffness() {
+void Model::resolve_contact_stiffness(Watch watch) {
     if (n_pairs() == 0) return;
-    const vector<double> flexibility = elastic_flexibility();
+    const vector<double> flexibility = elastic_flexibility(watch);
     if (!flexibility.empty()) local_stiffness_ = 1 / median(flexibility);
     for (std::int64_t i = 0; i < n_pairs(); ++i) {
         if (contact_.stiffness[i] != PLM_AUTO_STIFFNESS) continue;

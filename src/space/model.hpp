@@ -1,9 +1,14 @@
 // The structure with its contact: M q'' + C q' + K q = F(t) - B^T N(B q - g), checked once and then
 // read-only.
 #pragma once
+#include "linalg/kept.hpp"
 #include "space/model_input.hpp"
+#include "space/static_responses.hpp"
 
 namespace plm {
+
+/// Exact modes that are found anyhow: what is asked of the structure later seldom needs fewer.
+constexpr std::int64_t usual_open_modes = 30;
 
 class Model : public Structure {
   public:
@@ -17,20 +22,23 @@ class Model : public Structure {
     const vector<double> &initial_gap() const { return contact_.initial_gap; }
     /// 1 / median of the contact flexibility diag(B K^-1 B^T), rigid-body motion left out; 0 without pairs.
     double local_stiffness() const { return local_stiffness_; }
-    /// (K + shift M)^-1 B^T, n_free x Z: computed once, at the build (auto stiffness and every space need
-    /// it).
-    const Field &attachment() const { return attachment_; }
+    /// What contact forces and loads do statically outside the lowest modes: computed once, at the build
+    /// where there are pairs (auto stiffness and every space need it).
+    std::shared_ptr<const StaticResponses> responses(Watch watch) const;
+    /// As lowest_modes(): `wanted` of them, or as many as there are, and those after them until one is not
+    /// below `cutoff` (rad/s).
+    std::shared_ptr<const ExactModes> exact_modes_up_to(std::int64_t wanted, double cutoff,
+                                                        Watch watch) const;
     const SpaceOptions &space_options() const { return space_options_; }
 
   private:
     Model(const ModelInput &input, const SpaceOptions &options, const Solver &solver, Watch watch);
-    void solve_attachment(Watch watch);
-    vector<double> elastic_flexibility() const;
-    void resolve_contact_stiffness();
+    vector<double> elastic_flexibility(Watch watch) const;
+    void resolve_contact_stiffness(Watch watch);
 
     Contact contact_;
     double local_stiffness_ = 0;
-    Field attachment_;
+    Kept<StaticResponses> responses_;
     SpaceOptions space_options_;
 };
 

@@ -18,7 +18,7 @@ enum class PrecisionChoice { automatic, full, single };
 struct SpaceOptions {
     double tolerance = 1e-7; // relative error of the contact receptances at the highest frequency asked for
     double cutoff_factor = 2.0; // exact modes up to this multiple of the highest frequency
-    /// Attachment vectors (K + sigma M)^-1 [M (K + sigma M)^-1]^j B^T, j < max_blocks.
+    /// Attachment vectors [(K + sigma M)^-1 M]^j (K + sigma M)^-1 B^T, j < max_blocks.
     std::int64_t max_blocks = 4;
     bool verify_counts = true;                 // Sturm count of the modes below the cutoff
     SolverName solver = SolverName::automatic; // of the sparse factorizations

@@ -19,14 +19,25 @@ vector<double> diagonal_damping(const Space &space, const Damping &damping) {
     return c;
 }
 
+// V^T C V by blocks of columns.
+Matrix damping_matrix(const Space &space) {
+    const std::int64_t m = space.size();
+    Matrix c(m, 0);
+    for (std::int64_t first = 0; first < m; first += solved_at_once) {
+        Matrix some(m, std::min(solved_at_once, m - first));
+        for (std::int64_t j = 0; j < some.cols(); ++j) some(first + j, j) = 1;
+        c.append(gram(space.vectors, space.model->damping_times(combine(space.vectors, some))));
+    }
+    return c;
+}
+
 } // namespace
 
 void project_onto(Space &space) {
     const Model &model = *space.model;
-    space.gap = model.gap_rows().of(space.vectors);
     space.damping_diagonal = diagonal_damping(space, model.damping());
     if (model.damping().has_matrix) {
-        space.damping = gram(space.vectors, model.damping_times(space.vectors));
+        space.damping = damping_matrix(space);
         for (std::int64_t j = 0; j < space.size(); ++j) space.damping(j, j) += space.damping_diagonal[j];
         space.damping_diagonal.clear();
     }

@@ -9,6 +9,7 @@
 #include "linalg/kept.hpp"
 #include "space/linear_contact.hpp"
 #include "space/model.hpp"
+#include "space/space_vectors.hpp"
 
 namespace plm {
 
@@ -16,7 +17,7 @@ struct RestState; // space/rest.hpp
 
 struct Space {
     std::shared_ptr<const Model> model;
-    Field vectors;                   // V: n_free x m; V^T M V = diag(mass)
+    SpaceVectors vectors;            // V: n_free x m; V^T M V = diag(mass)
     vector<double> lambda;           // V^T K V = diag(lambda), >= 0 (rigid-body modes: exactly 0), ascending
     std::int64_t n_massless = 0;     // the last ones: mass 0, and one stiffness for all
     Matrix gap;                      // B V: Z x m
@@ -28,10 +29,11 @@ struct Space {
     double highest_frequency = 0;    // the space is accurate up to here (rad/s)
     double error_estimate = 0;       // relative error of the contact receptances there; 0 when not estimated
     bool is_contact_space = false;   // the unreduced structure to the model's tolerance (make_contact_space)
-    bool counts_verified = false;    // Sturm count agreed
-    double seconds = 0;              // contact space: of making it, with the earlier ones it was made from
-    Kept<RestState> rest;            // rest_of()
-    std::string description;         // "78 open modes below 20.1 kHz + 2 x 92 attachment vectors, error 3e-8"
+    std::shared_ptr<const StaticResponses> responses; // contact space: what it was made from
+    bool counts_verified = false;                     // Sturm count agreed
+    double seconds = 0;      // contact space: of making it, with the earlier ones it was made from
+    Kept<RestState> rest;    // rest_of()
+    std::string description; // "78 open modes below 20.1 kHz + 2 x 92 attachment vectors, error 3e-8"
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }
     std::int64_t n_massive() const { return size() - n_massless; }
@@ -39,7 +41,7 @@ struct Space {
     std::int64_t n_pairs() const { return model->contact().n_pairs(); }
 };
 
-/// Fills lambda-independent projections (gap, damping, loads) of a space whose vectors and lambda are set.
+/// Fills damping and loads of a space whose vectors, lambda and gap are set.
 void project_onto(Space &space);
 
 /// Modes of the linear system in which every pair keeps its state, those below `upper` (rad^2/s^2), or all

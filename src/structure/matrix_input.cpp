@@ -23,6 +23,8 @@ template <class Index> class Reader {
     }
 
     SparseMatrix mirrored() const {
+        SparseMatrix a;
+        if (mirrored_in_place(a)) return a;
         vector<std::int64_t> i, j;
         vector<double> v;
         const std::size_t most = static_cast<std::size_t>(f_.part == PLM_FULL ? f_.nnz : 2 * f_.nnz);
@@ -54,6 +56,43 @@ template <class Index> class Reader {
                 const std::int64_t other = b_[p] - base;
                 by_columns() ? visit(p, other, k, value_[p]) : visit(p, k, other, value_[p]);
             }
+    }
+
+    /// visit(p, q) over the positions of mirror images; by columns, p is below the diagonal. False where the
+    /// entries are not compressed, or do not ascend, or one has no mirror image: then not all were visited.
+    template <class Visit> bool for_each_couple(Visit visit) const {
+        if (!compressed() || f_.part != PLM_FULL) return false;
+        const Index base = static_cast<Index>(f_.index_base);
+        vector<Index> next(a_, a_ + f_.n); // of each column: the first entry not yet met as a mirror image
+        for (std::int64_t k = 0; k < f_.n; ++k) {
+            std::int64_t p = next[k] - base, last = k;
+            const std::int64_t end = a_[k + 1] - base;
+            if (p < end && b_[p] - base == k) ++p;
+            for (; p < end; ++p) {
+                const std::int64_t other = b_[p] - base;
+                if (other <= last) return false;
+                last = other;
+                const std::int64_t q = next[other] - base;
+                if (q >= a_[other + 1] - base || b_[q] - base != k) return false;
+                ++next[other];
+                visit(p, q);
+            }
+        }
+        return true;
+    }
+
+    // As most hosts have it: nothing has to be sorted.
+    bool mirrored_in_place(SparseMatrix &a) const {
+        if (!compressed() || f_.part != PLM_FULL) return false;
+        a.rows = a.cols = f_.n;
+        a.ptr.assign(a_, a_ + f_.n + 1);
+        a.idx.assign(b_, b_ + f_.nnz);
+        a.val.assign(value_, value_ + f_.nnz);
+        for (std::int64_t &p : a.ptr) p -= f_.index_base;
+        for (std::int64_t &i : a.idx) i -= f_.index_base;
+        return for_each_couple([&](std::int64_t p, std::int64_t q) { // the lower triangle speaks for both
+            a.val[p] = a.val[q] = value_[by_columns() ? p : q];
+        });
     }
 
     std::string entry_name(std::int64_t row, std::int64_t col) const {
@@ -162,6 +201,7 @@ template <class Index> class Reader {
     }
 
     void check_symmetry() const {
+        if (is_symmetric_at_a_glance()) return;
         const SparseMatrix s = as_stored(), t = transpose(s);
         double largest = 0;
         for (double v : s.val) largest = std::max(largest, std::abs(v));
@@ -183,6 +223,15 @@ template <class Index> class Reader {
                 p += row_p == row, q += row_q == row;
             }
         }
+    }
+
+    bool is_symmetric_at_a_glance() const {
+        double largest = 0, apart = 0;
+        for (std::int64_t p = 0; p < f_.nnz; ++p) largest = std::max(largest, std::abs(value_[p]));
+        return for_each_couple([&](std::int64_t p, std::int64_t q) {
+                   apart = std::max(apart, std::abs(value_[p] - value_[q]));
+               }) &&
+               apart <= 1e-8 * largest;
     }
 
     const MatrixFormat &f_;

@@ -101,6 +101,13 @@ class Structure {
     double uncertainty() const { return uncertainty_; }
 
     const GapRows &gap_rows() const { return gap_rows_; }
+    /// B (K + shift() M)^-1 f of one load: how the gaps of the open structure answer it statically.
+    vector<double> static_gaps(Field load) const {
+        solve(load);
+        vector<double> answer(static_cast<std::size_t>(gap_rows_.n_rows()));
+        gap_rows_.of(load, answer);
+        return answer;
+    }
     const Damping &damping() const { return damping_options_; }
     bool has_preload() const { return !preload_.empty(); }
     const Field &preload() const { return preload_; } // one column, none without pre-load

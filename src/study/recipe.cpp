@@ -83,8 +83,8 @@ KnownSpace contact_space_of(const Basis &basis) {
 
 std::int64_t bytes_of(const Space &space) {
     const auto entries = [](const auto &a) { return a.rows() * a.cols(); };
-    return static_cast<std::int64_t>(sizeof(double)) *
-           (entries(space.vectors) + entries(space.gap) + entries(space.damping));
+    return space.vectors.bytes() +
+           static_cast<std::int64_t>(sizeof(double)) * (entries(space.gap) + entries(space.damping));
 }
 
 } // namespace plm

@@ -149,7 +149,7 @@ FullSizeDefect full_size_defect(const Case &c, const Basis &basis, bool is_stati
 }
 
 bool all_small(const FullSizeDefect &d) {
-    return below(d.mass, 1e-11) && below(d.stiffness, 1e-11) && below(d.gap, 1e-11) && below(d.load, 1e-11);
+    return below(d.mass, 3e-11) && below(d.stiffness, 3e-11) && below(d.gap, 3e-11) && below(d.load, 3e-11);
 }
 
 // Paper, eq. (12) by modified Gram-Schmidt in the L2 norm, twice: independent of LAPACK.

@@ -26,10 +26,9 @@ exact::Structure chain_with_preload() {
 // Frequency of the system closed as at rest whose mode resembles the dominant one best, over all DOFs.
 double dense_rest_frequency(const plm::Sampler &sampler, const exact::Structure &s) {
     const plm::SymmetricEigen modes = test::dense_modes(s, sampler.rest().states);
-    plm::vector<double> shape(s.n), weighted(s.n);
-    gemv('N', 1.0, sampler.space()->vectors.in_core(), sampler.dominant()[0].coordinates.data(), 0.0,
-         shape.data());
-    for (int i = 0; i < s.n; ++i) weighted[i] = s.mass[i] * shape[i];
+    const plm::Field shape = combine(sampler.space()->vectors, sampler.dominant()[0].coordinates);
+    plm::vector<double> weighted(s.n);
+    for (int i = 0; i < s.n; ++i) weighted[i] = s.mass[i] * shape.at(i);
     int best = 0;
     for (int j = 1; j < s.n; ++j)
         if (std::abs(plm::dot(s.n, modes.vectors.col(j), weighted.data())) >

@@ -34,7 +34,7 @@ void auto_stiffness_of_two_springs_in_series(void **) {
     assert_true(close_to(m->local_stiffness(), series, 1e-12));
     assert_true(close_to(m->contact_stiffness()[0], 10 * series, 1e-12));
     assert_true(m->initial_gap()[0] == 0.25);
-    assert_true(close_to(m->attachment().at(0), 1.0 / 100, 1e-12));
+    assert_true(close_to(m->responses(plm::Watch())->whole_energies(0)[0], 1 / series, 1e-12));
     assert_true(test::build(two_masses(7))->contact_stiffness()[0] == 7);
 }
 
@@ -61,7 +61,7 @@ void no_pair_is_a_linear_model(void **) {
     const auto m = test::build(test::input({{2}}, {{100}}));
     assert_int_equal(m->n_pairs(), 0);
     assert_true(m->local_stiffness() == 0);
-    assert_int_equal(m->attachment().cols(), 0);
+    assert_int_equal(m->responses(plm::Watch())->energy.cols(), 0);
 }
 
 void zero_preload_is_none(void **) {

@@ -1,0 +1,61 @@
+// The Galerkin basis outside the exact modes: all static responses X = A^-1 F, A = K + sigma M, of which only
+// small matrices are kept, and higher Krylov vectors Y, (A^-1 M)^j X s, of the directions s slow enough to
+// need them. A Y and the coupling of M to the responses, X^T M Y = F^T (A^-1 M Y), come from the next power.
+#pragma once
+#include "linalg/lapack.hpp"
+#include "space/static_responses.hpp"
+
+namespace plm {
+
+class AttachmentBasis {
+  public:
+    /// reach: omega^2 + sigma at the highest frequency of interest (rad^2/s^2); 0: statics alone.
+    AttachmentBasis(std::shared_ptr<const Structure> structure,
+                    std::shared_ptr<const StaticResponses> responses, double reach);
+
+    std::int64_t size() const { return ritz_.vectors.cols(); }
+    /// Most powers of a direction, 1: the responses alone.
+    std::int64_t n_blocks() const;
+    /// Goes on with the directions whose share of inertia rho asks for more powers n: until rho^2n, or
+    /// `most` powers, is reached. False: there were none.
+    bool refine(double error, std::int64_t most, Watch watch);
+
+    /// Of M in a basis that is A-orthonormal: compliances 1 / (lambda + sigma), descending.
+    const SymmetricEigen &ritz() const { return ritz_; }
+    /// The vectors of that basis: X times the first and Y times the second, s x size() and q x size().
+    const Matrix &of_responses() const { return of_responses_; }
+    const Matrix &of_further() const { return of_further_; }
+    const Field &further() const { return further_; }
+    /// F^T times these vectors.
+    Matrix works() const;
+    /// Their combination, and their products with forces outside the modes that have this response to them.
+    Field combine(const Matrix &y) const;
+    Matrix products(const Field &forces, const Field &response) const;
+
+  private:
+    void orthonormalise_responses();
+    void rayleigh_ritz();
+    vector<std::int64_t> unfinished(double error, std::int64_t most) const;
+    void begin(const vector<std::int64_t> &directions);
+    void advance(const vector<std::int64_t> &directions);
+    Field next_power(Field momenta) const;
+    void append(const Field &y, const Field &momenta, const Field &next);
+
+    std::shared_ptr<const Structure> structure_;
+    std::shared_ptr<const StaticResponses> responses_;
+    ActingForces forces_;
+    double reach_;
+    Matrix orthonormal_, slow_;       // X T is A-orthonormal; X S are its Ritz vectors, slowest first
+    Matrix inertia_;                  // of X T
+    vector<double> share_;            // rho, of each Ritz vector: reach x'Mx / x'Ax
+    vector<std::int64_t> power_;      // of each: blocks it is in
+    vector<std::int64_t> at_;         // of each: column of frontier_, or -1
+    Field frontier_;                  // the next power of the last one of each direction
+    Field further_;                   // Y
+    Matrix works_, coupling_;         // F^T Y and X^T M Y
+    Matrix energy_, further_inertia_; // Y^T A Y, Y^T M Y
+    Matrix of_responses_, of_further_;
+    SymmetricEigen ritz_;
+};
+
+} // namespace plm
