@@ -69,19 +69,25 @@ class EventForce final : public ContactForce {
         }
         roots_.clear();
         if (std::abs(x_[0]) >= wave) return; // it touches zero at most, or stays there
-        const double *slope = value + n_grid_;
+        const double *slope = value + n_grid_, sagitta = sagitta_of(width_);
         for (std::int64_t i = 0; i < n_grid_; ++i) {
             const std::int64_t j = i + 1 < n_grid_ ? i + 1 : 0;
+            if (clears(value[i], value[j], sagitta)) continue; // most cells
             const TrigEnd left{width_ * static_cast<double>(i), value[i], slope[i]};
             search(left, {left.t + width_, value[j], slope[j]}, 12);
         }
     }
 
     // A chord over a cell is nowhere further from u than its sagitta: cells whose ends clear it hold no zero.
+    double sagitta_of(double width) const { return 0.125 * width * width * bend_; }
+    static bool clears(double left, double right, double sagitta) {
+        return ContactLaw::closed(left) == ContactLaw::closed(right) &&
+               std::min(std::abs(left), std::abs(right)) > sagitta;
+    }
+
     void search(const TrigEnd &left, const TrigEnd &right, int halvings) {
+        if (clears(left.value, right.value, sagitta_of(right.t - left.t))) return;
         const bool crosses = ContactLaw::closed(left.value) != ContactLaw::closed(right.value);
-        const double width = right.t - left.t, sagitta = 0.125 * width * width * bend_;
-        if (!crosses && std::min(std::abs(left.value), std::abs(right.value)) > sagitta) return;
         if (halvings > 0 && !simple(left, right)) {
             const double t = 0.5 * (left.t + right.t);
             worked(20.0 * static_cast<double>(h_)); // a gap that hardly opens takes thousands in each cell
