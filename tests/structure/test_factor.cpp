@@ -1,5 +1,6 @@
 // Sparse factorizations, built in and the host's.
 #include "linalg/lapack.hpp"
+#include "linalg/parallel.hpp"
 #include "matrices.hpp"
 #include "structure/solver/make_factor.hpp"
 
@@ -81,6 +82,25 @@ void one_factor_serves_blocks_and_single_solves_alike(void **) {
     }
     assert_true(largest < 1e-13);
     assert_true(factor->factor_nonzeros() > 225);
+}
+
+// Solutions and products are shared out by columns: to the last bit as one thread has them.
+void threads_do_not_change_a_digit(void **) {
+    const SparseMatrix a = membrane(180, 160); // its products are worth a thread
+    const auto factor = plm::make_factor(a);
+    const Matrix b = random_matrix(a.cols, 75, 8);
+    Matrix solution, once, back;
+    for (std::int64_t threads : {1, 2, 3}) {
+        const plm::ThreadsScope scope(threads);
+        Matrix x = b;
+        factor->solve(x);
+        const Matrix y = plm::multiply(a, b), z = plm::multiply_transposed(a, b);
+        if (threads == 1) solution = x, once = y, back = z;
+        assert_true(max_difference(x, solution) == 0);
+        assert_true(max_difference(y, once) == 0);
+        assert_true(max_difference(z, back) == 0);
+    }
+    assert_true(max_difference(plm::multiply(a, solution), b) < 1e-10);
 }
 
 void inertia_counts_the_eigenvalues_below_the_shift(void **) {
@@ -235,6 +255,7 @@ int main() {
         cmocka_unit_test(dense_matrices_are_factored_as_such),
         cmocka_unit_test(solvers_are_chosen_by_name),
         cmocka_unit_test(one_factor_serves_blocks_and_single_solves_alike),
+        cmocka_unit_test(threads_do_not_change_a_digit),
         cmocka_unit_test(inertia_counts_the_eigenvalues_below_the_shift),
         cmocka_unit_test(the_index_of_a_bad_pivot_is_the_callers),
         cmocka_unit_test(a_nearly_singular_matrix_shows_in_the_condition),
