@@ -21,9 +21,9 @@ constexpr std::int64_t small_structure = 10000; // DOFs
 
 // Whatever else is known of the structure, so that the answer does not hang on what was asked before.
 std::int64_t harmonics_within_reach(const Space &space, double window_max_hz) {
-    if (space.n_exact_modes < usual_open_modes) return most_harmonics; // these are all
-    const double reach = std::sqrt(space.lambda[usual_open_modes - 1]) /
-                         space.model->space_options().cutoff_factor,
+    if (space.n_exact_modes < modes_anyhow) return most_harmonics; // these are all
+    const double reach =
+                     std::sqrt(space.lambda[modes_anyhow - 1]) / space.model->space_options().cutoff_factor,
                  n = reach / (2 * M_PI * space_margin * window_max_hz);
     const std::int64_t least = space.model->n_free() <= small_structure ? least_of_small : least_harmonics;
     return static_cast<std::int64_t>(
@@ -43,7 +43,7 @@ double first_guess(const SamplerOptions &o) {
 std::int64_t least_modes(const SamplerOptions &o) {
     std::int64_t highest = o.mode;
     for (const SamplerOptions::Extra &e : o.extra) highest = std::max(highest, e.mode);
-    return std::max<std::int64_t>(usual_open_modes, highest + 10);
+    return std::max<std::int64_t>(modes_anyhow, highest + 10);
 }
 
 std::vector<DominantMode> find_dominant_modes(const Space &space, const RestState &rest, bool homogeneous,

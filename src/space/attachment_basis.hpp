@@ -25,7 +25,8 @@ class AttachmentBasis {
     /// The vectors of that basis: X times the first and Y times the second, s x size() and q x size().
     const Matrix &of_responses() const { return of_responses_; }
     const Matrix &of_further() const { return of_further_; }
-    const Field &further() const { return further_; }
+    /// Y; there is none afterwards.
+    Field take_further() { return std::move(further_); }
     /// F^T times these vectors.
     Matrix works() const;
     /// Their combination, and their products with forces outside the modes that have this response to them.

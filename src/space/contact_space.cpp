@@ -174,7 +174,7 @@ class ContactSpaceBuilder {
     }
 
     // Exact modes and attachment vectors by frequency, then what has no mass.
-    void assemble(const AttachmentBasis &attached) {
+    void assemble(AttachmentBasis &attached) {
         const ExactModes &modes = *responses_->modes;
         const RitzVectors ritz = coordinates(attached);
         space_->n_exact_modes = modes.count();
@@ -202,7 +202,7 @@ class ContactSpaceBuilder {
     }
 
     // y: of the attachment vectors; order: of them after the modes.
-    void put_vectors(const AttachmentBasis &attached, const Matrix &y, const vector<std::int64_t> &order) {
+    void put_vectors(AttachmentBasis &attached, const Matrix &y, const vector<std::int64_t> &order) {
         const std::int64_t m = static_cast<std::int64_t>(order.size()), p = responses_->modes->count();
         Matrix of_modes(p, m), of_attached(y.rows(), m);
         for (std::int64_t j = 0; j < m; ++j)
@@ -213,8 +213,9 @@ class ContactSpaceBuilder {
         space_->gap = gaps(of_modes, product('N', 'N', attached.works(), of_attached));
         Matrix of_responses = product('N', 'N', attached.of_responses(), of_attached),
                of_further = product('N', 'N', attached.of_further(), of_attached);
-        space_->vectors = SpaceVectors({model_, responses_->modes, std::move(of_modes),
-                                        std::move(of_responses), attached.further(), std::move(of_further)});
+        space_->vectors =
+            SpaceVectors({model_, responses_->modes, std::move(of_modes), std::move(of_responses),
+                          attached.take_further(), std::move(of_further)});
     }
 
     // B V: works: of contact forces, and then loads, on the attachment vectors.

@@ -48,7 +48,7 @@ std::shared_ptr<const ExactModes> Model::exact_modes_up_to(std::int64_t wanted, 
 
 std::shared_ptr<const StaticResponses> Model::responses(Watch watch) const {
     return responses_.get([&] {
-        const std::int64_t wanted = std::max(usual_open_modes, n_rigid() + 1);
+        const std::int64_t wanted = std::max(modes_anyhow, n_rigid() + 1);
         return static_responses(*this, exact_modes_up_to(wanted, 0, watch), watch);
     });
 }

@@ -7,8 +7,8 @@
 
 namespace plm {
 
-/// Exact modes that are found anyhow: what is asked of the structure later seldom needs fewer.
-constexpr std::int64_t usual_open_modes = 30;
+/// Modes of the open structure that are found anyhow: what is asked of it later seldom needs fewer.
+constexpr std::int64_t modes_anyhow = 30;
 
 class Model : public Structure {
   public:
