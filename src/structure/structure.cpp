@@ -79,7 +79,7 @@ StructureEstimate Structure::estimate(const StructureInput &input, GapSize gap, 
          {&structure.mass_, &structure.stiffness_, &structure.damping_, &structure.gap_rows_.matrix()})
         e.bytes += bytes_of(*a);
     e.shifted = bytes_of(sum);
-    e.factor = estimate_factor(sum, solver);
+    e.factor = estimate_factor(sum, structure.solver_); // with the host's order
     return e;
 }
 

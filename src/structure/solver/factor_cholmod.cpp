@@ -11,8 +11,8 @@
 namespace plm {
 namespace {
 
-/// Right-hand sides solved at once: enough for BLAS 3 speed, and bounds the workspace to 2 n x 64.
-constexpr std::int64_t solve_block = 64;
+/// Right-hand sides solved at once: enough for BLAS 3 speed, and bounds the workspace to 2 n x 32.
+constexpr std::int64_t solve_block = 32;
 
 class CholmodFactor final : public Factor {
   public:
