@@ -1,7 +1,8 @@
-# CHOLMOD and FFTW from their static archives, as one object inside libplm.so and libplm.a. Only what libplm calls is
+# CHOLMOD, SCOTCH and FFTW from their static archives, as one object inside libplm.so and libplm.a. Only what libplm calls is
 # taken, under names of our own (carried_...), so that it neither lends nor borrows symbols; and src/linalg/carried puts
-# parts of our own in place of those that would start threads, print, or end the process.
-option(PLM_CARRY "Carry CHOLMOD and FFTW from their static archives; OFF: link the shared ones" ON)
+# parts of our own in place of those that would start threads, print, read the environment, or end the process. SCOTCH
+# does all of that, so that it is carried or left out.
+option(PLM_CARRY "Carry CHOLMOD, SCOTCH and FFTW from their static archives; OFF: link the shared ones, without SCOTCH" ON)
 
 # plm_find_archive(<variable> <name>): lib<name>.a, or nothing
 function(plm_find_archive variable name)
@@ -27,19 +28,35 @@ endfunction()
 
 set(PLM_CARRIED_CHOLMOD)
 set(PLM_CARRIED_FFTW)
+set(PLM_CARRIED_SCOTCH)
 set(plm_carried_names)
 set(plm_carried_parts)
 if(PLM_CARRY AND PLM_WITH_CHOLMOD)
     plm_find_archives(PLM_CARRIED_CHOLMOD cholmod amd colamd suitesparseconfig)
 endif()
+if(PLM_WITH_SCOTCH)
+    if(PLM_CARRY)
+        plm_find_archives(PLM_CARRIED_SCOTCH scotch)
+    endif()
+    if(NOT PLM_CARRIED_SCOTCH)
+        message(FATAL_ERROR "PLM_WITH_SCOTCH needs PLM_CARRY=ON and the static libscotch (Debian: libscotch-dev); or "
+                            "configure with -DPLM_WITH_SCOTCH=OFF")
+    endif()
+endif()
 if(PLM_CARRY AND PLM_WITH_FFTW)
     plm_find_archives(PLM_CARRIED_FFTW fftw3)
 endif()
 if(PLM_CARRIED_CHOLMOD)
-    foreach(name start finish analyze factorize allocate_dense free_dense free_factor rcond solve2 version)
+    foreach(name start finish analyze analyze_p factorize allocate_dense free_dense free_factor rcond solve2 version)
         list(APPEND plm_carried_names cholmod_l_${name})
     endforeach()
     list(APPEND plm_carried_parts cholmod_parts.cpp openmp_parts.cpp)
+endif()
+if(PLM_CARRIED_SCOTCH)
+    foreach(name graphInit graphBuild graphOrder stratInit stratExit stratGraphOrderBuild randomReset version)
+        list(APPEND plm_carried_names SCOTCH_${name})
+    endforeach()
+    list(APPEND plm_carried_parts scotch_parts.cpp)
 endif()
 if(PLM_CARRIED_FFTW)
     list(APPEND plm_carried_names fftw_plan_dft_r2c_1d fftw_plan_dft_c2r_1d fftw_destroy_plan fftw_execute fftw_version)
@@ -74,20 +91,30 @@ endif()
 
 set(plm_carried_folder ${PROJECT_BINARY_DIR}/carried)
 string(REPLACE ";" "\n" plm_kept "${plm_carried_names}")
-file(WRITE ${plm_carried_folder}/kept "${plm_kept}\ncarried_fftw_may_work\n")
+file(WRITE ${plm_carried_folder}/kept "${plm_kept}\ncarried_fftw_may_work\ncarried_scotch_scans\ncarried_scotch_release\n")
 file(WRITE ${plm_carried_folder}/renamed "${plm_new_names}")
 list(TRANSFORM plm_carried_names PREPEND LINKER:--undefined= OUTPUT_VARIABLE plm_wanted)
 list(TRANSFORM plm_wanted REPLACE "^LINKER:" "-Wl,")
+# SCOTCH does not bear a malloc that fails: it gets one that throws, and that knows what is to be given back then.
+set(plm_scotch)
+if(PLM_CARRIED_SCOTCH)
+    set(plm_scotch ${plm_carried_folder}/libscotch.a)
+    add_custom_command(
+        OUTPUT ${plm_scotch}
+        COMMAND ${CMAKE_OBJCOPY} --redefine-sym malloc=carried_scotch_malloc --redefine-sym realloc=carried_scotch_realloc
+                --redefine-sym free=carried_scotch_free ${PLM_CARRIED_SCOTCH} ${plm_scotch}
+        DEPENDS ${PLM_CARRIED_SCOTCH} VERBATIM COMMENT "SCOTCH with the library's malloc")
+endif()
 set(PLM_CARRIED_OBJECT ${plm_carried_folder}/carried.o)
 add_custom_command(
     OUTPUT ${PLM_CARRIED_OBJECT}
     COMMAND ${CMAKE_C_COMPILER} -r -nostdlib -Wl,--force-group-allocation -o ${plm_carried_folder}/all.o $<TARGET_OBJECTS:plm_carried_parts> ${plm_wanted}
-            ${PLM_CARRIED_CHOLMOD} ${PLM_CARRIED_FFTW}
+            ${PLM_CARRIED_CHOLMOD} ${plm_scotch} ${PLM_CARRIED_FFTW}
     COMMAND ${CMAKE_OBJCOPY} --keep-global-symbols=${plm_carried_folder}/kept ${plm_carried_folder}/all.o
     COMMAND ${CMAKE_OBJCOPY} --redefine-syms=${plm_carried_folder}/renamed ${plm_carried_folder}/all.o ${PLM_CARRIED_OBJECT}
-    DEPENDS plm_carried_parts $<TARGET_OBJECTS:plm_carried_parts> ${PLM_CARRIED_CHOLMOD} ${PLM_CARRIED_FFTW}
-            ${plm_carried_folder}/kept ${plm_carried_folder}/renamed
+    DEPENDS plm_carried_parts $<TARGET_OBJECTS:plm_carried_parts> ${PLM_CARRIED_CHOLMOD} ${plm_scotch}
+            ${PLM_CARRIED_FFTW} ${plm_carried_folder}/kept ${plm_carried_folder}/renamed
     COMMAND_EXPAND_LISTS VERBATIM
-    COMMENT "Carrying CHOLMOD and FFTW")
+    COMMENT "Carrying CHOLMOD, SCOTCH and FFTW")
 add_custom_target(plm_carried_object DEPENDS ${PLM_CARRIED_OBJECT})
 target_link_libraries(plm_dep_carried INTERFACE ${PLM_CARRIED_OBJECT})

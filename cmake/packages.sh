@@ -4,7 +4,7 @@
 # What the library is built from. Of OpenBLAS both, by name: the one with threads is what Debian's other libraries bring
 # at run time, so that what is linked is what is loaded; the serial one is what a self-contained library carries.
 plm_build_packages='g++ cmake ninja-build libopenblas-pthread-dev libopenblas-serial-dev liblapack-dev libarpack2-dev
-    libfftw3-dev libsuitesparse-dev libeigen3-dev'
+    libfftw3-dev libsuitesparse-dev libscotch-dev libeigen3-dev'
 
 # Tells whether a package, or the program it is wanted for, is there.
 plm_has_package() {

@@ -409,6 +409,24 @@ module plm_c
             integer(c_int64_t), intent(in) :: dof(*)
             integer(plm_status) :: code
         end function plm_model_fix_dofs_i64
+        function plm_model_set_elimination_order_i32(model, index_base, n, dof) bind(c) result(code)
+            import :: c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), intent(in) :: dof(*)
+            integer(plm_status) :: code
+        end function plm_model_set_elimination_order_i32
+        function plm_model_set_elimination_order_i64(model, index_base, n, dof) bind(c) result(code)
+            import :: c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int64_t), intent(in) :: dof(*)
+            integer(plm_status) :: code
+        end function plm_model_set_elimination_order_i64
         function plm_model_add_node_pairs_i32(model, index_base, n, dof_a, dof_b, normal, stiffness, &
             gap) bind(c) result(code)
             import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
@@ -579,6 +597,13 @@ module plm_c
             integer(c_int64_t), intent(inout) :: count
             integer(plm_status) :: code
         end function plm_model_get_int_array
+        function plm_model_estimate_memory(model, bytes) bind(c) result(code)
+            import :: c_double, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            real(c_double), intent(inout) :: bytes
+            integer(plm_status) :: code
+        end function plm_model_estimate_memory
         function plm_model_build(model) bind(c) result(code)
             import :: c_ptr, plm_status
             implicit none
@@ -1572,6 +1597,9 @@ module plm_c
     end interface
     interface plm_model_fix_dofs
         procedure :: plm_model_fix_dofs_i32, plm_model_fix_dofs_i64
+    end interface
+    interface plm_model_set_elimination_order
+        procedure :: plm_model_set_elimination_order_i32, plm_model_set_elimination_order_i64
     end interface
     interface plm_model_add_node_pairs
         procedure :: plm_model_add_node_pairs_i32, plm_model_add_node_pairs_i64

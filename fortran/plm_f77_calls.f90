@@ -304,6 +304,19 @@ subroutine plmmfx(handle, n, idof, ierr)
     ierr = int(plm_model_fix_dofs(as_pointer(handle), int(1, c_int32_t), int(n, int64), idof))
 end subroutine plmmfx
 
+subroutine plmmeo(handle, n, idof, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_model_set_elimination_order
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    integer, intent(in) :: idof(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_set_elimination_order(as_pointer(handle), int(1, c_int32_t), int(n, int64), idof))
+end subroutine plmmeo
+
 subroutine plmmnp(handle, n, idofa, idofb, dnorm, stiff, gap, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t
     use, intrinsic :: iso_fortran_env, only: int64, real64
@@ -368,6 +381,17 @@ subroutine plmmpl(handle, ndof, force, ierr)
     integer, intent(out) :: ierr
     ierr = int(plm_model_set_preload(as_pointer(handle), int(ndof, int64), force))
 end subroutine plmmpl
+
+subroutine plmmem(handle, bytes, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_estimate_memory
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    real(real64), intent(inout) :: bytes
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_estimate_memory(as_pointer(handle), bytes))
+end subroutine plmmem
 
 subroutine plmmbu(handle, ierr)
     use, intrinsic :: iso_fortran_env, only: int64

@@ -19,6 +19,7 @@ module plm_methods
         procedure :: set_rayleigh_damping => model_set_rayleigh_damping
         procedure :: set_modal_damping => model_set_modal_damping
         procedure :: set_structural_damping => model_set_structural_damping
+        procedure :: estimate_memory => model_estimate_memory
         procedure :: count_modes => model_count_modes
         procedure :: audit => model_audit
     end type plm_model_methods
@@ -89,6 +90,22 @@ contains
         status = plm_model_set_structural_damping(self%handle, eta)
         call finish(self%context, status, stat, errmsg)
     end subroutine model_set_structural_damping
+
+    ! Before the build: bytes that the model, and what is usually made of it, will take at once at most, from the
+    ! pattern of the matrices (the factor's part is exact, an ordering and a symbolic factorization); by phase:
+    ! "memory_matrices", "memory_factorization", "memory_factor", "memory_modes", "memory_contact_space",
+    ! "memory_basis". What the host's own solver takes is not known, and not counted. With "memory_limit" set,
+    ! plm_model_build fails by this estimate with PLM_ERR_MEMORY, before anything is factored. PLM_ERR_STATE
+    ! without M or K, and once the model is built.
+    subroutine model_estimate_memory(self, bytes, stat, errmsg)
+        class(plm_model_methods), intent(in) :: self
+        real(real64), intent(inout) :: bytes
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(plm_status) :: status
+        status = plm_model_estimate_memory(self%handle, bytes)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine model_estimate_memory
 
     ! How many natural frequencies of the open structure lie below frequency_hz (Hz), rigid-body modes included,
     ! by Sylvester's law of inertia: one factorization, no eigenvectors, none is missed. Use it to size a basis or

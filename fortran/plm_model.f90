@@ -20,6 +20,7 @@ module plm_models
         procedure, private :: set_csc_int32, set_csc_int64, set_csr_int32, set_csr_int64
         procedure, private :: set_triplets_int32, set_triplets_int64
         procedure, private :: fix_dofs_int32, fix_dofs_int64, add_node_pairs_int32, add_node_pairs_int64
+        procedure, private :: set_elimination_order_int32, set_elimination_order_int64
         procedure, private :: add_ground_contacts_int32, add_ground_contacts_int64
         procedure, private :: add_gap_rows_int32, add_gap_rows_int64
         procedure, private :: set_excitation_real, set_excitation_complex
@@ -27,6 +28,7 @@ module plm_models
         generic :: set_csr => set_csr_int32, set_csr_int64
         generic :: set_triplets => set_triplets_int32, set_triplets_int64
         generic :: fix_dofs => fix_dofs_int32, fix_dofs_int64
+        generic :: set_elimination_order => set_elimination_order_int32, set_elimination_order_int64
         generic :: add_node_pairs => add_node_pairs_int32, add_node_pairs_int64
         generic :: add_ground_contacts => add_ground_contacts_int32, add_ground_contacts_int64
         generic :: add_gap_rows => add_gap_rows_int32, add_gap_rows_int64
@@ -123,6 +125,16 @@ contains
         call finish(self%context, plm_model_fix_dofs(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), &
             stat, errmsg)
     end subroutine fix_dofs_int32
+
+    ! all DOFs as the sparse factorization eliminates them, in place of the library's order
+    subroutine set_elimination_order_int32(self, dof, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: dof(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_elimination_order(self%handle, 1_c_int32_t, &
+            size(dof, kind=int64), dof), stat, errmsg)
+    end subroutine set_elimination_order_int32
 
     ! dof_a, dof_b, normal: 3 x n, 0 for no such DOF; the normal points out of the body of a; stiffness(n): k_n or
     ! PLM_AUTO_STIFFNESS; gap(n): initial distance, absent: 0

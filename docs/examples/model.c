@@ -55,6 +55,16 @@ static int contacts(plm_context *ctx) {
     TRY(plm_model_fix_dofs_i64(model, 1, 2, held_too));
     /* [plm_model_fix_dofs_i64] */
 
+    /* [plm_model_set_elimination_order_i32] */
+    const int32_t order[] = {3, 0, 4, 1, 5, 2};
+    TRY(plm_model_set_elimination_order_i32(model, 0, 6, order));
+    /* [plm_model_set_elimination_order_i32] */
+    /* [plm_model_set_elimination_order_i64] */
+    const int64_t order_from_1[] = {4, 1, 5, 2, 6, 3};
+    TRY(plm_model_set_elimination_order_i64(model, 1, 6, order_from_1)); /* in place of the one before */
+    TRY(plm_model_set_elimination_order_i64(model, 1, 0, NULL));         /* and back to the library's own */
+    /* [plm_model_set_elimination_order_i64] */
+
     /* [plm_model_add_node_pairs_i32] */
     /* node 0 against node 1 along x, touching at first, the stiffness chosen by the library */
     const int32_t a[] = {0, 1, 2}, b[] = {3, 4, 5};
@@ -106,6 +116,18 @@ static int loads_and_options(plm_model *model) {
     TRY(plm_model_set_double(model, "space_tolerance", 1e-8));
     TRY(plm_model_set_string(model, "solver", "auto")); /* who factors the sparse matrices */
     /* [plm_model_set_int] [plm_model_set_double] [plm_model_set_string] */
+    return 0;
+}
+
+static int memory_needed(plm_model *model) {
+    /* [plm_model_estimate_memory] */
+    double bytes, factor;
+    TRY(plm_model_set_double(model, "memory_limit", 4096)); /* MiB: the build fails rather than take more */
+    TRY(plm_model_estimate_memory(model, &bytes));
+    TRY(plm_model_get_double(model, "memory_factor", &factor));
+    printf("about %.1f MiB at most, %.1f of them the factor\n", bytes / 1048576, factor / 1048576);
+    /* [plm_model_estimate_memory] */
+    EXPECT(bytes > factor && factor > 0);
     return 0;
 }
 
@@ -189,5 +211,6 @@ int example(plm_context *ctx) {
     if (line) return line;
     TRY(start_model(ctx, &model));
     line = loads_and_options(model);
+    if (!line) line = memory_needed(model);
     return line ? line : results(model);
 }

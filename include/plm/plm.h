@@ -272,6 +272,14 @@ PLM_API plm_status plm_model_set_structural_damping(plm_model *model, double eta
 PLM_API plm_status plm_model_fix_dofs_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *dof);
 PLM_API plm_status plm_model_fix_dofs_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *dof);
 
+/* The order in which the sparse factorization by cholmod eliminates the DOFs, in place of the library's: a permutation of
+ * all of them, n = n_dof, for hosts that know their mesh; fixed ones are passed over. It changes time and memory, no
+ * result. n = 0 removes it. Repeated and missing DOFs are PLM_ERR_ARGUMENT with the position as index. */
+PLM_API plm_status plm_model_set_elimination_order_i32(plm_model *model, int32_t index_base, int64_t n,
+                                                       const int32_t *dof);
+PLM_API plm_status plm_model_set_elimination_order_i64(plm_model *model, int32_t index_base, int64_t n,
+                                                       const int64_t *dof);
+
 /* n contact pairs of nodes a and b. dof_a, dof_b: 3 x n, the x, y, z DOFs of the nodes (base - 1: no such DOF).
  * normal: 3 x n, unit, pointing out of a's body towards b. stiffness[n]: k_n > 0 (force/length) or PLM_AUTO_STIFFNESS.
  * gap[n] or NULL (zero): initial distance, > 0 open, < 0 interference.
@@ -317,6 +325,13 @@ PLM_API plm_status plm_model_get_array(plm_model *model, const char *key, int64_
                                        int64_t *count);
 PLM_API plm_status plm_model_get_int_array(plm_model *model, const char *key, int64_t capacity, int64_t *values,
                                            int64_t *count);
+
+/* Before the build: bytes that the model, and what is usually made of it, will take at once at most, from the pattern of
+ * the matrices (the factor's part is exact, an ordering and a symbolic factorization); by phase: "memory_matrices",
+ * "memory_factorization", "memory_factor", "memory_modes", "memory_contact_space", "memory_basis". What the host's own
+ * solver takes is not known, and not counted. With "memory_limit" set, plm_model_build fails by this estimate with
+ * PLM_ERR_MEMORY, before anything is factored. PLM_ERR_STATE without M or K, and once the model is built. */
+PLM_API plm_status plm_model_estimate_memory(plm_model *model, double *bytes);
 
 /* Checks the whole, removes the fixed DOFs, factors K. Afterwards the model no longer changes. PLM_WARNING when something
  * is probably wrong, such as a pair given twice: "warning"; what is only worth a look goes to the log (plm_model_audit).

@@ -651,6 +651,13 @@ class Model : public detail::WithOptions<Model, plm_model> {
                             : plm_model_fix_dofs_i32(handle_, index_base, dof.size(), dof.narrow()),
               dof.is_wide() ? "fix_dofs_i64" : "fix_dofs_i32");
     }
+    /// A permutation of all DOFs: how the sparse factorization eliminates them, in place of the library's order.
+    void set_elimination_order(Indices dof, std::int32_t index_base = 0) {
+        check(dof.is_wide()
+                  ? plm_model_set_elimination_order_i64(handle_, index_base, dof.size(), dof.wide())
+                  : plm_model_set_elimination_order_i32(handle_, index_base, dof.size(), dof.narrow()),
+              dof.is_wide() ? "set_elimination_order_i64" : "set_elimination_order_i32");
+    }
 
     /// dof_a, dof_b, normal: 3 x n; stiffness: n (PLM_AUTO_STIFFNESS: chosen); gap: n or {} (zero).
     void add_node_pairs(Indices dof_a, Indices dof_b, Reals normal, Reals stiffness, Reals gap = {},
@@ -726,6 +733,12 @@ class Model : public detail::WithOptions<Model, plm_model> {
                                      m.shape.values.data()),
                  "get_modes");
         return m;
+    }
+    /// Bytes that it will take at most at once, before the build; by phase: "memory_factor" and the others.
+    double estimate_memory() {
+        double bytes = 0;
+        finished(plm_model_estimate_memory(handle_, &bytes), "estimate_memory");
+        return bytes;
     }
     /// Natural frequencies of the open structure below frequency_hz, rigid-body modes included.
     std::int64_t count_modes(double frequency_hz) const {

@@ -8,6 +8,7 @@
 #include "searches/hbm.hpp"
 #include "searches/isolated.hpp"
 #include "space/audit.hpp"
+#include "space/memory_estimate.hpp"
 #include "space/rest.hpp"
 #include "study/study.hpp"
 #include <optional>
@@ -36,6 +37,7 @@ struct ModelHandle final : HandleOf<plm_model, Kind::model> {
     std::shared_ptr<const Space> space; // for modes and rest, made when first needed
     std::shared_ptr<const RestState> rest;
     std::vector<Finding> findings;
+    std::optional<MemoryEstimate> memory;
     Warnings warnings; // of the build
 };
 

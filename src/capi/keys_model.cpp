@@ -12,6 +12,13 @@ const RestState &rest(const H &h) {
     return *h.rest;
 }
 
+const MemoryEstimate &estimated(const H &h) {
+    if (!h.memory)
+        throw Error(PLM_ERR_STATE, "the memory is not estimated; estimate it before the build")
+            .argument("key");
+    return *h.memory;
+}
+
 vector<double> rest_displacement(const H &h) {
     const RestState &r = rest(h); // throws first where nothing is built
     return h.core->expanded(r.displacement);
@@ -39,6 +46,14 @@ const std::vector<Key> &model_keys() {
             "solver", "auto,cholmod,eigen,host",
             "who factors sparse matrices; auto: the host's solver where the context has "
             "one, else cholmod where it was built, else eigen"),
+        choice_option<&O::precision>("factor_precision", "auto,double,single",
+                                     "numbers kept of a factorization by cholmod; single: half the memory, "
+                                     "every solve refined to the residual "
+                                     "of double; auto: double, unless only single fits memory_limit"),
+        real_option<&O::memory_limit>(
+            "memory_limit", 0, 1e9,
+            "MiB that the model and what is made of it may take at once, as estimated before the build, the "
+            "host's solver not counted; 0: no limit"),
 
         result<H>("n_dof", "DOFs of the model",
                   [](const H &h) { return h.core ? h.core->n_dof() : h.input.n_dof; }),
@@ -57,6 +72,21 @@ const std::vector<Key> &model_keys() {
                   [](const H &h) { return built(h)->contact_stiffness(); }),
         result<H>("initial_gap", "initial gap of every pair (length)",
                   [](const H &h) { return built(h)->initial_gap(); }),
+
+        result<H>("memory_matrices", "bytes of the structure on its free DOFs: M, K, C, gap rows",
+                  [](const H &h) { return estimated(h).structure; }),
+        result<H>("memory_factorization", "bytes of the factorization while it is made",
+                  [](const H &h) { return estimated(h).factorization; }),
+        result<H>("memory_factor", "bytes that are kept of it",
+                  [](const H &h) { return estimated(h).factor; }),
+        result<H>("memory_modes", "bytes of thirty modes while they are sought, beside matrices and factor",
+                  [](const H &h) { return estimated(h).modes; }),
+        result<H>("memory_contact_space",
+                  "bytes of the contact space while it is made, beside matrices and factor",
+                  [](const H &h) { return estimated(h).contact_space; }),
+        result<H>("memory_basis",
+                  "bytes of a basis of forty columns while it is made, beside matrices and factor",
+                  [](const H &h) { return estimated(h).basis; }),
 
         result<H>("rest_displacement", "displacement at rest under the pre-load, n_dof (length)",
                   rest_displacement),

@@ -30,6 +30,13 @@ std::shared_ptr<const Model> build(ModelHandle &m) {
     return std::shared_ptr<const Model>(model.release(), [binding](const Model *p) { delete p; });
 }
 
+MemoryEstimate estimate(const ModelHandle &m) {
+    const std::shared_ptr<SolverBinding> binding = m.owner->bind_solver();
+    const HostSolver host = binding ? binding->for_core() : HostSolver();
+    m.owner->watch().step("memory", 0.0);
+    return estimate_memory(m.input, m.space_options, binding ? &host : nullptr);
+}
+
 // Who never asks for the audit hears the worst of it all the same, and the rest in the log.
 Warnings look_over(const Model &model, Watch watch) {
     constexpr int worth_a_look = 1, probably_wrong = 2;
@@ -122,6 +129,16 @@ plm_status plm_model_set_excitation(plm_model *model, std::int32_t harmonic, std
         load.real = copied_load("real", n, real, m.input.n_dof);
         if (imag) load.imag = copied_load("imag", n, imag, m.input.n_dof);
         std::swap(m.input.excitation[harmonic], load);
+        return PLM_OK;
+    });
+}
+
+plm_status plm_model_estimate_memory(plm_model *model, double *bytes) {
+    return call<ModelHandle>("plm_model_estimate_memory", model, [&](ModelHandle &m) {
+        require_open(m);
+        require_pointer(bytes, "bytes");
+        m.memory = estimate(m);
+        *bytes = m.memory->peak();
         return PLM_OK;
     });
 }

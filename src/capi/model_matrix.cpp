@@ -64,6 +64,34 @@ plm_status fix_dofs(const char *function, plm_model *model, std::int32_t index_b
     });
 }
 
+template <class Index>
+plm_status set_elimination_order(const char *function, plm_model *model, std::int32_t index_base,
+                                 std::int64_t n, const Index *dof) {
+    return call<ModelHandle>(function, model, [&](ModelHandle &m) {
+        require_open(m);
+        require_index_base(index_base);
+        const std::int64_t n_dof = m.input.n_dof;
+        if (n != 0 && n != n_dof)
+            bad_argument(
+                "n", -1,
+                format("n is %lld where the model has %lld DOFs: all of them, or none to remove the order",
+                       static_cast<long long>(n), static_cast<long long>(n_dof)));
+        if (n > 0) require_pointer(dof, "dof");
+        vector<char> seen(n, 0);
+        vector<std::int64_t> order(n);
+        for (std::int64_t i = 0; i < n; ++i) {
+            require_dof(dof[i], index_base, n_dof, "dof", i);
+            order[i] = dof[i] - index_base;
+            if (seen[order[i]]++)
+                bad_argument("dof", i,
+                             format("dof[%lld] = %lld comes a second time", static_cast<long long>(i),
+                                    static_cast<long long>(dof[i])));
+        }
+        m.input.elimination_order.swap(order);
+        return PLM_OK;
+    });
+}
+
 void require_nonnegative(double value, const char *name) {
     if (!(value >= 0 && value <= largest_scale))
         bad_argument(name, -1,
@@ -135,4 +163,14 @@ plm_status plm_model_fix_dofs_i32(plm_model *model, std::int32_t index_base, std
 plm_status plm_model_fix_dofs_i64(plm_model *model, std::int32_t index_base, std::int64_t n,
                                   const std::int64_t *dof) {
     return fix_dofs("plm_model_fix_dofs_i64", model, index_base, n, dof);
+}
+
+plm_status plm_model_set_elimination_order_i32(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                               const std::int32_t *dof) {
+    return set_elimination_order("plm_model_set_elimination_order_i32", model, index_base, n, dof);
+}
+
+plm_status plm_model_set_elimination_order_i64(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                               const std::int64_t *dof) {
+    return set_elimination_order("plm_model_set_elimination_order_i64", model, index_base, n, dof);
 }

@@ -25,6 +25,12 @@ double dnrm2_(const blas_int *, const double *, const blas_int *);
 void dtrsm_(const char *, const char *, const char *, const char *, const blas_int *, const blas_int *,
             const double *, const double *, const blas_int *, double *, const blas_int *, strlen_t, strlen_t,
             strlen_t, strlen_t);
+void sgemm_(const char *, const char *, const blas_int *, const blas_int *, const blas_int *, const float *,
+            const float *, const blas_int *, const float *, const blas_int *, const float *, float *,
+            const blas_int *, strlen_t, strlen_t);
+void strsm_(const char *, const char *, const char *, const char *, const blas_int *, const blas_int *,
+            const float *, const float *, const blas_int *, float *, const blas_int *, strlen_t, strlen_t,
+            strlen_t, strlen_t);
 
 void dsyevd_(const char *, const char *, const blas_int *, double *, const blas_int *, double *, double *,
              const blas_int *, blas_int *, const blas_int *, blas_int *, strlen_t, strlen_t);

@@ -1,5 +1,6 @@
 #include "space/model.hpp"
 #include "linalg/error.hpp"
+#include "space/memory_estimate.hpp"
 #include <algorithm>
 
 namespace plm {
@@ -21,8 +22,11 @@ double median(vector<double> values) {
 } // namespace
 
 Model::Model(const ModelInput &input, const SpaceOptions &options, const HostSolver *host, Watch watch)
+    : Model(input, options, fitting_solver(input, options, host, watch), watch) {}
+
+Model::Model(const ModelInput &input, const SpaceOptions &options, const Solver &solver, Watch watch)
     : Structure(input, {input.contact.n_pairs(), Contact::n_directions},
-                largest_given(input.contact.stiffness), Solver(options.solver, host), watch),
+                largest_given(input.contact.stiffness), solver, watch),
       contact_(input.contact), space_options_(options) {
     solve_attachment(watch);
     resolve_contact_stiffness();

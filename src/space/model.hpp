@@ -1,26 +1,9 @@
 // The structure with its contact: M q'' + C q' + K q = F(t) - B^T N(B q - g), checked once and then
 // read-only.
 #pragma once
-#include "contact/contact.hpp"
-#include "structure/structure.hpp"
+#include "space/model_input.hpp"
 
 namespace plm {
-
-/// All that the caller said, before it is checked as a whole.
-struct ModelInput : StructureInput {
-    /// Of the pairs of the gap matrix. PLM_AUTO_STIFFNESS: chosen when the flexibility is known.
-    Contact contact;
-};
-
-/// How the contact space (contact_space.hpp) is built; options of the model.
-struct SpaceOptions {
-    double tolerance = 1e-7; // relative error of the contact receptances at the highest frequency asked for
-    double cutoff_factor = 2.0; // exact modes up to this multiple of the highest frequency
-    /// Attachment vectors (K + sigma M)^-1 [M (K + sigma M)^-1]^j B^T, j < max_blocks.
-    std::int64_t max_blocks = 4;
-    bool verify_counts = true;                 // Sturm count of the modes below the cutoff
-    SolverName solver = SolverName::automatic; // of the sparse factorizations
-};
 
 class Model : public Structure {
   public:
@@ -40,6 +23,7 @@ class Model : public Structure {
     const SpaceOptions &space_options() const { return space_options_; }
 
   private:
+    Model(const ModelInput &input, const SpaceOptions &options, const Solver &solver, Watch watch);
     void solve_attachment(Watch watch);
     vector<double> elastic_flexibility() const;
     void resolve_contact_stiffness();

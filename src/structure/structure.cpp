@@ -2,6 +2,7 @@
 #include "linalg/scale.hpp"
 #include "structure/matrix_input.hpp"
 #include "structure/rigid_modes.hpp"
+#include "structure/solver/make_factor.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +10,10 @@ namespace plm {
 namespace {
 
 using Int = long long; // for printf
+
+double bytes_of(const SparseMatrix &a) {
+    return 16.0 * static_cast<double>(a.nnz()) + 8.0 * static_cast<double>(a.ptr.size());
+}
 
 void require_size(const char *what, std::int64_t size, std::int64_t n_dof) {
     if (size != n_dof)
@@ -52,11 +57,30 @@ void require_scale(const char *what, const SparseMatrix &a) {
 
 } // namespace
 
-Structure::Structure(const StructureInput &input, GapSize gap, double largest_contact, const Solver &solver,
-                     Watch watch)
+Structure::Structure(const StructureInput &input, GapSize gap, const Solver &solver)
     : n_dof_(input.n_dof), solver_(solver) {
     assemble(input, gap);
+    for (std::int64_t dof : input.elimination_order)
+        if (free_of_[dof] >= 0) solver_.order.push_back(free_of_[dof]);
+}
+
+Structure::Structure(const StructureInput &input, GapSize gap, double largest_contact, const Solver &solver,
+                     Watch watch)
+    : Structure(input, gap, solver) {
     factor_stiffness(largest_contact, watch);
+}
+
+StructureEstimate Structure::estimate(const StructureInput &input, GapSize gap, const Solver &solver) {
+    const Structure structure(input, gap, solver);
+    const SparseMatrix sum = add(1.0, structure.stiffness_, 1.0, structure.mass_);
+    StructureEstimate e;
+    e.n_free = structure.n_free();
+    for (const SparseMatrix *a :
+         {&structure.mass_, &structure.stiffness_, &structure.damping_, &structure.gap_rows_.matrix()})
+        e.bytes += bytes_of(*a);
+    e.shifted = bytes_of(sum);
+    e.factor = estimate_factor(sum, structure.solver_); // with the host's order
+    return e;
 }
 
 void Structure::assemble(const StructureInput &input, GapSize gap) {

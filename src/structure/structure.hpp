@@ -29,6 +29,8 @@ struct StructureInput {
     std::shared_ptr<const MatrixInput> mass, stiffness, damping_matrix;
     Damping damping;
     vector<std::int64_t> fixed; // DOFs held at zero, in any order, some perhaps twice
+    vector<std::int64_t>
+        elimination_order; // all DOFs, as the host wants them eliminated; empty: the library's order
     // gap matrix by rows: B = [row; dof; coefficient] triplets
     vector<std::int64_t> gap_row, gap_dof;
     vector<double> gap_coefficient;
@@ -42,8 +44,19 @@ struct StructureModes {
     Field vectors;
 };
 
+/// What a structure takes before anything is factored: bytes, and the factor.
+struct StructureEstimate {
+    std::int64_t n_free = 0;
+    double bytes = 0;                     // of M, K, C and the gap rows
+    double shifted = 0;                   // one sum of K and M
+    std::optional<FactorEstimate> factor; // of such a sum; none: the host's solver alone knows
+};
+
 class Structure {
   public:
+    /// Checks the input as a whole, but factors nothing.
+    static StructureEstimate estimate(const StructureInput &input, GapSize gap, const Solver &solver);
+
     /// Checks the input as a whole, removes fixed DOFs, factors K (or K + sigma M when K is singular), finds
     /// rigid-body modes. Throws plm::Error with the argument and index at fault.
     /// largest_contact: the largest k_n given by the caller, 0 if unknown; the scale where K has none.
@@ -113,6 +126,7 @@ class Structure {
     Matrices matrices() const { return {mass_, stiffness_, damping_, solver_}; }
 
   private:
+    Structure(const StructureInput &input, GapSize gap, const Solver &solver);
     /// The matrices are symmetric: the form that gathers is the faster one.
     static Field times(const SparseMatrix &a, const Field &x) {
         return Field(multiply_transposed(a, x.in_core()));

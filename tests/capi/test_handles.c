@@ -57,6 +57,8 @@ CASE(model, plm_model_set_modal_damping, 1, one + 1)
 CASE(model, plm_model_set_structural_damping, 0)
 CASE(model, plm_model_fix_dofs_i32, 0, 1, i32)
 CASE(model, plm_model_fix_dofs_i64, 0, 1, i64)
+CASE(model, plm_model_set_elimination_order_i32, 0, 3, other32)
+CASE(model, plm_model_set_elimination_order_i64, 0, 3, other64)
 CASE(model, plm_model_add_node_pairs_i32, 0, 1, i32, other32, one, one, NULL)
 CASE(model, plm_model_add_node_pairs_i64, 0, 1, i64, other64, one, one, NULL)
 CASE(model, plm_model_add_ground_contacts_i32, 0, 1, i32, one, one, NULL)
@@ -68,6 +70,7 @@ CASE(model, plm_model_set_excitation, 1, 3, one, NULL)
 KEYED(model)
 READ(model)
 READ_ARRAYS(model)
+CASE(model, plm_model_estimate_memory, &out[0].d)
 CASE0(model, plm_model_build)
 CASE0(model, plm_model_solve_rest)
 CASE(model, plm_model_get_modes, PLM_SYSTEM_OPEN, NULL, 1, numbers, NULL)
@@ -157,6 +160,8 @@ static const struct {
                  ENTRY(MODEL, plm_model_set_structural_damping),
                  ENTRY(MODEL, plm_model_fix_dofs_i32),
                  ENTRY(MODEL, plm_model_fix_dofs_i64),
+                 ENTRY(MODEL, plm_model_set_elimination_order_i32),
+                 ENTRY(MODEL, plm_model_set_elimination_order_i64),
                  ENTRY(MODEL, plm_model_add_node_pairs_i32),
                  ENTRY(MODEL, plm_model_add_node_pairs_i64),
                  ENTRY(MODEL, plm_model_add_ground_contacts_i32),
@@ -168,6 +173,7 @@ static const struct {
                  KEYED_ENTRIES(MODEL, model),
                  READ_ENTRIES(MODEL, model),
                  ARRAY_ENTRIES(MODEL, model),
+                 ENTRY(MODEL, plm_model_estimate_memory),
                  ENTRY(MODEL, plm_model_build),
                  ENTRY(MODEL, plm_model_solve_rest),
                  ENTRY(MODEL, plm_model_get_modes),

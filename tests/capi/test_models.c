@@ -1,6 +1,7 @@
 /* Models of every kind: all forms of input make the same one; loose bodies; no contact at all. */
 #include "chain.h"
 #include "check.h"
+#include <string.h>
 
 static plm_context *ctx;
 
@@ -189,6 +190,116 @@ static void modes_are_counted(void **state) {
     assert_int_equal(n, -7);
 }
 
+/* A chain of three DOFs a node, long enough for its factor to be more than a few arrays. */
+enum { LONG_CHAIN = 1200 };
+static plm_model *long_chain(void) {
+    enum { DOFS = LONG_CHAIN };
+    static int64_t row[2 * DOFS], col[2 * DOFS];
+    static double k[2 * DOFS], m[DOFS];
+    plm_model *model = NULL;
+    int64_t i, nnz = 0;
+    for (i = 0; i < DOFS; ++i) {
+        m[i] = 1;
+        row[nnz] = col[nnz] = i, k[nnz++] = 2;
+        if (i >= 3) row[nnz] = i, col[nnz] = i - 3, k[nnz++] = -1;
+    }
+    assert_true(done(ctx, plm_model_create(ctx, DOFS, &model)));
+    assert_true(done(ctx, plm_model_set_matrix_i64(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY,
+                                                   nnz, row, col, k)));
+    for (i = 0; i < DOFS; ++i) row[i] = i;
+    assert_true(done(ctx, plm_model_set_matrix_i64(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY,
+                                                   DOFS, row, row, m)));
+    return model;
+}
+
+/* The memory is told before the build, phase by phase; over its limit the build fails before it factors, and
+ * says what would fit: as much makes it pass. Estimates end with the input. */
+static void memory_is_estimated_and_limited(void **state) {
+    const char *const phases[] = {"memory_matrices", "memory_factorization", "memory_factor",
+                                  "memory_modes",    "memory_contact_space", "memory_basis"};
+    plm_model *m = long_chain();
+    double bytes = -1, one = 0, sum = 0, factor = 0;
+    size_t k;
+    (void)state;
+    assert_true(refused(ctx, plm_model_get_double(m, "memory_factor", &one), PLM_ERR_STATE,
+                        "plm_model_get_double", "key", -1, "before the build"));
+    assert_true(refused(ctx, plm_model_estimate_memory(m, NULL), PLM_ERR_ARGUMENT,
+                        "plm_model_estimate_memory", "bytes", -1, "NULL"));
+    assert_true(done(ctx, plm_model_estimate_memory(m, &bytes)));
+    for (k = 0; k < sizeof phases / sizeof *phases; ++k) {
+        assert_true(done(ctx, plm_model_get_double(m, phases[k], &one)));
+        assert_true(one > 0 && one < bytes);
+        sum += one;
+    }
+    assert_true(sum > bytes);
+    assert_true(done(ctx, plm_model_get_double(m, "memory_factor", &factor)));
+    assert_true(factor > 8 * LONG_CHAIN);
+    assert_true(done(ctx, plm_model_set_double(m, "memory_limit", 0.5 * bytes / 1048576)));
+    assert_true(
+        refused(ctx, plm_model_build(m), PLM_ERR_MEMORY, "plm_model_build", "memory_limit", -1, "raise it"));
+    assert_true(done(ctx, plm_model_set_double(m, "memory_limit", 1.001 * bytes / 1048576)));
+    assert_true(done(ctx, plm_model_build(m)));
+    assert_true(refused(ctx, plm_model_estimate_memory(m, &bytes), PLM_ERR_STATE, "plm_model_estimate_memory",
+                        "", -1, "built"));
+}
+
+/* The host's order of elimination costs what it costs: backwards a chain fills nothing in, odd nodes after
+ * even ones do. Results stay. What is no permutation is refused where it is wrong, and changes nothing. */
+static void the_host_may_order_the_elimination(void **state) {
+    enum { DOFS = LONG_CHAIN };
+    static int32_t order[DOFS];
+    int64_t wide[DOFS];
+    double factor[2], hz[2][4];
+    char built_with[512];
+    int way, i;
+    (void)state;
+    for (way = 0; way < 2; ++way) {
+        plm_model *m = long_chain();
+        double bytes;
+        for (i = 0; i < DOFS; ++i) {
+            order[i] = way == 0 ? DOFS - 1 - i : i < DOFS / 2 ? i * 2 : 2 * i + 1 - DOFS;
+            wide[i] = order[i] + 1;
+        }
+        if (way == 0) assert_true(done(ctx, plm_model_set_elimination_order_i32(m, 0, DOFS, order)));
+        if (way == 1) assert_true(done(ctx, plm_model_set_elimination_order_i64(m, 1, DOFS, wide)));
+        assert_true(refused(ctx, plm_model_set_elimination_order_i32(m, 0, 5, order), PLM_ERR_ARGUMENT,
+                            "plm_model_set_elimination_order_i32", "n", -1, "1200 DOFs"));
+        wide[77] = wide[3];
+        assert_true(refused(ctx, plm_model_set_elimination_order_i64(m, 1, DOFS, wide), PLM_ERR_ARGUMENT,
+                            "plm_model_set_elimination_order_i64", "dof", 77, "second time"));
+        wide[3] = 0;
+        assert_true(refused(ctx, plm_model_set_elimination_order_i64(m, 1, DOFS, wide), PLM_ERR_ARGUMENT,
+                            "plm_model_set_elimination_order_i64", "dof", 3, "no DOF number"));
+        assert_true(done(ctx, plm_model_estimate_memory(m, &bytes)));
+        assert_true(done(ctx, plm_model_get_double(m, "memory_factor", &factor[way])));
+        assert_true(done(ctx, plm_model_build(m)));
+        assert_true(done(ctx, plm_model_get_modes(m, PLM_SYSTEM_OPEN, NULL, 4, hz[way], NULL)));
+    }
+    for (i = 0; i < 4; ++i) assert_true(close_to(hz[1][i], hz[0][i], 1e-10));
+    assert_int_equal(plm_build_info(sizeof built_with, built_with, NULL), PLM_OK);
+    if (strstr(built_with, "CHOLMOD")) assert_true(factor[1] != factor[0]);
+}
+
+/* A factor kept in single precision gives the modes of one in double (eps times the condition of 6e4 and
+ * more), or is refused by a solver that has none. */
+static void single_precision_costs_no_digit(void **state) {
+    double hz[2][5];
+    plm_status s = PLM_OK;
+    int single, j;
+    (void)state;
+    for (single = 0; single < 2 && !s; ++single) {
+        plm_model *m = long_chain();
+        assert_true(done(ctx, plm_model_set_string(m, "factor_precision", single ? "single" : "double")));
+        s = plm_model_build(m);
+        if (!s) assert_true(done(ctx, plm_model_get_modes(m, PLM_SYSTEM_OPEN, NULL, 5, hz[single], NULL)));
+    }
+    if (s) {
+        assert_true(refused(ctx, s, PLM_ERR_ARGUMENT, "plm_model_build", "factor_precision", -1, "cholmod"));
+        return;
+    }
+    for (j = 0; j < 5; ++j) assert_true(close_to(hz[1][j], hz[0][j], 1e-10));
+}
+
 static void *count_and_allocate(int64_t bytes, void *user) {
     *(int64_t *)user += bytes;
     return malloc((size_t)bytes);
@@ -217,10 +328,11 @@ static void a_number_of_dofs_takes_no_memory(void **state) {
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(all_kinds_of_input_make_one_model), TEST(loose_bodies_held_by_contact),
-        TEST(no_contact_is_a_linear_model),      TEST(results_wait_for_their_computation),
-        TEST(solvers_are_chosen_by_name),        TEST(modes_are_counted),
-        TEST(a_number_of_dofs_takes_no_memory),
+        TEST(all_kinds_of_input_make_one_model),  TEST(loose_bodies_held_by_contact),
+        TEST(no_contact_is_a_linear_model),       TEST(results_wait_for_their_computation),
+        TEST(solvers_are_chosen_by_name),         TEST(modes_are_counted),
+        TEST(a_number_of_dofs_takes_no_memory),   TEST(memory_is_estimated_and_limited),
+        TEST(the_host_may_order_the_elimination), TEST(single_precision_costs_no_digit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

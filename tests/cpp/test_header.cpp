@@ -162,6 +162,8 @@ void containers() {
     model.set_damping(plm::triplets({0}, {0}, {1.0}));
     model.fix_dofs({1}, 1);
     model.fix_dofs(std::vector<std::int64_t>{0});
+    model.set_elimination_order({2, 0, 1});
+    CHECK(caught([&] { model.set_elimination_order({0}); }).argument() == "n");
     const std::vector<std::int64_t> a{1, 2, -1}, b{2, 0, -1};
     model.add_node_pairs(a, b, {1, 0, 0}, {PLM_AUTO_STIFFNESS});
     const std::vector<std::int64_t> start{0, 1}, dof{1};

@@ -54,6 +54,11 @@ class Refusals(unittest.TestCase):
         self.refused(model.fix_dofs, [0, 4], status=plm.ERR_ARGUMENT, function="plm_model_fix_dofs_i64", argument="dof",
                      index=1)
         self.refused(model.fix_dofs, [0.5], kind=TypeError)
+        self.refused(model.set_elimination_order, [0, 1], status=plm.ERR_ARGUMENT, argument="n")
+        self.refused(model.set_elimination_order, numpy.array([3, 2, 1, 1], numpy.int32), status=plm.ERR_ARGUMENT,
+                     function="plm_model_set_elimination_order_i32", argument="dof", index=3)
+        self.refused(model.set_elimination_order, [0.5], kind=TypeError)
+        model.set_elimination_order([3, 1, 0, 2])
         self.refused(model.add_ground_contacts, [0, 1, 2], [2, 0, 0], status=plm.ERR_ARGUMENT, argument="normal")
         self.refused(model.add_ground_contacts, [0, 1, 2], [1, 0], kind=ValueError)
         self.refused(model.add_node_pairs, [0, 1, 2], [0, 1, 2, 1, 2, 3], [1, 0, 0], kind=ValueError)

@@ -22,6 +22,17 @@ class ModelMethods:
         """Structural (hysteretic) loss factor eta >= 0: K (1 + i eta) in every harmonic h >= 1."""
         self._work("set_structural_damping", eta)
 
+    def estimate_memory(self):
+        """Before the build: bytes that the model, and what is usually made of it, will take at once at most, from the
+        pattern of the matrices (the factor's part is exact, an ordering and a symbolic factorization); by phase:
+        "memory_matrices", "memory_factorization", "memory_factor", "memory_modes", "memory_contact_space",
+        "memory_basis". What the host's own solver takes is not known, and not counted. With "memory_limit" set,
+        plm_model_build fails by this estimate with PLM_ERR_MEMORY, before anything is factored. PLM_ERR_STATE without M
+        or K, and once the model is built."""
+        bytes = ctypes.c_double()
+        self._work("estimate_memory", ctypes.byref(bytes))
+        return bytes.value
+
     def count_modes(self, frequency_hz):
         """How many natural frequencies of the open structure lie below frequency_hz (Hz), rigid-body modes included, by
         Sylvester's law of inertia: one factorization, no eigenvectors, none is missed. Use it to size a basis or to

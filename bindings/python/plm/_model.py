@@ -100,6 +100,11 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         (dof,), width = alike(integers(dof, "dof").ravel())
         self._call("fix_dofs" + width, 0, dof.size, address(dof))
 
+    def set_elimination_order(self, dof):
+        """A permutation of all DOFs: how the sparse factorization eliminates them, in place of the library's order."""
+        (dof,), width = alike(integers(dof, "dof").ravel())
+        self._call("set_elimination_order" + width, 0, dof.size, address(dof))
+
     # ---- contact ----
 
     def add_node_pairs(self, dof_a, dof_b, normal, stiffness=None, gap=None):

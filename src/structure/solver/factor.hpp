@@ -7,6 +7,8 @@
 
 namespace plm {
 
+class KeptOrders; // structure/solver/ordering.hpp
+
 /// A factorization of one such matrix; read-only after construction, except for its workspace.
 class Factor {
   public:
@@ -38,6 +40,19 @@ struct HostSolver {
 /// In the order of the choices of the option "solver".
 enum class SolverName { automatic, cholmod, eigen, host };
 
+/// Of the numbers that a factorization keeps. Single ones are the double ones rounded, and every solve is
+/// refined until its residual is one of double precision.
+enum class FactorPrecision { full, single };
+
+/// What a factorization takes, known from the pattern alone. Bytes: kept, and at most at once while it is
+/// made.
+struct FactorEstimate {
+    double nonzeros = 0, flops = 0; // of L; of its computation
+    double kept_full = 0, peak_full = 0;
+    double kept_single = 0, peak_single = 0; // infinite: the solver has none
+    double at_work = 0;                      // of a count of negative eigenvalues, which keeps nothing
+};
+
 /// Who factors. automatic: the host's where there is one, else the first of the library's own that was built.
 struct Solver {
     /// given: the host's own, or null.
@@ -52,6 +67,10 @@ struct Solver {
 
     SolverName name = SolverName::automatic;
     std::optional<HostSolver> host;
+    // of factorizations by CHOLMOD:
+    FactorPrecision precision = FactorPrecision::full; // the others have one alone, and refuse single
+    vector<std::int64_t> order;         // the host's: a row for each in the new order; empty: the library's
+    std::shared_ptr<KeptOrders> orders; // of the library, found once for each pattern; null: found again
 };
 
 /// The two ways in which a factorization breaks down; `column` is the DOF in the order of the caller.

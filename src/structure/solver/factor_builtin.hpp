@@ -8,8 +8,9 @@ namespace plm {
 
 struct Builtin {
     SolverName name;
-    std::unique_ptr<Factor> (*factor)(const SparseMatrix &a);
-    std::int64_t (*count_negative)(const SparseMatrix &a);
+    std::unique_ptr<Factor> (*factor)(const SparseMatrix &a, const Solver &solver);
+    std::int64_t (*count_negative)(const SparseMatrix &a, const Solver &solver);
+    FactorEstimate (*estimate)(const SparseMatrix &a, const Solver &solver);
     std::string (*version)(); // "CHOLMOD 3.0.14"
 };
 

@@ -1,118 +1,22 @@
 // CHOLMOD with 64-bit indices behind the seam of factor.hpp.
 #include "linalg/blas_lapack.hpp"
-#include "linalg/memory_count.hpp"
+#include "structure/solver/cholmod_analysis.hpp"
 #include "structure/solver/factor_builtin.hpp"
-#include "structure/solver/multifrontal_inertia.hpp"
+#include "structure/solver/ordering.hpp"
+#include "structure/solver/refined_factor.hpp"
 #include <algorithm>
-#include <cholmod.h>
-#include <new>
 
 namespace plm {
 namespace {
 
-static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t), "cholmod_l_ must use 64-bit indices");
-
-/// Right-hand sides solved at once: enough for BLAS 3 speed, and bounds the workspace to 2 n x 32.
-constexpr std::int64_t solve_block = 32;
-
-/// CHOLMOD's view of our arrays; it reads one triangle of them and never writes.
-cholmod_sparse view(const SparseMatrix &a) {
-    cholmod_sparse v = {};
-    v.nrow = static_cast<std::size_t>(a.rows);
-    v.ncol = static_cast<std::size_t>(a.cols);
-    v.nzmax = static_cast<std::size_t>(a.nnz());
-    v.p = const_cast<std::int64_t *>(a.ptr.data());
-    v.i = const_cast<std::int64_t *>(a.idx.data());
-    v.x = const_cast<double *>(a.val.data());
-    v.stype = -1;
-    v.itype = CHOLMOD_LONG;
-    v.xtype = CHOLMOD_REAL;
-    v.dtype = CHOLMOD_DOUBLE;
-    v.sorted = 1;
-    v.packed = 1;
-    return v;
-}
-
-cholmod_dense view(double *x, std::int64_t rows, std::int64_t cols, std::int64_t ld) {
-    cholmod_dense v = {};
-    v.nrow = static_cast<std::size_t>(rows);
-    v.ncol = static_cast<std::size_t>(cols);
-    v.nzmax = static_cast<std::size_t>(ld * cols);
-    v.d = static_cast<std::size_t>(ld);
-    v.x = x;
-    v.xtype = CHOLMOD_REAL;
-    v.dtype = CHOLMOD_DOUBLE;
-    return v;
-}
-
-/// Everything CHOLMOD allocates for one factor, with a cholmod_common of its own: no state is shared.
-struct Cholmod {
-    cholmod_common common;
-    cholmod_factor *factor = nullptr;
-    cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr; // kept by cholmod_l_solve2 between calls
-    ForeignMemory memory;
-
-    Cholmod() {
-        cholmod_l_start(&common);
-        common.print = 0; // it would print its warnings to stdout
-        common.error_handler = nullptr;
-    }
-    ~Cholmod() {
-        cholmod_l_free_dense(&x, &common);
-        cholmod_l_free_dense(&y, &common);
-        cholmod_l_free_dense(&e, &common);
-        cholmod_l_free_factor(&factor, &common);
-        cholmod_l_finish(&common);
-    }
-    Cholmod(const Cholmod &) = delete;
-    Cholmod &operator=(const Cholmod &) = delete;
-
-    /// Ordering and supernodes, without numbers.
-    void analyze(const SparseMatrix &a) {
-        set_ordering();
-        common.supernodal = CHOLMOD_SUPERNODAL;
-        cholmod_sparse matrix = view(a);
-        factor = cholmod_l_analyze(&matrix, &common);
-        check("analyze");
-    }
-
-    void note_memory() { memory.holds(common.memory_inuse, common.memory_usage); }
-
-    /// As cholmod_l_ensure_dense, but a failure is seen.
-    void shape(cholmod_dense *&block, std::size_t rows, std::size_t cols) {
-        if (block && block->nrow == rows && block->ncol == cols && block->d == rows) return;
-        cholmod_l_free_dense(&block, &common);
-        block = cholmod_l_allocate_dense(rows, cols, rows, CHOLMOD_REAL, &common);
-        check("workspace");
-    }
-
-    void check(const char *step) const {
-        if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
-        if (common.status < 0)
-            throw Error(PLM_ERR_INTERNAL, format("CHOLMOD, %s: status %d", step, common.status))
-                .library_code(common.status);
-    }
-
-  private:
-    /// AMD only. METIS orders three-dimensional bodies better, but METIS_NodeND of METIS 5.1 re-seeds the
-    /// host's rand(), installs handlers for SIGTERM and SIGABRT while it runs and long-jumps from them, and
-    /// what it returns depends on who else calls rand(). No host has to put up with that from a library.
-    void set_ordering() {
-        common.nmethods = 1;
-        common.method[0].ordering = CHOLMOD_AMD;
-        common.postorder = 1;
-    }
-};
-
-const std::int64_t *indices(const void *array) {
-    return static_cast<const std::int64_t *>(array);
-}
+/// Right-hand sides solved at once: enough for BLAS 3 speed, and bounds the workspace to 2 n x 64.
+constexpr std::int64_t solve_block = 64;
 
 class CholmodFactor final : public Factor {
   public:
-    explicit CholmodFactor(const SparseMatrix &a) : n_(a.cols) {
-        if (n_ == 0) return;
-        lib_.analyze(a);
+    /// The numbers for an analysis; `a` has rows.
+    CholmodFactor(const SparseMatrix &a, std::unique_ptr<Cholmod> analysis)
+        : n_(a.cols), analysis_(std::move(analysis)), lib_(*analysis_) {
         cholmod_common &c = lib_.common;
         nonzeros_ = static_cast<std::int64_t>(c.lnz);
         c.final_ll = 1;
@@ -128,7 +32,6 @@ class CholmodFactor final : public Factor {
     }
 
     void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const override {
-        if (n_ == 0) return;
         require(ldx >= n_, "Factor::solve: leading dimension");
         for (std::int64_t first = 0; first < nrhs; first += solve_block)
             solve_some(x + first * ldx, std::min(solve_block, nrhs - first), ldx);
@@ -155,34 +58,53 @@ class CholmodFactor final : public Factor {
 
     std::int64_t n_, nonzeros_ = 0;
     double reciprocal_condition_ = 1;
-    mutable Cholmod lib_; // CHOLMOD's solve takes its factor and its workspace by non-const pointer
+    std::unique_ptr<Cholmod> analysis_;
+    Cholmod &lib_; // CHOLMOD's solve takes its factor and its workspace by non-const pointer
 };
 
-std::unique_ptr<Factor> factor_by_cholmod(const SparseMatrix &a) {
-    return std::make_unique<CholmodFactor>(a);
+/// Of a matrix without rows.
+class NoFactor final : public Factor {
+  public:
+    void solve(double *, std::int64_t, std::int64_t) const override {}
+    double reciprocal_condition() const override { return 1; }
+    std::int64_t factor_nonzeros() const override { return 0; }
+};
+
+std::unique_ptr<Factor> factor_by_cholmod(const SparseMatrix &a, const Solver &solver) {
+    if (a.cols == 0) return std::make_unique<NoFactor>();
+    auto lib = std::make_unique<Cholmod>();
+    lib->analyze(a, solver);
+    if (solver.precision == FactorPrecision::single)
+        return std::make_unique<RefinedFactor>(a, lib->supernodes());
+    return std::make_unique<CholmodFactor>(a, std::move(lib));
 }
 
 /// CHOLMOD finds the supernodes; its own L D L^T knows none, and takes ten times as long on solids and more.
-std::int64_t count_negative_by_cholmod(const SparseMatrix &a) {
+std::int64_t count_negative_by_cholmod(const SparseMatrix &a, const Solver &solver) {
     if (a.cols == 0) return 0;
     Cholmod lib;
-    lib.analyze(a);
+    lib.analyze(a, solver);
     lib.note_memory();
-    const cholmod_factor &f = *lib.factor;
-    return count_negative_pivots(a, {static_cast<std::int64_t>(f.nsuper), indices(f.super), indices(f.pi),
-                                     indices(f.s), indices(f.Perm)});
+    return eliminate_fronts(a, lib.supernodes());
+}
+
+FactorEstimate estimate_for_cholmod(const SparseMatrix &a, const Solver &solver) {
+    if (a.cols == 0) return {};
+    Cholmod lib;
+    lib.analyze(a, solver);
+    return lib.estimate(a);
 }
 
 std::string cholmod_version() {
     int version[3];
     cholmod_l_version(version);
-    return format("CHOLMOD %d.%d.%d", version[0], version[1], version[2]);
+    return format("CHOLMOD %d.%d.%d", version[0], version[1], version[2]) + ordering_backend();
 }
 
 } // namespace
 
 extern const Builtin solver_cholmod;
 const Builtin solver_cholmod{SolverName::cholmod, factor_by_cholmod, count_negative_by_cholmod,
-                             cholmod_version};
+                             estimate_for_cholmod, cholmod_version};
 
 } // namespace plm

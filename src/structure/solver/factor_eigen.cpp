@@ -17,10 +17,12 @@ using Ldlt = Eigen::SimplicialLDLT<EigenMatrix, Eigen::Lower, Eigen::AMDOrdering
 /// Right-hand sides solved by one pass over L, packed side by side: the pass is bound by reading L.
 constexpr std::int64_t panel = 8;
 
+Eigen::Map<const EigenMatrix> mapped(const SparseMatrix &a) {
+    return {a.rows, a.cols, a.nnz(), a.ptr.data(), a.idx.data(), a.val.data()};
+}
+
 void decompose(const SparseMatrix &a, Ldlt &ldlt) {
-    const Eigen::Map<const EigenMatrix> matrix(a.rows, a.cols, a.nnz(), a.ptr.data(), a.idx.data(),
-                                               a.val.data());
-    ldlt.compute(matrix);
+    ldlt.compute(mapped(a));
 }
 
 /// Not L L^T: L D L^T tells where D stops being positive, which Eigen's L L^T does not.
@@ -104,12 +106,30 @@ class EigenFactor final : public Factor {
     mutable vector<double> work_;
 };
 
-std::unique_ptr<Factor> factor_by_eigen(const SparseMatrix &a) {
+FactorEstimate estimate_for_eigen(const SparseMatrix &a, const Solver &) {
+    FactorEstimate e;
+    e.kept_single = e.peak_single = std::numeric_limits<double>::infinity();
+    if (a.cols == 0) return e;
+    Ldlt ldlt;
+    ldlt.analyzePattern(mapped(a));
+    const EigenMatrix &l = ldlt.matrixL().nestedExpression();
+    const double n = static_cast<double>(a.cols);
+    for (std::int64_t j = 0; j < a.cols; ++j) {
+        const double below = static_cast<double>(l.outerIndexPtr()[j + 1] - l.outerIndexPtr()[j]);
+        e.nonzeros += below + 1;
+        e.flops += (below + 1) * (below + 1);
+    }
+    e.kept_full = 16 * e.nonzeros + 48 * n; // values and indices
+    e.peak_full = e.at_work = e.kept_full + 16 * static_cast<double>(a.nnz());
+    return e;
+}
+
+std::unique_ptr<Factor> factor_by_eigen(const SparseMatrix &a, const Solver &) {
     return std::make_unique<EigenFactor>(a);
 }
 
 /// Eigen's factorization stops at a zero pivot, leaving it in D.
-std::int64_t count_negative_by_eigen(const SparseMatrix &a) {
+std::int64_t count_negative_by_eigen(const SparseMatrix &a, const Solver &) {
     if (a.cols == 0) return 0;
     Ldlt ldlt;
     decompose(a, ldlt);
@@ -129,6 +149,7 @@ std::string eigen_version() {
 } // namespace
 
 extern const Builtin solver_eigen;
-const Builtin solver_eigen{SolverName::eigen, factor_by_eigen, count_negative_by_eigen, eigen_version};
+const Builtin solver_eigen{SolverName::eigen, factor_by_eigen, count_negative_by_eigen, estimate_for_eigen,
+                           eigen_version};
 
 } // namespace plm

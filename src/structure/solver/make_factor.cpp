@@ -58,14 +58,26 @@ const HostSolver *Solver::serving_host() const {
 
 std::unique_ptr<Factor> make_factor(const SparseMatrix &a, const Solver &solver) {
     require_matrix(a);
-    if (const HostSolver *host = solver.serving_host()) return make_host_factor(a, *host);
-    return builtin(solver.name).factor(a);
+    const HostSolver *host = solver.serving_host();
+    if (solver.precision == FactorPrecision::single &&
+        (host || builtin(solver.name).name != SolverName::cholmod))
+        throw Error(PLM_ERR_ARGUMENT,
+                    "\"factor_precision\" is single, which the solver cholmod alone offers; leave it at "
+                    "auto or double, or choose that solver")
+            .argument("factor_precision");
+    if (host) return make_host_factor(a, *host);
+    return builtin(solver.name).factor(a, solver);
 }
 
 std::int64_t count_negative(const SparseMatrix &a, const Solver &solver) {
     require_matrix(a);
     if (const HostSolver *host = solver.serving_host()) return count_negative_by_host(a, *host);
-    return builtin(solver.name).count_negative(a);
+    return builtin(solver.name).count_negative(a, solver);
+}
+
+std::optional<FactorEstimate> estimate_factor(const SparseMatrix &a, const Solver &solver) {
+    if (solver.serving_host()) return {};
+    return builtin(solver.name).estimate(a, solver);
 }
 
 std::string factor_backends() {

@@ -1,4 +1,4 @@
-#include "structure/solver/multifrontal_inertia.hpp"
+#include "structure/solver/fronts.hpp"
 #include "linalg/blas_lapack.hpp"
 #include "linalg/work.hpp"
 #include "structure/solver/factor.hpp"
@@ -18,12 +18,46 @@ constexpr std::int64_t strip = 64;
 /// their number, 32: a smaller pivot may have either sign.
 constexpr double noise = 32 * std::numeric_limits<double>::epsilon();
 
+/// One run over the supernodes without numbers: who is whose parent, and how high the stack grows.
+struct Plan {
+    Plan(std::int64_t n, const Supernodes &nodes) : parent(nodes.count, nodes.count) {
+        vector<std::int64_t> node_of(n), stack;
+        for (std::int64_t node = 0; node < nodes.count; ++node)
+            for (std::int64_t j = nodes.first_column[node]; j < nodes.first_column[node + 1]; ++j)
+                node_of[j] = node;
+        const auto below = [&](std::int64_t node) { return nodes.rows_of(node) - nodes.columns_of(node); };
+        std::int64_t height = 0;
+        for (std::int64_t node = 0; node < nodes.count; ++node) {
+            const std::int64_t own = below(node) * below(node), columns = nodes.columns_of(node);
+            if (own > 0) parent[node] = node_of[nodes.row[nodes.first_row[node] + columns]];
+            panel = std::max(panel, nodes.rows_of(node) * columns);
+            panels += nodes.rows_of(node) * columns;
+            widest = std::max(widest, columns);
+            highest = std::max(highest, height + own);
+            for (; !stack.empty() && parent[stack.back()] == node; stack.pop_back())
+                height -= below(stack.back()) * below(stack.back());
+            if (own == 0) continue;
+            stack.push_back(node);
+            height += own;
+        }
+        require(stack.empty(), "eliminate_fronts: the supernodes are in no postorder");
+    }
+
+    vector<std::int64_t> parent; // a root's: nobody
+    std::int64_t panel = 0, panels = 0, widest = 0, highest = 0;
+};
+
 class Fronts {
   public:
-    Fronts(const SparseMatrix &a, const Supernodes &supernodes)
-        : a_(a), nodes_(supernodes), place_(a.cols), local_(a.cols), size_(a.cols, 0.0) {
+    Fronts(const SparseMatrix &a, const Supernodes &supernodes, PanelTaker *taker)
+        : a_(a), nodes_(supernodes), taker_(taker), place_(a.cols), local_(a.cols), size_(a.cols, 0.0) {
         for (std::int64_t j = 0; j < a.cols; ++j) place_[nodes_.original[j]] = j;
-        reserve();
+        Plan plan(a.cols, supernodes);
+        parent_ = std::move(plan.parent);
+        panel_.resize(plan.panel);
+        pivot_.resize(plan.widest);
+        divided_.resize(strip * plan.widest);
+        stack_entries_.resize(plan.highest);
     }
 
     std::int64_t count_negative() {
@@ -38,46 +72,10 @@ class Fronts {
         double *entries;
     };
 
-    std::int64_t rows_of(std::int64_t node) const {
-        return nodes_.first_row[node + 1] - nodes_.first_row[node];
-    }
-    std::int64_t columns_of(std::int64_t node) const {
-        return nodes_.first_column[node + 1] - nodes_.first_column[node];
-    }
-    std::int64_t below(std::int64_t node) const { return rows_of(node) - columns_of(node); }
-
-    /// One run over the supernodes without numbers: who is whose parent, and how high the stack grows.
-    void reserve() {
-        vector<std::int64_t> node_of(a_.cols);
-        parent_.assign(nodes_.count, nodes_.count); // a root's: nobody
-        for (std::int64_t node = 0; node < nodes_.count; ++node)
-            for (std::int64_t j = nodes_.first_column[node]; j < nodes_.first_column[node + 1]; ++j)
-                node_of[j] = node;
-        std::int64_t panel = 0, widest = 0, height = 0, highest = 0;
-        vector<std::int64_t> stack;
-        for (std::int64_t node = 0; node < nodes_.count; ++node) {
-            const std::int64_t own = below(node) * below(node);
-            if (own > 0) parent_[node] = node_of[nodes_.row[nodes_.first_row[node] + columns_of(node)]];
-            panel = std::max(panel, rows_of(node) * columns_of(node));
-            widest = std::max(widest, columns_of(node));
-            highest = std::max(highest, height + own);
-            for (; !stack.empty() && parent_[stack.back()] == node; stack.pop_back())
-                height -= below(stack.back()) * below(stack.back());
-            if (own == 0) continue;
-            stack.push_back(node);
-            height += own;
-        }
-        require(stack.empty(), "count_negative_pivots: the supernodes are in no postorder");
-        panel_.resize(panel);
-        pivot_.resize(widest);
-        divided_.resize(strip * widest);
-        stack_entries_.resize(highest);
-    }
-
     void eliminate(std::int64_t node) {
         node_ = node;
-        rows_ = rows_of(node);
-        columns_ = columns_of(node);
+        rows_ = nodes_.rows_of(node);
+        columns_ = nodes_.columns_of(node);
         row_ = nodes_.row + nodes_.first_row[node];
         assemble();
         for (std::int64_t first = 0; first < columns_; first += strip)
@@ -86,6 +84,19 @@ class Fronts {
             subtract_eliminated(first, std::min(strip, rows_ - first), columns_, entry(first, first),
                                 rows_ - columns_);
         push();
+        if (!taker_) return;
+        divide_by_pivots();
+        taker_->take(node, panel_.data(), pivot_.data());
+    }
+
+    /// Leaves L where L D was: below the strip of each column.
+    void divide_by_pivots() {
+        for (std::int64_t k = 0; k < columns_; ++k) {
+            double *column = panel_.data() + k * rows_;
+            const double inverse = 1 / pivot_[k];
+            for (std::int64_t i = std::min(columns_, k / strip * strip + strip); i < rows_; ++i)
+                column[i] *= inverse;
+        }
     }
 
     /// Of the front; columns that stay stand in the Schur complement to be.
@@ -191,6 +202,7 @@ class Fronts {
 
     const SparseMatrix &a_;
     const Supernodes nodes_;
+    PanelTaker *const taker_;
     vector<std::int64_t> place_;          // new order of each row of A
     vector<std::int64_t> parent_, local_; // of a supernode; of a row (new order) in the front
     vector<double> size_;                 // |a_jj| + sum |l_jk|^2 |d_k| so far
@@ -206,8 +218,13 @@ class Fronts {
 
 } // namespace
 
-std::int64_t count_negative_pivots(const SparseMatrix &a, const Supernodes &supernodes) {
-    return Fronts(a, supernodes).count_negative();
+std::int64_t eliminate_fronts(const SparseMatrix &a, const Supernodes &supernodes, PanelTaker *taker) {
+    return Fronts(a, supernodes, taker).count_negative();
+}
+
+FrontSizes front_sizes(std::int64_t n, const Supernodes &supernodes) {
+    const Plan plan(n, supernodes);
+    return {plan.panels, plan.panel + plan.highest + (strip + 1) * plan.widest + 3 * n};
 }
 
 } // namespace plm

@@ -1,0 +1,29 @@
+// What a model is made from: all that the caller said, and the options.
+#pragma once
+#include "contact/contact.hpp"
+#include "structure/structure.hpp"
+
+namespace plm {
+
+/// All that the caller said, before it is checked as a whole.
+struct ModelInput : StructureInput {
+    /// Of the pairs of the gap matrix. PLM_AUTO_STIFFNESS: chosen when the flexibility is known.
+    Contact contact;
+};
+
+/// Of a factorization's numbers. automatic: double, unless only single fits the limit of memory.
+enum class PrecisionChoice { automatic, full, single };
+
+/// How the contact space (contact_space.hpp) is built; options of the model.
+struct SpaceOptions {
+    double tolerance = 1e-7; // relative error of the contact receptances at the highest frequency asked for
+    double cutoff_factor = 2.0; // exact modes up to this multiple of the highest frequency
+    /// Attachment vectors (K + sigma M)^-1 [M (K + sigma M)^-1]^j B^T, j < max_blocks.
+    std::int64_t max_blocks = 4;
+    bool verify_counts = true;                 // Sturm count of the modes below the cutoff
+    SolverName solver = SolverName::automatic; // of the sparse factorizations
+    PrecisionChoice precision = PrecisionChoice::automatic;
+    double memory_limit = 0; // MiB for the model and all that is made of it at once; 0: no limit
+};
+
+} // namespace plm
