@@ -48,6 +48,7 @@ class Model : public Structure {
     const SpaceOptions &space_options() const { return space_options_; }
 
   private:
+    std::shared_ptr<const ExactModes> modes_at_hand(Watch watch) const;
     vector<double> elastic_flexibility(Watch watch) const;
     void resolve_contact_stiffness(Watch watch);
 
