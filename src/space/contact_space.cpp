@@ -66,7 +66,8 @@ class ContactSpaceBuilder {
         guess = std::max(guess, model_->n_rigid() + 1);
         responses_ = previous_ ? previous_->responses : model_->responses(watch_);
         std::shared_ptr<const ExactModes> modes = responses_->modes;
-        const bool reach_far = modes->count() >= guess && modes->values.back() >= cutoff * cutoff;
+        const bool reach_far =
+            modes->count() >= guess && modes->count() > 0 && modes->values.back() >= cutoff * cutoff;
         if (!reach_far && !modes->are_all)
             modes = model_->exact_modes_up_to(guess, count >= 0 ? 0.0 : cutoff, watch_);
         if (count >= 0) modes = complete(std::move(modes), checked, count);

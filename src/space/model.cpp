@@ -46,11 +46,20 @@ std::shared_ptr<const ExactModes> Model::exact_modes_up_to(std::int64_t wanted, 
     }
 }
 
+// Whose modes cannot all be found has its rigid-body motion at least; a space asks for what it needs.
+std::shared_ptr<const ExactModes> Model::modes_at_hand(Watch watch) const {
+    try {
+        return exact_modes_up_to(std::max(modes_anyhow, n_rigid() + 1), 0, watch);
+    } catch (const Error &e) {
+        if (e.status() != PLM_ERR_EIGENSOLVER) throw;
+        StructureModes rigid{vector<double>(n_rigid(), 0.0), rigid_modes()};
+        if (n_rigid() == 0) rigid.vectors = Field(n_free(), 0);
+        return std::make_shared<const ExactModes>(exact_modes(*this, std::move(rigid), false));
+    }
+}
+
 std::shared_ptr<const StaticResponses> Model::responses(Watch watch) const {
-    return responses_.get([&] {
-        const std::int64_t wanted = std::max(modes_anyhow, n_rigid() + 1);
-        return static_responses(*this, exact_modes_up_to(wanted, 0, watch), watch);
-    });
+    return responses_.get([&] { return static_responses(*this, modes_at_hand(watch), watch); });
 }
 
 // diag(B K^-1 B^T) without rigid-body motion, of the pairs that see more than that.

@@ -33,6 +33,7 @@ class Model : public Structure {
 
   private:
     Model(const ModelInput &input, const SpaceOptions &options, const Solver &solver, Watch watch);
+    std::shared_ptr<const ExactModes> modes_at_hand(Watch watch) const;
     vector<double> elastic_flexibility(Watch watch) const;
     void resolve_contact_stiffness(Watch watch);
 

@@ -184,7 +184,7 @@ void contact_forces_are_solved_for_once(void **) {
 
 // No array of as many rows as the structure and as many columns as there are pairs exists at any time.
 void nothing_of_the_size_of_rows_times_pairs_is_ever_held(void **) {
-    constexpr std::int64_t nx = 1000, ny = 80, n_pairs = 1000;
+    constexpr std::int64_t nx = 1000, ny = 40, n_pairs = 1000;
     constexpr std::int64_t rows_times_pairs = 8 * nx * ny * n_pairs;
     const plm::ModelInput in = lattice(nx, ny, n_pairs, 0.01);
     std::int64_t peak = 0, held = 0, before = 0;

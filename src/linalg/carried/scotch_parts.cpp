@@ -94,7 +94,7 @@ int pthread_setaffinity_np(pthread_t, std::size_t, const cpu_set_t *) noexcept {
 }
 
 /// The scanner of strategies, where it gets no memory: SCOTCH has no way on from there.
-[[noreturn]] void exit(int) {
+void exit(int) {
     throw std::bad_alloc();
 }
 }
