@@ -49,9 +49,11 @@ plm_status chain_model(plm_context *ctx, const chain *c, int with_preload, plm_m
 
 plm_status chain_built(plm_context *ctx, int with_preload, plm_model **model) {
     chain c; /* the borrowed stiffness may go once the model is built */
+    double bytes = 0;
     plm_status s;
     chain_fill(&c);
     s = chain_model(ctx, &c, with_preload, model);
+    if (!s) s = plm_model_estimate_memory(*model, &bytes); /* results like the others */
     if (!s) s = plm_model_build(*model);
     return s;
 }

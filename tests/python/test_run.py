@@ -12,7 +12,9 @@ import models
 class Run(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.model = models.model().build()
+        cls.model = models.model()
+        cls.model.estimate_memory()
+        cls.model.build()
         cls.sampler = plm.Sampler(cls.model, system="open", mode=1, n_samples=4).run()
         cls.basis = plm.Basis(cls.model, cls.sampler).build()
         cls.hbm = plm.Hbm(cls.basis, n_harmonics=5)

@@ -38,8 +38,9 @@ void without_force_nothing_moves(void **) {
     assert_int_equal(loose.reason, PLM_REASON_RANGE_END);
     assert_int_equal(pressed.reason, PLM_REASON_RANGE_END);
     assert_true(near(loose.motion, 0, 0) && near(loose.mean, 0, 0));
-    assert_true(near(pressed.motion, 0, 1e-15) && near(pressed.mean, 0.8 / 4, 1e-14)); // k + k_n = 4
-    assert_true(near(pulled.motion, 0, 1e-15) && near(pulled.mean, -0.8, 1e-14));
+    // some roundings of the mean, as many as the machine's products make
+    assert_true(near(pressed.motion, 0, 1e-14) && near(pressed.mean, 0.8 / 4, 1e-14)); // k + k_n = 4
+    assert_true(near(pulled.motion, 0, 1e-14) && near(pulled.mean, -0.8, 1e-14));
 }
 
 // An undamped oscillator off its resonances against the exact orbit.
