@@ -690,7 +690,8 @@ class Model : public detail::WithOptions<Model, plm_model> {
                             : plm_model_fix_dofs_i32(handle_, index_base, dof.size(), dof.narrow()),
               dof.is_wide() ? "fix_dofs_i64" : "fix_dofs_i32");
     }
-    /// A permutation of all DOFs: how the sparse factorization eliminates them, in place of the library's order.
+    /// A permutation of all DOFs: how the sparse factorization eliminates them, in place of the library's
+    /// order.
     void set_elimination_order(Indices dof, std::int32_t index_base = 0) {
         check(dof.is_wide()
                   ? plm_model_set_elimination_order_i64(handle_, index_base, dof.size(), dof.wide())

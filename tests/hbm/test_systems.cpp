@@ -323,8 +323,7 @@ void condensed_factors_solve_like_dense_ones(void **) {
 // The matrix itself, column by column, from the products the solutions are refined with.
 double product_error(Damping damping, bool separate, bool transposed) {
     std::mt19937 random(9);
-    plm::ModalJacobian jacobian =
-        random_jacobian(random_model(damping, separate, random), 0.83, random);
+    plm::ModalJacobian jacobian = random_jacobian(random_model(damping, separate, random), 0.83, random);
     const std::int64_t n = jacobian.size();
     plm::Matrix dense(n, n), columns(n, n);
     jacobian.add_to(dense);
