@@ -114,6 +114,7 @@ typedef int32_t plm_status;
 #define PLM_REASON_LOST_MODE 22        /* a contact sample lost the mode that matches the dominant one */
 #define PLM_REASON_MODEL 23            /* the model is probably not meant so, see plm_model_audit */
 #define PLM_REASON_HOST_REDUCTION 24   /* what the host states of its superelement is too much for the accuracy */
+#define PLM_REASON_UNSTABLE_PEAK 25    /* the structure does not stay on the motion of the peak */
 
 /* What a point of a branch is ("bifurcation" of a branch). */
 #define PLM_BIFURCATION_NONE 0
@@ -535,7 +536,8 @@ PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *
  * PLM_REASON_NO_PEAK when the highest point stands at an end of the curve (also of one that was cut off): frequency and
  * amplitude are those of that point, and the peak lies elsewhere; with PLM_REASON_BASIS_TOO_SMALL when the error that the
  * basis makes is estimated to be above "accuracy", or, where an estimate would cost more than some points of the curve,
- * as for a sweep. A closed curve has no ends. */
+ * as for a sweep; with PLM_REASON_UNSTABLE_PEAK when the motion of the peak is known to be unstable ("stable" of the
+ * branch) and no stable motion of the curve is as high within "accuracy". A closed curve has no ends. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
 

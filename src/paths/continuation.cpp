@@ -14,7 +14,7 @@ constexpr double target_angle = 0.25; // rad between neighbouring tangents
 constexpr double straight = 1e-6;     // rad: hardly turned, the angle itself is rounding
 constexpr double most_growth = 1.6,
                  least_growth = 0.35;       // from one step to the next: the curvature varies, too
-constexpr std::int64_t many_iterations = 6; // Newton's method was slow: the prediction was poor
+constexpr std::int64_t many_iterations = 6; // with more than one tangent: the prediction was poor
 constexpr double slow_growth = 0.6;         // then, however straight the path is
 constexpr double after_failure = 0.4;       // of the step that failed
 constexpr double first_step = 0.2,
@@ -25,6 +25,11 @@ constexpr double first_step = 0.2,
 constexpr double shortest_move = 0.3, longest_move = 2; // of the step
 constexpr double longest_last_move = 4;                 // of the largest step, to the boundary of the range
 constexpr double across_damping = 0.2; // a step that Newton's method must damp more than this is too long
+
+// Where a test function of the owner comes nearer to zero, the next step goes just beyond the zero as it is
+// to be expected from the last step, so that a function that dips below zero for a short while is not stepped
+// over; but no less than a part of the largest step, since many a function comes near and turns.
+constexpr double just_beyond = 1.2, least_beside_change = 0.1;
 
 // A factorization so near to a point, also beside the step that led there, has its tangent and its tests.
 constexpr double at_the_point = 1e-6, share_of_step = 1e-3;
@@ -116,6 +121,7 @@ class Continuation {
         const double moved = out.converged ? walker_.metric().distance(next, walker_.now()) : 0;
         if (!is_near(out, moved, step_)) return retry(out.reason);
         const PathState before = walker_.now(), old_tangent = walker_.tangent();
+        const vector<double> old_tests = tests_;
         walker_.move(std::move(next));
         walker_.set_factored(true);
         if (!(out.factored_away < std::min(at_the_point, share_of_step * moved))) walker_.linearize_here();
@@ -135,8 +141,21 @@ class Continuation {
         orientation_ = walker_.orientation();
         double factor =
             std::min(most_growth, std::max(least_growth, target_angle / std::max(angle, straight)));
-        if (out.iterations > many_iterations) factor = std::min(factor, slow_growth);
-        step_ = std::min(options_.max_step, std::max(options_.min_step, step_ * factor));
+        if (out.iterations > many_iterations && out.factorizations > 1)
+            factor = std::min(factor, slow_growth);
+        step_ = std::min(way_to_change(old_tests, moved), step_ * factor);
+        step_ = std::min(options_.max_step, std::max(options_.min_step, step_));
+    }
+
+    // How far the next step may go for the owner's test functions, those behind fold and branch point.
+    double way_to_change(const vector<double> &old_tests, double moved) const {
+        double way = options_.max_step;
+        for (std::size_t k = PathWalker::own_tests; k < std::min(tests_.size(), old_tests.size()); ++k) {
+            const double before = std::abs(old_tests[k]), now = std::abs(tests_[k]);
+            if (!(tests_[k] * old_tests[k] > 0 && now < before)) continue;
+            way = std::min(way, just_beyond * moved * now / (before - now));
+        }
+        return std::max(way, least_beside_change * options_.max_step);
     }
 
     // False: the step crossed to another curve, see find_special_points(); the path is back before it.
@@ -152,12 +171,7 @@ class Continuation {
         tests_ = walker_.tests();
         for (std::size_t k = 0; k < std::min(tests_.size(), old_tests.size()); ++k)
             if (std::isnan(tests_[k])) tests_[k] = old_tests[k]; // its sign is that of the last known value
-        if (locate(before, old_tangent, moved, old_tests) && moved > shortenable * options_.min_step) {
-            tests_ = old_tests;
-            last_step_ = 0;
-            walker_.restore(before, old_tangent);
-            return false;
-        }
+        if (!locate(before, old_tangent, moved, old_tests)) return false;
         arclength_ += moved;
         if (passes_start(before, moved)) {
             if (walker_.cosine_with_tangent(target_tangent_) > 0) {
@@ -207,14 +221,20 @@ class Continuation {
         end(PLM_REASON_LOOP_CLOSED);
     }
 
-    // Records what lies between `before` and the present point, in order, and comes back to the latter. True:
-    // the step seems to have crossed to another curve.
+    // Records what lies between `before` and the present point, in order, and comes back to the latter.
+    // False: the step seems to have crossed to another curve and can be tried shorter; the path is back
+    // before it.
     bool locate(const PathState &before, const PathState &old_tangent, double moved,
                 const vector<double> &old_tests) {
         const PathState after = walker_.now(), new_tangent = walker_.tangent();
         const SpecialPoints special =
             find_special_points(walker_, options_, {before, after, old_tangent, new_tangent, moved},
                                 orientation_, old_tests, tests_);
+        if (special.jumped && moved > shortenable * options_.min_step) {
+            tests_ = old_tests;
+            go_back(before, old_tangent);
+            return false;
+        }
         const double base = arclength_;
         for (const SpecialPoint &point : special.found) {
             walker_.restore(point.at, new_tangent);
@@ -225,10 +245,17 @@ class Continuation {
         if (!special.found.empty() || walker_.now().parameter != after.parameter ||
             walker_.now().x != after.x)
             walker_.restore(after, new_tangent);
-        return special.jumped;
+        return true;
     }
 
-    // The last point lies on the boundary of the range. False: it was not found; the path is back before.
+    // A step came to nothing.
+    void go_back(const PathState &before, const PathState &tangent) {
+        last_step_ = 0;
+        walker_.restore(before, tangent);
+    }
+
+    // The last point lies on the boundary of the range. False: it was not found, or the way to it is not one
+    // curve; the path is back before.
     bool leave_range(const PathState &before, const PathState &old_tangent) {
         PathState last = walker_.now();
         const double edge = last.parameter < options_.low ? options_.low : options_.high;
@@ -239,22 +266,26 @@ class Continuation {
         const NewtonOutcome out = walker_.correct_at_parameter(last);
         const double moved = walker_.metric().distance(last, before);
         if (!out.converged || moved > longest_last_move * options_.max_step) {
-            last_step_ = 0;
-            walker_.restore(before, old_tangent);
+            go_back(before, old_tangent);
             return false;
         }
         walker_.move(std::move(last));
-        end(PLM_REASON_RANGE_END);
         // a path that begins on the boundary and leaves at once has its last point already
-        if (moved < options_.min_step) return true;
-        if (target_.parameter == edge && n_recorded_ > 1 &&
-            walker_.metric().distance(walker_.now(), target_) < same_solution)
-            end(PLM_REASON_TURNED_BACK);
+        const bool is_new = moved >= options_.min_step,
+                   is_start = is_new && target_.parameter == edge && n_recorded_ > 1 &&
+                              walker_.metric().distance(walker_.now(), target_) < same_solution;
+        if (is_new && !record_last(out, before, old_tangent, moved)) return false;
+        end(is_start ? PLM_REASON_TURNED_BACK : PLM_REASON_RANGE_END);
+        return true;
+    }
+
+    bool record_last(const NewtonOutcome &out, const PathState &before, const PathState &old_tangent,
+                     double moved) {
         walker_.linearize_here();
         walker_.make_tangent(&old_tangent);
         const vector<double> old_tests = tests_;
         tests_ = walker_.tests();
-        locate(before, old_tangent, moved, old_tests);
+        if (!locate(before, old_tangent, moved, old_tests)) return false;
         arclength_ += moved;
         record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
         return true;

@@ -25,7 +25,9 @@ bool PathWalker::grow_scale(double least) {
     metric_.scale = std::max({before, least, size});
     if (metric_.scale == 0) metric_.scale = norm2(n_, now_.x.data());
     if (metric_.scale == 0) metric_.scale = 1; // nothing moves and nothing rests: any measure will do
-    return metric_.scale != before;
+    if (metric_.scale == before) return false;
+    if (!tangent_.x.empty()) scale_by(1 / metric_.length(tangent_), tangent_); // its length stays 1
+    return true;
 }
 
 void PathWalker::linearize_at(const PathState &at) {

@@ -11,6 +11,8 @@ class PathWalker {
   public:
     /// Neighbouring tangents farther apart (rad) do not belong to one smooth piece of a path.
     static constexpr double sharp_angle = 0.6;
+    /// Test functions before those of the owner: fold, branch point.
+    static constexpr std::size_t own_tests = 2;
 
     PathWalker(Residual &system, const PathOptions &options, PathOwner &owner);
 

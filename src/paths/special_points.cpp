@@ -38,7 +38,7 @@ class Finder {
     // vanishing (but for a corner at which p turns round); the step then may have crossed to another curve.
     bool find_zero(std::size_t k, double left, double right, SpecialPoint &point) {
         const double size = std::min(std::abs(left), std::abs(right));
-        double a = 0, b = 1, best = 1e300;
+        double a = 0, b = 1, best = INFINITY;
         int last_side = 0;
         std::size_t unknown = 0; // times in a row that the function had no value (stability at a fold)
         PathState below = step_.before, above = step_.after;
@@ -69,7 +69,7 @@ class Finder {
             // what is left is no continuous piece of a curve
             if (walker_.metric().distance(below, above) > most_stretched * (b - a) * step_.length) break;
         }
-        if (best <= nearly_vanishes * size) return true;
+        if (std::isfinite(best) && best <= nearly_vanishes * size) return true;
         if (walker_.kind(k) == PLM_BIFURCATION_FOLD && is_corner_fold(below, above, point)) return true;
         jumped_ = jumped_ || walker_.kind(k) == PLM_BIFURCATION_BRANCH_POINT;
         return false;

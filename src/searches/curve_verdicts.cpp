@@ -135,6 +135,50 @@ void check_peak(const SweepRange &window, double accuracy, double error, Watch w
             watch, peak);
 }
 
+namespace {
+
+// A bifurcation ends the stable motions on one side of it.
+bool ends_stable_motions(const std::vector<BranchPoint> &points, std::size_t i) {
+    const auto stable = [&](std::size_t k) { return k < points.size() && stability_of(points[k]) == 1; };
+    return points[i].bifurcation != PLM_BIFURCATION_NONE && (stable(i + 1) || (i > 0 && stable(i - 1)));
+}
+
+// -1: none.
+std::int64_t highest_stable(const Branch &curve, const Output &of) {
+    const std::vector<BranchPoint> &points = curve.points();
+    std::int64_t best = -1;
+    double most = -1;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (stability_of(points[i]) != 1 && !ends_stable_motions(points, i)) continue;
+        const double height = curve.amplitude(static_cast<std::int64_t>(i), of.dof, of.measure, of.harmonic);
+        if (height > most) most = height, best = static_cast<std::int64_t>(i);
+    }
+    return best;
+}
+
+} // namespace
+
+void check_stability(const Branch &curve, const Output &of, double accuracy, Watch watch, Branch &peak) {
+    const BranchPoint &top = peak.points()[0];
+    if (stability_of(top) != 0) return;
+    const double height = peak.amplitude(0, of.dof, of.measure, of.harmonic);
+    const std::int64_t stable = highest_stable(curve, of);
+    const double known = stable < 0 ? 0 : curve.amplitude(stable, of.dof, of.measure, of.harmonic);
+    if (known >= (1 - accuracy) * height) return;
+    const std::string instead =
+        stable < 0 ? "No motion of the curve is stable"
+                   : format("The highest stable motion of the curve is %.6g, at %.6g Hz", known,
+                            curve.points()[static_cast<std::size_t>(stable)].omega / (2 * M_PI));
+    watch.keeping(peak.warnings)
+        .warn(
+            PLM_REASON_UNSTABLE_PEAK,
+            format("the motion of the peak, %.6g at %.6g Hz, is not stable (largest multiplier %.4g): the "
+                   "structure leaves it for another one. %s. What it does instead, time marching tells, or, "
+                   "where it repeats after several periods of the excitation, a curve with "
+                   "\"period_multiple\" of 2 or more",
+                   height, top.omega / (2 * M_PI), std::abs(top.multipliers[0]), instead.c_str()));
+}
+
 void check_host_reduction(const Model &model, double accuracy, double error, Watch watch) {
     const double of_host = model.space_options().reduction_error;
     if (of_host <= allowed_of_host * accuracy || error + of_host <= accuracy) return;

@@ -19,6 +19,10 @@ void check_basis(const SweepRange &window, const std::function<double()> &error,
 /// The same of a peak and its estimated error, which is to be within the accuracy.
 void check_peak(const SweepRange &window, double accuracy, double error, Watch watch, Branch &peak);
 
+/// A peak whose motion is not stable is not what the structure does, unless a motion of the curve is stable
+/// and as high within the accuracy (that beside a fold, for one).
+void check_stability(const Branch &curve, const Output &of, double accuracy, Watch watch, Branch &peak);
+
 /// What a host's own reduction (a superelement) may take of the accuracy; the rest is the basis'.
 constexpr double allowed_of_host = 0.5;
 /// Where it takes more, no basis can mend it. error: of the basis, as estimated.

@@ -217,6 +217,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     const double by_basis =
         basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic}, Patience::little, watch_);
     check_peak(window_, options_.accuracy, by_basis, watch_, *one);
+    if (is_peak) check_stability(branch, {dof, measure, harmonic}, options_.accuracy, watch_, *one);
     if (one->reduced().model)
         check_host_reduction(*one->reduced().model, options_.accuracy, by_basis,
                              watch_.keeping(one->warnings));

@@ -87,11 +87,12 @@ vector<double> bifurcation_tests(const vector<std::complex<double>> &multipliers
     double doubling = 1, nearest = 1;
     std::int64_t outside = 0;
     for (const std::complex<double> &m : multipliers) {
+        const double size = 1 + std::abs(m); // no product of hundreds overflows
         if (m.imag() == 0) {
-            doubling *= m.real() + 1;
+            doubling *= (m.real() + 1) / size;
             continue;
         }
-        doubling *= std::sqrt(std::norm(m + 1.0)); // its conjugate gives the other half
+        doubling *= std::abs(m + 1.0) / size; // its conjugate gives the other half
         nearest = std::min(nearest, std::abs(std::abs(m) - 1));
         outside += m.imag() > 0 && std::abs(m) > 1;
     }

@@ -1,6 +1,8 @@
-// The continuation at corners, on curves that are known: one unknown x, the parameter p = phi(x).
+// The continuation on curves that are known, with one unknown x: at corners, on the flank of a resonance, at
+// the end of its range, and what it does with test functions of the path's owner.
 #include "paths/continuation.hpp"
 #include "support/test.hpp"
+#include <cmath>
 #include <functional>
 
 namespace {
@@ -29,32 +31,71 @@ class KnownCurve : public plm::Residual {
     Function phi_, slope_;
 };
 
+// R = (x - f(p)) (x - f(p) - other): a curve with another one beside it, or alone.
+class Response : public plm::Residual {
+  public:
+    using Function = std::function<double(double)>;
+    Response(Function f, Function slope, double other = 0)
+        : f_(std::move(f)), slope_(std::move(slope)), other_(other) {}
+    std::int64_t size() const override { return 1; }
+    void residual(const double *x, double p, double *r) override {
+        p_ = p, beside_ = x[0] - f_(p);
+        r[0] = other_ == 0 ? beside_ : beside_ * (beside_ - other_);
+    }
+    void linearize() override { tangent_ = by_beside(); }
+    void solve(double *b, std::int64_t n) override {
+        for (std::int64_t i = 0; i < n; ++i) b[i] /= tangent_;
+    }
+    int determinant_sign() const override { return tangent_ < 0 ? -1 : 1; }
+    void parameter_derivative(double *r) override { r[0] = -slope_(p_) * by_beside(); }
+    double residual_scale() const override { return 1; }
+
+  private:
+    double by_beside() const { return other_ == 0 ? 1 : 2 * beside_ - other_; }
+    Function f_, slope_;
+    double other_, p_ = 0, beside_ = 0, tangent_ = 1;
+};
+
 class Owner final : public plm::PathOwner {
   public:
+    explicit Owner(std::function<double(double)> test = nullptr) : test_(std::move(test)) {}
     void record(const plm::PathPoint &p) override {
         ++n_points;
+        all_whole = all_whole && p.x.size() == 1;
+        n_changes += p.bifurcation == PLM_BIFURCATION_NEIMARK_SACKER;
         if (p.bifurcation != PLM_BIFURCATION_FOLD) return;
         ++n_folds;
         fold = p.parameter;
     }
     bool cancelled(double) override { return false; }
     bool rescue(double, vector<double> &) override { return false; }
-    int n_points = 0, n_folds = 0;
+    void test(const vector<double> &, double p, vector<double> &values) override {
+        if (test_) values = {test_(p)};
+    }
+    vector<std::int32_t> test_kinds() const override {
+        if (!test_) return {};
+        return {PLM_BIFURCATION_NEIMARK_SACKER};
+    }
+    int n_points = 0, n_folds = 0, n_changes = 0;
     double fold = 0;
+    bool all_whole = true;
+
+  private:
+    std::function<double(double)> test_;
 };
 
 struct Followed {
     plm::PathOutcome out;
     Owner owner;
 };
-Followed follow(KnownCurve &curve, plm::PathStart start = {{{0}, 0}}) {
+Followed follow(plm::Residual &curve, plm::PathStart start = {{{0}, 0}}, const Owner &owner = Owner()) {
     plm::PathOptions options;
     options.low = 0;
     options.high = 1;
     options.upward = true;
     options.locate = true;
     options.max_points = 500;
-    Followed f;
+    Followed f{{}, owner};
     f.out = plm::follow_path(curve, options, start, f.owner);
     return f;
 }
@@ -121,6 +162,53 @@ void a_path_that_comes_to_its_beginning_from_behind_has_turned_back(void **) {
     assert_int_equal(follow(curve, start).out.end_reason, PLM_REASON_RANGE_END);
 }
 
+// The amplitude of an undamped oscillator, beyond whose resonance at p = 1.01 the range does not reach: in
+// the end fifty times the static one.
+double resonance(double p) {
+    return 1 / (1 - p * p / 1.0201);
+}
+double resonance_slope(double p) {
+    return 2 * p / 1.0201 * resonance(p) * resonance(p);
+}
+
+// The metric grows with the response, and lengths of steps are those of the metric of now: a curve that grows
+// a hundredfold on a flank takes steps of 0.15 there, too (with a tangent of the metric before: 131 points).
+void the_flank_of_a_resonance_takes_few_points(void **) {
+    Response curve(resonance, resonance_slope);
+    const Followed f = follow(curve, {{{1}, 0}});
+    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_true(f.owner.n_points < 50);
+}
+
+// A curve that bends up to the end of its range beside another one: what the last step comes upon there, from
+// its chord, is the other one. It is tried shorter.
+void the_last_point_belongs_to_the_curve(void **) {
+    Response curve([](double p) { return std::pow(p, 8); }, [](double p) { return 8 * std::pow(p, 7); },
+                   3e-3);
+    const Followed f = follow(curve);
+    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_true(near(f.out.at.x[0], 1, 1e-9));
+}
+
+// Below zero between p = 0.49 and 0.51, a fifth of the steps on a straight line.
+void a_test_function_that_dips_is_not_stepped_over(void **) {
+    KnownCurve line([](double x) { return x; }, [](double) { return 1; });
+    const Followed f = follow(line, {{{0}, 0}}, Owner([](double p) { return std::abs(p - 0.5) - 0.01; }));
+    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(f.owner.n_changes, 2);
+}
+
+// A product over multipliers may overflow where a motion is very unstable. (A point without unknowns was
+// recorded.)
+void a_test_function_that_is_infinite_has_no_zero(void **) {
+    KnownCurve line([](double x) { return x; }, [](double) { return 1; });
+    const Followed f =
+        follow(line, {{{0}, 0}}, Owner([](double p) { return p < 0.3 ? INFINITY : -INFINITY; }));
+    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(f.owner.n_changes, 0);
+    assert_true(f.owner.all_whole);
+}
+
 } // namespace
 
 int main() {
@@ -129,6 +217,10 @@ int main() {
         cmocka_unit_test(a_corner_at_which_the_parameter_turns_is_a_fold),
         cmocka_unit_test(a_grazing_corner_is_passed_whatever_the_smallest_step),
         cmocka_unit_test(a_path_that_comes_to_its_beginning_from_behind_has_turned_back),
+        cmocka_unit_test(the_flank_of_a_resonance_takes_few_points),
+        cmocka_unit_test(the_last_point_belongs_to_the_curve),
+        cmocka_unit_test(a_test_function_that_dips_is_not_stepped_over),
+        cmocka_unit_test(a_test_function_that_is_infinite_has_no_zero),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -2,6 +2,7 @@
 // an end is not called a peak, and what lies outside the basis is said. Truths: the bilinear frequency, and
 // the same curve over a range that is wide from the start.
 #include "reduction/basis.hpp"
+#include "sampling/sampler.hpp"
 #include "sampling/small_models.hpp"
 #include "searches/hbm.hpp"
 #include "support/small_reduced.hpp"
@@ -209,6 +210,55 @@ void a_linear_response_is_said_where_contact_is_out_of_reach(void **) {
     assert_true(!said(0.05).has(PLM_REASON_NO_SWITCHING) && said(0.05).has(PLM_REASON_TURNED_BACK));
 }
 
+// Two unit masses on unit springs to the ground and one between them; the first strikes a stop of stiffness
+// `stop` as it passes its rest.
+exact::Structure struck_pair(double stop) {
+    exact::Structure s;
+    s.n = 2, s.z = 1;
+    s.mass = {1, 1};
+    s.stiffness = {2, -1, -1, 2};
+    s.damping.assign(4, 0.0);
+    for (int i = 0; i < 4; ++i) s.damping[i] = 0.02 * s.stiffness[i];
+    s.gap_rows = {1, 0};
+    s.contact_stiffness = {stop};
+    s.gap = {0};
+    s.force = {0.1, 0};
+    s.preload = {0, 0};
+    return s;
+}
+
+// How far the state at the beginning of a period still changes after five hundred of them, of its size.
+double unrest(const exact::Structure &s, double omega) {
+    std::vector<double> state(4, 0.0), before;
+    for (int k = 0; k < 500; ++k) {
+        before = state;
+        state = exact::period_map(s, omega, before, nullptr);
+    }
+    double change = 0, size = 0;
+    for (int i = 0; i < 4; ++i)
+        change = std::hypot(change, state[i] - before[i]), size = std::hypot(size, state[i]);
+    return change / size;
+}
+
+void a_peak_that_does_not_last_is_said(void **) {
+    for (double stop : {10.0, 3.0}) {
+        const exact::Structure s = struck_pair(stop);
+        Case c;
+        c.model = test::make_model(s);
+        c.basis = std::make_shared<plm::Basis>(
+            c.model, std::make_shared<plm::Sampler>(c.model, plm::SamplerOptions(), plm::Watch(), nullptr),
+            nullptr, plm::BasisOptions(), plm::Watch());
+        const plm::Hbm hbm(c.basis, plm::HbmOptions(), plm::Watch());
+        const auto curve = hbm.sweep();
+        const plm::Peak peak = peak_of(hbm, *curve);
+        const plm::Warnings &said = peak.branch->warnings;
+        const double moving = unrest(s, 2 * M_PI * peak.frequency_hz);
+        assert_true(said.has(PLM_REASON_UNSTABLE_PEAK) == (moving > 0.1));
+        assert_true(said.empty() == (moving < 1e-3));
+        assert_true((stop > 5) == (moving > 0.1)); // both cases occur
+    }
+}
+
 } // namespace
 
 int main() {
@@ -221,6 +271,7 @@ int main() {
         cmocka_unit_test(responses_outside_the_basis_are_said),
         cmocka_unit_test(a_basis_too_small_for_the_contact_is_said),
         cmocka_unit_test(a_linear_response_is_said_where_contact_is_out_of_reach),
+        cmocka_unit_test(a_peak_that_does_not_last_is_said),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
