@@ -18,6 +18,7 @@ PathOptions path_options(const HbmOptions &options, double low, double high) {
     p.max_points = options.max_points;
     p.min_step = options.min_step;
     p.max_step = options.max_step;
+    p.scale_falls = options.period_multiple > 1;
     return p;
 }
 

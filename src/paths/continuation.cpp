@@ -14,7 +14,7 @@ constexpr double target_angle = 0.25; // rad between neighbouring tangents
 constexpr double straight = 1e-6;     // rad: hardly turned, the angle itself is rounding
 constexpr double most_growth = 1.6,
                  least_growth = 0.35;       // from one step to the next: the curvature varies, too
-constexpr std::int64_t many_iterations = 6; // with more than one tangent: the prediction was poor
+constexpr std::int64_t many_iterations = 6; // Newton's method was slow: the prediction was poor
 constexpr double slow_growth = 0.6;         // then, however straight the path is
 constexpr double after_failure = 0.4;       // of the step that failed
 constexpr double first_step = 0.2,
@@ -83,7 +83,7 @@ class Continuation {
         walker_.move(start.at);
         from_start_ = start.end.x.empty();
         target_ = from_start_ ? start.at : start.end;
-        walker_.grow_scale(start.scale);
+        walker_.take_scale(start.scale);
         walker_.linearize_here();
         walker_.make_tangent(start.direction.x.empty() ? nullptr : &start.direction);
         target_tangent_ = from_start_ ? walker_.tangent() : start.end_direction;
@@ -184,7 +184,7 @@ class Continuation {
             }
         }
         record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
-        if (walker_.grow_scale()) last_step_ = 0; // the metric changed: one plain predictor
+        if (walker_.take_scale()) last_step_ = 0; // the metric changed: one plain predictor
         interrupted_ = owner_.interrupt();
         return true;
     }

@@ -11,6 +11,10 @@ struct PathOptions {
     double tolerance = 1e-9;
     std::int64_t max_iterations = 30, max_points = 2000;
     double initial_step = 0, min_step = 1e-7, max_step = 0.15; // arc length; initial 0: a fifth of max_step
+    // Lengths are those of the response of now, not of the largest so far: for a curve that comes and goes at
+    // small responses, as motions of several periods do from the shorter ones, which a coarse step would
+    // go on along.
+    bool scale_falls = false;
     bool locate = false; // folds, branch points and changes of the owner's test functions
 };
 

@@ -17,12 +17,12 @@ PathWalker::PathWalker(Residual &system, const PathOptions &options, PathOwner &
     for (std::int32_t kind : owner.test_kinds()) kinds_.push_back(kind);
 }
 
-bool PathWalker::grow_scale(double least) {
+bool PathWalker::take_scale(double least) {
     const double before = metric_.scale;
     const std::int64_t s = system_.static_size();
     const double size =
         metric_.weights ? std::sqrt(metric_.dot(now_.x, now_.x)) : norm2(n_ - s, now_.x.data() + s);
-    metric_.scale = std::max({before, least, size});
+    metric_.scale = std::max({options_.scale_falls ? 0 : before, least, size});
     if (metric_.scale == 0) metric_.scale = norm2(n_, now_.x.data());
     if (metric_.scale == 0) metric_.scale = 1; // nothing moves and nothing rests: any measure will do
     if (metric_.scale == before) return false;

@@ -30,8 +30,9 @@ class PathWalker {
     /// Goes to a point without asking whether it is a solution.
     void move(PathState to) { now_ = std::move(to); }
     void set_tangent(const PathState &tangent) { tangent_ = tangent; }
-    /// The metric follows the largest response met, so that the flanks cost few points. True: it changed.
-    bool grow_scale(double least = 0);
+    /// The metric follows the largest response met, so that the flanks behind a resonance cost few points, or
+    /// that of now (PathOptions::scale_falls). True: it changed.
+    bool take_scale(double least = 0);
     void linearize_here();
     /// The system is (or is no longer) factored near the present point.
     void set_factored(bool factored) { factored_ = factored; }

@@ -25,7 +25,7 @@ constexpr double slow = 3;
 // A model that is not smaller than this share of the whole saves nothing.
 constexpr double much_smaller = 0.7;
 // Nor one of this share where contact bounces: its motions need more of the basis as they are followed.
-constexpr double much_smaller_where_unstable = 0.5;
+constexpr double much_smaller_where_unstable = 0.6;
 constexpr std::int64_t motions_looked_at = 6; // of the first curve, besides its highest
 constexpr std::int64_t most_rounds = 6;
 constexpr std::int64_t corrected_harmonics = 24; // those above hardly move

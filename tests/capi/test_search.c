@@ -154,7 +154,8 @@ static void backbones_are_in_quadrature(void **state) {
     assert_true(largest <= 0.02 * (1 + 1e-9) && largest > 0.015);
     for (k = 1; k < n; k += n / 5) {
         assert_true(done(ctx, plm_hbm_set_double(hbm, "force_scale", at(backbone, "point_force_scale", k))));
-        assert_true(done(ctx, plm_hbm_solve(hbm, at(backbone, "frequency_hz", k), backbone, k, &same)));
+        /* a warning where few harmonics leave the stability open */
+        assert_true(plm_hbm_solve(hbm, at(backbone, "frequency_hz", k), backbone, k, &same) >= PLM_OK);
         most = larger(most, fabs(measured(same, PLM_PEAK, 0) / measured(backbone, PLM_PEAK, k) - 1));
     }
     printf("    solved at the points' own forces: off by %.1e\n", most);

@@ -49,6 +49,7 @@ class Response : public plm::Residual {
     int determinant_sign() const override { return tangent_ < 0 ? -1 : 1; }
     void parameter_derivative(double *r) override { r[0] = -slope_(p_) * by_beside(); }
     double residual_scale() const override { return 1; }
+    bool is_cheap_to_linearize() const override { return true; }
 
   private:
     double by_beside() const { return other_ == 0 ? 1 : 2 * beside_ - other_; }

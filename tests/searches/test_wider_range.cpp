@@ -244,7 +244,9 @@ void a_peak_that_does_not_last_is_said(void **) {
     for (double stop : {10.0, 3.0}) {
         const exact::Structure s = struck_pair(stop);
         Case c;
-        c.model = test::make_model(s);
+        test::ModelExtras damped;
+        damped.explicit_damping = true;
+        c.model = test::make_model(s, damped);
         c.basis = std::make_shared<plm::Basis>(
             c.model, std::make_shared<plm::Sampler>(c.model, plm::SamplerOptions(), plm::Watch(), nullptr),
             nullptr, plm::BasisOptions(), plm::Watch());
