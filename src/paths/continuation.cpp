@@ -184,7 +184,10 @@ class Continuation {
             }
         }
         record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
-        if (walker_.take_scale()) last_step_ = 0; // the metric changed: one plain predictor
+        if (walker_.take_scale()) { // how the path bent, in the new metric
+            last_step_ = walker_.metric().distance(walker_.now(), before);
+            scale_by(1 / walker_.metric().length(last_tangent_), last_tangent_);
+        }
         interrupted_ = owner_.interrupt();
         return true;
     }

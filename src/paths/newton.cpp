@@ -8,8 +8,10 @@
 namespace plm {
 namespace {
 
-constexpr double fast_contraction = 0.2; // below: the old factorization is good enough for another step
-constexpr double good_contraction = 0.5; // below: the damping was far too strong
+// Below: the old factorization is good enough for another step; and where a new one costs about two
+// residuals, since it gains as many digits as it has already.
+constexpr double fast_contraction = 0.2, very_fast_contraction = 0.03;
+constexpr double good_contraction = 0.5;                // below: the damping was far too strong
 constexpr double bold_growth = 4, careful_growth = 1.5; // of the damping factor after a damped step
 // Between one trial and the next the damping factor is halved at least, whatever the estimate says, and not
 // made much smaller than the estimate, from one trial alone, is worth.
@@ -25,7 +27,8 @@ class Newton {
     Newton(Residual &system, const SideCondition &side, const NewtonLimits &limits, vector<double> &x,
            double &parameter)
         : system_(system), side_(side), limits_(limits), x_(x), parameter_(parameter), n_(system.size()),
-          r_(n_), step_(n_), border_(n_), trial_(n_), next_(n_) {
+          r_(n_), step_(n_), border_(n_), trial_(n_), next_(n_),
+          kept_below_(system.is_cheap_to_linearize() ? very_fast_contraction : fast_contraction) {
         pieces_.reserve(limits.max_iterations + 1); // no iteration allocates
     }
 
@@ -60,7 +63,7 @@ class Newton {
                     return finish(damping * size);
                 }
                 fresh_ = false;
-                if (damping == 1 && contraction <= fast_contraction && !system_.is_cheap_to_linearize()) {
+                if (damping == 1 && contraction <= kept_below_) {
                     step_.swap(next_);
                     step_parameter_ = next_parameter;
                     size = next_size;
@@ -176,6 +179,7 @@ class Newton {
     double &parameter_;
     std::int64_t n_;
     vector<double> r_, step_, border_, trial_, next_;
+    double kept_below_; // contraction
     double step_parameter_ = 0;
     bool fresh_ = false; // the factorization belongs to x_
     vector<std::int64_t> pieces_;

@@ -26,7 +26,8 @@ class Residual {
     virtual double residual_scale() const = 0;
     /// False: there is no solution where residual() was last evaluated, whatever rounding leaves of it.
     virtual bool in_balance() const { return true; }
-    /// A new tangent costs little beside a residual: none is used twice.
+    /// A new tangent costs little beside residuals: that of another point is not used, nor one's own for more
+    /// than a last digit or two.
     virtual bool is_cheap_to_linearize() const { return false; }
     /// How much the square of each unknown counts in a length along the path; null: all alike.
     virtual const vector<double> *weights() const { return nullptr; }
