@@ -216,7 +216,7 @@ class ContactSpaceBuilder {
                of_further = product('N', 'N', attached.of_further(), of_attached);
         space_->vectors =
             SpaceVectors({model_, responses_->modes, std::move(of_modes), std::move(of_responses),
-                          attached.take_further(), std::move(of_further)});
+                          std::make_shared<const Field>(attached.take_further()), std::move(of_further)});
     }
 
     // B V: works: of contact forces, and then loads, on the attachment vectors.
