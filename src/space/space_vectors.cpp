@@ -53,6 +53,14 @@ Matrix products_with_some(const SpaceVectors::Parts &p, const Field &f) {
     return c;
 }
 
+Matrix products_with(const SpaceVectors::Parts &p, const Field &f) {
+    if (f.cols() <= solved_at_once) return products_with_some(p, f);
+    Matrix c(p.of_further.cols(), 0);
+    for (std::int64_t first = 0; first < f.cols(); first += solved_at_once)
+        c.append(products_with_some(p, f.columns(first, std::min(solved_at_once, f.cols() - first))));
+    return c;
+}
+
 } // namespace
 
 SpaceVectors::SpaceVectors(Field vectors) : recovered_(std::make_shared<Recovered>()) {
@@ -127,7 +135,7 @@ Matrix SpaceVectors::rows_at(const vector<std::int64_t> &chosen) const {
     if (worth_forming(count)) return formed().rows_at(chosen);
     Matrix units(rows(), count);
     for (std::int64_t k = 0; k < count; ++k) units(chosen[k], k) = 1;
-    return gram(*this, Field(std::move(units))).transposed();
+    return products_with(parts_, Field(std::move(units))).transposed();
 }
 
 Field combine(const SpaceVectors &v, const Matrix &y) {
@@ -150,12 +158,7 @@ void add_combination(double factor, const SpaceVectors &v, const vector<double> 
 }
 
 Matrix gram(const SpaceVectors &v, const Field &f) {
-    if (v.worth_forming(f.cols())) return gram(v.formed(), f);
-    if (f.cols() <= solved_at_once) return products_with_some(v.parts(), f);
-    Matrix c(v.cols(), 0);
-    for (std::int64_t first = 0; first < f.cols(); first += solved_at_once)
-        c.append(products_with_some(v.parts(), f.columns(first, std::min(solved_at_once, f.cols() - first))));
-    return c;
+    return v.worth_forming(f.cols()) ? gram(v.formed(), f) : products_with(v.parts(), f);
 }
 
 Field all_columns(const SpaceVectors &v) {
