@@ -116,7 +116,7 @@ std::shared_ptr<ReducedModel> with_static_basis() {
     m->same_static = false;
     m->vectors_0 = m->vectors;
     m->vectors = plm::SpaceVectors(m->vectors_0.formed().columns(0, 3));
-    m->to_static = Matrix(m->static_size(), 3);
+    m->to_static = plm::Matrix(m->static_size(), 3);
     for (int j = 0; j < 3; ++j) m->to_static(j, j) = 1;
     m->gap = m->gap.columns(0, 3);
     m->lambda.resize(3);
