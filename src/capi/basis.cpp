@@ -104,12 +104,12 @@ plm_status plm_basis_get_vectors(plm_basis *basis, std::int32_t is_static, std::
         const plm::Basis &core = *built(b);
         const plm::Model &model = *core.model();
         require_range(is_static, 0, 1, "is_static");
-        const plm::Field &p = is_static ? core.reduced()->static_vectors() : core.reduced()->vectors;
+        const plm::SpaceVectors &p = is_static ? core.reduced()->static_vectors() : core.reduced()->vectors;
         require_range(first, 0, p.cols(), "first");
         require_range(n, 0, p.cols() - first, "n");
         require_range(ld, model.n_dof(), INT64_MAX / 64, "ld");
         if (n > 0) require_pointer(vector, "vector");
-        const plm::Field some = p.columns(first, n);
+        const plm::Field some = columns(p, first, n);
         plm::require_finite_result(some, "vector");
         for (std::int64_t j = 0; j < n; ++j) model.expand(some, j, vector + j * ld);
         return PLM_OK;

@@ -165,7 +165,7 @@ void add_results(std::vector<Key> &keys) {
             result<H>("frequencies_hz", "frequencies of those with mass (Hz)", frequencies_hz),
             result<H>("preload_residual",
                       "static response against P, L2 norm (paper, eq. (12)); 0 without pre-load",
-                      [](const H &h) { return report(h).preload_residual; }),
+                      [](const H &h) { return core(h).preload_residual(); }),
             result<H>("preload_residual_mass", "the same in the norm of M",
                       [](const H &h) { return report(h).preload_residual_mass; }),
             warning_text<H>([](const H &h) -> const Warnings & { return report(h).warnings; }),

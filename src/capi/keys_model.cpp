@@ -92,7 +92,7 @@ const std::vector<Key> &model_keys() {
                   [](const H &h) { return estimated(h).factorization; }),
         result<H>("memory_factor", "bytes that are kept of it",
                   [](const H &h) { return estimated(h).factor; }),
-        result<H>("memory_modes", "bytes of thirty modes while they are sought, beside matrices and factor",
+        result<H>("memory_modes", "bytes of modes while they are sought, beside matrices and factor",
                   [](const H &h) { return estimated(h).modes; }),
         result<H>("memory_contact_space",
                   "bytes of the contact space while it is made, beside matrices and factor",

@@ -10,12 +10,13 @@ namespace plm::capi {
 namespace {
 
 /// A DOF of the whole structure in the coordinates of a basis: its row of the recovered columns.
-vector<double> recovered_row(const ModelHandle &m, const Field &columns, std::int64_t full_dof) {
+vector<double> recovered_row(const ModelHandle &m, const SpaceVectors &vectors, std::int64_t full_dof) {
     vector<double> row;
-    for (std::int64_t first = 0; first < columns.cols(); first += recovery_block) {
-        const std::int64_t some = std::min(recovery_block, columns.cols() - first);
+    for (std::int64_t first = 0; first < vectors.cols(); first += recovery_block) {
+        const std::int64_t some = std::min(recovery_block, vectors.cols() - first);
+        const Field block = columns(vectors, first, some);
         Matrix motions(m.core->n_dof(), some);
-        for (std::int64_t j = 0; j < some; ++j) m.core->expand(columns, first + j, motions.col(j));
+        for (std::int64_t j = 0; j < some; ++j) m.core->expand(block, j, motions.col(j));
         const Matrix full = recovered(m.recovery, *m.owner, motions);
         for (std::int64_t j = 0; j < some; ++j) row.push_back(full(full_dof, j));
     }

@@ -20,7 +20,7 @@ void turn_rows(const Matrix &turn, Matrix &x) {
 } // namespace
 
 FlowModel::FlowModel(std::shared_ptr<const ReducedModel> reduced, double omega) : reduced_(widened(reduced)) {
-    if (reduced_ != reduced) to_flow_ = static_coordinates_of(*reduced, reduced->vectors);
+    if (reduced_ != reduced) to_flow_ = reduced->to_static;
     lambda_ = reduced_->lambda;
     gap_ = reduced_->gap;
     preload_ = reduced_->preload_0;
@@ -164,7 +164,7 @@ vector<double> FlowModel::constant_load(const vector<double> &springs) const {
 }
 
 vector<double> FlowModel::dof_row(std::int64_t dof) const {
-    const Field &vectors = reduced_->vectors;
+    const SpaceVectors &vectors = reduced_->vectors;
     const std::int64_t n_dof = reduced_->model ? reduced_->model->n_dof() : vectors.rows();
     if (dof < 0 || dof >= n_dof)
         throw Error(PLM_ERR_ARGUMENT, format("DOF %lld is not one of 0 .. %lld", static_cast<long long>(dof),

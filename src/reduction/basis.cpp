@@ -108,7 +108,7 @@ struct Reduction {
 };
 
 // |q - P eta|_M / |q|_M (paper, eq. (12), (13)); P is M-orthonormal.
-double mass_residual(const Model &model, const Field &p, const Field &q) {
+double mass_residual(const Model &model, const SpaceVectors &p, const Field &q) {
     const double size = column_products(q, model.mass_times(q))[0];
     if (!(size > 0)) return 0;
     Field remainder = q;
@@ -144,10 +144,7 @@ Reduction reduce_to_vectors(const Space &space, const Sampler *sampler, const Se
     watch.step("basis", 0.5);
     r.reduced = project(space, conditioned.coordinates, statics);
     watch.step("basis", 0.9);
-    if (norm2(space.size(), rest.coordinates.data()) > 0) {
-        r.report.preload_residual = euclidean_remainder(r.reduced->vectors, rest.displacement);
-        r.report.preload_residual_mass = relative_remainder(conditioned.coordinates, rest.coordinates);
-    }
+    r.report.preload_residual_mass = relative_remainder(conditioned.coordinates, rest.coordinates);
     return r;
 }
 
@@ -240,6 +237,15 @@ SweepRange Basis::sweep_range() const {
     return range;
 }
 
+double Basis::preload_residual() const {
+    return *preload_residual_.get([&] {
+        if (!options_.kind->is_collected()) return 0.0;
+        const RestState &rest = *rest_of(*space_);
+        if (!(norm2(space_->size(), rest.coordinates.data()) > 0)) return 0.0;
+        return projection_residual(*this, false, false, rest.displacement);
+    });
+}
+
 void Basis::choose_pairs() {
     if (options_.n_pairs_carried > 0)
         reduced_ = sample_pairs(reduced_, *space_, options_.pair_rule, options_.n_pairs_carried,
@@ -261,8 +267,8 @@ std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> 
 }
 
 double projection_residual(const Basis &basis, bool is_static, bool use_mass, const Field &q) {
-    const Field &p = is_static ? basis.reduced()->static_vectors() : basis.reduced()->vectors;
-    return use_mass ? mass_residual(*basis.model(), p, q) : euclidean_remainder(p, q);
+    const SpaceVectors &p = is_static ? basis.reduced()->static_vectors() : basis.reduced()->vectors;
+    return use_mass ? mass_residual(*basis.model(), p, q) : euclidean_remainder(p.formed(), q);
 }
 
 } // namespace plm

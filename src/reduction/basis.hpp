@@ -11,13 +11,11 @@ namespace plm {
 
 struct BasisReport {
     std::vector<SampleSelection> samples;
-    std::int64_t n_collected = 0;    // columns before conditioning
-    std::int64_t n_rest_modes = 0;   // snapshots: modes at rest among them
-    vector<double> singular_values;  // scaled by the largest
-    vector<double> equivalent_share; // of k_n, lelsm: in each column's system; lelsm_updated: of each pair
-    double preload_residual =
-        0; // paper, eq. (12): q_PS against P, L2 norm over the free DOFs; 0 without pre-load
-    double preload_residual_mass = 0; // the same in the M-norm
+    std::int64_t n_collected = 0;     // columns before conditioning
+    std::int64_t n_rest_modes = 0;    // snapshots: modes at rest among them
+    vector<double> singular_values;   // scaled by the largest
+    vector<double> equivalent_share;  // of k_n, lelsm: in each column's system; lelsm_updated: of each pair
+    double preload_residual_mass = 0; // paper, eq. (12): q_PS against P, in the M-norm; 0 without pre-load
     Warnings warnings;
     double setup_seconds = 0;
     double highest_frequency_hz = 0; // upper end of the rule
@@ -37,6 +35,9 @@ class Basis {
 
     const BasisOptions &options() const { return options_; }
     const BasisReport &report() const { return report_; }
+    /// Paper, eq. (12): q_PS against P, L2 norm over the free DOFs; 0 without pre-load. Computed when first
+    /// asked for: it forms P.
+    double preload_residual() const;
     const std::shared_ptr<const Space> &space() const { return space_; } // what P was made in
     const std::shared_ptr<const ReducedModel> &reduced() const { return reduced_; }
     const std::shared_ptr<const Sampler> &sampler() const { return sampler_; }
@@ -58,7 +59,8 @@ class Basis {
     std::shared_ptr<const ReducedModel> reduced_;
     double window_min_hz_ = 0, window_max_hz_ = 0;
     bool estimated_min_ = false, estimated_max_ = false; // ends of the window that are a sampler's estimate
-    Kept<std::shared_ptr<const Basis>> unreduced_;       // unreduced_basis()
+    Kept<double> preload_residual_;
+    Kept<std::shared_ptr<const Basis>> unreduced_; // unreduced_basis()
     friend std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> &, Watch,
                                                         std::shared_ptr<const Space>);
 };

@@ -16,7 +16,7 @@ namespace {
 Space as_space(const ReducedModel &m) {
     Space s;
     s.model = m.model;
-    s.vectors = SpaceVectors(m.vectors);
+    s.vectors = m.vectors;
     s.lambda = m.lambda;
     s.n_massless = m.n_massless;
     s.gap = m.whole_gap();
@@ -75,7 +75,7 @@ struct Decomposition {
 
 // The dynamic coordinates y among the static ones, whose basis P_0 holds P.
 Matrix among_statics(const ReducedModel &m, const Matrix &y) {
-    return m.same_static ? y : product('N', 'N', static_coordinates_of(m, m.vectors), y);
+    return m.same_static ? y : product('N', 'N', m.to_static, y);
 }
 
 // What is left of motions outside the orthonormal y.
@@ -93,12 +93,14 @@ void reduce_statics(const ReducedModel &from, Matrix y, const Matrix &beside, Re
         Space statics;
         statics.lambda = from.lambda_0;
         statics.n_massless = from.n_massless_0;
-        y.append(beside);
-        const Coordinates c = diagonalise(statics, thin_svd(y).u);
+        Matrix all = y;
+        all.append(beside);
+        const Coordinates c = diagonalise(statics, thin_svd(all).u);
+        to.to_static = coordinates_among(statics, y, c);
         to.lambda_0 = c.lambda;
         to.n_massless_0 = c.n_massless;
         to.gap_0 = product('N', 'N', from.whole_gap_0(), c.y);
-        to.vectors_0 = combine(from.static_vectors(), c.y);
+        to.vectors_0 = from.static_vectors().times(c.y);
         y = c.y;
     }
     const auto projected = [&](const vector<double> &f) {

@@ -69,6 +69,22 @@ Coordinates diagonalise(const Space &space, const Matrix &columns) {
     return c;
 }
 
+Matrix coordinates_among(const Space &space, const Matrix &y, const Coordinates &basis) {
+    Matrix momenta = y;
+    for (std::int64_t k = 0; k < y.cols(); ++k)
+        for (std::int64_t i = 0; i < y.rows(); ++i) momenta(i, k) *= space.mass(i);
+    Matrix c = product('T', 'N', basis.y, momenta);
+    if (basis.n_massless == 0) return c;
+    Matrix elastic = y;
+    for (std::int64_t k = 0; k < y.cols(); ++k)
+        for (std::int64_t i = 0; i < y.rows(); ++i) elastic(i, k) *= space.lambda[i];
+    const Matrix works = product('T', 'N', basis.y, elastic);
+    for (std::int64_t k = 0; k < c.cols(); ++k)
+        for (std::int64_t j = c.rows() - basis.n_massless; j < c.rows(); ++j)
+            c(j, k) = works(j, k) / basis.lambda[j];
+    return c;
+}
+
 Conditioned condition_columns(const Space &space, const Matrix &columns, double tolerance) {
     Svd svd = thin_svd(columns); // in the M-inner product, since coordinates with mass are M-orthonormal
     Conditioned result;

@@ -14,6 +14,9 @@ struct Coordinates {
 /// The same span in coordinates that diagonalise both. columns: independent, of comparable size.
 Coordinates diagonalise(const Space &space, const Matrix &columns);
 
+/// Of vectors V Y (Y: space size x k) in a basis that holds them: as coordinates_of(), in small matrices.
+Matrix coordinates_among(const Space &space, const Matrix &y, const Coordinates &basis);
+
 struct Conditioned {
     Coordinates coordinates;
     vector<double> singular_values; // of the columns in the M-inner product, scaled by the largest

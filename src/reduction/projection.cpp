@@ -72,14 +72,15 @@ std::shared_ptr<const ReducedModel> project(const Space &space, const Coordinate
     reduced->lambda = dynamic.lambda;
     reduced->n_massless = dynamic.n_massless;
     reduced->gap = product('N', 'N', space.gap, dynamic.y);
-    reduced->vectors = combine(space.vectors, dynamic.y);
+    reduced->vectors = space.vectors.times(dynamic.y);
     project_damping(space, dynamic, *reduced);
     reduced->same_static = statics.same;
     if (!statics.same) {
         reduced->lambda_0 = statics.coordinates.lambda;
         reduced->n_massless_0 = statics.coordinates.n_massless;
         reduced->gap_0 = product('N', 'N', space.gap, y_0);
-        reduced->vectors_0 = combine(space.vectors, y_0);
+        reduced->vectors_0 = space.vectors.times(y_0);
+        reduced->to_static = coordinates_among(space, dynamic.y, statics.coordinates);
     }
     reduced->preload_0 = project_vector(y_0, space.preload);
     for (const auto &[harmonic, load] : space.excitation) {
@@ -95,7 +96,7 @@ std::shared_ptr<const ReducedModel> project_whole(const Space &space) {
     reduced->lambda = space.lambda;
     reduced->n_massless = space.n_massless;
     reduced->gap = space.gap;
-    reduced->vectors = all_columns(space.vectors);
+    reduced->vectors = space.vectors.whole();
     if (space.damping.empty())
         reduced->damping_diagonal = space.damping_diagonal;
     else

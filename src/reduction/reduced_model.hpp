@@ -49,8 +49,9 @@ struct ReducedModel {
     Kept<ReducedModel> widened;                 // widened(), widened_model.hpp
     std::shared_ptr<const CompressedFrom> from; // null: of a basis as it was built
     // recovery: q = P eta
-    Field vectors;   // n_free x r
-    Field vectors_0; // n_free x r_0, empty when same_static
+    SpaceVectors vectors;   // P: n_free x r
+    SpaceVectors vectors_0; // P_0: n_free x r_0, empty when same_static
+    Matrix to_static;       // P = P_0 T: r_0 x r, empty when same_static
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }
     std::int64_t static_size() const { return static_cast<std::int64_t>(lambda_0.size()); }
@@ -62,7 +63,7 @@ struct ReducedModel {
     const Matrix &whole_gap_0() const { return all_pairs ? all_pairs->gap_0 : gap_0; }
     const Contact &whole_contact() const { return all_pairs ? all_pairs->contact : contact; }
     std::int64_t n_whole_pairs() const { return whole_contact().n_pairs(); }
-    const Field &static_vectors() const { return same_static ? vectors : vectors_0; }
+    const SpaceVectors &static_vectors() const { return same_static ? vectors : vectors_0; }
 };
 
 /// P_0 coordinates of motions q over the free DOFs (n_free x k).

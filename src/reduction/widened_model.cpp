@@ -22,21 +22,21 @@ void project_damping(const ReducedModel &m, ReducedModel &wide) {
         return;
     }
     if (damping.modal_ratio.empty()) {
-        wide.damping = gram(m.vectors_0, m.model->damping_times(m.vectors_0));
+        const Field &p_0 = m.vectors_0.formed();
+        wide.damping = gram(p_0, m.model->damping_times(p_0));
         for (std::int64_t j = 0; j < n; ++j)
             wide.damping(j, j) += damping.alpha * m.mass_0(j) + damping.beta * m.lambda_0[j];
         return;
     }
     // T C T^T + c_max (M_0 - T M T^T) = T (C - c_max M) T^T + c_max M_0
     const double largest = largest_damping(m);
-    const Matrix to_static = static_coordinates_of(m, m.vectors);
     Matrix c = m.damping;
     if (c.empty()) {
         c.reset(m.size(), m.size());
         for (std::int64_t j = 0; j < m.size(); ++j) c(j, j) = m.damping_diagonal[j];
     }
     for (std::int64_t j = 0; j < m.size(); ++j) c(j, j) -= largest * m.mass(j);
-    wide.damping = product('N', 'T', product('N', 'N', to_static, c), to_static);
+    wide.damping = product('N', 'T', product('N', 'N', m.to_static, c), m.to_static);
     for (std::int64_t j = 0; j < n; ++j) wide.damping(j, j) += largest * m.mass_0(j);
     clear_massless(m.n_massless_0, wide.damping);
 }
@@ -50,7 +50,8 @@ ReducedModel widen(const ReducedModel &m) {
     wide.n_massless = m.n_massless_0;
     wide.gap = m.gap_0;
     wide.vectors = m.vectors_0;
-    wide.vectors_0 = Field();
+    wide.vectors_0 = SpaceVectors();
+    wide.to_static = Matrix();
     wide.damping_diagonal.clear();
     wide.damping = Matrix();
     project_damping(m, wide);

@@ -68,9 +68,9 @@ class ContactSpaceBuilder {
         std::shared_ptr<const ExactModes> modes = responses_->modes;
         const bool reach_far =
             modes->count() >= guess && modes->count() > 0 && modes->values.back() >= cutoff * cutoff;
-        if (!reach_far && !modes->are_all)
-            modes = model_->exact_modes_up_to(guess, count >= 0 ? 0.0 : cutoff, watch_);
+        if (!reach_far && !modes->are_all) modes = more_modes(*modes, guess, count);
         if (count >= 0) modes = complete(std::move(modes), checked, count);
+        if (highest_ > 0 && modes->rest) *modes->rest = SearchRest(); // hardly ever more are asked for
         if (modes != responses_->modes)
             responses_ = std::make_shared<const StaticResponses>(
                 outside_more_modes(*model_, *responses_, std::move(modes), watch_));
@@ -78,7 +78,18 @@ class ContactSpaceBuilder {
         leave_out_followers();
     }
 
-    // As many modes below the frequency as are counted there.
+    // count: of modes below the cutoff, or negative.
+    std::shared_ptr<const ExactModes> more_modes(const ExactModes &known, std::int64_t wanted,
+                                                 std::int64_t count) const {
+        const bool counted = count >= 0;
+        ModeSearch search;
+        search.known = &known;
+        search.look_for_missed = !counted;
+        const double cutoff = highest_ * model_->space_options().cutoff_factor;
+        return model_->exact_modes_up_to(wanted, counted ? 0.0 : cutoff, watch_, search);
+    }
+
+    // As many modes below the frequency as are counted there; where some were missed, from a new search.
     std::shared_ptr<const ExactModes> complete(std::shared_ptr<const ExactModes> modes, double frequency,
                                                std::int64_t count) const {
         const auto below = [&] {
@@ -216,7 +227,7 @@ class ContactSpaceBuilder {
                of_further = product('N', 'N', attached.of_further(), of_attached);
         space_->vectors =
             SpaceVectors({model_, responses_->modes, std::move(of_modes), std::move(of_responses),
-                          attached.take_further(), std::move(of_further)});
+                          std::make_shared<const Field>(attached.take_further()), std::move(of_further)});
     }
 
     // B V: works: of contact forces, and then loads, on the attachment vectors.

@@ -22,11 +22,10 @@ void ExactModes::take_from_motions(Field &x) const {
 
 ExactModes exact_modes(const Structure &structure, StructureModes found, bool are_all) {
     ExactModes modes;
-    modes.values = std::move(found.values);
+    static_cast<StructureModes &>(modes) = std::move(found);
     const std::int64_t n_rigid = std::min(structure.n_rigid(), modes.count());
     std::fill(modes.values.begin(), modes.values.begin() + n_rigid, 0.0); // exactly
-    modes.momenta = structure.mass_times(found.vectors);
-    modes.vectors = std::move(found.vectors);
+    modes.momenta = structure.mass_times(modes.vectors);
     modes.are_all = are_all;
     return modes;
 }

@@ -7,11 +7,13 @@ namespace plm {
 
 constexpr std::int64_t solved_at_once = 64; // right-hand sides
 
-struct ExactModes {
-    vector<double> values; // rad^2/s^2, ascending; rigid-body modes: exactly 0
-    Field vectors;         // Phi, n_free x p, M-orthonormal
-    Field momenta;         // M Phi
-    bool are_all = false;  // there are no others of finite frequency
+/// Modes of the open structure that are found anyhow: what is asked of it later seldom needs fewer.
+constexpr std::int64_t modes_anyhow = 30;
+
+/// Phi, n_free x p; values of rigid-body modes: exactly 0.
+struct ExactModes : StructureModes {
+    Field momenta;        // M Phi
+    bool are_all = false; // there are no others of finite frequency
 
     std::int64_t count() const { return static_cast<std::int64_t>(values.size()); }
     ExactModes first(std::int64_t count) const;

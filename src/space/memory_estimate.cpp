@@ -1,4 +1,5 @@
 #include "space/memory_estimate.hpp"
+#include "space/exact_modes.hpp"
 #include "structure/solver/ordering.hpp"
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,14 @@ namespace {
 constexpr double mebibyte = 1 << 20;
 
 // What nobody knows before the sampler has run: a usual number of each.
-constexpr double n_modes = 30, n_basis = 40;
-constexpr double lanczos_columns = 2 * n_modes + 40; // the space of the search, its block and products
-constexpr double solve_columns = 3 * 64;             // a block of right-hand sides with its workspace
+constexpr double n_modes = 60, n_basis = 40;
+constexpr double further_per_pair = 0.5; // vectors of a contact space beside its modes
+// Columns of the structure's size: what the model keeps of its own modes, their momenta and the search for
+// them; a search for n_modes, with its blocks and the modes it hands over; a block of right-hand sides with
+// its workspace.
+constexpr double own_columns = 2 * modes_anyhow + most_rest;
+constexpr double lanczos_columns = 2 * n_modes + 26 * 8 + n_modes;
+constexpr double solve_columns = 4 * 64;
 
 Solver solver_of(const SpaceOptions &options, const HostSolver *host) {
     Solver solver(options.solver, host);
@@ -67,10 +73,11 @@ MemoryEstimate estimate_memory(const StructureEstimate &s, std::int64_t n_pairs,
     }
     // the count of modes eliminates the shifted matrix front by front, and keeps nothing
     const double count = s.factor ? s.factor->at_work + s.shifted : 0;
-    e.modes = std::max(lanczos_columns * column, n_modes * column + count);
-    // exact modes, K^-1 B^T in single precision, blocks in double
-    e.contact_space = (2 * n_modes + solve_columns) * column + z * column / 2;
-    e.basis = (n_modes + n_basis + solve_columns) * column + z * column / 2;
+    e.modes = std::max((2 * modes_anyhow + lanczos_columns) * column, own_columns * column + count);
+    const double space = (own_columns + 2 * n_modes + further_per_pair * z) * column, // modes and momenta
+        spare = std::min(8 * 64 * column, static_cast<double>(SpareBlocksScope::most_bytes));
+    e.contact_space = space + (solve_columns + further_per_pair / 2 * z) * column + spare;
+    e.basis = space + (solve_columns + n_basis) * column + spare;
     return e;
 }
 

@@ -2,6 +2,7 @@
 #include "linalg/error.hpp"
 #include "space/memory_estimate.hpp"
 #include <algorithm>
+#include <utility>
 
 namespace plm {
 namespace {
@@ -31,17 +32,22 @@ Model::Model(const ModelInput &input, const SpaceOptions &options, const Solver 
     resolve_contact_stiffness(watch);
 }
 
-std::shared_ptr<const ExactModes> Model::exact_modes_up_to(std::int64_t wanted, double cutoff,
-                                                           Watch watch) const {
+std::shared_ptr<const ExactModes> Model::exact_modes_up_to(std::int64_t wanted, double cutoff, Watch watch,
+                                                           ModeSearch search) const {
     watch.step("open modes", 0.0);
-    const auto cancelled = [watch] { return watch.cancelled("open modes", 0.3); };
+    search.cancelled = [watch] { return watch.cancelled("open modes", 0.3); };
+    const bool keep_rest = std::exchange(search.keep_rest, search.keep_rest || cutoff > 0);
     wanted = std::min(wanted, n_free());
+    StructureModes found;
     for (;;) {
-        StructureModes found = lowest_modes(wanted, cancelled);
+        found = lowest_modes(wanted, search);
+        search.known = &found;
         const std::int64_t count = static_cast<std::int64_t>(found.values.size());
         const bool are_all = count < wanted || wanted == n_free();
-        if (are_all || found.values.back() >= cutoff * cutoff)
+        if (are_all || found.values.back() >= cutoff * cutoff) {
+            if (!keep_rest) found.rest.reset();
             return std::make_shared<const ExactModes>(exact_modes(*this, std::move(found), are_all));
+        }
         wanted = std::min(n_free(), wanted + wanted / 2 + 10);
     }
 }
@@ -49,10 +55,12 @@ std::shared_ptr<const ExactModes> Model::exact_modes_up_to(std::int64_t wanted, 
 // Whose modes cannot all be found has its rigid-body motion at least; a space asks for what it needs.
 std::shared_ptr<const ExactModes> Model::modes_at_hand(Watch watch) const {
     try {
-        return exact_modes_up_to(std::max(modes_anyhow, n_rigid() + 1), 0, watch);
+        ModeSearch search;
+        search.keep_rest = true; // a space mostly asks for more
+        return exact_modes_up_to(std::max(modes_anyhow, n_rigid() + 1), 0, watch, search);
     } catch (const Error &e) {
         if (e.status() != PLM_ERR_EIGENSOLVER) throw;
-        StructureModes rigid{vector<double>(n_rigid(), 0.0), rigid_modes()};
+        StructureModes rigid{vector<double>(n_rigid(), 0.0), rigid_modes(), nullptr};
         if (n_rigid() == 0) rigid.vectors = Field(n_free(), 0);
         return std::make_shared<const ExactModes>(exact_modes(*this, std::move(rigid), false));
     }

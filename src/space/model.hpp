@@ -7,9 +7,6 @@
 
 namespace plm {
 
-/// Modes of the open structure that are found anyhow: what is asked of it later seldom needs fewer.
-constexpr std::int64_t modes_anyhow = 30;
-
 class Model : public Structure {
   public:
     /// Throws plm::Error with the argument and index at fault.
@@ -27,8 +24,9 @@ class Model : public Structure {
     std::shared_ptr<const StaticResponses> responses(Watch watch) const;
     /// As lowest_modes(): `wanted` of them, or as many as there are, and those after them until one is not
     /// below `cutoff` (rad/s).
-    std::shared_ptr<const ExactModes> exact_modes_up_to(std::int64_t wanted, double cutoff,
-                                                        Watch watch) const;
+    /// search: how, but for what this sets of it.
+    std::shared_ptr<const ExactModes> exact_modes_up_to(std::int64_t wanted, double cutoff, Watch watch,
+                                                        ModeSearch search = {}) const;
     const SpaceOptions &space_options() const { return space_options_; }
 
   private:

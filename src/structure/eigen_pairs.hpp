@@ -5,19 +5,42 @@
 
 namespace plm {
 
+/// What a search leaves beside its pairs X, for one that goes on to more of them: further Ritz vectors V and
+/// the next block W, M-orthonormal, with A^-1 M [X V] = [X V] diag(theta) + W B. Empty where there is none.
+struct SearchRest {
+    Matrix v, w, b;
+    vector<double> theta; // of X and V: 1 / (lambda - shift)
+};
+
+constexpr std::int64_t most_rest = 128; // columns of V
+
 struct EigenPairs {
     vector<double> values; // ascending
     Matrix vectors;        // M-orthonormal columns
+    SearchRest rest;
 };
 
 /// library_code of the error (PLM_ERR_EIGENSOLVER) where some did not converge within the allowed restarts.
 constexpr std::int64_t eigs_too_few = -1;
+
+struct KnownPairs {
+    const vector<double> *values = nullptr; // null: there are none
+    const Matrix *vectors = nullptr;
+    SearchRest *rest = nullptr; // taken: empty afterwards
+};
 
 struct EigsOptions {
     double tolerance = 0; // relative accuracy of the Ritz values; 0 = machine precision
     std::int64_t max_restarts = 300;
     std::int64_t max_attempts = 3;   // each with twice the vectors, where the one before did not converge
     std::function<bool()> cancelled; // polled before each operation; true stops (PLM_CANCELLED)
+    /// Whether copies of multiple eigenvalues are looked for that the iteration may have missed. Not needed
+    /// where the number of modes is counted.
+    bool look_for_missed = true;
+    /// Whether what is left of the search is kept with the pairs.
+    bool keep_rest = false;
+    /// The lowest pairs, from an earlier search: this one goes on, from its rest if there is one.
+    KnownPairs known;
 };
 
 } // namespace plm

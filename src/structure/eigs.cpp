@@ -23,6 +23,7 @@ Pencil make_pencil(const SparseMatrix &k, const SparseMatrix &m, const Factor &f
     return pencil;
 }
 
+/// The rest of the search goes with pairs that are all there in the order found.
 void sort_and_cut(EigenPairs &pairs, std::int64_t count) {
     const std::int64_t total = pairs.vectors.cols();
     vector<std::int64_t> order(total);
@@ -30,12 +31,14 @@ void sort_and_cut(EigenPairs &pairs, std::int64_t count) {
     std::stable_sort(order.begin(), order.end(),
                      [&](std::int64_t a, std::int64_t b) { return pairs.values[a] < pairs.values[b]; });
     order.resize(std::min(count, total));
-    EigenPairs sorted{{}, Matrix(pairs.vectors.rows(), static_cast<std::int64_t>(order.size()))};
+    if (count < total || !std::is_sorted(order.begin(), order.end())) pairs.rest = SearchRest();
+    EigenPairs sorted{{}, Matrix(pairs.vectors.rows(), static_cast<std::int64_t>(order.size())), {}};
     for (std::int64_t from : order) {
         std::copy_n(pairs.vectors.col(from), pairs.vectors.rows(),
                     sorted.vectors.col(static_cast<std::int64_t>(sorted.values.size())));
         sorted.values.push_back(pairs.values[from]);
     }
+    sorted.rest = std::move(pairs.rest);
     pairs = std::move(sorted);
 }
 
@@ -108,6 +111,9 @@ KrylovResult run(const Pencil &pencil, std::int64_t n_wanted, std::int64_t times
     // steps whatever its width, so that a few pairs are found sooner by a narrow one.
     request.width = std::clamp<std::int64_t>(n_wanted / 2, 1, widest_block);
     request.n_lanczos = dimension(2 * n_wanted + 20 * request.width);
+    const KnownPairs &known = pencil.options.known;
+    if (known.values && known.vectors->cols() < n_wanted) request.known = known;
+    request.keep_rest = pencil.options.keep_rest;
     return run_lanczos(pencil, request);
 }
 
@@ -141,8 +147,8 @@ Matrix add_missed(const Pencil &pencil, EigenPairs &pairs) {
     const auto wanted = static_cast<std::int64_t>(pairs.values.size());
     KrylovRequest request{1, std::min<std::int64_t>(64, pencil.rank() - wanted), pencil.options.tolerance,
                           pencil.options.max_restarts, 2};
-    request.known = &pairs.vectors;
-    request.m_known = &m_vectors;
+    request.apart = &pairs.vectors;
+    request.m_apart = &m_vectors;
     request.width = widest_block;
     for (std::int64_t round = 0; round < wanted && request.n_lanczos >= 3; ++round) {
         const double missed = (1 - 1e-9) * (pairs.values.back() - pencil.shift);
@@ -206,11 +212,12 @@ EigenPairs lowest_eigenpairs(const SparseMatrix &k, const SparseMatrix &m, const
                              std::int64_t n_wanted, const EigsOptions &options) {
     require(n_wanted >= 0, "lowest_eigenpairs: number wanted");
     const Pencil pencil = make_pencil(k, m, factor, shift, options);
-    if (n_wanted == 0 || pencil.rank() == 0) return {{}, Matrix(pencil.size(), 0)};
+    if (n_wanted == 0 || pencil.rank() == 0) return {{}, Matrix(pencil.size(), 0), {}};
     if (needs_dense(pencil, n_wanted)) return all_by_dense(pencil, n_wanted);
     EigenPairs pairs = search(pencil, n_wanted);
     sort_and_cut(pairs, n_wanted);
-    const Matrix mx = add_missed(pencil, pairs);
+    const Matrix mx =
+        options.look_for_missed ? add_missed(pencil, pairs) : orthonormalize(pencil.m, pairs.vectors);
     // Copies of a multiple eigenvalue come into a Krylov space of one vector by rounding alone: the last of
     // dozens may be the worse for it.
     if (pencil.rank() <= dense_limit && first_large_residual(pencil, pairs, mx).pair >= 0)

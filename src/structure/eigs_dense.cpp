@@ -41,7 +41,7 @@ double rayleigh_quotient(const Pencil &pencil, const double *x) {
 EigenPairs dense_eigenpairs(const Pencil &pencil, std::int64_t n_wanted) {
     const std::int64_t n = pencil.size();
     const Matrix root = mass_root(pencil); // M = S S^T
-    EigenPairs pairs{{}, Matrix(n, 0)};
+    EigenPairs pairs{{}, Matrix(n, 0), {}};
     if (root.cols() == 0) return pairs;
 
     // A^-1 M x = theta x with theta = 1 / (lambda - shift) becomes (S^T A^-1 S) y = theta y, x = A^-1 S y /

@@ -30,7 +30,9 @@ struct KrylovRequest {
     std::int64_t seed;      // of the start vectors
     std::int64_t width = 1; // of a block of the Lanczos method of our own
     /// Columns (M-orthonormal) and M times them that the search is kept away from; null for none.
-    const Matrix *known = nullptr, *m_known = nullptr;
+    const Matrix *apart = nullptr, *m_apart = nullptr;
+    KnownPairs known; // where the search begins
+    bool keep_rest = false;
     double of_interest = 0; // a pair counts as converged once its theta is certainly smaller
 };
 enum class KrylovEnd {
@@ -40,7 +42,7 @@ enum class KrylovEnd {
 };
 struct KrylovResult {
     KrylovEnd end;
-    EigenPairs pairs; // the converged ones
+    EigenPairs pairs; // the converged ones; their rest, where it is asked for and all have converged
 };
 /// Start vectors: the same in every run, on every machine.
 void pseudo_random(Matrix &x, std::int64_t seed);

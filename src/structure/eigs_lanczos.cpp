@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace plm {
 namespace {
@@ -25,12 +26,12 @@ class Lanczos {
     }
 
     KrylovResult run() {
-        if (!fresh_block()) return {KrylovEnd::exhausted, {}};
+        if (!begin()) return {KrylovEnd::exhausted, {}};
         for (std::int64_t restart = 0;;) {
             const bool whole = extend();
             solve_projected();
             if (!whole && size() < request_.n_wanted) return {KrylovEnd::exhausted, extract()};
-            if (n_converged_ == n_wanted()) return {KrylovEnd::converged, extract()};
+            if (n_converged_ == n_wanted()) return {KrylovEnd::converged, extract_with_rest()};
             if (fits(w_.width())) continue;
             if (restart++ >= request_.max_restarts) return {KrylovEnd::too_few, extract()};
             compress();
@@ -42,14 +43,33 @@ class Lanczos {
     std::int64_t n_wanted() const { return std::min(request_.n_wanted, size()); }
     bool fits(std::int64_t more) const { return size() + more <= request_.n_lanczos; }
 
-    /// X = A^-1 X in place, kept away from the known vectors.
+    /// X = A^-1 X in place, kept apart from the vectors named.
     void apply_inverse(Matrix &x) {
         pencil_.poll();
         pencil_.factor.solve(x);
-        if (request_.known) // X -= Y Y^T M X
-            gemm('N', 'N', -1, *request_.known, product('T', 'N', *request_.m_known, x), 1, x);
+        if (request_.apart) // X -= Y Y^T M X
+            gemm('N', 'N', -1, *request_.apart, product('T', 'N', *request_.m_apart, x), 1, x);
         if (!finite(x.data(), n_ * x.cols())) // NaN in the basis would go round until the last restart
             throw Error(PLM_ERR_EIGENSOLVER, "the factorization's solve returned NaN or Inf");
+    }
+
+    /// The space of an earlier search, or none, and W.
+    bool begin() {
+        const KnownPairs &known = request_.known;
+        if (!known.values) return fresh_block();
+        v_.append(*known.vectors);
+        if (!known.rest || known.rest->w.cols() == 0) {
+            for (std::int64_t j = 0; j < size(); ++j) t_(j, j) = 1 / ((*known.values)[j] - pencil_.shift);
+            return fresh_block();
+        }
+        const SearchRest rest = std::exchange(*known.rest, SearchRest());
+        const std::int64_t room = request_.n_lanczos - rest.w.cols() - size();
+        v_.append(rest.v.columns(0, std::min(room, rest.v.cols())));
+        for (std::int64_t j = 0; j < size(); ++j) t_(j, j) = rest.theta[j];
+        w_.x = rest.w;
+        w_.mx = multiply_transposed(pencil_.m, w_.x);
+        b_ = rest.b.columns(0, size());
+        return true;
     }
 
     /// A new W, for the start and where the space closed in itself; false: there is none.
@@ -183,12 +203,29 @@ class Lanczos {
         v_.cut(count);
     }
 
+    EigenPairs extract_with_rest() {
+        if (!request_.keep_rest) return extract();
+        const std::int64_t wanted = n_wanted(), kept = std::min(size(), wanted + most_rest);
+        SearchRest rest;
+        rest.theta.assign(theta_.begin(), theta_.begin() + kept);
+        rest.b = residual_.columns(0, kept);
+        to_ritz_vectors(kept);
+        rest.v = v_.columns(wanted, kept - wanted);
+        EigenPairs pairs = extract_first(wanted);
+        rest.w = std::move(w_.x);
+        pairs.rest = std::move(rest);
+        return pairs;
+    }
+
+    EigenPairs extract() {
+        to_ritz_vectors(n_wanted());
+        return extract_first(n_wanted());
+    }
+
     /// Converged pairs of those wanted. A^-1 M x / theta in place of x frees them from what M does not see
     /// (Ericsson and Ruhe's purification).
-    EigenPairs extract() {
+    EigenPairs extract_first(std::int64_t wanted) {
         EigenPairs pairs;
-        const std::int64_t wanted = n_wanted();
-        to_ritz_vectors(wanted);
         for (std::int64_t from = 0; from < wanted; ++from) {
             if (!converged(from)) continue;
             double *x = v_.col(static_cast<std::int64_t>(pairs.values.size()));

@@ -186,11 +186,19 @@ void Structure::factor_stiffness(double largest_contact, Watch watch) {
     uncertainty_ = result.uncertainty;
 }
 
-StructureModes Structure::lowest_modes(std::int64_t n, const std::function<bool()> &cancelled) const {
+StructureModes Structure::lowest_modes(std::int64_t n, const ModeSearch &search) const {
     EigsOptions options;
-    options.cancelled = cancelled;
+    options.cancelled = search.cancelled;
+    options.look_for_missed = search.look_for_missed;
+    options.keep_rest = search.keep_rest;
+    if (search.known) {
+        const StructureModes &known = *search.known;
+        options.known = {&known.values, &known.vectors.in_core(), known.rest.get()};
+    }
     EigenPairs pairs = lowest_eigenpairs(stiffness_, mass_, *factor_, -shift_, n, options);
-    return {std::move(pairs.values), Field(std::move(pairs.vectors))};
+    StructureModes found{std::move(pairs.values), Field(std::move(pairs.vectors)), nullptr};
+    if (!pairs.rest.theta.empty()) found.rest = std::make_shared<SearchRest>(std::move(pairs.rest));
+    return found;
 }
 
 std::int64_t Structure::count_modes_below(double omega) const {

@@ -42,6 +42,15 @@ struct StructureInput {
 struct StructureModes {
     vector<double> values; // rad^2/s^2, ascending
     Field vectors;
+    /// What the search for them left, for one that goes on to more: taken by it. Null: nothing.
+    std::shared_ptr<SearchRest> rest;
+};
+
+struct ModeSearch {
+    std::function<bool()> cancelled;
+    const StructureModes *known = nullptr; // the lowest of those asked for, from an earlier search
+    bool keep_rest = false;
+    bool look_for_missed = true; // of multiple frequencies; needless where modes are counted
 };
 
 /// What a structure takes before anything is factored: bytes, and the factor.
@@ -90,7 +99,7 @@ class Structure {
     double reciprocal_condition() const { return factor_->reciprocal_condition(); }
 
     /// The n lowest modes, fewer when there are fewer of finite frequency.
-    StructureModes lowest_modes(std::int64_t n, const std::function<bool()> &cancelled = {}) const;
+    StructureModes lowest_modes(std::int64_t n, const ModeSearch &search = {}) const;
     /// Modes below omega (rad/s), cannot_tell_count or hit_a_mode; where it may move a little: near it.
     std::int64_t count_modes_below(double omega) const;
     std::int64_t count_modes_near(double &omega, Watch watch) const;

@@ -1,6 +1,6 @@
 /* What a host that sets nothing waits for, and gets: the scenes of the examples from matrices to peak, each
  * step with the time of the processor.
- *     bench_defaults [SCENE [quick|paper [no-preload [one-call]]]]
+ *     bench_defaults [SCENE [quick|paper [no-preload] [one-call|set-up]]]
  * Without arguments: the small scenes, with and without pre-load. Prints Markdown. */
 #include "scene_model.h"
 #include <stdio.h>
@@ -24,14 +24,11 @@ static void print_warning(plm_context *context, plm_status status) {
     printf("\n  status %d: %s\n", (int)status, text);
 }
 
-/* Sampler, basis, curve and peak, one by one. */
-static void run_steps(plm_context *context, plm_model *model, int64_t dof) {
+/* Sampler and basis, one by one. */
+static plm_basis *set_up(plm_context *context, plm_model *model) {
     plm_sampler *sampler = NULL;
     plm_basis *basis = NULL;
-    plm_hbm *hbm = NULL;
-    plm_branch *curve = NULL, *peak = NULL;
-    int64_t r = 0, n_points = 0;
-    double hz = 0, amplitude = 0;
+    int64_t r = 0;
     must(context, plm_sampler_create(model, &sampler), "sampler");
     must(context, plm_sampler_run(sampler), "sampler");
     printf(" %.2f |", seconds());
@@ -40,6 +37,22 @@ static void run_steps(plm_context *context, plm_model *model, int64_t dof) {
     must(context, plm_basis_build(basis), "basis");
     must(context, plm_basis_get_int(basis, "size", &r), "size");
     printf(" %.2f | %lld |", seconds(), (long long)r);
+    return basis;
+}
+
+static void run_set_up(plm_context *context, plm_model *model, int64_t dof) {
+    (void)dof;
+    set_up(context, model);
+    printf(" - | - | - | - | - |\n");
+}
+
+/* The same, then curve and peak. */
+static void run_steps(plm_context *context, plm_model *model, int64_t dof) {
+    plm_basis *basis = set_up(context, model);
+    plm_hbm *hbm = NULL;
+    plm_branch *curve = NULL, *peak = NULL;
+    int64_t n_points = 0;
+    double hz = 0, amplitude = 0;
     must(context, plm_hbm_create(basis, &hbm), "hbm");
     const plm_status swept = plm_hbm_sweep(hbm, &curve);
     must(context, swept, "sweep");
@@ -66,7 +79,9 @@ static void run_one_call(plm_context *context, plm_model *model, int64_t dof) {
     print_warning(context, status);
 }
 
-static void run(const char *name, const char *size, int with_preload, int one_call) {
+typedef void way(plm_context *context, plm_model *model, int64_t dof);
+
+static void run(const char *name, const char *size, int with_preload, way *go_on) {
     plm_context *context = NULL;
     plm_model *model = NULL;
     scene *s = NULL;
@@ -80,7 +95,7 @@ static void run(const char *name, const char *size, int with_preload, int one_ca
     seconds();
     must(context, scene_to_model(context, s, &model), "model");
     printf(" %.2f |", seconds());
-    (one_call ? run_one_call : run_steps)(context, model, s->output_dof);
+    go_on(context, model, s->output_dof);
     fflush(stdout);
     plm_context_destroy(&context);
     scene_destroy(&s);
@@ -91,16 +106,18 @@ int main(int count, char **argument) {
            "| Hz | "
            "amplitude |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n");
     if (count > 1) {
-        int with_preload = 1, one_call = 0;
+        int with_preload = 1;
+        way *go_on = run_steps;
         for (int i = 3; i < count; i++) {
             with_preload = with_preload && strcmp(argument[i], "no-preload") != 0;
-            one_call = one_call || !strcmp(argument[i], "one-call");
+            if (!strcmp(argument[i], "one-call")) go_on = run_one_call;
+            if (!strcmp(argument[i], "set-up")) go_on = run_set_up;
         }
-        run(argument[1], count > 2 ? argument[2] : "quick", with_preload, one_call);
+        run(argument[1], count > 2 ? argument[2] : "quick", with_preload, go_on);
         return 0;
     }
     for (int k = 0; k < scene_count(); k++)
         for (int with_preload = 0; with_preload < 2; with_preload++)
-            run(scene_name(k), "quick", with_preload, 0);
+            run(scene_name(k), "quick", with_preload, run_steps);
     return 0;
 }

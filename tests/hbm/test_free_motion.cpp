@@ -81,8 +81,9 @@ void free_flight_is_the_motion_of_the_reduced_mass(void **) {
             double centre[2] = {0, 0};
             for (int c = 0; c < 2; ++c)
                 for (std::int64_t j = 0; j < free->size(); ++j)
-                    centre[c] += (left * free->vectors.at(0, j) + right * free->vectors.at(1, j)) /
-                                 (left + right) * a->points()[0].eta(j, c);
+                    centre[c] +=
+                        (left * free->vectors.formed().at(0, j) + right * free->vectors.formed().at(1, j)) /
+                        (left + right) * a->points()[0].eta(j, c);
             assert_true(close_to(std::hypot(centre[0], centre[1]), std::abs(common), 1e-8));
         }
 }
@@ -124,7 +125,7 @@ void loads_that_would_carry_it_away_are_refused(void **) {
 // The pair of masses beside a wall: no spring but the stop would ever hold it.
 Model beside_a_wall(double wall) {
     Model m = in_free_flight();
-    for (std::int64_t j = 0; j < m->size(); ++j) m->gap(0, j) = m->gap_0(0, j) = m->vectors.at(1, j);
+    for (std::int64_t j = 0; j < m->size(); ++j) m->gap(0, j) = m->gap_0(0, j) = m->vectors.formed().at(1, j);
     m->contact.initial_gap[0] = wall;
     return m;
 }
@@ -182,7 +183,7 @@ void a_wall_pushes_it_out_of_its_reach(void **) {
 // A mean force away from the wall: nothing ever holds it.
 std::string said_of_a_mean_force_away(NonlinearUnknowns unknowns) {
     const Model m = beside_a_wall(0.1);
-    m->excitation[0].real = {m->vectors.at(1, 0) > 0 ? -0.1 : 0.1, 0};
+    m->excitation[0].real = {m->vectors.formed().at(1, 0) > 0 ? -0.1 : 0.1, 0};
     try {
         solver(m, unknowns).solve(1.3 / (2 * M_PI), nullptr, 0);
     } catch (const plm::Error &e) {
@@ -201,7 +202,7 @@ void a_mean_force_away_from_the_wall_is_told_of(void **) {
 void a_mean_force_presses_it_against_the_wall(void **) {
     const Model m = beside_a_wall(0.1);
     m->preload_0[0] =
-        2 / std::sqrt(left + right) * (m->vectors.at(1, 0) > 0 ? 1 : -1); // 2 on the centre of mass
+        2 / std::sqrt(left + right) * (m->vectors.formed().at(1, 0) > 0 ? 1 : -1); // 2 on the centre of mass
     for (NonlinearUnknowns unknowns : {NonlinearUnknowns::modal, NonlinearUnknowns::gaps}) {
         const auto one = solver(m, unknowns).solve(1.6 / (2 * M_PI), nullptr, 0);
         const auto q = test::displacement(*m, one->points()[0].eta_0, one->points()[0].eta, 1);

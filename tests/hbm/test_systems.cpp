@@ -115,7 +115,9 @@ std::shared_ptr<ReducedModel> with_static_basis() {
     auto m = chain_model();
     m->same_static = false;
     m->vectors_0 = m->vectors;
-    m->vectors = m->vectors.columns(0, 3);
+    m->vectors = plm::SpaceVectors(m->vectors_0.formed().columns(0, 3));
+    m->to_static = plm::Matrix(m->static_size(), 3);
+    for (int j = 0; j < 3; ++j) m->to_static(j, j) = 1;
     m->gap = m->gap.columns(0, 3);
     m->lambda.resize(3);
     m->damping_diagonal.resize(3);

@@ -27,8 +27,8 @@ inline FlowState to_state(const plm::FlowModel &m, const exact::Structure &s, co
     FlowState state{plm::vector<double>(s.n), plm::vector<double>(s.n), 0};
     for (int j = 0; j < s.n; ++j)
         for (int i = 0; i < s.n; ++i) {
-            state.y[j] += m.reduced().vectors.at(i, j) * s.mass[i] * x[i];
-            state.v[j] += m.reduced().vectors.at(i, j) * s.mass[i] * x[s.n + i];
+            state.y[j] += m.reduced().vectors.formed().at(i, j) * s.mass[i] * x[i];
+            state.v[j] += m.reduced().vectors.formed().at(i, j) * s.mass[i] * x[s.n + i];
         }
     return state;
 }

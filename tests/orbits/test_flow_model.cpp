@@ -38,12 +38,12 @@ double state_error() {
     double worst = std::abs(x.time - fraction * 2 * M_PI / omega);
     for (std::int64_t i = 0; i < r->vectors.rows(); ++i) {
         double want_q = 0, want_v = 0;
-        for (std::size_t j = 0; j < eta_0.size(); ++j) want_q += r->vectors_0.at(i, j) * eta_0[j];
+        for (std::size_t j = 0; j < eta_0.size(); ++j) want_q += r->vectors_0.formed().at(i, j) * eta_0[j];
         for (int h = 1; h <= 2; ++h)
             for (std::int64_t j = 0; j < r->size(); ++j) {
                 const double t = 2 * M_PI * h * fraction, a = eta(j, 2 * h - 2), b = eta(j, 2 * h - 1);
-                want_q += r->vectors.at(i, j) * (a * std::cos(t) + b * std::sin(t));
-                want_v += r->vectors.at(i, j) * h * omega * (b * std::cos(t) - a * std::sin(t));
+                want_q += r->vectors.formed().at(i, j) * (a * std::cos(t) + b * std::sin(t));
+                want_v += r->vectors.formed().at(i, j) * h * omega * (b * std::cos(t) - a * std::sin(t));
             }
         worst = std::max({worst, std::abs(q.at(i) - want_q), std::abs(v.at(i) - want_v)});
         worst = std::max(worst, std::abs(plm::dot(m.size(), m.dof_row(i).data(), x.y.data()) - want_q));
@@ -62,15 +62,15 @@ double projection_error(const ModelExtras &extras) {
     const plm::Model &model = *r->model;
     double worst = 0;
     plm::vector<double> load(m.size());
-    plm::gemv('T', 1.0, r->vectors_0.in_core(), model.excitation().at(1).real.in_core().data(), 0.0,
+    plm::gemv('T', 1.0, r->vectors_0.formed().in_core(), model.excitation().at(1).real.in_core().data(), 0.0,
               load.data());
     for (std::int64_t j = 0; j < m.size(); ++j)
         worst = std::max(worst, std::abs(load[j] - m.excitation().at(1).real[j]));
     plm::SparseMatrix c =
         plm::add(extras.alpha, model.matrices().mass, extras.beta, model.matrices().stiffness);
     if (extras.explicit_damping) c = plm::add(1.0, c, 1.0, model.matrices().damping);
-    const Matrix want =
-        plm::product('T', 'N', r->vectors_0.in_core(), plm::multiply(c, r->vectors_0.in_core()));
+    const Matrix want = plm::product('T', 'N', r->vectors_0.formed().in_core(),
+                                     plm::multiply(c, r->vectors_0.formed().in_core()));
     for (std::int64_t j = 0; j < m.size(); ++j)
         for (std::int64_t i = 0; i < m.size(); ++i) {
             const double got =
@@ -97,8 +97,8 @@ Modal modal_damping() {
     extras.modal_ratio = {0.01, 0.02, 0.03};
     const auto r = reduced_with_static(extras);
     const plm::FlowModel m(r);
-    const Matrix t = plm::product('T', 'N', r->vectors_0.in_core(),
-                                  plm::multiply(r->model->matrices().mass, r->vectors.in_core()));
+    const Matrix t = plm::product('T', 'N', r->vectors_0.formed().in_core(),
+                                  plm::multiply(r->model->matrices().mass, r->vectors.formed().in_core()));
     const Matrix c = plm::product('T', 'N', t, plm::product('N', 'N', m.damping(), t));
     Modal result;
     double largest = 0;

@@ -197,7 +197,7 @@ std::shared_ptr<const plm::FlowModel> massless_model(Massless kind, double k_n) 
     m->contact.initial_gap = {0.02, 0.05};
     m->preload_0 = {0.01, 0, 0.02, 0.03, 0, 0.01};
     m->excitation[1] = {{0.1, 0.2, 0, 0.3, -0.1, 0.2}, {0, 0.05, 0.1, -0.2, 0.1, 0}};
-    m->vectors = plm::Field(n, n);
+    m->vectors = plm::SpaceVectors(plm::Field(n, n));
     return std::make_shared<plm::FlowModel>(std::move(m));
 }
 

@@ -252,8 +252,9 @@ std::vector<Captured> captured() {
         const plm::Compressed pod = plm::compress(responses, 0, n);
         Matrix momentum(m.vectors.rows(), n), first(m.size(), n);
         for (std::int64_t j = 0; j < n; ++j)
-            plm::multiply(m.model->matrices().mass, pod.reduced->vectors.in_core().col(j), momentum.col(j));
-        Matrix y = plm::product('T', 'N', m.vectors.in_core(), momentum);
+            plm::multiply(m.model->matrices().mass, pod.reduced->vectors.formed().in_core().col(j),
+                          momentum.col(j));
+        Matrix y = plm::product('T', 'N', m.vectors.formed().in_core(), momentum);
         for (std::int64_t j = 0; j < n; ++j) first(j, j) = 1; // the lowest modes of the open structure
         to_energy(y);
         to_energy(first);
@@ -284,14 +285,16 @@ Projections projections(DampingKind damping, std::int64_t size) {
     const auto m = compressed(parent_curve(model), 1e-5, size)->reduced();
     const plm::vector<double> ones(m->size(), 1.0), ones_0(m->static_size(), 1.0);
     Projections p;
-    p.mass = worst_of(projected(model->matrices().mass, m->vectors.in_core()), diagonal(ones));
-    p.stiffness = worst_of(projected(model->matrices().stiffness, m->vectors.in_core()), diagonal(m->lambda));
-    p.mass_0 = worst_of(projected(model->matrices().mass, m->static_vectors().in_core()), diagonal(ones_0));
-    p.stiffness_0 = worst_of(projected(model->matrices().stiffness, m->static_vectors().in_core()),
+    p.mass = worst_of(projected(model->matrices().mass, m->vectors.formed().in_core()), diagonal(ones));
+    p.stiffness =
+        worst_of(projected(model->matrices().stiffness, m->vectors.formed().in_core()), diagonal(m->lambda));
+    p.mass_0 =
+        worst_of(projected(model->matrices().mass, m->static_vectors().formed().in_core()), diagonal(ones_0));
+    p.stiffness_0 = worst_of(projected(model->matrices().stiffness, m->static_vectors().formed().in_core()),
                              diagonal(m->lambda_0));
     const Matrix c = m->damping.empty() ? diagonal(m->damping_diagonal) : m->damping;
     if (damping == DampingKind::matrix)
-        p.damping = worst_of(projected(model->matrices().damping, m->vectors.in_core()), c);
+        p.damping = worst_of(projected(model->matrices().damping, m->vectors.formed().in_core()), c);
     if (damping == DampingKind::rayleigh) {
         Matrix wanted = diagonal(m->lambda);
         for (std::int64_t j = 0; j < m->size(); ++j) wanted(j, j) *= 0.3;
@@ -322,8 +325,8 @@ InTime in_time(bool with_preload, DampingKind damping, double tolerance) {
     const plm::ReducedModel &m = *pod->reduced();
     Matrix momentum(m.vectors.rows(), m.vectors.cols());
     for (std::int64_t j = 0; j < m.size(); ++j)
-        plm::multiply(m.model->matrices().mass, m.vectors.in_core().col(j), momentum.col(j));
-    const Matrix inside = plm::product('T', 'N', m.static_vectors().in_core(), momentum);
+        plm::multiply(m.model->matrices().mass, m.vectors.formed().in_core().col(j), momentum.col(j));
+    const Matrix inside = plm::product('T', 'N', m.static_vectors().formed().in_core(), momentum);
     for (std::int64_t j = 0; j < m.size(); ++j)
         t.span = std::max(t.span, std::abs(plm::norm2(inside.rows(), inside.col(j)) - 1));
     HbmOptions o = five_harmonics();

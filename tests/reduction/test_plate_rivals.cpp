@@ -85,7 +85,7 @@ void bilinear_modes_find_the_resonance_that_open_modes_miss(void **) {
 double outside(const plm::ReducedModel &proper, const plm::Space &space, const Matrix &columns,
                std::int64_t which) {
     const Matrix y = plm::condition_columns(space, columns, 1e-8).coordinates.y;
-    const Matrix c = gram(space.vectors, space.model->mass_times(proper.vectors.columns(which, 1)));
+    const Matrix c = gram(space.vectors, space.model->mass_times(plm::columns(proper.vectors, which, 1)));
     plm::vector<double> rest(c.data(), c.data() + c.rows());
     const double size = plm::norm2(c.rows(), rest.data());
     const Matrix eta = plm::product('T', 'N', y, c);

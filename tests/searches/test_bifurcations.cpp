@@ -188,7 +188,7 @@ Symmetry symmetry_breaking() {
     const BranchPtr left = hbm.switch_branch(*branch, points[0], false),
                     right = hbm.switch_branch(*branch, points[0], true);
     found.reason = left->end_reason;
-    const auto mean = [&](const plm::BranchPoint &q) { return q.eta_0[0] * m->vectors.at(0, 0); };
+    const auto mean = [&](const plm::BranchPoint &q) { return q.eta_0[0] * m->vectors.formed().at(0, 0); };
     for (const auto &q : left->points()) found.asymmetry = std::max(found.asymmetry, std::abs(mean(q)));
     found.mirrored = mean(left->points()[1]) * mean(right->points()[1]);
     const plm::BranchPoint &q = left->points()[left->points().size() / 4];

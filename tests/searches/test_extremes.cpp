@@ -30,7 +30,7 @@ Still without_force(double preload) {
     Still s;
     s.reason = branch->end_reason;
     for (const auto &p : branch->points()) s.motion = std::max(s.motion, half_range(*m, p, 0));
-    s.mean = m->vectors.at(0, 0) * branch->points().back().eta_0[0];
+    s.mean = m->vectors.formed().at(0, 0) * branch->points().back().eta_0[0];
     return s;
 }
 void without_force_nothing_moves(void **) {

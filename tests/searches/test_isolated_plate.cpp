@@ -209,14 +209,14 @@ double distance_to(const Curve &c, double hz, double amplitude) {
 plm::BranchPoint in_basis(const plm::ReducedModel &to, const plm::ReducedModel &from,
                           const plm::BranchPoint &p) {
     plm::BranchPoint q = p;
-    const plm::Matrix weighted = plm::multiply(from.model->matrices().mass, from.vectors.in_core()),
-                      change = plm::product('T', 'N', to.vectors.in_core(), weighted);
+    const plm::Matrix weighted = plm::multiply(from.model->matrices().mass, from.vectors.formed().in_core()),
+                      change = plm::product('T', 'N', to.vectors.formed().in_core(), weighted);
     q.eta = plm::product('N', 'N', change, p.eta);
     q.contact_stiffness.reset();
     // static part: rest about the closed contact is close enough to start from
-    const plm::Matrix weighted_0 =
-                          plm::multiply(from.model->matrices().mass, from.static_vectors().in_core()),
-                      change_0 = plm::product('T', 'N', to.static_vectors().in_core(), weighted_0);
+    const plm::Matrix weighted_0 = plm::multiply(from.model->matrices().mass,
+                                                 from.static_vectors().formed().in_core()),
+                      change_0 = plm::product('T', 'N', to.static_vectors().formed().in_core(), weighted_0);
     q.eta_0.assign(to.static_vectors().cols(), 0.0);
     plm::gemv('N', 1.0, change_0, p.eta_0.data(), 0.0, q.eta_0.data());
     return q;

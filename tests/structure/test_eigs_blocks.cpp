@@ -1,5 +1,5 @@
-// The block Lanczos method alone: multiple and clustered eigenvalues, blocks that lose rank, known vectors,
-// small spaces; and the making of an M-orthonormal block.
+// The block Lanczos method alone: multiple and clustered eigenvalues, blocks that lose rank, known vectors
+// and pairs, small spaces; and the making of an M-orthonormal block.
 #include "matrices.hpp"
 #include "structure/eigs.hpp"
 #include "structure/eigs_block.hpp"
@@ -16,10 +16,14 @@ constexpr double pi = 3.141592653589793238463;
 class HostLike : public plm::Factor {
   public:
     HostLike(const SparseMatrix &k) : inner_(plm::make_factor(k)) {}
-    void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const override { inner_->solve(x, nrhs, ldx); }
+    void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const override {
+        solved += nrhs;
+        inner_->solve(x, nrhs, ldx);
+    }
     double reciprocal_condition() const override { return 1; }
     std::int64_t factor_nonzeros() const override { return -1; }
     bool calls_host() const override { return true; }
+    mutable std::int64_t solved = 0;
 
   private:
     std::unique_ptr<plm::Factor> inner_;
@@ -143,7 +147,7 @@ void a_low_rank_of_the_masses_exhausts_the_space(void **) {
     }
 }
 
-void known_vectors_are_kept_away(void **) {
+void vectors_are_kept_apart(void **) {
     const Problem p = strings(4, 50);
     const auto first = p.lanczos(request(10, 60, 4)).pairs;
     const Matrix m_first = plm::multiply(p.m, first.vectors);
@@ -151,8 +155,8 @@ void known_vectors_are_kept_away(void **) {
     exact.erase(exact.begin(), exact.begin() + 10);
     for (std::int64_t width : {2, 4, 8}) {
         plm::KrylovRequest r = request(7, 70, width);
-        r.known = &first.vectors;
-        r.m_known = &m_first;
+        r.apart = &first.vectors;
+        r.m_apart = &m_first;
         if (width < 4) r.n_wanted = 2; // the two copies left of the third value
         const auto rest = p.lanczos(r);
         assert_true(rest.end == plm::KrylovEnd::converged);
@@ -161,6 +165,43 @@ void known_vectors_are_kept_away(void **) {
         for (std::int64_t j = 0; j < overlap.cols(); ++j)
             for (std::int64_t i = 0; i < overlap.rows(); ++i) assert_true(std::fabs(overlap(i, j)) < 1e-12);
     }
+}
+
+struct Found {
+    double error;
+    std::int64_t solved;
+    plm::EigenPairs pairs;
+};
+Found lowest_of(Problem &p, std::int64_t wanted, plm::KnownPairs known, const vector<double> &exact) {
+    p.options.known = known;
+    const std::int64_t before = p.factor.solved;
+    plm::EigenPairs pairs = p.lowest(wanted);
+    return {worst_error(p, pairs, exact), p.factor.solved - before, std::move(pairs)};
+}
+
+/// Where an earlier search stopped another goes on: fewer solutions than from nothing, the same pairs. What
+/// the first one left is used up then; the pairs alone help less.
+void a_search_goes_on_from_known_pairs(void **) {
+    Problem p = strings(3, 400);
+    const vector<double> exact = string_values(3, 400);
+    p.options.look_for_missed = false;
+    const Found all = lowest_of(p, 60, {}, exact);
+    p.options.keep_rest = true;
+    Found first = lowest_of(p, 20, {}, exact);
+    assert_true(first.pairs.rest.w.cols() > 0);
+    const plm::KnownPairs known{&first.pairs.values, &first.pairs.vectors, &first.pairs.rest};
+    const Found more = lowest_of(p, 60, known, exact);
+    assert_int_equal(first.pairs.rest.w.cols(), 0);
+    const Found without_rest = lowest_of(p, 60, known, exact);
+    const Found *const results[] = {&all, &first, &more, &without_rest};
+    for (const Found *found : results) assert_true(found->error < 1e-10);
+    std::printf("    20 pairs %lld solutions, 60 pairs %lld, %lld more, %lld from the pairs alone\n",
+                static_cast<long long>(first.solved), static_cast<long long>(all.solved),
+                static_cast<long long>(more.solved), static_cast<long long>(without_rest.solved));
+    assert_true(first.solved + more.solved < 1.1 * all.solved);
+    assert_true(without_rest.solved < all.solved);
+    const Found fewer = lowest_of(p, 5, known, exact); // known ones in plenty are of no use
+    assert_true(fewer.error < 1e-10);
 }
 
 /// Six values within 1e-6 of each other, then ten decades.
@@ -266,7 +307,8 @@ int main() {
         cmocka_unit_test(all_copies_are_found),
         cmocka_unit_test(a_space_that_closes_is_opened_by_a_new_block),
         cmocka_unit_test(a_low_rank_of_the_masses_exhausts_the_space),
-        cmocka_unit_test(known_vectors_are_kept_away),
+        cmocka_unit_test(vectors_are_kept_apart),
+        cmocka_unit_test(a_search_goes_on_from_known_pairs),
         cmocka_unit_test(clusters_and_a_wide_spectrum_are_resolved),
         cmocka_unit_test(a_small_space_needs_restarts_only),
         cmocka_unit_test(massless_dofs_leave_no_trace_in_the_vectors),

@@ -19,7 +19,7 @@ std::shared_ptr<plm::ReducedModel> reduce_exactly(const exact::Structure &s) {
     const plm::SymmetricEigen modes = plm::symmetric_eigen_general(k, m);
     auto r = std::make_shared<plm::ReducedModel>();
     r->lambda = r->lambda_0 = modes.values;
-    r->vectors = plm::Field(modes.vectors);
+    r->vectors = plm::SpaceVectors(plm::Field(modes.vectors));
     r->gap = r->gap_0 = plm::product('N', 'N', rows, modes.vectors);
     const Matrix cm = plm::product('T', 'N', modes.vectors, plm::product('N', 'N', c, modes.vectors));
     double off = 0, on = 0;
@@ -44,8 +44,8 @@ plm::vector<double> displacement(const plm::ReducedModel &m, const plm::vector<d
                                  const Matrix &eta, std::int64_t dof) {
     plm::vector<double> q(eta.cols() + 1, 0.0);
     for (std::int64_t j = 0; j < m.size(); ++j) {
-        q[0] += m.vectors.at(dof, j) * eta_0[j];
-        for (std::int64_t c = 0; c < eta.cols(); ++c) q[c + 1] += m.vectors.at(dof, j) * eta(j, c);
+        q[0] += m.vectors.formed().at(dof, j) * eta_0[j];
+        for (std::int64_t c = 0; c < eta.cols(); ++c) q[c + 1] += m.vectors.formed().at(dof, j) * eta(j, c);
     }
     return q;
 }
