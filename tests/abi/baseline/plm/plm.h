@@ -114,6 +114,7 @@ typedef int32_t plm_status;
 #define PLM_REASON_LOST_MODE 22        /* a contact sample lost the mode that matches the dominant one */
 #define PLM_REASON_MODEL 23            /* the model is probably not meant so, see plm_model_audit */
 #define PLM_REASON_HOST_REDUCTION 24   /* what the host states of its superelement is too much for the accuracy */
+#define PLM_REASON_UNSTABLE_PEAK 25    /* the structure does not stay on the motion of the peak */
 
 /* What a point of a branch is ("bifurcation" of a branch). */
 #define PLM_BIFURCATION_NONE 0
@@ -202,7 +203,8 @@ typedef int32_t (*plm_recover_fn)(plm_context *ctx, int64_t n_dof, int64_t n_col
 /* api_version: PLM_API_VERSION. */
 PLM_API plm_status plm_context_create(int32_t api_version, plm_context **ctx);
 /* All arrays of the library made for this context come from `allocate`, which must be able to serve until the context
- * is destroyed. (The factorization library and FFTW keep to malloc.) */
+ * is destroyed. (The factorization library and FFTW keep to malloc.) Up to eight large blocks (from 256 KiB, 256 MiB in
+ * all) that a call has released serve it again; they are given back at its end, and before an allocation fails. */
 PLM_API plm_status plm_context_create_with_allocator(int32_t api_version, plm_allocate_fn allocate,
                                                      plm_release_fn release, void *user, plm_context **ctx);
 /* Destroys the context and all that is left in it; NULL and *ctx == NULL are accepted; *ctx becomes NULL. */
@@ -535,7 +537,8 @@ PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *
  * PLM_REASON_NO_PEAK when the highest point stands at an end of the curve (also of one that was cut off): frequency and
  * amplitude are those of that point, and the peak lies elsewhere; with PLM_REASON_BASIS_TOO_SMALL when the error that the
  * basis makes is estimated to be above "accuracy", or, where an estimate would cost more than some points of the curve,
- * as for a sweep. A closed curve has no ends. */
+ * as for a sweep; with PLM_REASON_UNSTABLE_PEAK when the motion of the peak is known to be unstable ("stable" of the
+ * branch) and no stable motion of the curve is as high within "accuracy". A closed curve has no ends. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
 
