@@ -13,9 +13,10 @@ namespace {
 constexpr int deepest = 14; // bisections of a step of the sweep
 constexpr std::size_t steps_between_polls = 8;
 constexpr double difference_step = 1e-5; // of the slope of the amplitude, in arc length
-// A piece halved is nearer by 16 where the curve is smooth. Where a pair begins to move its curvature is
-// singular: by less than 3, and the middle may lie on the piece although the rest does not.
-constexpr double smooth_gain = 16, first_gain = 0.25, least_gain = 1;
+// A piece halved is nearer by 16 where the curve is smooth; a quarter of that is counted on, since the drop
+// that tells so may be chance. Where a pair begins to move its curvature is singular: by less than 3, and the
+// middle may lie on the piece although the rest does not.
+constexpr double smooth_gain = 4, first_gain = 0.25, least_gain = 1;
 
 struct Node {
     PathState point, direction; // the latter: unit tangent in the metric of the piece

@@ -222,9 +222,9 @@ static void one_request_stops_a_search(void **state) {
     (void)state;
     assert_true(done(ctx, plm_hbm_set_double(hbm, "force_scale", 0.006)));
     assert_true(done(ctx, plm_hbm_sweep(hbm, &main_curve)));
-    one_request_stops(isolated_branches, 100);
-    one_request_stops(branches_by_marching, 100);
-    one_request_stops(refined_basis, 100);
+    one_request_stops(isolated_branches, 60);
+    one_request_stops(branches_by_marching, 60);
+    one_request_stops(refined_basis, 60);
 }
 
 static void nonlinear_mode(void **state) {

@@ -435,6 +435,12 @@ Flags flags_against_exact_motions(const exact::Structure &s, double low, double 
         for (std::size_t k = 0; k < state.size(); ++k)
             far = std::max(far, std::abs(state[k] - start[k])), size = std::max(size, std::abs(start[k]));
         if (!(std::isfinite(radius) && far < 0.1 * size && std::abs(radius - 1) > 1e-3)) continue;
+        bool changes = false; // at a grazing touch the multipliers jump, and the points beside it are many
+        for (double beside : {1 - 1e-5, 1 + 1e-5}) {
+            Vec there = state;
+            changes = changes || (exact_radius(s, beside * p.omega, there) < 1) != (radius < 1);
+        }
+        if (changes) continue;
         ++f.looked_at;
         const std::int64_t flag = plm::stability_of(p);
         f.unknown += flag < 0;
@@ -460,7 +466,7 @@ exact::Structure two_masses_and_a_stop() { // the oscillator of the literature
 }
 void stability_is_that_of_the_exact_motion(void **) {
     for (int harmonics : {9, 21}) {
-        const Flags f = flags_against_exact_motions(two_masses_and_a_stop(), 0.5, 0.8, harmonics, 4);
+        const Flags f = flags_against_exact_motions(two_masses_and_a_stop(), 0.5, 0.8, harmonics, 2);
         assert_true(f.looked_at >= 30);
         assert_int_equal(f.wrong, 0);
         assert_true(10 * f.unknown <= f.looked_at); // beside folds, of which this curve has four
