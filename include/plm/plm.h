@@ -203,8 +203,7 @@ typedef int32_t (*plm_recover_fn)(plm_context *ctx, int64_t n_dof, int64_t n_col
 /* api_version: PLM_API_VERSION. */
 PLM_API plm_status plm_context_create(int32_t api_version, plm_context **ctx);
 /* All arrays of the library made for this context come from `allocate`, which must be able to serve until the context
- * is destroyed. (The factorization library and FFTW keep to malloc.) Up to eight large blocks (from 256 KiB, 256 MiB in
- * all) that a call has released serve it again; they are given back at its end, and before an allocation fails. */
+ * is destroyed. (The factorization library and FFTW keep to malloc.) */
 PLM_API plm_status plm_context_create_with_allocator(int32_t api_version, plm_allocate_fn allocate,
                                                      plm_release_fn release, void *user, plm_context **ctx);
 /* Destroys the context and all that is left in it; NULL and *ctx == NULL are accepted; *ctx becomes NULL. */

@@ -69,7 +69,6 @@ plm_status call(const char *function, typename H::Opaque *handle, Body body) noe
         RunningCall running(context, held.host());
         if (!running) return running.refusal();
         const AllocatorScope scope(&context.allocator);
-        const SpareBlocksScope spare;
         const WorkScope work(context.listener());
         const ThreadsScope threads(context.threads);
         try {

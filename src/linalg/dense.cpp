@@ -11,15 +11,6 @@ void Matrix::outside(std::int64_t i, std::int64_t j) const {
                                          static_cast<long long>(rows_), static_cast<long long>(cols_)));
 }
 
-Matrix Matrix::unset(std::int64_t rows, std::int64_t cols) {
-    require(rows >= 0 && cols >= 0 && (rows == 0 || cols <= INT64_MAX / rows), "Matrix::unset: shape");
-    Matrix a;
-    a.data_.resize(static_cast<std::size_t>(rows * cols));
-    a.rows_ = rows;
-    a.cols_ = cols;
-    return a;
-}
-
 void Matrix::reset(std::int64_t rows, std::int64_t cols) {
     require(rows >= 0 && cols >= 0 && (rows == 0 || cols <= INT64_MAX / rows), "Matrix::reset: shape");
     data_.assign(static_cast<std::size_t>(rows * cols), 0.0);
@@ -29,7 +20,7 @@ void Matrix::reset(std::int64_t rows, std::int64_t cols) {
 
 Matrix Matrix::columns(std::int64_t first, std::int64_t count) const {
     require(first >= 0 && count >= 0 && first + count <= cols_, "Matrix::columns: range");
-    Matrix result = unset(rows_, count);
+    Matrix result(rows_, count);
     std::copy_n(col(first), rows_ * count, result.data());
     return result;
 }
@@ -59,7 +50,7 @@ void Matrix::append(const Matrix &other) {
 
 Matrix Matrix::transposed() const {
     constexpr std::int64_t tile = 32; // both the rows read and the rows written of a tile stay in L1
-    Matrix result = unset(cols_, rows_);
+    Matrix result(cols_, rows_);
     for (std::int64_t j0 = 0; j0 < cols_; j0 += tile)
         for (std::int64_t i0 = 0; i0 < rows_; i0 += tile)
             for (std::int64_t j = j0; j < std::min(j0 + tile, cols_); ++j)
@@ -111,10 +102,7 @@ void gemm(char op, double alpha, const Matrix &a, const double *b, std::int64_t 
 }
 
 Matrix product(char op_a, char op_b, const Matrix &a, const Matrix &b) {
-    const std::int64_t rows = is_transpose(op_a) ? a.cols() : a.rows(),
-                       cols = is_transpose(op_b) ? b.rows() : b.cols();
-    // one vector may be left to a dgemv, and that multiplies what is there by zero
-    Matrix c = rows > 1 && cols > 1 ? Matrix::unset(rows, cols) : Matrix(rows, cols);
+    Matrix c(is_transpose(op_a) ? a.cols() : a.rows(), is_transpose(op_b) ? b.rows() : b.cols());
     gemm(op_a, op_b, 1, a, b, 0, c);
     return c;
 }

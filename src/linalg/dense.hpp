@@ -9,8 +9,6 @@ class Matrix {
   public:
     Matrix() = default;
     Matrix(std::int64_t rows, std::int64_t cols) : rows_(rows), cols_(cols), data_(rows * cols, 0.0) {}
-    /// Of this shape, its entries still to be set.
-    static Matrix unset(std::int64_t rows, std::int64_t cols);
     std::int64_t rows() const { return rows_; }
     std::int64_t cols() const { return cols_; }
     bool empty() const { return data_.empty(); }
@@ -52,7 +50,7 @@ class Matrix {
     }
 
     std::int64_t rows_ = 0, cols_ = 0;
-    unset_vector<double> data_;
+    vector<double> data_;
 };
 
 /// A(rows, :)

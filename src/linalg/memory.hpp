@@ -3,7 +3,6 @@
 #pragma once
 #include <cstddef>
 #include <new>
-#include <utility>
 #include <vector>
 
 namespace plm {
@@ -32,37 +31,6 @@ class AllocatorScope {
 /// The allocator of this thread now; null: malloc and free.
 const Allocator *active_allocator();
 
-/// Large blocks that are released on this thread in the life of the scope serve it again: fresh pages cost as
-/// much as a good part of the work on them. Those of the allocator that is active when the scope begins; all
-/// are given back at its end, and before an allocation fails.
-class SpareBlocksScope {
-  public:
-    static constexpr std::size_t least_bytes = std::size_t(1) << 18; // of a block
-    static constexpr std::size_t most_bytes = std::size_t(1) << 28;  // of all
-    static constexpr int most_blocks = 8;
-
-    SpareBlocksScope();
-    ~SpareBlocksScope();
-    SpareBlocksScope(const SpareBlocksScope &) = delete;
-    SpareBlocksScope &operator=(const SpareBlocksScope &) = delete;
-
-    /// A block of at least so many bytes, hardly more; null: there is none.
-    void *take(std::size_t bytes) noexcept;
-    /// False: it is not one to keep.
-    bool keep(void *block) noexcept;
-    void give_back() noexcept;
-
-  private:
-    void release_oldest() noexcept;
-
-    SpareBlocksScope *previous_;
-    void (*release_)(void *block, void *user); // of the allocator whose blocks are kept
-    void *user_;
-    void *block_[most_blocks]; // the oldest first
-    int count_ = 0;
-    std::size_t bytes_ = 0;
-};
-
 /// 64-byte aligned block from the active allocator; throws std::bad_alloc.
 void *allocate_block(std::size_t bytes);
 void release_block(void *block) noexcept;
@@ -81,18 +49,5 @@ template <class T> struct ContextAllocator {
 };
 
 template <class T> using vector = std::vector<T, ContextAllocator<T>>;
-
-/// As ContextAllocator, but entries that are made without a value have none until they get one.
-template <class T> struct UnsetAllocator : ContextAllocator<T> {
-    UnsetAllocator() = default;
-    template <class U> UnsetAllocator(const UnsetAllocator<U> &) {}
-    template <class U> struct rebind { using other = UnsetAllocator<U>; };
-    template <class U> void construct(U *entry) { ::new (static_cast<void *>(entry)) U; }
-    template <class U, class... Value> void construct(U *entry, Value &&...value) {
-        ::new (static_cast<void *>(entry)) U(std::forward<Value>(value)...);
-    }
-};
-
-template <class T> using unset_vector = std::vector<T, UnsetAllocator<T>>;
 
 } // namespace plm

@@ -30,7 +30,7 @@ void for_panels(const SparseMatrix &a, std::int64_t cols, std::int64_t packed_ro
     const bool worth = 2.0 * panel * static_cast<double>(a.nnz()) > worth_a_thread;
     const std::int64_t runs = std::min(panels, worth ? threads_at_hand() : 1);
     parallel_for(runs, [&](std::int64_t run) {
-        unset_vector<double> packed(packed_rows * panel);
+        vector<double> packed(packed_rows * panel);
         for (std::int64_t k = run * panels / runs; k < (run + 1) * panels / runs; ++k)
             columns(k * panel, std::min(panel, cols - k * panel), packed);
     });
@@ -40,11 +40,10 @@ void for_panels(const SparseMatrix &a, std::int64_t cols, std::int64_t packed_ro
 void dense_times(char op, const SparseMatrix &a, const double *x, double *y) {
     const blas_int rows = to_blas(a.rows), cols = to_blas(a.cols), step = 1;
     const double one = 1, zero = 0;
-    std::fill_n(y, op == 'N' ? a.rows : a.cols, 0.0); // dgemv multiplies what is there by zero
     dgemv_(&op, &rows, &cols, &one, a.val.data(), &rows, x, &step, &zero, y, &step, 1);
 }
 Matrix dense_times(char op, const SparseMatrix &a, const Matrix &x) {
-    Matrix y = Matrix::unset(op == 'N' ? a.rows : a.cols, x.cols());
+    Matrix y(op == 'N' ? a.rows : a.cols, x.cols());
     const blas_int m = to_blas(y.rows()), n = to_blas(y.cols()), k = to_blas(x.rows()), lda = to_blas(a.rows);
     const double one = 1, zero = 0;
     dgemm_(&op, "N", &m, &n, &k, &one, a.val.data(), &lda, x.data(), &k, &zero, y.data(), &m, 1, 1);
@@ -82,42 +81,40 @@ void multiply_transposed(const SparseMatrix &a, const double *x, double *y) {
 Matrix multiply(const SparseMatrix &a, const Matrix &x) {
     require(a.cols == x.rows(), "sparse multiply: shapes differ");
     if (is_dense(a) && x.cols() > 1) return dense_times('N', a, x);
-    Matrix y = Matrix::unset(a.rows, x.cols());
+    Matrix y(a.rows, x.cols());
     if (x.cols() == 1) return multiply(a, x.data(), y.data()), y;
-    for_panels(a, x.cols(), a.rows,
-               [&](std::int64_t first, std::int64_t width, unset_vector<double> &packed) {
-                   std::fill(packed.begin(), packed.end(), 0.0);
-                   for (std::int64_t j = 0; j < a.cols; ++j) {
-                       if (a.ptr[j] == a.ptr[j + 1]) continue; // most columns of a gap matrix are empty
-                       double row[panel] = {};
-                       for (std::int64_t c = 0; c < width; ++c) row[c] = x(j, first + c);
-                       for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p) {
-                           double *target = packed.data() + a.idx[p] * panel;
-                           for (std::int64_t c = 0; c < panel; ++c) target[c] += a.val[p] * row[c];
-                       }
-                   }
-                   unpack(packed.data(), a.rows, width, y.col(first), a.rows);
-               });
+    for_panels(a, x.cols(), a.rows, [&](std::int64_t first, std::int64_t width, vector<double> &packed) {
+        std::fill(packed.begin(), packed.end(), 0.0);
+        for (std::int64_t j = 0; j < a.cols; ++j) {
+            if (a.ptr[j] == a.ptr[j + 1]) continue; // most columns of a gap matrix are empty
+            double row[panel] = {};
+            for (std::int64_t c = 0; c < width; ++c) row[c] = x(j, first + c);
+            for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p) {
+                double *target = packed.data() + a.idx[p] * panel;
+                for (std::int64_t c = 0; c < panel; ++c) target[c] += a.val[p] * row[c];
+            }
+        }
+        unpack(packed.data(), a.rows, width, y.col(first), a.rows);
+    });
     return y;
 }
 
 Matrix multiply_transposed(const SparseMatrix &a, const Matrix &x) {
     require(a.rows == x.rows(), "sparse multiply: shapes differ");
     if (is_dense(a) && x.cols() > 1) return dense_times('T', a, x);
-    Matrix y = Matrix::unset(a.cols, x.cols());
+    Matrix y(a.cols, x.cols());
     if (x.cols() == 1) return multiply_transposed(a, x.data(), y.data()), y;
-    for_panels(a, x.cols(), a.rows,
-               [&](std::int64_t first, std::int64_t width, unset_vector<double> &packed) {
-                   pack(x.col(first), a.rows, a.rows, width, packed.data());
-                   for (std::int64_t j = 0; j < a.cols; ++j) {
-                       double sum[panel] = {};
-                       for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p) {
-                           const double *source = packed.data() + a.idx[p] * panel;
-                           for (std::int64_t c = 0; c < panel; ++c) sum[c] += a.val[p] * source[c];
-                       }
-                       for (std::int64_t c = 0; c < width; ++c) y(j, first + c) = sum[c];
-                   }
-               });
+    for_panels(a, x.cols(), a.rows, [&](std::int64_t first, std::int64_t width, vector<double> &packed) {
+        pack(x.col(first), a.rows, a.rows, width, packed.data());
+        for (std::int64_t j = 0; j < a.cols; ++j) {
+            double sum[panel] = {};
+            for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p) {
+                const double *source = packed.data() + a.idx[p] * panel;
+                for (std::int64_t c = 0; c < panel; ++c) sum[c] += a.val[p] * source[c];
+            }
+            for (std::int64_t c = 0; c < width; ++c) y(j, first + c) = sum[c];
+        }
+    });
     return y;
 }
 

@@ -130,100 +130,6 @@ void repeated_lu_of_one_size_allocates_nothing(void **) {
     assert_int_equal(c.made, c.freed);
 }
 
-constexpr std::size_t large = std::size_t(1) << 20;
-
-// A block of the same size, or a little less, is the one released before; a small one, or one of half the
-// size, is not. Of the host's allocator and of malloc's alike all go back at the end.
-void large_blocks_serve_again_and_are_given_back(void **) {
-    Counter c;
-    const plm::Allocator a = counting(c);
-    {
-        const plm::AllocatorScope scope(&a);
-        const plm::SpareBlocksScope spare;
-        void *first = plm::allocate_block(large);
-        plm::release_block(first);
-        void *small = plm::allocate_block(large / 2 - 1), *again = plm::allocate_block(large - 100);
-        assert_ptr_equal(again, first);
-        assert_int_equal(reinterpret_cast<std::uintptr_t>(again) % 64, 0);
-        assert_ptr_not_equal(small, first);
-        assert_int_equal(c.made, 2);
-        plm::release_block(small);
-        plm::release_block(again);
-        void *tiny = plm::allocate_block(1000);
-        plm::release_block(tiny);
-        assert_int_equal(c.freed, 1);
-    }
-    assert_int_equal(c.made, c.freed);
-}
-
-void no_more_is_kept_than_the_limits_say(void **) {
-    Counter c;
-    const plm::Allocator a = counting(c);
-    const plm::AllocatorScope scope(&a);
-    {
-        const plm::SpareBlocksScope spare;
-        void *block[12];
-        for (void *&b : block) b = plm::allocate_block(large);
-        for (void *b : block) plm::release_block(b);
-        assert_int_equal(c.made - c.freed, plm::SpareBlocksScope::most_blocks);
-        void *huge = plm::allocate_block(plm::SpareBlocksScope::most_bytes);
-        plm::release_block(huge); // fills it alone
-        assert_int_equal(c.made - c.freed, 1);
-    }
-    assert_int_equal(c.made, c.freed);
-}
-
-// Each allocator gets its own blocks back, those made before the scope and after an inner one, too.
-void allocators_do_not_get_each_others_blocks(void **) {
-    Counter one, other;
-    const plm::Allocator a = counting(one), b = counting(other);
-    {
-        const plm::AllocatorScope scope(&a);
-        const plm::SpareBlocksScope spare;
-        plm::release_block(plm::allocate_block(large));
-        const plm::AllocatorScope inner(&b);
-        void *others = plm::allocate_block(large);
-        plm::release_block(others);
-        assert_int_equal(other.freed, 1);
-        const plm::SpareBlocksScope nested;
-        plm::release_block(plm::allocate_block(large));
-    }
-    assert_int_equal(one.made, one.freed);
-    assert_int_equal(other.made, other.freed);
-    assert_int_equal(one.made, 1);
-}
-
-void spare_blocks_are_given_back_before_an_allocation_fails(void **) {
-    struct Limited {
-        std::size_t left = 3 * large, held = 0;
-    } limited;
-    struct Block {
-        static void *allocate(std::size_t bytes, void *user) {
-            auto &l = *static_cast<Limited *>(user);
-            if (l.held + bytes > l.left) return nullptr;
-            auto *raw = static_cast<std::size_t *>(std::malloc(bytes + 64));
-            l.held += *raw = bytes;
-            return raw + 8;
-        }
-        static void release(void *block, void *user) {
-            std::size_t *raw = static_cast<std::size_t *>(block) - 8;
-            static_cast<Limited *>(user)->held -= *raw;
-            std::free(raw);
-        }
-    };
-    const plm::Allocator a{Block::allocate, Block::release, &limited};
-    const plm::AllocatorScope scope(&a);
-    {
-        const plm::SpareBlocksScope spare;
-        plm::release_block(plm::allocate_block(large));
-        void *most = plm::allocate_block(5 * large / 2);
-        const Outcome too_much = outcome_of([] { plm::release_block(plm::allocate_block(large)); });
-        assert_int_equal(too_much.status, bad_alloc);
-        plm::release_block(most);
-    }
-    assert_int_equal(limited.held, 0);
-}
-
 } // namespace
 
 int main() {
@@ -234,12 +140,6 @@ int main() {
         cmocka_unit_test(absurd_sizes_are_refused),
         cmocka_unit_test(every_failing_allocation_is_bad_alloc_and_leaks_nothing),
         cmocka_unit_test(repeated_lu_of_one_size_allocates_nothing),
-#ifndef __SANITIZE_ADDRESS__ // where none is kept
-        cmocka_unit_test(large_blocks_serve_again_and_are_given_back),
-        cmocka_unit_test(no_more_is_kept_than_the_limits_say),
-#endif
-        cmocka_unit_test(allocators_do_not_get_each_others_blocks),
-        cmocka_unit_test(spare_blocks_are_given_back_before_an_allocation_fails),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
