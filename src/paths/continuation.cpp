@@ -50,6 +50,7 @@ constexpr double beyond_corner = 0.5; // cosine of the tangent found there with 
 
 // Ahead of a point where the path is stuck, of the range of p: near enough to be on the same branch.
 constexpr double rescue_distances[] = {1e-4, 1e-3};
+constexpr int most_rescues = 5; // more lead in circles: back to where the path came from
 
 class Continuation {
   public:
@@ -138,6 +139,7 @@ class Continuation {
         // the square root of the way): beyond a right angle the nearer of the two directions leads back.
         if (angle > PathWalker::sharp_angle) walker_.orient(orientation_);
         if (!accept(out, moved, old_tangent, before)) return retry(PLM_REASON_STEP_MINIMUM);
+        if (angle > PathWalker::sharp_angle) last_step_ = 0; // a corner is no bend
         orientation_ = walker_.orientation();
         double factor =
             std::min(most_growth, std::max(least_growth, target_angle / std::max(angle, straight)));
@@ -303,7 +305,7 @@ class Continuation {
         step_ *= after_failure;
         if (step_ >= options_.min_step) return;
         if (turn_corner()) return;
-        if (!rescued_ && rescue()) {
+        if (!rescued_ && n_rescues_ < most_rescues && rescue()) {
             step_ = step_after_rescue * options_.max_step;
             return;
         }
@@ -369,6 +371,7 @@ class Continuation {
     // A solution just beyond, found by the owner's own means; accepted only if it stays close.
     bool rescue() {
         rescued_ = true;
+        ++n_rescues_;
         const double side = walker_.tangent().parameter < 0 ? -1 : 1;
         for (double ahead : rescue_distances) {
             PathState next = walker_.now();
@@ -404,6 +407,7 @@ class Continuation {
     bool plain_predictor_ = false, rescued_ = false, interrupted_ = false, from_start_ = true;
     vector<double> tests_; // at the present point
     std::int64_t n_recorded_ = 0;
+    int n_rescues_ = 0;
     PathOutcome out_;
 };
 

@@ -46,7 +46,7 @@ class Newton {
             ++out_.iterations;
             worked(1e5); // what the smallest system takes for an iteration, in time
             if (!std::isfinite(size)) return fail(PLM_REASON_SINGULAR_TANGENT);
-            if (size <= allowed()) {
+            if (size <= allowed() && is_exact_enough(size)) {
                 apply(1.0, step_, step_parameter_);
                 return finish(size);
             }
@@ -63,6 +63,7 @@ class Newton {
                     return finish(damping * size);
                 }
                 fresh_ = false;
+                contraction_ = contraction;
                 if (damping == 1 && contraction <= kept_below_) {
                     step_.swap(next_);
                     step_parameter_ = next_parameter;
@@ -89,6 +90,12 @@ class Newton {
     }
 
   private:
+    // A correction by a tangent of the point before leaves a part of itself; where tangents are cheap that is
+    // no more than what one's own would have left.
+    bool is_exact_enough(double size) const {
+        return fresh_ || !system_.is_cheap_to_linearize() || contraction_ * size <= 1e-2 * nothing() + smallest();
+    }
+
     void refactor() {
         system_.linearize();
         ++out_.factorizations;
@@ -179,7 +186,7 @@ class Newton {
     double &parameter_;
     std::int64_t n_;
     vector<double> r_, step_, border_, trial_, next_;
-    double kept_below_; // contraction
+    double kept_below_, contraction_ = 1; // below which a factorization is kept; the last one
     double step_parameter_ = 0;
     bool fresh_ = false; // the factorization belongs to x_
     vector<std::int64_t> pieces_;

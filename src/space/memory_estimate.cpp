@@ -74,10 +74,9 @@ MemoryEstimate estimate_memory(const StructureEstimate &s, std::int64_t n_pairs,
     // the count of modes eliminates the shifted matrix front by front, and keeps nothing
     const double count = s.factor ? s.factor->at_work + s.shifted : 0;
     e.modes = std::max((2 * modes_anyhow + lanczos_columns) * column, own_columns * column + count);
-    const double space = (own_columns + 2 * n_modes + further_per_pair * z) * column, // modes and momenta
-        spare = std::min(8 * 64 * column, static_cast<double>(SpareBlocksScope::most_bytes));
-    e.contact_space = space + (solve_columns + further_per_pair / 2 * z) * column + spare;
-    e.basis = space + (solve_columns + n_basis) * column + spare;
+    const double space = (own_columns + 2 * n_modes + further_per_pair * z) * column; // modes and momenta
+    e.contact_space = space + (solve_columns + further_per_pair / 2 * z) * column;
+    e.basis = space + (solve_columns + n_basis) * column;
     return e;
 }
 

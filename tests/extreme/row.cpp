@@ -6,11 +6,24 @@
 namespace extreme {
 namespace {
 
-// Indices spread evenly over the curve, and its highest point.
-std::vector<std::size_t> spread(const std::vector<double> &amplitude, int n) {
+// Within two points of where the frequency turns: truncated motions go on there a little beyond the exact
+// ones, and at such a frequency the nearest exact motion is that of another branch.
+bool is_beside_fold(const std::vector<double> &omega, std::size_t i) {
+    for (std::size_t k = std::max<std::size_t>(i, 3) - 2; k <= i + 2 && k + 1 < omega.size(); ++k)
+        if ((omega[k] - omega[k - 1]) * (omega[k + 1] - omega[k]) < 0) return true;
+    return false;
+}
+
+// Indices spread evenly over the curve, away from its folds, and its highest point.
+std::vector<std::size_t> spread(const std::vector<double> &omega, const std::vector<double> &amplitude,
+                                int n) {
     std::vector<std::size_t> chosen;
     const std::size_t size = amplitude.size();
-    for (int k = 0; k < n - 1; ++k) chosen.push_back(std::min(size - 1, (2 * k + 1) * size / (2 * (n - 1))));
+    for (int k = 0; k < n - 1; ++k) {
+        std::size_t i = std::min(size - 1, (2 * k + 1) * size / (2 * (n - 1)));
+        while (i + 1 < size && is_beside_fold(omega, i)) ++i;
+        chosen.push_back(i);
+    }
     chosen.push_back(std::max_element(amplitude.begin(), amplitude.end()) - amplitude.begin());
     return chosen;
 }
@@ -49,7 +62,7 @@ OrbitErrors orbit_errors(const exact::Structure &s, const Curve &curve, int n_po
     std::vector<std::vector<double>> amplitude;
     for (int dof = 0; dof < s.n; ++dof) amplitude.push_back(curve.amplitude(dof));
     OrbitErrors errors;
-    for (std::size_t i : spread(amplitude[s.n - 1], n_points)) {
+    for (std::size_t i : spread(curve.omega, amplitude[s.n - 1], n_points)) {
         const double error = error_at_point(s, curve, amplitude, i, samples);
         if (error < 1e300) {
             errors.worst = std::max(errors.worst, error);
