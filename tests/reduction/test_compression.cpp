@@ -94,16 +94,21 @@ BasisPtr compressed(const Curve &parent, double tolerance, std::int64_t size = 0
                                          &responses);
 }
 
-// Largest difference of the amplitude at the parent's frequencies, over the peak.
+// Largest difference of the amplitude at the parent's frequencies, over the peak. The curve folds: solutions
+// on both are those that a cold start comes to.
 double difference(const Curve &parent, const Basis &pod) {
-    const plm::Hbm hbm(pod.reduced(), pod.window_min_hz(), pod.window_max_hz(), five_harmonics(),
-                       plm::Watch());
+    const auto solver_on = [](const Basis &basis) {
+        return plm::Hbm(basis.reduced(), basis.window_min_hz(), basis.window_max_hz(), five_harmonics(),
+                        plm::Watch());
+    };
+    const plm::Hbm hbm = solver_on(pod), own = solver_on(*parent.basis);
     double worst = 0, peak = 0;
     const std::int64_t n = static_cast<std::int64_t>(parent.branch->points().size());
     for (std::int64_t i = 0; i < n; i += 1 + n / 12) {
-        const BranchPtr point = hbm.solve(parent.branch->points()[i].omega / (2 * M_PI), nullptr, 0);
+        const double hz = parent.branch->points()[i].omega / (2 * M_PI);
+        const BranchPtr point = hbm.solve(hz, nullptr, 0), there = own.solve(hz, nullptr, 0);
         for (int dof : {watched, 0, n_chain}) {
-            const double a = parent.branch->amplitude(i, dof, measure, 0);
+            const double a = there->amplitude(0, dof, measure, 0);
             worst = std::max(worst, std::abs(point->amplitude(0, dof, measure, 0) - a));
             peak = std::max(peak, a);
         }
