@@ -38,7 +38,7 @@ def unit(dof, value=1.0):
     return vector
 
 
-def model(mass=MASS, stiffness=STIFFNESS, fixed=(0, 1), damping=0.01, row=unit(TIP), contact=2e4, gap=1e-4, force=unit(TIP, 2e-3),
+def model(mass=MASS, stiffness=STIFFNESS, fixed=(0, 1), damping=0.01, row=unit(TIP), contact=2e4, gap=1e-4, force=unit(TIP, 3e-3),
           preload=None, build=True, part="full"):
     m = plm.Model(mass, stiffness, part=part)
     if fixed:
@@ -152,7 +152,7 @@ MISTAKES = [
     ("an excitation on a support", lambda: model(force=unit(0)), "acts on fixed DOFs only", "move it to DOFs that are free"),
     ("a range upside down", lambda: run(options={"frequency_min_hz": 30.0, "frequency_max_hz": 20.0}), r"range \[30, 20\] Hz is empty",
      "set frequency_min_hz < frequency_max_hz"),
-    ("a gap in mm, the rest in m", lambda: run(gap=0.1), "no contact pair opens or closes .* 5.4e.02 times as large", "Check the units of gaps"),
+    ("a gap in mm, the rest in m", lambda: run(gap=0.1, force=unit(TIP, 2e-3)), "no contact pair opens or closes .* 5.4e.02 times as large", "Check the units of gaps"),
     ("a gap that never closes", lambda: run(gap=1.0), "no contact pair opens or closes", "Check the units of gaps, pre-load and excitation"),
     ("a force beside the clamp", lambda: run(force=unit(2, 1e-9)), "no contact pair opens or closes", "pre-load and excitation"),
     ("a force on a part that the contact does not hold", two_beams, "does not move the contact", "name the mode of the resonance"),
