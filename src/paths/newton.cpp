@@ -21,6 +21,7 @@ constexpr std::size_t least_pieces =
     6; // factorizations after which coming back to the same pieces is no chance
 
 constexpr double negligible = 1e-3; // of the tolerance: as small as a last correction leaves the next one
+constexpr double remainder = 1e-5;  // of the tolerance: what a last correction by an old tangent may leave
 
 class Newton {
   public:
@@ -93,7 +94,8 @@ class Newton {
     // A correction by a tangent of the point before leaves a part of itself; where tangents are cheap that is
     // no more than what one's own would have left.
     bool is_exact_enough(double size) const {
-        return fresh_ || !system_.is_cheap_to_linearize() || contraction_ * size <= 1e-2 * nothing() + smallest();
+        return fresh_ || !system_.is_cheap_to_linearize() ||
+               contraction_ * size <= remainder * limits_.tolerance + smallest();
     }
 
     void refactor() {
