@@ -85,7 +85,8 @@ static void several_levels_give_the_worst_error_and_the_whole_time(void **state)
     DONE(plm_hbm_set_int(c.hbm, "n_harmonics", 1));
     DONE(plm_study_add_response(c.study, "one harmonic", c.hbm, NULL));
     DONE(plm_study_run(c.study));
-    DONE(plm_hbm_set_string(c.hbm, "stability", "off")); /* as in a study: near its changes steps are shorter */
+    DONE(plm_hbm_set_string(c.hbm, "stability",
+                            "off")); /* as in a study: near its changes steps are shorter */
     for (k = 0; k < 2; ++k) {
         for (j = 0; j < 2; ++j) {
             plm_branch *curve = NULL;

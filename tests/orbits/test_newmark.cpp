@@ -303,7 +303,8 @@ Scene plate(bool with_preload) {
     FlowState x{plm::vector<double>(flow_of->size()), plm::vector<double>(flow_of->size()), 0};
     plm::vector<double> momentum(model->n_free());
     plm::multiply(model->matrices().mass, start.q.in_core().data(), momentum.data());
-    plm::gemv('T', 1.0, basis.reduced()->static_vectors().formed().in_core(), momentum.data(), 0.0, x.y.data());
+    plm::gemv('T', 1.0, basis.reduced()->static_vectors().formed().in_core(), momentum.data(), 0.0,
+              x.y.data());
     const plm::vector<double> row = flow_of->dof_row(dof);
     Scene r{0, 0, model->n_free(), flow_of->size(), 0, true};
     for (std::size_t k = 0; k < watch.times().size(); k += 50) {
