@@ -30,7 +30,8 @@ endif()
 add_library(plm_own_blas INTERFACE)
 target_link_libraries(plm_own_blas INTERFACE ${PLM_ARPACK_ARCHIVE})
 
-# Its kernels for small products take what malloc gives without a look: they get a malloc that gives.
+# Its kernels for small products take what malloc gives without a look: they get a malloc that gives. Its table of work
+# buffers gets the lock that a build without threads lacks.
 add_library(plm_blas_parts OBJECT ${PROJECT_SOURCE_DIR}/src/linalg/carried/blas_parts.cpp)
 target_include_directories(plm_blas_parts PRIVATE ${PROJECT_SOURCE_DIR}/src)
 set(PLM_BLAS_KERNELS ${PROJECT_BINARY_DIR}/carried/blas_kernels.o)
@@ -44,4 +45,4 @@ add_custom_target(plm_blas_kernels DEPENDS ${PLM_BLAS_KERNELS})
 # ARPACK and LAPACK are Fortran: their runtime is versioned and stays shared.
 find_library(PLM_GFORTRAN_LIBRARY NAMES gfortran libgfortran.so.5 PATHS ${CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES} REQUIRED)
 target_link_libraries(plm_own_blas INTERFACE ${PLM_OPENBLAS_ARCHIVE} ${PLM_GFORTRAN_LIBRARY} m)
-target_link_options(plm_own_blas INTERFACE LINKER:--exclude-libs,ALL)
+target_link_options(plm_own_blas INTERFACE LINKER:--exclude-libs,ALL LINKER:--wrap=blas_memory_alloc)

@@ -2,6 +2,7 @@
 // that keep XERBLA, which prints and stops the process, out of reach. Each character argument has its length
 // passed behind the list, as gfortran expects it.
 #pragma once
+#include "blas_turn.hpp"
 #include "error.hpp"
 #include <climits>
 #include <cmath>
@@ -66,6 +67,29 @@ void dpotrf_(const char *, const blas_int *, double *, const blas_int *, blas_in
 void dpotrs_(const char *, const blas_int *, const blas_int *, const double *, const blas_int *, double *,
              const blas_int *, blas_int *, strlen_t);
 }
+
+// Each call is a turn of its thread (BlasTurn lives to the end of the expression); what takes no work buffer
+// needs none. A macro, so that no caller can forget it.
+#define dgemm_(...) (BlasTurn(), dgemm_(__VA_ARGS__))
+#define dgemv_(...) (BlasTurn(), dgemv_(__VA_ARGS__))
+#define dtrsm_(...) (BlasTurn(), dtrsm_(__VA_ARGS__))
+#define sgemm_(...) (BlasTurn(), sgemm_(__VA_ARGS__))
+#define strsm_(...) (BlasTurn(), strsm_(__VA_ARGS__))
+#define dsyevd_(...) (BlasTurn(), dsyevd_(__VA_ARGS__))
+#define dsyevr_(...) (BlasTurn(), dsyevr_(__VA_ARGS__))
+#define dsygvd_(...) (BlasTurn(), dsygvd_(__VA_ARGS__))
+#define dgesdd_(...) (BlasTurn(), dgesdd_(__VA_ARGS__))
+#define dgesvd_(...) (BlasTurn(), dgesvd_(__VA_ARGS__))
+#define dgels_(...) (BlasTurn(), dgels_(__VA_ARGS__))
+#define dlaswp_(...) (BlasTurn(), dlaswp_(__VA_ARGS__))
+#define dgetrf_(...) (BlasTurn(), dgetrf_(__VA_ARGS__))
+#define dgetrs_(...) (BlasTurn(), dgetrs_(__VA_ARGS__))
+#define dgecon_(...) (BlasTurn(), dgecon_(__VA_ARGS__))
+#define zgetrf_(...) (BlasTurn(), zgetrf_(__VA_ARGS__))
+#define zgetrs_(...) (BlasTurn(), zgetrs_(__VA_ARGS__))
+#define dgeev_(...) (BlasTurn(), dgeev_(__VA_ARGS__))
+#define dpotrf_(...) (BlasTurn(), dpotrf_(__VA_ARGS__))
+#define dpotrs_(...) (BlasTurn(), dpotrs_(__VA_ARGS__))
 
 /// A dimension as BLAS takes it.
 inline blas_int to_blas(std::int64_t n) {

@@ -23,7 +23,7 @@ struct Refinement {
     double error = 0;                     // estimated, largest of the points looked at
     std::int64_t rounds = 0;              // curves computed
     bool met = false;
-    Warnings warnings; // where it was met: of what no basis mends
+    Warnings warnings = {}; // where it was met: of what no basis mends
 };
 
 /// start: a basis of any kind; its curve is the first one.

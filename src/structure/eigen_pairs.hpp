@@ -17,7 +17,7 @@ constexpr std::int64_t most_rest = 128; // columns of V
 struct EigenPairs {
     vector<double> values; // ascending
     Matrix vectors;        // M-orthonormal columns
-    SearchRest rest;
+    SearchRest rest = {};
 };
 
 /// library_code of the error (PLM_ERR_EIGENSOLVER) where some did not converge within the allowed restarts.

@@ -18,6 +18,8 @@ void dseupd_(const blas_int *rvec, const char *howmny, blas_int *select, double 
              const blas_int *ldv, blas_int *iparam, blas_int *ipntr, double *workd, double *workl,
              const blas_int *lworkl, blas_int *info, strlen_t, strlen_t, strlen_t);
 }
+#define dsaupd_(...) (BlasTurn(), dsaupd_(__VA_ARGS__))
+#define dseupd_(...) (BlasTurn(), dseupd_(__VA_ARGS__))
 
 /// ARPACK keeps its state between the calls of one problem in SAVE variables: two interleaved problems return
 /// wrong eigenvalues with info = 0. The lock therefore spans the whole problem, and no function of the host's

@@ -31,7 +31,7 @@ struct KrylovRequest {
     std::int64_t width = 1; // of a block of the Lanczos method of our own
     /// Columns (M-orthonormal) and M times them that the search is kept away from; null for none.
     const Matrix *apart = nullptr, *m_apart = nullptr;
-    KnownPairs known; // where the search begins
+    KnownPairs known = {}; // where the search begins
     bool keep_rest = false;
     double of_interest = 0; // a pair counts as converged once its theta is certainly smaller
 };

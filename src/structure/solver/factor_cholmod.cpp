@@ -24,7 +24,7 @@ class CholmodFactor final : public Factor {
         c.final_ll = 1;
         c.quick_return_if_not_posdef = 1;
         cholmod_sparse matrix = view(a);
-        cholmod_l_factorize(&matrix, lib_.factor, &c);
+        (BlasTurn(), cholmod_l_factorize(&matrix, lib_.factor, &c));
         lib_.check("factorize");
         lib_.note_memory();
         const auto reached = static_cast<std::int64_t>(lib_.factor->minor);
@@ -70,8 +70,8 @@ class CholmodFactor final : public Factor {
             w.shape(w.y, f.n, static_cast<std::size_t>(nrhs));
             w.shape(w.e, static_cast<std::size_t>(nrhs), f.maxesize);
         }
-        const int ok =
-            cholmod_l_solve2(CHOLMOD_A, lib_.factor, &rhs, nullptr, &w.x, nullptr, &w.y, &w.e, &w.common);
+        const int ok = (BlasTurn(), cholmod_l_solve2(CHOLMOD_A, lib_.factor, &rhs, nullptr, &w.x, nullptr,
+                                                     &w.y, &w.e, &w.common));
         w.check("solve");
         w.note_memory();
         require(ok && w.x, "cholmod_l_solve2 failed");
