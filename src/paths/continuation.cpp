@@ -125,7 +125,8 @@ class Continuation {
         const vector<double> old_tests = tests_;
         walker_.move(std::move(next));
         walker_.set_factored(true);
-        if (!(out.factored_away < std::min(at_the_point, share_of_step * moved))) walker_.linearize_here();
+        if (!(out.factored_away < std::min(at_the_point, share_of_step * moved)))
+            walker_.linearize_at_solution();
         walker_.make_tangent(&old_tangent);
         const double cosine = walker_.cosine_with_tangent(old_tangent),
                      angle = std::acos(std::min(1.0, std::max(-1.0, cosine)));
@@ -353,7 +354,7 @@ class Continuation {
         const double moved = out.converged ? walker_.metric().distance(next, before) : 0;
         if (!is_near(out, moved, length)) return false;
         walker_.move(std::move(next));
-        walker_.linearize_here();
+        walker_.linearize_at_solution();
         walker_.make_tangent(nullptr);
         walker_.orient(orientation_);
         if (walker_.cosine_with_tangent(direction) > beyond_corner &&

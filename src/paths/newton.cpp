@@ -8,10 +8,8 @@
 namespace plm {
 namespace {
 
-// Below: the old factorization is good enough for another step; and where a new one costs about two
-// residuals, since it gains as many digits as it has already.
-constexpr double fast_contraction = 0.2, very_fast_contraction = 0.03;
-constexpr double good_contraction = 0.5;                // below: the damping was far too strong
+constexpr double fast_contraction = 0.2; // below: the old factorization is good enough for another step
+constexpr double good_contraction = 0.5; // below: the damping was far too strong
 constexpr double bold_growth = 4, careful_growth = 1.5; // of the damping factor after a damped step
 // Between one trial and the next the damping factor is halved at least, whatever the estimate says, and not
 // made much smaller than the estimate, from one trial alone, is worth.
@@ -21,20 +19,19 @@ constexpr std::size_t least_pieces =
     6; // factorizations after which coming back to the same pieces is no chance
 
 constexpr double negligible = 1e-3; // of the tolerance: as small as a last correction leaves the next one
-constexpr double remainder = 1e-5;  // of the tolerance: what a last correction by an old tangent may leave
+constexpr double remainder = 1e-2;  // of the tolerance: what a last correction by an old tangent may leave
 
 class Newton {
   public:
     Newton(Residual &system, const SideCondition &side, const NewtonLimits &limits, vector<double> &x,
            double &parameter)
         : system_(system), side_(side), limits_(limits), x_(x), parameter_(parameter), n_(system.size()),
-          r_(n_), step_(n_), border_(n_), trial_(n_), next_(n_),
-          kept_below_(system.is_cheap_to_linearize() ? very_fast_contraction : fast_contraction) {
+          r_(n_), step_(n_), border_(n_), trial_(n_), next_(n_), cheap_(system.is_cheap_to_linearize()) {
         pieces_.reserve(limits.max_iterations + 1); // no iteration allocates
     }
 
     NewtonOutcome run() {
-        const bool kept = limits_.factored && !system_.is_cheap_to_linearize();
+        const bool kept = limits_.factored && !cheap_;
         if (kept && limits_.slope)
             border_ = *limits_.slope;
         else if (kept)
@@ -47,9 +44,9 @@ class Newton {
             ++out_.iterations;
             worked(1e5); // what the smallest system takes for an iteration, in time
             if (!std::isfinite(size)) return fail(PLM_REASON_SINGULAR_TANGENT);
-            if (size <= allowed() && is_exact_enough(size)) {
+            if (size <= allowed() && (fresh_ || !cheap_)) {
                 apply(1.0, step_, step_parameter_);
-                return finish(size);
+                return cheap_ ? finish_here(size) : finish(size);
             }
             const double trial_parameter = propose(damping);
             system_.residual(trial_.data(), trial_parameter, r_.data());
@@ -63,9 +60,13 @@ class Newton {
                     ++out_.iterations;
                     return finish(damping * size);
                 }
+                if (cheap_ && damping == 1 && is_last(next_size, contraction)) {
+                    ++out_.iterations;
+                    apply(1.0, next_, next_parameter);
+                    return finish_here(size);
+                }
                 fresh_ = false;
-                contraction_ = contraction;
-                if (damping == 1 && contraction <= kept_below_) {
+                if (damping == 1 && serves_again(next_size, contraction)) {
                     step_.swap(next_);
                     step_parameter_ = next_parameter;
                     size = next_size;
@@ -91,11 +92,15 @@ class Newton {
     }
 
   private:
-    // A correction by a tangent of the point before leaves a part of itself; where tangents are cheap that is
-    // no more than what one's own would have left.
-    bool is_exact_enough(double size) const {
-        return fresh_ || !system_.is_cheap_to_linearize() ||
-               contraction_ * size <= remainder * limits_.tolerance + smallest();
+    // The correction by a tangent of some point before leaves a part of itself.
+    bool is_last(double size, double contraction) const {
+        return size <= allowed() && contraction * size <= remainder * limits_.tolerance + smallest();
+    }
+    // Whether the factorization serves for the correction after that, too. One that costs less than a
+    // residual is made anew, since it gains as many digits as there are, unless the old one suffices for the
+    // last.
+    bool serves_again(double size, double contraction) const {
+        return cheap_ ? contraction * size <= allowed() : contraction <= fast_contraction;
     }
 
     void refactor() {
@@ -167,8 +172,13 @@ class Newton {
         return *(last - 1) == *(last - 3) && *(last - 2) == *(last - 4) && *(last - 1) != *(last - 2);
     }
 
+    // size: of the correction from where the system was factored last, if that is fresh.
     NewtonOutcome finish(double size) {
         system_.residual(x_.data(), parameter_, r_.data());
+        return finish_here(size);
+    }
+    // The system stands no farther from the solution than a last correction.
+    NewtonOutcome finish_here(double size) {
         const double scale = system_.residual_scale();
         out_.residual = scale > 0 ? norm2(n_, r_.data()) / scale : norm2(n_, r_.data());
         out_.converged = std::isfinite(out_.residual) && system_.in_balance();
@@ -188,7 +198,7 @@ class Newton {
     double &parameter_;
     std::int64_t n_;
     vector<double> r_, step_, border_, trial_, next_;
-    double kept_below_, contraction_ = 1; // below which a factorization is kept; the last one
+    const bool cheap_; // to linearize
     double step_parameter_ = 0;
     bool fresh_ = false; // the factorization belongs to x_
     vector<std::int64_t> pieces_;

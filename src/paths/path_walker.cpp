@@ -37,6 +37,12 @@ void PathWalker::linearize_at(const PathState &at) {
     factored_ = false;
 }
 
+void PathWalker::linearize_at_solution() {
+    system_.linearize();
+    ++work.factorizations;
+    factored_ = true;
+}
+
 void PathWalker::linearize_here() {
     linearize_at(now_);
     factored_ = true;

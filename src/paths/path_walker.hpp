@@ -34,6 +34,8 @@ class PathWalker {
     /// that of now (PathOptions::scale_falls). True: it changed.
     bool take_scale(double least = 0);
     void linearize_here();
+    /// Where a correction has just led: the system stands there.
+    void linearize_at_solution();
     /// The system is (or is no longer) factored near the present point.
     void set_factored(bool factored) { factored_ = factored; }
     /// Factors the system at another point.

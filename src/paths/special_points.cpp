@@ -97,7 +97,7 @@ class Finder {
         if (!out.converged) return false;
         residual = out.residual;
         walker_.move(std::move(p));
-        walker_.linearize_here();
+        walker_.linearize_at_solution();
         walker_.make_tangent(&step_.tangent_before);
         if (walker_.metric().product(step_.tangent_before, step_.tangent_after) <
             std::cos(PathWalker::sharp_angle))

@@ -220,13 +220,13 @@ double CurveCompression::amplitude(const std::shared_ptr<const ReducedModel> &mo
     return one.amplitude(0, output_.dof, Measure::peak, 0);
 }
 
-bool CurveCompression::make_exact_on(const std::shared_ptr<const ReducedModel> &model,
-                                     BranchPoint &point) const {
+bool CurveCompression::make_exact_on(const std::shared_ptr<const ReducedModel> &model, BranchPoint &point,
+                                     ElseMarching otherwise) const {
     const NearestCoordinates nearest(*model, point.omega);
     if (!nearest.known()) return false;
     BranchPoint guess = with_coordinates(point, nearest.of(mean_of(point)), nearest.of(point.eta));
     NewtonWork work;
-    if (!make_exact(model, options_, watch_.quiet(), guess, work)) return false;
+    if (!make_exact(model, options_, watch_.quiet(), guess, work, otherwise)) return false;
     point = std::move(guess);
     return true;
 }
@@ -264,7 +264,9 @@ double CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model
     double change = -1;
     for (Point &point : points) {
         BranchPoint exact = point.motion;
-        if (!make_exact_on(model, exact)) continue;
+        // the highest is worth marching
+        const ElseMarching otherwise = &point == &points.back() ? ElseMarching::yes : ElseMarching::no;
+        if (!make_exact_on(model, exact, otherwise)) continue;
         const double now = amplitude(model, exact);
         if (point.amplitude >= 0) change = std::max(change, std::abs(now - point.amplitude) / peak_);
         point.amplitude = now;

@@ -7,6 +7,7 @@
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
 #include "searches/basis_error.hpp"
+#include "searches/orbit_points.hpp"
 
 namespace plm {
 
@@ -52,7 +53,8 @@ class CurveCompression {
     std::shared_ptr<const ReducedModel> compressed() const;
     double settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points,
                   Needs &needs) const;
-    bool make_exact_on(const std::shared_ptr<const ReducedModel> &model, BranchPoint &point) const;
+    bool make_exact_on(const std::shared_ptr<const ReducedModel> &model, BranchPoint &point,
+                       ElseMarching otherwise) const;
     void take(const BranchPoint &point, Matrix &motions) const;
     BranchPoint corrected(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &exact) const;
     bool agrees_on_stability(const Branch &curve, std::int64_t point) const;

@@ -166,13 +166,14 @@ constexpr double near_enough = 0.3; // of its size: farther away it is another o
 
 // By Newton's method from the point; by marching where that does not contract.
 bool solve_exact(OrbitEquations &equations, const HbmOptions &options, Watch watch, const BranchPoint &point,
-                 vector<double> &x, NewtonOutcome &out) {
+                 vector<double> &x, NewtonOutcome &out, ElseMarching otherwise) {
     x = orbit_unknowns(equations, point, options.period_multiple);
     const vector<double> guess = x;
     out = newton_at(equations, newton_limits(options), x, point.omega);
     double far = 0;
     for (std::size_t i = 0; i < x.size(); ++i) far = std::hypot(far, x[i] - guess[i]);
     if (out.converged && far <= near_enough * norm2(equations.size(), x.data())) return true;
+    if (otherwise == ElseMarching::no) return false;
     constexpr std::int64_t settling = 20; // periods: on a stable branch, as most of the starts are
     x = guess;
     return march_to_orbit(equations, options, point.omega, settling, watch, x, out);
@@ -287,11 +288,9 @@ BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &optio
 
 namespace {
 
-// The tangent at a solution. False: it leaves a motion free, whose place is then arbitrary.
-bool holds(OrbitEquations &equations, const PathState &at) {
+// The tangent at a solution just found. False: it leaves a motion free, whose place is then arbitrary.
+bool holds(OrbitEquations &equations) {
     constexpr double free_to_go = 1e-11;
-    vector<double> r(at.x.size());
-    equations.residual(at.x.data(), at.parameter, r.data());
     equations.linearize();
     return equations.reciprocal_condition() > free_to_go;
 }
@@ -313,7 +312,7 @@ bool has_no_place(const ReducedModel &reduced, const HbmOptions &options, const 
 // The solution as the point, if it is one that stays where it is.
 bool take_exact(OrbitEquations &equations, const HbmOptions &options, const PathState &at, NewtonOutcome out,
                 const ReducedModel &reduced, BranchPoint &point) {
-    if (moves_freely(equations, reduced) || !holds(equations, at)) return false;
+    if (moves_freely(equations, reduced) || !holds(equations)) return false;
     out.iterations += point.iterations;
     point = whole_point(equations, options, at, out);
     return true;
@@ -322,12 +321,12 @@ bool take_exact(OrbitEquations &equations, const HbmOptions &options, const Path
 } // namespace
 
 bool make_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, Watch watch,
-                BranchPoint &point, NewtonWork &work) {
+                BranchPoint &point, NewtonWork &work, ElseMarching otherwise) {
     if (has_no_place(*reduced, options, point)) return false;
     OrbitEquations equations = orbit_equations(reduced, options, point.omega, FlowParameter::frequency);
     vector<double> x;
     NewtonOutcome out;
-    const bool found = solve_exact(equations, options, watch, point, x, out);
+    const bool found = solve_exact(equations, options, watch, point, x, out, otherwise);
     work += out;
     return found && take_exact(equations, options, {x, point.omega}, out, *reduced, point);
 }
@@ -368,7 +367,7 @@ bool follow_exactly_to(std::shared_ptr<const ReducedModel> reduced, const HbmOpt
     }
     const NewtonOutcome out = newton_at(equations, newton_limits(options), at.x, omega);
     work += out;
-    if (!out.converged || !holds(equations, {at.x, omega})) return false;
+    if (!out.converged || !holds(equations)) return false;
     point = whole_point(equations, options, {at.x, omega}, out);
     return true;
 }

@@ -37,10 +37,12 @@ bool march_to_orbit(OrbitEquations &equations, const HbmOptions &options, double
 BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &options, const PathState &at,
                         double residual, std::int64_t iterations);
 
+/// Where Newton's method does not contract.
+enum class ElseMarching { yes, no };
 /// The exact motion beside a point of harmonic balance at its frequency, with its multipliers. False: none
 /// was found; `point` has not changed.
 bool make_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, Watch watch,
-                BranchPoint &point, NewtonWork &work);
+                BranchPoint &point, NewtonWork &work, ElseMarching otherwise = ElseMarching::yes);
 /// The same at the frequency that goes with it, by the shortest way: where a fold is near, and another motion
 /// or none may have the point's frequency.
 bool make_exact_nearest(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
