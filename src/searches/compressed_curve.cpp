@@ -262,11 +262,11 @@ BranchPoint CurveCompression::corrected(const std::shared_ptr<const ReducedModel
 double CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points,
                                 Needs &needs) const {
     double change = -1;
-    for (Point &point : points) {
+    std::size_t found = 0;
+    const auto take_point = [&](Point &point, ElseMarching otherwise) {
         BranchPoint exact = point.motion;
-        // the highest is worth marching
-        const ElseMarching otherwise = &point == &points.back() ? ElseMarching::yes : ElseMarching::no;
-        if (!make_exact_on(model, exact, otherwise)) continue;
+        if (!make_exact_on(model, exact, otherwise)) return false;
+        ++found;
         const double now = amplitude(model, exact);
         if (point.amplitude >= 0) change = std::max(change, std::abs(now - point.amplitude) / peak_);
         point.amplitude = now;
@@ -275,7 +275,13 @@ double CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model
         take(uncompressed(*model, exact), needs.motions);
         point.motion = corrected(model, exact);
         take(point.motion, needs.motions);
-    }
+        return true;
+    };
+    std::vector<Point *> missed;
+    for (Point &point : points)
+        if (!take_point(point, ElseMarching::no)) missed.push_back(&point);
+    if (2 * found < points.size()) // they are worth marching
+        for (Point *point : missed) take_point(*point, ElseMarching::yes);
     return change >= 0 ? change : INFINITY;
 }
 

@@ -33,7 +33,7 @@ std::mutex &arpack() {
 class Arpack {
   public:
     Arpack(const Pencil &pencil, const KrylovRequest &request)
-        : pencil_(pencil), request_(request), n_(to_blas(pencil.size())), nev_(to_blas(request.n_wanted)),
+        : pencil_(pencil), n_(to_blas(pencil.size())), nev_(to_blas(request.n_wanted)),
           ncv_(to_blas(request.n_lanczos)), lworkl_(to_blas(request.n_lanczos * (request.n_lanczos + 8))),
           tol_(request.tolerance), v_(n_, ncv_), resid_(n_, 1), workd_(3 * static_cast<std::size_t>(n_)),
           workl_(lworkl_), select_(ncv_), lambda_(nev_) {
@@ -93,7 +93,6 @@ class Arpack {
     }
 
     const Pencil &pencil_;
-    const KrylovRequest &request_;
     blas_int n_, nev_, ncv_, lworkl_;
     double tol_;
     Matrix v_, resid_;

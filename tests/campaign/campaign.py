@@ -162,7 +162,7 @@ def unstable(r):
 
 def cries_wolf(r):
     """Something was said of a peak that is right, other than that a peak which is unstable is unstable."""
-    true = r["multiplier"] > 1 and r["said"].startswith("the motion of the peak") and ";" not in r["said"]
+    true = r.get("multiplier", 0) > 1 and r["said"].startswith("the motion of the peak") and ";" not in r["said"]
     return verdict(r) == "right" and spoke(r) and not true
 
 
