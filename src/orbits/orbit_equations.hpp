@@ -32,7 +32,7 @@ class OrbitEquations final : public Residual {
     /// What rings for a moment must not dictate the steps.
     const vector<double> *weights() const override { return &share_; }
     double residual_scale() const override { return size_; }
-    bool is_cheap_to_linearize() const override { return true; } // two runs of the flow
+    bool is_cheap_to_linearize() const override { return true; } // half a run of the flow, or one
     std::int64_t piece() const override { return static_cast<std::int64_t>(intervals_.size()); }
 
     /// The one of frequency and force scale that is not the parameter, from the next residual() on.

@@ -26,8 +26,8 @@ class Residual {
     virtual double residual_scale() const = 0;
     /// False: there is no solution where residual() was last evaluated, whatever rounding leaves of it.
     virtual bool in_balance() const { return true; }
-    /// A new tangent costs little beside residuals: that of another point is not used, nor one's own for more
-    /// than a last digit or two.
+    /// A new tangent costs less than a residual: that of another point is not used but for the last
+    /// correction, and Newton's method makes that one without looking at the residual again.
     virtual bool is_cheap_to_linearize() const { return false; }
     /// How much the square of each unknown counts in a length along the path; null: all alike.
     virtual const vector<double> *weights() const { return nullptr; }
