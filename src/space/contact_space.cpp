@@ -89,20 +89,22 @@ class ContactSpaceBuilder {
         return model_->exact_modes_up_to(wanted, counted ? 0.0 : cutoff, watch_, search);
     }
 
-    // As many modes below the frequency as are counted there; where some were missed, from a new search.
+    // As many modes below the frequency as are counted there, give or take those at it; where some were
+    // missed, from a new search.
     std::shared_ptr<const ExactModes> complete(std::shared_ptr<const ExactModes> modes, double frequency,
                                                std::int64_t count) const {
-        const auto below = [&] {
-            return std::upper_bound(modes->values.begin(), modes->values.end(), frequency * frequency) -
+        const auto below = [&](double share) {
+            return std::upper_bound(modes->values.begin(), modes->values.end(),
+                                    share * frequency * frequency) -
                    modes->values.begin();
         };
-        for (int attempt = 0; attempt < 3 && below() < count; ++attempt)
+        for (int attempt = 0; attempt < 3 && below(1 + count_rounding) < count; ++attempt)
             modes = model_->exact_modes_up_to(count + 10 * (attempt + 1), 0.0, watch_);
-        if (below() != count)
+        if (count < below(1 - count_rounding) || count > below(1 + count_rounding))
             throw Error(
                 PLM_ERR_EIGENSOLVER,
                 format("%lld open modes were found below %.6g Hz where the Sturm sequence counts %lld",
-                       static_cast<long long>(below()), frequency / (2 * M_PI),
+                       static_cast<long long>(below(1)), frequency / (2 * M_PI),
                        static_cast<long long>(count)));
         space_->counts_verified = true;
         return modes;

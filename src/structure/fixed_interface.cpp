@@ -124,9 +124,8 @@ class FixedInterface::Interior {
     }
 
     static void require_counted(const EigenPairs &pairs, std::int64_t counted, double limit) {
-        constexpr double rounding = 1e-8;
         const auto below = std::count_if(pairs.values.begin(), pairs.values.end(), [&](double value) {
-            return value <= (1 + rounding) * limit * limit;
+            return value <= (1 + count_rounding) * limit * limit;
         });
         if (below < counted)
             throw Error(PLM_ERR_EIGENSOLVER, format("%lld fixed-interface modes were found below %.6g Hz "

@@ -8,6 +8,10 @@ namespace plm {
 /// No count: the solver cannot tell, or omega hits a mode.
 constexpr std::int64_t cannot_tell_count = -1, hit_a_mode = -2;
 
+/// An eigenvalue so near to the one counted at may be in the count or not: what rounding and the tolerance of
+/// a search leave, relative.
+constexpr double count_rounding = 1e-8;
+
 /// Eigenvalues of K x = lambda M x below omega^2 (rad/s), or one of the two above.
 std::int64_t count_modes(const SparseMatrix &k, const SparseMatrix &m, double omega, const Solver &solver);
 

@@ -140,7 +140,7 @@ void print_row(bool solid, double dofs, bool with_space) {
             model = std::make_shared<const plm::Model>(input, plm::SpaceOptions(), nullptr, plm::Watch());
         });
         const double space =
-            seconds_of([&] { plm::make_contact_space(model, 0.49 * t.highest, n_modes, plm::Watch()); });
+            seconds_of([&] { plm::make_contact_space(model, 0.5 * t.highest, n_modes, plm::Watch()); });
         const double told = plm::estimate_memory(input, plm::SpaceOptions(), nullptr).peak();
         std::printf(" %.2f | %.2f | %.2f | %.0f |", build, space, (build + space) / modal, told / (1 << 20));
     }

@@ -182,6 +182,17 @@ void contact_forces_are_solved_for_once(void **) {
     assert_true(solutions - before < n_pairs);
 }
 
+// The count there is one of rounding: with the mode or without it.
+void a_cutoff_may_fall_on_a_mode(void **) {
+    const auto model = test::build(lattice(40, 12, 6));
+    const double factor = model->space_options().cutoff_factor;
+    const auto modes = model->exact_modes_up_to(12, 0, plm::Watch());
+    const std::vector<double> values(modes->values.begin(), modes->values.begin() + 10);
+    for (double value : values)
+        for (double aside : {-1e-11, -1e-13, 0.0, 1e-13, 1e-11})
+            assert_true(space_of(model, std::sqrt(value) * (1 + aside) / factor)->counts_verified);
+}
+
 // No array of as many rows as the structure and as many columns as there are pairs exists at any time.
 void nothing_of_the_size_of_rows_times_pairs_is_ever_held(void **) {
     constexpr std::int64_t nx = 1000, ny = 40, n_pairs = 1000;
@@ -209,6 +220,7 @@ int main() {
         cmocka_unit_test(a_looser_tolerance_makes_a_smaller_space),
         cmocka_unit_test(recovered_vectors_are_what_the_small_matrices_say),
         cmocka_unit_test(contact_forces_are_solved_for_once),
+        cmocka_unit_test(a_cutoff_may_fall_on_a_mode),
         cmocka_unit_test(nothing_of_the_size_of_rows_times_pairs_is_ever_held),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
