@@ -42,22 +42,33 @@ void sort_and_cut(EigenPairs &pairs, std::int64_t count) {
     pairs = std::move(sorted);
 }
 
-/// Makes the columns of X M-orthonormal by the Cholesky factor of their Gram matrix (close to the identity,
-/// so that one pass suffices) and returns M X.
-Matrix orthonormalize(const SparseMatrix &m, Matrix &x) {
-    Matrix mx = multiply_transposed(m, x);
-    Matrix gram = product('T', 'N', x, mx);
-    const blas_int n = to_blas(x.rows()), count = to_blas(x.cols());
-    if (n == 0 || count == 0) return mx;
+/// The Cholesky factor of X^T M X (close to the identity); 0, or which column depends on those before it.
+blas_int factor_gram(const Matrix &x, const Matrix &mx, Matrix &gram) {
+    gram = product('T', 'N', x, mx);
     require_finite(gram.data(), gram.rows() * gram.cols(), "eigensolver, Gram matrix");
+    const blas_int count = to_blas(x.cols());
     blas_int info = 0;
     dpotrf_("L", &count, gram.data(), &count, &info, 1);
-    if (info != 0)
+    return info;
+}
+
+/// Makes the columns of X M-orthonormal, in one pass, and returns M X.
+Matrix orthonormalize(const SparseMatrix &m, Matrix &x) {
+    Matrix mx = multiply_transposed(m, x), gram;
+    const blas_int n = to_blas(x.rows()), count = to_blas(x.cols());
+    if (n == 0 || count == 0) return mx;
+    if (const blas_int info = factor_gram(x, mx, gram); info != 0)
         throw Error(PLM_ERR_EIGENSOLVER, "the eigenvectors found are linearly dependent").library_code(info);
     const double one = 1;
     for (Matrix *block : {&x, &mx})
         dtrsm_("R", "L", "T", "N", &n, &count, &one, gram.data(), &count, block->data(), &n, 1, 1, 1, 1);
     return mx;
+}
+
+/// Where M has a lower rank than asked for, the noise found beside may pass for eigenvectors.
+bool are_dependent(const SparseMatrix &m, const Matrix &x) {
+    Matrix gram;
+    return x.cols() > 0 && factor_gram(x, multiply_transposed(m, x), gram) != 0;
 }
 
 bool needs_dense(const Pencil &pencil, std::int64_t n_wanted) {
@@ -157,9 +168,12 @@ Matrix add_missed(const Pencil &pencil, EigenPairs &pairs) {
         if (others.end != KrylovEnd::converged) break;
         const double distance = others.pairs.values[0] - pencil.shift;
         if (!(distance > 0 && distance < missed)) break; // below the shift: rounding noise around theta = 0
-        pairs.values.push_back(others.pairs.values[0]);
-        pairs.vectors.append(others.pairs.vectors);
-        sort_and_cut(pairs, wanted);
+        EigenPairs more{pairs.values, pairs.vectors, {}};
+        more.values.push_back(others.pairs.values[0]);
+        more.vectors.append(others.pairs.vectors);
+        sort_and_cut(more, wanted);
+        if (are_dependent(pencil.m, more.vectors)) break;
+        pairs = std::move(more);
         m_vectors = orthonormalize(pencil.m, pairs.vectors);
     }
     return m_vectors;
@@ -216,6 +230,8 @@ EigenPairs lowest_eigenpairs(const SparseMatrix &k, const SparseMatrix &m, const
     if (needs_dense(pencil, n_wanted)) return all_by_dense(pencil, n_wanted);
     EigenPairs pairs = search(pencil, n_wanted);
     sort_and_cut(pairs, n_wanted);
+    if (pencil.rank() <= dense_limit && are_dependent(m, pairs.vectors))
+        return all_by_dense(pencil, n_wanted);
     const Matrix mx =
         options.look_for_missed ? add_missed(pencil, pairs) : orthonormalize(pencil.m, pairs.vectors);
     // Copies of a multiple eigenvalue come into a Krylov space of one vector by rounding alone: the last of
