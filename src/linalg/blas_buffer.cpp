@@ -1,4 +1,5 @@
 #include "blas_host.hpp"
+#include "blas_turn.hpp"
 #include <atomic>
 #include <mutex>
 #include <new>
@@ -30,6 +31,7 @@ void reserve(int count) {
     static std::mutex growing;
     const std::lock_guard<std::mutex> lock(growing);
     if (count <= reserved) return;
+    const BlasTurn turn;
     std::vector<void *> held;
     held.reserve(static_cast<std::size_t>(count));
     while (static_cast<int>(held.size()) < count && one_more_fits()) held.push_back(blas_memory_alloc(0));

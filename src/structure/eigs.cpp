@@ -1,8 +1,10 @@
 // Lowest eigenpairs: choice of the method, repair of what an iterative method may miss, and verification.
 #include "structure/eigs.hpp"
 #include "linalg/blas_lapack.hpp"
+#include "linalg/lapack.hpp"
 #include "structure/eigs_internal.hpp"
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -42,22 +44,17 @@ void sort_and_cut(EigenPairs &pairs, std::int64_t count) {
     pairs = std::move(sorted);
 }
 
-/// The Cholesky factor of X^T M X (close to the identity); 0, or which column depends on those before it.
-blas_int factor_gram(const Matrix &x, const Matrix &mx, Matrix &gram) {
-    gram = product('T', 'N', x, mx);
-    require_finite(gram.data(), gram.rows() * gram.cols(), "eigensolver, Gram matrix");
-    const blas_int count = to_blas(x.cols());
-    blas_int info = 0;
-    dpotrf_("L", &count, gram.data(), &count, &info, 1);
-    return info;
-}
-
-/// Makes the columns of X M-orthonormal, in one pass, and returns M X.
+/// Makes the columns of X M-orthonormal by the Cholesky factor of their Gram matrix (close to the identity,
+/// so that one pass suffices) and returns M X.
 Matrix orthonormalize(const SparseMatrix &m, Matrix &x) {
-    Matrix mx = multiply_transposed(m, x), gram;
+    Matrix mx = multiply_transposed(m, x);
+    Matrix gram = product('T', 'N', x, mx);
     const blas_int n = to_blas(x.rows()), count = to_blas(x.cols());
     if (n == 0 || count == 0) return mx;
-    if (const blas_int info = factor_gram(x, mx, gram); info != 0)
+    require_finite(gram.data(), gram.rows() * gram.cols(), "eigensolver, Gram matrix");
+    blas_int info = 0;
+    dpotrf_("L", &count, gram.data(), &count, &info, 1);
+    if (info != 0)
         throw Error(PLM_ERR_EIGENSOLVER, "the eigenvectors found are linearly dependent").library_code(info);
     const double one = 1;
     for (Matrix *block : {&x, &mx})
@@ -67,8 +64,15 @@ Matrix orthonormalize(const SparseMatrix &m, Matrix &x) {
 
 /// Where M has a lower rank than asked for, the noise found beside may pass for eigenvectors.
 bool are_dependent(const SparseMatrix &m, const Matrix &x) {
-    Matrix gram;
-    return x.cols() > 0 && factor_gram(x, multiply_transposed(m, x), gram) != 0;
+    Matrix gram = product('T', 'N', x, multiply_transposed(m, x));
+    return !DenseCholesky().factor(gram);
+}
+
+/// The same of one vector that a search found apart from others (M times them), and thinks of unit length.
+bool is_noise(const SparseMatrix &m, const Matrix &one, const Matrix &m_others) {
+    const Matrix along = product('T', 'N', m_others, one),
+                 own = product('T', 'N', one, multiply_transposed(m, one));
+    return !(norm2(along.rows(), along.data()) < 1e-6 && std::abs(own(0, 0) - 1) < 1e-6);
 }
 
 bool needs_dense(const Pencil &pencil, std::int64_t n_wanted) {
@@ -168,12 +172,10 @@ Matrix add_missed(const Pencil &pencil, EigenPairs &pairs) {
         if (others.end != KrylovEnd::converged) break;
         const double distance = others.pairs.values[0] - pencil.shift;
         if (!(distance > 0 && distance < missed)) break; // below the shift: rounding noise around theta = 0
-        EigenPairs more{pairs.values, pairs.vectors, {}};
-        more.values.push_back(others.pairs.values[0]);
-        more.vectors.append(others.pairs.vectors);
-        sort_and_cut(more, wanted);
-        if (are_dependent(pencil.m, more.vectors)) break;
-        pairs = std::move(more);
+        if (is_noise(pencil.m, others.pairs.vectors, m_vectors)) break;
+        pairs.values.push_back(others.pairs.values[0]);
+        pairs.vectors.append(others.pairs.vectors);
+        sort_and_cut(pairs, wanted);
         m_vectors = orthonormalize(pencil.m, pairs.vectors);
     }
     return m_vectors;
