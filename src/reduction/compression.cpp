@@ -169,7 +169,7 @@ Matrix modes_in_contact(const ReducedModel &from, const std::vector<vector<doubl
 // the modes in contact.
 Matrix modes_and_directions(const ReducedModel &from, Matrix motions,
                             const std::vector<vector<double>> &springs, double omega, double tolerance,
-                            double kept) {
+                            double kept, std::int64_t most) {
     const vector<double> weight = energy_weights(from.lambda, from.n_massless, omega);
     const std::int64_t r = from.size();
     std::int64_t slow = 0;
@@ -184,7 +184,8 @@ Matrix modes_and_directions(const ReducedModel &from, Matrix motions,
     Matrix y(r, slow);
     for (std::int64_t j = 0; j < slow; ++j) y(j, j) = 1;
     const Decomposition rest(motions, weight);
-    y.append(rest.directions(rest.needed(tolerance * tolerance * energy, rounding * std::sqrt(energy))));
+    const std::int64_t needed = rest.needed(tolerance * tolerance * energy, rounding * std::sqrt(energy));
+    y.append(rest.directions(std::min(needed, std::max<std::int64_t>(most - slow, 0))));
     return y;
 }
 
@@ -193,11 +194,12 @@ Matrix modes_and_directions(const ReducedModel &from, Matrix motions,
 std::shared_ptr<const ReducedModel> compress_beside_modes(std::shared_ptr<const ReducedModel> from,
                                                           const Matrix &motions,
                                                           const std::vector<vector<double>> &springs,
-                                                          double omega, double tolerance, double kept) {
+                                                          double omega, double tolerance, double kept,
+                                                          std::int64_t most) {
     require(from->same_static && !from->all_pairs, "compress_beside_modes: the model's statics");
     const Space space = as_space(*from);
     Coordinates coordinates =
-        diagonalise(space, modes_and_directions(*from, motions, springs, omega, tolerance, kept));
+        diagonalise(space, modes_and_directions(*from, motions, springs, omega, tolerance, kept, most));
     const auto reduced = std::make_shared<ReducedModel>(*project(space, coordinates, StaticBasis()));
     reduce_statics(*from, coordinates.y, Matrix(from->size(), 0), *reduced);
     reduced->from =

@@ -26,11 +26,12 @@ Compressed compress(const Responses &responses, double tolerance, std::int64_t s
 /// The model of one curve: its motions (r x n in the coordinates of `from`, which has P_0 = P, mean parts
 /// among them) compressed as above beside the modes of `from` below `kept` (rad/s), with open contact and
 /// with each of `springs` (Z, in the place of the pairs). Those stay, however little they move: it is by them
-/// that a motion loses its stability.
+/// that a motion loses its stability. No larger than `most`, if the modes with open contact leave room.
 std::shared_ptr<const ReducedModel> compress_beside_modes(std::shared_ptr<const ReducedModel> from,
                                                           const Matrix &motions,
                                                           const std::vector<vector<double>> &springs,
-                                                          double omega, double tolerance, double kept);
+                                                          double omega, double tolerance, double kept,
+                                                          std::int64_t most);
 
 /// Coordinates (r' x k) of a compressed model in those of the model it is made from; of any other as they
 /// are.

@@ -14,9 +14,15 @@ namespace {
 // Below, a step on the basis itself takes some hundredths of a second, and a curve few seconds.
 constexpr double dear_step = 2e7; // flops
 constexpr std::int64_t many_coordinates = 30;
+// Above, it takes about half a second, and a curve minutes: what such a model would know better is said, not
+// followed.
+constexpr double too_dear_step = 2.5e9;
 // What is left out of the motions, in the energy norm: at first, and how much less each time that was too
 // much. The amplitudes that follow are nearer.
 constexpr double left_out_at_first = 1e-3, less = 0.3;
+// Where all pairs bounce, their motions have something of every direction, most of it too little to move an
+// amplitude: a model grows by no more than this from one to the next.
+constexpr double grows = 1.5;
 // Of the accuracy: the basis takes its share, too.
 constexpr double share_of_accuracy = 0.3;
 // Modes below so many times the highest frequency of the range stay whole: they are those that internal
@@ -199,10 +205,16 @@ double CurveCompression::tolerance() const {
     return share_of_accuracy * options_.accuracy;
 }
 
-std::shared_ptr<const ReducedModel> CurveCompression::compressed() const {
+bool CurveCompression::is_dear(const ReducedModel &model) const {
+    return exact_step_flops(model, options_) > too_dear_step;
+}
+
+std::shared_ptr<const ReducedModel> CurveCompression::compressed_after(const ReducedModel *last) const {
     std::vector<vector<double>> springs = needs_.springs;
     springs.push_back(whole_->contact.stiffness);
-    return compress_beside_modes(whole_, needs_.motions, springs, omega_, left_out_, slow * highest_);
+    const double most = last ? grows * static_cast<double>(last->size()) : whole_->size();
+    return compress_beside_modes(whole_, needs_.motions, springs, omega_, left_out_, slow * highest_,
+                                 static_cast<std::int64_t>(most));
 }
 
 // point: in the coordinates of the whole basis.
@@ -315,7 +327,11 @@ bool CurveCompression::begin_with(const Branch &look) {
     const auto is_found = [](const Point &p) { return p.amplitude >= 0; };
     std::shared_ptr<const ReducedModel> before;
     for (std::int64_t round = 0; round < most_rounds; ++round) {
-        const auto smaller = compressed();
+        const auto smaller = compressed_after(before.get());
+        if (before && is_dear(*smaller)) {
+            model_ = before;
+            return true;
+        }
         if (!saves(*smaller, points)) return false;
         Needs needs;
         const double change = settle(smaller, points, needs);
@@ -347,21 +363,46 @@ bool CurveCompression::confirms(const Branch &curve) {
     one[0].motion = corrected(curve.reduced_model(), exact);
     take(one[0].motion, needs_.motions);
     left_out_ *= less;
-    const auto better = compressed();
-    const double change = settle(better, one, needs_);
-    watch_.log(1, format("whole basis: the highest motion changes by %.2g of itself", change));
-    if (change <= tolerance()) return true;
-    model_ = better;
+    better_ = compressed_after(&curve.reduced());
+    change_ = settle(better_, one, needs_);
+    watch_.log(1, format("%lld of %lld coordinates: the highest motion changes by %.2g of itself",
+                         static_cast<long long>(better_->size()), static_cast<long long>(whole_->size()),
+                         change_));
+    if (change_ <= tolerance()) return true;
+    model_ = better_;
     return false;
 }
+
+bool CurveCompression::is_spent() const {
+    return is_dear(*better_) && std::isfinite(change_);
+}
+
+void CurveCompression::warn(Branch &curve) const {
+    if (change_ <= options_.accuracy) return;
+    const double hz = curve.points()[static_cast<std::size_t>(largest_response(curve))].omega / (2 * M_PI);
+    watch_.keeping(curve.warnings)
+        .warn(PLM_REASON_BASIS_TOO_SMALL,
+              format("this curve of exact motions was followed on %lld of the basis' %lld coordinates, and "
+                     "at its highest point, %.6g Hz, %lld of them change the amplitude by %.2g of itself "
+                     "(accuracy %.2g): so many pairs open and close that a nearer curve takes many "
+                     "minutes. Set motion to exact for a curve on the whole basis, or n_harmonics for one "
+                     "by harmonic balance",
+                     static_cast<long long>(curve.reduced().size()), static_cast<long long>(whole_->size()),
+                     hz, static_cast<long long>(better_->size()), change_, options_.accuracy));
+}
+
+namespace {
+
+bool agree(const BranchPoint &p, const vector<std::complex<double>> &multipliers) {
+    const double outside = std::abs(multipliers[0]) - 1;
+    return std::abs(outside) <= multiplier_error || (outside < 0) == (stability_of(p) == 1);
+}
+
+} // namespace
 
 // The whole basis beside a point of the curve: the motion found from the point's own state, or by other ways.
 bool CurveCompression::agrees_on_stability(const Branch &curve, std::int64_t point) const {
     const BranchPoint &on_curve = curve.points()[static_cast<std::size_t>(point)];
-    const auto agrees = [&](const vector<std::complex<double>> &multipliers) {
-        const double outside = std::abs(multipliers[0]) - 1;
-        return std::abs(outside) <= multiplier_error || (outside < 0) == (stability_of(on_curve) == 1);
-    };
     HbmOptions nearly = options_;
     nearly.tolerance = std::max(options_.tolerance, motion_error);
     OrbitEquations equations = orbit_equations(whole_, nearly, on_curve.omega, FlowParameter::frequency);
@@ -372,28 +413,40 @@ bool CurveCompression::agrees_on_stability(const Branch &curve, std::int64_t poi
     for (std::size_t i = 0; i < start.size(); ++i) moved = std::hypot(moved, at.x[i] - start[i]);
     BranchPoint p;
     if (out.converged && moved <= same_motion * norm2(equations.size(), at.x.data())) {
-        if (agrees(multipliers(equations.monodromy()))) return true;
+        if (agree(on_curve, multipliers(equations.monodromy()))) return true;
         p = orbit_point(equations, nearly, at, out.residual, out.iterations);
     } else {
         p = uncompressed(curve.reduced(), on_curve);
         NewtonWork work;
         if (!make_exact(whole_, nearly, watch_.quiet(), p, work) || p.multipliers.empty()) return false;
-        if (agrees(p.multipliers)) return true;
+        if (agree(on_curve, p.multipliers)) return true;
     }
     // beside a fold there is another motion of the same frequency
     return std::abs(amplitude(whole_, p) - amplitude(curve.reduced_model(), on_curve)) >
            options_.accuracy * peak_;
 }
 
+// The same on the last model that was better.
+bool CurveCompression::agrees_on_better(const Branch &curve, std::int64_t point) const {
+    const BranchPoint &on_curve = curve.points()[static_cast<std::size_t>(point)];
+    BranchPoint p = uncompressed(curve.reduced(), on_curve);
+    if (!make_exact_on(better_, p, ElseMarching::no) || p.multipliers.empty()) return false;
+    return agree(on_curve, p.multipliers) ||
+           std::abs(amplitude(better_, p) - amplitude(curve.reduced_model(), on_curve)) >
+               std::max(options_.accuracy, change_) * peak_;
+}
+
 bool CurveCompression::confirms_stability(const Branch &curve) const {
     const auto &points = curve.points();
     vector<std::size_t> at = beside_changes(points);
     at.push_back(static_cast<std::size_t>(largest_response(curve)));
+    const auto agrees =
+        is_dear(*whole_) ? &CurveCompression::agrees_on_better : &CurveCompression::agrees_on_stability;
     for (std::size_t i : at) {
         if (!points[i].motion || stability_of(points[i]) < 0 ||
-            agrees_on_stability(curve, static_cast<std::int64_t>(i)))
+            (this->*agrees)(curve, static_cast<std::int64_t>(i)))
             continue;
-        watch_.log(1, format("whole basis: stability at %.6g Hz is not as on the compressed one",
+        watch_.log(1, format("stability at %.6g Hz is not as on the compressed model",
                              points[i].omega / (2 * M_PI)));
         return false;
     }

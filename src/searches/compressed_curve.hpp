@@ -30,8 +30,13 @@ class CurveCompression {
     /// Whether the highest motion of the curve on that model is as the whole basis has it; if not, model() is
     /// a better one.
     bool confirms(const Branch &curve);
-    /// Whether the curve is stable on the whole basis where it is on that model: at its highest motion, and
-    /// between the points where it becomes stable or unstable.
+    /// After that: to follow a curve on a better model would take minutes.
+    bool is_spent() const;
+    /// Says what the last confirms() found, where that is more than the accuracy.
+    void warn(Branch &curve) const;
+    /// Whether the curve is stable on the whole basis (where a step on that takes too long: on the better
+    /// model of the last confirms()) where it is on that model: at its highest motion, and between the points
+    /// where it becomes stable or unstable.
     bool confirms_stability(const Branch &curve) const;
 
   private:
@@ -50,7 +55,9 @@ class CurveCompression {
     std::vector<Point> points_of(const Branch &look);
     bool saves(const ReducedModel &smaller, const std::vector<Point> &points) const;
     double tolerance() const;
-    std::shared_ptr<const ReducedModel> compressed() const;
+    bool is_dear(const ReducedModel &model) const;
+    /// last: the one that this one grows from; null: none.
+    std::shared_ptr<const ReducedModel> compressed_after(const ReducedModel *last) const;
     double settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points,
                   Needs &needs) const;
     bool make_exact_on(const std::shared_ptr<const ReducedModel> &model, BranchPoint &point,
@@ -58,9 +65,10 @@ class CurveCompression {
     void take(const BranchPoint &point, Matrix &motions) const;
     BranchPoint corrected(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &exact) const;
     bool agrees_on_stability(const Branch &curve, std::int64_t point) const;
+    bool agrees_on_better(const Branch &curve, std::int64_t point) const;
     double amplitude(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &point) const;
 
-    std::shared_ptr<const ReducedModel> whole_, model_;
+    std::shared_ptr<const ReducedModel> whole_, model_, better_;
     HbmOptions options_;
     double highest_, left_out_, omega_ = 0;
     Watch watch_;
@@ -68,6 +76,7 @@ class CurveCompression {
     double scale_ = 0;
     Output output_;
     double peak_ = 0;
+    double change_ = INFINITY; // of the highest motion, on better_
 };
 
 /// A curve on a compressed model as one of the whole basis, where what goes beyond the curve belongs: exact

@@ -172,8 +172,11 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
             curve.reduced_ = compression.model();
             const auto branch = curve.sweep_whole();
             if (branch->end_reason == PLM_REASON_CANCELLED) return branch;
-            if (is_stuck(*branch) || !compression.confirms_stability(*branch)) return nullptr;
-            if (compression.confirms(*branch)) return branch;
+            if (is_stuck(*branch)) return nullptr;
+            if (!compression.confirms(*branch) && !compression.is_spent()) continue;
+            if (!compression.confirms_stability(*branch)) return nullptr;
+            compression.warn(*branch);
+            return branch;
         }
     } catch (const Error &e) {
         if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;

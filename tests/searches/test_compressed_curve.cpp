@@ -132,7 +132,7 @@ double modes_in_contact_differ(const std::shared_ptr<const plm::ReducedModel> &w
     motion(whole->size() / 2, 0) = 1;
     std::vector<plm::vector<double>> springs;
     if (known) springs.push_back(spring);
-    const auto smaller = plm::compress_beside_modes(whole, motion, springs, kept, 1e-3, kept);
+    const auto smaller = plm::compress_beside_modes(whole, motion, springs, kept, 1e-3, kept, whole->size());
     const auto modes = [&](const plm::ReducedModel &m) {
         return plm::modes_with_springs(m.lambda, m.n_massless, m.gap, spring, kept * kept).values;
     };
@@ -151,6 +151,21 @@ void slow_modes_with_partly_closed_contact_stay(void **) {
     const double kept = 4 * p.curve->points()[0].omega;
     assert_true(below(modes_in_contact_differ(p.whole, kept, spring, true), 1e-5));
     assert_true(modes_in_contact_differ(p.whole, kept, spring, false) > 1e-3);
+}
+
+// Motions with something of every direction: the model takes the best of them, beside the slow modes.
+void grows_no_further_than_told(void **) {
+    const Plate &p = plate(false);
+    const std::int64_t n = p.whole->size();
+    plm::Matrix motions(n, n);
+    for (std::int64_t j = 0; j < n; ++j) motions(j, j) = 1;
+    const double kept = 2 * p.curve->points()[0].omega;
+    const auto size = [&](std::int64_t most) {
+        return plm::compress_beside_modes(p.whole, motions, {}, kept, 1e-3, kept, most)->size();
+    };
+    assert_int_equal(size(n), n);
+    assert_int_equal(size(n - 3), n - 3);
+    assert_true(size(0) >= 1 && size(0) < n - 3); // the slow modes
 }
 
 struct GoneOn {
@@ -270,6 +285,7 @@ int main() {
         cmocka_unit_test(same_curve_as_on_the_whole_basis),
         cmocka_unit_test(slow_modes_stay_whole),
         cmocka_unit_test(slow_modes_with_partly_closed_contact_stay),
+        cmocka_unit_test(grows_no_further_than_told),
         cmocka_unit_test(what_starts_from_the_curve_goes_on_on_the_whole_basis),
         cmocka_unit_test(responses_are_of_the_whole_basis),
         cmocka_unit_test(a_bouncing_curve_is_as_stable_as_on_the_whole_basis),
