@@ -355,6 +355,7 @@ bool CurveCompression::begin_with(const Branch &look) {
 }
 
 bool CurveCompression::confirms(const Branch &curve) {
+    better_ = nullptr;
     const std::int64_t top = largest_response(curve);
     const BranchPoint &exact = curve.points()[static_cast<std::size_t>(top)];
     if (!exact.motion) return false;
@@ -374,7 +375,7 @@ bool CurveCompression::confirms(const Branch &curve) {
 }
 
 bool CurveCompression::is_spent() const {
-    return is_dear(*better_) && std::isfinite(change_);
+    return better_ && is_dear(*better_) && std::isfinite(change_);
 }
 
 void CurveCompression::warn(Branch &curve) const {

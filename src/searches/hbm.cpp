@@ -173,7 +173,10 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
             const auto branch = curve.sweep_whole();
             if (branch->end_reason == PLM_REASON_CANCELLED) return branch;
             if (is_stuck(*branch)) return nullptr;
-            if (!compression.confirms(*branch) && !compression.is_spent()) continue;
+            if (!compression.confirms(*branch) && !compression.is_spent()) {
+                if (compression.model() == curve.reduced_) return nullptr; // its highest motion is not exact
+                continue;
+            }
             if (!compression.confirms_stability(*branch)) return nullptr;
             compression.warn(*branch);
             return branch;
