@@ -9,7 +9,7 @@ class NearPairs {
   public:
     /// now: the penetrations at the beginning (Z); travel: bounds of how far each may go within the piece.
     /// gap_by_pair: n x Z. powers: the coordinates as polynomials, terms x n, or n x terms with op 'T'.
-    /// penetration (Z x terms) holds what acts besides the coordinates; what these do is added, or `now` put
+    /// penetration (terms x Z) holds what acts besides the coordinates; what these do is added, or `now` put
     /// in place of both.
     void expand(const vector<double> &now, const vector<double> &travel, const Matrix &gap_by_pair, char op,
                 const Matrix &powers, Matrix &penetration);

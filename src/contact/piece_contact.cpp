@@ -1,16 +1,72 @@
 #include "contact/piece_contact.hpp"
 #include "linalg/error.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace plm {
+namespace {
+
+constexpr std::int64_t n_groups = 16;          // of pairs; a power of two
+constexpr std::int64_t widest_in_groups = 256; // the sums of wider ones would fill 16 MB and more
+
+} // namespace
 
 bool PieceContact::assign(const PairStates &states, Matrix &stiffness) {
     if (assigned_ && states == states_) return false;
+    const bool changes = assigned_; // a set that stays needs no sums
     assigned_ = false;
-    states_ = states;
     active_ = states.closed_pairs();
-    find_stiffness(stiffness);
+    if (changes && flexibility_.empty() && moving_ <= widest_in_groups) {
+        sum_springs(states, stiffness);
+    } else {
+        sums_.clear();
+        find_stiffness(stiffness);
+    }
+    states_ = states;
     return assigned_ = true;
+}
+
+// Along a motion one pair or two change at a time, and the sums of the other groups stay.
+void PieceContact::sum_springs(const PairStates &states, Matrix &stiffness) {
+    const std::int64_t z = states.size(), per_group = (z + n_groups - 1) / n_groups;
+    const bool anew = sums_.empty();
+    if (z == 0) return;
+    if (anew) {
+        sprung_ = gap_.transposed();
+        for (std::int64_t i = 0; i < z; ++i)
+            for (std::int64_t j = 0; j < moving_; ++j) sprung_(j, i) *= std::sqrt(contact_.stiffness[i]);
+        sums_.assign(2 * n_groups, Matrix(moving_, moving_));
+    }
+    std::vector<char> changed(2 * n_groups, 0);
+    for (std::int64_t i = 0; i < z; ++i)
+        if (anew || states.is_closed(i) != states_.is_closed(i)) changed[n_groups + i / per_group] = 1;
+    for (std::int64_t node = 2 * n_groups - 1; node > 0; --node) {
+        if (!changed[node]) continue;
+        changed[node / 2] = 1;
+        Matrix &sum = sums_[node];
+        if (node >= n_groups) {
+            sum_group(node - n_groups, states);
+            continue;
+        }
+        const double *a = sums_[2 * node].data(), *b = sums_[2 * node + 1].data();
+        double *c = sum.data();
+        for (std::int64_t k = 0; k < moving_ * moving_; ++k) c[k] = a[k] + b[k];
+    }
+    stiffness = sums_[1];
+}
+
+void PieceContact::sum_group(std::int64_t group, const PairStates &states) {
+    const std::int64_t z = states.size(), per_group = (z + n_groups - 1) / n_groups,
+                       first = group * per_group;
+    std::int64_t n = 0;
+    rows_.reset(moving_, per_group);
+    for (std::int64_t i = first; i < std::min(first + per_group, z); ++i)
+        if (states.is_closed(i)) std::copy_n(sprung_.col(i), moving_, rows_.col(n++));
+    rows_.cut(n);
+    if (n > 0)
+        gemm('N', 'T', 1.0, rows_, rows_, 0.0, sums_[n_groups + group]);
+    else
+        sums_[n_groups + group].reset(moving_, moving_);
 }
 
 // Symmetric to the last bit where S is diagonal.
@@ -23,8 +79,10 @@ void PieceContact::find_stiffness(Matrix &stiffness) {
     if (n == 0) return;
     const vector<double> &k = contact_.stiffness;
     if (flexibility_.empty()) {
-        for (std::int64_t j = 0; j < moving_; ++j)
-            for (std::int64_t row = 0; row < n; ++row) rows_(row, j) *= std::sqrt(k[active_[row]]);
+        for (std::int64_t row = 0; row < n; ++row) {
+            const double root = std::sqrt(k[active_[row]]);
+            for (std::int64_t j = 0; j < moving_; ++j) rows_(row, j) *= root;
+        }
         gemm('T', 'N', 1.0, rows_, rows_, 0.0, stiffness);
         return;
     }

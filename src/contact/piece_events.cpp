@@ -43,39 +43,54 @@ bool PieceEvents::correct(const Matrix &penetration, double reach) {
 }
 
 PieceEvents::Side PieceEvents::side_of(const Matrix &penetration, std::int64_t pair) const {
-    for (std::int64_t k = at_zero_[pair] ? 1 : 0; k < penetration.cols(); ++k) {
-        const double c = penetration(pair, k);
+    for (std::int64_t k = at_zero_[pair] ? 1 : 0; k < penetration.rows(); ++k) {
+        const double c = penetration(k, pair);
         if (std::abs(c) > noise_[pair]) return {k, ContactLaw::closed(c)};
     }
     return {-1, states_.is_closed(pair)}; // rests at zero: either side is right
 }
 
-double PieceEvents::first(const Matrix &penetration, std::int64_t &pair) {
-    const std::int64_t n_terms = penetration.cols();
-    double share = 1;
+double PieceEvents::first(const Matrix &penetration, std::int64_t &pair, double together) {
+    double share = 1; // the rest of the piece is of no interest once an event is known
     pair = -1;
+    leaving_.clear();
     for (std::int64_t i = 0; i < states_.size(); ++i) {
-        const std::int64_t power = sides_[i].power;
-        if (power < 0) continue;
-        const double sign = states_.is_closed(i) ? 1.0 : -1.0, first = sign * penetration(i, power);
-        if (!(first > 0)) continue; // no side was found that the motion confirms
-        double reach = 0;
-        for (std::int64_t k = power + 1; k < n_terms; ++k) reach += std::abs(penetration(i, k));
-        if (first >= reach) continue;
-        double scale = sign; // the rest of the piece is of no interest once an event is known
-        for (std::int64_t k = power; k < n_terms; ++k, scale *= share)
-            polynomial_[k - power] = scale * penetration(i, k);
-        const double at = first_crossing(polynomial_.data(), n_terms - 1 - power, noise_[i]);
+        const double at = crossing(penetration, i, std::min(share + together, 1.0));
         if (at < 0) continue;
-        share *= at;
+        leaving_.push_back({at, i});
+        if (pair >= 0 && at >= share) continue;
+        share = at;
         pair = i;
     }
+    const double first = share;
+    const auto later = [&](const Event &event) { return event.share > first + together; };
+    leaving_.erase(std::remove_if(leaving_.begin(), leaving_.end(), later), leaving_.end());
+    for (const Event &event : leaving_) share = std::max(share, event.share);
     return share;
 }
 
-void PieceEvents::pass(std::int64_t pair) {
-    states_.switch_pair(pair);
-    at_zero_[pair] = 1;
+// Share of the piece, or -1.
+double PieceEvents::crossing(const Matrix &penetration, std::int64_t pair, double until) {
+    const std::int64_t n_terms = penetration.rows(), power = sides_[pair].power;
+    if (power < 0) return -1;
+    const double sign = states_.is_closed(pair) ? 1.0 : -1.0, *p = penetration.col(pair),
+                 first = sign * p[power];
+    if (!(first > 0)) return -1; // no side was found that the motion confirms
+    double reach = 0;
+    for (std::int64_t k = power + 1; k < n_terms; ++k) reach += std::abs(p[k]);
+    if (first >= reach) return -1;
+    double scale = sign;
+    for (std::int64_t k = power; k < n_terms; ++k, scale *= until) polynomial_[k - power] = scale * p[k];
+    const double at = first_crossing(polynomial_.data(), n_terms - 1 - power, noise_[pair]);
+    return at < 0 ? -1 : until * at;
+}
+
+std::int64_t PieceEvents::pass() {
+    for (const Event &event : leaving_) {
+        states_.switch_pair(event.pair);
+        at_zero_[event.pair] = 1;
+    }
+    return static_cast<std::int64_t>(leaving_.size());
 }
 
 } // namespace plm

@@ -19,14 +19,17 @@ class PieceEvents {
 
     /// The states that the motion itself confirms: each pair on the side to which it first moves away from
     /// zero. Continuity of the force makes this well defined: a pair that leaves zero by its j-th derivative
-    /// has no influence on derivatives up to j + 1. penetration: Z x n_terms coefficients with the states as
+    /// has no influence on derivatives up to j + 1. penetration: n_terms x Z coefficients with the states as
     /// they are; reach: bound of how far the coordinates go. True when a pair changed sides.
     bool correct(const Matrix &penetration, double reach);
     /// Share of the piece after which the first pair leaves its side, 1 and pair -1 when none does. A zero at
     /// the beginning is divided out, so that it is not found again. penetration: as last handed to correct().
-    double first(const Matrix &penetration, std::int64_t &pair);
-    /// The pair changes its state, its penetration being zero there.
-    void pass(std::int64_t pair);
+    /// together: pairs that follow within this share of the piece leave with it, the share being that of the
+    /// last of them; the force is wrong by what a spring has for so long, the motion by the square of that.
+    double first(const Matrix &penetration, std::int64_t &pair, double together = 0);
+    /// The pairs of the last first() change their states, their penetrations being zero there. Returns how
+    /// many.
+    std::int64_t pass();
 
   private:
     /// Where a pair's penetration first differs from zero: power of s and side; -1 where it never does.
@@ -34,6 +37,11 @@ class PieceEvents {
         std::int64_t power = 0;
         bool closed = false;
     };
+    struct Event {
+        double share;
+        std::int64_t pair;
+    };
+    double crossing(const Matrix &penetration, std::int64_t pair, double until);
     Side side_of(const Matrix &penetration, std::int64_t pair) const;
 
     const Contact &contact_;
@@ -41,6 +49,7 @@ class PieceEvents {
     vector<char> at_zero_; // its zero was just located
     vector<double> row_norm_, noise_, polynomial_;
     std::vector<Side> sides_;
+    std::vector<Event> leaving_;
 };
 
 } // namespace plm

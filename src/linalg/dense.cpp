@@ -96,9 +96,21 @@ void gemm(char op, double alpha, const Matrix &a, const double *b, std::int64_t 
     const bool transposed = is_transpose(op);
     const std::int64_t rows = transposed ? a.cols() : a.rows(), inner = transposed ? a.rows() : a.cols();
     if (rows == 0 || n == 0) return;
-    const blas_int m = to_blas(rows), count = to_blas(n), k = to_blas(inner);
-    const blas_int lda = leading(a.rows()), ldb = leading(inner);
-    dgemm_(&op, "N", &m, &count, &k, &alpha, a.data(), &lda, b, &ldb, &beta, c, &m, 1, 1);
+    gemm(op, rows, n, inner, alpha, a.data(), a.rows(), b, inner, beta, c, rows);
+}
+
+void gemm(char op, std::int64_t m, std::int64_t n, std::int64_t k, double alpha, const double *a,
+          std::int64_t lda, const double *b, std::int64_t ldb, double beta, double *c, std::int64_t ldc) {
+    const blas_int rows = to_blas(m), cols = to_blas(n), inner = to_blas(k);
+    const blas_int ld_a = leading(lda), ld_b = leading(ldb), ld_c = leading(ldc);
+    dgemm_(&op, "N", &rows, &cols, &inner, &alpha, a, &ld_a, b, &ld_b, &beta, c, &ld_c, 1, 1);
+}
+
+void gemm(char op, std::int64_t m, std::int64_t n, std::int64_t k, float alpha, const float *a,
+          std::int64_t lda, const float *b, std::int64_t ldb, float beta, float *c, std::int64_t ldc) {
+    const blas_int rows = to_blas(m), cols = to_blas(n), inner = to_blas(k);
+    const blas_int ld_a = leading(lda), ld_b = leading(ldb), ld_c = leading(ldc);
+    sgemm_(&op, "N", &rows, &cols, &inner, &alpha, a, &ld_a, b, &ld_b, &beta, c, &ld_c, 1, 1);
 }
 
 Matrix product(char op_a, char op_b, const Matrix &a, const Matrix &b) {

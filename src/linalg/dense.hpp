@@ -60,6 +60,11 @@ void select_rows(const Matrix &a, const vector<std::int64_t> &rows, Matrix &out)
 void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c);
 /// C = alpha op(A) B + beta C with n columns of B and C that follow one another in larger arrays.
 void gemm(char op, double alpha, const Matrix &a, const double *b, std::int64_t n, double beta, double *c);
+/// C = alpha op(A) B + beta C on plain arrays, op(A) m x k, in double and in single precision.
+void gemm(char op, std::int64_t m, std::int64_t n, std::int64_t k, double alpha, const double *a,
+          std::int64_t lda, const double *b, std::int64_t ldb, double beta, double *c, std::int64_t ldc);
+void gemm(char op, std::int64_t m, std::int64_t n, std::int64_t k, float alpha, const float *a,
+          std::int64_t lda, const float *b, std::int64_t ldb, float beta, float *c, std::int64_t ldc);
 /// op(A) op(B) as a new matrix.
 Matrix product(char op_a, char op_b, const Matrix &a, const Matrix &b);
 /// y = alpha op(A) x + beta y

@@ -25,6 +25,9 @@ ContactSet::ContactSet(const FlowModel &model)
     } else {
         damping_bound_ = spectral_bound(square_block(model_.damping(), 0, massive_));
     }
+    const Matrix &gap = model_.gap_by_pair();
+    for (std::int64_t i = 0; i < model_.n_pairs(); ++i)
+        pair_norm_.push_back(model_.contact_stiffness()[i] * dot(moving_, gap.col(i), gap.col(i)));
 }
 
 // |S|_2 <= |S^2|_F^(1/2), at most n^(1/4) too large; scaled, so that nothing overflows.
@@ -41,14 +44,31 @@ void ContactSet::assign(const PairStates &states) {
     if (!contact_.assign(states, stiffness_)) return;
     for (std::int64_t j = 0; j < moving_; ++j) stiffness_(j, j) += model_.lambda()[j];
     relaxing_ = stiffness_.columns(massive_, moving_ - massive_);
-    find_rate();
+    if (!raise_rate(states)) find_rate(states);
+}
+
+// |K_i| grows by no more than the springs that act now and did not where it was bounded, and those that act
+// no more leave the bound as it is. False: it might be too large for its purpose.
+bool ContactSet::raise_rate(const PairStates &states) {
+    constexpr int oldest = 32;
+    constexpr double loosest = 1.2;
+    if (moving_ != massive_ || bounded_.empty() || ++age_ > oldest) return false;
+    double bound = bound_;
+    for (std::int64_t i = 0; i < states.size(); ++i)
+        if (states.is_closed(i) && !bounded_.is_closed(i)) bound += pair_norm_[i];
+    if (bound > loosest * bound_) return false;
+    rate_ = std::sqrt(bound) + damping_bound_;
+    return true;
 }
 
 // What relaxes adds the fastest of its time constants, and what couples it with the rest, which is no faster
 // than both together.
-void ContactSet::find_rate() {
+void ContactSet::find_rate(const PairStates &states) {
     if (moving_ == massive_) {
-        rate_ = std::sqrt(spectral_bound(stiffness_)) + damping_bound_;
+        bound_ = spectral_bound(stiffness_);
+        rate_ = std::sqrt(bound_) + damping_bound_;
+        bounded_ = states;
+        age_ = 0;
         return;
     }
     Matrix relaxing = square_block(stiffness_, massive_, moving_);
@@ -76,7 +96,7 @@ std::int64_t taylor_terms(double x, double tolerance) {
     for (std::int64_t m = 1; m < 200; ++m) {
         const double k = static_cast<double>(m);
         term *= x / k; // x^m / m!
-        if (x < k + 1 && term <= tolerance * (1 - x / (k + 1))) return std::max<std::int64_t>(m, 4);
+        if (x < k + 1 && term <= tolerance * (1 - x / (k + 1))) return m;
     }
     return 200;
 }

@@ -11,7 +11,7 @@ class ContactSet {
   public:
     explicit ContactSet(const FlowModel &model);
 
-    /// Assembles K_i. 2 |A| n^2 + 2 n^3 flops.
+    /// Assembles K_i. 2 |A| n^2 + 2 n^3 flops, few of them where a pair or two have changed.
     void assign(const PairStates &states);
     /// Of the set with the fastest motions: every pair's spring acts.
     void assign_stiffest() { assign(PairStates::all_closed(model_.n_pairs())); }
@@ -29,11 +29,16 @@ class ContactSet {
 
   private:
     double spectral_bound(const Matrix &symmetric);
-    void find_rate();
+    bool raise_rate(const PairStates &states);
+    void find_rate(const PairStates &states);
 
     const FlowModel &model_;
     std::int64_t moving_, massive_;
     double damping_bound_ = 0, rate_ = 0;
+    double bound_ = 0; // of |K_i| for the states bounded_
+    PairStates bounded_;
+    int age_ = 0;              // sets since
+    vector<double> pair_norm_; // k_n |g|^2 of each
     PieceContact contact_;
     Matrix stiffness_, square_, relaxing_; // relaxing_: columns of K_i, as rows, of what relaxes
 };

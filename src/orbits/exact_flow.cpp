@@ -10,12 +10,20 @@ namespace plm {
 namespace {
 
 constexpr double longest_step = 2.0; // rate x duration of a piece: about 26 terms, of which none exceeds 2
+// Where events are dense, a piece is not made longer than its event lets it be used: terms are saved, and
+// pairs that cannot come to zero so soon.
+constexpr double shortest_try = 0.5; // rate x duration
+constexpr double longer = 4;         // than the last one was used
 constexpr double truncation = 1e-17;
 constexpr std::int64_t watch_interval = 64;                  // pieces
 constexpr double least_advance = 0.05, shorter_piece = 0.25; // of a piece, in the modes of its contact set
-constexpr double no_progress = 1e-12;                        // fraction of a piece
-constexpr double spare = 2;         // of the way of a pair: the bound itself is rounded
-constexpr int side_corrections = 8; // one is usual; more when pairs that rest at zero act on each other
+// On symmetric structures pairs switch in twos and fours, apart by rounding: one event. The motion is off by
+// the square of this.
+constexpr double at_once = 1e-8;         // fraction of a piece
+constexpr double no_progress = 1e-12;    // fraction of a piece
+constexpr std::int64_t known_powers = 3; // of every pair's penetration
+constexpr double spare = 2;              // of the way of a pair: the bound itself is rounded
+constexpr int side_corrections = 8;      // one is usual; more when pairs that rest at zero act on each other
 
 } // namespace
 
@@ -28,6 +36,9 @@ ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, doubl
             .argument("omega");
     for (const auto &entry : model_->excitation())
         fastest_force_ = std::max(fastest_force_, static_cast<double>(entry.first) * omega);
+    gap_size_ = model_->gap();
+    for (std::int64_t k = 0; k < gap_size_.rows() * gap_size_.cols(); ++k)
+        gap_size_.data()[k] = std::abs(gap_size_.data()[k]);
     own_set_.assign_stiffest();
     const double pairs = static_cast<double>(model_->n_pairs()), switches = own_set_.rate() * period() / M_PI;
     event_limit_ = static_cast<std::int64_t>(std::min(1000 + pairs * (100 + switches), 1e15));
@@ -61,6 +72,7 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
     if (may_use_modes_ && !modes_) modes_ = std::make_shared<ContactModesKept>(model_);
     if (may_use_modes_) modal_ = std::make_unique<ModalPieces>(*model_, omega_, force_scale_, parameter_);
     fresh_ = true;
+    tried_ = INFINITY;
     while (state.time < t_end) {
         if (n_steps_++ % watch_interval == 0)
             watch_.step("exact flow", (state.time - begin) / (t_end - begin));
@@ -78,18 +90,19 @@ void ExactFlow::series_piece(FlowState &state, double left, FlowRecorder *record
     double duration = 0;
     for (int attempt = 0;; ++attempt) {
         take_set();
-        duration = step_length(left);
+        duration = step_length(std::min(left, std::max(tried_, shortest_try / set_->rate())));
         expand(state, duration, motion_);
         if (attempt == side_corrections || !correct_sides(state, duration, motion_.penetration)) break;
     }
     std::int64_t pair = -1;
-    const double fraction = events_.first(motion_.penetration, pair);
+    const double fraction = events_.first(motion_.penetration, pair, at_once);
     if (recorder) report(state.time, fraction, duration, motion_.coefficient, nullptr, *recorder);
     if (parameter_ != FlowParameter::none) {
         expand(change_, duration, derivative_);
         move_to(change_, fraction, duration, derivative_.coefficient);
     }
     move_to(state, fraction, duration, motion_.coefficient);
+    tried_ = longer * fraction * duration;
     events_.forget_zeros();
     fresh_ = pair >= 0;
     if (pair >= 0) switch_pair(pair, fraction, state.time);
@@ -155,10 +168,11 @@ void ExactFlow::differentiate(FlowParameter parameter) {
 }
 
 void ExactFlow::switch_pair(std::int64_t pair, double fraction, double time) {
-    events_.pass(pair);
-    ++n_events_;
+    const std::int64_t count = events_.pass();
+    n_events_ += count;
     stalled_ = fraction > no_progress ? 0 : stalled_ + 1;
-    if (--events_left_ >= 0 && stalled_ <= 100 + 20 * model_->n_pairs()) return;
+    events_left_ -= static_cast<double>(count);
+    if (events_left_ >= 0 && stalled_ <= 100 + 20 * model_->n_pairs()) return;
     throw Error(PLM_ERR_CONVERGENCE,
                 stalled_ > 0 ? format("contact events follow each other without end at t = %g s", time)
                              : format("more than %lld contact events per period; the last one at t = %g s",
@@ -246,26 +260,35 @@ void ExactFlow::expand(const FlowState &state, double duration, Series &series) 
     }
     if (&series == &derivative_ && model_->n_following() == 0)
         return; // what it does to the gaps is not asked
-    series.penetration = series.offset;
     if (model_->n_following() > 0) {
-        if (model_->n_pairs() > 0) gemm('N', 'N', 1.0, model_->gap(), y, 1.0, series.penetration);
+        if (model_->n_pairs() > 0) gemm('N', 'N', 1.0, model_->gap(), y, 1.0, series.offset);
         follow(series);
+        series.penetration = series.offset.transposed();
     } else {
         find_penetrations(series);
     }
 }
 
-// What the loads put aside has no powers where nothing follows at once.
+// What the loads put aside has no powers where nothing follows at once. How far a pair may come nearer to
+// zero: by its first powers, and by what the others have at most.
 void ExactFlow::find_penetrations(Series &series) {
-    const Matrix &y = series.coefficient, &gap = model_->gap();
-    if (model_->n_pairs() == 0) return;
-    now_.assign(series.offset.data(), series.offset.col(1));
-    gemv('N', 1.0, gap, y.col(0), 1.0, now_.data());
-    travel_.assign(now_.size(), 0.0);
-    for (std::int64_t j = 0; j < y.rows(); ++j) {
-        double way = 0;
-        for (std::int64_t k = 1; k < n_terms_; ++k) way += std::abs(y(j, k));
-        for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i] += spare * std::abs(gap.col(j)[i]) * way;
+    const Matrix &y = series.coefficient;
+    const std::int64_t z = model_->n_pairs(), known = std::min<std::int64_t>(known_powers, n_terms_);
+    series.penetration.reset(n_terms_, z);
+    if (z == 0) return;
+    known_.reset(z, known);
+    gemm('N', 1.0, model_->gap(), y.data(), known, 0.0, known_.data());
+    ways_.assign(static_cast<std::size_t>(y.rows()), 0.0);
+    for (std::int64_t k = known; k < n_terms_; ++k)
+        for (std::int64_t j = 0; j < y.rows(); ++j) ways_[j] += spare * std::abs(y(j, k));
+    travel_.resize(static_cast<std::size_t>(z));
+    gemv('N', 1.0, gap_size_, ways_.data(), 0.0, travel_.data());
+    now_.resize(static_cast<std::size_t>(z));
+    for (std::int64_t i = 0; i < z; ++i) {
+        series.penetration(0, i) = series.offset(i, 0);
+        now_[i] = series.offset(i, 0) + known_(i, 0);
+        const double side = now_[i] > 0 ? 1 : -1;
+        for (std::int64_t k = 1; k < known; ++k) travel_[i] += spare * std::max(0.0, -side * known_(i, k));
     }
     near_.expand(now_, travel_, model_->gap_by_pair(), 'T', y, series.penetration);
 }
@@ -273,7 +296,7 @@ void ExactFlow::find_penetrations(Series &series) {
 // What has neither mass nor damping: y = (f - G^T N) / k.
 void ExactFlow::follow(Series &series) {
     const std::int64_t moving = model_->n_moving(), n = model_->n_following();
-    set_->add_contact(series.penetration, contact_force_);
+    set_->add_contact(series.offset, contact_force_);
     for (std::int64_t k = 0; k < n_terms_; ++k) {
         double *f = following_.data();
         std::copy_n(series.force.col(k) + moving, n, f + moving);
@@ -349,9 +372,9 @@ void ExactFlow::expand_change_of_loads(double time, double duration, Matrix &for
 // Penetrations with the moving coordinates at zero, without contact forces.
 void ExactFlow::expand_offsets(Series &series) {
     const std::int64_t moving = model_->n_moving(), n = model_->n_following(), z = model_->n_pairs();
-    series.offset.reset(z, n_terms_);
+    series.offset.reset(z, n > 0 ? n_terms_ : 1);
     std::fill(following_.begin(), following_.end(), 0.0);
-    for (std::int64_t k = 0; k < n_terms_ && n > 0 && z > 0; ++k) {
+    for (std::int64_t k = 0; k < series.offset.cols() && n > 0 && z > 0; ++k) {
         for (std::int64_t j = moving; j < moving + n; ++j)
             following_[j] = series.force(j, k) / model_->lambda()[j];
         gemv('N', 1.0, model_->gap(), following_.data(), 0.0, series.offset.col(k));

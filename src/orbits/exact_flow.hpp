@@ -84,15 +84,15 @@ class ExactFlow {
     FlowParameter parameter_ = FlowParameter::none;
     FlowState change_;
     Series motion_, derivative_;
-    Matrix contact_force_, shortened_;
+    Matrix contact_force_, shortened_, gap_size_, known_; // gap_size_: of its entries
     const Matrix nothing_;
-    vector<double> following_, now_,
+    vector<double> following_, ways_, now_,
         travel_; // now_: penetrations at the beginning of a piece, travel_: how far they may go
     NearPairs near_;
     std::unique_ptr<ModalPieces> modal_;
     bool may_use_modes_ = false, fresh_ = true; // fresh_: the states at hand are still to be confirmed
     std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_ = 0, stalled_ = 0;
-    double events_left_ = 0;
+    double events_left_ = 0, tried_ = 0; // tried_: longest duration of the next piece
 };
 
 /// Keeps the sequence of contact sets, as monodromy() takes it.

@@ -73,7 +73,7 @@ class ModalPieces {
     vector<double> size_, inverse_; // |z| of the modes; 1, 1/2, 1/3, ...
     vector<double> power_; // of a load's turn over the piece, over k!; odd ones stand for i times that
     Matrix powers_;        // terms x size
-    Matrix penetration_, coefficient_;
+    Matrix penetration_, aside_powers_, coefficient_;
     FastMotion fast_;
     double duration_ = 0;
     std::int64_t n_terms_ = 0;

@@ -9,6 +9,10 @@ namespace {
 // faster ones, of which a stiff contact leaves some ringing at the beginning of the period that turns with
 // every change of the frequency, with the less the faster they are.
 constexpr double slow_enough = 10;
+// Of the monodromy of a large model, whose contact sets hardly ever come back: Newton's method converges as
+// well, and multipliers are right to 1e-5. Single precision, and half of the terms.
+constexpr std::int64_t large = 48; // coordinates
+constexpr double enough = 1e-7;
 
 } // namespace
 
@@ -98,7 +102,8 @@ void OrbitEquations::linearize() {
     const std::int64_t n = size();
     monodromy_.reset(n, n);
     if (!failed_) {
-        monodromy_ = plm::monodromy(*model_, intervals_, 1e-15, Watch(), modes_.get());
+        monodromy_ = plm::monodromy(*model_, intervals_, model_->n_moving() < large ? 1e-15 : enough, Watch(),
+                                    modes_.get());
         for (std::int64_t j = 0; j < n; ++j)
             for (std::int64_t i = 0; i < n; ++i) monodromy_(i, j) *= weight_[i] / weight_[j];
     }

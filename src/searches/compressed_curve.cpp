@@ -25,6 +25,7 @@ constexpr double left_out_at_first = 1e-3, less = 0.3;
 constexpr double grows = 1.5;
 // Of the accuracy: the basis takes its share, too.
 constexpr double share_of_accuracy = 0.3;
+constexpr double share_of_motions = 1e-3;
 // Modes below so many times the highest frequency of the range stay whole: they are those that internal
 // resonances of low order can set in motion, and whose multipliers die out slowly.
 constexpr double slow = 3;
@@ -188,6 +189,11 @@ bool worth_compressing(const ReducedModel &whole, const HbmOptions &options) {
            exact_step_flops(whole, options) > dear_step;
 }
 
+HbmOptions options_on(const ReducedModel &model, HbmOptions options) {
+    if (model.from) options.tolerance = std::max(options.tolerance, share_of_motions * options.accuracy);
+    return options;
+}
+
 CurveCompression::CurveCompression(std::shared_ptr<const ReducedModel> whole, const HbmOptions &options,
                                    double highest, Watch watch)
     : whole_(std::move(whole)), options_(options), highest_(highest), left_out_(left_out_at_first),
@@ -238,7 +244,8 @@ bool CurveCompression::make_exact_on(const std::shared_ptr<const ReducedModel> &
     if (!nearest.known()) return false;
     BranchPoint guess = with_coordinates(point, nearest.of(mean_of(point)), nearest.of(point.eta));
     NewtonWork work;
-    if (!make_exact(model, options_, watch_.quiet(), guess, work, otherwise)) return false;
+    if (!make_exact(model, options_on(*model, options_), watch_.quiet(), guess, work, otherwise))
+        return false;
     point = std::move(guess);
     return true;
 }

@@ -14,6 +14,10 @@ namespace plm {
 /// Whether a curve of exact motions on this model (P_0 = P) is to be followed on a compressed one.
 bool worth_compressing(const ReducedModel &whole, const HbmOptions &options);
 
+/// Where the model is a compressed one, motions on it are exact to a thousandth of the accuracy: it has no
+/// more of it.
+HbmOptions options_on(const ReducedModel &model, HbmOptions options);
+
 class CurveCompression {
   public:
     /// highest: angular frequency where the range ends.

@@ -170,6 +170,7 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
         if (!compression.begin_with(*first)) return nullptr;
         for (int k = 0; k < most_curves; ++k) {
             curve.reduced_ = compression.model();
+            curve.options_ = options_on(*curve.reduced_, options_);
             const auto branch = curve.sweep_whole();
             if (branch->end_reason == PLM_REASON_CANCELLED) return branch;
             if (is_stuck(*branch)) return nullptr;

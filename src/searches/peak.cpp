@@ -2,6 +2,7 @@
 // three highest ones, by successive parabolic interpolation.
 #include "hbm/branch_path.hpp"
 #include "searches/basis_error.hpp"
+#include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/curve_verdicts.hpp"
 #include "searches/harmonic_choice.hpp"
@@ -185,7 +186,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     if (!is_peak)                        // it stays where it is
         watch_.keeping(one->warnings).warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, highest));
     if (is_peak) {
-        HbmOptions options = options_;
+        HbmOptions options = options_on(*reduced, options_);
         options.force_scale = point.force_scale;
         options.period_multiple = branch.period_multiple();
         options.n_harmonics = harmonics_of(point, options.period_multiple);

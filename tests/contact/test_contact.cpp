@@ -129,8 +129,8 @@ void the_first_event_of_a_piece(void **) {
     const Contact c{{1, 1, 1}, {0, 0, 0}};
     const Matrix gap(3, 1);
     Matrix u(3, 3);
-    u(0, 0) = 1, u(0, 1) = -2;
-    u(1, 0) = -1, u(1, 1) = 4;
+    u(0, 0) = 1, u(1, 0) = -2;
+    u(0, 1) = -1, u(1, 1) = 4;
     u(2, 2) = 1;
     plm::PieceEvents events(c, gap);
     events.guess({1, -1, 0});
@@ -138,11 +138,28 @@ void the_first_event_of_a_piece(void **) {
     assert_true(events.states().closed_pairs() == (plm::vector<std::int64_t>{0, 2}));
     std::int64_t pair = -1;
     assert_true(close_to(events.first(u, pair), 0.25, 1e-14) && pair == 1);
-    events.pass(pair);
-    assert_true(events.states().n_closed() == 3);
+    assert_true(events.pass() == 1 && events.states().n_closed() == 3);
     Matrix still(3, 3);
-    for (std::int64_t i = 0; i < 3; ++i) still(i, 0) = 1;
+    for (std::int64_t i = 0; i < 3; ++i) still(0, i) = 1;
     assert_true(!events.correct(still, 0) && events.first(still, pair) == 1 && pair == -1);
+}
+
+// u0 = 1 - 2 s, u1 = 1 - 2 (1 - 1e-9) s, u2 = 1 - 1.9 s: the second opens 5e-10 of the piece after the first.
+void pairs_that_switch_at_once(void **) {
+    const Contact c{{1, 1, 1}, {0, 0, 0}};
+    const Matrix gap(3, 1);
+    Matrix u(2, 3);
+    for (std::int64_t i = 0; i < 3; ++i) u(0, i) = 1;
+    u(1, 0) = -2, u(1, 1) = -2 * (1 - 1e-9), u(1, 2) = -1.9;
+    for (const double together : {0.0, 1e-8}) {
+        plm::PieceEvents events(c, gap);
+        events.guess({1, 1, 1});
+        assert_false(events.correct(u, 0));
+        std::int64_t pair = -1;
+        const double share = events.first(u, pair, together), last = together > 0 ? 0.5 + 5e-10 : 0.5;
+        assert_true(pair == 0 && close_to(share, last, 1e-13));
+        assert_true(events.pass() == (together > 0 ? 2 : 1) && events.states().is_closed(2));
+    }
 }
 
 } // namespace
@@ -161,6 +178,7 @@ int main() {
         cmocka_unit_test(energy_of_springs_in_the_mean),
         cmocka_unit_test(a_piece_of_the_flow_has_springs_in_series),
         cmocka_unit_test(the_first_event_of_a_piece),
+        cmocka_unit_test(pairs_that_switch_at_once),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

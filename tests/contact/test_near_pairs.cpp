@@ -22,7 +22,7 @@ plm::Matrix powers() {
 // The second pair, at 3 + 10, goes no farther than 1. Beside the coordinates, 10 + s acts on it.
 plm::Matrix expanded(char op, double travel_of_second) {
     plm::Matrix penetration(3, 3);
-    penetration(1, 0) = 10, penetration(1, 1) = 1;
+    penetration(0, 1) = 10, penetration(1, 1) = 1;
     plm::NearPairs().expand({1, 13, -2}, {2, travel_of_second, 3}, gap_by_pair(), op,
                             op == 'T' ? powers() : powers().transposed(), penetration);
     return penetration;
@@ -35,15 +35,15 @@ void near_pairs_are_polynomials_and_far_ones_a_side(void **) {
             const double second[] = {13, travel < 13 ? 0.0 : 1.0, travel < 13 ? 0.0 : -1.0};
             const double first[] = {1, 2, 0}, third[] = {-2, 2, 1};
             for (int k = 0; k < 3; ++k) {
-                assert_true(p(0, k) == first[k]);
-                assert_true(p(1, k) == second[k]);
-                assert_true(p(2, k) == third[k]);
+                assert_true(p(k, 0) == first[k]);
+                assert_true(p(k, 1) == second[k]);
+                assert_true(p(k, 2) == third[k]);
             }
         }
 }
 
 void a_pair_whose_way_is_not_known_is_near(void **) {
-    assert_true(expanded('N', NAN)(1, 2) == -1);
+    assert_true(expanded('N', NAN)(2, 1) == -1);
 }
 
 } // namespace

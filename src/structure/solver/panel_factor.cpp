@@ -15,14 +15,6 @@ void triangular_solve(char op, std::int64_t n, std::int64_t nrhs, const float *l
     strsm_("L", "L", &op, "U", &rows, &cols, &one, l, &ld_l, b, &ld_b, 1, 1, 1, 1);
 }
 
-/// C = beta C + alpha op(A) B, where op(A) is m x k.
-void multiply(char op, std::int64_t m, std::int64_t nrhs, std::int64_t k, float alpha, const float *a,
-              std::int64_t lda, const float *b, std::int64_t ldb, float beta, float *c, std::int64_t ldc) {
-    const blas_int rows = to_blas(m), cols = to_blas(nrhs), inner = to_blas(k);
-    const blas_int ld_a = leading(lda), ld_b = leading(ldb), ld_c = leading(ldc);
-    sgemm_(&op, "N", &rows, &cols, &inner, &alpha, a, &ld_a, b, &ld_b, &beta, c, &ld_c, 1, 1);
-}
-
 } // namespace
 
 PanelFactor::PanelFactor(const SparseMatrix &a, const Supernodes &s)
@@ -97,7 +89,7 @@ void PanelFactor::forward(std::int64_t nrhs) const {
         float *own = work_.data() + first_column_[node], *sums = rows_below_.data();
         triangular_solve('N', columns, nrhs, panel, rows, own, n_);
         if (below == 0) continue;
-        multiply('N', below, nrhs, columns, 1, panel + columns, rows, own, n_, 0, sums, below);
+        gemm('N', below, nrhs, columns, 1, panel + columns, rows, own, n_, 0, sums, below);
         const std::int64_t *row = row_.data() + first_row_[node] + columns;
         for (std::int64_t j = 0; j < nrhs; ++j)
             for (std::int64_t i = 0; i < below; ++i) work_[row[i] + j * n_] -= sums[i + j * below];
@@ -114,7 +106,7 @@ void PanelFactor::backward(std::int64_t nrhs) const {
             const std::int64_t *row = row_.data() + first_row_[node] + columns;
             for (std::int64_t j = 0; j < nrhs; ++j)
                 for (std::int64_t i = 0; i < below; ++i) known[i + j * below] = work_[row[i] + j * n_];
-            multiply('T', columns, nrhs, below, -1, panel + columns, rows, known, below, 1, own, n_);
+            gemm('T', columns, nrhs, below, -1, panel + columns, rows, known, below, 1, own, n_);
         }
         triangular_solve('T', columns, nrhs, panel, rows, own, n_);
     }
