@@ -523,7 +523,8 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
  * equations of the whole structure by more than 1 % (plm_branch_get_full_residual); with PLM_REASON_BASIS_TOO_SMALL when
  * the largest inside it does, unless the error that the basis makes there can be estimated at little cost and is below
  * 1 %, and when so many pairs open and close that the curve was followed on a part of the basis' coordinates and more of
- * them change its highest motion by more than "accuracy"; with PLM_REASON_NO_SWITCHING when no pair would open or close
+ * them change its highest motion by more than "accuracy"; with PLM_REASON_UNVERIFIED when, on such a curve, stability is
+ * not as more coordinates have it; with PLM_REASON_NO_SWITCHING when no pair would open or close
  * under a hundred times the motion; with PLM_REASON_TURNED_BACK when a fold led back to the end where the curve began. A
  * structure in free flight, or free along a rail: mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would
  * carry it away. */

@@ -11,6 +11,14 @@ constexpr std::int64_t widest_in_groups = 256; // the sums of wider ones would f
 
 } // namespace
 
+PieceContact::PieceContact(const Contact &contact, const Matrix &gap, const Matrix &flexibility,
+                           std::int64_t n_moving)
+    : contact_(contact), gap_(gap), flexibility_(flexibility), moving_(n_moving), norms_(gap.rows(), 0.0) {
+    for (std::int64_t j = 0; j < moving_; ++j)
+        for (std::int64_t i = 0; i < gap.rows(); ++i)
+            norms_[i] += contact.stiffness[i] * gap(i, j) * gap(i, j);
+}
+
 bool PieceContact::assign(const PairStates &states, Matrix &stiffness) {
     if (assigned_ && states == states_) return false;
     const bool changes = assigned_; // a set that stays needs no sums
@@ -101,6 +109,13 @@ void PieceContact::find_stiffness(Matrix &stiffness) {
     for (std::int64_t j = 0; j < moving_; ++j)
         for (std::int64_t i = j + 1; i < moving_; ++i)
             stiffness(i, j) = stiffness(j, i) = 0.5 * (stiffness(i, j) + stiffness(j, i));
+}
+
+double PieceContact::growth_since(const PairStates &other) const {
+    double sum = 0;
+    for (std::int64_t i : active_)
+        if (!other.is_closed(i)) sum += norms_[i];
+    return sum;
 }
 
 void PieceContact::add_forces(Matrix &u, Matrix &force) const {

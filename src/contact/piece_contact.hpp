@@ -11,14 +11,17 @@ class PieceContact {
   public:
     /// All are borrowed. gap: Z x n, of which the first n_moving columns count here; flexibility: Z x Z, or
     /// empty where nothing follows.
-    PieceContact(const Contact &contact, const Matrix &gap, const Matrix &flexibility, std::int64_t n_moving)
-        : contact_(contact), gap_(gap), flexibility_(flexibility), moving_(n_moving) {}
+    PieceContact(const Contact &contact, const Matrix &gap, const Matrix &flexibility, std::int64_t n_moving);
 
     /// stiffness: G_A^T S G_A (n_moving x n_moving); no pair is taken out by subtraction, which would leave
     /// eps k_n behind. False, and it stays as it is, where these are the present states. PLM_ERR_SINGULAR
     /// when F_A is not positive definite. A change of few pairs costs (Z / 8 + 4) n^2 flops where nothing
     /// follows and n is at most 256, else 2 |A| n^2.
     bool assign(const PairStates &states, Matrix &stiffness);
+
+    /// Bound of how far G_A^T S G_A is above that of other states, in the 2-norm, where nothing follows: the
+    /// springs that act now and do not there.
+    double growth_since(const PairStates &other) const;
 
     /// u (Z x k) as it would be without contact forces becomes the penetration; the forces, Z x k.
     void add_forces(Matrix &u, Matrix &force) const;
@@ -36,6 +39,7 @@ class PieceContact {
     Matrix rows_, sprung_;     // sprung_: sqrt(k_n) G, by pair
     std::vector<Matrix> sums_; // of groups of pairs, and of two such sums, up to all at 1: a binary tree
     DenseCholesky cholesky_;   // of 1/k_n + F_A
+    vector<double> norms_;     // k_n |g|^2 of each pair
     bool assigned_ = false;
 };
 

@@ -34,6 +34,9 @@ struct HbmOptions {
            max_step = 0.15; // arc length, where 1 = the window's width or the response's scale
     StabilityKind stability = StabilityKind::automatic; // Floquet multipliers of each point
     bool bifurcations = true;                           // locate folds, branch points, ...
+    // Flops of a step of Newton's method for exact motions, about half a second: where one takes longer, a
+    // curve would take minutes, and what it would know better is told, not followed. No key.
+    double dearest_step = 2.5e9;
 
     /// Half of the accuracy, unless set: the basis takes its share.
     double allowed_harmonic_error() const {

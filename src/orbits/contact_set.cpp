@@ -25,9 +25,6 @@ ContactSet::ContactSet(const FlowModel &model)
     } else {
         damping_bound_ = spectral_bound(square_block(model_.damping(), 0, massive_));
     }
-    const Matrix &gap = model_.gap_by_pair();
-    for (std::int64_t i = 0; i < model_.n_pairs(); ++i)
-        pair_norm_.push_back(model_.contact_stiffness()[i] * dot(moving_, gap.col(i), gap.col(i)));
 }
 
 // |S|_2 <= |S^2|_F^(1/2), at most n^(1/4) too large; scaled, so that nothing overflows.
@@ -44,18 +41,16 @@ void ContactSet::assign(const PairStates &states) {
     if (!contact_.assign(states, stiffness_)) return;
     for (std::int64_t j = 0; j < moving_; ++j) stiffness_(j, j) += model_.lambda()[j];
     relaxing_ = stiffness_.columns(massive_, moving_ - massive_);
-    if (!raise_rate(states)) find_rate(states);
+    if (!raise_rate()) find_rate(states);
 }
 
 // |K_i| grows by no more than the springs that act now and did not where it was bounded, and those that act
 // no more leave the bound as it is. False: it might be too large for its purpose.
-bool ContactSet::raise_rate(const PairStates &states) {
+bool ContactSet::raise_rate() {
     constexpr int oldest = 32;
     constexpr double loosest = 1.2;
-    if (moving_ != massive_ || bounded_.empty() || ++age_ > oldest) return false;
-    double bound = bound_;
-    for (std::int64_t i = 0; i < states.size(); ++i)
-        if (states.is_closed(i) && !bounded_.is_closed(i)) bound += pair_norm_[i];
+    if (model_.n_following() > 0 || bounded_.empty() || ++age_ > oldest) return false;
+    const double bound = bound_ + contact_.growth_since(bounded_);
     if (bound > loosest * bound_) return false;
     rate_ = std::sqrt(bound) + damping_bound_;
     return true;

@@ -29,7 +29,7 @@ class ContactSet {
 
   private:
     double spectral_bound(const Matrix &symmetric);
-    bool raise_rate(const PairStates &states);
+    bool raise_rate();
     void find_rate(const PairStates &states);
 
     const FlowModel &model_;
@@ -37,8 +37,7 @@ class ContactSet {
     double damping_bound_ = 0, rate_ = 0;
     double bound_ = 0; // of |K_i| for the states bounded_
     PairStates bounded_;
-    int age_ = 0;              // sets since
-    vector<double> pair_norm_; // k_n |g|^2 of each
+    int age_ = 0; // sets since
     PieceContact contact_;
     Matrix stiffness_, square_, relaxing_; // relaxing_: columns of K_i, as rows, of what relaxes
 };

@@ -12,6 +12,7 @@ constexpr double longest_turn = 3.0;       // rad of a mode that a polynomial de
 constexpr double nearest_resonance = 1e-7; // of the rate
 constexpr double clear_of_zero = 3;        // times what the fast modes may add: a piece that gets somewhere
 constexpr double truncation = 1e-17;
+constexpr double most_growth = 100; // of an unstable mode in a piece, its logarithm: nothing overflows
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 } // namespace
@@ -184,7 +185,11 @@ double ModalPieces::expand(double longest) {
         const double re = present_[m.first], im = m.is_pair ? present_[m.first + 1] : 0.0;
         size_.push_back(std::sqrt(re * re + im * im));
     }
+    if (!std::isfinite(size)) // no duration would do
+        throw Error(PLM_ERR_CONVERGENCE, "the motion grows beyond all numbers").reason(PLM_REASON_NOT_FINITE);
     double duration = longest;
+    for (const ContactModes::Mode &m : modes_->modes())
+        if (m.rate.real() > 0) duration = std::min(duration, most_growth / m.rate.real());
     while (!allows(duration)) duration *= 0.5; // at the end all modes are resolved
     duration_ = duration;
     fill_powers(duration);

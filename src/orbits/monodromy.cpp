@@ -44,7 +44,7 @@ Matrix chain(const FlowModel &model, const std::vector<ContactInterval> &interva
     for (std::int64_t i = 0; i < n; ++i) {
         if (i % 16 == 0) watch.step("monodromy", static_cast<double>(i) / static_cast<double>(n));
         const auto next = modes ? modes->find(intervals[i].states, effort_of_series) : nullptr;
-        if (at && next) {
+        if (modes && at && next) {
             const Matrix &way = modes->transition(at, next);
             scratch.reset(m.rows(), m.cols());
             gemm('N', 'N', 1.0, way, m, 0.0, scratch);
@@ -70,6 +70,21 @@ Matrix chain(const FlowModel &model, const std::vector<ContactInterval> &interva
     return m;
 }
 
+// Where events are dense; long pieces are squared in double precision.
+bool saves_in_single(const FlowModel &model, const std::vector<ContactInterval> &intervals,
+                     double tolerance) {
+    constexpr double faster = 2; // a product of the same size
+    ContactSet stiffest(model);
+    stiffest.assign_stiffest();
+    double in_single = 0, in_double = 0;
+    for (const ContactInterval &interval : intervals) {
+        const double x = stiffest.rate() * interval.duration;
+        in_single += PieceExponential<float>::n_products(x, tolerance);
+        in_double += PieceExponential<double>::n_products(x, tolerance);
+    }
+    return in_single < faster * in_double;
+}
+
 bool is_finite(const Matrix &m) {
     return std::all_of(m.data(), m.col(m.cols()), [](double v) { return std::isfinite(v); });
 }
@@ -80,7 +95,8 @@ Matrix monodromy(const FlowModel &model, const std::vector<ContactInterval> &int
                  Watch watch, ContactModesKept *modes) {
     const std::int64_t n = static_cast<std::int64_t>(intervals.size());
     for (std::int64_t i = 0; i < n; ++i) check(model, intervals[i], i);
-    if (tolerance >= single_precision && model.n_moving() == model.n_massive()) {
+    if (tolerance >= single_precision && model.n_moving() == model.n_massive() &&
+        saves_in_single(model, intervals, tolerance)) {
         Matrix m = chain<float>(model, intervals, tolerance, watch, nullptr);
         if (is_finite(m)) return m; // units of its own may leave the range of single precision
     }

@@ -107,6 +107,10 @@ void OrbitEquations::linearize() {
         for (std::int64_t j = 0; j < n; ++j)
             for (std::int64_t i = 0; i < n; ++i) monodromy_(i, j) *= weight_[i] / weight_[j];
     }
+    // of a motion that grows so fast nothing is left to correct by
+    overflown_ =
+        !std::all_of(monodromy_.data(), monodromy_.col(n), [](double v) { return std::isfinite(v); });
+    if (overflown_) monodromy_.reset(n, n);
     Matrix a = tangent();
     lu_.factor(a);
 }
@@ -118,6 +122,7 @@ Matrix OrbitEquations::tangent() const {
 }
 
 void OrbitEquations::solve(double *b, std::int64_t n) {
+    if (overflown_) std::fill_n(b, n * size(), NAN);
     if (std::all_of(b, b + n * size(), [](double v) { return std::isfinite(v); })) lu_.solve(b, n, size());
 }
 

@@ -67,7 +67,7 @@ class OrbitEquations final : public Residual {
     vector<double> weight_, share_;   // of the unknowns
     vector<double> x_, end_, change_; // the last run: from, to, and by the parameter
     double p_ = 0, size_ = 0;
-    bool known_ = false, failed_ = false;
+    bool known_ = false, failed_ = false, overflown_ = false;
     std::vector<ContactInterval> intervals_;
     Matrix monodromy_;
     RealLu lu_;

@@ -12,6 +12,8 @@ namespace {
 // of 16 n^3 flops. The rounding error grows with the largest term, e^x, which is the other reason to stop
 // here.
 constexpr double longest_series = 3.0;
+// Each squaring doubles the rounding error, too. Single precision has no digits for that: step by step.
+constexpr double longest_in_single = 1.5;
 
 // Of a phase beyond 1 / eps no digit is left; what overflowed has none either.
 void require_resolved(double x) {
@@ -31,12 +33,18 @@ PieceExponential<Real>::PieceExponential(const FlowModel &model, double toleranc
       size_(model.state_size()), tolerance_(tolerance) {
     for (vector<Real> *v : {&block_.y, &block_.v, &older_, &newer_, &next_}) v->resize(n_ * size_);
     stiffness_.resize(n_ * n_);
-    if (model.has_diagonal_damping()) {
-        for (std::int64_t i = 0; i < n_; ++i) damping_.push_back(Real(model.damping_diagonal()[i]));
-    } else {
-        for (std::int64_t j = 0; j < n_; ++j)
-            for (std::int64_t i = 0; i < n_; ++i) damping_.push_back(Real(model.damping()(i, j)));
-    }
+    damping_.resize(model.has_diagonal_damping() ? n_ : n_ * n_);
+}
+
+// dt^2 K and dt C: of the order of x, whatever the units.
+template <class Real> void PieceExponential<Real>::scale_by(double dt) {
+    const double *k = system_.stiffness().data();
+    for (std::int64_t i = 0; i < n_ * n_; ++i) stiffness_[i] = static_cast<Real>(dt * dt * k[i]);
+    const bool diagonal = model_.has_diagonal_damping();
+    for (std::int64_t j = 0; j < (diagonal ? 1 : n_); ++j)
+        for (std::int64_t i = 0; i < n_; ++i)
+            damping_[i + j * n_] =
+                static_cast<Real>(dt * (diagonal ? model_.damping_diagonal()[i] : model_.damping()(i, j)));
 }
 
 template <class Real> double PieceExponential<Real>::cube() const {
@@ -48,6 +56,15 @@ template <class Real> void PieceExponential<Real>::make_identity(Block &block) c
     block.v.assign(n_ * size_, 0);
     for (std::int64_t j = 0; j < n_; ++j) block.y[j + j * n_] = 1;
     for (std::int64_t j = 0; j < massive_; ++j) block.v[j + (n_ + j) * n_] = 1;
+}
+
+template <class Real> double PieceExponential<Real>::n_products(double x, double tolerance) {
+    if constexpr (std::is_same_v<Real, float>) {
+        const double steps = std::max(1.0, std::ceil(x / longest_in_single));
+        return steps * static_cast<double>(taylor_terms(x / steps, tolerance) - 1);
+    }
+    if (x <= longest_series) return static_cast<double>(taylor_terms(x, tolerance) - 1);
+    return static_cast<double>(taylor_terms(1.0, tolerance)) + 4 * (std::ceil(std::log2(x)) + 1);
 }
 
 template <class Real> void PieceExponential<Real>::set_identity() {
@@ -90,8 +107,12 @@ template <class Real> std::int64_t PieceExponential<Real>::n_terms(double x, dou
 template <class Real> void PieceExponential<Real>::apply(const PairStates &states, double dt) {
     if (dt == 0) return;
     system_.assign(states);
-    std::copy_n(system_.stiffness().data(), n_ * n_, stiffness_.data());
     const double x = system_.rate() * dt;
+    if constexpr (std::is_same_v<Real, float>) {
+        const double steps = std::max(1.0, std::ceil(x / longest_in_single));
+        for (double k = 0; k < steps; ++k) sum(block_, dt / steps, n_terms(x / steps, tolerance_));
+        return;
+    }
     if (x <= longest_series) {
         sum(block_, dt, n_terms(x, tolerance_));
         return;
@@ -117,7 +138,8 @@ template <class Real> void PieceExponential<Real>::apply(const PairStates &state
 template <class Real> void PieceExponential<Real>::sum(Block &block, double dt, std::int64_t n_terms) {
     worked(static_cast<double>(n_terms) * 4 * cube());
     const std::int64_t size = n_ * size_;
-    const Real step = Real(dt);
+    const Real step = static_cast<Real>(dt);
+    scale_by(dt);
     std::copy_n(block.y.data(), size, older_.data());
     for (std::int64_t i = 0; i < size; ++i) newer_[i] = step * block.v[i];
     relax(1, dt, older_, newer_);
@@ -140,9 +162,9 @@ template <class Real> void PieceExponential<Real>::sum(Block &block, double dt, 
 
 template <class Real> void PieceExponential<Real>::next_term(std::int64_t k, double dt) {
     const double order = static_cast<double>(k);
-    gemm('N', n_, size_, n_, Real(-dt * dt / (order * (order - 1))), stiffness_.data(), n_, older_.data(), n_,
-         0, next_.data(), n_);
-    const Real factor = Real(dt / order);
+    gemm('N', n_, size_, n_, static_cast<Real>(-1 / (order * (order - 1))), stiffness_.data(), n_,
+         older_.data(), n_, 0, next_.data(), n_);
+    const Real factor = static_cast<Real>(1 / order);
     if (model_.has_diagonal_damping()) {
         for (std::int64_t j = 0; j < size_; ++j)
             for (std::int64_t i = 0; i < n_; ++i)

@@ -1,7 +1,7 @@
 #include "searches/compressed_curve.hpp"
 #include "hbm/branch_path.hpp"
-#include "linalg/lapack.hpp"
 #include "reduction/compression.hpp"
+#include "searches/compressed_motion.hpp"
 #include "searches/harmonic_choice.hpp"
 #include "searches/orbit_points.hpp"
 #include "searches/wider_range.hpp"
@@ -14,9 +14,6 @@ namespace {
 // Below, a step on the basis itself takes some hundredths of a second, and a curve few seconds.
 constexpr double dear_step = 2e7; // flops
 constexpr std::int64_t many_coordinates = 30;
-// Above, it takes about half a second, and a curve minutes: what such a model would know better is said, not
-// followed.
-constexpr double too_dear_step = 2.5e9;
 // What is left out of the motions, in the energy norm: at first, and how much less each time that was too
 // much. The amplitudes that follow are nearer.
 constexpr double left_out_at_first = 1e-3, less = 0.3;
@@ -25,7 +22,9 @@ constexpr double left_out_at_first = 1e-3, less = 0.3;
 constexpr double grows = 1.5;
 // Of the accuracy: the basis takes its share, too.
 constexpr double share_of_accuracy = 0.3;
-constexpr double share_of_motions = 1e-3;
+// Above, the same holds of the motions: a step takes a tenth of a second. Below, they are as exact as others:
+// near grazing, multipliers answer to the root of an error.
+constexpr double long_step = 5e8, share_of_motions = 1e-3;
 // Modes below so many times the highest frequency of the range stay whole: they are those that internal
 // resonances of low order can set in motion, and whose multipliers die out slowly.
 constexpr double slow = 3;
@@ -35,133 +34,13 @@ constexpr double much_smaller = 0.7;
 constexpr double much_smaller_where_unstable = 0.6;
 constexpr std::int64_t motions_looked_at = 6; // of the first curve, besides its highest
 constexpr std::int64_t most_rounds = 6;
-constexpr std::int64_t corrected_harmonics = 24; // those above hardly move
 // Of the first curve: some two hundred solutions that together take a second or two.
 constexpr double flops_of_look = 1e9;
 
-constexpr double negligible = 1e-6; // stiffness, of omega^2
 // Of multipliers near the unit circle, on curves of cracked plates; and of motions whose multipliers are
 // right to that.
 constexpr double multiplier_error = 1e-4, motion_error = 1e-5;
 constexpr double same_motion = 0.1; // of its size: farther away it is another one
-
-using complex = std::complex<double>;
-
-Matrix mean_of(const BranchPoint &p) {
-    Matrix column(static_cast<std::int64_t>(p.eta_0.size()), 1);
-    std::copy(p.eta_0.begin(), p.eta_0.end(), column.data());
-    return column;
-}
-
-vector<double> as_vector(const Matrix &column) {
-    return vector<double>(column.data(), column.data() + column.rows());
-}
-
-BranchPoint with_coordinates(const BranchPoint &p, const Matrix &mean, Matrix eta) {
-    BranchPoint out;
-    out.omega = p.omega;
-    out.force_scale = p.force_scale;
-    out.eta_0 = as_vector(mean);
-    out.n_harmonics = eta.cols() / 2;
-    out.eta = std::move(eta);
-    return out;
-}
-
-// In the coordinates of the whole basis, without the motion itself.
-BranchPoint uncompressed(const ReducedModel &m, const BranchPoint &p) {
-    BranchPoint q = p;
-    q.motion = nullptr;
-    q.eta_0 = as_vector(uncompressed(m, mean_of(p)));
-    q.eta = uncompressed(m, p.eta);
-    return q;
-}
-
-// The coordinates of a compressed model that come nearest to motions of the whole one, by their energy.
-class NearestCoordinates {
-  public:
-    NearestCoordinates(const ReducedModel &model, double omega) : weighted_(model.from->coordinates) {
-        const ReducedModel &whole = *model.from->model;
-        const Matrix y = weighted_;
-        for (std::int64_t j = 0; j < y.cols(); ++j)
-            for (std::int64_t i = 0; i < y.rows(); ++i)
-                weighted_(i, j) *= whole.lambda[i] + omega * omega * whole.mass(i);
-        Matrix gram = product('T', 'N', y, weighted_);
-        known_ = gram_.factor(gram);
-    }
-    bool known() const { return known_; }
-    Matrix of(const Matrix &motions) const {
-        Matrix c = product('T', 'N', weighted_, motions);
-        gram_.solve(c.data(), c.cols(), c.rows());
-        return c;
-    }
-
-  private:
-    Matrix weighted_;
-    DenseCholesky gram_;
-    bool known_ = false;
-};
-
-// The pairs' springs, weighted by the share of the period in which they act.
-vector<double> mean_springs(const ReducedModel &m, const BranchPoint &exact) {
-    vector<double> spring = m.contact.stiffness;
-    const vector<double> &share = exact.motion->closed_shares();
-    for (std::size_t i = 0; i < spring.size(); ++i) spring[i] *= share[i];
-    return spring;
-}
-
-// B^T diag(spring) B.
-Matrix stiffness_of(const ReducedModel &m, const vector<double> &spring) {
-    Matrix weighted = m.gap;
-    for (std::int64_t j = 0; j < weighted.cols(); ++j)
-        for (std::int64_t i = 0; i < weighted.rows(); ++i) weighted(i, j) *= spring[i];
-    return product('T', 'N', m.gap, weighted);
-}
-
-// -Omega^2 M + i Omega C + K + S at one harmonic, column by column.
-vector<complex> dynamic_stiffness(const ReducedModel &m, const Matrix &springs, double omega) {
-    const std::int64_t r = m.size();
-    vector<complex> a(static_cast<std::size_t>(r * r));
-    for (std::int64_t j = 0; j < r; ++j)
-        for (std::int64_t i = 0; i < r; ++i)
-            a[i + j * r] = complex(springs(i, j), m.damping.empty() ? 0.0 : omega * m.damping(i, j));
-    for (std::int64_t j = 0; j < r; ++j) {
-        a[j + j * r] += m.lambda[j] - omega * omega * m.mass(j);
-        if (m.damping.empty()) a[j + j * r] += complex(0, omega * m.damping_diagonal[j]);
-    }
-    return a;
-}
-
-// Of harmonic h, as Re(x exp(i h omega t)); h = 0: the mean.
-vector<complex> motion_of(const BranchPoint &p, std::int64_t h) {
-    vector<complex> x(p.eta_0.begin(), p.eta_0.end());
-    for (std::int64_t j = 0; h > 0 && j < p.eta.rows(); ++j)
-        x[j] = {p.eta(j, 2 * h - 2), -p.eta(j, 2 * h - 1)};
-    return x;
-}
-
-// The loads less the contact's forces and those of inertia, damping and stiffness. contact: on the
-// coordinates, r x (2H + 1).
-vector<complex> missing_force(const ReducedModel &m, const BranchPoint &p, const Matrix &contact,
-                              std::int64_t h) {
-    const std::int64_t r = m.size();
-    const double omega = static_cast<double>(h) * p.omega;
-    const vector<complex> x = motion_of(p, h);
-    vector<complex> f(r);
-    for (std::int64_t i = 0; i < r; ++i)
-        f[i] = h == 0 ? complex(m.preload_0[i] - contact(i, 0))
-                      : complex(-contact(i, 2 * h - 1), contact(i, 2 * h));
-    if (const auto load = m.excitation.find(static_cast<int>(h)); load != m.excitation.end())
-        for (std::int64_t i = 0; i < r; ++i)
-            f[i] += p.force_scale *
-                    complex(load->second.real[i], load->second.imag.empty() ? 0 : load->second.imag[i]);
-    for (std::int64_t j = 0; j < r; ++j) {
-        f[j] -= (m.lambda[j] - omega * omega * m.mass(j)) * x[j];
-        if (m.damping.empty()) f[j] -= complex(0, omega * m.damping_diagonal[j]) * x[j];
-        for (std::int64_t i = 0; i < m.damping.rows(); ++i)
-            f[i] -= complex(0, omega * m.damping(i, j)) * x[j];
-    }
-    return f;
-}
 
 bool changes_stability(const BranchPoint &p) {
     return p.bifurcation != PLM_BIFURCATION_NONE && p.bifurcation != PLM_BIFURCATION_FOLD;
@@ -190,7 +69,8 @@ bool worth_compressing(const ReducedModel &whole, const HbmOptions &options) {
 }
 
 HbmOptions options_on(const ReducedModel &model, HbmOptions options) {
-    if (model.from) options.tolerance = std::max(options.tolerance, share_of_motions * options.accuracy);
+    if (model.from && exact_step_flops(model, options) > long_step)
+        options.tolerance = std::max(options.tolerance, share_of_motions * options.accuracy);
     return options;
 }
 
@@ -212,7 +92,7 @@ double CurveCompression::tolerance() const {
 }
 
 bool CurveCompression::is_dear(const ReducedModel &model) const {
-    return exact_step_flops(model, options_) > too_dear_step;
+    return exact_step_flops(model, options_) > options_.dearest_step;
 }
 
 std::shared_ptr<const ReducedModel> CurveCompression::compressed_after(const ReducedModel *last) const {
@@ -225,7 +105,8 @@ std::shared_ptr<const ReducedModel> CurveCompression::compressed_after(const Red
 
 // point: in the coordinates of the whole basis.
 void CurveCompression::take(const BranchPoint &point, Matrix &motions) const {
-    Matrix columns = mean_of(point);
+    Matrix columns(static_cast<std::int64_t>(point.eta_0.size()), 1);
+    std::copy(point.eta_0.begin(), point.eta_0.end(), columns.data());
     columns.append(point.eta);
     for (std::int64_t k = 0; k < columns.rows() * columns.cols(); ++k) columns.data()[k] /= scale_;
     motions.append(columns);
@@ -240,39 +121,13 @@ double CurveCompression::amplitude(const std::shared_ptr<const ReducedModel> &mo
 
 bool CurveCompression::make_exact_on(const std::shared_ptr<const ReducedModel> &model, BranchPoint &point,
                                      ElseMarching otherwise) const {
-    const NearestCoordinates nearest(*model, point.omega);
-    if (!nearest.known()) return false;
-    BranchPoint guess = with_coordinates(point, nearest.of(mean_of(point)), nearest.of(point.eta));
+    BranchPoint guess;
     NewtonWork work;
+    if (!compress(*model, point, guess)) return false;
     if (!make_exact(model, options_on(*model, options_), watch_.quiet(), guess, work, otherwise))
         return false;
     point = std::move(guess);
     return true;
-}
-
-// What the whole basis misses of equilibrium in an exact motion of the compressed one, harmonic by harmonic
-// (the mean first), answers with the contact's springs at their mean over the period.
-BranchPoint CurveCompression::corrected(const std::shared_ptr<const ReducedModel> &model,
-                                        const BranchPoint &exact) const {
-    BranchPoint p = uncompressed(*model, exact);
-    const std::int64_t n = std::min(p.eta.cols() / 2, corrected_harmonics), r = whole_->size();
-    const Matrix forces = product('T', 'N', whole_->gap, exact.motion->contact_forces(n)),
-                 springs = stiffness_of(*whole_, mean_springs(*whole_, exact));
-    ComplexLu lu;
-    for (std::int64_t h = 0; h <= n; ++h) {
-        vector<complex> change = missing_force(*whole_, p, forces, h),
-                        stiffness = dynamic_stiffness(*whole_, springs, static_cast<double>(h) * p.omega);
-        if (h == 0) // where nothing but contact holds the structure
-            for (std::int64_t j = 0; j < r; ++j) stiffness[j + j * r] += negligible * p.omega * p.omega;
-        lu.factor(r, stiffness);
-        lu.solve(change.data(), 1, r);
-        for (std::int64_t j = 0; j < r; ++j)
-            if (h == 0)
-                p.eta_0[j] += change[j].real();
-            else
-                p.eta(j, 2 * h - 2) += change[j].real(), p.eta(j, 2 * h - 1) -= change[j].imag();
-    }
-    return p;
 }
 
 // Exact motions on a model beside the points, which become theirs, and their corrections: what a model needs
@@ -292,7 +147,7 @@ double CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model
         point.unstable = stability_of(exact) == 0;
         needs.springs.push_back(mean_springs(*model, exact));
         take(uncompressed(*model, exact), needs.motions);
-        point.motion = corrected(model, exact);
+        point.motion = corrected_on_whole(*model, exact);
         take(point.motion, needs.motions);
         return true;
     };
@@ -368,7 +223,7 @@ bool CurveCompression::confirms(const Branch &curve) {
     if (!exact.motion) return false;
     std::vector<Point> one{{uncompressed(curve.reduced(), exact), amplitude(curve.reduced_model(), exact)}};
     take(one[0].motion, needs_.motions);
-    one[0].motion = corrected(curve.reduced_model(), exact);
+    one[0].motion = corrected_on_whole(curve.reduced(), exact);
     take(one[0].motion, needs_.motions);
     left_out_ *= less;
     better_ = compressed_after(&curve.reduced());
@@ -386,30 +241,38 @@ bool CurveCompression::is_spent() const {
 }
 
 void CurveCompression::warn(Branch &curve) const {
-    if (change_ <= options_.accuracy) return;
+    const Watch keeping = watch_.keeping(curve.warnings);
+    const std::string dear =
+        "so many pairs open and close that a nearer curve takes many minutes. Set motion to "
+        "exact for a curve on the whole basis, or n_harmonics for one by harmonic balance";
     const double hz = curve.points()[static_cast<std::size_t>(largest_response(curve))].omega / (2 * M_PI);
-    watch_.keeping(curve.warnings)
-        .warn(PLM_REASON_BASIS_TOO_SMALL,
-              format("this curve of exact motions was followed on %lld of the basis' %lld coordinates, and "
-                     "at its highest point, %.6g Hz, %lld of them change the amplitude by %.2g of itself "
-                     "(accuracy %.2g): so many pairs open and close that a nearer curve takes many "
-                     "minutes. Set motion to exact for a curve on the whole basis, or n_harmonics for one "
-                     "by harmonic balance",
-                     static_cast<long long>(curve.reduced().size()), static_cast<long long>(whole_->size()),
-                     hz, static_cast<long long>(better_->size()), change_, options_.accuracy));
+    if (change_ > options_.accuracy)
+        keeping.warn(
+            PLM_REASON_BASIS_TOO_SMALL,
+            format("this curve of exact motions was followed on %lld of the basis' %lld coordinates, "
+                   "and at its highest point, %.6g Hz, %lld of them change the amplitude by %.2g of "
+                   "itself (accuracy %.2g): %s",
+                   static_cast<long long>(curve.reduced().size()), static_cast<long long>(whole_->size()), hz,
+                   static_cast<long long>(better_->size()), change_, options_.accuracy, dear.c_str()));
+    if (!doubtful_.empty())
+        keeping.warn(
+            PLM_REASON_UNVERIFIED,
+            format("%s (%lld of the basis' %lld coordinates), or no motion was found there on a larger "
+                   "one: stability flags near there are not certain, and %s",
+                   doubtful_.c_str(), static_cast<long long>(curve.reduced().size()),
+                   static_cast<long long>(whole_->size()), dear.c_str()));
 }
 
-namespace {
-
-bool agree(const BranchPoint &p, const vector<std::complex<double>> &multipliers) {
-    const double outside = std::abs(multipliers[0]) - 1;
-    return std::abs(outside) <= multiplier_error || (outside < 0) == (stability_of(p) == 1);
+bool CurveCompression::agrees(const BranchPoint &on_curve, const std::shared_ptr<const ReducedModel> &model,
+                              const BranchPoint &there, double amplitude_on_curve, double error) const {
+    const double outside = std::abs(there.multipliers[0]) - 1;
+    return std::abs(outside) <= multiplier_error || (outside < 0) == (stability_of(on_curve) == 1) ||
+           // beside a fold there is another motion of the same frequency
+           std::abs(amplitude(model, there) - amplitude_on_curve) > error * peak_;
 }
-
-} // namespace
 
 // The whole basis beside a point of the curve: the motion found from the point's own state, or by other ways.
-bool CurveCompression::agrees_on_stability(const Branch &curve, std::int64_t point) const {
+bool CurveCompression::agrees_on_whole(const Branch &curve, std::int64_t point) const {
     const BranchPoint &on_curve = curve.points()[static_cast<std::size_t>(point)];
     HbmOptions nearly = options_;
     nearly.tolerance = std::max(options_.tolerance, motion_error);
@@ -421,17 +284,14 @@ bool CurveCompression::agrees_on_stability(const Branch &curve, std::int64_t poi
     for (std::size_t i = 0; i < start.size(); ++i) moved = std::hypot(moved, at.x[i] - start[i]);
     BranchPoint p;
     if (out.converged && moved <= same_motion * norm2(equations.size(), at.x.data())) {
-        if (agree(on_curve, multipliers(equations.monodromy()))) return true;
         p = orbit_point(equations, nearly, at, out.residual, out.iterations);
+        p.multipliers = multipliers(equations.monodromy());
     } else {
         p = uncompressed(curve.reduced(), on_curve);
         NewtonWork work;
         if (!make_exact(whole_, nearly, watch_.quiet(), p, work) || p.multipliers.empty()) return false;
-        if (agree(on_curve, p.multipliers)) return true;
     }
-    // beside a fold there is another motion of the same frequency
-    return std::abs(amplitude(whole_, p) - amplitude(curve.reduced_model(), on_curve)) >
-           options_.accuracy * peak_;
+    return agrees(on_curve, whole_, p, amplitude(curve.reduced_model(), on_curve), options_.accuracy);
 }
 
 // The same on the last model that was better.
@@ -439,24 +299,25 @@ bool CurveCompression::agrees_on_better(const Branch &curve, std::int64_t point)
     const BranchPoint &on_curve = curve.points()[static_cast<std::size_t>(point)];
     BranchPoint p = uncompressed(curve.reduced(), on_curve);
     if (!make_exact_on(better_, p, ElseMarching::no) || p.multipliers.empty()) return false;
-    return agree(on_curve, p.multipliers) ||
-           std::abs(amplitude(better_, p) - amplitude(curve.reduced_model(), on_curve)) >
-               std::max(options_.accuracy, change_) * peak_;
+    return agrees(on_curve, better_, p, amplitude(curve.reduced_model(), on_curve),
+                  std::max(options_.accuracy, change_));
 }
 
-bool CurveCompression::confirms_stability(const Branch &curve) const {
+bool CurveCompression::confirms_stability(const Branch &curve) {
     const auto &points = curve.points();
     vector<std::size_t> at = beside_changes(points);
     at.push_back(static_cast<std::size_t>(largest_response(curve)));
     const auto agrees =
-        is_dear(*whole_) ? &CurveCompression::agrees_on_better : &CurveCompression::agrees_on_stability;
+        is_dear(*whole_) ? &CurveCompression::agrees_on_better : &CurveCompression::agrees_on_whole;
+    doubtful_.clear();
     for (std::size_t i : at) {
         if (!points[i].motion || stability_of(points[i]) < 0 ||
             (this->*agrees)(curve, static_cast<std::int64_t>(i)))
             continue;
-        watch_.log(1, format("stability at %.6g Hz is not as on the compressed model",
-                             points[i].omega / (2 * M_PI)));
-        return false;
+        doubtful_ =
+            format("stability at %.6g Hz is not as on the compressed model", points[i].omega / (2 * M_PI));
+        watch_.log(1, doubtful_);
+        return is_dear(*whole_); // nothing else is at hand: warn()
     }
     return true;
 }

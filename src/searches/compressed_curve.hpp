@@ -14,8 +14,8 @@ namespace plm {
 /// Whether a curve of exact motions on this model (P_0 = P) is to be followed on a compressed one.
 bool worth_compressing(const ReducedModel &whole, const HbmOptions &options);
 
-/// Where the model is a compressed one, motions on it are exact to a thousandth of the accuracy: it has no
-/// more of it.
+/// Where the model is a compressed one and each step on it takes long, motions are exact to a thousandth of
+/// the accuracy: the model has no more of it.
 HbmOptions options_on(const ReducedModel &model, HbmOptions options);
 
 class CurveCompression {
@@ -36,12 +36,13 @@ class CurveCompression {
     bool confirms(const Branch &curve);
     /// After that: to follow a curve on a better model would take minutes.
     bool is_spent() const;
-    /// Says what the last confirms() found, where that is more than the accuracy.
+    /// Says what the last confirms() found, where that is more than the accuracy, and what the last
+    /// confirms_stability() did not.
     void warn(Branch &curve) const;
     /// Whether the curve is stable on the whole basis (where a step on that takes too long: on the better
-    /// model of the last confirms()) where it is on that model: at its highest motion, and between the points
-    /// where it becomes stable or unstable.
-    bool confirms_stability(const Branch &curve) const;
+    /// model of the last confirms(), and if not, that is left to warn()) where it is on that model: at its
+    /// highest motion, and between the points where it becomes stable or unstable.
+    bool confirms_stability(const Branch &curve);
 
   private:
     struct Point {
@@ -67,8 +68,9 @@ class CurveCompression {
     bool make_exact_on(const std::shared_ptr<const ReducedModel> &model, BranchPoint &point,
                        ElseMarching otherwise) const;
     void take(const BranchPoint &point, Matrix &motions) const;
-    BranchPoint corrected(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &exact) const;
-    bool agrees_on_stability(const Branch &curve, std::int64_t point) const;
+    bool agrees(const BranchPoint &on_curve, const std::shared_ptr<const ReducedModel> &model,
+                const BranchPoint &there, double amplitude_on_curve, double error) const;
+    bool agrees_on_whole(const Branch &curve, std::int64_t point) const;
     bool agrees_on_better(const Branch &curve, std::int64_t point) const;
     double amplitude(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &point) const;
 
@@ -81,6 +83,7 @@ class CurveCompression {
     Output output_;
     double peak_ = 0;
     double change_ = INFINITY; // of the highest motion, on better_
+    std::string doubtful_;     // where stability is not as on the curve
 };
 
 /// A curve on a compressed model as one of the whole basis, where what goes beyond the curve belongs: exact

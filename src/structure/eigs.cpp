@@ -70,9 +70,10 @@ bool are_dependent(const SparseMatrix &m, const Matrix &x) {
 
 /// The same of one vector that a search found apart from others (M times them), and thinks of unit length.
 bool is_noise(const SparseMatrix &m, const Matrix &one, const Matrix &m_others) {
+    constexpr double nearly = 1e-6; // eigenvectors are orthonormal to more digits, noise to none
     const Matrix along = product('T', 'N', m_others, one),
                  own = product('T', 'N', one, multiply_transposed(m, one));
-    return !(norm2(along.rows(), along.data()) < 1e-6 && std::abs(own(0, 0) - 1) < 1e-6);
+    return !(norm2(along.rows(), along.data()) < nearly && std::abs(own(0, 0) - 1) < nearly);
 }
 
 bool needs_dense(const Pencil &pencil, std::int64_t n_wanted) {

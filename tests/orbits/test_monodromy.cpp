@@ -92,6 +92,35 @@ void a_single_interval_is_its_exponential(void **) {
     assert_true(below(single_error(1e12, 1e-3), 1e-11));
 }
 
+// In single precision where pieces are short; unit: of the rates. Long pieces are for double precision.
+double single_precision_error(double unit, double longest) {
+    Case c = damped_chain(50);
+    for (std::vector<double> *k : {&c.s.stiffness, &c.s.contact_stiffness})
+        for (double &v : *k) v *= unit * unit;
+    for (double &v : c.s.damping) v *= unit;
+    const auto model = flow_model(c.s);
+    std::vector<plm::ContactInterval> intervals;
+    for (int k = 0; k < 30; ++k) {
+        intervals.push_back({0.02 / unit, set({1, 0, 1})});
+        intervals.push_back({1e-9 / unit, set({0, 1, 1})});
+        intervals.push_back({0.1 / unit, set({0, 0, 1})});
+        intervals.push_back({longest / unit, set({1, 1, 1})});
+    }
+    Matrix a = plm::monodromy(*model, intervals), b = plm::monodromy(*model, intervals, 1e-7);
+    const std::int64_t n = model->size();
+    for (Matrix *m : {&a, &b})
+        for (std::int64_t j = 0; j < n; ++j)
+            for (std::int64_t i = 0; i < n; ++i) (*m)(i, n + j) *= unit, (*m)(n + i, j) /= unit;
+    return max_difference(a, b) / max_difference(a, Matrix(2 * n, 2 * n));
+}
+void single_precision_has_five_digits(void **) {
+    const double error = single_precision_error(1, 0.3);
+    assert_true(error > 1e-9 && below(error, 1e-5)); // it is not double precision
+    assert_true(below(single_precision_error(1e4, 0.3), 1e-5));
+    assert_true(below(single_precision_error(1e24, 0.3), 1e-5));
+    assert_true(below(single_precision_error(1, 100), 1e-6)); // the truncation
+}
+
 // Cutting intervals changes nothing; intervals of no length neither.
 double cut_error() {
     const Case c = damped_chain(50);
@@ -196,6 +225,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(it_is_the_derivative_of_the_flow),
         cmocka_unit_test(a_single_interval_is_its_exponential),
+        cmocka_unit_test(single_precision_has_five_digits),
         cmocka_unit_test(cutting_intervals_changes_nothing),
         cmocka_unit_test(undamped_multipliers_come_in_reciprocal_pairs),
         cmocka_unit_test(wrong_intervals_are_refused),

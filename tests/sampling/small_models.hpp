@@ -16,7 +16,7 @@ struct ModelExtras {
     double alpha = 0, beta = 0;
     bool explicit_damping = false;
     double structural = 0;
-    std::vector<double> mass;
+    std::vector<double> mass = {};
 };
 std::shared_ptr<const plm::Model> make_model(const exact::Structure &s, const ModelExtras &extras = {},
                                              const plm::SpaceOptions &options = {});

@@ -240,19 +240,40 @@ const test::Host &bouncing_plate() {
     return host;
 }
 
+// As where a better model's curve would take minutes: the first one is followed, and a better one told of.
+void a_model_that_may_not_grow_says_what_a_better_one_changes(void **) {
+    const Plate &p = plate(false);
+    const double right = p.peak(p.solver(plm::MotionKind::automatic), p.curve).amplitude;
+    for (const double accuracy : {1e-4, 1e-2}) {
+        plm::HbmOptions o;
+        o.accuracy = accuracy;
+        o.dearest_step = 1;
+        const plm::Hbm hbm(p.basis, o, plm::Watch());
+        const CurvePtr curve = hbm.sweep();
+        const double error = std::abs(p.peak(hbm, curve).amplitude / right - 1);
+        std::printf("    accuracy %g: %d coordinates, error %.2g\n", accuracy,
+                    static_cast<int>(curve->reduced().size()), error);
+        assert_true(curve->reduced().from != nullptr && curve->reduced().size() < p.curve->reduced().size());
+        assert_true(curve->warnings.has(PLM_REASON_BASIS_TOO_SMALL) == (accuracy < 1e-3));
+        assert_true((error > accuracy) == (accuracy < 1e-3));
+        assert_int_equal(curve->end_reason, PLM_REASON_RANGE_END);
+    }
+}
+
 struct Flags {
-    bool compressed = false;
+    bool compressed = false, unverified = false;
     double unstable = 0; // share of the points
     double amplitude = 0;
 };
 
-Flags flags_of(plm::MotionKind motion) {
+Flags flags_of(plm::MotionKind motion, double dearest_step = plm::HbmOptions().dearest_step) {
     plm::HbmOptions o;
     o.motion = motion;
+    o.dearest_step = dearest_step;
     const plm::Hbm hbm(bouncing_plate().basis(plm::BasisOptions()), o, plm::Watch());
     const CurvePtr curve = hbm.sweep();
     const auto peak = hbm.find_peak(*curve, bouncing_plate().output_dof(), plm::Measure::peak, 0);
-    return {curve->reduced().from != nullptr,
+    return {curve->reduced().from != nullptr, curve->warnings.has(PLM_REASON_UNVERIFIED),
             static_cast<double>(stability(*curve).n_unstable) / static_cast<double>(curve->points().size()),
             peak.amplitude};
 }
@@ -265,6 +286,11 @@ void a_bouncing_curve_is_as_stable_as_on_the_whole_basis(void **) {
     assert_true(
         below(std::abs(here.unstable - there.unstable), 0.03)); // ends of the pieces fall between points
     assert_true(close_to(here.amplitude, there.amplitude, allowed));
+    const Flags first = flags_of(plm::MotionKind::automatic, 1); // no better model is followed
+    std::printf("    on the first model unstable %.3f, peak %.8g mm, unverified %d\n", first.unstable,
+                first.amplitude, first.unverified);
+    assert_true(first.compressed);
+    assert_true(first.unverified || below(std::abs(first.unstable - there.unstable), 0.03));
 }
 
 bool is_compressed(std::int64_t n_harmonics) {
@@ -289,6 +315,7 @@ int main() {
         cmocka_unit_test(what_starts_from_the_curve_goes_on_on_the_whole_basis),
         cmocka_unit_test(responses_are_of_the_whole_basis),
         cmocka_unit_test(a_bouncing_curve_is_as_stable_as_on_the_whole_basis),
+        cmocka_unit_test(a_model_that_may_not_grow_says_what_a_better_one_changes),
         cmocka_unit_test(a_small_basis_is_not_compressed),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
