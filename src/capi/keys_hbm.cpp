@@ -61,8 +61,10 @@ const std::vector<Key> &hbm_keys() {
                                   "a sweep starts at the upper (down) or lower (up) end"),
         real_option<&O::force_scale>("force_scale", -huge, huge,
                                      "factor on the excitation, not on the pre-load"),
-        real_option<&O::tolerance>("tolerance", 1e-15, 1e-2,
-                                   "last Newton correction relative to the solution"),
+        real_option<&O::tolerance>(
+            "tolerance", 1e-15, 1e-2,
+            "last Newton correction relative to the solution; on a part of a large basis' "
+            "coordinates at least a thousandth of \"accuracy\""),
         int_option<&O::max_iterations>("max_iterations", 1, 10000, "Newton iterations per point"),
         int_option<&O::max_points>("max_points", 1, 1e9, "points of a sweep"),
         real_option<&O::initial_step>("initial_step", 0, 1,

@@ -37,27 +37,26 @@ bool PieceContact::assign(const PairStates &states, Matrix &stiffness) {
 // Along a motion one pair or two change at a time, and the sums of the other groups stay.
 void PieceContact::sum_springs(const PairStates &states, Matrix &stiffness) {
     const std::int64_t z = states.size(), per_group = (z + n_groups - 1) / n_groups;
-    const bool anew = sums_.empty();
     if (z == 0) return;
+    const bool anew = sums_.empty();
     if (anew) {
         sprung_ = gap_.transposed();
         for (std::int64_t i = 0; i < z; ++i)
             for (std::int64_t j = 0; j < moving_; ++j) sprung_(j, i) *= std::sqrt(contact_.stiffness[i]);
         sums_.assign(2 * n_groups, Matrix(moving_, moving_));
     }
-    std::vector<char> changed(2 * n_groups, 0);
+    changed_.assign(2 * n_groups, 0);
     for (std::int64_t i = 0; i < z; ++i)
-        if (anew || states.is_closed(i) != states_.is_closed(i)) changed[n_groups + i / per_group] = 1;
+        if (anew || states.is_closed(i) != states_.is_closed(i)) changed_[n_groups + i / per_group] = 1;
     for (std::int64_t node = 2 * n_groups - 1; node > 0; --node) {
-        if (!changed[node]) continue;
-        changed[node / 2] = 1;
-        Matrix &sum = sums_[node];
+        if (!changed_[node]) continue;
+        changed_[node / 2] = 1;
         if (node >= n_groups) {
             sum_group(node - n_groups, states);
             continue;
         }
         const double *a = sums_[2 * node].data(), *b = sums_[2 * node + 1].data();
-        double *c = sum.data();
+        double *c = sums_[node].data();
         for (std::int64_t k = 0; k < moving_ * moving_; ++k) c[k] = a[k] + b[k];
     }
     stiffness = sums_[1];

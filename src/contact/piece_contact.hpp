@@ -38,6 +38,7 @@ class PieceContact {
     vector<std::int64_t> active_;
     Matrix rows_, sprung_;     // sprung_: sqrt(k_n) G, by pair
     std::vector<Matrix> sums_; // of groups of pairs, and of two such sums, up to all at 1: a binary tree
+    vector<char> changed_;     // which of them
     DenseCholesky cholesky_;   // of 1/k_n + F_A
     vector<double> norms_;     // k_n |g|^2 of each pair
     bool assigned_ = false;

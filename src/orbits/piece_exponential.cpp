@@ -13,7 +13,10 @@ namespace {
 // here.
 constexpr double longest_series = 3.0;
 // Each squaring doubles the rounding error, too. Single precision has no digits for that: step by step.
-constexpr double longest_in_single = 1.5;
+double steps_in_single(double x) {
+    constexpr double longest = 1.5;
+    return std::max(1.0, std::ceil(x / longest));
+}
 
 // Of a phase beyond 1 / eps no digit is left; what overflowed has none either.
 void require_resolved(double x) {
@@ -60,7 +63,7 @@ template <class Real> void PieceExponential<Real>::make_identity(Block &block) c
 
 template <class Real> double PieceExponential<Real>::n_products(double x, double tolerance) {
     if constexpr (std::is_same_v<Real, float>) {
-        const double steps = std::max(1.0, std::ceil(x / longest_in_single));
+        const double steps = steps_in_single(x);
         return steps * static_cast<double>(taylor_terms(x / steps, tolerance) - 1);
     }
     if (x <= longest_series) return static_cast<double>(taylor_terms(x, tolerance) - 1);
@@ -109,7 +112,7 @@ template <class Real> void PieceExponential<Real>::apply(const PairStates &state
     system_.assign(states);
     const double x = system_.rate() * dt;
     if constexpr (std::is_same_v<Real, float>) {
-        const double steps = std::max(1.0, std::ceil(x / longest_in_single));
+        const double steps = steps_in_single(x);
         for (double k = 0; k < steps; ++k) sum(block_, dt / steps, n_terms(x / steps, tolerance_));
         return;
     }

@@ -124,6 +124,37 @@ void a_piece_of_the_flow_has_springs_in_series(void **) {
     assert_true(series.assign(PairStates::all_open(2), stiffness) && stiffness(0, 0) == 0);
 }
 
+// Along a sequence of states, by sums of groups of pairs, as for each alone.
+void springs_are_summed_as_they_change(void **) {
+    constexpr std::int64_t z = 37, n = 3;
+    Contact c;
+    Matrix gap(z, n), none;
+    for (std::int64_t i = 0; i < z; ++i) {
+        c.stiffness.push_back(i % 5 == 0 ? 1e12 : 1.0 + static_cast<double>(i));
+        c.initial_gap.push_back(0);
+        for (std::int64_t j = 0; j < n; ++j) gap(i, j) = std::sin(static_cast<double>(1 + i * n + j));
+    }
+    plm::PieceContact along(c, gap, none, n);
+    PairStates states = PairStates::all_open(z);
+    Matrix stiffness, alone;
+    along.assign(states, stiffness);
+    for (std::int64_t k = 0; k < 200; ++k) {
+        const PairStates before = states;
+        for (std::int64_t i = k * k % z; i < z; i += 11 + k % 9) states.switch_pair(i);
+        assert_true(along.assign(states, stiffness));
+        plm::PieceContact(c, gap, none, n).assign(states, alone);
+        double rise = 0;
+        for (std::int64_t i = 0; i < z; ++i)
+            for (std::int64_t j = 0; j < n; ++j)
+                if (states.is_closed(i) && !before.is_closed(i))
+                    rise += c.stiffness[i] * gap(i, j) * gap(i, j);
+        assert_true(close_to(along.growth_since(before), rise, 1e-14));
+        for (std::int64_t e = 0; e < n * n; ++e)
+            assert_true(
+                below(std::abs(stiffness.data()[e] - alone.data()[e]), 1e-14 * (alone(0, 0) + alone(1, 1))));
+    }
+}
+
 // u0 = 1 - 2 s opens at 1/2, u1 = -1 + 4 s closes at 1/4, u2 = s^2 leaves zero as a closed pair.
 void the_first_event_of_a_piece(void **) {
     const Contact c{{1, 1, 1}, {0, 0, 0}};
@@ -177,6 +208,7 @@ int main() {
         cmocka_unit_test(the_amplitude_at_which_the_first_pair_switches),
         cmocka_unit_test(energy_of_springs_in_the_mean),
         cmocka_unit_test(a_piece_of_the_flow_has_springs_in_series),
+        cmocka_unit_test(springs_are_summed_as_they_change),
         cmocka_unit_test(the_first_event_of_a_piece),
         cmocka_unit_test(pairs_that_switch_at_once),
     };
