@@ -40,9 +40,9 @@ class Chain {
         for (std::int64_t h : more_harmonics) {
             if (h <= best.basis->sampler()->n_harmonics()) continue;
             if (!can_improve(best) || best.basis->reduced()->size() >= many_columns) break;
-            const bool was_cut = is_cut(best);
-            if (!take_better(best, [&] { return on(basis_for(h), few_points); })) break;
-            if (was_cut && is_cut(best)) break; // the contact of the structure itself bounces
+            // if that on the next basis has as many, the contact of the structure itself bounces
+            const std::int64_t points = is_cut(best) ? options_.max_points : few_points;
+            if (!take_better(best, [&] { return on(basis_for(h), points); })) break;
         }
         if (is_cut(best)) best = on(best.basis, options_.max_points);
         if (can_improve(best) && std::isfinite(best.error)) take_better(best, [&] { return refined(best); });
