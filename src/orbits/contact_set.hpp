@@ -18,6 +18,8 @@ class ContactSet {
     const Matrix &stiffness() const { return stiffness_; } // n_moving x n_moving
     /// Upper bound (1/s) of |A| for y' = A y with y = (rho q, q'), rho^2 = |K_i|: rho + |C| in the 2-norm.
     double rate() const { return rate_; }
+    /// |C|, part of it.
+    double damping_bound() const { return damping_bound_; }
 
     /// u (Z x k) as it would be without contact forces becomes the penetration; the forces, Z x k.
     void add_contact(Matrix &u, Matrix &force) const { contact_.add_forces(u, force); }

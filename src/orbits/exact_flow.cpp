@@ -12,9 +12,8 @@ namespace {
 constexpr double longest_step = 2.0; // rate x duration of a piece: about 26 terms, of which none exceeds 2
 // Where events are dense, a piece is not made longer than its event lets it be used: terms are saved, and
 // pairs that cannot come to zero so soon.
-constexpr double shortest_try = 0.5; // rate x duration
-constexpr double longer = 4;         // than the last one was used
-constexpr double truncation = 1e-17;
+constexpr double shortest_try = 0.5;                         // rate x duration
+constexpr double longer = 4;                                 // than the last one was used
 constexpr std::int64_t watch_interval = 64;                  // pieces
 constexpr double least_advance = 0.05, shorter_piece = 0.25; // of a piece, in the modes of its contact set
 // On symmetric structures pairs switch in twos and fours, apart by rounding: one event. The motion is off by
@@ -229,7 +228,7 @@ double ExactFlow::step_length(double left) {
     const double rate = std::max(set_->rate(), fastest_force_);
     double duration = std::min(left, 0.125 * period());
     if (rate * duration > longest_step) duration = longest_step / rate;
-    n_terms_ = std::min(taylor_terms(rate * duration, truncation) + 3, max_polynomial_degree + 1);
+    n_terms_ = std::min(taylor_terms(rate * duration, truncation_) + 3, max_polynomial_degree + 1);
     return duration;
 }
 

@@ -30,6 +30,9 @@ class ExactFlow {
     /// its beginning kept, dx / d(force scale) = change; d x(fraction of the period) / d omega = change - (t
     /// / omega) x'(t).
     void differentiate(FlowParameter parameter);
+    /// From then on, what is left out of the series of a piece, relative to the motion (to rounding at
+    /// first); motions in the modes of a contact set stay as they are.
+    void truncate(double part) { truncation_ = part; }
     const FlowState &change() const { return change_; }
     /// y'' of the coordinates with mass at a state that the last advance() led to.
     vector<double> acceleration(const FlowState &state);
@@ -91,6 +94,7 @@ class ExactFlow {
     NearPairs near_;
     std::unique_ptr<ModalPieces> modal_;
     bool may_use_modes_ = false, fresh_ = true; // fresh_: the states at hand are still to be confirmed
+    double truncation_ = 1e-17;
     std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_ = 0, stalled_ = 0;
     double events_left_ = 0, tried_ = 0; // tried_: longest duration of the next piece
 };

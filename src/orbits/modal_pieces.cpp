@@ -14,6 +14,7 @@ constexpr double clear_of_zero = 3;        // times what the fast modes may add:
 constexpr double truncation = 1e-17;
 constexpr double most_growth = 100; // of an unstable mode in a piece, its logarithm: nothing overflows
 constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr double unnoticed = 1e-11; // of the motion: fast modes that a recorder is not told of
 
 } // namespace
 
@@ -300,7 +301,7 @@ void ModalPieces::keep_fast() {
     for (const ContactModes::Mode &m : modes_->modes()) {
         if (m.speed * duration_ <= longest_turn) continue;
         const double *z = present_.data() + m.first;
-        if (std::sqrt(z[0] * z[0] + (m.is_pair ? z[1] * z[1] : 0.0)) > eps * size) kept.push_back(&m);
+        if (std::sqrt(z[0] * z[0] + (m.is_pair ? z[1] * z[1] : 0.0)) > unnoticed * size) kept.push_back(&m);
     }
     fast_.cosine.reset(rows.rows(), static_cast<std::int64_t>(kept.size()));
     fast_.sine.reset(rows.rows(), static_cast<std::int64_t>(kept.size()));

@@ -78,9 +78,8 @@ bool saves_in_single(const FlowModel &model, const std::vector<ContactInterval> 
     stiffest.assign_stiffest();
     double in_single = 0, in_double = 0;
     for (const ContactInterval &interval : intervals) {
-        const double x = stiffest.rate() * interval.duration;
-        in_single += PieceExponential<float>::n_products(x, tolerance);
-        in_double += PieceExponential<double>::n_products(x, tolerance);
+        in_single += PieceExponential<float>::n_products(stiffest, interval.duration, tolerance);
+        in_double += PieceExponential<double>::n_products(stiffest, interval.duration, tolerance);
     }
     return in_single < faster * in_double;
 }

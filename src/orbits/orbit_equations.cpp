@@ -13,8 +13,17 @@ constexpr double slow_enough = 10;
 // well, and multipliers are right to 1e-5. Single precision, and half of the terms.
 constexpr std::int64_t large = 48; // coordinates
 constexpr double enough = 1e-7;
+// The same, and fewer terms of the flow's series, where no better motions are asked for.
+constexpr double loose = 1e-7, of_tolerance = 1e-5;
 
 } // namespace
+
+ExactFlow OrbitConditions::flow(std::shared_ptr<const FlowModel> model,
+                                std::shared_ptr<ContactModesKept> modes) const {
+    ExactFlow flow(std::move(model), omega, force_scale, Watch(), std::move(modes));
+    if (tolerance >= loose) flow.truncate(of_tolerance * tolerance);
+    return flow;
+}
 
 OrbitEquations::OrbitEquations(std::shared_ptr<const FlowModel> model, FlowState rest,
                                const OrbitConditions &conditions, FlowParameter parameter)
@@ -71,7 +80,7 @@ void OrbitEquations::run(const double *x, double p) {
     failed_ = false;
     const OrbitConditions now = conditions(p);
     try {
-        ExactFlow flow(model_, now.omega, now.force_scale, Watch(), modes_);
+        ExactFlow flow = now.flow(model_, modes_);
         flow.differentiate(parameter_);
         FlowState state = this->state(x);
         ContactHistory recorder;
@@ -102,8 +111,8 @@ void OrbitEquations::linearize() {
     const std::int64_t n = size();
     monodromy_.reset(n, n);
     if (!failed_) {
-        monodromy_ = plm::monodromy(*model_, intervals_, model_->n_moving() < large ? 1e-15 : enough, Watch(),
-                                    modes_.get());
+        const bool exactly = model_->n_moving() < large && conditions_.tolerance < loose;
+        monodromy_ = plm::monodromy(*model_, intervals_, exactly ? 1e-15 : enough, Watch(), modes_.get());
         for (std::int64_t j = 0; j < n; ++j)
             for (std::int64_t i = 0; i < n; ++i) monodromy_(i, j) *= weight_[i] / weight_[j];
     }

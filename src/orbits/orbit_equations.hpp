@@ -13,6 +13,10 @@ struct OrbitConditions {
     double omega = 0; // rad/s, of the excitation; the unknowns' scale where the path's parameter replaces it
     double force_scale = 1;
     std::int64_t period_multiple = 1;
+    double tolerance = 0; // of a motion, relative; the flow is as exact, to rounding where that is small
+
+    /// The flow that these conditions drive.
+    ExactFlow flow(std::shared_ptr<const FlowModel> model, std::shared_ptr<ContactModesKept> modes) const;
 };
 
 class OrbitEquations final : public Residual {

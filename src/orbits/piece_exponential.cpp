@@ -7,15 +7,54 @@
 namespace plm {
 namespace {
 
-// x = rate * dt. Up to this x the series is applied to the matrix as it is, beyond it to the identity, and
-// the result is squared: m(x) terms of 4 n^3 flops each against m(1) terms, log2(x) squarings and one product
-// of 16 n^3 flops. The rounding error grows with the largest term, e^x, which is the other reason to stop
-// here.
-constexpr double longest_series = 3.0;
-// Each squaring doubles the rounding error, too. Single precision has no digits for that: step by step.
-double steps_in_single(double x) {
-    constexpr double longest = 1.5;
-    return std::max(1.0, std::ceil(x / longest));
+// x = rate * dt. Terms of Chebyshev's series are counted up to here, and then the next step begins. What is
+// damped lies beside the interval that the series is made for: its terms grow with |C| dt.
+constexpr double longest_step = 100, most_damped = 1;
+// Taylor's series: its rounding error grows with its largest term, e^x.
+constexpr double longest_taylor = 3;
+
+// exp(x z) on the imaginary interval [-i, i] is J_0(x) + 2 sum J_k(x) phi_k(z), |phi_k| <= 1 and
+// |J_k(x)| <= (x / 2)^k / k!.
+std::int64_t chebyshev_terms(double x, double tolerance) {
+    return taylor_terms(0.5 * x, tolerance) + 1;
+}
+
+double n_steps(double x, double damped) {
+    return std::max({1.0, std::ceil(x / longest_step), std::ceil(damped / most_damped)});
+}
+
+double products_by_series(double x, double damped, double tolerance) {
+    const double steps = n_steps(x, damped);
+    return steps * static_cast<double>(chebyshev_terms(x / steps, tolerance) - 1);
+}
+
+// The series up to 1 of the identity, squarings and one product, of 16 n^3 flops each. Each squaring doubles
+// the rounding error, for which single precision has no digits.
+double n_squarings(double x) {
+    return std::max(0.0, std::ceil(std::log2(x)));
+}
+double products_by_squaring(double x, double tolerance) {
+    return products_by_series(1.0, 0.0, tolerance) + 4 * (n_squarings(x) + 1);
+}
+
+// J_0(x) ... J_(n-1)(x), by their recurrence downward (Miller), where they are its decaying solution.
+vector<double> bessel_functions(double x, std::int64_t n) {
+    constexpr double small = 1e-250, large = 1e250;
+    vector<double> j(static_cast<std::size_t>(n), 0.0);
+    const std::int64_t top = n + 30 + static_cast<std::int64_t>(x);
+    double above = 0, now = small, sum = 0;
+    for (std::int64_t k = top; k >= 0; --k) {
+        if (k < n) j[k] = now;
+        if (k % 2 == 0) sum += k == 0 ? now : 2 * now; // J_0 + 2 J_2 + 2 J_4 ... = 1
+        const double below = 2 * static_cast<double>(k) / x * now - above;
+        above = now;
+        now = below;
+        if (std::abs(now) < large) continue;
+        for (double *v : {&now, &above, &sum}) *v *= small;
+        for (std::int64_t i = k; i < n; ++i) j[i] *= small;
+    }
+    for (double &v : j) v /= sum;
+    return j;
 }
 
 // Of a phase beyond 1 / eps no digit is left; what overflowed has none either.
@@ -34,20 +73,21 @@ template <class Real>
 PieceExponential<Real>::PieceExponential(const FlowModel &model, double tolerance)
     : model_(model), system_(model), n_(model.n_moving()), massive_(model.n_massive()),
       size_(model.state_size()), tolerance_(tolerance) {
-    for (vector<Real> *v : {&block_.y, &block_.v, &older_, &newer_, &next_}) v->resize(n_ * size_);
+    for (vector<Real> *v : {&block_.y, &block_.v, &older_.y, &newer_.y, &older_.v, &newer_.v})
+        v->resize(n_ * size_);
     stiffness_.resize(n_ * n_);
     damping_.resize(model.has_diagonal_damping() ? n_ : n_ * n_);
 }
 
-// dt^2 K and dt C: of the order of x, whatever the units.
-template <class Real> void PieceExponential<Real>::scale_by(double dt) {
+// time^2 K and time C: of the order of one, whatever the units.
+template <class Real> void PieceExponential<Real>::scale_by(double time) {
     const double *k = system_.stiffness().data();
-    for (std::int64_t i = 0; i < n_ * n_; ++i) stiffness_[i] = static_cast<Real>(dt * dt * k[i]);
+    for (std::int64_t i = 0; i < n_ * n_; ++i) stiffness_[i] = static_cast<Real>(time * time * k[i]);
     const bool diagonal = model_.has_diagonal_damping();
     for (std::int64_t j = 0; j < (diagonal ? 1 : n_); ++j)
         for (std::int64_t i = 0; i < n_; ++i)
             damping_[i + j * n_] =
-                static_cast<Real>(dt * (diagonal ? model_.damping_diagonal()[i] : model_.damping()(i, j)));
+                static_cast<Real>(time * (diagonal ? model_.damping_diagonal()[i] : model_.damping()(i, j)));
 }
 
 template <class Real> double PieceExponential<Real>::cube() const {
@@ -61,13 +101,10 @@ template <class Real> void PieceExponential<Real>::make_identity(Block &block) c
     for (std::int64_t j = 0; j < massive_; ++j) block.v[j + (n_ + j) * n_] = 1;
 }
 
-template <class Real> double PieceExponential<Real>::n_products(double x, double tolerance) {
-    if constexpr (std::is_same_v<Real, float>) {
-        const double steps = steps_in_single(x);
-        return steps * static_cast<double>(taylor_terms(x / steps, tolerance) - 1);
-    }
-    if (x <= longest_series) return static_cast<double>(taylor_terms(x, tolerance) - 1);
-    return static_cast<double>(taylor_terms(1.0, tolerance)) + 4 * (std::ceil(std::log2(x)) + 1);
+template <class Real>
+double PieceExponential<Real>::n_products(const ContactSet &set, double dt, double tolerance) {
+    const double x = set.rate() * dt, series = products_by_series(x, set.damping_bound() * dt, tolerance);
+    return std::is_same_v<Real, float> ? series : std::min(series, products_by_squaring(x, tolerance));
 }
 
 template <class Real> void PieceExponential<Real>::set_identity() {
@@ -102,29 +139,23 @@ template <class Real> void PieceExponential<Real>::join(const Block &block, vect
     }
 }
 
-// The velocity's series is the derivative of the displacement's: it needs one term more.
-template <class Real> std::int64_t PieceExponential<Real>::n_terms(double x, double tolerance) const {
-    return taylor_terms(x, tolerance) + 1;
-}
-
 template <class Real> void PieceExponential<Real>::apply(const PairStates &states, double dt) {
     if (dt == 0) return;
     system_.assign(states);
     const double x = system_.rate() * dt;
-    if constexpr (std::is_same_v<Real, float>) {
-        const double steps = steps_in_single(x);
-        for (double k = 0; k < steps; ++k) sum(block_, dt / steps, n_terms(x / steps, tolerance_));
-        return;
-    }
-    if (x <= longest_series) {
-        sum(block_, dt, n_terms(x, tolerance_));
-        return;
-    }
+    const double series = products_by_series(x, system_.damping_bound() * dt, tolerance_);
+    const bool is_long = relaxes() ? x > longest_taylor : products_by_squaring(x, tolerance_) < series;
+    if (is_long && std::is_same_v<Real, double>)
+        square(x, dt);
+    else
+        sum(block_, x, dt, tolerance_);
+}
+
+template <class Real> void PieceExponential<Real>::square(double x, double dt) {
     require_resolved(x);
-    const int squarings = static_cast<int>(std::ceil(std::log2(x)));
+    const int squarings = static_cast<int>(n_squarings(x));
     make_identity(step_);
-    sum(step_, std::ldexp(dt, -squarings),
-        n_terms(std::ldexp(x, -squarings), std::ldexp(tolerance_, -squarings)));
+    sum(step_, std::ldexp(x, -squarings), std::ldexp(dt, -squarings), std::ldexp(tolerance_, -squarings));
     join(step_, turned_);
     square_.resize(size_ * size_);
     for (int k = 0; k < squarings; ++k) {
@@ -138,51 +169,110 @@ template <class Real> void PieceExponential<Real>::apply(const PairStates &state
     split(square_, block_);
 }
 
-template <class Real> void PieceExponential<Real>::sum(Block &block, double dt, std::int64_t n_terms) {
+template <class Real> void PieceExponential<Real>::sum(Block &block, double x, double dt, double tolerance) {
+    if (relaxes()) {
+        sum_taylor(block, dt, taylor_terms(x, tolerance) + 1); // the velocity's needs one term more
+        return;
+    }
+    require_resolved(x);
+    const double steps = n_steps(x, system_.damping_bound() * dt);
+    for (double k = 0; k < steps; ++k) sum_chebyshev(block, x / steps, dt / steps, tolerance);
+}
+
+// In Y and W = dt / x V, of which A is of the order of one.
+template <class Real>
+void PieceExponential<Real>::sum_chebyshev(Block &block, double x, double dt, double tolerance) {
+    const std::int64_t size = n_ * size_, n_terms = chebyshev_terms(x, tolerance);
+    const double unit = dt / x;
+    const Real into = static_cast<Real>(unit), back = static_cast<Real>(1 / unit);
+    worked(static_cast<double>(n_terms) * 4 * cube());
+    scale_by(unit);
+    const vector<double> weight = bessel_functions(x, n_terms);
+    std::copy_n(block.y.data(), size, older_.y.data());
+    for (std::int64_t i = 0; i < size; ++i) older_.v[i] = into * block.v[i];
+    std::copy_n(older_.v.data(), size, newer_.y.data());
+    std::fill_n(newer_.v.data(), size, Real(0));
+    add_acceleration(1, older_, newer_.v);
+    const Real first = static_cast<Real>(weight[0]);
+    for (std::int64_t i = 0; i < size; ++i) {
+        block.y[i] = first * older_.y[i];
+        block.v[i] = first * older_.v[i];
+    }
+    for (std::int64_t k = 1;; ++k) {
+        const Real w = static_cast<Real>(2 * weight[k]);
+        for (std::int64_t i = 0; i < size; ++i) {
+            block.y[i] += w * newer_.y[i];
+            block.v[i] += w * newer_.v[i];
+        }
+        if (k + 1 >= n_terms) break;
+        for (std::int64_t i = 0; i < size; ++i) older_.y[i] += 2 * newer_.v[i];
+        add_acceleration(2, newer_, older_.v);
+        std::swap(older_, newer_);
+    }
+    for (std::int64_t i = 0; i < size; ++i) block.v[i] *= back;
+}
+
+// to -= factor (K Y + C V), both scaled.
+template <class Real>
+void PieceExponential<Real>::add_acceleration(double factor, const Block &of, vector<Real> &to) {
+    const Real f = static_cast<Real>(factor);
+    gemm('N', n_, size_, n_, -f, stiffness_.data(), n_, of.y.data(), n_, 1, to.data(), n_);
+    if (model_.has_diagonal_damping()) {
+        for (std::int64_t j = 0; j < size_; ++j)
+            for (std::int64_t i = 0; i < n_; ++i) to[i + j * n_] -= f * damping_[i] * of.v[i + j * n_];
+    } else {
+        gemm('N', n_, size_, n_, -f, damping_.data(), n_, of.v.data(), n_, 1, to.data(), n_);
+    }
+}
+
+template <class Real> void PieceExponential<Real>::sum_taylor(Block &block, double dt, std::int64_t n_terms) {
     worked(static_cast<double>(n_terms) * 4 * cube());
     const std::int64_t size = n_ * size_;
     const Real step = static_cast<Real>(dt);
+    vector<Real> &older = older_.y, &newer = newer_.y, &next = newer_.v;
     scale_by(dt);
-    std::copy_n(block.y.data(), size, older_.data());
-    for (std::int64_t i = 0; i < size; ++i) newer_[i] = step * block.v[i];
-    relax(1, dt, older_, newer_);
+    std::copy_n(block.y.data(), size, older.data());
+    for (std::int64_t i = 0; i < size; ++i) newer[i] = step * block.v[i];
+    relax(1, dt, older, newer);
     for (std::int64_t i = 0; i < size; ++i) {
-        block.y[i] += newer_[i];
-        block.v[i] = newer_[i]; // dt v is summed: sum of k T_k
+        block.y[i] += newer[i];
+        block.v[i] = newer[i]; // dt v is summed: sum of k T_k
     }
     for (std::int64_t k = 2; k < n_terms; ++k) {
-        next_term(k, dt);
+        next_taylor_term(k, dt);
         const Real order = static_cast<Real>(k);
         for (std::int64_t i = 0; i < size; ++i) {
-            block.y[i] += next_[i];
-            block.v[i] += order * next_[i];
+            block.y[i] += next[i];
+            block.v[i] += order * next[i];
         }
-        std::swap(older_, newer_);
-        std::swap(newer_, next_);
+        std::swap(older, newer);
+        std::swap(newer, next);
     }
     for (std::int64_t i = 0; i < size; ++i) block.v[i] /= step;
 }
 
-template <class Real> void PieceExponential<Real>::next_term(std::int64_t k, double dt) {
+template <class Real> void PieceExponential<Real>::next_taylor_term(std::int64_t k, double dt) {
+    const vector<Real> &older = older_.y, &newer = newer_.y;
+    vector<Real> &next = newer_.v;
     const double order = static_cast<double>(k);
     gemm('N', n_, size_, n_, static_cast<Real>(-1 / (order * (order - 1))), stiffness_.data(), n_,
-         older_.data(), n_, 0, next_.data(), n_);
+         older.data(), n_, 0, next.data(), n_);
     const Real factor = static_cast<Real>(1 / order);
     if (model_.has_diagonal_damping()) {
         for (std::int64_t j = 0; j < size_; ++j)
             for (std::int64_t i = 0; i < n_; ++i)
-                next_[i + j * n_] -= factor * damping_[i] * newer_[i + j * n_];
+                next[i + j * n_] -= factor * damping_[i] * newer[i + j * n_];
     } else {
-        gemm('N', n_, size_, n_, -factor, damping_.data(), n_, newer_.data(), n_, 1, next_.data(), n_);
+        gemm('N', n_, size_, n_, -factor, damping_.data(), n_, newer.data(), n_, 1, next.data(), n_);
     }
-    relax(k, dt, newer_, next_);
+    relax(k, dt, newer, next);
 }
 
 template <class Real>
 void PieceExponential<Real>::relax(std::int64_t k, double dt, const vector<Real> &before,
                                    vector<Real> &next) const {
     if constexpr (std::is_same_v<Real, double>)
-        for (std::int64_t j = 0; j < size_ && n_ > massive_; ++j)
+        for (std::int64_t j = 0; j < size_; ++j)
             system_.relax(k, dt, before.data() + j * n_, nullptr, next.data() + j * n_);
 }
 

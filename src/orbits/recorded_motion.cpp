@@ -80,11 +80,25 @@ void widen_between(vector<double> slow, FastRow fast, double duration, ValueRang
     range.minimum = -lowest;
 }
 
+// As many powers as add more than rounding to the motion: there are as many as the fastest mode asks for,
+// which hardly moves.
+std::int64_t n_felt(const Matrix &powers) {
+    constexpr double rounding = 1e-17;
+    double largest = 0;
+    std::int64_t n = 0;
+    for (std::int64_t k = 0; k < powers.cols(); ++k) {
+        const double size = norm2(powers.rows(), powers.col(k));
+        largest = std::max(largest, size);
+        if (!(size <= rounding * largest)) n = k + 1;
+    }
+    return std::max<std::int64_t>(n, 1);
+}
+
 } // namespace
 
 void RecordedMotion::record(const FlowPiece &piece) {
-    pieces_.push_back({duration_, piece.duration, piece.coefficient, piece.states,
-                       piece.fast ? *piece.fast : FastMotion()});
+    pieces_.push_back({duration_, piece.duration, piece.coefficient.columns(0, n_felt(piece.coefficient)),
+                       piece.states, piece.fast ? *piece.fast : FastMotion()});
     duration_ += piece.duration;
 }
 
@@ -108,58 +122,54 @@ vector<double> RecordedMotion::mean() const {
 
 namespace {
 
-// Integral of |y|^2 over a piece: of the polynomials, of what is fast, and of both together.
-double square_of(const Matrix &powers, const FastMotion &fast, double duration) {
-    const Matrix inner = product('T', 'N', powers, powers);
-    double sum = 0;
-    for (std::int64_t k = 0; k < inner.cols(); ++k)
-        for (std::int64_t i = 0; i < inner.rows(); ++i) sum += inner(i, k) / static_cast<double>(i + k + 1);
-    sum *= duration;
-    const std::int64_t n = static_cast<std::int64_t>(fast.rate.size());
-    if (n == 0) return sum;
-    const Matrix a = product('T', 'N', powers, fast.cosine), b = product('T', 'N', powers, fast.sine),
-                 aa = product('T', 'N', fast.cosine, fast.cosine),
-                 bb = product('T', 'N', fast.sine, fast.sine), ab = product('T', 'N', fast.cosine, fast.sine);
+// W of the integral F W F^T of y y^T over a piece, y = F (1, s, s^2 ..., Re e_1, ... -Im e_1, ...), e_k =
+// exp(rate_k t): F has the powers, the cosine and the sine parts side by side.
+Matrix weigh_squares(std::int64_t n_powers, const FastMotion &fast, double duration) {
+    const std::int64_t n = static_cast<std::int64_t>(fast.rate.size()), p = n_powers;
+    Matrix w(p + 2 * n, p + 2 * n);
+    for (std::int64_t k = 0; k < p; ++k)
+        for (std::int64_t i = 0; i < p; ++i) w(i, k) = duration / static_cast<double>(i + k + 1);
+    const auto put = [&w](std::int64_t i, std::int64_t k, double value) { w(i, k) = w(k, i) = value; };
     vector<Complex> m, end;
     for (std::int64_t k = 0; k < n; ++k) {
         const Complex rate = fast.rate[k];
         end.push_back(std::exp(rate * duration));
-        exponential_moments(rate * duration, end[k], powers.cols() - 1, m);
-        for (std::int64_t i = 0; i < powers.cols(); ++i)
-            sum += 2 * duration * (Complex(a(i, k), b(i, k)) * m[i]).real();
-        for (std::int64_t l = 0; l <= k; ++l) { // both orders are the same
-            const double twice = l < k ? 1.0 : 0.5;
+        exponential_moments(rate * duration, end[k], p - 1, m);
+        for (std::int64_t i = 0; i < p; ++i) {
+            put(i, p + k, duration * m[i].real());
+            put(i, p + n + k, -duration * m[i].imag());
+        }
+        for (std::int64_t l = 0; l <= k; ++l) {
             const Complex other = fast.rate[l],
-                          same = exponential_integral(rate + other, duration, end[k] * end[l]),
-                          against = exponential_integral(rate + std::conj(other), duration,
-                                                         end[k] * std::conj(end[l]));
-            sum += twice * (Complex(aa(k, l) - bb(k, l), ab(k, l) + ab(l, k)) * same +
-                            Complex(aa(k, l) + bb(k, l), ab(l, k) - ab(k, l)) * against)
-                               .real();
+                          same = 0.5 * exponential_integral(rate + other, duration, end[k] * end[l]),
+                          against = 0.5 * exponential_integral(rate + std::conj(other), duration,
+                                                               end[k] * std::conj(end[l]));
+            put(p + k, p + l, (against + same).real());
+            put(p + n + k, p + n + l, (against - same).real());
+            put(p + n + k, p + l, -(against + same).imag());
+            put(p + k, p + n + l, (against - same).imag());
         }
     }
-    return sum;
+    return w;
 }
 
 } // namespace
 
-double RecordedMotion::mean_square(const Matrix &a) const {
+Matrix RecordedMotion::covariance() const {
     const vector<double> mean = this->mean();
-    double sum = 0;
+    const std::int64_t n = static_cast<std::int64_t>(mean.size());
+    Matrix sum(n, n), weighted;
     for (const Piece &p : pieces_) {
-        Matrix powers = p.coefficient;
-        FastMotion fast = p.fast;
-        for (std::size_t j = 0; j < mean.size(); ++j) powers.col(0)[j] -= mean[j];
-        if (a.cols() > 0) {
-            powers = product('N', 'N', a, powers);
-            if (!fast.rate.empty()) {
-                fast.cosine = product('N', 'N', a, fast.cosine);
-                fast.sine = product('N', 'N', a, fast.sine);
-            }
-        }
-        sum += square_of(powers, fast, p.duration) / duration_;
+        Matrix parts = p.coefficient;
+        for (std::int64_t j = 0; j < n; ++j) parts.col(0)[j] -= mean[j];
+        parts.append(p.fast.cosine);
+        parts.append(p.fast.sine);
+        weighted.reset(n, parts.cols());
+        gemm('N', 'N', 1 / duration_, parts, weigh_squares(p.coefficient.cols(), p.fast, p.duration), 0.0,
+             weighted);
+        gemm('N', 'T', 1.0, weighted, parts, 1.0, sum);
     }
-    return std::max(sum, 0.0);
+    return sum;
 }
 
 Matrix RecordedMotion::harmonics(std::int64_t first, std::int64_t count) const {

@@ -14,8 +14,8 @@ class RecordedMotion final : public FlowRecorder {
     double duration() const { return duration_; }
     /// Mean of the coordinates, n.
     vector<double> mean() const;
-    /// Mean of |a y|^2 over the motion less that of its mean; a: rows x n, empty: the identity.
-    double mean_square(const Matrix &a = Matrix()) const;
+    /// Mean of (y - mean)(y - mean)^T over the motion, n x n.
+    Matrix covariance() const;
     /// Harmonics [first, first + count) of the motion as one period: n x 2 count, columns a_h, b_h.
     Matrix harmonics(std::int64_t first, std::int64_t count) const;
     /// The forces of the pairs as a motion of Z coordinates.

@@ -15,7 +15,10 @@ constexpr double vanishes = 1e-9; // of the smaller value at the ends: found
 constexpr double nearly_vanishes = 1e-2;
 constexpr int most_places = 60;     // more than bisection needs to the narrowest interval
 constexpr double narrowest = 1e-10; // interval, of the step: what is left is rounding
-constexpr int bisection_every = 4;  // so that a function that bends hard is enclosed all the same
+constexpr double same_place = 1e-7; // of the step: another look would tell nothing new
+// A function that has not become smaller than this on either side of so narrow an interval jumps; one that
+// begins with a root has.
+constexpr double jump_width = 1e-4, jump_size = 0.1;
 constexpr double off_the_ends =
     1e-3; // of the interval: places where the function is known need no second look
 constexpr double least_damping = 1e-3; // between two known points Newton's method may take its time
@@ -28,25 +31,74 @@ double value_of(const vector<double> &tests, std::size_t k) {
     return k < tests.size() ? tests[k] : 0;
 }
 
+// Where a function changes its sign: inverse quadratic interpolation where its last three values allow that,
+// bisection elsewhere (Chandrupatla, Adv. Eng. Software 28, 1997).
+class Enclosure {
+  public:
+    Enclosure(double left, double right) : last_{0, left}, other_{1, right}, before_(last_) {}
+
+    double width() const { return std::abs(last_.t - other_.t); }
+    double smaller() const { return std::min(std::abs(last_.value), std::abs(other_.value)); }
+    double last() const { return last_.t; }
+    double at_part(double part) const { return last_.t + part * (other_.t - last_.t); }
+    bool is_settled() const {
+        return known_ > 0 && interpolates() && std::abs(next() - last_.t) < same_place;
+    }
+
+    double next() const {
+        if (known_ == 0) return at_part(last_.value / (last_.value - other_.value));
+        return interpolates() ? at_part(quadratic()) : at_part(0.5);
+    }
+
+    // True: in place of the lower end.
+    bool take(double t, double value) {
+        const bool keeps = (value > 0) == (last_.value > 0);
+        before_ = keeps ? last_ : other_;
+        if (!keeps) other_ = last_;
+        last_ = {t, value};
+        ++known_;
+        return t < other_.t;
+    }
+
+  private:
+    struct Place {
+        double t, value;
+    };
+
+    bool interpolates() const {
+        const double place = (last_.t - other_.t) / (before_.t - other_.t),
+                     size = (last_.value - other_.value) / (before_.value - other_.value);
+        return size * size < place && (1 - size) * (1 - size) < 1 - place;
+    }
+    double quadratic() const {
+        const double f1 = last_.value, f2 = other_.value, f3 = before_.value;
+        return f1 / (f2 - f1) * f3 / (f2 - f3) +
+               (before_.t - last_.t) / (other_.t - last_.t) * f1 / (f3 - f1) * f2 / (f3 - f2);
+    }
+
+    Place last_, other_, before_; // the first two enclose the zero
+    int known_ = 0;
+};
+
 class Finder {
   public:
     Finder(PathWalker &walker, const PathOptions &options, const PathStep &step, double orientation)
         : walker_(walker), options_(options), step_(step), orientation_(orientation),
           chord_(difference(step.after, step.before)) {}
 
-    // Regula falsi (Illinois) with bisection on the chord. False when the function jumps instead of
-    // vanishing (but for a corner at which p turns round); the step then may have crossed to another curve.
+    // False when the function jumps instead of vanishing (but for a corner at which p turns round); the step
+    // then may have crossed to another curve.
     bool find_zero(std::size_t k, double left, double right, SpecialPoint &point) {
         const double size = std::min(std::abs(left), std::abs(right));
-        double a = 0, b = 1, best = INFINITY;
-        int last_side = 0;
+        const bool is_fold = walker_.kind(k) == PLM_BIFURCATION_FOLD;
+        Enclosure zero(left, right);
+        double best = INFINITY;
         std::size_t unknown = 0; // times in a row that the function had no value (stability at a fold)
         PathState below = step_.before, above = step_.after;
-        for (int i = 0; i < most_places && b - a > narrowest; ++i) {
-            double t = i % bisection_every == bisection_every - 1 ? 0.5 * (a + b)
-                                                                  : (a * right - b * left) / (right - left);
-            if (unknown > 0) t = a + elsewhere[unknown - 1] * (b - a);
-            t = std::min(b - off_the_ends * (b - a), std::max(a + off_the_ends * (b - a), t));
+        for (int i = 0; i < most_places && zero.width() > narrowest && !zero.is_settled(); ++i) {
+            const double part = (zero.next() - zero.last()) / (zero.at_part(1) - zero.last());
+            const double t = zero.at_part(unknown > 0 ? elsewhere[unknown - 1]
+                                                      : std::clamp(part, off_the_ends, 1 - off_the_ends));
             double residual = 0;
             if (!move_to(t, residual)) break;
             const double value = value_of(walker_.tests(), k);
@@ -58,19 +110,13 @@ class Finder {
                 point = {t, walker_.now(), walker_.kind(k), residual};
             }
             if (best <= vanishes * size) break;
-            const bool keeps_left = value * left > 0;
-            if (keeps_left) {
-                if (last_side == 1) right *= 0.5;
-                a = t, left = value, last_side = 1, below = walker_.now();
-            } else {
-                if (last_side == -1) left *= 0.5;
-                b = t, right = value, last_side = -1, above = walker_.now();
-            }
+            (zero.take(t, value) ? below : above) = walker_.now();
+            if (!is_fold && zero.width() < jump_width && zero.smaller() > jump_size * size) break;
             // what is left is no continuous piece of a curve
-            if (walker_.metric().distance(below, above) > most_stretched * (b - a) * step_.length) break;
+            if (walker_.metric().distance(below, above) > most_stretched * zero.width() * step_.length) break;
         }
         if (std::isfinite(best) && best <= nearly_vanishes * size) return true;
-        if (walker_.kind(k) == PLM_BIFURCATION_FOLD && is_corner_fold(below, above, point)) return true;
+        if (is_fold && is_corner_fold(below, above, point)) return true;
         jumped_ = jumped_ || walker_.kind(k) == PLM_BIFURCATION_BRANCH_POINT;
         return false;
     }

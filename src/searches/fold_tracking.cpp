@@ -13,6 +13,8 @@ std::unique_ptr<PointEquations> fold_equations(std::shared_ptr<const ReducedMode
     return std::make_unique<HarmonicFolds>(std::move(reduced), options, about);
 }
 
+constexpr double not_near = 0.1; // damping of a correction
+
 class FoldPath final : public PathOwner {
   public:
     FoldPath(std::shared_ptr<const ReducedModel> reduced, const FoldOptions &options,
@@ -23,7 +25,9 @@ class FoldPath final : public PathOwner {
 
     bool correct(double force, BranchPoint &point) {
         PathState at = {equations_->unknowns(point), force};
-        const NewtonOutcome out = newton_at(equations_->residual(), newton_limits(options_.hbm), at.x, force);
+        NewtonLimits limits = newton_limits(options_.hbm);
+        limits.min_damping = not_near; // a guess is good, or leads elsewhere
+        const NewtonOutcome out = newton_at(equations_->residual(), limits, at.x, force);
         if (!out.converged) return false;
         BranchPoint found = equations_->solved_point(at, out.residual, out.iterations);
         if (!(found.omega > 0)) return false;

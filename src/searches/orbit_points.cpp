@@ -78,7 +78,7 @@ class OrbitMotion final : public PointMotion {
     }
 
     FlowState run(double periods, FlowRecorder *recorder) const {
-        ExactFlow flow(model_, conditions_.omega, conditions_.force_scale, Watch(), modes_);
+        ExactFlow flow = conditions_.flow(model_, modes_);
         FlowState state = start_;
         flow.advance(state, periods * static_cast<double>(conditions_.period_multiple) * flow.period(),
                      recorder);
@@ -109,12 +109,19 @@ struct Remainder {
     }
 };
 
+Remainder mean_squares(const Matrix &covariance, const Matrix &gap) {
+    const Matrix at_gaps = product('N', 'N', gap, covariance);
+    double all = 0;
+    for (std::int64_t j = 0; j < covariance.cols(); ++j) all += covariance(j, j);
+    const double gaps = std::max(0.0, dot(gap.rows() * gap.cols(), gap.data(), at_gaps.data()));
+    return {all, gaps, all, gaps};
+}
+
 // Mean and harmonics in the coordinates of the basis.
 void put_harmonics(const FlowModel &model, const RecordedMotion &motion, const HbmOptions &options,
                    BranchPoint &point) {
     point.eta_0 = model.in_static_coordinates(motion.mean());
-    Remainder rest{motion.mean_square(), motion.mean_square(model.gap()), 0, 0};
-    rest.left = rest.all, rest.left_at_gaps = rest.gaps;
+    Remainder rest = mean_squares(motion.covariance(), model.gap());
     const std::int64_t fewest = few_harmonics(model.reduced()) * options.period_multiple,
                        most = std::max(fewest, options.max_harmonics * options.period_multiple);
     const auto told = [&] {
@@ -237,7 +244,8 @@ OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, cons
     auto model = std::make_shared<const FlowModel>(std::move(reduced), omega);
     FlowState rest = rest_state(*model);
     return OrbitEquations(std::move(model), std::move(rest),
-                          {omega, options.force_scale, options.period_multiple}, parameter);
+                          {omega, options.force_scale, options.period_multiple, options.tolerance},
+                          parameter);
 }
 
 FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_t period_multiple) {
@@ -270,8 +278,7 @@ BranchPoint orbit_point(const OrbitEquations &equations, const HbmOptions &optio
                         double residual, std::int64_t iterations) {
     const OrbitConditions conditions = equations.conditions(at.parameter);
     RecordedMotion motion;
-    ExactFlow flow(equations.shared_model(), conditions.omega, conditions.force_scale, Watch(),
-                   equations.modes());
+    ExactFlow flow = conditions.flow(equations.shared_model(), equations.modes());
     FlowState start = equations.state(at.x.data());
     flow.complete(start); // what follows without mass is no unknown
     FlowState state = start;

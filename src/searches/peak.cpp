@@ -36,13 +36,7 @@ class PeakSearch {
     bool run(const Branch &branch, const std::array<std::int64_t, 3> &around, BranchPoint &highest) {
         for (int k = 0; k < 3; ++k) load(branch, around[k], three_[k]);
         set_chord();
-        // the curve's points may have other numbers of harmonics; a parabola through both kinds has no
-        // meaning
-        Sample solved, left, right;
-        if (!corrected(three_[1].s, solved)) return false;
-        const bool all = corrected(three_[0].s, left) && corrected(three_[2].s, right);
-        three_[1] = solved;
-        if (all) three_[0] = left, three_[2] = right;
+        if (!is_exact() && !solve_triple()) return false;
         close_in();
         const Sample &top = *std::max_element(three_.begin(), three_.end(), [](const auto &a, const auto &b) {
             return a.amplitude < b.amplitude;
@@ -55,13 +49,32 @@ class PeakSearch {
     }
 
   private:
+    bool is_exact() const {
+        return std::all_of(three_.begin(), three_.end(), [](const Sample &s) { return s.point.motion; });
+    }
+
+    // The curve's points may have other numbers of harmonics; a parabola through both kinds has no meaning.
+    bool solve_triple() {
+        Sample solved, left, right;
+        if (!corrected(three_[1].s, solved)) return false;
+        const bool all = corrected(three_[0].s, left) && corrected(three_[2].s, right);
+        three_[1] = solved;
+        if (all) three_[0] = left, three_[2] = right;
+        return true;
+    }
+
     // New triples around the vertex, ten times closer as long as the top is inside: the error of a parabola
     // falls with its square. One that misses the top (far from it the curve is no parabola) goes to its
     // higher side with wider steps.
     void close_in() {
         // Closer, differences of amplitudes drown in the error of their solutions, which corrected() keeps
         // small; and where contact forces come from samples, in the jumps as a pair switches past one.
-        const double closest = (options_.aft == AftKind::sampled ? 5e-2 : 2e-3) * span_,
+        constexpr double usual = 1e-9, close = 2e-3; // the height of a parabola goes with the square
+        const double closest =
+                         (options_.aft == AftKind::sampled
+                              ? 5e-2
+                              : std::clamp(close * std::sqrt(options_.tolerance / usual), close, 5e-2)) *
+                         span_,
                      widest = 0.25 * span_;
         constexpr int most_rounds = 20; // three when the top is inside from the beginning
         double reach = 0.05 * span_;

@@ -92,6 +92,24 @@ void a_single_interval_is_its_exponential(void **) {
     assert_true(below(single_error(1e12, 1e-3), 1e-11));
 }
 
+// Beyond critical damping z, m = exp(-z w t) (cosh, sinh); a long series of what has died away would be a
+// difference of large terms.
+double damped_error(double z, double t, double tolerance) {
+    const auto model = flow_model(bilinear_oscillator(z, 3, 0, 0, 0));
+    const Matrix m = plm::monodromy(*model, {{t, set({1})}}, tolerance);
+    const double w = 2, d = z, root = std::sqrt(d * d - w * w), up = std::exp((root - d) * t),
+                 down = std::exp((-root - d) * t), c = 0.5 * (up + down), s = 0.5 * (up - down) / root;
+    return std::max({std::abs(m(0, 0) - c - d * s), std::abs(m(1, 1) - c + d * s), std::abs(m(0, 1) - s),
+                     std::abs(m(1, 0) + w * w * s)}) /
+           up;
+}
+void what_is_damped_hard_keeps_its_digits(void **) {
+    for (double t : {0.01, 0.3, 1.0, 3.0, 30.0}) {
+        assert_true(below(damped_error(4, t, 1e-15), 1e-12));
+        assert_true(below(damped_error(4, t, 1e-7), 1e-5)); // part of it in single precision
+    }
+}
+
 // In single precision where pieces are short; unit: of the rates. Long pieces are for double precision.
 double single_precision_error(double unit, double longest) {
     Case c = damped_chain(50);
@@ -225,6 +243,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(it_is_the_derivative_of_the_flow),
         cmocka_unit_test(a_single_interval_is_its_exponential),
+        cmocka_unit_test(what_is_damped_hard_keeps_its_digits),
         cmocka_unit_test(single_precision_has_five_digits),
         cmocka_unit_test(cutting_intervals_changes_nothing),
         cmocka_unit_test(undamped_multipliers_come_in_reciprocal_pairs),

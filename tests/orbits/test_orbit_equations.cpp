@@ -320,7 +320,8 @@ Reading reading(double k_n, double ground = 0) {
     for (double v : samples) square += (v - mean) * (v - mean) / n_samples;
     const plm::vector<double> got = motion.mean();
     r.mean = std::abs(plm::dot(rows.cols(), rows.data(), got.data()) - mean) / size;
-    r.square = std::abs(motion.mean_square(rows) / square - 1);
+    const Matrix at_rows = plm::product('N', 'N', rows, motion.covariance());
+    r.square = std::abs(plm::dot(rows.cols(), at_rows.data(), rows.data()) / square - 1);
     const Matrix h = motion.harmonics(1, top), later = motion.harmonics(5, 2);
     for (int k = 1; k <= top; ++k) {
         double a = 0, b = 0;

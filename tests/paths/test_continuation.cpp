@@ -63,7 +63,7 @@ class Owner final : public plm::PathOwner {
     void record(const plm::PathPoint &p) override {
         ++n_points;
         all_whole = all_whole && p.x.size() == 1;
-        n_changes += p.bifurcation == PLM_BIFURCATION_NEIMARK_SACKER;
+        if (p.bifurcation == PLM_BIFURCATION_NEIMARK_SACKER) ++n_changes, change = p.parameter;
         if (p.bifurcation != PLM_BIFURCATION_FOLD) return;
         ++n_folds;
         fold = p.parameter;
@@ -71,14 +71,15 @@ class Owner final : public plm::PathOwner {
     bool cancelled(double) override { return false; }
     bool rescue(double, vector<double> &) override { return false; }
     void test(const vector<double> &, double p, vector<double> &values) override {
+        ++n_looks;
         if (test_) values = {test_(p)};
     }
     vector<std::int32_t> test_kinds() const override {
         if (!test_) return {};
         return {PLM_BIFURCATION_NEIMARK_SACKER};
     }
-    int n_points = 0, n_folds = 0, n_changes = 0;
-    double fold = 0;
+    int n_points = 0, n_folds = 0, n_changes = 0, n_looks = 0;
+    double fold = 0, change = 0;
     bool all_whole = true;
 
   private:
@@ -210,6 +211,26 @@ void a_test_function_that_is_infinite_has_no_zero(void **) {
     assert_true(f.owner.all_whole);
 }
 
+// Each look is a solution and a tangent. A smooth function has its zero after a few, one that begins with a
+// root by bisection, and one that jumps is left soon.
+int looks_for_zero(const std::function<double(double)> &test, int n_changes, double error) {
+    KnownCurve line([](double x) { return x; }, [](double) { return 1; });
+    const Followed f = follow(line, {{{0}, 0}}, Owner(test)),
+                   plain = follow(line, {{{0}, 0}}, Owner([](double) { return 1.0; }));
+    assert_int_equal(f.owner.n_changes, n_changes);
+    if (n_changes > 0) assert_true(near(f.owner.change, 0.537, error));
+    return f.owner.n_looks - plain.owner.n_looks;
+}
+void a_special_point_takes_few_looks(void **) {
+    const auto root = [](double p) { return std::copysign(std::sqrt(std::abs(p - 0.537)), p - 0.537); };
+    const int smooth =
+                  looks_for_zero([](double p) { return std::exp(9 * p) - std::exp(9 * 0.537); }, 1, 1e-8),
+              steep = looks_for_zero(root, 1, 1e-4),
+              jump = looks_for_zero([](double p) { return p < 0.537 ? -1.0 : 1.0; }, 0, 0);
+    std::printf("    %d looks, %d at a root, %d at a jump\n", smooth, steep, jump);
+    assert_true(smooth <= 8 && steep <= 40 && jump <= 20);
+}
+
 } // namespace
 
 int main() {
@@ -222,6 +243,7 @@ int main() {
         cmocka_unit_test(the_last_point_belongs_to_the_curve),
         cmocka_unit_test(a_test_function_that_dips_is_not_stepped_over),
         cmocka_unit_test(a_test_function_that_is_infinite_has_no_zero),
+        cmocka_unit_test(a_special_point_takes_few_looks),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
