@@ -17,9 +17,9 @@ namespace {
 // precision is left out, since a soft support may stand between them.
 constexpr double far_above_the_first = 3e4;
 
-// What is asked of each direction at first (AttachmentBasis::refine): the error of all of them together is
-// some hundred to a million times smaller, and told by measuring alone.
-constexpr double asked_at_first = 1e-2;
+// What is asked of each direction (AttachmentBasis::refine) at first, in tolerances: the error of all of them
+// together is some ten to a hundred times smaller than what is asked of one, and told by measuring alone.
+constexpr double asked_at_first = 1e3;
 
 class ContactSpaceBuilder {
   public:
@@ -45,9 +45,12 @@ class ContactSpaceBuilder {
     void refine(AttachmentBasis &attached) {
         const SpaceOptions &options = model_->space_options();
         choose_probes();
-        double error = receptance_error(attached);
-        for (double asked = asked_at_first; error > options.tolerance && asked > 1e-16; asked *= 0.1)
+        double error = receptance_error(attached), asked = asked_at_first * options.tolerance;
+        while (error > options.tolerance && asked > 1e-16) {
             if (attached.refine(asked, options.max_blocks, watch_)) error = receptance_error(attached);
+            // it falls about as what is asked for: a measurement is not for free, nor are vectors in vain
+            asked *= std::clamp(0.7 * options.tolerance / error, 0.1, 0.5);
+        }
         if (error > options.tolerance)
             watch_.warn(
                 PLM_REASON_BASIS_TOO_SMALL,
@@ -61,21 +64,28 @@ class ContactSpaceBuilder {
         const double cutoff = highest_ * model_->space_options().cutoff_factor;
         watch_.step("open modes", 0.0);
         double checked = cutoff;
+        responses_ = previous_ ? previous_->responses : model_->responses(watch_);
+        std::shared_ptr<const ExactModes> modes = responses_->modes;
+        const bool far_enough = highest_ > 0 && modes->count() > 0 && modes->count() >= least_modes_ &&
+                                modes->values.back() >= cutoff * cutoff;
+        if (far_enough) forget_search(*modes); // the count takes the most memory of all
         const std::int64_t count = verified_count(checked);
         std::int64_t guess = std::max<std::int64_t>(least_modes_, count >= 0 ? count : 20);
         guess = std::max(guess, model_->n_rigid() + 1);
-        responses_ = previous_ ? previous_->responses : model_->responses(watch_);
-        std::shared_ptr<const ExactModes> modes = responses_->modes;
         const bool reach_far =
             modes->count() >= guess && modes->count() > 0 && modes->values.back() >= cutoff * cutoff;
         if (!reach_far && !modes->are_all) modes = more_modes(*modes, guess, count);
         if (count >= 0) modes = complete(std::move(modes), checked, count);
-        if (highest_ > 0 && modes->rest) *modes->rest = SearchRest(); // hardly ever more are asked for
+        if (highest_ > 0) forget_search(*modes); // hardly ever more are asked for
         if (modes != responses_->modes)
             responses_ = std::make_shared<const StaticResponses>(
                 outside_more_modes(*model_, *responses_, std::move(modes), watch_));
         space_->responses = responses_;
         leave_out_followers();
+    }
+
+    static void forget_search(const ExactModes &modes) {
+        if (modes.rest) *modes.rest = SearchRest();
     }
 
     // count: of modes below the cutoff, or negative.

@@ -95,6 +95,9 @@ class Structure {
     /// X becomes (K + shift() M)^-1 X; shift() is 0 when K is positive definite.
     void solve(Field &x) const { factor_->solve(x.in_core()); }
     double shift() const { return shift_; }
+    /// For the static responses X = (K + shift() M)^-1 F to F = [B^T loads]: F^T X and X^T M X, without
+    /// keeping X and for less than a solution each. False where that is not to be had.
+    bool multiply_responses(const Field &loads, Matrix &energy, Matrix &inertia) const;
     /// Rough, from the pivots of that factor.
     double reciprocal_condition() const { return factor_->reciprocal_condition(); }
 
