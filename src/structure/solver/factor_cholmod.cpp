@@ -88,10 +88,6 @@ class CholmodFactor final : public Factor {
     mutable std::vector<std::unique_ptr<Cholmod>> idle_; // workspaces
 };
 
-/// From so many flops on the library's own factorization serves, by CHOLMOD's supernodes: as fast as
-/// CHOLMOD's, and faster on more than one thread.
-constexpr double shared_out = 1e9;
-
 class SharedFactor final : public Factor {
   public:
     SharedFactor(const SparseMatrix &a, const Cholmod &analysis)
@@ -129,7 +125,7 @@ std::unique_ptr<Factor> factor_by_cholmod(const SparseMatrix &a, const Solver &s
     lib->analyze(a, solver);
     if (solver.precision == FactorPrecision::single)
         return std::make_unique<RefinedFactor>(a, lib->supernodes());
-    if (lib->common.fl >= shared_out) return std::make_unique<SharedFactor>(a, *lib);
+    if (lib->common.fl >= shared_out_from) return std::make_unique<SharedFactor>(a, *lib);
     return std::make_unique<CholmodFactor>(a, std::move(lib));
 }
 
