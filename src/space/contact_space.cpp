@@ -24,9 +24,9 @@ constexpr double asked_at_first = 1e3;
 class ContactSpaceBuilder {
   public:
     ContactSpaceBuilder(std::shared_ptr<const Model> model, double highest, std::int64_t least_modes,
-                        Watch watch, const Space *previous)
+                        Watch watch, const Space *previous, bool provisional)
         : model_(std::move(model)), previous_(previous), space_(std::make_shared<Space>()), highest_(highest),
-          least_modes_(least_modes), watch_(watch), sigma_(model_->shift()) {
+          least_modes_(least_modes), provisional_(provisional), watch_(watch), sigma_(model_->shift()) {
         space_->model = model_;
         space_->highest_frequency = highest;
         space_->is_contact_space = true;
@@ -75,7 +75,10 @@ class ContactSpaceBuilder {
         const bool reach_far =
             modes->count() >= guess && modes->count() > 0 && modes->values.back() >= cutoff * cutoff;
         if (!reach_far && !modes->are_all) modes = more_modes(*modes, guess, count);
-        if (count >= 0) modes = complete(std::move(modes), checked, count);
+        if (count >= 0)
+            modes = complete(std::move(modes), checked, count);
+        else if (modes->may_miss_copies && !modes->are_all && !provisional_)
+            modes = model_->looked_over(*modes, watch_);
         if (highest_ > 0) forget_search(*modes); // hardly ever more are asked for
         if (modes != responses_->modes)
             responses_ = std::make_shared<const StaticResponses>(
@@ -272,6 +275,7 @@ class ContactSpaceBuilder {
     std::shared_ptr<Space> space_;
     double highest_;
     std::int64_t least_modes_;
+    bool provisional_;
     Watch watch_;
     double sigma_;
     std::shared_ptr<const StaticResponses> responses_; // outside the exact modes of the space
@@ -284,13 +288,15 @@ class ContactSpaceBuilder {
 
 std::shared_ptr<const Space> make_contact_space(std::shared_ptr<const Model> model, double highest_frequency,
                                                 std::int64_t least_modes, Watch watch,
-                                                std::shared_ptr<const Space> previous) {
+                                                std::shared_ptr<const Space> previous, bool provisional) {
     const std::int64_t least = std::min(least_modes, model->n_free());
-    if (previous && previous->highest_frequency >= highest_frequency && previous->n_exact_modes >= least)
+    if (previous && previous->highest_frequency >= highest_frequency && previous->n_exact_modes >= least &&
+        (provisional || previous->counts_verified || !previous->responses->modes->may_miss_copies))
         return previous;
     const auto begin = std::chrono::steady_clock::now();
-    const std::shared_ptr<Space> space =
-        ContactSpaceBuilder(std::move(model), highest_frequency, least_modes, watch, previous.get()).build();
+    const std::shared_ptr<Space> space = ContactSpaceBuilder(std::move(model), highest_frequency, least_modes,
+                                                             watch, previous.get(), provisional)
+                                             .build();
     space->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() +
                      (previous ? previous->seconds : 0);
     return space;

@@ -210,7 +210,8 @@ StructureModes Structure::lowest_modes(std::int64_t n, const ModeSearch &search)
         options.known = {&known.values, &known.vectors.in_core(), known.rest.get()};
     }
     EigenPairs pairs = lowest_eigenpairs(stiffness_, mass_, *factor_, -shift_, n, options);
-    StructureModes found{std::move(pairs.values), Field(std::move(pairs.vectors)), nullptr};
+    StructureModes found{std::move(pairs.values), Field(std::move(pairs.vectors)), nullptr,
+                         !search.look_for_missed};
     if (!pairs.rest.theta.empty()) found.rest = std::make_shared<SearchRest>(std::move(pairs.rest));
     return found;
 }
