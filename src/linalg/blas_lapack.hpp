@@ -21,11 +21,17 @@ void dgemm_(const char *, const char *, const blas_int *, const blas_int *, cons
 void dgemv_(const char *, const blas_int *, const blas_int *, const double *, const double *,
             const blas_int *, const double *, const blas_int *, const double *, double *, const blas_int *,
             strlen_t);
+void sgemv_(const char *, const blas_int *, const blas_int *, const float *, const float *, const blas_int *,
+            const float *, const blas_int *, const float *, float *, const blas_int *, strlen_t);
 double ddot_(const blas_int *, const double *, const blas_int *, const double *, const blas_int *);
 double dnrm2_(const blas_int *, const double *, const blas_int *);
 void dtrsm_(const char *, const char *, const char *, const char *, const blas_int *, const blas_int *,
             const double *, const double *, const blas_int *, double *, const blas_int *, strlen_t, strlen_t,
             strlen_t, strlen_t);
+void dtrsv_(const char *, const char *, const char *, const blas_int *, const double *, const blas_int *,
+            double *, const blas_int *, strlen_t, strlen_t, strlen_t);
+void strsv_(const char *, const char *, const char *, const blas_int *, const float *, const blas_int *,
+            float *, const blas_int *, strlen_t, strlen_t, strlen_t);
 void sgemm_(const char *, const char *, const blas_int *, const blas_int *, const blas_int *, const float *,
             const float *, const blas_int *, const float *, const blas_int *, const float *, float *,
             const blas_int *, strlen_t, strlen_t);
@@ -72,6 +78,9 @@ void dpotrs_(const char *, const blas_int *, const blas_int *, const double *, c
 // needs none. A macro, so that no caller can forget it.
 #define dgemm_(...) (BlasTurn(), dgemm_(__VA_ARGS__))
 #define dgemv_(...) (BlasTurn(), dgemv_(__VA_ARGS__))
+#define sgemv_(...) (BlasTurn(), sgemv_(__VA_ARGS__))
+#define dtrsv_(...) (BlasTurn(), dtrsv_(__VA_ARGS__))
+#define strsv_(...) (BlasTurn(), strsv_(__VA_ARGS__))
 #define dtrsm_(...) (BlasTurn(), dtrsm_(__VA_ARGS__))
 #define sgemm_(...) (BlasTurn(), sgemm_(__VA_ARGS__))
 #define strsm_(...) (BlasTurn(), strsm_(__VA_ARGS__))

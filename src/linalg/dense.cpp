@@ -1,5 +1,6 @@
 #include "dense.hpp"
 #include "blas_lapack.hpp"
+#include "parallel.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -80,6 +81,55 @@ void select_rows(const Matrix &a, const vector<std::int64_t> &rows, Matrix &out)
         for (std::int64_t i = 0; i < out.rows(); ++i) out(i, j) = a(rows[i], j);
 }
 
+namespace {
+
+/// Tall matrices are cut into so many bands of rows, for threads. The cut follows from the shapes alone, and
+/// so do the digits.
+constexpr std::int64_t bands = 16, tall = 1024 * bands;
+
+struct Band {
+    std::int64_t first, count;
+};
+Band band_of(std::int64_t k, std::int64_t rows) {
+    const std::int64_t first = k * rows / bands;
+    return {first, (k + 1) * rows / bands - first};
+}
+
+/// C = alpha A op(B) + beta C, band by band of A and C.
+void multiply_tall(char op_b, double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c) {
+    const double flops = 2.0 * static_cast<double>(a.rows() * a.cols()) * static_cast<double>(c.cols());
+    const blas_int n = to_blas(c.cols()), k = to_blas(a.cols()), ld = leading(a.rows()),
+                   ldb = leading(b.rows());
+    parallel_for(bands, flops, [&](std::int64_t i) {
+        const Band band = band_of(i, a.rows());
+        const blas_int m = to_blas(band.count);
+        dgemm_("N", &op_b, &m, &n, &k, &alpha, a.data() + band.first, &ld, b.data(), &ldb, &beta,
+               c.data() + band.first, &ld, 1, 1);
+    });
+}
+
+/// C = alpha A^T B + beta C: the sum of the bands' products.
+void multiply_tall_transposed(double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c) {
+    const std::int64_t entries = c.rows() * c.cols();
+    const blas_int m = to_blas(c.rows()), n = to_blas(c.cols()), ld = leading(a.rows()),
+                   ldc = leading(c.rows());
+    const double flops = 2.0 * static_cast<double>(a.rows()) * static_cast<double>(entries), zero = 0;
+    vector<double> parts(bands * entries);
+    parallel_for(bands, flops, [&](std::int64_t i) {
+        const Band band = band_of(i, a.rows());
+        const blas_int k = to_blas(band.count);
+        dgemm_("T", "N", &m, &n, &k, &alpha, a.data() + band.first, &ld, b.data() + band.first, &ld, &zero,
+               parts.data() + i * entries, &ldc, 1, 1);
+    });
+    for (std::int64_t e = 0; e < entries; ++e) {
+        double sum = beta == 0 ? 0 : beta * c.data()[e];
+        for (std::int64_t i = 0; i < bands; ++i) sum += parts[i * entries + e];
+        c.data()[e] = sum;
+    }
+}
+
+} // namespace
+
 void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c) {
     const bool ta = is_transpose(op_a), tb = is_transpose(op_b);
     const std::int64_t inner = ta ? a.rows() : a.cols();
@@ -87,6 +137,10 @@ void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, 
     require(c.rows() == (ta ? a.cols() : a.rows()) && c.cols() == (tb ? b.rows() : b.cols()),
             "gemm: shape of C");
     require(&c != &a && &c != &b, "gemm: C must not be A or B");
+    const bool worth = static_cast<double>(c.rows() * c.cols()) * static_cast<double>(inner) > worth_threads;
+    if (worth && !ta && a.rows() >= tall) return multiply_tall(op_b, alpha, a, b, beta, c);
+    if (worth && ta && !tb && inner >= tall && c.rows() * c.cols() * bands <= inner * (c.rows() + c.cols()))
+        return multiply_tall_transposed(alpha, a, b, beta, c);
     const blas_int m = to_blas(c.rows()), n = to_blas(c.cols()), k = to_blas(inner);
     const blas_int lda = leading(a.rows()), ldb = leading(b.rows()), ldc = leading(c.rows());
     dgemm_(&op_a, &op_b, &m, &n, &k, &alpha, a.data(), &lda, b.data(), &ldb, &beta, c.data(), &ldc, 1, 1);
@@ -127,6 +181,18 @@ void gemv(char op, double alpha, const Matrix &a, const double *x, double beta, 
     }
     const blas_int m = to_blas(a.rows()), n = to_blas(a.cols()), one = 1;
     dgemv_(&op, &m, &n, &alpha, a.data(), &m, x, &one, &beta, y, &one, 1);
+}
+
+void gemv(char op, std::int64_t rows, std::int64_t cols, double alpha, const double *a, std::int64_t lda,
+          const double *x, double beta, double *y) {
+    const blas_int m = to_blas(rows), n = to_blas(cols), ld = leading(lda), one = 1;
+    dgemv_(&op, &m, &n, &alpha, a, &ld, x, &one, &beta, y, &one, 1);
+}
+
+void gemv(char op, std::int64_t rows, std::int64_t cols, float alpha, const float *a, std::int64_t lda,
+          const float *x, float beta, float *y) {
+    const blas_int m = to_blas(rows), n = to_blas(cols), ld = leading(lda), one = 1;
+    sgemv_(&op, &m, &n, &alpha, a, &ld, x, &one, &beta, y, &one, 1);
 }
 
 double dot(std::int64_t n, const double *x, const double *y) {

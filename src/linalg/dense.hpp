@@ -69,6 +69,11 @@ void gemm(char op, std::int64_t m, std::int64_t n, std::int64_t k, float alpha, 
 Matrix product(char op_a, char op_b, const Matrix &a, const Matrix &b);
 /// y = alpha op(A) x + beta y
 void gemv(char op, double alpha, const Matrix &a, const double *x, double beta, double *y);
+/// The same on plain arrays, A rows x cols, beta = 0: y is not read. In double and in single precision.
+void gemv(char op, std::int64_t rows, std::int64_t cols, double alpha, const double *a, std::int64_t lda,
+          const double *x, double beta, double *y);
+void gemv(char op, std::int64_t rows, std::int64_t cols, float alpha, const float *a, std::int64_t lda,
+          const float *x, float beta, float *y);
 double dot(std::int64_t n, const double *x, const double *y);
 double norm2(std::int64_t n, const double *x); // overflow-safe (dnrm2)
 /// Entries between 0.5 and 1.5 without a pattern: a start or a right-hand side that no symmetry of a system

@@ -37,4 +37,13 @@ template <class Body> void parallel_for(std::int64_t count, const Body &body) {
     share_out(count, {[](const void *b, std::int64_t i) { (*static_cast<const Body *>(b))(i); }, &body});
 }
 
+/// What threads are worth: they are made for each parallel_for().
+constexpr double worth_threads = 1e7; // flops, half a millisecond or so
+
+/// The same where all pieces together are worth threads; else a loop, with the same digits.
+template <class Body> void parallel_for(std::int64_t count, double flops, const Body &body) {
+    if (flops > worth_threads) return parallel_for(count, body);
+    for (std::int64_t i = 0; i < count; ++i) body(i);
+}
+
 } // namespace plm

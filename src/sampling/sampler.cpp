@@ -108,7 +108,7 @@ Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &optio
         watch.step("sampler", 0.25 * round);
         warnings_ = Warnings(); // those of the last round stand
         watch = host.keeping(warnings_);
-        space_ = make_contact_space(model, highest, least_modes(options), watch, space_);
+        space_ = make_contact_space(model, highest, least_modes(options), watch, space_, highest == 0);
         rest_ = rest_of(*space_);
         dominant_ = find_dominant_modes(*space_, *rest_, homogeneous, options, watch);
         sweeps_.clear();

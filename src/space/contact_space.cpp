@@ -17,16 +17,16 @@ namespace {
 // precision is left out, since a soft support may stand between them.
 constexpr double far_above_the_first = 3e4;
 
-// What is asked of each direction at first (AttachmentBasis::refine): the error of all of them together is
-// some hundred to a million times smaller, and told by measuring alone.
-constexpr double asked_at_first = 1e-2;
+// What is asked of each direction (AttachmentBasis::refine) at first, in tolerances: the error of all of them
+// together is some ten to a hundred times smaller than what is asked of one, and told by measuring alone.
+constexpr double asked_at_first = 1e3;
 
 class ContactSpaceBuilder {
   public:
     ContactSpaceBuilder(std::shared_ptr<const Model> model, double highest, std::int64_t least_modes,
-                        Watch watch, const Space *previous)
+                        Watch watch, const Space *previous, bool provisional)
         : model_(std::move(model)), previous_(previous), space_(std::make_shared<Space>()), highest_(highest),
-          least_modes_(least_modes), watch_(watch), sigma_(model_->shift()) {
+          least_modes_(least_modes), provisional_(provisional), watch_(watch), sigma_(model_->shift()) {
         space_->model = model_;
         space_->highest_frequency = highest;
         space_->is_contact_space = true;
@@ -45,9 +45,12 @@ class ContactSpaceBuilder {
     void refine(AttachmentBasis &attached) {
         const SpaceOptions &options = model_->space_options();
         choose_probes();
-        double error = receptance_error(attached);
-        for (double asked = asked_at_first; error > options.tolerance && asked > 1e-16; asked *= 0.1)
+        double error = receptance_error(attached), asked = asked_at_first * options.tolerance;
+        while (error > options.tolerance && asked > 1e-16) {
             if (attached.refine(asked, options.max_blocks, watch_)) error = receptance_error(attached);
+            // it falls about as what is asked for: a measurement is not for free, nor are vectors in vain
+            asked *= std::clamp(0.7 * options.tolerance / error, 0.1, 0.5);
+        }
         if (error > options.tolerance)
             watch_.warn(
                 PLM_REASON_BASIS_TOO_SMALL,
@@ -61,21 +64,31 @@ class ContactSpaceBuilder {
         const double cutoff = highest_ * model_->space_options().cutoff_factor;
         watch_.step("open modes", 0.0);
         double checked = cutoff;
+        responses_ = previous_ ? previous_->responses : model_->responses(watch_);
+        std::shared_ptr<const ExactModes> modes = responses_->modes;
+        const bool far_enough = highest_ > 0 && modes->count() > 0 && modes->count() >= least_modes_ &&
+                                modes->values.back() >= cutoff * cutoff;
+        if (far_enough) forget_search(*modes); // the count takes the most memory of all
         const std::int64_t count = verified_count(checked);
         std::int64_t guess = std::max<std::int64_t>(least_modes_, count >= 0 ? count : 20);
         guess = std::max(guess, model_->n_rigid() + 1);
-        responses_ = previous_ ? previous_->responses : model_->responses(watch_);
-        std::shared_ptr<const ExactModes> modes = responses_->modes;
         const bool reach_far =
             modes->count() >= guess && modes->count() > 0 && modes->values.back() >= cutoff * cutoff;
         if (!reach_far && !modes->are_all) modes = more_modes(*modes, guess, count);
-        if (count >= 0) modes = complete(std::move(modes), checked, count);
-        if (highest_ > 0 && modes->rest) *modes->rest = SearchRest(); // hardly ever more are asked for
+        if (count >= 0)
+            modes = complete(std::move(modes), checked, count);
+        else if (modes->may_miss_copies && !modes->are_all && !provisional_)
+            modes = model_->looked_over(*modes, watch_);
+        if (highest_ > 0) forget_search(*modes); // hardly ever more are asked for
         if (modes != responses_->modes)
             responses_ = std::make_shared<const StaticResponses>(
                 outside_more_modes(*model_, *responses_, std::move(modes), watch_));
         space_->responses = responses_;
         leave_out_followers();
+    }
+
+    static void forget_search(const ExactModes &modes) {
+        if (modes.rest) *modes.rest = SearchRest();
     }
 
     // count: of modes below the cutoff, or negative.
@@ -262,6 +275,7 @@ class ContactSpaceBuilder {
     std::shared_ptr<Space> space_;
     double highest_;
     std::int64_t least_modes_;
+    bool provisional_;
     Watch watch_;
     double sigma_;
     std::shared_ptr<const StaticResponses> responses_; // outside the exact modes of the space
@@ -274,13 +288,15 @@ class ContactSpaceBuilder {
 
 std::shared_ptr<const Space> make_contact_space(std::shared_ptr<const Model> model, double highest_frequency,
                                                 std::int64_t least_modes, Watch watch,
-                                                std::shared_ptr<const Space> previous) {
+                                                std::shared_ptr<const Space> previous, bool provisional) {
     const std::int64_t least = std::min(least_modes, model->n_free());
-    if (previous && previous->highest_frequency >= highest_frequency && previous->n_exact_modes >= least)
+    if (previous && previous->highest_frequency >= highest_frequency && previous->n_exact_modes >= least &&
+        (provisional || previous->counts_verified || !previous->responses->modes->may_miss_copies))
         return previous;
     const auto begin = std::chrono::steady_clock::now();
-    const std::shared_ptr<Space> space =
-        ContactSpaceBuilder(std::move(model), highest_frequency, least_modes, watch, previous.get()).build();
+    const std::shared_ptr<Space> space = ContactSpaceBuilder(std::move(model), highest_frequency, least_modes,
+                                                             watch, previous.get(), provisional)
+                                             .build();
     space->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() +
                      (previous ? previous->seconds : 0);
     return space;

@@ -18,6 +18,9 @@ constexpr double further_per_pair = 0.5; // vectors of a contact space beside it
 constexpr double own_columns = 2 * modes_anyhow + most_rest;
 constexpr double lanczos_columns = 2 * n_modes + 26 * 8 + n_modes;
 constexpr double solve_columns = 4 * 64;
+// Of each contact row: what the products of the responses hold of a column at once, above the subtrees and in
+// those at work.
+constexpr double response_columns = 0.25;
 
 Solver solver_of(const SpaceOptions &options, const HostSolver *host) {
     Solver solver(options.solver, host);
@@ -73,7 +76,8 @@ MemoryEstimate estimate_memory(const StructureEstimate &s, std::int64_t n_pairs,
     }
     // the count of modes eliminates the shifted matrix front by front, and keeps nothing
     const double count = s.factor ? s.factor->at_work + s.shifted : 0;
-    e.modes = std::max((2 * modes_anyhow + lanczos_columns) * column, own_columns * column + count);
+    e.modes = std::max({(2 * modes_anyhow + lanczos_columns) * column, own_columns * column + count,
+                        (own_columns + response_columns * z) * column});
     const double space = (own_columns + 2 * n_modes + further_per_pair * z) * column; // modes and momenta
     e.contact_space = space + (solve_columns + further_per_pair / 2 * z) * column;
     e.basis = space + (solve_columns + n_basis) * column;

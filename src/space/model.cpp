@@ -52,11 +52,18 @@ std::shared_ptr<const ExactModes> Model::exact_modes_up_to(std::int64_t wanted, 
     }
 }
 
+std::shared_ptr<const ExactModes> Model::looked_over(const ExactModes &modes, Watch watch) const {
+    ModeSearch search;
+    search.known = &modes;
+    return exact_modes_up_to(modes.count(), 0, watch, search);
+}
+
 // Whose modes cannot all be found has its rigid-body motion at least; a space asks for what it needs.
 std::shared_ptr<const ExactModes> Model::modes_at_hand(Watch watch) const {
     try {
         ModeSearch search;
-        search.keep_rest = true; // a space mostly asks for more
+        search.keep_rest = true; // a space mostly asks for more, and counts those that matter to it
+        search.look_for_missed = !(space_options_.verify_counts && tells_inertia());
         return exact_modes_up_to(std::max(modes_anyhow, n_rigid() + 1), 0, watch, search);
     } catch (const Error &e) {
         if (e.status() != PLM_ERR_EIGENSOLVER) throw;

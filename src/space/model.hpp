@@ -27,6 +27,8 @@ class Model : public Structure {
     /// search: how, but for what this sets of it.
     std::shared_ptr<const ExactModes> exact_modes_up_to(std::int64_t wanted, double cutoff, Watch watch,
                                                         ModeSearch search = {}) const;
+    /// The same modes, with copies of multiple frequencies that may have been missed.
+    std::shared_ptr<const ExactModes> looked_over(const ExactModes &modes, Watch watch) const;
     const SpaceOptions &space_options() const { return space_options_; }
 
   private:

@@ -52,8 +52,10 @@ SpaceModes modes_of_contact_set(const Space &space, const PairStates &states, do
 /// vectors block by block until the receptance error at highest_frequency (rad/s) is below the model's
 /// tolerance. previous: an earlier contact space of the same model or null; it is returned when it already
 /// serves, and its exact modes are used again when they reach far enough.
+/// provisional: another one with a highest frequency follows, which verifies the modes.
 std::shared_ptr<const Space> make_contact_space(std::shared_ptr<const Model> model, double highest_frequency,
                                                 std::int64_t least_modes, Watch watch,
-                                                std::shared_ptr<const Space> previous = nullptr);
+                                                std::shared_ptr<const Space> previous = nullptr,
+                                                bool provisional = false);
 
 } // namespace plm

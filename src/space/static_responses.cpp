@@ -1,17 +1,22 @@
 #include "space/static_responses.hpp"
+#include "linalg/lapack.hpp"
 #include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
 
 namespace plm {
 namespace {
 
-Matrix unit_columns(std::int64_t rows, std::int64_t first, std::int64_t count) {
-    Matrix e(rows, count);
-    for (std::int64_t j = 0; j < count; ++j) e(first + j, j) = 1;
+Matrix unit_columns(std::int64_t rows, const vector<std::int64_t> &chosen) {
+    Matrix e(rows, static_cast<std::int64_t>(chosen.size()));
+    for (std::int64_t j = 0; j < e.cols(); ++j) e(chosen[j], j) = 1;
     return e;
 }
 
-void put_columns(const Matrix &columns, std::int64_t first, Matrix &into) {
-    std::copy_n(columns.data(), columns.rows() * columns.cols(), into.col(first));
+void put_columns(const Matrix &columns, const vector<std::int64_t> &chosen, Matrix &into) {
+    for (std::int64_t j = 0; j < columns.cols(); ++j)
+        std::copy_n(columns.col(j), columns.rows(), into.col(chosen[j]));
 }
 
 void symmetrise(Matrix &a) {
@@ -93,26 +98,90 @@ vector<double> StaticResponses::elastic_energies(double shift) const {
     return energies_with(*this, compliances(*modes, shift, 1, first));
 }
 
+namespace {
+
+/// Some columns of the matrices, by two solutions each.
+void solve_for(const vector<std::int64_t> &chosen, const Structure &structure, const ActingForces &forces,
+               StaticResponses &r, Watch watch) {
+    const std::int64_t n = forces.count(), all = static_cast<std::int64_t>(chosen.size());
+    for (std::int64_t first = 0; first < all; first += solved_at_once) {
+        watch.step("contact flexibility", static_cast<double>(first) / static_cast<double>(all));
+        const vector<std::int64_t> some(chosen.begin() + first,
+                                        chosen.begin() + std::min(all, first + solved_at_once));
+        Field x = forces.combine(unit_columns(n, some));
+        put_columns(gram(r.modes->vectors, x), some, r.modal);
+        r.modes->take_from_forces(x);
+        const Field f = x;
+        respond_outside(structure, *r.modes, x);
+        put_columns(forces.products(x), some, r.energy);
+        const vector<double> own = column_products(f, x); // exact where the modes are nearly all of it
+        for (std::size_t j = 0; j < some.size(); ++j) r.energy(some[j], some[j]) = own[j];
+        x = structure.mass_times(x);
+        respond_outside(structure, *r.modes, x);
+        put_columns(forces.products(x), some, r.inertia);
+    }
+}
+
+/// Of the matrix of those columns: its rows become the same.
+void mirror(const vector<std::int64_t> &columns, Matrix &a) {
+    for (std::int64_t j : columns)
+        for (std::int64_t i = 0; i < a.rows(); ++i) a(j, i) = a(i, j);
+}
+
+/// Energies scaled to one that are as independent as rounding of what was taken from them asks for.
+bool are_independent(const Matrix &energy) {
+    constexpr double least = 1e-8;
+    Matrix scaled = energy;
+    for (std::int64_t j = 0; j < energy.cols(); ++j)
+        for (std::int64_t i = 0; i < energy.rows(); ++i)
+            scaled(i, j) = energy(i, i) > 0 && energy(j, j) > 0
+                               ? energy(i, j) / std::sqrt(energy(i, i)) / std::sqrt(energy(j, j))
+                               : 0;
+    for (std::int64_t j = 0; j < energy.cols(); ++j) scaled(j, j) = 1 - least;
+    return DenseCholesky().factor(scaled);
+}
+
+/// Columns of which the modes were nearly all.
+vector<std::int64_t> columns_lost(const StaticResponses &before, const StaticResponses &after) {
+    constexpr double least_energy = 1e-3, least_inertia = 1e-6;
+    vector<std::int64_t> lost;
+    for (std::int64_t j = 0; j < after.energy.cols(); ++j)
+        if (!(after.energy(j, j) >= least_energy * before.energy(j, j) &&
+              after.inertia(j, j) >= least_inertia * before.inertia(j, j)))
+            lost.push_back(j);
+    return lost;
+}
+
+/// From the matrices of the responses with the modes in them. Nothing where these are not to be had, or the
+/// modes, soft ones among them, leave too few digits.
+std::optional<StaticResponses> less_the_modes(const Structure &structure, const ActingForces &forces,
+                                              std::shared_ptr<const ExactModes> modes, Watch watch) {
+    watch.step("contact flexibility", 0);
+    StaticResponses whole;
+    if (structure.n_rigid() > 0 || !forces.multiply_responses(whole.energy, whole.inertia)) return {};
+    StaticResponses r{modes, forces.products(modes->vectors).transposed(), whole.energy, whole.inertia};
+    add_modal(-1.0, r.modal, compliances(*modes, structure.shift(), 1), r.energy);
+    add_modal(-1.0, r.modal, compliances(*modes, structure.shift(), 2), r.inertia);
+    const vector<std::int64_t> lost = columns_lost(whole, r);
+    if (4 * static_cast<std::int64_t>(lost.size()) > forces.count()) return {};
+    solve_for(lost, structure, forces, r, watch);
+    mirror(lost, r.energy);
+    mirror(lost, r.inertia);
+    if (!are_independent(r.energy)) return {};
+    return r;
+}
+
+} // namespace
+
 StaticResponses static_responses(const Structure &structure, std::shared_ptr<const ExactModes> modes,
                                  Watch watch) {
     const ActingForces forces(structure);
     const std::int64_t n = forces.count();
+    if (std::optional<StaticResponses> r = less_the_modes(structure, forces, modes, watch)) return *r;
     StaticResponses r{modes, Matrix(modes->count(), n), Matrix(n, n), Matrix(n, n)};
-    for (std::int64_t first = 0; first < n; first += solved_at_once) {
-        watch.step("contact flexibility", static_cast<double>(first) / static_cast<double>(n));
-        const std::int64_t count = std::min(solved_at_once, n - first);
-        Field x = forces.combine(unit_columns(n, first, count));
-        put_columns(gram(modes->vectors, x), first, r.modal);
-        modes->take_from_forces(x);
-        const Field f = x;
-        respond_outside(structure, *modes, x);
-        put_columns(forces.products(x), first, r.energy);
-        const vector<double> own = column_products(f, x); // exact where the modes are nearly all of it
-        for (std::int64_t j = 0; j < count; ++j) r.energy(first + j, first + j) = own[j];
-        x = structure.mass_times(x);
-        respond_outside(structure, *modes, x);
-        put_columns(forces.products(x), first, r.inertia);
-    }
+    vector<std::int64_t> all(n);
+    std::iota(all.begin(), all.end(), 0);
+    solve_for(all, structure, forces, r, watch);
     symmetrise(r.energy);
     symmetrise(r.inertia);
     return r;

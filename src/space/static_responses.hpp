@@ -16,6 +16,10 @@ class ActingForces {
     /// F T and F^T X.
     Field combine(const Matrix &t) const;
     Matrix products(const Field &x) const;
+    /// F^T X and X^T M X of X = (K + sigma M)^-1 F; false: not to be had without X.
+    bool multiply_responses(Matrix &energy, Matrix &inertia) const {
+        return structure_.multiply_responses(loads_, energy, inertia);
+    }
 
   private:
     const Structure &structure_;
@@ -33,8 +37,9 @@ struct StaticResponses {
     vector<double> elastic_energies(double shift) const;
 };
 
-/// By two solutions a force: X = (K + sigma M)^-1 F and (K + sigma M)^-1 M X, whose product with F is
-/// X^T M X.
+/// Without solutions as a whole, where the factorization offers that (Structure::multiply_responses()), and
+/// the share of the modes is taken off in small matrices. For what loses digits there by two solutions a
+/// force: X = (K + sigma M)^-1 F and (K + sigma M)^-1 M X, whose product with F is X^T M X.
 StaticResponses static_responses(const Structure &structure, std::shared_ptr<const ExactModes> modes,
                                  Watch watch);
 /// The same outside more modes, among which are the earlier ones: in small matrices, but for forces of which

@@ -39,7 +39,8 @@ struct EigsOptions {
     bool look_for_missed = true;
     /// Whether what is left of the search is kept with the pairs.
     bool keep_rest = false;
-    /// The lowest pairs, from an earlier search: this one goes on, from its rest if there is one.
+    /// The lowest pairs, from an earlier search: this one goes on, from its rest if there is one. Where they
+    /// are all that is wanted, it looks for missed ones alone.
     KnownPairs known;
 };
 

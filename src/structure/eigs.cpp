@@ -139,7 +139,15 @@ const char *meaning(KrylovEnd end) {
                : "the mass matrix has too low a rank for more; ask for fewer, or check the masses";
 }
 
+EigenPairs first_of(const KnownPairs &known, std::int64_t count) {
+    return {vector<double>(known.values->begin(), known.values->begin() + count),
+            known.vectors->columns(0, count),
+            {}};
+}
+
 EigenPairs search(const Pencil &pencil, std::int64_t n_wanted) {
+    const KnownPairs &known = pencil.options.known;
+    if (known.values && known.vectors->cols() >= n_wanted) return first_of(known, n_wanted);
     KrylovResult result{};
     for (std::int64_t attempt = 0, times = 1; attempt < pencil.options.max_attempts; ++attempt, times *= 2) {
         result = run(pencil, n_wanted, times);

@@ -5,6 +5,7 @@
 // one object: problems run side by side, and one inside a callback of another.
 #include "linalg/blas_lapack.hpp"
 #include "linalg/lapack.hpp"
+#include "linalg/parallel.hpp"
 #include "structure/eigs_block.hpp"
 #include "structure/eigs_internal.hpp"
 #include <algorithm>
@@ -16,6 +17,7 @@ namespace plm {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
+constexpr std::int64_t bands = 16; // of rows, for threads
 
 /// The factorization A^-1 M V = V T + W B, with V and the block W M-orthonormal.
 class Lanczos {
@@ -131,13 +133,17 @@ class Lanczos {
     /// Takes from the new columns what T says lies in V, the most of it and without a product with M; returns
     /// its squared M-norms.
     vector<double> take_recurrence(std::int64_t first) {
-        const std::int64_t coupled = size() - coupled_from_;
-        const blas_int n = to_blas(n_), ld = to_blas(t_.rows()), inner = to_blas(coupled),
-                       width = to_blas(w_.width());
-        const double minus = -1, one = 1;
+        const std::int64_t coupled = size() - coupled_from_, width = w_.width();
         const double *t = t_.col(first) + coupled_from_;
-        dgemm_("N", "N", &n, &width, &inner, &minus, v_.col(coupled_from_), &n, t, &ld, &one, w_.x.data(), &n,
-               1, 1);
+        const double flops = 2.0 * static_cast<double>(n_ * coupled) * static_cast<double>(width);
+        parallel_for(bands, flops, [&](std::int64_t k) {
+            const std::int64_t begin = k * n_ / bands, height = (k + 1) * n_ / bands - begin;
+            const blas_int m = to_blas(height), cols = to_blas(width), inner = to_blas(coupled),
+                           n = to_blas(n_), ld = to_blas(t_.rows());
+            const double minus = -1, one = 1;
+            dgemm_("N", "N", &m, &cols, &inner, &minus, v_.col(coupled_from_) + begin, &n, t, &ld, &one,
+                   w_.x.data() + begin, &n, 1, 1);
+        });
         vector<double> taken(w_.width());
         for (std::int64_t j = 0; j < w_.width(); ++j)
             taken[j] = dot(coupled, t + j * t_.rows(), t + j * t_.rows());
@@ -189,10 +195,17 @@ class Lanczos {
 
     /// The first `count` Ritz vectors in place of V, by rows that stay in the cache.
     void to_ritz_vectors(std::int64_t count) {
+        const double flops = 2.0 * static_cast<double>(n_ * size()) * static_cast<double>(count);
+        parallel_for(bands, flops, [&](std::int64_t k) {
+            rows_to_ritz_vectors(k * n_ / bands, (k + 1) * n_ / bands, count);
+        });
+        v_.cut(count);
+    }
+    void rows_to_ritz_vectors(std::int64_t begin, std::int64_t end, std::int64_t count) {
         constexpr std::int64_t panel = 256;
         Matrix rows(panel, size());
-        for (std::int64_t first = 0; first < n_; first += panel) {
-            const std::int64_t height = std::min(panel, n_ - first);
+        for (std::int64_t first = begin; first < end; first += panel) {
+            const std::int64_t height = std::min(panel, end - first);
             for (std::int64_t j = 0; j < size(); ++j) std::copy_n(v_.col(j) + first, height, rows.col(j));
             const blas_int m = to_blas(height), n = to_blas(count), k = to_blas(size()), ld = to_blas(panel),
                            ldv = to_blas(n_);
@@ -200,7 +213,6 @@ class Lanczos {
             dgemm_("N", "N", &m, &n, &k, &one, rows.data(), &ld, ritz_.data(), &k, &zero, v_.data() + first,
                    &ldv, 1, 1);
         }
-        v_.cut(count);
     }
 
     EigenPairs extract_with_rest() {

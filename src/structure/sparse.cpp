@@ -83,25 +83,41 @@ SparseMatrix transpose(const SparseMatrix &a) {
     return t;
 }
 
-SparseMatrix add(double alpha, const SparseMatrix &a, double beta, const SparseMatrix &b) {
-    require(a.rows == b.rows && a.cols == b.cols, "sparse add: shapes differ");
-    SparseMatrix c = shaped(a.rows, a.cols, a.nnz() + b.nnz());
-    std::int64_t n = 0;
+namespace {
+
+/// entry(p, q) for each entry of either matrix, column by column: its place in A and in B, or -1; column(j)
+/// at the end of column j.
+template <class Entry, class Column>
+void merge(const SparseMatrix &a, const SparseMatrix &b, const Entry &entry, const Column &column) {
     for (std::int64_t j = 0; j < a.cols; ++j) {
         std::int64_t p = a.ptr[j], q = b.ptr[j];
         const std::int64_t p_end = a.ptr[j + 1], q_end = b.ptr[j + 1];
         while (p < p_end || q < q_end) {
             const bool from_a = p < p_end && (q >= q_end || a.idx[p] <= b.idx[q]);
             const bool from_b = q < q_end && (p >= p_end || b.idx[q] <= a.idx[p]);
-            c.idx[n] = from_a ? a.idx[p] : b.idx[q];
-            c.val[n++] = (from_a ? alpha * a.val[p] : 0) + (from_b ? beta * b.val[q] : 0);
+            entry(from_a ? p : -1, from_b ? q : -1);
             p += from_a;
             q += from_b;
         }
-        c.ptr[j + 1] = n;
+        column(j);
     }
-    c.idx.resize(n);
-    c.val.resize(n);
+}
+
+} // namespace
+
+SparseMatrix add(double alpha, const SparseMatrix &a, double beta, const SparseMatrix &b) {
+    require(a.rows == b.rows && a.cols == b.cols, "sparse add: shapes differ");
+    std::int64_t count = 0, n = 0; // counted first: the sum takes no more than it needs
+    merge(
+        a, b, [&](std::int64_t, std::int64_t) { ++count; }, [](std::int64_t) {});
+    SparseMatrix c = shaped(a.rows, a.cols, count);
+    merge(
+        a, b,
+        [&](std::int64_t p, std::int64_t q) {
+            c.idx[n] = p >= 0 ? a.idx[p] : b.idx[q];
+            c.val[n++] = (p >= 0 ? alpha * a.val[p] : 0) + (q >= 0 ? beta * b.val[q] : 0);
+        },
+        [&](std::int64_t j) { c.ptr[j + 1] = n; });
     return c;
 }
 

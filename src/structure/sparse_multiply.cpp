@@ -11,8 +11,9 @@ namespace {
 /// is read once for all of them and one cache line of X (or Y) serves it.
 constexpr std::int64_t panel = 8;
 
-void pack(const double *x, std::int64_t ld, std::int64_t rows, std::int64_t width, double *packed) {
-    for (std::int64_t i = 0; i < rows; ++i)
+void pack(const double *x, std::int64_t ld, std::int64_t first, std::int64_t last, std::int64_t width,
+          double *packed) {
+    for (std::int64_t i = first; i < last; ++i)
         for (std::int64_t c = 0; c < panel; ++c) packed[i * panel + c] = c < width ? x[i + c * ld] : 0;
 }
 
@@ -104,17 +105,25 @@ Matrix multiply_transposed(const SparseMatrix &a, const Matrix &x) {
     if (is_dense(a) && x.cols() > 1) return dense_times('T', a, x);
     Matrix y(a.cols, x.cols());
     if (x.cols() == 1) return multiply_transposed(a, x.data(), y.data()), y;
-    for_panels(a, x.cols(), a.rows, [&](std::int64_t first, std::int64_t width, vector<double> &packed) {
-        pack(x.col(first), a.rows, a.rows, width, packed.data());
-        for (std::int64_t j = 0; j < a.cols; ++j) {
-            double sum[panel] = {};
-            for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p) {
-                const double *source = packed.data() + a.idx[p] * panel;
-                for (std::int64_t c = 0; c < panel; ++c) sum[c] += a.val[p] * source[c];
+    vector<double> packed(a.rows * panel);
+    const double flops = 2.0 * panel * static_cast<double>(a.nnz());
+    constexpr std::int64_t pieces = 16;
+    for (std::int64_t first = 0; first < x.cols(); first += panel) {
+        const std::int64_t width = std::min(panel, x.cols() - first);
+        parallel_for(pieces, flops, [&](std::int64_t k) {
+            pack(x.col(first), a.rows, k * a.rows / pieces, (k + 1) * a.rows / pieces, width, packed.data());
+        });
+        parallel_for(pieces, flops, [&](std::int64_t k) {
+            for (std::int64_t j = k * a.cols / pieces; j < (k + 1) * a.cols / pieces; ++j) {
+                double sum[panel] = {};
+                for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p) {
+                    const double *source = packed.data() + a.idx[p] * panel;
+                    for (std::int64_t c = 0; c < panel; ++c) sum[c] += a.val[p] * source[c];
+                }
+                for (std::int64_t c = 0; c < width; ++c) y(j, first + c) = sum[c];
             }
-            for (std::int64_t c = 0; c < width; ++c) y(j, first + c) = sum[c];
-        }
-    });
+        });
+    }
     return y;
 }
 

@@ -186,6 +186,20 @@ void Structure::factor_stiffness(double largest_contact, Watch watch) {
     uncertainty_ = result.uncertainty;
 }
 
+bool Structure::multiply_responses(const Field &loads, Matrix &energy, Matrix &inertia) const {
+    SparseMatrix f = transpose(gap_rows_.matrix());
+    for (std::int64_t j = 0; j < loads.cols(); ++j) {
+        for (std::int64_t i = 0; i < loads.rows(); ++i) {
+            if (loads.at(i, j) == 0) continue;
+            f.idx.push_back(i);
+            f.val.push_back(loads.at(i, j));
+        }
+        f.ptr.push_back(f.nnz());
+        ++f.cols;
+    }
+    return factor_->multiply_responses(f, mass_, energy, inertia);
+}
+
 StructureModes Structure::lowest_modes(std::int64_t n, const ModeSearch &search) const {
     EigsOptions options;
     options.cancelled = search.cancelled;
@@ -196,7 +210,8 @@ StructureModes Structure::lowest_modes(std::int64_t n, const ModeSearch &search)
         options.known = {&known.values, &known.vectors.in_core(), known.rest.get()};
     }
     EigenPairs pairs = lowest_eigenpairs(stiffness_, mass_, *factor_, -shift_, n, options);
-    StructureModes found{std::move(pairs.values), Field(std::move(pairs.vectors)), nullptr};
+    StructureModes found{std::move(pairs.values), Field(std::move(pairs.vectors)), nullptr,
+                         !search.look_for_missed};
     if (!pairs.rest.theta.empty()) found.rest = std::make_shared<SearchRest>(std::move(pairs.rest));
     return found;
 }

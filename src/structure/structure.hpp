@@ -44,6 +44,7 @@ struct StructureModes {
     Field vectors;
     /// What the search for them left, for one that goes on to more: taken by it. Null: nothing.
     std::shared_ptr<SearchRest> rest;
+    bool may_miss_copies = false; // of multiple frequencies: they were not looked for
 };
 
 struct ModeSearch {
@@ -95,9 +96,14 @@ class Structure {
     /// X becomes (K + shift() M)^-1 X; shift() is 0 when K is positive definite.
     void solve(Field &x) const { factor_->solve(x.in_core()); }
     double shift() const { return shift_; }
+    /// For the static responses X = (K + shift() M)^-1 F to F = [B^T loads]: F^T X and X^T M X, without
+    /// keeping X and for less than a solution each. False where that is not to be had.
+    bool multiply_responses(const Field &loads, Matrix &energy, Matrix &inertia) const;
     /// Rough, from the pivots of that factor.
     double reciprocal_condition() const { return factor_->reciprocal_condition(); }
 
+    /// Whether modes can be counted.
+    bool tells_inertia() const { return solver_.tells_inertia(); }
     /// The n lowest modes, fewer when there are fewer of finite frequency.
     StructureModes lowest_modes(std::int64_t n, const ModeSearch &search = {}) const;
     /// Modes below omega (rad/s), cannot_tell_count or hit_a_mode; where it may move a little: near it.

@@ -1,10 +1,13 @@
 // What the phases of a set-up cost against the size of the structure: cracked cantilevers of bricks, a solid
 // block (4:2:1) and a plate of three bricks' thickness, contact pairs growing with the cracked section.
-// Seconds of the processor and MiB. Not a test: prints Markdown.
+// Seconds of the processor, or with several threads of the clock on the wall, and MiB. Not a test: prints
+// Markdown.
 //
-//     bench_scale solid|plate [--space] DOFS...     (--space: the contact space, too, with all its pairs)
+//     bench_scale solid|plate [--threads N] [--space] DOFS...
 //
-// Each size runs in a process of its own, so that the most memory it ever held is its own.
+// --space: the contact space, too, with all its pairs. Modal analysis and set-up of each size run in
+// processes of their own; the memory is what they hold at most beside the matrices handed over.
+#include "linalg/parallel.hpp"
 #include "space/memory_estimate.hpp"
 #include "space/space.hpp"
 #include "structure/eigs.hpp"
@@ -28,22 +31,32 @@ namespace {
 
 constexpr int n_modes = 30;
 
-double processor_seconds() {
+int n_threads = 1;
+
+double seconds_now() {
     timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    clock_gettime(n_threads > 1 ? CLOCK_MONOTONIC : CLOCK_PROCESS_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 template <class Step> double seconds_of(Step step) {
-    const double begin = processor_seconds();
+    const double begin = seconds_now();
     step();
-    return processor_seconds() - begin;
+    return seconds_now() - begin;
 }
 
 double peak_mebibytes() {
     rusage usage;
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+double resident_mebibytes() {
+    long long pages = 0, resident = 0;
+    FILE *file = std::fopen("/proc/self/statm", "r");
+    if (!file || std::fscanf(file, "%lld %lld", &pages, &resident) != 2) std::exit(1);
+    std::fclose(file);
+    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
 /// About so many DOFs, the crack over half of the section at mid length.
@@ -110,41 +123,83 @@ Modal measure(const plm::SparseMatrix &k, const plm::SparseMatrix &m) {
     return t;
 }
 
+/// The free DOFs alone.
+plm::SparseMatrix free_matrix(const plm::ModelInput &input, const plm::MatrixInput &matrix) {
+    plm::vector<std::int64_t> keep(input.n_dof, 0);
+    for (std::int64_t dof : input.fixed) keep[dof] = -1;
+    std::int64_t n = 0;
+    for (std::int64_t &k : keep)
+        if (k == 0) k = n++;
+    return plm::submatrix(matrix.to_sparse(), keep, n, keep, n);
+}
+
+Modal modal_analysis(const plm::ModelInput &input) {
+    return measure(free_matrix(input, *input.stiffness), free_matrix(input, *input.mass));
+}
+
+/// Matrices to the contact space of just below half of the highest mode: its modes reach far enough.
+struct SetUp {
+    double model, space;
+};
+SetUp set_up(const plm::ModelInput &input, double highest) {
+    SetUp t;
+    std::shared_ptr<const plm::Model> model;
+    t.model = seconds_of([&] {
+        model = std::make_shared<const plm::Model>(input, plm::SpaceOptions(), nullptr, plm::Watch());
+    });
+    t.space = seconds_of([&] { plm::make_contact_space(model, 0.499 * highest, n_modes, plm::Watch()); });
+    return t;
+}
+
+/// What `step` returns, from a process of its own; `mebibytes`: the most it held beside what there was.
+template <class Result, class Step> Result apart(Step step, double &mebibytes) {
+    struct {
+        Result result;
+        double mebibytes;
+    } answer;
+    int ends[2];
+    if (pipe(ends) != 0) std::exit(1);
+    const pid_t child = fork();
+    if (child == 0) {
+        const double before = resident_mebibytes();
+        const plm::ThreadsScope threads(n_threads);
+        answer.result = step();
+        answer.mebibytes = peak_mebibytes() - before;
+        _exit(write(ends[1], &answer, sizeof answer) == sizeof answer ? 0 : 1);
+    }
+    close(ends[1]);
+    const bool told = child > 0 && read(ends[0], &answer, sizeof answer) == sizeof answer;
+    close(ends[0]);
+    int status = 1;
+    if (child > 0) waitpid(child, &status, 0);
+    if (!told || status != 0) std::exit(1);
+    mebibytes = answer.mebibytes;
+    return answer.result;
+}
+
 void print_row(bool solid, double dofs, bool with_space) {
     const cracked_plate_params p = cantilever(solid, dofs);
     scene *s = nullptr;
     if (cracked_plate_create(&p, &s) != SCENE_OK) std::exit(1);
-    plm::ModelInput input = input_of(*s);
-    const plm::GapSize gap{s->n_pairs, plm::Contact::n_directions};
-    std::int64_t n;
-    Modal t;
-    {
-        const auto free_matrix = [&](const plm::MatrixInput &matrix) {
-            plm::vector<std::int64_t> keep(s->n_dof, 0);
-            for (std::int64_t dof : input.fixed) keep[dof] = -1;
-            n = 0;
-            for (std::int64_t &k : keep)
-                if (k == 0) k = n++;
-            return plm::submatrix(matrix.to_sparse(), keep, n, keep, n);
-        };
-        t = measure(free_matrix(*input.stiffness), free_matrix(*input.mass));
-    }
+    const plm::ModelInput input = input_of(*s);
+    double mebibytes;
+    const Modal t = apart<Modal>([&] { return modal_analysis(input); }, mebibytes);
     const double modal = t.analysis + t.factor + t.modes;
     std::printf("| %lld | %lld | %.3g | %.3g | %.2f | %.2f | %.4f, %.4f, %.4f, %.4f | %.2f | %.2f |",
-                static_cast<long long>(n), static_cast<long long>(gap.n_pairs), t.estimate.nonzeros,
-                t.estimate.flops, t.analysis, t.factor, t.solve[0], t.solve[1], t.solve[2], t.solve[3],
-                t.modes, t.count);
+                static_cast<long long>(s->n_dof - s->n_fixed), static_cast<long long>(s->n_pairs),
+                t.estimate.nonzeros, t.estimate.flops, t.analysis, t.factor, t.solve[0], t.solve[1],
+                t.solve[2], t.solve[3], t.modes, t.count);
     if (with_space) {
-        std::shared_ptr<const plm::Model> model;
-        const double build = seconds_of([&] {
-            model = std::make_shared<const plm::Model>(input, plm::SpaceOptions(), nullptr, plm::Watch());
-        });
-        const double space =
-            seconds_of([&] { plm::make_contact_space(model, 0.5 * t.highest, n_modes, plm::Watch()); });
-        const double told = plm::estimate_memory(input, plm::SpaceOptions(), nullptr).peak();
-        std::printf(" %.2f | %.2f | %.2f | %.0f |", build, space, (build + space) / modal, told / (1 << 20));
+        double its_own;
+        const double told = apart<double>(
+            [&] { return plm::estimate_memory(input, plm::SpaceOptions(), nullptr).peak() / (1 << 20); },
+            its_own);
+        const SetUp u = apart<SetUp>([&] { return set_up(input, t.highest); }, mebibytes);
+        std::printf(" %.2f | %.2f | %.2f | %.2f | %.0f |", u.model, u.space, u.model + u.space,
+                    (u.model + u.space) / modal, told);
     }
-    std::printf(" %.0f |\n", peak_mebibytes());
+    std::printf(" %.0f |\n", mebibytes);
+    std::fflush(stdout);
     scene_destroy(&s);
 }
 
@@ -152,26 +207,27 @@ void print_row(bool solid, double dofs, bool with_space) {
 
 int main(int n_arguments, char **argument) {
     const bool solid = n_arguments > 1 && std::strcmp(argument[1], "solid") == 0;
-    const bool with_space = n_arguments > 2 && std::strcmp(argument[2], "--space") == 0;
-    const int first = with_space ? 3 : 2;
-    if (n_arguments <= first || (!solid && std::strcmp(argument[1], "plate") != 0)) {
-        std::fprintf(stderr, "usage: bench_scale solid|plate [--space] DOFS...\n");
+    bool with_space = false,
+         asked_well = solid || (n_arguments > 1 && std::strcmp(argument[1], "plate") == 0);
+    int first = 2;
+    for (; first < n_arguments && argument[first][0] == '-'; ++first)
+        if (std::strcmp(argument[first], "--space") == 0)
+            with_space = true;
+        else if (std::strcmp(argument[first], "--threads") == 0 && first + 1 < n_arguments)
+            n_threads = std::atoi(argument[++first]);
+        else
+            asked_well = false;
+    if (first >= n_arguments || !asked_well || n_threads < 1) {
+        std::fprintf(stderr, "usage: bench_scale solid|plate [--threads N] [--space] DOFS...\n");
         return 2;
     }
     std::printf(
         "| DOFs | pairs | nnz(L) | flops | ordering, analysis | factor with its analysis | a solve in blocks "
         "of 1, 8, 32, 64 | %d modes | count |%s peak MiB |\n|--%s\n",
-        n_modes, with_space ? " model | contact space | set-up / modal analysis | MiB told before |" : "",
-        with_space ? "|--|--|--|--|--|--|--|--|--|--|--|--|--|" : "|--|--|--|--|--|--|--|--|--|");
+        n_modes,
+        with_space ? " model | contact space | set-up | set-up / modal analysis | MiB told before |" : "",
+        with_space ? "|--|--|--|--|--|--|--|--|--|--|--|--|--|--|" : "|--|--|--|--|--|--|--|--|--|");
     std::fflush(stdout);
-    for (int i = first; i < n_arguments; ++i) {
-        const pid_t child = fork();
-        if (child == 0) {
-            print_row(solid, std::atof(argument[i]), with_space);
-            return 0;
-        }
-        int status = 1;
-        if (child < 0 || waitpid(child, &status, 0) != child || status != 0) return 1;
-    }
+    for (int i = first; i < n_arguments; ++i) print_row(solid, std::atof(argument[i]), with_space);
     return 0;
 }

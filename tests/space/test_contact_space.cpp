@@ -212,6 +212,36 @@ void nothing_of_the_size_of_rows_times_pairs_is_ever_held(void **) {
     assert_true(held < rows_times_pairs / 2);
 }
 
+// Chains that do not touch each other, each with the same frequencies: far more copies than a block of the
+// eigensolver has columns.
+plm::ModelInput equal_chains(std::int64_t count, std::int64_t length) {
+    plm::ModelInput in = lattice(length, count, 1);
+    std::vector<std::int64_t> i, j;
+    std::vector<double> v;
+    for (std::int64_t a = 0; a < count * length; ++a) {
+        const bool last = a % length + 1 == length;
+        i.push_back(a), j.push_back(a), v.push_back(last ? 1 : 2);
+        if (!last) i.push_back(a + 1), j.push_back(a), v.push_back(-1);
+    }
+    in.stiffness = lower(in.n_dof, i, j, v);
+    return in;
+}
+
+// The modes that a model has at hand are counted by a space with a highest frequency; one without looks for
+// missed copies by itself.
+void copies_of_a_frequency_are_all_there(void **) {
+    constexpr std::int64_t chains = 20, length = 200;
+    const auto model = test::build(equal_chains(chains, length));
+    const auto value = [](double k) { return 2 - 2 * std::cos((2 * k - 1) * M_PI / (2 * length + 1)); };
+    for (double highest : {0.0, 0.4 * std::sqrt(value(2))}) {
+        const SpacePtr space = space_of(model, highest);
+        assert_true(space->counts_verified == (highest > 0));
+        assert_true(space->n_exact_modes >= chains);
+        for (std::int64_t j = 0; j < chains; ++j)
+            assert_true(std::abs(space->lambda[j] / value(1) - 1) < 1e-9);
+    }
+}
+
 } // namespace
 
 int main() {
@@ -221,6 +251,7 @@ int main() {
         cmocka_unit_test(recovered_vectors_are_what_the_small_matrices_say),
         cmocka_unit_test(contact_forces_are_solved_for_once),
         cmocka_unit_test(a_cutoff_may_fall_on_a_mode),
+        cmocka_unit_test(copies_of_a_frequency_are_all_there),
         cmocka_unit_test(nothing_of_the_size_of_rows_times_pairs_is_ever_held),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -92,12 +92,17 @@ FactorEstimate Cholmod::estimate(const SparseMatrix &a) const {
     FactorEstimate e;
     e.nonzeros = common.lnz;
     e.flops = common.fl;
-    // CHOLMOD permutes the matrix into a copy of half of it, twice, and updates by one block at a time
-    e.kept_full = 8.0 * static_cast<double>(factor->xsize) + integers;
-    e.peak_full = e.kept_full + 16 * entries + 8.0 * static_cast<double>(factor->maxcsize);
+    e.at_work = 8.0 * static_cast<double>(sizes.at_work) + integers;
+    if (common.fl >= shared_out_from) {
+        e.kept_full = 8.0 * static_cast<double>(sizes.panels) + integers;
+        e.peak_full = e.kept_full + e.at_work;
+    } else { // CHOLMOD permutes the matrix into a copy of half of it, twice, and updates by one block at a
+             // time
+        e.kept_full = 8.0 * static_cast<double>(factor->xsize) + integers;
+        e.peak_full = e.kept_full + 16 * entries + 8.0 * static_cast<double>(factor->maxcsize);
+    }
     // single panels come with half of the matrix, for the refinement
     e.kept_single = 4.0 * static_cast<double>(sizes.panels) + integers + 6 * (entries + n);
-    e.at_work = 8.0 * static_cast<double>(sizes.at_work) + integers;
     e.peak_single = e.kept_single + 8.0 * static_cast<double>(sizes.at_work);
     return e;
 }

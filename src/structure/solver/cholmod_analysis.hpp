@@ -17,6 +17,10 @@ inline const std::int64_t *indices(const void *array) {
     return static_cast<const std::int64_t *>(array);
 }
 
+/// From so many flops on the library's own factorization serves, by CHOLMOD's supernodes: as fast as
+/// CHOLMOD's, and faster on more than one thread.
+constexpr double shared_out_from = 1e9;
+
 /// Everything CHOLMOD allocates for one factor, with a cholmod_common of its own: no state is shared.
 struct Cholmod {
     cholmod_common common;

@@ -19,6 +19,12 @@ class Factor {
     virtual double reciprocal_condition() const = 0;
     virtual std::int64_t factor_nonzeros() const = 0; // -1 when unknown
     virtual bool calls_host() const { return false; } // solve() does
+    /// For X = A^-1 F with sparse forces F, n x s: energy becomes F^T X, inertia X^T M X, for less than s
+    /// solutions. False, and nothing is done, where that is not to be had.
+    virtual bool multiply_responses(const SparseMatrix & /*f*/, const SparseMatrix & /*m*/,
+                                    Matrix & /*energy*/, Matrix & /*inertia*/) const {
+        return false;
+    }
     void solve(Matrix &x) const { solve(x.data(), x.cols(), x.rows()); }
 };
 

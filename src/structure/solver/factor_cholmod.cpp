@@ -5,6 +5,7 @@
 #include "structure/solver/factor_builtin.hpp"
 #include "structure/solver/ordering.hpp"
 #include "structure/solver/refined_factor.hpp"
+#include "structure/solver/response_products.hpp"
 #include <algorithm>
 #include <mutex>
 
@@ -87,6 +88,29 @@ class CholmodFactor final : public Factor {
     mutable std::vector<std::unique_ptr<Cholmod>> idle_; // workspaces
 };
 
+class SharedFactor final : public Factor {
+  public:
+    SharedFactor(const SparseMatrix &a, const Cholmod &analysis)
+        : n_(a.cols), nonzeros_(static_cast<std::int64_t>(analysis.common.lnz)),
+          factor_(a, analysis.supernodes()) {}
+    void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const override {
+        require(ldx >= n_, "Factor::solve: leading dimension");
+        constexpr std::int64_t block = PanelFactor<double>::widest_solve;
+        for (std::int64_t first = 0; first < nrhs; first += block)
+            factor_.solve(x + first * ldx, std::min(block, nrhs - first), ldx);
+    }
+    bool multiply_responses(const SparseMatrix &f, const SparseMatrix &m, Matrix &energy,
+                            Matrix &inertia) const override {
+        return plm::multiply_responses(factor_, f, m, energy, inertia);
+    }
+    double reciprocal_condition() const override { return factor_.reciprocal_condition(); }
+    std::int64_t factor_nonzeros() const override { return nonzeros_; }
+
+  private:
+    std::int64_t n_, nonzeros_;
+    PanelFactor<double> factor_;
+};
+
 /// Of a matrix without rows.
 class NoFactor final : public Factor {
   public:
@@ -101,6 +125,7 @@ std::unique_ptr<Factor> factor_by_cholmod(const SparseMatrix &a, const Solver &s
     lib->analyze(a, solver);
     if (solver.precision == FactorPrecision::single)
         return std::make_unique<RefinedFactor>(a, lib->supernodes());
+    if (lib->common.fl >= shared_out_from) return std::make_unique<SharedFactor>(a, *lib);
     return std::make_unique<CholmodFactor>(a, std::move(lib));
 }
 

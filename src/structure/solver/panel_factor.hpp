@@ -1,12 +1,14 @@
-// L D L^T of a positive definite matrix with the columns of L rounded to single precision front by front,
-// while they are computed in double: half the memory, and far nearer to A than a factorization in single
-// precision.
+// L D L^T of a positive definite matrix with the columns of L kept as dense panels, in double precision or
+// rounded to single front by front, while they are computed in double: half the memory then, and far nearer
+// to A than a factorization in single precision.
 #pragma once
 #include "structure/solver/fronts.hpp"
 
 namespace plm {
 
-class PanelFactor final : PanelTaker {
+/// T: double or float. Factorization and solves are shared out among threads (linalg/parallel.hpp), and
+/// threads may solve at once.
+template <class T> class PanelFactor final : PanelTaker {
   public:
     /// PLM_ERR_NOT_POSITIVE_DEFINITE with index() = column where `a` is not. The supernodes are copied.
     PanelFactor(const SparseMatrix &a, const Supernodes &supernodes);
@@ -14,30 +16,65 @@ class PanelFactor final : PanelTaker {
 
     /// Right-hand sides at once: enough for the speed of BLAS 3.
     static constexpr std::int64_t widest_solve = 64;
-    /// X becomes about A^-1 X, to single precision; X is n x nrhs with leading dimension n, nrhs <=
+    /// X becomes A^-1 X, to the precision of T; X is n x nrhs with leading dimension ldx, nrhs <=
     /// widest_solve.
-    void solve(double *x, std::int64_t nrhs) const;
+    void solve(double *x, std::int64_t nrhs, std::int64_t ldx) const;
     double reciprocal_condition() const { return reciprocal_condition_; }
     std::int64_t nonzeros() const { return nonzeros_; }
 
   private:
+    friend class ResponseProducts;
+    /// A subtree of the supernodes, solved for by one thread. What it adds to rows above it waits in a block
+    /// of its own.
+    struct Subtree {
+        std::int64_t first, last; // supernodes first .. last; the last one is its root
+    };
+    double *room(std::int64_t node) override;
     void take(std::int64_t node, const double *panel, const double *pivots) override;
-    void forward(std::int64_t nrhs) const;
-    void divide_by_pivots(std::int64_t nrhs) const;
-    void backward(std::int64_t nrhs) const;
+    void allocate_panels();
+    void choose_subtrees();
+    void locate_outside_rows(const Subtree &subtree);
+    vector<std::int64_t> parents() const;
+
+    /// Where rows of right-hand sides in the new order stand: one after the other from `offset` on, or each
+    /// in its place; columns are `ld` apart.
+    struct Rows {
+        T *entries;
+        std::int64_t ld, offset;
+        const std::int64_t *place;
+        T *at(std::int64_t row) const { return entries + (place ? place[row] : row - offset); }
+    };
+    void solve_in_order(const Rows &x, std::int64_t nrhs, double scale_of_pivots) const;
+    void forward_subtree(const Subtree &subtree, const Rows &x, std::int64_t nrhs, vector<T> &above) const;
+    void backward_subtree(const Subtree &subtree, const Rows &x, const Rows &above, std::int64_t nrhs) const;
+    void forward_rest(const std::vector<vector<T>> &from_subtrees, const Rows &x, std::int64_t nrhs) const;
+    void backward_rest(const Rows &x, std::int64_t nrhs) const;
+    void forward_own(std::int64_t node, const Rows &x, std::int64_t nrhs, T *sums) const;
+    void backward_node(std::int64_t node, const Rows &x, const Rows &above, std::int64_t nrhs,
+                       T *known) const;
+    void divide(std::int64_t first, std::int64_t last, const Rows &x, std::int64_t nrhs, double scale) const;
+    std::int64_t most_below(const Subtree &subtree) const;
+
     Supernodes nodes() const {
         return {static_cast<std::int64_t>(first_column_.size()) - 1, first_column_.data(), first_row_.data(),
                 row_.data(), original_.data()};
     }
+    std::int64_t below(std::int64_t node) const { return nodes().rows_of(node) - nodes().columns_of(node); }
+    const std::int64_t *rows_below(std::int64_t node) const {
+        return row_.data() + first_row_[node] + nodes().columns_of(node);
+    }
 
-    std::int64_t n_, nonzeros_ = 0;
+    std::int64_t n_, nonzeros_ = 0, most_below_ = 0;
     vector<std::int64_t> first_column_, first_row_, row_, original_;
     vector<std::int64_t> first_entry_; // of each supernode's panel
-    vector<float> panels_;
+    vector<Subtree> subtrees_;         // independent ones, ascending
+    vector<std::int64_t> rest_;        // supernodes above them, ascending
+    // of each supernode of a subtree: how many of the rows below it are in the subtree; of the others, the
+    // place among the rows below the root, and where these places begin
+    vector<std::int64_t> inside_, first_place_, place_;
+    vector<T> panels_;
     vector<double> pivots_;
     double largest_pivot_ = 1, reciprocal_condition_ = 1;
-    mutable vector<float> work_,
-        rows_below_; // n x nrhs in the new order; what one panel reads or adds below it
 };
 
 } // namespace plm

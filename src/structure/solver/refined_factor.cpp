@@ -55,7 +55,8 @@ void subtract_product(const HalfMatrix &a, const double *x, double *r) {
 class Refinement {
   public:
     /// B is x's contents, which becomes zero: X so far.
-    Refinement(const HalfMatrix &a, const PanelFactor &factor, double *x, std::int64_t nrhs, std::int64_t ldx)
+    Refinement(const HalfMatrix &a, const PanelFactor<float> &factor, double *x, std::int64_t nrhs,
+               std::int64_t ldx)
         : a_(a), factor_(factor), n_(a.size()), x_(x), ldx_(ldx), b_(n_, nrhs), r_(n_, nrhs), column_(nrhs),
           before_(nrhs, std::numeric_limits<double>::infinity()) {
         for (std::int64_t j = 0; j < nrhs; ++j) {
@@ -68,7 +69,7 @@ class Refinement {
 
     void run() {
         for (int step = 0; !column_.empty(); ++step) {
-            factor_.solve(r_.data(), width());
+            factor_.solve(r_.data(), width(), n_);
             for (std::int64_t k = 0; k < width(); ++k)
                 for (std::int64_t i = 0; i < n_; ++i) x_[i + column_[k] * ldx_] += r_(i, k);
             for (std::int64_t k = 0; k < width(); k += pack) set_residuals(k);
@@ -127,7 +128,7 @@ class Refinement {
     }
 
     const HalfMatrix &a_;
-    const PanelFactor &factor_;
+    const PanelFactor<float> &factor_;
     const std::int64_t n_;
     double *const x_;
     const std::int64_t ldx_;
@@ -154,8 +155,9 @@ HalfMatrix::HalfMatrix(const SparseMatrix &a) : first(a.cols + 1, 0), row_sum(a.
 }
 
 void RefinedFactor::solve(double *x, std::int64_t nrhs, std::int64_t ldx) const {
-    for (std::int64_t first = 0; first < nrhs; first += PanelFactor::widest_solve)
-        Refinement(matrix_, factor_, x + first * ldx, std::min(PanelFactor::widest_solve, nrhs - first), ldx)
+    for (std::int64_t first = 0; first < nrhs; first += PanelFactor<float>::widest_solve)
+        Refinement(matrix_, factor_, x + first * ldx,
+                   std::min(PanelFactor<float>::widest_solve, nrhs - first), ldx)
             .run();
 }
 

@@ -26,7 +26,7 @@ class RefinedFactor final : public Factor {
     std::int64_t factor_nonzeros() const override { return factor_.nonzeros(); }
 
   private:
-    PanelFactor factor_;
+    PanelFactor<float> factor_;
     HalfMatrix matrix_;
 };
 

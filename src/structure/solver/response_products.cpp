@@ -1,0 +1,225 @@
+#include "structure/solver/response_products.hpp"
+#include "linalg/blas_lapack.hpp"
+#include "linalg/parallel.hpp"
+#include "linalg/work.hpp"
+#include <algorithm>
+#include <atomic>
+
+namespace plm {
+
+class ResponseProducts {
+  public:
+    ResponseProducts(const PanelFactor<double> &factor, const SparseMatrix &f, const SparseMatrix &m)
+        : p_(factor), m_(m), s_(f.cols), position_(factor.n_), place_(factor.n_, -1) {
+        for (std::int64_t i = 0; i < p_.n_; ++i) position_[p_.original_[i]] = i;
+        for (std::int64_t node : p_.rest_)
+            for (std::int64_t j = p_.first_column_[node]; j < p_.first_column_[node + 1]; ++j) {
+                place_[j] = static_cast<std::int64_t>(shared_row_.size());
+                shared_row_.push_back(j);
+            }
+        for (std::int64_t c = 0; c < f.cols; ++c)
+            for (std::int64_t k = f.ptr[c]; k < f.ptr[c + 1]; ++k)
+                if (f.val[k] != 0) entries_.push_back({position_[f.idx[k]], c, f.val[k]});
+        std::sort(entries_.begin(), entries_.end(), [](const Entry &a, const Entry &b) {
+            return a.row != b.row ? a.row < b.row : a.column < b.column;
+        });
+    }
+
+    bool run(Matrix &energy, Matrix &inertia) {
+        if (!couples_as_the_factor()) return false;
+        std::vector<Sums> sums(groups + 1);
+        for (Sums &one : sums) one = {Matrix(s_, s_), Matrix(s_, s_)};
+        solve_shared();
+        add_shared(sums[groups]);
+        const auto count = static_cast<std::int64_t>(p_.subtrees_.size());
+        parallel_for(groups, [&](std::int64_t group) {
+            for (std::int64_t k = group; k < count; k += groups)
+                add_subtree(p_.subtrees_[k], sums[static_cast<std::size_t>(group)]);
+        });
+        energy.reset(s_, s_);
+        inertia.reset(s_, s_);
+        for (const Sums &one : sums)
+            for (std::int64_t j = 0; j < s_; ++j)
+                for (std::int64_t i = 0; i < s_; ++i) {
+                    energy(i, j) += 0.5 * (one.energy(i, j) + one.energy(j, i));
+                    inertia(i, j) += 0.5 * (one.inertia(i, j) + one.inertia(j, i));
+                }
+        return true;
+    }
+
+  private:
+    using Factor = PanelFactor<double>;
+    using Subtree = Factor::Subtree;
+    using Rows = Factor::Rows;
+    struct Entry { // of F
+        std::int64_t row, column;
+        double value;
+    };
+    struct Sums {
+        Matrix energy, inertia;
+    };
+    struct Span {
+        const Entry *first, *last;
+    };
+    /// Subtrees are added up in so many sums, whatever the number of threads.
+    static constexpr std::int64_t groups = 8;
+
+    std::int64_t begin_of(const Subtree &t) const { return p_.first_column_[t.first]; }
+    std::int64_t end_of(const Subtree &t) const { return p_.first_column_[t.last + 1]; }
+
+    /// Two rows share a subtree, or one is above the other.
+    bool couples_as_the_factor() const {
+        std::atomic<bool> all{true};
+        parallel_for(static_cast<std::int64_t>(p_.subtrees_.size()), 10 * static_cast<double>(m_.nnz()),
+                     [&](std::int64_t k) {
+                         const Subtree &t = p_.subtrees_[k];
+                         const std::int64_t begin = begin_of(t), end = end_of(t);
+                         const std::int64_t *above = p_.rows_below(t.last), *last = above + p_.below(t.last);
+                         for (std::int64_t j = begin; j < end && all; ++j)
+                             for_entries(j, [&](std::int64_t row, double) {
+                                 if (row < begin || (row >= end && !std::binary_search(above, last, row)))
+                                     all = false;
+                             });
+                     });
+        return all;
+    }
+
+    /// body(row, value), of column j of M, both in the new order.
+    template <class Body> void for_entries(std::int64_t j, const Body &body) const {
+        const std::int64_t column = p_.original_[j];
+        for (std::int64_t k = m_.ptr[column]; k < m_.ptr[column + 1]; ++k)
+            if (m_.val[k] != 0) body(position_[m_.idx[k]], m_.val[k]);
+    }
+
+    Span forces_on(std::int64_t begin, std::int64_t end) const {
+        const auto before = [](const Entry &e, std::int64_t row) { return e.row < row; };
+        const Entry *first = entries_.data(), *last = first + entries_.size();
+        return {std::lower_bound(first, last, begin, before), std::lower_bound(first, last, end, before)};
+    }
+
+    void forward(const Subtree &t, Matrix &x, vector<double> &above) const {
+        const std::int64_t begin = begin_of(t);
+        const Span forces = forces_on(begin, end_of(t));
+        if (forces.first == forces.last) return; // zero stays zero
+        for (const Entry *e = forces.first; e != forces.last; ++e) x(e->row - begin, e->column) += e->value;
+        p_.forward_subtree(t, {x.data(), x.rows(), begin, nullptr}, s_, above);
+    }
+
+    void solve_shared() {
+        const auto count = static_cast<std::int64_t>(p_.subtrees_.size());
+        std::vector<vector<double>> from_subtrees(p_.subtrees_.size());
+        parallel_for(count, [&](std::int64_t k) {
+            const Subtree &t = p_.subtrees_[k];
+            const Span forces = forces_on(begin_of(t), end_of(t));
+            if (forces.first == forces.last) return;
+            Matrix x(end_of(t) - begin_of(t), s_);
+            forward(t, x, from_subtrees[static_cast<std::size_t>(k)]);
+        });
+        const auto rows = static_cast<std::int64_t>(shared_row_.size());
+        shared_ = Matrix(rows, s_);
+        for (const Entry &e : entries_)
+            if (place_[e.row] >= 0) shared_(place_[e.row], e.column) += e.value;
+        const Rows x{shared_.data(), rows, 0, place_.data()};
+        p_.forward_rest(from_subtrees, x, s_);
+        for (std::int64_t node : p_.rest_)
+            p_.divide(p_.first_column_[node], p_.first_column_[node + 1], x, s_, 1);
+        p_.backward_rest(x, s_);
+    }
+
+    void add_shared(Sums &sums) const {
+        for (const Entry &e : entries_)
+            if (place_[e.row] >= 0)
+                for (std::int64_t c = 0; c < s_; ++c)
+                    sums.energy(e.column, c) += e.value * shared_(place_[e.row], c);
+        SparseMatrix inner = part_of_mass(shared_.rows(), shared_.rows(), [&](std::int64_t i, auto put) {
+            for_entries(shared_row_[i], [&](std::int64_t row, double value) {
+                if (place_[row] >= 0) put(place_[row], value);
+            });
+        });
+        add_inertia(shared_, inner, Matrix(0, s_), {}, sums.inertia);
+    }
+
+    void add_subtree(const Subtree &t, Sums &sums) const {
+        const std::int64_t begin = begin_of(t), end = end_of(t), border = p_.below(t.last);
+        const std::int64_t *above = p_.rows_below(t.last);
+        Matrix x(end - begin, s_), bordering(border, s_);
+        vector<double> ignored;
+        forward(t, x, ignored);
+        const Rows own{x.data(), x.rows(), begin, nullptr};
+        p_.divide(begin, end, own, s_, 1);
+        auto *known = const_cast<double *>(shared_.data()); // Rows are written to elsewhere
+        p_.backward_subtree(t, own, {known, shared_.rows(), 0, place_.data()}, s_);
+        const Span forces = forces_on(begin, end);
+        for (const Entry *e = forces.first; e != forces.last; ++e)
+            for (std::int64_t c = 0; c < s_; ++c)
+                sums.energy(e->column, c) += e->value * x(e->row - begin, c);
+        for (std::int64_t c = 0; c < s_; ++c)
+            for (std::int64_t i = 0; i < border; ++i) bordering(i, c) = shared_(place_[above[i]], c);
+        const SparseMatrix inner = part_of_mass(x.rows(), x.rows(), [&](std::int64_t i, auto put) {
+            for_entries(begin + i, [&](std::int64_t row, double value) {
+                if (row < end) put(row - begin, value);
+            });
+        });
+        const SparseMatrix outer = part_of_mass(border, x.rows(), [&](std::int64_t i, auto put) {
+            for_entries(begin + i, [&](std::int64_t row, double value) {
+                if (row >= end) put(std::lower_bound(above, above + border, row) - above, 2 * value);
+            });
+        });
+        add_inertia(x, inner, bordering, outer, sums.inertia);
+        worked(2.0 * static_cast<double>(x.rows() * s_) * static_cast<double>(s_));
+    }
+
+    /// Columns of entries that each(column, put) puts, in ascending order of rows.
+    template <class Each>
+    static SparseMatrix part_of_mass(std::int64_t rows, std::int64_t columns, const Each &each) {
+        SparseMatrix a;
+        a.rows = rows;
+        a.cols = columns;
+        a.ptr.assign(columns + 1, 0);
+        std::vector<std::pair<std::int64_t, double>> column;
+        for (std::int64_t j = 0; j < columns; ++j) {
+            column.clear();
+            each(j, [&](std::int64_t row, double value) { column.emplace_back(row, value); });
+            std::sort(column.begin(), column.end());
+            for (const auto &[row, value] : column) {
+                a.idx.push_back(row);
+                a.val.push_back(value);
+            }
+            a.ptr[j + 1] = static_cast<std::int64_t>(a.idx.size());
+        }
+        return a;
+    }
+
+    /// X^T (inner^T X + outer^T bordering), by blocks of columns; its symmetric part is meant.
+    static void add_inertia(const Matrix &x, const SparseMatrix &inner, const Matrix &bordering,
+                            const SparseMatrix &outer, Matrix &sum) {
+        constexpr std::int64_t block = 64;
+        const std::int64_t s = x.cols();
+        for (std::int64_t first = 0; first < s; first += block) {
+            const std::int64_t width = std::min(block, s - first);
+            Matrix momenta = multiply_transposed(inner, x.columns(first, width));
+            if (bordering.rows() > 0) {
+                const Matrix more = multiply_transposed(outer, bordering.columns(first, width));
+                for (std::int64_t k = 0; k < more.rows() * width; ++k) momenta.data()[k] += more.data()[k];
+            }
+            gemm('T', s, width, x.rows(), 1.0, x.data(), x.rows(), momenta.data(), x.rows(), 1.0,
+                 sum.col(first), s);
+        }
+    }
+
+    const Factor &p_;
+    const SparseMatrix &m_;
+    const std::int64_t s_;
+    vector<std::int64_t> position_; // new order of each row of A
+    vector<std::int64_t> place_;    // of each row in the new order: among those above the subtrees, or -1
+    vector<std::int64_t> shared_row_;
+    vector<Entry> entries_; // by rows in the new order
+    Matrix shared_;         // X above the subtrees
+};
+
+bool multiply_responses(const PanelFactor<double> &factor, const SparseMatrix &f, const SparseMatrix &m,
+                        Matrix &energy, Matrix &inertia) {
+    return ResponseProducts(factor, f, m).run(energy, inertia);
+}
+
+} // namespace plm
