@@ -416,12 +416,14 @@ PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_
 /* The whole way in one call, for a built model with an excitation: the response curve around the resonance that the
  * excitation drives most, and its peak at DOF `dof`. measure: PLM_PEAK, PLM_HALF_PEAK_TO_PEAK or PLM_RMS. accuracy: the
  * relative error that the peak may have, 1e-8 to 0.5 (1e-3 is usual); sampler, window, basis, motion and harmonics follow
- * from it: the basis grows until the error it makes is estimated (as by plm_hbm_estimate_error) to be within. Outputs:
- * frequency (Hz) and amplitude of the peak; error: that estimate, NaN where there is none, or NULL; curve: or NULL; hbm:
- * the solver that computed it, to go on with (other points, isolated branches, stability), with its basis behind it, or
- * NULL. PLM_WARNING says what of the accuracy was not reached and what else should be looked at, with the reasons of
- * plm_sampler_run, plm_basis_build, plm_hbm_sweep and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a
- * sweep. PLM_ERR_STATE before plm_model_build and without contact pairs. */
+ * from it: the basis grows until the error it makes is estimated (as by plm_hbm_estimate_error; where that does not
+ * converge, by what a clearly larger basis changes) to be within. Outputs: frequency (Hz) and amplitude of the peak;
+ * error: that estimate, NaN where there is none, or NULL; curve: or NULL; hbm: the solver that computed it, to go on with
+ * (other points, isolated branches, stability), with its basis behind it, or NULL. PLM_WARNING says what of the accuracy
+ * was not reached and what else should be looked at, with the reasons of plm_sampler_run, plm_basis_build, plm_hbm_sweep
+ * and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a sweep, the former, where contact bounces and a
+ * curve winds, after the points of some seconds (500 to 1,000). PLM_ERR_STATE before plm_model_build and without contact
+ * pairs. */
 PLM_API plm_status plm_model_compute_response(plm_model *model, int64_t dof, int32_t measure, double accuracy,
                                               double *frequency_hz, double *amplitude, double *error,
                                               plm_branch **curve, plm_hbm **hbm);

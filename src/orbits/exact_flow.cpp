@@ -318,6 +318,8 @@ void ExactFlow::expand_forces(double time, double duration, Series &series) {
     else
         expand_loads(time, duration, series.force);
     expand_offsets(series);
+    if (&series == &derivative_ && model_->n_following() == 0)
+        return; // the gaps stay, and so do their forces
     series.still.reset(model_->n_pairs(), model_->n_following() > 0 ? n_terms_ : 1);
     if (model_->n_pairs() == 0) return;
     std::copy_n(series.offset.data(), series.still.rows() * series.still.cols(), series.still.data());

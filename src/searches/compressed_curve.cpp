@@ -183,6 +183,13 @@ bool CurveCompression::saves(const ReducedModel &smaller, const std::vector<Poin
            (bounces ? much_smaller_where_unstable : much_smaller) * static_cast<double>(whole_->size());
 }
 
+// Whatever its motions are, no better model would be followed than this one.
+bool CurveCompression::is_last_not_dear(const ReducedModel &model) const {
+    CurveCompression next(*this);
+    next.left_out_ *= less;
+    return is_dear(*next.compressed_after(&model));
+}
+
 bool CurveCompression::begin_with(const Branch &look) {
     std::vector<Point> points = points_of(look);
     if (points.empty()) return false;
@@ -195,6 +202,10 @@ bool CurveCompression::begin_with(const Branch &look) {
             return true;
         }
         if (!saves(*smaller, points)) return false;
+        if (before && is_last_not_dear(*smaller)) {
+            model_ = smaller;
+            return true;
+        }
         Needs needs;
         const double change = settle(smaller, points, needs);
         // they know more than those before, unless they are few

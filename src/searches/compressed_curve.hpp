@@ -61,6 +61,7 @@ class CurveCompression {
     bool saves(const ReducedModel &smaller, const std::vector<Point> &points) const;
     double tolerance() const;
     bool is_dear(const ReducedModel &model) const;
+    bool is_last_not_dear(const ReducedModel &model) const;
     /// last: the one that this one grows from; null: none.
     std::shared_ptr<const ReducedModel> compressed_after(const ReducedModel *last) const;
     double settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points,

@@ -15,7 +15,11 @@ constexpr std::int64_t more_harmonics[] = {10, 20, 40, 80}, // when a whole curv
     looked_at[] = {10, 14, 20, 28, 40, 57, 80};             // when one motion tells
 // Points after which a curve is left for that on a larger basis: where one is too small its contact may
 // bounce as the structure's does not.
-constexpr std::int64_t few_points = 400;
+constexpr std::int64_t few_points = 300;
+// Where contact of the structure itself bounces, a curve may wind without end: what a curve may cost in
+// flops, and the points that it has anyhow.
+constexpr double most_flops = 1.5e9;
+constexpr std::int64_t points_anyhow = 500;
 // Where exact motions cost so many flops a step, one of them, found by a curve of few harmonics that takes a
 // fraction of theirs, says first whether the basis is worth a curve.
 constexpr double worth_a_look = 1e7;
@@ -36,21 +40,25 @@ class Chain {
 
     ComputedResponse run() {
         const auto first = first_basis();
-        ComputedResponse best = on(first, is_complete(*first) ? options_.max_points : few_points);
+        ComputedResponse best = on(first, is_complete(*first) ? Follow::to_the_end : Follow::few_points);
         for (std::int64_t h : more_harmonics) {
             if (h <= best.basis->sampler()->n_harmonics()) continue;
             if (!can_improve(best) || best.basis->reduced()->size() >= many_columns) break;
+            const auto basis = basis_for(h);
+            if (basis->reduced()->size() <= best.basis->reduced()->size()) continue; // it knows no more
             // if that on the next basis has as many, the contact of the structure itself bounces
-            const std::int64_t points = is_cut(best) ? options_.max_points : few_points;
-            if (!take_better(best, [&] { return on(basis_for(h), points); })) break;
+            const Follow how = is_cut(best) ? Follow::to_the_end : Follow::few_points;
+            if (!take_better(best, [&] { return on(basis, how); })) break;
         }
-        if (is_cut(best)) best = on(best.basis, options_.max_points);
+        if (is_cut(best)) best = on(best.basis, Follow::to_the_end);
         if (can_improve(best) && std::isfinite(best.error)) take_better(best, [&] { return refined(best); });
         finish(best);
         return best;
     }
 
   private:
+    enum class Follow { to_the_end, few_points };
+
     bool is_met(const ComputedResponse &r) const { return r.error <= accuracy_; }
     // Given up for its many points: there is no peak yet.
     static bool is_cut(const ComputedResponse &r) { return !r.peak.branch; }
@@ -125,19 +133,25 @@ class Chain {
         o.tolerance = accuracy_;
         const Refinement found = refine(last.basis, o, watch_);
         if (!found.basis) throw Error(PLM_ERR_CONVERGENCE, "no curve on a compressed basis");
-        return on(found.basis, options_.max_points);
+        return on(found.basis, Follow::to_the_end);
     }
 
-    ComputedResponse on(std::shared_ptr<const Basis> basis, std::int64_t max_points) {
+    std::int64_t most_points(const Basis &basis) const {
+        const double affordable = most_flops / exact_step_flops(*widened(basis.reduced()), options_);
+        return std::clamp(static_cast<std::int64_t>(std::min(affordable, 1e9)), points_anyhow,
+                          options_.max_points);
+    }
+
+    ComputedResponse on(std::shared_ptr<const Basis> basis, Follow how) {
         ComputedResponse r;
         r.basis = std::move(basis);
         r.options = options_;
         r.error = INFINITY;
         HbmOptions limited = options_;
-        limited.max_points = max_points;
+        limited.max_points = how == Follow::few_points ? few_points : most_points(*r.basis);
         r.curve = Hbm(r.basis, limited, watch_).sweep();
         require_uncancelled(*r.curve);
-        if (r.curve->end_reason == PLM_REASON_POINT_LIMIT && max_points < options_.max_points) return r;
+        if (r.curve->end_reason == PLM_REASON_POINT_LIMIT && how == Follow::few_points) return r;
         if (!spans(*r.curve) && r.curve->end_reason != PLM_REASON_POINT_LIMIT) go_the_other_way(r);
         r.peak = Hbm(r.basis, r.options, watch_).find_peak(*r.curve, output_.dof, output_.measure, 0);
         r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_, Patience::much, watch_);
@@ -165,10 +179,24 @@ class Chain {
         if (spans(*other.curve)) r = std::move(other);
     }
 
+    // Where an estimate is not to be had: what a clearly larger basis changes is the error of the one before,
+    // and where that is small its own is no larger. Infinite: it is not.
+    double change_if_settled(const ComputedResponse &before, const ComputedResponse &after) const {
+        constexpr double clearly = 1.2;
+        if (is_cut(before) || is_cut(after) ||
+            static_cast<double>(after.basis->reduced()->size()) <
+                clearly * static_cast<double>(before.basis->reduced()->size()))
+            return INFINITY;
+        const double change = std::max(std::abs(after.peak.amplitude / before.peak.amplitude - 1),
+                                       std::abs(after.peak.frequency_hz / before.peak.frequency_hz - 1));
+        return change <= accuracy_ ? change : INFINITY;
+    }
+
     // False: the attempt failed, or a larger basis brought nothing.
     template <class Attempt> bool take_better(ComputedResponse &best, Attempt attempt) const {
         try {
             ComputedResponse next = attempt();
+            if (!std::isfinite(next.error)) next.error = change_if_settled(best, next);
             const bool larger = next.basis->reduced()->size() > best.basis->reduced()->size(),
                        better = next.error < best.error || (larger && !std::isfinite(best.error));
             if (better) best = std::move(next);
