@@ -154,9 +154,8 @@ template <class T> void PanelFactor<T>::take(std::int64_t node, const double *pa
 
 template <class T> void PanelFactor<T>::solve(double *x, std::int64_t nrhs, std::int64_t ldx) const {
     require(nrhs <= widest_solve, "PanelFactor::solve: too many right-hand sides");
-    constexpr bool rounded =
-        std::is_same<T, float>::value; // then the largest entry of a right-hand side, and
-    // the largest pivot, become one, whatever the units are
+    // then the largest entry of a right-hand side, and the largest pivot, become one, whatever the units are
+    constexpr bool rounded = std::is_same<T, float>::value;
     const double scale_of_pivots = rounded ? largest_pivot_ : 1;
     vector<T> entries(n_ * nrhs); // in the new order
     vector<double> size(nrhs, 1.0);
