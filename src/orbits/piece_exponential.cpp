@@ -10,6 +10,8 @@ namespace {
 // x = rate * dt. Terms of Chebyshev's series are counted up to here, and then the next step begins. What is
 // damped lies beside the interval that the series is made for: its terms grow with |C| dt.
 constexpr double longest_step = 100, most_damped = 1;
+// The series holds for any bound of the rate: where nothing turns, a larger one keeps the units finite.
+constexpr double least_step = 1e-3;
 // Taylor's series: its rounding error grows with its largest term, e^x.
 constexpr double longest_taylor = 3;
 
@@ -175,6 +177,7 @@ template <class Real> void PieceExponential<Real>::sum(Block &block, double x, d
         return;
     }
     require_resolved(x);
+    x = std::max(x, least_step);
     const double steps = n_steps(x, system_.damping_bound() * dt);
     for (double k = 0; k < steps; ++k) sum_chebyshev(block, x / steps, dt / steps, tolerance);
 }

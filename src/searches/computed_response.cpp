@@ -43,7 +43,9 @@ class Chain {
         ComputedResponse best = on(first, is_complete(*first) ? Follow::to_the_end : Follow::few_points);
         for (std::int64_t h : more_harmonics) {
             if (h <= best.basis->sampler()->n_harmonics()) continue;
-            if (!can_improve(best) || best.basis->reduced()->size() >= many_columns) break;
+            if (!can_improve(best) || is_complete(*best.basis) ||
+                best.basis->reduced()->size() >= many_columns)
+                break;
             const auto basis = basis_for(h);
             if (basis->reduced()->size() <= best.basis->reduced()->size()) continue; // it knows no more
             // if that on the next basis has as many, the contact of the structure itself bounces

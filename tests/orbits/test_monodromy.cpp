@@ -110,6 +110,21 @@ void what_is_damped_hard_keeps_its_digits(void **) {
     }
 }
 
+// A free mass goes on as it goes; and what hardly lasts changes nothing.
+void what_nothing_holds_goes_on(void **) {
+    exact::Structure s = bilinear_oscillator(0, 3, 0, 0, 0);
+    s.stiffness[0] = 0;
+    const auto model = flow_model(s);
+    for (double tolerance : {1e-15, 1e-7})
+        for (double t : {1e-300, 1e-60, 1e-9, 0.5, 300.0}) {
+            const Matrix m = plm::monodromy(*model, {{t, set({0})}}, tolerance);
+            const double allowed = tolerance > 1e-10 ? 1e-6 : 1e-14;
+            assert_true(below(std::abs(m(0, 0) - 1) + std::abs(m(1, 1) - 1), allowed));
+            assert_true(below(std::abs(m(0, 1) - t), allowed * t));
+            assert_true(below(std::abs(m(1, 0)), 1e-14));
+        }
+}
+
 // In single precision where pieces are short; unit: of the rates. Long pieces are for double precision.
 double single_precision_error(double unit, double longest) {
     Case c = damped_chain(50);
@@ -244,6 +259,7 @@ int main() {
         cmocka_unit_test(it_is_the_derivative_of_the_flow),
         cmocka_unit_test(a_single_interval_is_its_exponential),
         cmocka_unit_test(what_is_damped_hard_keeps_its_digits),
+        cmocka_unit_test(what_nothing_holds_goes_on),
         cmocka_unit_test(single_precision_has_five_digits),
         cmocka_unit_test(cutting_intervals_changes_nothing),
         cmocka_unit_test(undamped_multipliers_come_in_reciprocal_pairs),
