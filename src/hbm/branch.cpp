@@ -43,6 +43,9 @@ std::string end_text(std::int32_t reason, bool sampled) {
         return "ran back to where it began without having passed a fold; give the sweep the other direction, "
                "a smaller "
                "max_step or more harmonics";
+    case PLM_REASON_CROSSED_OVER:
+        return "goes round a closed curve onto which one of its steps had crossed; give the sweep a smaller "
+               "max_step";
     case PLM_REASON_NOT_FINITE:
         return "the response overflowed; check the units of matrices, loads and frequencies";
     default:

@@ -1,12 +1,11 @@
 #include "paths/continuation.hpp"
+#include "paths/passed_points.hpp"
 #include "paths/special_points.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace plm {
 namespace {
-
-constexpr double same_solution = 1e-6; // distance of two solutions that were computed twice
 
 // The length of a step. It decides how many points a path takes; what may not be stepped over is asked for by
 // accept().
@@ -55,7 +54,7 @@ constexpr int most_rescues = 5; // more lead in circles: back to where the path 
 class Continuation {
   public:
     Continuation(Residual &system, const PathOptions &options, PathOwner &owner)
-        : walker_(system, options, owner), options_(options), owner_(owner) {}
+        : walker_(system, options, owner), options_(options), owner_(owner), passed_(system.size()) {}
 
     PathOutcome run(const PathStart &start) {
         begin(start);
@@ -185,8 +184,12 @@ class Continuation {
                 end(PLM_REASON_TURNED_BACK);
                 return true;
             }
+        } else if (goes_round(before)) {
+            end(PLM_REASON_CROSSED_OVER);
+            return true;
         }
         record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
+        passed_.add(walker_.metric(), walker_.now(), walker_.tangent());
         if (walker_.take_scale()) { // how the path bent, in the new metric
             last_step_ = walker_.metric().distance(walker_.now(), before);
             scale_by(1 / walker_.metric().length(last_tangent_), last_tangent_);
@@ -206,18 +209,31 @@ class Continuation {
                passing_distance * moved;
     }
 
+    // The solution on the present step at a parameter.
+    bool solve_on_step(const PathState &before, double parameter, PathState &at) {
+        const PathState chord = difference(walker_.now(), before);
+        const double part = chord.parameter != 0 ? (parameter - before.parameter) / chord.parameter : 1;
+        at = before;
+        add(part, chord, at);
+        at.parameter = parameter;
+        const bool found = walker_.correct_at_parameter(at).converged;
+        walker_.linearize_here();
+        return found;
+    }
+
     // Whether the solution on the present step at the parameter of the start is the start itself.
     bool is_start(const PathState &before) {
-        const PathState chord = difference(walker_.now(), before);
-        const double part =
-            chord.parameter != 0 ? (target_.parameter - before.parameter) / chord.parameter : 1;
-        PathState at = before;
-        add(part, chord, at);
-        at.parameter = target_.parameter;
-        const bool same = walker_.correct_at_parameter(at).converged &&
-                          walker_.metric().distance(at, target_) < same_solution;
-        walker_.linearize_here();
-        return same;
+        PathState at;
+        return solve_on_step(before, target_.parameter, at) &&
+               walker_.metric().distance(at, target_) < same_solution;
+    }
+
+    // The step from `before` came by a point of the path.
+    bool goes_round(const PathState &before) {
+        const std::int64_t k = passed_.on_step(walker_.metric(), before, walker_.now(), walker_.tangent());
+        PathState at;
+        return k >= 0 && solve_on_step(before, passed_.parameter(k), at) &&
+               passed_.is(k, walker_.metric(), at);
     }
 
     void close_loop() {
@@ -407,6 +423,7 @@ class Continuation {
     double arclength_ = 0, last_step_ = 0, step_ = 0, orientation_ = 1;
     bool plain_predictor_ = false, rescued_ = false, interrupted_ = false, from_start_ = true;
     vector<double> tests_; // at the present point
+    PassedPoints passed_;
     std::int64_t n_recorded_ = 0;
     int n_rescues_ = 0;
     PathOutcome out_;

@@ -31,7 +31,8 @@ struct PathOutcome {
 
 /// Follows the path from `start` until it leaves the range, closes, or cannot go on. The last point lies on
 /// the boundary of the range when it was left (PLM_REASON_RANGE_END; PLM_REASON_TURNED_BACK when it came back
-/// to where it began, against the direction in which it had left).
+/// to where it began, against the direction in which it had left). PLM_REASON_CROSSED_OVER: it goes round a
+/// closed curve that does not begin at its start.
 PathOutcome follow_path(Residual &system, const PathOptions &options, const PathStart &start,
                         PathOwner &owner);
 

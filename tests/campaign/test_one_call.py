@@ -14,6 +14,15 @@ def two_bases_that_agree_tell_what_no_estimate_does():
     assert 0 < response.error < 1e-3, response.error
 
 
-for test in (two_bases_that_agree_tell_what_no_estimate_does,):
+def a_step_that_crosses_to_a_closed_curve_is_found_out():
+    """Two masses, two stops: a step of the usual length meets a closed curve of motions that comes within a part of it, and goes
+    round that for ever. With a third of the length it does not."""
+    m = families.chains(np.random.default_rng(110078))
+    response = campaign.build(m).compute_response(m["out"], measure="peak")
+    assert response.curve.end_text == "reached the end of its range", response.curve.end_text
+    assert abs(response.amplitude / 3.0512e-4 - 1) < 1e-3, response.amplitude  # the exact motion of exact.py
+
+
+for test in (two_bases_that_agree_tell_what_no_estimate_does, a_step_that_crosses_to_a_closed_curve_is_found_out):
     test()
     print(test.__name__, "ok")

@@ -57,6 +57,26 @@ class Response : public plm::Residual {
     double other_, p_ = 0, beside_ = 0, tangent_ = 1;
 };
 
+// A circle of radius 0.3 about (0, 1/2).
+class Circle : public plm::Residual {
+  public:
+    std::int64_t size() const override { return 1; }
+    void residual(const double *x, double p, double *r) override {
+        x_ = x[0], p_ = p - 0.5;
+        r[0] = x_ * x_ + p_ * p_ - 0.09;
+    }
+    void linearize() override { by_x_ = 2 * x_, by_p_ = 2 * p_; }
+    void solve(double *b, std::int64_t n) override {
+        for (std::int64_t i = 0; i < n; ++i) b[i] /= by_x_;
+    }
+    int determinant_sign() const override { return by_x_ < 0 ? -1 : 1; }
+    void parameter_derivative(double *r) override { r[0] = by_p_; }
+    double residual_scale() const override { return 1; }
+
+  private:
+    double x_ = 0, p_ = 0, by_x_ = 1, by_p_ = 0;
+};
+
 class Owner final : public plm::PathOwner {
   public:
     explicit Owner(std::function<double(double)> test = nullptr) : test_(std::move(test)) {}
@@ -131,6 +151,21 @@ void a_corner_beyond_a_right_angle_is_followed(void **) {
     assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
     assert_true(near(f.out.at.x[0], 2.0 / 3, 1e-9));
     assert_true(f.out.direction.parameter < 0);
+}
+
+// From a point beside it the path steps onto the circle, which it would go round for ever.
+void a_path_that_comes_by_a_point_of_its_own_ends(void **) {
+    Circle circle;
+    const Followed f = follow(circle, {{{0.312}, 0.5}});
+    assert_int_equal(f.out.end_reason, PLM_REASON_CROSSED_OVER);
+    assert_true(f.out.arclength > 1.5 && f.owner.n_points < 100);
+}
+
+// From a point of its own it comes back to that.
+void a_closed_path_comes_back_to_its_start(void **) {
+    Circle circle;
+    const Followed f = follow(circle, {{{0.3}, 0.5}});
+    assert_int_equal(f.out.end_reason, PLM_REASON_LOOP_CLOSED);
 }
 
 void a_corner_at_which_the_parameter_turns_is_a_fold(void **) {
@@ -236,6 +271,8 @@ void a_special_point_takes_few_looks(void **) {
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(a_corner_beyond_a_right_angle_is_followed),
+        cmocka_unit_test(a_path_that_comes_by_a_point_of_its_own_ends),
+        cmocka_unit_test(a_closed_path_comes_back_to_its_start),
         cmocka_unit_test(a_corner_at_which_the_parameter_turns_is_a_fold),
         cmocka_unit_test(a_grazing_corner_is_passed_whatever_the_smallest_step),
         cmocka_unit_test(a_path_that_comes_to_its_beginning_from_behind_has_turned_back),
