@@ -27,14 +27,16 @@ ContactSet::ContactSet(const FlowModel &model)
     }
 }
 
-// |S|_2 <= |S^2|_F^(1/2), at most n^(1/4) too large; scaled, so that nothing overflows.
+// |S|_2 <= |(S^T S)^2|_F^(1/4), at most n^(1/8) too large; scaled, so that nothing overflows.
 double ContactSet::spectral_bound(const Matrix &s) {
     double largest = 0;
     for (std::int64_t k = 0; k < s.rows() * s.cols(); ++k) largest = std::max(largest, std::abs(s.data()[k]));
     if (!(largest > 0)) return 0;
-    square_.reset(s.rows(), s.cols());
+    square_.reset(s.cols(), s.cols());
     gemm('T', 'N', 1 / largest, s, s, 0.0, square_);
-    return std::sqrt(largest * norm2(square_.rows() * square_.cols(), square_.data()));
+    fourth_.reset(s.cols(), s.cols());
+    gemm('N', 'N', 1 / largest, square_, square_, 0.0, fourth_);
+    return largest * std::sqrt(std::sqrt(norm2(fourth_.rows() * fourth_.cols(), fourth_.data()) / largest));
 }
 
 void ContactSet::assign(const PairStates &states) {

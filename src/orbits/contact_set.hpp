@@ -41,7 +41,7 @@ class ContactSet {
     PairStates bounded_;
     int age_ = 0; // sets since
     PieceContact contact_;
-    Matrix stiffness_, square_, relaxing_; // relaxing_: columns of K_i, as rows, of what relaxes
+    Matrix stiffness_, square_, fourth_, relaxing_; // relaxing_: columns of K_i, as rows, of what relaxes
 };
 
 /// Number of Taylor terms (powers 0 .. m - 1) after which exp(x) is known to `tolerance`: the remainder

@@ -13,6 +13,8 @@ constexpr double slow_enough = 10;
 // well, and multipliers are right to 1e-5. Single precision, and half of the terms.
 constexpr std::int64_t large = 48; // coordinates
 constexpr double enough = 1e-7;
+// And where it only has to lead Newton's method: corrections are then wrong by some hundredths at most.
+constexpr double roughly = 1e-5;
 // The same, and fewer terms of the flow's series, where no better motions are asked for.
 constexpr double loose = 1e-7, of_tolerance = 1e-5;
 
@@ -107,12 +109,24 @@ void OrbitEquations::residual(const double *x, double p, double *r) {
     for (std::int64_t i = 0; i < size(); ++i) r[i] = failed_ ? NAN : end_[i] - x[i];
 }
 
+bool OrbitEquations::is_small() const {
+    return model_->n_moving() < large && conditions_.tolerance < loose;
+}
+
 void OrbitEquations::linearize() {
+    linearize_within(is_small() ? 1e-15 : enough);
+}
+
+bool OrbitEquations::linearize_roughly() {
+    linearize_within(is_small() ? 1e-15 : roughly);
+    return !is_small();
+}
+
+void OrbitEquations::linearize_within(double tolerance) {
     const std::int64_t n = size();
     monodromy_.reset(n, n);
     if (!failed_) {
-        const bool exactly = model_->n_moving() < large && conditions_.tolerance < loose;
-        monodromy_ = plm::monodromy(*model_, intervals_, exactly ? 1e-15 : enough, Watch(), modes_.get());
+        monodromy_ = plm::monodromy(*model_, intervals_, tolerance, Watch(), modes_.get());
         for (std::int64_t j = 0; j < n; ++j)
             for (std::int64_t i = 0; i < n; ++i) monodromy_(i, j) *= weight_[i] / weight_[j];
     }

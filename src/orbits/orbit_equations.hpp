@@ -30,6 +30,7 @@ class OrbitEquations final : public Residual {
     std::int64_t size() const override { return model_->state_size(); }
     void residual(const double *x, double p, double *r) override;
     void linearize() override;
+    bool linearize_roughly() override;
     void solve(double *b, std::int64_t n) override;
     int determinant_sign() const override { return lu_.determinant_sign(); }
     void parameter_derivative(double *r) override;
@@ -62,6 +63,8 @@ class OrbitEquations final : public Residual {
 
   private:
     void run(const double *x, double p);
+    bool is_small() const;
+    void linearize_within(double tolerance);
 
     std::shared_ptr<const FlowModel> model_;
     FlowState rest_;

@@ -104,7 +104,7 @@ class Newton {
     }
 
     void refactor() {
-        system_.linearize();
+        rough_ = system_.linearize_roughly();
         ++out_.factorizations;
         fresh_ = true;
         pieces_.push_back(system_.piece());
@@ -182,7 +182,7 @@ class Newton {
         const double scale = system_.residual_scale();
         out_.residual = scale > 0 ? norm2(n_, r_.data()) / scale : norm2(n_, r_.data());
         out_.converged = std::isfinite(out_.residual) && system_.in_balance();
-        if (fresh_) out_.factored_away = size;
+        if (fresh_ && !rough_) out_.factored_away = size;
         return out_;
     }
 
@@ -201,6 +201,7 @@ class Newton {
     const bool cheap_; // to linearize
     double step_parameter_ = 0;
     bool fresh_ = false; // the factorization belongs to x_
+    bool rough_ = false; // and is not quite that
     vector<std::int64_t> pieces_;
     NewtonOutcome out_;
 };

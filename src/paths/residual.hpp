@@ -16,6 +16,12 @@ class Residual {
     virtual void residual(const double *x, double p, double *r) = 0;
     /// Factors dR/dx at the x and p of the last residual().
     virtual void linearize() = 0;
+    /// The same as nearly as Newton's method needs it, where that costs less: it is good for solve() alone
+    /// then. True: it is not the tangent itself.
+    virtual bool linearize_roughly() {
+        linearize();
+        return false;
+    }
     /// Overwrites n right-hand sides (leading dimension size()) by (dR/dx)^-1 b.
     virtual void solve(double *b, std::int64_t n) = 0;
     /// Sign of det(dR/dx) at the last linearize(), up to a factor constant along a path.

@@ -149,6 +149,7 @@ double CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model
         take(uncompressed(*model, exact), needs.motions);
         point.motion = corrected_on_whole(*model, exact);
         take(point.motion, needs.motions);
+        point.exact = std::move(exact);
         return true;
     };
     std::vector<Point *> missed;
@@ -172,7 +173,10 @@ std::vector<CurveCompression::Point> CurveCompression::points_of(const Branch &l
     for (const BranchPoint &p : look.points()) take(p, needs_.motions);
     vector<std::int64_t> at = spread_over(look, motions_looked_at);
     at.push_back(top);
-    for (std::int64_t i : at) points.push_back({look.points()[static_cast<std::size_t>(i)]});
+    for (std::int64_t i : at) {
+        points.emplace_back();
+        points.back().motion = look.points()[static_cast<std::size_t>(i)];
+    }
     return points;
 }
 
@@ -229,16 +233,19 @@ bool CurveCompression::begin_with(const Branch &look) {
 
 bool CurveCompression::confirms(const Branch &curve) {
     better_ = nullptr;
-    const std::int64_t top = largest_response(curve);
-    const BranchPoint &exact = curve.points()[static_cast<std::size_t>(top)];
+    top_ = largest_response(curve);
+    const BranchPoint &exact = curve.points()[static_cast<std::size_t>(top_)];
     if (!exact.motion) return false;
-    std::vector<Point> one{{uncompressed(curve.reduced(), exact), amplitude(curve.reduced_model(), exact)}};
+    std::vector<Point> one(1);
+    one[0].motion = uncompressed(curve.reduced(), exact);
+    one[0].amplitude = amplitude(curve.reduced_model(), exact);
     take(one[0].motion, needs_.motions);
     one[0].motion = corrected_on_whole(curve.reduced(), exact);
     take(one[0].motion, needs_.motions);
     left_out_ *= less;
     better_ = compressed_after(&curve.reduced());
     change_ = settle(better_, one, needs_);
+    top_on_better_ = std::move(one[0].exact);
     watch_.log(1, format("%lld of %lld coordinates: the highest motion changes by %.2g of itself",
                          static_cast<long long>(better_->size()), static_cast<long long>(whole_->size()),
                          change_));
@@ -296,6 +303,7 @@ bool CurveCompression::agrees_on_whole(const Branch &curve, std::int64_t point) 
     BranchPoint p;
     if (out.converged && moved <= same_motion * norm2(equations.size(), at.x.data())) {
         p = orbit_point(equations, nearly, at, out.residual, out.iterations);
+        equations.linearize();
         p.multipliers = multipliers(equations.monodromy());
     } else {
         p = uncompressed(curve.reduced(), on_curve);
@@ -308,8 +316,12 @@ bool CurveCompression::agrees_on_whole(const Branch &curve, std::int64_t point) 
 // The same on the last model that was better.
 bool CurveCompression::agrees_on_better(const Branch &curve, std::int64_t point) const {
     const BranchPoint &on_curve = curve.points()[static_cast<std::size_t>(point)];
-    BranchPoint p = uncompressed(curve.reduced(), on_curve);
-    if (!make_exact_on(better_, p, ElseMarching::no) || p.multipliers.empty()) return false;
+    BranchPoint p = top_on_better_;
+    if (point != top_ || !p.motion) {
+        p = uncompressed(curve.reduced(), on_curve);
+        if (!make_exact_on(better_, p, ElseMarching::no)) return false;
+    }
+    if (p.multipliers.empty()) return false;
     return agrees(on_curve, better_, p, amplitude(curve.reduced_model(), on_curve),
                   std::max(options_.accuracy, change_));
 }

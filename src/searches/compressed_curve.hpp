@@ -47,6 +47,7 @@ class CurveCompression {
   private:
     struct Point {
         BranchPoint motion; // in the coordinates of the whole basis, without the motion itself
+        BranchPoint exact;  // on the model of the last settle()
         double amplitude = -1;
         bool unstable = false;
     };
@@ -84,7 +85,9 @@ class CurveCompression {
     Output output_;
     double peak_ = 0;
     double change_ = INFINITY; // of the highest motion, on better_
-    std::string doubtful_;     // where stability is not as on the curve
+    std::int64_t top_ = 0;     // which of the curve's points that is
+    BranchPoint top_on_better_;
+    std::string doubtful_; // where stability is not as on the curve
 };
 
 /// A curve on a compressed model as one of the whole basis, where what goes beyond the curve belongs: exact
