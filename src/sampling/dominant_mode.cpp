@@ -97,11 +97,28 @@ std::int64_t by_number(const SpaceModes &modes, const ModeRequest &request) {
     return request.mode - 1;
 }
 
-std::int64_t by_frequency(const SpaceModes &modes, double hz) {
-    std::int64_t best = -1;
-    for (std::int64_t j = 0; j < modes.vectors.cols(); ++j)
-        if (best < 0 || std::abs(to_hz(modes.values[j]) - hz) < std::abs(to_hz(modes.values[best]) - hz))
-            best = j;
+std::int64_t nearest_mode(const SpaceModes &modes, double hz) {
+    std::int64_t best = 0;
+    for (std::int64_t j = 1; j < modes.vectors.cols(); ++j)
+        if (std::abs(to_hz(modes.values[j]) - hz) < std::abs(to_hz(modes.values[best]) - hz)) best = j;
+    return best;
+}
+
+// A frequency beside all modes that is that of one in rad/s.
+void check_request(const SpaceModes &modes, double hz, double taken_hz, Watch watch) {
+    constexpr double beside = 0.05, on_it = 0.01; // of the frequency
+    const double as_rad_s = hz / (2 * M_PI), other_hz = to_hz(modes.values[nearest_mode(modes, as_rad_s)]);
+    if (std::abs(taken_hz / hz - 1) < beside || std::abs(other_hz / as_rad_s - 1) > on_it) return;
+    watch.warn(PLM_REASON_OUTSIDE_BASIS,
+               format("the mode nearest mode_frequency_hz = %.6g is one at %.6g Hz, but in rad/s that "
+                      "frequency would be the mode at %.6g Hz. Divide it by 2 pi if that was meant, or name "
+                      "the mode by its number (mode)",
+                      hz, taken_hz, other_hz));
+}
+
+std::int64_t by_frequency(const SpaceModes &modes, double hz, Watch watch) {
+    const std::int64_t best = nearest_mode(modes, hz);
+    check_request(modes, hz, to_hz(modes.values[best]), watch);
     return best;
 }
 
@@ -127,7 +144,7 @@ std::int64_t choose(const SpaceModes &modes, const vector<double> &response,
                     const vector<std::int64_t> &among, const ModeRequest &request, Watch watch) {
     if (request.mode > 0) return by_number(modes, request);
     if (request.frequency_hz > 0 && modes.vectors.cols() > 0)
-        return by_frequency(modes, request.frequency_hz);
+        return by_frequency(modes, request.frequency_hz, watch);
     return by_response(response, among, request, watch);
 }
 

@@ -131,6 +131,18 @@ void a_window_in_rad_s_is_told(void **) {
     assert_true(said(0.5 * resonance, 0.7 * resonance).empty()); // elsewhere, as a host may ask for
 }
 
+void a_mode_in_rad_s_is_told(void **) {
+    const exact::Structure s = test::bilinear_oscillator(0.01, 8, 0, 1, 0); // open: 1 rad/s
+    const auto said = [&](double mode_hz) {
+        SamplerOptions o;
+        o.mode_frequency_hz = mode_hz;
+        return plm::Sampler(test::make_model(s), o, plm::Watch()).warnings();
+    };
+    assert_true(said(1 * hz).empty());
+    assert_true(said(1.5 * hz).empty()); // where the response is largest
+    assert_true(said(1).has(PLM_REASON_OUTSIDE_BASIS));
+}
+
 // A mass held by nothing but its contact, pressed by a weight: the open half cycle has no frequency.
 void a_rigid_half_cycle_leaves_the_frequency_at_rest(void **) {
     exact::Structure s = test::bilinear_oscillator(0, 9, 0, 1, 2);
@@ -152,6 +164,7 @@ int main() {
         cmocka_unit_test(rest_frequency_equals_the_dense_one),
         cmocka_unit_test(the_callers_window_takes_precedence),
         cmocka_unit_test(a_window_in_rad_s_is_told),
+        cmocka_unit_test(a_mode_in_rad_s_is_told),
         cmocka_unit_test(a_rigid_half_cycle_leaves_the_frequency_at_rest),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
