@@ -115,6 +115,7 @@ typedef int32_t plm_status;
 #define PLM_REASON_MODEL 23            /* the model is probably not meant so, see plm_model_audit */
 #define PLM_REASON_HOST_REDUCTION 24   /* what the host states of its superelement is too much for the accuracy */
 #define PLM_REASON_UNSTABLE_PEAK 25    /* the structure does not stay on the motion of the peak */
+#define PLM_REASON_CROSSED_OVER 26     /* branch: goes round a closed curve onto which one of its steps had crossed */
 
 /* What a point of a branch is ("bifurcation" of a branch). */
 #define PLM_BIFURCATION_NONE 0
@@ -203,8 +204,7 @@ typedef int32_t (*plm_recover_fn)(plm_context *ctx, int64_t n_dof, int64_t n_col
 /* api_version: PLM_API_VERSION. */
 PLM_API plm_status plm_context_create(int32_t api_version, plm_context **ctx);
 /* All arrays of the library made for this context come from `allocate`, which must be able to serve until the context
- * is destroyed. (The factorization library and FFTW keep to malloc.) Up to eight large blocks (from 256 KiB, 256 MiB in
- * all) that a call has released serve it again; they are given back at its end, and before an allocation fails. */
+ * is destroyed. (The factorization library and FFTW keep to malloc.) */
 PLM_API plm_status plm_context_create_with_allocator(int32_t api_version, plm_allocate_fn allocate,
                                                      plm_release_fn release, void *user, plm_context **ctx);
 /* Destroys the context and all that is left in it; NULL and *ctx == NULL are accepted; *ctx becomes NULL. */
@@ -417,12 +417,14 @@ PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_
 /* The whole way in one call, for a built model with an excitation: the response curve around the resonance that the
  * excitation drives most, and its peak at DOF `dof`. measure: PLM_PEAK, PLM_HALF_PEAK_TO_PEAK or PLM_RMS. accuracy: the
  * relative error that the peak may have, 1e-8 to 0.5 (1e-3 is usual); sampler, window, basis, motion and harmonics follow
- * from it: the basis grows until the error it makes is estimated (as by plm_hbm_estimate_error) to be within. Outputs:
- * frequency (Hz) and amplitude of the peak; error: that estimate, NaN where there is none, or NULL; curve: or NULL; hbm:
- * the solver that computed it, to go on with (other points, isolated branches, stability), with its basis behind it, or
- * NULL. PLM_WARNING says what of the accuracy was not reached and what else should be looked at, with the reasons of
- * plm_sampler_run, plm_basis_build, plm_hbm_sweep and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a
- * sweep. PLM_ERR_STATE before plm_model_build and without contact pairs. */
+ * from it: the basis grows until the error it makes is estimated (as by plm_hbm_estimate_error; where that does not
+ * converge, by what a clearly larger basis changes) to be within. Outputs: frequency (Hz) and amplitude of the peak;
+ * error: that estimate, NaN where there is none, or NULL; curve: or NULL; hbm: the solver that computed it, to go on with
+ * (other points, isolated branches, stability), with its basis behind it, or NULL. PLM_WARNING says what of the accuracy
+ * was not reached and what else should be looked at, with the reasons of plm_sampler_run, plm_basis_build, plm_hbm_sweep
+ * and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a sweep, the former, where contact bounces and a
+ * curve winds, after the points of some seconds (500 to 1,000). PLM_ERR_STATE before plm_model_build and without contact
+ * pairs. */
 PLM_API plm_status plm_model_compute_response(plm_model *model, int64_t dof, int32_t measure, double accuracy,
                                               double *frequency_hz, double *amplitude, double *error,
                                               plm_branch **curve, plm_hbm **hbm);
@@ -523,9 +525,12 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
  * stays. PLM_WARNING with PLM_REASON_OUTSIDE_BASIS when the largest response outside the basis' window misses the
  * equations of the whole structure by more than 1 % (plm_branch_get_full_residual); with PLM_REASON_BASIS_TOO_SMALL when
  * the largest inside it does, unless the error that the basis makes there can be estimated at little cost and is below
- * 1 %; with PLM_REASON_NO_SWITCHING when no pair would open or close under a hundred times the motion; with
- * PLM_REASON_TURNED_BACK when a fold led back to the end where the curve began. A structure in free flight, or free along
- * a rail: mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
+ * 1 %, and when so many pairs open and close that the curve was followed on a part of the basis' coordinates and more of
+ * them change its highest motion by more than "accuracy"; with PLM_REASON_UNVERIFIED when, on such a curve, stability is
+ * not as more coordinates have it; with PLM_REASON_NO_SWITCHING when no pair would open or close
+ * under a hundred times the motion; with PLM_REASON_TURNED_BACK when a fold led back to the end where the curve began. A
+ * structure in free flight, or free along a rail: mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would
+ * carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
  * start. PLM_ERR_CONVERGENCE when no strategy converges; PLM_WARNING with PLM_REASON_OUTSIDE_BASIS as for a sweep. */
