@@ -75,7 +75,7 @@ MemoryEstimate estimate_memory(const StructureEstimate &s, std::int64_t n_pairs,
         e.factorization = single ? s.factor->peak_single : s.factor->peak_full;
     }
     // the count of modes eliminates the shifted matrix front by front, and keeps nothing
-    const double count = s.factor ? s.factor->at_work + s.shifted : 0;
+    const double count = s.factor ? s.factor->at_work + s.counted : 0;
     e.modes = std::max({(2 * modes_anyhow + lanczos_columns) * column, own_columns * column + count,
                         (own_columns + response_columns * z) * column});
     const double space = (own_columns + 2 * n_modes + further_per_pair * z) * column; // modes and momenta

@@ -1,9 +1,10 @@
 // What the phases of a set-up cost against the size of the structure: cracked cantilevers of bricks, a solid
-// block (4:2:1) and a plate of three bricks' thickness, contact pairs growing with the cracked section.
+// block (4:2:1) and a plate of three bricks' thickness, contact pairs growing with the cracked section or as many
+// as are asked for.
 // Seconds of the processor, or with several threads of the clock on the wall, and MiB. Not a test: prints
 // Markdown.
 //
-//     bench_scale solid|plate [--threads N] [--space] DOFS...
+//     bench_scale solid|plate [--threads N] [--pairs Z] [--space] DOFS...
 //
 // --space: the contact space, too, with all its pairs. Modal analysis and set-up of each size run in
 // processes of their own; the memory is what they hold at most beside the matrices handed over.
@@ -14,9 +15,7 @@
 #include "structure/matrix_input.hpp"
 #include "structure/solver/make_factor.hpp"
 #include "structure/solver/ordering.hpp"
-extern "C" {
-#include "cracked_plate.h"
-}
+#include "cantilever.h"
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -57,21 +56,6 @@ double resident_mebibytes() {
     if (!file || std::fscanf(file, "%lld %lld", &pages, &resident) != 2) std::exit(1);
     std::fclose(file);
     return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
-}
-
-/// About so many DOFs, the crack over half of the section at mid length.
-cracked_plate_params cantilever(bool solid, double dofs) {
-    cracked_plate_params p;
-    cracked_plate_paper(&p);
-    p.n_loads = 0;
-    const double nodes = dofs / 3, side = solid ? std::cbrt(nodes / 8) : std::sqrt(nodes / 8);
-    p.nz = solid ? static_cast<std::int32_t>(side) : 3;
-    p.ny = static_cast<std::int32_t>(solid ? 2 * side : side);
-    p.nx = static_cast<std::int32_t>(nodes / ((p.ny + 1.0) * (p.nz + 1)));
-    p.length = p.nx, p.width = p.ny, p.thickness = p.nz;
-    p.crack_position = 0.5 * p.length;
-    p.crack_rows = p.ny / 2;
-    return p;
 }
 
 plm::ModelInput input_of(const scene &s) {
@@ -118,8 +102,7 @@ Modal measure(const plm::SparseMatrix &k, const plm::SparseMatrix &m) {
     t.modes = seconds_of([&] { pairs = plm::lowest_eigenpairs(k, m, *factor, 0, n_modes); });
     t.highest = std::sqrt(pairs.values.back());
     factor.reset();
-    t.count =
-        seconds_of([&] { plm::count_negative(plm::add(1, k, -1.01 * pairs.values.back(), m), solver); });
+    t.count = seconds_of([&] { plm::count_negative({k, -1.01 * pairs.values.back(), m}, solver); });
     return t;
 }
 
@@ -177,8 +160,8 @@ template <class Result, class Step> Result apart(Step step, double &mebibytes) {
     return answer.result;
 }
 
-void print_row(bool solid, double dofs, bool with_space) {
-    const cracked_plate_params p = cantilever(solid, dofs);
+void print_row(bool solid, double dofs, double pairs, bool with_space) {
+    const cracked_plate_params p = cantilever(solid, dofs, pairs);
     scene *s = nullptr;
     if (cracked_plate_create(&p, &s) != SCENE_OK) std::exit(1);
     const plm::ModelInput input = input_of(*s);
@@ -210,15 +193,18 @@ int main(int n_arguments, char **argument) {
     bool with_space = false,
          asked_well = solid || (n_arguments > 1 && std::strcmp(argument[1], "plate") == 0);
     int first = 2;
+    double pairs = 0;
     for (; first < n_arguments && argument[first][0] == '-'; ++first)
         if (std::strcmp(argument[first], "--space") == 0)
             with_space = true;
         else if (std::strcmp(argument[first], "--threads") == 0 && first + 1 < n_arguments)
             n_threads = std::atoi(argument[++first]);
+        else if (std::strcmp(argument[first], "--pairs") == 0 && first + 1 < n_arguments)
+            pairs = std::atof(argument[++first]);
         else
             asked_well = false;
     if (first >= n_arguments || !asked_well || n_threads < 1) {
-        std::fprintf(stderr, "usage: bench_scale solid|plate [--threads N] [--space] DOFS...\n");
+        std::fprintf(stderr, "usage: bench_scale solid|plate [--threads N] [--pairs Z] [--space] DOFS...\n");
         return 2;
     }
     std::printf(
@@ -228,6 +214,6 @@ int main(int n_arguments, char **argument) {
         with_space ? " model | contact space | set-up | set-up / modal analysis | MiB told before |" : "",
         with_space ? "|--|--|--|--|--|--|--|--|--|--|--|--|--|--|" : "|--|--|--|--|--|--|--|--|--|");
     std::fflush(stdout);
-    for (int i = first; i < n_arguments; ++i) print_row(solid, std::atof(argument[i]), with_space);
+    for (int i = first; i < n_arguments; ++i) print_row(solid, std::atof(argument[i]), pairs, with_space);
     return 0;
 }

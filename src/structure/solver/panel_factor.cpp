@@ -279,7 +279,7 @@ template <class T> void PanelFactor<T>::backward_rest(const Rows &x, std::int64_
 }
 
 template <class T>
-void PanelFactor<T>::backward_subtree(const Subtree &subtree, const Rows &x, const Rows &above,
+void PanelFactor<T>::backward_subtree(const Subtree &subtree, const Rows &x, const KnownRows &above,
                                       std::int64_t nrhs) const {
     vector<T> known(most_below(subtree) * nrhs);
     for (std::int64_t node = subtree.last; node >= subtree.first; --node)
@@ -288,8 +288,8 @@ void PanelFactor<T>::backward_subtree(const Subtree &subtree, const Rows &x, con
 
 /// above: rows above the subtree; known: room for below x nrhs.
 template <class T>
-void PanelFactor<T>::backward_node(std::int64_t node, const Rows &x, const Rows &above, std::int64_t nrhs,
-                                   T *known) const {
+void PanelFactor<T>::backward_node(std::int64_t node, const Rows &x, const KnownRows &above,
+                                   std::int64_t nrhs, T *known) const {
     const std::int64_t rows = nodes().rows_of(node), columns = nodes().columns_of(node);
     const std::int64_t staying = rows - columns, strips = (columns + panel_strip - 1) / panel_strip;
     const std::int64_t *row = rows_below(node);
