@@ -1,8 +1,7 @@
-/* What each stage from matrices to a response curve takes, with nothing set but what is asked here: seconds of the
- * clock on the wall and of the processor, and what the process holds at most meanwhile, the host's matrices among
- * it (Linux). Cracked cantilevers as in bench_scale.
- *     bench_stages solid|plate DOFS PAIRS [--threads N] [--limit MIB] [--precision auto|double|single]
- * Prints Markdown. */
+/* What each stage from matrices to a response curve takes, with nothing set but what is asked here: seconds
+ * of the clock on the wall and of the processor, and what the process holds at most meanwhile, the host's
+ * matrices among it (Linux). Cracked cantilevers as in bench_scale. bench_stages solid|plate DOFS PAIRS
+ * [--threads N] [--limit MIB] [--precision auto|double|single] Prints Markdown. */
 #include "cantilever.h"
 #include "plm/plm.h"
 #include <math.h>
@@ -120,8 +119,10 @@ static void sweep(plm_context *context, plm_basis *basis, int64_t dof) {
 static scene *structure_of(int solid, double dofs, double pairs) {
     cracked_plate_params p = cantilever(solid, dofs, pairs);
     scene *s = NULL;
+    p.contact_stiffness = 2e3; /* softer than the bricks' faces: the curve is not what is hard here */
     /* of the first bending in the plane, without crack */
-    p.quality_frequency_hz = 0.1615 * sqrt(p.material.young / p.material.density) * p.width / (p.length * p.length);
+    p.quality_frequency_hz =
+        0.1615 * sqrt(p.material.young / p.material.density) * p.width / (p.length * p.length);
     if (cracked_plate_create(&p, &s) != SCENE_OK) exit(1);
     return s;
 }

@@ -106,7 +106,8 @@ class ResponseProducts {
         return columns;
     }
 
-    /// Of a subtree, the columns that forces in it make: of X, and of what it adds to the rows below its root.
+    /// Of a subtree, the columns that forces in it make: of X, and of what it adds to the rows below its
+    /// root.
     struct Forward {
         vector<std::int64_t> columns;
         Matrix x;
@@ -157,11 +158,12 @@ class ResponseProducts {
             if (place_[e.row] >= 0)
                 for (std::int64_t c = 0; c < s_; ++c)
                     sums.energy(e.column, c) += e.value * shared_(place_[e.row], c);
-        const SparseMatrix inner = part_of_mass(shared_.rows(), shared_.rows(), [&](std::int64_t i, auto put) {
-            for_entries(shared_row_[i], [&](std::int64_t row, double value) {
-                if (place_[row] >= 0) put(place_[row], value);
+        const SparseMatrix inner =
+            part_of_mass(shared_.rows(), shared_.rows(), [&](std::int64_t i, auto put) {
+                for_entries(shared_row_[i], [&](std::int64_t row, double value) {
+                    if (place_[row] >= 0) put(place_[row], value);
+                });
             });
-        });
         add_inertia(shared_, inner, sums.inertia);
     }
 
@@ -229,8 +231,8 @@ class ResponseProducts {
         return a;
     }
 
-    /// X^T M X by blocks of columns, of which the symmetric part is meant: what stands below the blocks of the
-    /// diagonal counts twice, and nothing stands above them.
+    /// X^T M X by blocks of columns, of which the symmetric part is meant: what stands below the blocks of
+    /// the diagonal counts twice, and nothing stands above them.
     static void add_inertia(const Matrix &x, const SparseMatrix &mass, Matrix &sum) {
         constexpr std::int64_t block = 64;
         const std::int64_t s = x.cols(), n = x.rows();
