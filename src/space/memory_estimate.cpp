@@ -83,7 +83,7 @@ MemoryEstimate estimate_memory(const StructureEstimate &s, std::int64_t n_pairs,
                         (own_columns + responses) * column});
     const double further = std::min(further_per_pair * z, most_further);
     const double space = (2 * modes_anyhow + 2 * n_modes + further) * column; // modes and momenta
-    e.contact_space = space + (solve_columns + further / 2) * column;
+    e.contact_space = space + (solve_columns + further) * column; // as many again of the directions at work
     e.basis = space + (solve_columns + n_basis) * column;
     return e;
 }
