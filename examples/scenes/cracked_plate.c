@@ -7,7 +7,7 @@
 #include "assembly.h"
 #include "scene_build.h"
 
-/* The grid of nodes: i along x, j along y, k along z; the doubled nodes of the cracks are numbered after it. */
+/* The grid of nodes: i along x, j along y, k along z; the doubled nodes of the cracks are numbered last. */
 typedef struct plate_grid {
     int64_t nx, ny, nz, crack_i, crack_j; /* the crack's doubled nodes: i = crack_i, j >= crack_j */
     int64_t n_cracks;                     /* several: at i = crack_at(c) */
@@ -59,10 +59,10 @@ static int bad_mesh(const cracked_plate_params *p) {
     const int32_t most = 2000; /* bricks along a side */
     return p->nx < 2 || p->nx > most || p->ny < 2 || p->ny > most || p->nz < 1 || p->nz > most ||
            p->crack_rows < 1 || p->crack_rows >= p->ny || p->further_cracks < 0 ||
-           p->further_cracks > p->nx - 2 || p->columns_before_crack < 0 ||
-           p->columns_before_crack >= p->nx || !(p->length > 0) || !(p->width > 0) || !(p->thickness > 0) ||
-           !isfinite(p->length) || !isfinite(p->width) || !isfinite(p->thickness) ||
-           !(p->crack_position > 0) || !(p->crack_position < p->length) || brick_material_check(&p->material);
+           p->further_cracks > p->nx - 2 || p->columns_before_crack < 0 || p->columns_before_crack >= p->nx ||
+           !(p->length > 0) || !(p->width > 0) || !(p->thickness > 0) || !isfinite(p->length) ||
+           !isfinite(p->width) || !isfinite(p->thickness) || !(p->crack_position > 0) ||
+           !(p->crack_position < p->length) || brick_material_check(&p->material);
 }
 
 static int bad_loads(const cracked_plate_params *p) {
@@ -76,8 +76,8 @@ static int bad_loads(const cracked_plate_params *p) {
 }
 
 static plate_grid grid_of(const cracked_plate_params *p) {
-    plate_grid g = {p->nx, p->ny, p->nz, p->columns_before_crack, p->ny + 1 - p->crack_rows,
-                    p->further_cracks + 1};
+    plate_grid g = {
+        p->nx, p->ny, p->nz, p->columns_before_crack, p->ny + 1 - p->crack_rows, p->further_cracks + 1};
     if (g.crack_i == 0) {
         g.crack_i = llround(p->nx * p->crack_position / p->length);
         g.crack_i = g.crack_i < 1 ? 1 : g.crack_i > p->nx - 1 ? p->nx - 1 : g.crack_i;
@@ -182,7 +182,8 @@ static int fill(const cracked_plate_params *p, const plate_grid *g, const brick_
     const double along_x[3] = {1, 0, 0};
     int status = assemble_bricks(mesh, &p->material, s);
     if (!status)
-        status = scene_allocate(s, 3 * (g->ny + 1) * (g->nz + 1), g->n_cracks * pairs_of_crack(g), p->with_preload);
+        status = scene_allocate(s, 3 * (g->ny + 1) * (g->nz + 1), g->n_cracks * pairs_of_crack(g),
+                                p->with_preload);
     if (status) return status;
 
     for (int64_t f = 0; f < s->n_fixed; f++) s->fixed[f] = f; /* the nodes of x = 0 come first */

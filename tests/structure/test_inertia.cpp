@@ -142,7 +142,8 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(counts_equal_those_of_dense_eigenvalues),
         cmocka_unit_test(the_smallest_matrices),
-        cmocka_unit_test(the_modes_of_a_chain), cmocka_unit_test(sums_need_not_be_formed),
+        cmocka_unit_test(the_modes_of_a_chain),
+        cmocka_unit_test(sums_need_not_be_formed),
         cmocka_unit_test(a_pivot_without_a_sign_is_singular),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
