@@ -7,9 +7,10 @@
 #include "assembly.h"
 #include "scene_build.h"
 
-/* The grid of nodes: i along x, j along y, k along z; the doubled crack nodes are numbered after it. */
+/* The grid of nodes: i along x, j along y, k along z; the doubled nodes of the cracks are numbered last. */
 typedef struct plate_grid {
     int64_t nx, ny, nz, crack_i, crack_j; /* the crack's doubled nodes: i = crack_i, j >= crack_j */
+    int64_t n_cracks;                     /* several: at i = crack_at(c) */
 } plate_grid;
 
 static const double pi = 3.14159265358979323846;
@@ -57,10 +58,11 @@ void cracked_plate_quick(cracked_plate_params *p) {
 static int bad_mesh(const cracked_plate_params *p) {
     const int32_t most = 2000; /* bricks along a side */
     return p->nx < 2 || p->nx > most || p->ny < 2 || p->ny > most || p->nz < 1 || p->nz > most ||
-           p->crack_rows < 1 || p->crack_rows >= p->ny || p->columns_before_crack < 0 ||
-           p->columns_before_crack >= p->nx || !(p->length > 0) || !(p->width > 0) || !(p->thickness > 0) ||
-           !isfinite(p->length) || !isfinite(p->width) || !isfinite(p->thickness) ||
-           !(p->crack_position > 0) || !(p->crack_position < p->length) || brick_material_check(&p->material);
+           p->crack_rows < 1 || p->crack_rows >= p->ny || p->further_cracks < 0 ||
+           p->further_cracks > p->nx - 2 || p->columns_before_crack < 0 || p->columns_before_crack >= p->nx ||
+           !(p->length > 0) || !(p->width > 0) || !(p->thickness > 0) || !isfinite(p->length) ||
+           !isfinite(p->width) || !isfinite(p->thickness) || !(p->crack_position > 0) ||
+           !(p->crack_position < p->length) || brick_material_check(&p->material);
 }
 
 static int bad_loads(const cracked_plate_params *p) {
@@ -74,7 +76,8 @@ static int bad_loads(const cracked_plate_params *p) {
 }
 
 static plate_grid grid_of(const cracked_plate_params *p) {
-    plate_grid g = {p->nx, p->ny, p->nz, p->columns_before_crack, p->ny + 1 - p->crack_rows};
+    plate_grid g = {
+        p->nx, p->ny, p->nz, p->columns_before_crack, p->ny + 1 - p->crack_rows, p->further_cracks + 1};
     if (g.crack_i == 0) {
         g.crack_i = llround(p->nx * p->crack_position / p->length);
         g.crack_i = g.crack_i < 1 ? 1 : g.crack_i > p->nx - 1 ? p->nx - 1 : g.crack_i;
@@ -86,18 +89,33 @@ static int64_t node_at(const plate_grid *g, int64_t i, int64_t j, int64_t k) {
     return (i * (g->ny + 1) + j) * (g->nz + 1) + k;
 }
 
-static int64_t pair_at(const plate_grid *g, int64_t j, int64_t k) {
-    return (j - g->crack_j) * (g->nz + 1) + k;
+/* The column of nodes of crack c, and the crack there, or -1. */
+static int64_t crack_at(const plate_grid *g, int64_t c) {
+    return g->n_cracks == 1 ? g->crack_i : g->nx * (c + 1) / (g->n_cracks + 1);
 }
 
-/* The node seen by the bricks beyond the crack: its twin where the plate is cut. */
+static int64_t crack_of(const plate_grid *g, int64_t i) {
+    const int64_t c = g->n_cracks == 1 ? 0 : (i * (g->n_cracks + 1) + g->nx - 1) / g->nx - 1;
+    return c >= 0 && c < g->n_cracks && crack_at(g, c) == i ? c : -1;
+}
+
+static int64_t pairs_of_crack(const plate_grid *g) {
+    return (g->ny + 1 - g->crack_j) * (g->nz + 1);
+}
+
+static int64_t pair_at(const plate_grid *g, int64_t c, int64_t j, int64_t k) {
+    return c * pairs_of_crack(g) + (j - g->crack_j) * (g->nz + 1) + k;
+}
+
+/* The node seen by the bricks beyond a crack: its twin where the plate is cut. */
 static int64_t node_beyond(const plate_grid *g, int64_t i, int64_t j, int64_t k) {
-    if (i == g->crack_i && j >= g->crack_j) return (g->nx + 1) * (g->ny + 1) * (g->nz + 1) + pair_at(g, j, k);
-    return node_at(g, i, j, k);
+    const int64_t c = j >= g->crack_j ? crack_of(g, i) : -1;
+    return c < 0 ? node_at(g, i, j, k) : (g->nx + 1) * (g->ny + 1) * (g->nz + 1) + pair_at(g, c, j, k);
 }
 
 /* Each side of the crack has its own even spacing, so that a plane of nodes lies on the crack. */
 static double x_of_column(const cracked_plate_params *p, const plate_grid *g, int64_t i) {
+    if (g->n_cracks > 1) return p->length * (double)i / (double)g->nx;
     if (i <= g->crack_i) return p->crack_position * (double)i / (double)g->crack_i;
     return p->crack_position +
            (p->length - p->crack_position) * (double)(i - g->crack_i) / (double)(g->nx - g->crack_i);
@@ -123,7 +141,7 @@ static void place_bricks(const plate_grid *g, brick_mesh *mesh) {
             for (int64_t k = 0; k < g->nz; k++)
                 for (int a = 0; a < 8; a++) {
                     const int64_t ia = i + step[a][0], ja = j + step[a][1], ka = k + step[a][2];
-                    mesh->brick[at++] = i >= g->crack_i ? node_beyond(g, ia, ja, ka) : node_at(g, ia, ja, ka);
+                    mesh->brick[at++] = ia == i ? node_beyond(g, ia, ja, ka) : node_at(g, ia, ja, ka);
                 }
 }
 
@@ -164,15 +182,16 @@ static int fill(const cracked_plate_params *p, const plate_grid *g, const brick_
     const double along_x[3] = {1, 0, 0};
     int status = assemble_bricks(mesh, &p->material, s);
     if (!status)
-        status = scene_allocate(s, 3 * (g->ny + 1) * (g->nz + 1), (int64_t)p->crack_rows * (g->nz + 1),
+        status = scene_allocate(s, 3 * (g->ny + 1) * (g->nz + 1), g->n_cracks * pairs_of_crack(g),
                                 p->with_preload);
     if (status) return status;
 
     for (int64_t f = 0; f < s->n_fixed; f++) s->fixed[f] = f; /* the nodes of x = 0 come first */
-    for (int64_t j = g->crack_j; j <= g->ny; j++)
-        for (int64_t k = 0; k <= g->nz; k++)
-            scene_set_pair(s, pair_at(g, j, k), node_at(g, g->crack_i, j, k),
-                           node_beyond(g, g->crack_i, j, k), along_x, p->gap, p->contact_stiffness);
+    for (int64_t c = 0; c < g->n_cracks; c++)
+        for (int64_t j = g->crack_j; j <= g->ny; j++)
+            for (int64_t k = 0; k <= g->nz; k++)
+                scene_set_pair(s, pair_at(g, c, j, k), node_at(g, crack_at(g, c), j, k),
+                               node_beyond(g, crack_at(g, c), j, k), along_x, p->gap, p->contact_stiffness);
 
     /* One node is driven and watched; the middle of the thickness (for an even nz) leaves out-of-plane
      * bending alone. */
@@ -189,7 +208,7 @@ static int fill(const cracked_plate_params *p, const plate_grid *g, const brick_
 int cracked_plate_create(const cracked_plate_params *p, scene **out) {
     if (!p || !out || bad_mesh(p) || bad_loads(p)) return SCENE_ERR_ARGUMENT;
     const plate_grid g = grid_of(p);
-    const int64_t n_nodes = (g.nx + 1) * (g.ny + 1) * (g.nz + 1) + (int64_t)p->crack_rows * (g.nz + 1);
+    const int64_t n_nodes = (g.nx + 1) * (g.ny + 1) * (g.nz + 1) + g.n_cracks * pairs_of_crack(&g);
 
     brick_mesh mesh;
     int status = brick_mesh_create(n_nodes, g.nx * g.ny * g.nz, &mesh);

@@ -28,6 +28,7 @@ typedef struct cracked_plate_params {
     double crack_position;        /* x of the crack, between 0 and length */
     int32_t columns_before_crack; /* bricks between clamp and crack, 1 .. nx - 1; 0 = as even as can be */
     int32_t crack_rows;           /* 1 .. ny - 1 */
+    int32_t further_cracks;       /* alike; with them crack_position does not count: all are evenly along x */
     brick_material material;
     double gap;               /* initial gap of every pair, mm; negative = interference */
     double contact_stiffness; /* N/mm per pair; negative = let the library choose */

@@ -1,6 +1,6 @@
 #include "dense.hpp"
 #include "blas_lapack.hpp"
-#include "parallel.hpp"
+#include "row_bands.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -83,47 +83,32 @@ void select_rows(const Matrix &a, const vector<std::int64_t> &rows, Matrix &out)
 
 namespace {
 
-/// Tall matrices are cut into so many bands of rows, for threads. The cut follows from the shapes alone, and
-/// so do the digits.
-constexpr std::int64_t bands = 16, tall = 1024 * bands;
-
-struct Band {
-    std::int64_t first, count;
-};
-Band band_of(std::int64_t k, std::int64_t rows) {
-    const std::int64_t first = k * rows / bands;
-    return {first, (k + 1) * rows / bands - first};
-}
+constexpr std::int64_t tall = 1024 * row_bands;
 
 /// C = alpha A op(B) + beta C, band by band of A and C.
 void multiply_tall(char op_b, double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c) {
     const double flops = 2.0 * static_cast<double>(a.rows() * a.cols()) * static_cast<double>(c.cols());
     const blas_int n = to_blas(c.cols()), k = to_blas(a.cols()), ld = leading(a.rows()),
                    ldb = leading(b.rows());
-    parallel_for(bands, flops, [&](std::int64_t i) {
-        const Band band = band_of(i, a.rows());
-        const blas_int m = to_blas(band.count);
-        dgemm_("N", &op_b, &m, &n, &k, &alpha, a.data() + band.first, &ld, b.data(), &ldb, &beta,
-               c.data() + band.first, &ld, 1, 1);
+    for_row_bands(a.rows(), flops, [&](std::int64_t, std::int64_t first, std::int64_t rows) {
+        const blas_int m = to_blas(rows);
+        dgemm_("N", &op_b, &m, &n, &k, &alpha, a.data() + first, &ld, b.data(), &ldb, &beta, c.data() + first,
+               &ld, 1, 1);
     });
 }
 
 /// C = alpha A^T B + beta C: the sum of the bands' products.
 void multiply_tall_transposed(double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c) {
-    const std::int64_t entries = c.rows() * c.cols();
-    const blas_int m = to_blas(c.rows()), n = to_blas(c.cols()), ld = leading(a.rows()),
-                   ldc = leading(c.rows());
-    const double flops = 2.0 * static_cast<double>(a.rows()) * static_cast<double>(entries), zero = 0;
-    vector<double> parts(bands * entries);
-    parallel_for(bands, flops, [&](std::int64_t i) {
-        const Band band = band_of(i, a.rows());
-        const blas_int k = to_blas(band.count);
-        dgemm_("T", "N", &m, &n, &k, &alpha, a.data() + band.first, &ld, b.data() + band.first, &ld, &zero,
-               parts.data() + i * entries, &ldc, 1, 1);
+    const std::int64_t entries = c.rows() * c.cols(), ld = a.rows();
+    const double flops = 2.0 * static_cast<double>(ld) * static_cast<double>(entries);
+    vector<double> parts(row_bands * entries);
+    for_row_bands(ld, flops, [&](std::int64_t band, std::int64_t first, std::int64_t rows) {
+        gemm('T', c.rows(), c.cols(), rows, alpha, a.data() + first, ld, b.data() + first, ld, 0.0,
+             parts.data() + band * entries, c.rows());
     });
     for (std::int64_t e = 0; e < entries; ++e) {
         double sum = beta == 0 ? 0 : beta * c.data()[e];
-        for (std::int64_t i = 0; i < bands; ++i) sum += parts[i * entries + e];
+        for (std::int64_t i = 0; i < row_bands; ++i) sum += parts[i * entries + e];
         c.data()[e] = sum;
     }
 }
@@ -139,7 +124,8 @@ void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, 
     require(&c != &a && &c != &b, "gemm: C must not be A or B");
     const bool worth = static_cast<double>(c.rows() * c.cols()) * static_cast<double>(inner) > worth_threads;
     if (worth && !ta && a.rows() >= tall) return multiply_tall(op_b, alpha, a, b, beta, c);
-    if (worth && ta && !tb && inner >= tall && c.rows() * c.cols() * bands <= inner * (c.rows() + c.cols()))
+    if (worth && ta && !tb && inner >= tall &&
+        c.rows() * c.cols() * row_bands <= inner * (c.rows() + c.cols()))
         return multiply_tall_transposed(alpha, a, b, beta, c);
     const blas_int m = to_blas(c.rows()), n = to_blas(c.cols()), k = to_blas(inner);
     const blas_int lda = leading(a.rows()), ldb = leading(b.rows()), ldc = leading(c.rows());

@@ -65,6 +65,7 @@ AttachmentBasis::AttachmentBasis(std::shared_ptr<const Structure> structure,
     const SymmetricEigen e = by_inertia(inertia_);
     slow_ = product('N', 'N', orthonormal_, e.vectors);
     for (double mu : e.values) share_.push_back(reach_ * mu);
+    set_shares_of_loads();
     power_.assign(share_.size(), 1);
     at_.assign(share_.size(), -1);
     rayleigh_ritz();
@@ -87,14 +88,27 @@ void AttachmentBasis::orthonormalise_responses() {
     inertia_ = congruence(orthonormal_, responses_->inertia);
 }
 
+// A load on one node has much of its energy in directions that are fast, and no slow one leads to it.
+void AttachmentBasis::set_shares_of_loads() {
+    const std::int64_t first = forces_.n_contact(), loads = forces_.count() - first;
+    const vector<double> whole = responses_->whole_energies(structure_->shift());
+    of_loads_.assign(share_.size(), 0.0);
+    const Matrix works = product('T', 'N', slow_, responses_->energy.columns(first, loads));
+    for (std::int64_t l = 0; l < loads; ++l)
+        for (std::int64_t i = 0; i < works.rows() && whole[first + l] > 0; ++i)
+            of_loads_[i] = std::max(of_loads_[i], works(i, l) * works(i, l) / whole[first + l]);
+}
+
 std::int64_t AttachmentBasis::n_blocks() const {
     return power_.empty() ? 0 : *std::max_element(power_.begin(), power_.end());
 }
 
-bool AttachmentBasis::refine(double error, std::int64_t most, Watch watch) {
-    vector<std::int64_t> some = unfinished(error, most);
+bool AttachmentBasis::refine(AskedError asked, std::int64_t most, Watch watch) {
+    vector<std::int64_t> some = unfinished(asked, most);
     if (some.empty()) return false;
-    for (; !some.empty(); some = unfinished(error, most)) {
+    further_.reserve(further_.cols() + powers_missing(asked, most));
+    frontier_.reserve(frontier_.cols() + static_cast<std::int64_t>(some.size()));
+    for (; !some.empty(); some = unfinished(asked, most)) {
         watch.step("contact space", 0.5);
         some.resize(std::min<std::size_t>(some.size(), solved_at_once));
         begin(some);
@@ -104,12 +118,24 @@ bool AttachmentBasis::refine(double error, std::int64_t most, Watch watch) {
     return true;
 }
 
-vector<std::int64_t> AttachmentBasis::unfinished(double error, std::int64_t most) const {
+bool AttachmentBasis::is_finished(std::size_t i, std::int64_t power, AskedError asked,
+                                  std::int64_t most) const {
+    const double left = std::pow(share_[i], 2.0 * static_cast<double>(power));
+    return power >= most || (left <= asked.contact && of_loads_[i] * left <= asked.loads);
+}
+
+vector<std::int64_t> AttachmentBasis::unfinished(AskedError asked, std::int64_t most) const {
     vector<std::int64_t> found;
     for (std::size_t i = 0; i < share_.size(); ++i)
-        if (power_[i] < most && std::pow(share_[i], 2.0 * static_cast<double>(power_[i])) > error)
-            found.push_back(static_cast<std::int64_t>(i));
+        if (!is_finished(i, power_[i], asked, most)) found.push_back(static_cast<std::int64_t>(i));
     return found;
+}
+
+std::int64_t AttachmentBasis::powers_missing(AskedError asked, std::int64_t most) const {
+    std::int64_t count = 0;
+    for (std::size_t i = 0; i < share_.size(); ++i)
+        for (std::int64_t power = power_[i]; !is_finished(i, power, asked, most); ++power) ++count;
+    return count;
 }
 
 // The second powers of directions that have none yet.

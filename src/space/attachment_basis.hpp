@@ -7,6 +7,11 @@
 
 namespace plm {
 
+/// What is asked of the share of energy that a direction leaves out: of its own, and of that of a load.
+struct AskedError {
+    double contact, loads;
+};
+
 class AttachmentBasis {
   public:
     /// reach: omega^2 + sigma at the highest frequency of interest (rad^2/s^2); 0: statics alone.
@@ -18,7 +23,7 @@ class AttachmentBasis {
     std::int64_t n_blocks() const;
     /// Goes on with the directions whose share of inertia rho asks for more powers n: until rho^2n, or
     /// `most` powers, is reached. False: there were none.
-    bool refine(double error, std::int64_t most, Watch watch);
+    bool refine(AskedError asked, std::int64_t most, Watch watch);
 
     /// Of M in a basis that is A-orthonormal: compliances 1 / (lambda + sigma), descending.
     const SymmetricEigen &ritz() const { return ritz_; }
@@ -35,8 +40,11 @@ class AttachmentBasis {
 
   private:
     void orthonormalise_responses();
+    void set_shares_of_loads();
     void rayleigh_ritz();
-    vector<std::int64_t> unfinished(double error, std::int64_t most) const;
+    bool is_finished(std::size_t direction, std::int64_t power, AskedError asked, std::int64_t most) const;
+    vector<std::int64_t> unfinished(AskedError asked, std::int64_t most) const;
+    std::int64_t powers_missing(AskedError asked, std::int64_t most) const;
     void begin(const vector<std::int64_t> &directions);
     void advance(const vector<std::int64_t> &directions);
     Field next_power(Field momenta) const;
@@ -49,6 +57,7 @@ class AttachmentBasis {
     Matrix orthonormal_, slow_;       // X T is A-orthonormal; X S are its Ritz vectors, slowest first
     Matrix inertia_;                  // of X T
     vector<double> share_;            // rho, of each Ritz vector: reach x'Mx / x'Ax
+    vector<double> of_loads_;         // of each: the most of a load's energy that is in it
     vector<std::int64_t> power_;      // of each: blocks it is in
     vector<std::int64_t> at_;         // of each: column of frontier_, or -1
     Field frontier_;                  // the next power of the last one of each direction

@@ -42,15 +42,26 @@ class ContactSpaceBuilder {
     }
 
   private:
+    struct ReceptanceError {
+        double contact = 0, loads = 0; // of contact forces, and of the excitation
+        double worst() const { return std::max(contact, loads); }
+    };
+
     void refine(AttachmentBasis &attached) {
         const SpaceOptions &options = model_->space_options();
         choose_probes();
-        double error = receptance_error(attached), asked = asked_at_first * options.tolerance;
-        while (error > options.tolerance && asked > 1e-16) {
-            if (attached.refine(asked, options.max_blocks, watch_)) error = receptance_error(attached);
-            // it falls about as what is asked for: a measurement is not for free, nor are vectors in vain
-            asked *= std::clamp(0.7 * options.tolerance / error, 0.1, 0.5);
+        ReceptanceError found = receptance_error(attached);
+        AskedError asked{asked_at_first * options.tolerance, asked_at_first * options.tolerance};
+        // it falls about as what is asked for: a measurement is not for free, nor are vectors in vain
+        const auto ask_more = [&](double error, double &of) {
+            if (error > options.tolerance) of *= std::clamp(0.7 * options.tolerance / error, 0.1, 0.5);
+        };
+        while (found.worst() > options.tolerance && std::min(asked.contact, asked.loads) > 1e-16) {
+            if (attached.refine(asked, options.max_blocks, watch_)) found = receptance_error(attached);
+            ask_more(found.contact, asked.contact);
+            ask_more(found.loads, asked.loads);
         }
+        const double error = found.worst();
         if (error > options.tolerance)
             watch_.warn(
                 PLM_REASON_BASIS_TOO_SMALL,
@@ -162,6 +173,7 @@ class ContactSpaceBuilder {
             signs.data()[k] = (state >> 40) & 1 ? 1.0 : -1.0;
         }
         probes_ = model_->gap_rows().forces(signs);
+        n_contact_probes_ = signs.cols();
         for (const auto &entry : model_->excitation()) probes_.append(entry.second.real);
         if (probes_.empty()) return;
         const ExactModes &modes = *responses_->modes;
@@ -175,10 +187,11 @@ class ContactSpaceBuilder {
                 probe_compliance_[j] += modal(k, j) * modal(k, j) / (modes.values[k] + sigma_);
     }
 
-    // Largest relative error of the probes' receptances at the highest frequency: with r the full residual of
-    // the Galerkin answer x, it is off by r' (K - w^2 M)^-1 r, and by x' r as far as the small matrices are.
-    double receptance_error(const AttachmentBasis &attached) const {
-        if (attached.size() == 0 || probes_.empty()) return 0;
+    // Largest relative errors of the probes' receptances at the highest frequency: with r the full residual
+    // of the Galerkin answer x, it is off by r' (K - w^2 M)^-1 r, and by x' r as far as the small matrices
+    // are.
+    ReceptanceError receptance_error(const AttachmentBasis &attached) const {
+        if (attached.size() == 0 || probes_.empty()) return {};
         const double square = highest_ * highest_ + sigma_;
         const SymmetricEigen &ritz = attached.ritz();
         Matrix z = product('T', 'N', ritz.vectors, attached.products(probes_, probe_response_));
@@ -192,11 +205,13 @@ class ContactSpaceBuilder {
         model_->solve(e);
         const vector<double> missing = column_products(r, e), inconsistent = column_products(x, r);
         const double amplification = 1 / std::max(1e-3, 1 - square * ritz.values.front());
-        double worst = 0;
-        for (std::size_t p = 0; p < missing.size(); ++p)
+        ReceptanceError worst;
+        for (std::size_t p = 0; p < missing.size(); ++p) {
+            double &of = static_cast<std::int64_t>(p) < n_contact_probes_ ? worst.contact : worst.loads;
             if (probe_compliance_[p] > 0)
-                worst = std::max(worst, (std::abs(missing[p]) * amplification + std::abs(inconsistent[p])) /
-                                            probe_compliance_[p]);
+                of = std::max(of, (std::abs(missing[p]) * amplification + std::abs(inconsistent[p])) /
+                                      probe_compliance_[p]);
+        }
         return worst;
     }
 
@@ -280,6 +295,7 @@ class ContactSpaceBuilder {
     double sigma_;
     std::shared_ptr<const StaticResponses> responses_; // outside the exact modes of the space
     double reach_ = 0;                                 // rad/s, of the highest frequency of interest
+    std::int64_t n_contact_probes_ = 0;                // the first ones
     Field probes_, probe_response_;   // loads by which the error is measured, outside the exact modes
     vector<double> probe_compliance_; // of the whole loads
 };

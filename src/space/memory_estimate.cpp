@@ -11,7 +11,8 @@ constexpr double mebibyte = 1 << 20;
 
 // What nobody knows before the sampler has run: a usual number of each.
 constexpr double n_modes = 60, n_basis = 40;
-constexpr double further_per_pair = 0.5; // vectors of a contact space beside its modes
+// Vectors of a contact space beside its modes: in proportion to a few pairs, and hardly more for many.
+constexpr double further_per_pair = 0.5, most_further = 300;
 // Columns of the structure's size: what the model keeps of its own modes, their momenta and the search for
 // them; a search for n_modes, with its blocks and the modes it hands over; a block of right-hand sides with
 // its workspace.
@@ -75,11 +76,14 @@ MemoryEstimate estimate_memory(const StructureEstimate &s, std::int64_t n_pairs,
         e.factorization = single ? s.factor->peak_single : s.factor->peak_full;
     }
     // the count of modes eliminates the shifted matrix front by front, and keeps nothing
-    const double count = s.factor ? s.factor->at_work + s.shifted : 0;
+    const double count = s.factor ? s.factor->at_work + s.counted : 0;
+    const double responses =
+        single ? solve_columns : response_columns * z; // products, or solved for in blocks
     e.modes = std::max({(2 * modes_anyhow + lanczos_columns) * column, own_columns * column + count,
-                        (own_columns + response_columns * z) * column});
-    const double space = (own_columns + 2 * n_modes + further_per_pair * z) * column; // modes and momenta
-    e.contact_space = space + (solve_columns + further_per_pair / 2 * z) * column;
+                        (own_columns + responses) * column});
+    const double further = std::min(further_per_pair * z, most_further);
+    const double space = (2 * modes_anyhow + 2 * n_modes + further) * column; // modes and momenta
+    e.contact_space = space + (solve_columns + further) * column; // as many again of the directions at work
     e.basis = space + (solve_columns + n_basis) * column;
     return e;
 }

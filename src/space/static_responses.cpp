@@ -141,9 +141,11 @@ bool are_independent(const Matrix &energy) {
     return DenseCholesky().factor(scaled);
 }
 
-/// Columns of which the modes were nearly all.
+/// Of what there was: when less is left, the modes were nearly all of it.
+constexpr double least_energy = 1e-3, least_inertia = 1e-6;
+
+/// Columns of which they were.
 vector<std::int64_t> columns_lost(const StaticResponses &before, const StaticResponses &after) {
-    constexpr double least_energy = 1e-3, least_inertia = 1e-6;
     vector<std::int64_t> lost;
     for (std::int64_t j = 0; j < after.energy.cols(); ++j)
         if (!(after.energy(j, j) >= least_energy * before.energy(j, j) &&
@@ -152,13 +154,31 @@ vector<std::int64_t> columns_lost(const StaticResponses &before, const StaticRes
     return lost;
 }
 
+/// Whether the modes are nearly all of some responses, picked evenly: then of most others, too.
+bool modes_prevail(const Structure &structure, const ActingForces &forces,
+                   const std::shared_ptr<const ExactModes> &modes, Watch watch) {
+    constexpr std::int64_t picked = 16, worth_a_look = 256; // forces: below it products are cheap
+    const std::int64_t n = forces.count();
+    if (n < worth_a_look) return false;
+    vector<std::int64_t> some(picked);
+    for (std::int64_t k = 0; k < picked; ++k) some[k] = k * n / picked;
+    StaticResponses r{modes, Matrix(modes->count(), n), Matrix(n, n), Matrix(n, n)};
+    solve_for(some, structure, forces, r, watch);
+    const vector<double> whole = r.whole_energies(structure.shift());
+    const auto lost = std::count_if(some.begin(), some.end(), [&](std::int64_t j) {
+        return !(r.energy(j, j) >= least_energy * whole[j]);
+    });
+    return 2 * lost > picked;
+}
+
 /// From the matrices of the responses with the modes in them. Nothing where these are not to be had, or the
 /// modes, soft ones among them, leave too few digits.
 std::optional<StaticResponses> less_the_modes(const Structure &structure, const ActingForces &forces,
                                               std::shared_ptr<const ExactModes> modes, Watch watch) {
     watch.step("contact flexibility", 0);
     StaticResponses whole;
-    if (structure.n_rigid() > 0 || !forces.multiply_responses(whole.energy, whole.inertia)) return {};
+    if (structure.n_rigid() > 0 || modes_prevail(structure, forces, modes, watch)) return {};
+    if (!forces.multiply_responses(whole.energy, whole.inertia)) return {};
     StaticResponses r{modes, forces.products(modes->vectors).transposed(), whole.energy, whole.inertia};
     add_modal(-1.0, r.modal, compliances(*modes, structure.shift(), 1), r.energy);
     add_modal(-1.0, r.modal, compliances(*modes, structure.shift(), 2), r.inertia);

@@ -5,7 +5,7 @@
 // one object: problems run side by side, and one inside a callback of another.
 #include "linalg/blas_lapack.hpp"
 #include "linalg/lapack.hpp"
-#include "linalg/parallel.hpp"
+#include "linalg/row_bands.hpp"
 #include "structure/eigs_block.hpp"
 #include "structure/eigs_internal.hpp"
 #include <algorithm>
@@ -17,7 +17,6 @@ namespace plm {
 namespace {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
-constexpr std::int64_t bands = 16; // of rows, for threads
 
 /// The factorization A^-1 M V = V T + W B, with V and the block W M-orthonormal.
 class Lanczos {
@@ -136,13 +135,9 @@ class Lanczos {
         const std::int64_t coupled = size() - coupled_from_, width = w_.width();
         const double *t = t_.col(first) + coupled_from_;
         const double flops = 2.0 * static_cast<double>(n_ * coupled) * static_cast<double>(width);
-        parallel_for(bands, flops, [&](std::int64_t k) {
-            const std::int64_t begin = k * n_ / bands, height = (k + 1) * n_ / bands - begin;
-            const blas_int m = to_blas(height), cols = to_blas(width), inner = to_blas(coupled),
-                           n = to_blas(n_), ld = to_blas(t_.rows());
-            const double minus = -1, one = 1;
-            dgemm_("N", "N", &m, &cols, &inner, &minus, v_.col(coupled_from_) + begin, &n, t, &ld, &one,
-                   w_.x.data() + begin, &n, 1, 1);
+        for_row_bands(n_, flops, [&](std::int64_t, std::int64_t begin, std::int64_t height) {
+            gemm('N', height, width, coupled, -1.0, v_.col(coupled_from_) + begin, n_, t, t_.rows(), 1.0,
+                 w_.x.data() + begin, n_);
         });
         vector<double> taken(w_.width());
         for (std::int64_t j = 0; j < w_.width(); ++j)
@@ -196,8 +191,8 @@ class Lanczos {
     /// The first `count` Ritz vectors in place of V, by rows that stay in the cache.
     void to_ritz_vectors(std::int64_t count) {
         const double flops = 2.0 * static_cast<double>(n_ * size()) * static_cast<double>(count);
-        parallel_for(bands, flops, [&](std::int64_t k) {
-            rows_to_ritz_vectors(k * n_ / bands, (k + 1) * n_ / bands, count);
+        for_row_bands(n_, flops, [&](std::int64_t, std::int64_t begin, std::int64_t height) {
+            rows_to_ritz_vectors(begin, begin + height, count);
         });
         v_.cut(count);
     }

@@ -23,6 +23,8 @@ class Field {
     Field columns(std::int64_t first, std::int64_t count) const;
     Field columns(const vector<std::int64_t> &chosen) const;
     void append(const Field &other);
+    /// Room for so many columns in all, so that they are not copied as they come.
+    void reserve(std::int64_t cols) { columns_.reserve(rows(), cols); }
     /// Its columns from `first` on become those of `other`.
     void put(std::int64_t first, const Field &other);
     /// Entry of one DOF (free index) in a column.

@@ -7,7 +7,7 @@ namespace plm {
 std::int64_t count_modes(const SparseMatrix &k, const SparseMatrix &m, double omega, const Solver &solver) {
     if (!solver.tells_inertia()) return cannot_tell_count;
     try {
-        return count_negative(add(1.0, k, -omega * omega, m), solver);
+        return count_negative({k, -omega * omega, m}, solver);
     } catch (const Error &e) {
         if (e.status() != PLM_ERR_SINGULAR) throw;
         return hit_a_mode;

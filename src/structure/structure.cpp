@@ -78,7 +78,7 @@ StructureEstimate Structure::estimate(const StructureInput &input, GapSize gap, 
     for (const SparseMatrix *a :
          {&structure.mass_, &structure.stiffness_, &structure.damping_, &structure.gap_rows_.matrix()})
         e.bytes += bytes_of(*a);
-    e.shifted = bytes_of(sum);
+    if (!keeps_pattern({structure.stiffness_, 1, structure.mass_})) e.counted = bytes_of(sum);
     e.factor = estimate_factor(sum, structure.solver_); // with the host's order
     return e;
 }

@@ -57,8 +57,8 @@ struct ModeSearch {
 /// What a structure takes before anything is factored: bytes, and the factor.
 struct StructureEstimate {
     std::int64_t n_free = 0;
-    double bytes = 0;                     // of M, K, C and the gap rows
-    double shifted = 0;                   // one sum of K and M
+    double bytes = 0;   // of M, K, C and the gap rows
+    double counted = 0; // the sum of K and M that a count of modes forms, where it forms one
     std::optional<FactorEstimate> factor; // of such a sum; none: the host's solver alone knows
 };
 

@@ -1,99 +1,24 @@
 // What the phases of a set-up cost against the size of the structure: cracked cantilevers of bricks, a solid
-// block (4:2:1) and a plate of three bricks' thickness, contact pairs growing with the cracked section.
-// Seconds of the processor, or with several threads of the clock on the wall, and MiB. Not a test: prints
-// Markdown.
+// block (4:2:1) and a plate of three bricks' thickness, contact pairs growing with the cracked section or as
+// many as are asked for. Seconds of the processor, or with several threads of the clock on the wall, and MiB.
+// Not a test: prints Markdown.
 //
-//     bench_scale solid|plate [--threads N] [--space] DOFS...
+//     bench_scale solid|plate [--threads N] [--pairs Z] [--space] DOFS...
 //
 // --space: the contact space, too, with all its pairs. Modal analysis and set-up of each size run in
 // processes of their own; the memory is what they hold at most beside the matrices handed over.
-#include "linalg/parallel.hpp"
+#include "apart.hpp"
+#include "cantilever.h"
 #include "space/memory_estimate.hpp"
 #include "space/space.hpp"
 #include "structure/eigs.hpp"
-#include "structure/matrix_input.hpp"
 #include "structure/solver/make_factor.hpp"
 #include "structure/solver/ordering.hpp"
-extern "C" {
-#include "cracked_plate.h"
-}
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <ctime>
-#include <memory>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace {
 
 constexpr int n_modes = 30;
-
-int n_threads = 1;
-
-double seconds_now() {
-    timespec t;
-    clock_gettime(n_threads > 1 ? CLOCK_MONOTONIC : CLOCK_PROCESS_CPUTIME_ID, &t);
-    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
-
-template <class Step> double seconds_of(Step step) {
-    const double begin = seconds_now();
-    step();
-    return seconds_now() - begin;
-}
-
-double peak_mebibytes() {
-    rusage usage;
-    getrusage(RUSAGE_SELF, &usage);
-    return static_cast<double>(usage.ru_maxrss) / 1024;
-}
-
-double resident_mebibytes() {
-    long long pages = 0, resident = 0;
-    FILE *file = std::fopen("/proc/self/statm", "r");
-    if (!file || std::fscanf(file, "%lld %lld", &pages, &resident) != 2) std::exit(1);
-    std::fclose(file);
-    return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
-}
-
-/// About so many DOFs, the crack over half of the section at mid length.
-cracked_plate_params cantilever(bool solid, double dofs) {
-    cracked_plate_params p;
-    cracked_plate_paper(&p);
-    p.n_loads = 0;
-    const double nodes = dofs / 3, side = solid ? std::cbrt(nodes / 8) : std::sqrt(nodes / 8);
-    p.nz = solid ? static_cast<std::int32_t>(side) : 3;
-    p.ny = static_cast<std::int32_t>(solid ? 2 * side : side);
-    p.nx = static_cast<std::int32_t>(nodes / ((p.ny + 1.0) * (p.nz + 1)));
-    p.length = p.nx, p.width = p.ny, p.thickness = p.nz;
-    p.crack_position = 0.5 * p.length;
-    p.crack_rows = p.ny / 2;
-    return p;
-}
-
-plm::ModelInput input_of(const scene &s) {
-    plm::ModelInput input;
-    input.n_dof = s.n_dof;
-    plm::MatrixFormat format;
-    format.n = s.n_dof, format.nnz = s.nnz, format.copy = false;
-    input.mass = std::make_shared<plm::MatrixInput>(format, s.col_ptr, s.row, s.m);
-    input.stiffness = std::make_shared<plm::MatrixInput>(format, s.col_ptr, s.row, s.k);
-    input.fixed.assign(s.fixed, s.fixed + s.n_fixed);
-    for (std::int64_t pair = 0; pair < s.n_pairs; ++pair) {
-        for (int c = 0; c < 3; ++c)
-            for (int side = 0; side < 2; ++side) {
-                input.gap_row.push_back(pair);
-                input.gap_dof.push_back((side ? s.dof_b : s.dof_a)[3 * pair + c]);
-                input.gap_coefficient.push_back(s.normal[3 * pair + c] * (side ? -1 : 1));
-            }
-        input.contact.stiffness.push_back(s.contact_stiffness[pair]);
-        input.contact.initial_gap.push_back(0);
-    }
-    return input;
-}
 
 /// The lowest modes as any shift-invert code would compute them, and what they are made of.
 struct Modal {
@@ -118,19 +43,8 @@ Modal measure(const plm::SparseMatrix &k, const plm::SparseMatrix &m) {
     t.modes = seconds_of([&] { pairs = plm::lowest_eigenpairs(k, m, *factor, 0, n_modes); });
     t.highest = std::sqrt(pairs.values.back());
     factor.reset();
-    t.count =
-        seconds_of([&] { plm::count_negative(plm::add(1, k, -1.01 * pairs.values.back(), m), solver); });
+    t.count = seconds_of([&] { plm::count_negative({k, -1.01 * pairs.values.back(), m}, solver); });
     return t;
-}
-
-/// The free DOFs alone.
-plm::SparseMatrix free_matrix(const plm::ModelInput &input, const plm::MatrixInput &matrix) {
-    plm::vector<std::int64_t> keep(input.n_dof, 0);
-    for (std::int64_t dof : input.fixed) keep[dof] = -1;
-    std::int64_t n = 0;
-    for (std::int64_t &k : keep)
-        if (k == 0) k = n++;
-    return plm::submatrix(matrix.to_sparse(), keep, n, keep, n);
 }
 
 Modal modal_analysis(const plm::ModelInput &input) {
@@ -151,34 +65,8 @@ SetUp set_up(const plm::ModelInput &input, double highest) {
     return t;
 }
 
-/// What `step` returns, from a process of its own; `mebibytes`: the most it held beside what there was.
-template <class Result, class Step> Result apart(Step step, double &mebibytes) {
-    struct {
-        Result result;
-        double mebibytes;
-    } answer;
-    int ends[2];
-    if (pipe(ends) != 0) std::exit(1);
-    const pid_t child = fork();
-    if (child == 0) {
-        const double before = resident_mebibytes();
-        const plm::ThreadsScope threads(n_threads);
-        answer.result = step();
-        answer.mebibytes = peak_mebibytes() - before;
-        _exit(write(ends[1], &answer, sizeof answer) == sizeof answer ? 0 : 1);
-    }
-    close(ends[1]);
-    const bool told = child > 0 && read(ends[0], &answer, sizeof answer) == sizeof answer;
-    close(ends[0]);
-    int status = 1;
-    if (child > 0) waitpid(child, &status, 0);
-    if (!told || status != 0) std::exit(1);
-    mebibytes = answer.mebibytes;
-    return answer.result;
-}
-
-void print_row(bool solid, double dofs, bool with_space) {
-    const cracked_plate_params p = cantilever(solid, dofs);
+void print_row(bool solid, double dofs, double pairs, bool with_space) {
+    const cracked_plate_params p = cantilever(solid, dofs, pairs);
     scene *s = nullptr;
     if (cracked_plate_create(&p, &s) != SCENE_OK) std::exit(1);
     const plm::ModelInput input = input_of(*s);
@@ -210,15 +98,18 @@ int main(int n_arguments, char **argument) {
     bool with_space = false,
          asked_well = solid || (n_arguments > 1 && std::strcmp(argument[1], "plate") == 0);
     int first = 2;
+    double pairs = 0;
     for (; first < n_arguments && argument[first][0] == '-'; ++first)
         if (std::strcmp(argument[first], "--space") == 0)
             with_space = true;
         else if (std::strcmp(argument[first], "--threads") == 0 && first + 1 < n_arguments)
             n_threads = std::atoi(argument[++first]);
+        else if (std::strcmp(argument[first], "--pairs") == 0 && first + 1 < n_arguments)
+            pairs = std::atof(argument[++first]);
         else
             asked_well = false;
     if (first >= n_arguments || !asked_well || n_threads < 1) {
-        std::fprintf(stderr, "usage: bench_scale solid|plate [--threads N] [--space] DOFS...\n");
+        std::fprintf(stderr, "usage: bench_scale solid|plate [--threads N] [--pairs Z] [--space] DOFS...\n");
         return 2;
     }
     std::printf(
@@ -228,6 +119,6 @@ int main(int n_arguments, char **argument) {
         with_space ? " model | contact space | set-up | set-up / modal analysis | MiB told before |" : "",
         with_space ? "|--|--|--|--|--|--|--|--|--|--|--|--|--|--|" : "|--|--|--|--|--|--|--|--|--|");
     std::fflush(stdout);
-    for (int i = first; i < n_arguments; ++i) print_row(solid, std::atof(argument[i]), with_space);
+    for (int i = first; i < n_arguments; ++i) print_row(solid, std::atof(argument[i]), pairs, with_space);
     return 0;
 }

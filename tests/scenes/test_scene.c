@@ -179,6 +179,26 @@ static void a_plate_with_another_crack_is_built_as_asked(void **state) {
     scene_destroy(&s);
 }
 
+/* Each crack doubles its nodes; two twins share a place, and beside them no nodes do. */
+static void further_cracks_stand_evenly_along_x(void **state) {
+    (void)state;
+    cracked_plate_params p;
+    scene *s = NULL;
+    cracked_plate_quick(&p);
+    p.crack_rows = 4;
+    p.further_cracks = 2;
+    assert_int_equal(cracked_plate_create(&p, &s), SCENE_OK);
+    assert_int_equal(s->n_pairs, 3 * 4 * 3);
+    assert_int_equal(s->n_nodes, 13 * 11 * 3 + s->n_pairs);
+    for (int64_t pair = 0; pair < s->n_pairs; pair++) {
+        const double *a = s->xyz + s->dof_a[3 * pair], *b = s->xyz + s->dof_b[3 * pair];
+        assert_true(a[0] == b[0] && a[1] == b[1] && a[2] == b[2]);
+        assert_true(fabs(a[0] - p.length * (double)(1 + pair / 12) / 4) < 1e-12);
+        assert_true(a[1] > 0.6 * p.width && s->dof_a[3 * pair] != s->dof_b[3 * pair]);
+    }
+    scene_destroy(&s);
+}
+
 static void top_loads_keep_their_size_and_place(void **state) {
     (void)state;
     const double places[] = {0, 10, 74, 75, 75.5, 76, 149, 150};
@@ -269,6 +289,8 @@ static void bad_plates_are_refused(void **state) {
     REFUSED(p.nz = 0);
     REFUSED(p.crack_rows = 0);
     REFUSED(p.crack_rows = p.ny);
+    REFUSED(p.further_cracks = -1);
+    REFUSED(p.further_cracks = p.nx - 1);
     REFUSED(p.columns_before_crack = p.nx);
     REFUSED(p.crack_position = 0);
     REFUSED(p.crack_position = p.length);
@@ -319,6 +341,7 @@ int run_scene(void) {
         cmocka_unit_test(total_mass_is_density_times_volume),
         cmocka_unit_test(the_paper_sizes_are_exact),
         cmocka_unit_test(a_plate_with_another_crack_is_built_as_asked),
+        cmocka_unit_test(further_cracks_stand_evenly_along_x),
         cmocka_unit_test(top_loads_keep_their_size_and_place),
         cmocka_unit_test(cylinder_options_are_built_as_asked),
         cmocka_unit_test(the_oscillator_holds_the_numbers_given),

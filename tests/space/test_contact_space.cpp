@@ -110,6 +110,16 @@ void a_looser_tolerance_makes_a_smaller_space(void **) {
     assert_true(below(receptance_error(*space, 1.0), 1e-3));
 }
 
+// A load on one node, whose own directions are fast, does not make those of all the pairs be followed as far.
+void a_load_asks_for_its_own_directions(void **) {
+    plm::ModelInput in = lattice(30, 20, 60);
+    const SpacePtr loaded = space_of(test::build(in), 1.0);
+    in.excitation.clear();
+    const SpacePtr alone = space_of(test::build(in), 1.0);
+    assert_true(loaded->error_estimate <= 1e-7 && alone->error_estimate <= 1e-7);
+    assert_in_range(loaded->size(), alone->size() + 1, alone->size() + 8);
+}
+
 double largest_of(const Matrix &a) {
     double largest = 0;
     for (std::int64_t k = 0; k < a.rows() * a.cols(); ++k) largest = std::max(largest, std::abs(a.data()[k]));
@@ -248,6 +258,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(receptances_are_those_of_the_structure),
         cmocka_unit_test(a_looser_tolerance_makes_a_smaller_space),
+        cmocka_unit_test(a_load_asks_for_its_own_directions),
         cmocka_unit_test(recovered_vectors_are_what_the_small_matrices_say),
         cmocka_unit_test(contact_forces_are_solved_for_once),
         cmocka_unit_test(a_cutoff_may_fall_on_a_mode),

@@ -99,6 +99,22 @@ void the_modes_of_a_chain(void **) {
     }
 }
 
+// A + factor B is counted as if it were formed, whether B has entries where A has none or not.
+void sums_need_not_be_formed(void **) {
+    const SparseMatrix a = grid(6, 5, 5, 3, 1);
+    vector<double> mass(a.cols);
+    for (std::int64_t j = 0; j < a.cols; ++j) mass[j] = 1 + 0.01 * static_cast<double>(j % 7);
+    const SparseMatrix lumped = diagonal(mass);
+    const SparseMatrix corners =
+        plm::from_triplets(a.cols, a.cols, {0, a.cols - 1}, {a.cols - 1, 0}, {0.1, 0.1});
+    const SparseMatrix inside = a, outside = plm::add(1, lumped, 1, corners);
+    for (const SparseMatrix *b : {&lumped, &inside, &outside})
+        for (double factor : {-3.0, -0.5, 0.7}) {
+            const SparseMatrix sum = plm::add(1, a, factor, *b);
+            assert_int_equal(plm::count_negative({a, factor, *b}), dense_count(sum));
+        }
+}
+
 // [0 1; 1 0] has a count, but none that pivots on the diagonal tell; and a membrane with a free rim has a
 // pivot of rounding, whose sign depends on the order of the sums. (The sums of Eigen's solver are not
 // measured.)
@@ -127,6 +143,7 @@ int main() {
         cmocka_unit_test(counts_equal_those_of_dense_eigenvalues),
         cmocka_unit_test(the_smallest_matrices),
         cmocka_unit_test(the_modes_of_a_chain),
+        cmocka_unit_test(sums_need_not_be_formed),
         cmocka_unit_test(a_pivot_without_a_sign_is_singular),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -1,4 +1,5 @@
 // Factors whose numbers are kept in single precision: solves as good as in double, or an error.
+#include "linalg/parallel.hpp"
 #include "solids.hpp"
 #include "structure/solver/make_factor.hpp"
 
@@ -28,6 +29,20 @@ void solves_are_those_of_double_precision(void **) {
     }
     assert_true(std::fabs(rounded->reciprocal_condition() / full->reciprocal_condition() - 1) < 1e-6);
     assert_true(rounded->factor_nonzeros() >= full->factor_nonzeros());
+}
+
+void threads_do_not_change_a_digit(void **) {
+    const SparseMatrix a = solid(12, 11, 10);
+    const auto factor = plm::make_factor(a, single());
+    const Matrix b = random_matrix(a.cols, 70, 5);
+    Matrix alone = b;
+    factor->solve(alone);
+    for (std::int64_t threads : {2, 3}) {
+        const plm::ThreadsScope scope(threads);
+        Matrix x = b;
+        factor->solve(x);
+        assert_true(max_difference(x, alone) == 0);
+    }
 }
 
 // Powers that single precision does not hold, in the matrix and in the right-hand side; zero stays zero.
@@ -86,6 +101,7 @@ void solvers_without_it_refuse(void **) {
 int main() {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solves_are_those_of_double_precision),
+        cmocka_unit_test(threads_do_not_change_a_digit),
         cmocka_unit_test(units_do_not_matter),
         cmocka_unit_test(a_bad_pivot_is_named_by_its_dof),
         cmocka_unit_test(what_does_not_contract_is_an_error),

@@ -2,6 +2,7 @@
 // source file with one Builtin, listed in make_factor.cpp.
 #pragma once
 #include "structure/solver/factor.hpp"
+#include "structure/solver/matrix_sum.hpp"
 #include <string>
 
 namespace plm {
@@ -9,7 +10,7 @@ namespace plm {
 struct Builtin {
     SolverName name;
     std::unique_ptr<Factor> (*factor)(const SparseMatrix &a, const Solver &solver);
-    std::int64_t (*count_negative)(const SparseMatrix &a, const Solver &solver);
+    std::int64_t (*count_negative)(const MatrixSum &a, const Solver &solver);
     FactorEstimate (*estimate)(const SparseMatrix &a, const Solver &solver);
     std::string (*version)(); // "CHOLMOD 3.0.14"
 };

@@ -130,10 +130,11 @@ std::unique_ptr<Factor> factor_by_cholmod(const SparseMatrix &a, const Solver &s
 }
 
 /// CHOLMOD finds the supernodes; its own L D L^T knows none, and takes ten times as long on solids and more.
-std::int64_t count_negative_by_cholmod(const SparseMatrix &a, const Solver &solver) {
-    if (a.cols == 0) return 0;
+std::int64_t count_negative_by_cholmod(const MatrixSum &a, const Solver &solver) {
+    if (a.a.cols == 0) return 0;
+    if (!keeps_pattern(a)) return count_negative_by_cholmod(a.formed(), solver);
     Cholmod lib;
-    lib.analyze(a, solver);
+    lib.analyze(a.a, solver);
     lib.note_memory();
     return eliminate_fronts(a, lib.supernodes());
 }

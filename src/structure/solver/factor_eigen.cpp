@@ -120,7 +120,9 @@ FactorEstimate estimate_for_eigen(const SparseMatrix &a, const Solver &) {
         e.flops += (below + 1) * (below + 1);
     }
     e.kept_full = 16 * e.nonzeros + 48 * n; // values and indices
-    e.peak_full = e.at_work = e.kept_full + 16 * static_cast<double>(a.nnz());
+    const double matrix = 16 * static_cast<double>(a.nnz());
+    e.peak_full = e.kept_full + matrix;
+    e.at_work = e.kept_full + 2 * matrix; // the count forms its sum
     return e;
 }
 
@@ -129,7 +131,8 @@ std::unique_ptr<Factor> factor_by_eigen(const SparseMatrix &a, const Solver &) {
 }
 
 /// Eigen's factorization stops at a zero pivot, leaving it in D.
-std::int64_t count_negative_by_eigen(const SparseMatrix &a, const Solver &) {
+std::int64_t count_negative_by_eigen(const MatrixSum &sum, const Solver &) {
+    const SparseMatrix a = sum.formed();
     if (a.cols == 0) return 0;
     Ldlt ldlt;
     decompose(a, ldlt);

@@ -63,11 +63,11 @@ struct Plan {
 
 class Fronts {
   public:
-    Fronts(const SparseMatrix &a, const Supernodes &supernodes, PanelTaker *taker, double least_pivot)
-        : a_(a), nodes_(supernodes), taker_(taker), least_pivot_(least_pivot), place_(a.cols), local_(a.cols),
-          size_(a.cols, 0.0) {
-        for (std::int64_t j = 0; j < a.cols; ++j) place_[nodes_.original[j]] = j;
-        Plan plan(a.cols, supernodes);
+    Fronts(const MatrixSum &a, const Supernodes &supernodes, PanelTaker *taker, double least_pivot)
+        : a_(a), nodes_(supernodes), taker_(taker), least_pivot_(least_pivot), place_(a.a.cols),
+          local_(a.a.cols), size_(a.a.cols, 0.0) {
+        for (std::int64_t j = 0; j < a.a.cols; ++j) place_[nodes_.original[j]] = j;
+        Plan plan(a.a.cols, supernodes);
         parent_ = std::move(plan.parent);
         if (!taker || !taker->room(0)) room_.resize(plan.panel);
         pivot_.resize(plan.widest);
@@ -128,16 +128,20 @@ class Fronts {
         std::fill_n(schur_, staying_.entries(), 0.0);
         for (std::int64_t i = 0; i < rows_; ++i) local_[row_[i]] = i;
         for (std::int64_t j = 0; j < columns_; ++j) {
-            const std::int64_t column = nodes_.original[row_[j]];
-            for (std::int64_t p = a_.ptr[column]; p < a_.ptr[column + 1]; ++p) {
-                const std::int64_t row = place_[a_.idx[p]];
-                if (row < row_[j]) continue;
-                *entry(local_[row], j) = a_.val[p];
-                if (row == row_[j]) size_[row] += std::fabs(a_.val[p]);
-            }
+            assemble_column(j, 1, a_.a);
+            if (a_.b) assemble_column(j, a_.factor, *a_.b);
+            size_[row_[j]] += std::fabs(*entry(j, j));
         }
         for (auto child = stack_.rbegin(); child != stack_.rend() && parent_[child->node] == node_; ++child)
             take_over(*child);
+    }
+
+    void assemble_column(std::int64_t j, double factor, const SparseMatrix &a) {
+        const std::int64_t column = nodes_.original[row_[j]];
+        for (std::int64_t p = a.ptr[column]; p < a.ptr[column + 1]; ++p) {
+            const std::int64_t row = place_[a.idx[p]];
+            if (row >= row_[j]) *entry(local_[row], j) += factor * a.val[p];
+        }
     }
 
     /// Each column of the child has one of the front.
@@ -250,7 +254,7 @@ class Fronts {
         worked(2.0 * m * n * inner);
     }
 
-    const SparseMatrix &a_;
+    const MatrixSum &a_;
     const Supernodes nodes_;
     PanelTaker *const taker_;
     const double least_pivot_;
@@ -270,7 +274,7 @@ class Fronts {
 
 } // namespace
 
-std::int64_t eliminate_fronts(const SparseMatrix &a, const Supernodes &supernodes, PanelTaker *taker,
+std::int64_t eliminate_fronts(const MatrixSum &a, const Supernodes &supernodes, PanelTaker *taker,
                               double least_pivot) {
     return Fronts(a, supernodes, taker, least_pivot).count_negative();
 }

@@ -3,7 +3,7 @@
 // eliminated front leaves its Schur complement to its parent; who wants the factor takes its columns as they
 // come.
 #pragma once
-#include "structure/sparse.hpp"
+#include "structure/solver/matrix_sum.hpp"
 #include <limits>
 
 namespace plm {
@@ -37,11 +37,12 @@ class PanelTaker {
     virtual void take(std::int64_t node, const double *panel, const double *pivots) = 0;
 };
 
-/// Eliminates all of `a` (both triangles stored); returns how many eigenvalues are negative. PLM_ERR_SINGULAR
-/// with index() = column where a pivot is zero, NaN or not above `least_pivot` of what it was subtracted
-/// from: its sign tells nothing then. Large fronts are shared out among threads (linalg/parallel.hpp).
-std::int64_t eliminate_fronts(const SparseMatrix &a, const Supernodes &supernodes,
-                              PanelTaker *taker = nullptr, double least_pivot = pivot_noise);
+/// Eliminates all of `a` (both triangles stored, the supernodes those of its pattern); returns how many
+/// eigenvalues are negative. PLM_ERR_SINGULAR with index() = column where a pivot is zero, NaN or not above
+/// `least_pivot` of what it was subtracted from: its sign tells nothing then. Large fronts are shared out
+/// among threads (linalg/parallel.hpp).
+std::int64_t eliminate_fronts(const MatrixSum &a, const Supernodes &supernodes, PanelTaker *taker = nullptr,
+                              double least_pivot = pivot_noise);
 
 /// Entries of all panels, and of what the elimination holds beside them at once.
 struct FrontSizes {

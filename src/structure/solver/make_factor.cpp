@@ -70,9 +70,10 @@ std::unique_ptr<Factor> make_factor(const SparseMatrix &a, const Solver &solver)
     return builtin(solver.name).factor(a, solver);
 }
 
-std::int64_t count_negative(const SparseMatrix &a, const Solver &solver) {
-    require_matrix(a);
-    if (const HostSolver *host = solver.serving_host()) return count_negative_by_host(a, *host);
+std::int64_t count_negative(const MatrixSum &a, const Solver &solver) {
+    require_matrix(a.a);
+    if (a.b) require_matrix(*a.b);
+    if (const HostSolver *host = solver.serving_host()) return count_negative_by_host(a.formed(), *host);
     return builtin(solver.name).count_negative(a, solver);
 }
 

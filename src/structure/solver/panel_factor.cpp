@@ -16,24 +16,32 @@ constexpr std::int64_t panel_strip = 256, panel_band = 512;
 /// sums, and with it the digits, hangs on it.
 constexpr double largest_share = 1.0 / 16;
 
-/// B = op(L)^-1 B, L unit lower triangular. One right-hand side alone reads L without packing it.
-void triangular_solve(char op, std::int64_t n, std::int64_t nrhs, const float *l, std::int64_t ld, float *b,
-                      std::int64_t ldb) {
-    const blas_int rows = to_blas(n), cols = to_blas(nrhs), ld_l = leading(ld), ld_b = leading(ldb), step = 1;
-    const float one = 1;
-    if (nrhs == 1)
-        strsv_("L", &op, "U", &rows, l, &ld_l, b, &step, 1, 1, 1);
-    else
-        strsm_("L", "L", &op, "U", &rows, &cols, &one, l, &ld_l, b, &ld_b, 1, 1, 1, 1);
+/// B = op(L)^-1 B, L unit lower triangular: of one right-hand side, and of several.
+void solve_one(char op, blas_int n, const float *l, blas_int ld, float *b) {
+    const blas_int step = 1;
+    strsv_("L", &op, "U", &n, l, &ld, b, &step, 1, 1, 1);
 }
-void triangular_solve(char op, std::int64_t n, std::int64_t nrhs, const double *l, std::int64_t ld, double *b,
-                      std::int64_t ldb) {
-    const blas_int rows = to_blas(n), cols = to_blas(nrhs), ld_l = leading(ld), ld_b = leading(ldb), step = 1;
+void solve_one(char op, blas_int n, const double *l, blas_int ld, double *b) {
+    const blas_int step = 1;
+    dtrsv_("L", &op, "U", &n, l, &ld, b, &step, 1, 1, 1);
+}
+void solve_some(char op, blas_int n, blas_int nrhs, const float *l, blas_int ld, float *b, blas_int ldb) {
+    const float one = 1;
+    strsm_("L", "L", &op, "U", &n, &nrhs, &one, l, &ld, b, &ldb, 1, 1, 1, 1);
+}
+void solve_some(char op, blas_int n, blas_int nrhs, const double *l, blas_int ld, double *b, blas_int ldb) {
     const double one = 1;
+    dtrsm_("L", "L", &op, "U", &n, &nrhs, &one, l, &ld, b, &ldb, 1, 1, 1, 1);
+}
+
+/// One right-hand side alone reads L without packing it.
+template <class T>
+void triangular_solve(char op, std::int64_t n, std::int64_t nrhs, const T *l, std::int64_t ld, T *b,
+                      std::int64_t ldb) {
     if (nrhs == 1)
-        dtrsv_("L", &op, "U", &rows, l, &ld_l, b, &step, 1, 1, 1);
+        solve_one(op, to_blas(n), l, leading(ld), b);
     else
-        dtrsm_("L", "L", &op, "U", &rows, &cols, &one, l, &ld_l, b, &ld_b, 1, 1, 1, 1);
+        solve_some(op, to_blas(n), to_blas(nrhs), l, leading(ld), b, leading(ldb));
 }
 
 /// C = alpha op(A) B + beta C, op(A) m x k: the same.
@@ -279,7 +287,7 @@ template <class T> void PanelFactor<T>::backward_rest(const Rows &x, std::int64_
 }
 
 template <class T>
-void PanelFactor<T>::backward_subtree(const Subtree &subtree, const Rows &x, const Rows &above,
+void PanelFactor<T>::backward_subtree(const Subtree &subtree, const Rows &x, const KnownRows &above,
                                       std::int64_t nrhs) const {
     vector<T> known(most_below(subtree) * nrhs);
     for (std::int64_t node = subtree.last; node >= subtree.first; --node)
@@ -288,8 +296,8 @@ void PanelFactor<T>::backward_subtree(const Subtree &subtree, const Rows &x, con
 
 /// above: rows above the subtree; known: room for below x nrhs.
 template <class T>
-void PanelFactor<T>::backward_node(std::int64_t node, const Rows &x, const Rows &above, std::int64_t nrhs,
-                                   T *known) const {
+void PanelFactor<T>::backward_node(std::int64_t node, const Rows &x, const KnownRows &above,
+                                   std::int64_t nrhs, T *known) const {
     const std::int64_t rows = nodes().rows_of(node), columns = nodes().columns_of(node);
     const std::int64_t staying = rows - columns, strips = (columns + panel_strip - 1) / panel_strip;
     const std::int64_t *row = rows_below(node);

@@ -38,19 +38,23 @@ template <class T> class PanelFactor final : PanelTaker {
 
     /// Where rows of right-hand sides in the new order stand: one after the other from `offset` on, or each
     /// in its place; columns are `ld` apart.
-    struct Rows {
-        T *entries;
+    template <class Entry> struct RowsOf {
+        Entry *entries;
         std::int64_t ld, offset;
         const std::int64_t *place;
-        T *at(std::int64_t row) const { return entries + (place ? place[row] : row - offset); }
+        Entry *at(std::int64_t row) const { return entries + (place ? place[row] : row - offset); }
+        operator RowsOf<const Entry>() const { return {entries, ld, offset, place}; }
     };
+    using Rows = RowsOf<T>;
+    using KnownRows = RowsOf<const T>;
     void solve_in_order(const Rows &x, std::int64_t nrhs, double scale_of_pivots) const;
     void forward_subtree(const Subtree &subtree, const Rows &x, std::int64_t nrhs, vector<T> &above) const;
-    void backward_subtree(const Subtree &subtree, const Rows &x, const Rows &above, std::int64_t nrhs) const;
+    void backward_subtree(const Subtree &subtree, const Rows &x, const KnownRows &above,
+                          std::int64_t nrhs) const;
     void forward_rest(const std::vector<vector<T>> &from_subtrees, const Rows &x, std::int64_t nrhs) const;
     void backward_rest(const Rows &x, std::int64_t nrhs) const;
     void forward_own(std::int64_t node, const Rows &x, std::int64_t nrhs, T *sums) const;
-    void backward_node(std::int64_t node, const Rows &x, const Rows &above, std::int64_t nrhs,
+    void backward_node(std::int64_t node, const Rows &x, const KnownRows &above, std::int64_t nrhs,
                        T *known) const;
     void divide(std::int64_t first, std::int64_t last, const Rows &x, std::int64_t nrhs, double scale) const;
     std::int64_t most_below(const Subtree &subtree) const;

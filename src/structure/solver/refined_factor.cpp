@@ -1,5 +1,6 @@
 #include "structure/solver/refined_factor.hpp"
 #include "linalg/blas_lapack.hpp"
+#include "linalg/parallel.hpp"
 #include <algorithm>
 #include <limits>
 
@@ -59,42 +60,47 @@ class Refinement {
                std::int64_t ldx)
         : a_(a), factor_(factor), n_(a.size()), x_(x), ldx_(ldx), b_(n_, nrhs), r_(n_, nrhs), column_(nrhs),
           before_(nrhs, std::numeric_limits<double>::infinity()) {
-        for (std::int64_t j = 0; j < nrhs; ++j) {
+        parallel_for(nrhs, work_on(nrhs), [&](std::int64_t j) {
             column_[j] = j;
             std::copy_n(x + j * ldx, n_, b_.col(j));
+            std::copy_n(x + j * ldx, n_, r_.col(j));
             std::fill_n(x + j * ldx, n_, 0.0);
-        }
-        r_ = b_;
+        });
     }
 
     void run() {
         for (int step = 0; !column_.empty(); ++step) {
             factor_.solve(r_.data(), width(), n_);
-            for (std::int64_t k = 0; k < width(); ++k)
-                for (std::int64_t i = 0; i < n_; ++i) x_[i + column_[k] * ldx_] += r_(i, k);
-            for (std::int64_t k = 0; k < width(); k += pack) set_residuals(k);
+            const std::int64_t packs = (width() + pack - 1) / pack;
+            now_.resize(width());
+            parallel_for(packs, work_on(width()), [&](std::int64_t k) { correct(k * pack); });
             drop_finished(step);
         }
     }
 
   private:
     std::int64_t width() const { return static_cast<std::int64_t>(column_.size()); }
+    /// As many flops take as long as a pass over so many columns.
+    double work_on(std::int64_t columns) const { return 10 * static_cast<double>(n_ * columns); }
 
-    /// R = B - A X in some columns.
-    void set_residuals(std::int64_t first) {
+    /// X += R, R = B - A X and its size in some columns.
+    void correct(std::int64_t first) {
         const std::int64_t count = std::min(pack, width() - first);
-        packed_x_.assign(n_ * pack, 0.0);
-        packed_r_.assign(n_ * pack, 0.0);
+        vector<double> packed_x(n_ * pack, 0.0), packed_r(n_ * pack, 0.0);
         for (std::int64_t c = 0; c < count; ++c) {
-            const double *x = x_ + column_[first + c] * ldx_, *b = b_.col(column_[first + c]);
+            double *x = x_ + column_[first + c] * ldx_;
+            const double *b = b_.col(column_[first + c]), *more = r_.col(first + c);
             for (std::int64_t i = 0; i < n_; ++i) {
-                packed_x_[i * pack + c] = x[i];
-                packed_r_[i * pack + c] = b[i];
+                packed_x[i * pack + c] = x[i] += more[i];
+                packed_r[i * pack + c] = b[i];
             }
         }
-        subtract_product(a_, packed_x_.data(), packed_r_.data());
-        for (std::int64_t c = 0; c < count; ++c)
-            for (std::int64_t i = 0; i < n_; ++i) r_(i, first + c) = packed_r_[i * pack + c];
+        subtract_product(a_, packed_x.data(), packed_r.data());
+        for (std::int64_t c = 0; c < count; ++c) {
+            double *r = r_.col(first + c);
+            for (std::int64_t i = 0; i < n_; ++i) r[i] = packed_r[i * pack + c];
+            now_[first + c] = residual(first + c);
+        }
     }
 
     /// The largest entry of a residual against what its row may sum up.
@@ -113,7 +119,7 @@ class Refinement {
     void drop_finished(int step) {
         std::int64_t left = 0;
         for (std::int64_t k = 0; k < width(); ++k) {
-            const double now = residual(k);
+            const double now = now_[k];
             double &before = before_[column_[k]];
             if (now <= enough) continue;
             if (step == most_refinements || !(now < least_gain * before)) {
@@ -134,7 +140,7 @@ class Refinement {
     const std::int64_t ldx_;
     Matrix b_, r_;                // r_: of the columns that are left
     vector<std::int64_t> column_; // that are left
-    vector<double> before_, packed_x_, packed_r_;
+    vector<double> before_, now_; // residuals: of all columns, of those that are left
 };
 
 } // namespace

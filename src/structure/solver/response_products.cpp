@@ -97,23 +97,50 @@ class ResponseProducts {
         return {std::lower_bound(first, last, begin, before), std::lower_bound(first, last, end, before)};
     }
 
-    void forward(const Subtree &t, Matrix &x, vector<double> &above) const {
-        const std::int64_t begin = begin_of(t);
+    /// Columns of F with any of these entries; zero stays zero in the others.
+    static vector<std::int64_t> columns_of(const Span &forces) {
+        vector<std::int64_t> columns;
+        for (const Entry *e = forces.first; e != forces.last; ++e) columns.push_back(e->column);
+        std::sort(columns.begin(), columns.end());
+        columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
+        return columns;
+    }
+
+    /// Of a subtree, the columns that forces in it make: of X, and of what it adds to the rows below its
+    /// root.
+    struct Forward {
+        vector<std::int64_t> columns;
+        Matrix x;
+        vector<double> above;
+    };
+    Forward forward(const Subtree &t) const {
+        const std::int64_t begin = begin_of(t), rows = end_of(t) - begin;
         const Span forces = forces_on(begin, end_of(t));
-        if (forces.first == forces.last) return; // zero stays zero
-        for (const Entry *e = forces.first; e != forces.last; ++e) x(e->row - begin, e->column) += e->value;
-        p_.forward_subtree(t, {x.data(), x.rows(), begin, nullptr}, s_, above);
+        Forward f{columns_of(forces), {}, {}};
+        const auto width = static_cast<std::int64_t>(f.columns.size());
+        f.x = Matrix(rows, width);
+        if (width == 0) return f;
+        vector<std::int64_t> at(s_);
+        for (std::int64_t k = 0; k < width; ++k) at[f.columns[k]] = k;
+        for (const Entry *e = forces.first; e != forces.last; ++e)
+            f.x(e->row - begin, at[e->column]) += e->value;
+        p_.forward_subtree(t, {f.x.data(), rows, begin, nullptr}, width, f.above);
+        p_.divide(begin, begin + rows, {f.x.data(), rows, begin, nullptr}, width, 1);
+        return f;
     }
 
     void solve_shared() {
         const auto count = static_cast<std::int64_t>(p_.subtrees_.size());
         std::vector<vector<double>> from_subtrees(p_.subtrees_.size());
         parallel_for(count, [&](std::int64_t k) {
-            const Subtree &t = p_.subtrees_[k];
-            const Span forces = forces_on(begin_of(t), end_of(t));
-            if (forces.first == forces.last) return;
-            Matrix x(end_of(t) - begin_of(t), s_);
-            forward(t, x, from_subtrees[static_cast<std::size_t>(k)]);
+            const Forward f = forward(p_.subtrees_[k]);
+            if (f.columns.empty()) return;
+            const std::int64_t reached = p_.below(p_.subtrees_[k].last);
+            vector<double> &above = from_subtrees[static_cast<std::size_t>(k)];
+            above.assign(reached * s_, 0);
+            for (std::size_t c = 0; c < f.columns.size(); ++c)
+                std::copy_n(f.above.data() + static_cast<std::int64_t>(c) * reached, reached,
+                            above.data() + f.columns[c] * reached);
         });
         const auto rows = static_cast<std::int64_t>(shared_row_.size());
         shared_ = Matrix(rows, s_);
@@ -131,42 +158,56 @@ class ResponseProducts {
             if (place_[e.row] >= 0)
                 for (std::int64_t c = 0; c < s_; ++c)
                     sums.energy(e.column, c) += e.value * shared_(place_[e.row], c);
-        SparseMatrix inner = part_of_mass(shared_.rows(), shared_.rows(), [&](std::int64_t i, auto put) {
-            for_entries(shared_row_[i], [&](std::int64_t row, double value) {
-                if (place_[row] >= 0) put(place_[row], value);
+        const SparseMatrix inner =
+            part_of_mass(shared_.rows(), shared_.rows(), [&](std::int64_t i, auto put) {
+                for_entries(shared_row_[i], [&](std::int64_t row, double value) {
+                    if (place_[row] >= 0) put(place_[row], value);
+                });
             });
-        });
-        add_inertia(shared_, inner, Matrix(0, s_), {}, sums.inertia);
+        add_inertia(shared_, inner, sums.inertia);
     }
 
     void add_subtree(const Subtree &t, Sums &sums) const {
-        const std::int64_t begin = begin_of(t), end = end_of(t), border = p_.below(t.last);
-        const std::int64_t *above = p_.rows_below(t.last);
-        Matrix x(end - begin, s_), bordering(border, s_);
-        vector<double> ignored;
-        forward(t, x, ignored);
-        const Rows own{x.data(), x.rows(), begin, nullptr};
-        p_.divide(begin, end, own, s_, 1);
-        auto *known = const_cast<double *>(shared_.data()); // Rows are written to elsewhere
-        p_.backward_subtree(t, own, {known, shared_.rows(), 0, place_.data()}, s_);
+        const std::int64_t begin = begin_of(t), end = end_of(t);
+        Matrix x(end - begin, s_);
+        const Forward f = forward(t);
+        for (std::size_t c = 0; c < f.columns.size(); ++c)
+            std::copy_n(f.x.col(static_cast<std::int64_t>(c)), x.rows(), x.col(f.columns[c]));
+        p_.backward_subtree(t, {x.data(), x.rows(), begin, nullptr},
+                            {shared_.data(), shared_.rows(), 0, place_.data()}, s_);
         const Span forces = forces_on(begin, end);
         for (const Entry *e = forces.first; e != forces.last; ++e)
             for (std::int64_t c = 0; c < s_; ++c)
                 sums.energy(e->column, c) += e->value * x(e->row - begin, c);
-        for (std::int64_t c = 0; c < s_; ++c)
-            for (std::int64_t i = 0; i < border; ++i) bordering(i, c) = shared_(place_[above[i]], c);
         const SparseMatrix inner = part_of_mass(x.rows(), x.rows(), [&](std::int64_t i, auto put) {
             for_entries(begin + i, [&](std::int64_t row, double value) {
                 if (row < end) put(row - begin, value);
             });
         });
-        const SparseMatrix outer = part_of_mass(border, x.rows(), [&](std::int64_t i, auto put) {
-            for_entries(begin + i, [&](std::int64_t row, double value) {
+        add_inertia(x, inner, sums.inertia);
+        add_coupling(t, x, sums.inertia);
+        worked(static_cast<double>(x.rows() * s_) * static_cast<double>(s_));
+    }
+
+    /// X^T M X between the rows of a subtree and those above it: few of its rows have a part in that.
+    void add_coupling(const Subtree &t, const Matrix &x, Matrix &sum) const {
+        const std::int64_t begin = begin_of(t), end = end_of(t), border = p_.below(t.last);
+        const std::int64_t *above = p_.rows_below(t.last);
+        vector<std::int64_t> coupled, known(border);
+        for (std::int64_t j = begin; j < end; ++j) {
+            bool reaches_above = false;
+            for_entries(j, [&](std::int64_t row, double) { reaches_above |= row >= end; });
+            if (reaches_above) coupled.push_back(j - begin);
+        }
+        for (std::int64_t i = 0; i < border; ++i) known[i] = place_[above[i]];
+        const auto count = static_cast<std::int64_t>(coupled.size());
+        const SparseMatrix outer = part_of_mass(border, count, [&](std::int64_t k, auto put) {
+            for_entries(begin + coupled[k], [&](std::int64_t row, double value) {
                 if (row >= end) put(std::lower_bound(above, above + border, row) - above, 2 * value);
             });
         });
-        add_inertia(x, inner, bordering, outer, sums.inertia);
-        worked(2.0 * static_cast<double>(x.rows() * s_) * static_cast<double>(s_));
+        gemm('T', 'N', 1.0, select_rows(x, coupled), multiply_transposed(outer, select_rows(shared_, known)),
+             1.0, sum);
     }
 
     /// Columns of entries that each(column, put) puts, in ascending order of rows.
@@ -190,20 +231,21 @@ class ResponseProducts {
         return a;
     }
 
-    /// X^T (inner^T X + outer^T bordering), by blocks of columns; its symmetric part is meant.
-    static void add_inertia(const Matrix &x, const SparseMatrix &inner, const Matrix &bordering,
-                            const SparseMatrix &outer, Matrix &sum) {
+    /// X^T M X by blocks of columns, of which the symmetric part is meant: what stands below the blocks of
+    /// the diagonal counts twice, and nothing stands above them.
+    static void add_inertia(const Matrix &x, const SparseMatrix &mass, Matrix &sum) {
         constexpr std::int64_t block = 64;
-        const std::int64_t s = x.cols();
+        const std::int64_t s = x.cols(), n = x.rows();
         for (std::int64_t first = 0; first < s; first += block) {
-            const std::int64_t width = std::min(block, s - first);
-            Matrix momenta = multiply_transposed(inner, x.columns(first, width));
-            if (bordering.rows() > 0) {
-                const Matrix more = multiply_transposed(outer, bordering.columns(first, width));
-                for (std::int64_t k = 0; k < more.rows() * width; ++k) momenta.data()[k] += more.data()[k];
-            }
-            gemm('T', s, width, x.rows(), 1.0, x.data(), x.rows(), momenta.data(), x.rows(), 1.0,
-                 sum.col(first), s);
+            const std::int64_t width = std::min(block, s - first), next = first + width;
+            const Matrix momenta = multiply_transposed(mass, x.columns(first, width));
+            const auto add = [&](std::int64_t begin, std::int64_t height, double factor) {
+                if (height > 0)
+                    gemm('T', height, width, n, factor, x.col(begin), n, momenta.data(), n, 1.0,
+                         sum.col(first) + begin, s);
+            };
+            add(first, width, 1.0);
+            add(next, s - next, 2.0);
         }
     }
 
