@@ -22,7 +22,7 @@ static plm_status add_pairs(plm_model *model, const scene *s) {
                                         s->contact_stiffness, s->gap);
 }
 
-plm_status scene_to_model(plm_context *ctx, const scene *s, plm_model **model) {
+plm_status scene_to_unbuilt_model(plm_context *ctx, const scene *s, plm_model **model) {
     plm_model *m = NULL;
     plm_status status = plm_model_create(ctx, s->n_dof, &m);
     if (!status)
@@ -36,8 +36,14 @@ plm_status scene_to_model(plm_context *ctx, const scene *s, plm_model **model) {
     if (!status) status = plm_model_set_rayleigh_damping(m, s->mass_damping, s->stiffness_damping);
     if (!status && s->preload) status = plm_model_set_preload(m, s->n_dof, s->preload);
     if (!status) status = plm_model_set_excitation(m, 1, s->n_dof, s->force, NULL);
-    if (!status) status = plm_model_build(m);
     if (status < 0) plm_model_destroy(&m);
     *model = m;
+    return status;
+}
+
+plm_status scene_to_model(plm_context *ctx, const scene *s, plm_model **model) {
+    plm_status status = scene_to_unbuilt_model(ctx, s, model);
+    if (!status) status = plm_model_build(*model);
+    if (status < 0) plm_model_destroy(model);
     return status;
 }

@@ -5,6 +5,9 @@
 #include "plm/plm.h"
 #include "scene.h"
 
+/* Hands it over without building it: options of the model may be set before. */
+plm_status scene_to_unbuilt_model(plm_context *ctx, const scene *s, plm_model **model);
+
 /* Builds a plm_model from the scene; *model is a new handle. Returns the first status that is not 0. */
 plm_status scene_to_model(plm_context *ctx, const scene *s, plm_model **model);
 

@@ -529,8 +529,9 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
  * them change its highest motion by more than "accuracy"; with PLM_REASON_UNVERIFIED when, on such a curve, stability is
  * not as more coordinates have it; with PLM_REASON_NO_SWITCHING when no pair would open or close
  * under a hundred times the motion; with PLM_REASON_TURNED_BACK when a fold led back to the end where the curve began. A
- * structure in free flight, or free along a rail: mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would
- * carry it away. */
+ * curve that goes round a closed one beside it, onto which a step had crossed, is followed anew with shorter steps,
+ * twice; then PLM_NOT_CONVERGED with PLM_REASON_CROSSED_OVER. A structure in free flight, or free along a rail: mean
+ * position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
  * start. PLM_ERR_CONVERGENCE when no strategy converges; PLM_WARNING with PLM_REASON_OUTSIDE_BASIS as for a sweep. */

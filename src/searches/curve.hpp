@@ -7,7 +7,8 @@
 
 namespace plm {
 
-/// Appends the curve's points to `branch` and sets its ending and its cost.
+/// Appends the curve's points to `branch` and sets its ending and its cost. Where a step crossed over to a
+/// closed curve beside it, it is followed anew with shorter ones.
 void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch);
 
 } // namespace plm

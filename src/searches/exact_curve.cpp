@@ -6,9 +6,6 @@
 namespace plm {
 namespace {
 
-constexpr double shorter = 1.0 / 3; // steps
-constexpr int times_shorter = 2;
-
 class ExactTracer final : public PathOwner {
   public:
     ExactTracer(const HbmOptions &options, Watch watch, Branch &branch, double omega)
@@ -23,7 +20,7 @@ class ExactTracer final : public PathOwner {
         limits.initial_step = options_.initial_step;
         limits.locate = options_.bifurcations;
         try {
-            follow(limits, first(start));
+            take_outcome(follow_path(equations_, limits, first(start), *this), branch_);
         } catch (const Error &e) { // stopped in the middle of a point: those found so far stay valid
             if (e.status() != PLM_CANCELLED || branch_.points().empty()) throw;
             branch_.end_reason = PLM_REASON_CANCELLED;
@@ -58,18 +55,6 @@ class ExactTracer final : public PathOwner {
     }
 
   private:
-    // Anew with shorter steps where one has crossed over to a closed curve beside the path.
-    void follow(PathOptions limits, const PathStart &start) {
-        take_outcome(follow_path(equations_, limits, start, *this), branch_);
-        for (int k = 0; k < times_shorter && branch_.end_reason == PLM_REASON_CROSSED_OVER; ++k) {
-            limits.max_step *= shorter;
-            watch_.log(1, format("the curve crossed over to a closed one; again with max_step = %.2g",
-                                 limits.max_step));
-            branch_.truncate(0);
-            take_outcome(follow_path(equations_, limits, start, *this), branch_);
-        }
-    }
-
     bool with_stability() const { return options_.stability != StabilityKind::off; }
 
     PathStart first(const CurveStart &start) const {

@@ -3,7 +3,7 @@
  * matrices among it (Linux). Cracked cantilevers as in bench_scale. bench_stages solid|plate DOFS PAIRS
  * [--threads N] [--limit MIB] [--precision auto|double|single] Prints Markdown. */
 #include "cantilever.h"
-#include "plm/plm.h"
+#include "scene_model.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -59,32 +59,9 @@ static void on_log(plm_context *context, int32_t level, const char *text, void *
     fprintf(stderr, "%d: %s\n", (int)level, text);
 }
 
-static void must(plm_context *context, plm_status status, const char *what) {
-    char text[1024] = "";
-    if (status == PLM_OK) return;
-    plm_context_get_error_text(context, (int64_t)sizeof text, text, NULL);
-    fprintf(stderr, "%s: status %d: %s\n", what, (int)status, text);
-    if (status < 0) exit(1);
-}
-
 static plm_model *build(plm_context *context, const scene *s, double limit, const char *precision) {
     plm_model *m = NULL;
-    must(context, plm_model_create(context, s->n_dof, &m), "model");
-    must(context,
-         plm_model_set_matrix_i64(m, PLM_MASS, PLM_CSC, PLM_FULL, 0, PLM_BORROW, s->nnz, s->col_ptr, s->row,
-                                  s->m),
-         "mass");
-    must(context,
-         plm_model_set_matrix_i64(m, PLM_STIFFNESS, PLM_CSC, PLM_FULL, 0, PLM_BORROW, s->nnz, s->col_ptr,
-                                  s->row, s->k),
-         "stiffness");
-    must(context, plm_model_fix_dofs_i64(m, 0, s->n_fixed, s->fixed), "supports");
-    must(context,
-         plm_model_add_node_pairs_i64(m, 0, s->n_pairs, s->dof_a, s->dof_b, s->normal, s->contact_stiffness,
-                                      s->gap),
-         "pairs");
-    must(context, plm_model_set_rayleigh_damping(m, s->mass_damping, s->stiffness_damping), "damping");
-    must(context, plm_model_set_excitation(m, 1, s->n_dof, s->force, NULL), "excitation");
+    must(context, scene_to_unbuilt_model(context, s, &m), "model");
     if (limit > 0) must(context, plm_model_set_double(m, "memory_limit", limit), "memory_limit");
     must(context, plm_model_set_string(m, "factor_precision", precision), "factor_precision");
     must(context, plm_model_build(m), "build");
