@@ -30,11 +30,19 @@ void PieceEvents::forget_zeros() {
     std::fill(at_zero_.begin(), at_zero_.end(), char(0));
 }
 
-bool PieceEvents::correct(const Matrix &penetration, double reach) {
-    bool changed = false;
+bool PieceEvents::correct(const PiecePenetrations &penetrations, double reach) {
+    const vector<double> &begin = penetrations.at_begin();
     for (std::int64_t i = 0; i < states_.size(); ++i) {
         noise_[i] = gap_noise * (std::abs(contact_.initial_gap[i]) + row_norm_[i] * reach);
-        sides_[i] = side_of(penetration, i);
+        sides_[i] = side_of(&begin[i], 1, i);
+    }
+    const Matrix &powers = penetrations.powers();
+    for (std::int64_t c = 0; c < powers.cols(); ++c) {
+        const std::int64_t i = penetrations.near()[c];
+        sides_[i] = side_of(powers.col(c), powers.rows(), i);
+    }
+    bool changed = false;
+    for (std::int64_t i = 0; i < states_.size(); ++i) {
         if (sides_[i].power < 0 || sides_[i].closed == states_.is_closed(i)) continue;
         states_.set(i, sides_[i].closed);
         changed = true;
@@ -42,20 +50,20 @@ bool PieceEvents::correct(const Matrix &penetration, double reach) {
     return changed;
 }
 
-PieceEvents::Side PieceEvents::side_of(const Matrix &penetration, std::int64_t pair) const {
-    for (std::int64_t k = at_zero_[pair] ? 1 : 0; k < penetration.rows(); ++k) {
-        const double c = penetration(k, pair);
-        if (std::abs(c) > noise_[pair]) return {k, ContactLaw::closed(c)};
-    }
+PieceEvents::Side PieceEvents::side_of(const double *p, std::int64_t n_terms, std::int64_t pair) const {
+    for (std::int64_t k = at_zero_[pair] ? 1 : 0; k < n_terms; ++k)
+        if (std::abs(p[k]) > noise_[pair]) return {k, ContactLaw::closed(p[k])};
     return {-1, states_.is_closed(pair)}; // rests at zero: either side is right
 }
 
-double PieceEvents::first(const Matrix &penetration, std::int64_t &pair, double together) {
+double PieceEvents::first(const PiecePenetrations &penetrations, std::int64_t &pair, double together) {
+    const Matrix &powers = penetrations.powers();
     double share = 1; // the rest of the piece is of no interest once an event is known
     pair = -1;
     leaving_.clear();
-    for (std::int64_t i = 0; i < states_.size(); ++i) {
-        const double at = crossing(penetration, i, std::min(share + together, 1.0));
+    for (std::int64_t c = 0; c < powers.cols(); ++c) {
+        const std::int64_t i = penetrations.near()[c];
+        const double at = crossing(powers.col(c), powers.rows(), i, std::min(share + together, 1.0));
         if (at < 0) continue;
         leaving_.push_back({at, i});
         if (pair >= 0 && at >= share) continue;
@@ -70,11 +78,10 @@ double PieceEvents::first(const Matrix &penetration, std::int64_t &pair, double 
 }
 
 // Share of the piece, or -1.
-double PieceEvents::crossing(const Matrix &penetration, std::int64_t pair, double until) {
-    const std::int64_t n_terms = penetration.rows(), power = sides_[pair].power;
+double PieceEvents::crossing(const double *p, std::int64_t n_terms, std::int64_t pair, double until) {
+    const std::int64_t power = sides_[pair].power;
     if (power < 0) return -1;
-    const double sign = states_.is_closed(pair) ? 1.0 : -1.0, *p = penetration.col(pair),
-                 first = sign * p[power];
+    const double sign = states_.is_closed(pair) ? 1.0 : -1.0, first = sign * p[power];
     if (!(first > 0)) return -1; // no side was found that the motion confirms
     double reach = 0;
     for (std::int64_t k = power + 1; k < n_terms; ++k) reach += std::abs(p[k]);

@@ -2,7 +2,7 @@
 // (polynomial.hpp), and which states such a piece confirms.
 #pragma once
 #include "contact/contact.hpp"
-#include "linalg/dense.hpp"
+#include "contact/piece_penetrations.hpp"
 
 namespace plm {
 
@@ -19,14 +19,15 @@ class PieceEvents {
 
     /// The states that the motion itself confirms: each pair on the side to which it first moves away from
     /// zero. Continuity of the force makes this well defined: a pair that leaves zero by its j-th derivative
-    /// has no influence on derivatives up to j + 1. penetration: n_terms x Z coefficients with the states as
-    /// they are; reach: bound of how far the coordinates go. True when a pair changed sides.
-    bool correct(const Matrix &penetration, double reach);
+    /// has no influence on derivatives up to j + 1. penetrations: with the states as they are; reach: bound
+    /// of how far the coordinates go. True when a pair changed sides.
+    bool correct(const PiecePenetrations &penetrations, double reach);
     /// Share of the piece after which the first pair leaves its side, 1 and pair -1 when none does. A zero at
-    /// the beginning is divided out, so that it is not found again. penetration: as last handed to correct().
-    /// together: pairs that follow within this share of the piece leave with it, the share being that of the
-    /// last of them; the force is wrong by what a spring has for so long, the motion by the square of that.
-    double first(const Matrix &penetration, std::int64_t &pair, double together = 0);
+    /// the beginning is divided out, so that it is not found again. penetrations: as last handed to
+    /// correct(). together: pairs that follow within this share of the piece leave with it, the share being
+    /// that of the last of them; the force is wrong by what a spring has for so long, the motion by the
+    /// square of that.
+    double first(const PiecePenetrations &penetrations, std::int64_t &pair, double together = 0);
     /// The pairs of the last first() change their states, their penetrations being zero there. Returns how
     /// many.
     std::int64_t pass();
@@ -41,8 +42,9 @@ class PieceEvents {
         double share;
         std::int64_t pair;
     };
-    double crossing(const Matrix &penetration, std::int64_t pair, double until);
-    Side side_of(const Matrix &penetration, std::int64_t pair) const;
+    // p: the coefficients of one pair.
+    double crossing(const double *p, std::int64_t n_terms, std::int64_t pair, double until);
+    Side side_of(const double *p, std::int64_t n_terms, std::int64_t pair) const;
 
     const Contact &contact_;
     PairStates states_;

@@ -91,10 +91,10 @@ void ExactFlow::series_piece(FlowState &state, double left, FlowRecorder *record
         take_set();
         duration = step_length(std::min(left, std::max(tried_, shortest_try / set_->rate())));
         expand(state, duration, motion_);
-        if (attempt == side_corrections || !correct_sides(state, duration, motion_.penetration)) break;
+        if (attempt == side_corrections || !correct_sides(state, duration, motion_.penetrations)) break;
     }
     std::int64_t pair = -1;
-    const double fraction = events_.first(motion_.penetration, pair, at_once);
+    const double fraction = events_.first(motion_.penetrations, pair, at_once);
     if (recorder) report(state.time, fraction, duration, motion_.coefficient, nullptr, *recorder);
     if (parameter_ != FlowParameter::none) {
         expand(change_, duration, derivative_);
@@ -125,13 +125,13 @@ bool ExactFlow::modal_piece(FlowState &state, double left, FlowRecorder *recorde
     double longest = std::min(left, 0.125 * period());
     for (;;) {
         const double duration = modal_->expand(longest);
-        if (correct_sides(state, duration, modal_->penetration())) {
+        if (correct_sides(state, duration, modal_->penetrations())) {
             modal_->leave();
             fresh_ = true;
             return false;
         }
         std::int64_t pair = -1;
-        const double fraction = events_.first(modal_->penetration(), pair);
+        const double fraction = events_.first(modal_->penetrations(), pair);
         const bool veiled = pair >= 0 && modal_->is_veiled(pair);
         if (veiled && fraction < least_advance) { // shorter pieces see more
             longest = shorter_piece * duration;
@@ -262,7 +262,7 @@ void ExactFlow::expand(const FlowState &state, double duration, Series &series) 
     if (model_->n_following() > 0) {
         if (model_->n_pairs() > 0) gemm('N', 'N', 1.0, model_->gap(), y, 1.0, series.offset);
         follow(series);
-        series.penetration = series.offset.transposed();
+        series.penetrations.expand(series.offset.transposed());
     } else {
         find_penetrations(series);
     }
@@ -273,10 +273,9 @@ void ExactFlow::expand(const FlowState &state, double duration, Series &series) 
 void ExactFlow::find_penetrations(Series &series) {
     const Matrix &y = series.coefficient;
     const std::int64_t z = model_->n_pairs(), known = std::min<std::int64_t>(known_powers, n_terms_);
-    series.penetration.reset(n_terms_, z);
     if (z == 0) return;
     known_.reset(z, known);
-    gemm('N', 1.0, model_->gap(), y.data(), known, 0.0, known_.data());
+    for (std::int64_t k = 0; k < known; ++k) gemv('N', 1.0, model_->gap(), y.col(k), 0.0, known_.col(k));
     ways_.assign(static_cast<std::size_t>(y.rows()), 0.0);
     for (std::int64_t k = known; k < n_terms_; ++k)
         for (std::int64_t j = 0; j < y.rows(); ++j) ways_[j] += spare * std::abs(y(j, k));
@@ -284,12 +283,11 @@ void ExactFlow::find_penetrations(Series &series) {
     gemv('N', 1.0, gap_size_, ways_.data(), 0.0, travel_.data());
     now_.resize(static_cast<std::size_t>(z));
     for (std::int64_t i = 0; i < z; ++i) {
-        series.penetration(0, i) = series.offset(i, 0);
         now_[i] = series.offset(i, 0) + known_(i, 0);
         const double side = now_[i] > 0 ? 1 : -1;
         for (std::int64_t k = 1; k < known; ++k) travel_[i] += spare * std::max(0.0, -side * known_(i, k));
     }
-    near_.expand(now_, travel_, model_->gap_by_pair(), 'T', y, series.penetration);
+    series.penetrations.expand(now_, travel_, model_->gap_by_pair(), 'T', y, series.offset);
 }
 
 // What has neither mass nor damping: y = (f - G^T N) / k.
@@ -384,9 +382,10 @@ void ExactFlow::expand_offsets(Series &series) {
     for (std::int64_t i = 0; i < z; ++i) series.offset(i, 0) -= model_->initial_gap()[i];
 }
 
-bool ExactFlow::correct_sides(const FlowState &state, double duration, const Matrix &penetration) {
+bool ExactFlow::correct_sides(const FlowState &state, double duration,
+                              const PiecePenetrations &penetrations) {
     const std::int64_t n = model_->size();
-    return events_.correct(penetration, norm2(n, state.y.data()) + duration * norm2(n, state.v.data()));
+    return events_.correct(penetrations, norm2(n, state.y.data()) + duration * norm2(n, state.v.data()));
 }
 
 void ExactFlow::move_to(FlowState &state, double fraction, double duration, const Matrix &coefficient) const {

@@ -56,7 +56,8 @@ class ExactFlow {
     double flops_of_piece() const;
     // Taylor series over one piece, in powers of its share.
     struct Series {
-        Matrix coefficient, force, offset, still, penetration;
+        Matrix coefficient, force, offset, still;
+        PiecePenetrations penetrations;
     };
     void expand(const FlowState &state, double duration, Series &series);
     void expand_forces(double time, double duration, Series &series);
@@ -66,7 +67,7 @@ class ExactFlow {
     void expand_offsets(Series &series);
     void follow(Series &series);
     void find_penetrations(Series &series);
-    bool correct_sides(const FlowState &state, double duration, const Matrix &penetration);
+    bool correct_sides(const FlowState &state, double duration, const PiecePenetrations &penetrations);
     void switch_pair(std::int64_t pair, double fraction, double time);
     void move_to(FlowState &state, double fraction, double duration, const Matrix &coefficient) const;
     void report(double start, double fraction, double duration, const Matrix &coefficient,
@@ -91,7 +92,6 @@ class ExactFlow {
     const Matrix nothing_;
     vector<double> following_, ways_, now_,
         travel_; // now_: penetrations at the beginning of a piece, travel_: how far they may go
-    NearPairs near_;
     std::unique_ptr<ModalPieces> modal_;
     bool may_use_modes_ = false, fresh_ = true; // fresh_: the states at hand are still to be confirmed
     double truncation_ = 1e-17;

@@ -201,14 +201,10 @@ double ModalPieces::expand(double longest) {
 void ModalPieces::find_penetrations() {
     const std::int64_t z = modes_->gap_by_pair().cols();
     bound_travel();
-    penetration_.reset(n_terms_, z);
     aside_powers_.reset(z, puts_aside_ ? n_terms_ : 1);
     add_put_aside(&ContactModes::Load::gap, aside_powers_);
-    for (std::int64_t k = 0; k < aside_powers_.cols(); ++k)
-        for (std::int64_t i = 0; i < z; ++i) penetration_(k, i) = aside_powers_(i, k);
-    near_.expand(now_penetration_, travel_, modes_->gap_by_pair(), 'N', powers_, penetration_);
-    for (std::int64_t i = 0; i < z; ++i)
-        if (veil_[i] > 0) penetration_(0, i) -= std::copysign(veil_[i], penetration_(0, i));
+    penetrations_.expand(now_penetration_, travel_, modes_->gap_by_pair(), 'N', powers_, aside_powers_);
+    penetrations_.draw_near(veil_);
 }
 
 // By how far each mode may move its coordinates: |exp(rate t) - 1| and |exp(iht) - 1| of their sizes.

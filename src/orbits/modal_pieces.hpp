@@ -2,7 +2,7 @@
 // its polynomials describe; the free motion of the fast ones is known by its exponentials, and as long as it
 // is too small to bring a pair to zero nothing has to resolve it.
 #pragma once
-#include "contact/near_pairs.hpp"
+#include "contact/piece_penetrations.hpp"
 #include "orbits/contact_modes.hpp"
 #include "orbits/flow_piece.hpp"
 
@@ -22,8 +22,8 @@ class ModalPieces {
     /// Polynomials over the longest piece, no longer than `longest`, that the pairs' distances from zero
     /// allow; its length.
     double expand(double longest);
-    /// Penetrations without the fast modes, each nearer to zero by all that these may add; Z x terms.
-    const Matrix &penetration() const { return penetration_; }
+    /// Penetrations without the fast modes, each nearer to zero by all that these may add.
+    const PiecePenetrations &penetrations() const { return penetrations_; }
     /// Whether fast modes act on a pair: its zero is then not an event, but as far as the piece goes.
     bool is_veiled(std::int64_t pair) const { return veil_[static_cast<std::size_t>(pair)] > 0; }
     /// Displacements as polynomials, n x terms, and what the fast modes add.
@@ -68,12 +68,12 @@ class ModalPieces {
     bool puts_aside_ = false;                    // the harmonic loads do, too
     vector<double> veil_, tiny_;                 // of the pairs
     vector<double> now_penetration_, travel_;    // of the pairs; how far each may go within the piece
-    NearPairs near_;
+    PiecePenetrations penetrations_;
     vector<double> aside_;          // of the pairs or of what follows
     vector<double> size_, inverse_; // |z| of the modes; 1, 1/2, 1/3, ...
     vector<double> power_; // of a load's turn over the piece, over k!; odd ones stand for i times that
     Matrix powers_;        // terms x size
-    Matrix penetration_, aside_powers_, coefficient_;
+    Matrix aside_powers_, coefficient_;
     FastMotion fast_;
     double duration_ = 0;
     std::int64_t n_terms_ = 0;

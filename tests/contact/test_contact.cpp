@@ -163,16 +163,19 @@ void the_first_event_of_a_piece(void **) {
     u(0, 0) = 1, u(1, 0) = -2;
     u(0, 1) = -1, u(1, 1) = 4;
     u(2, 2) = 1;
+    plm::PiecePenetrations piece;
+    piece.expand(u);
     plm::PieceEvents events(c, gap);
     events.guess({1, -1, 0});
-    assert_true(!events.states().is_closed(2) && events.correct(u, 0) && !events.correct(u, 0));
+    assert_true(!events.states().is_closed(2) && events.correct(piece, 0) && !events.correct(piece, 0));
     assert_true(events.states().closed_pairs() == (plm::vector<std::int64_t>{0, 2}));
     std::int64_t pair = -1;
-    assert_true(close_to(events.first(u, pair), 0.25, 1e-14) && pair == 1);
+    assert_true(close_to(events.first(piece, pair), 0.25, 1e-14) && pair == 1);
     assert_true(events.pass() == 1 && events.states().n_closed() == 3);
     Matrix still(3, 3);
     for (std::int64_t i = 0; i < 3; ++i) still(0, i) = 1;
-    assert_true(!events.correct(still, 0) && events.first(still, pair) == 1 && pair == -1);
+    piece.expand(still);
+    assert_true(!events.correct(piece, 0) && events.first(piece, pair) == 1 && pair == -1);
 }
 
 // u0 = 1 - 2 s, u1 = 1 - 2 (1 - 1e-9) s, u2 = 1 - 1.9 s: the second opens 5e-10 of the piece after the first.
@@ -182,12 +185,14 @@ void pairs_that_switch_at_once(void **) {
     Matrix u(2, 3);
     for (std::int64_t i = 0; i < 3; ++i) u(0, i) = 1;
     u(1, 0) = -2, u(1, 1) = -2 * (1 - 1e-9), u(1, 2) = -1.9;
+    plm::PiecePenetrations piece;
+    piece.expand(u);
     for (const double together : {0.0, 1e-8}) {
         plm::PieceEvents events(c, gap);
         events.guess({1, 1, 1});
-        assert_false(events.correct(u, 0));
+        assert_false(events.correct(piece, 0));
         std::int64_t pair = -1;
-        const double share = events.first(u, pair, together), last = together > 0 ? 0.5 + 5e-10 : 0.5;
+        const double share = events.first(piece, pair, together), last = together > 0 ? 0.5 + 5e-10 : 0.5;
         assert_true(pair == 0 && close_to(share, last, 1e-13));
         assert_true(events.pass() == (together > 0 ? 2 : 1) && events.states().is_closed(2));
     }
