@@ -126,6 +126,7 @@ bool OrbitEquations::linearize_roughly() {
 void OrbitEquations::linearize_within(double tolerance) {
     const std::int64_t n = size();
     monodromy_.reset(n, n);
+    multipliers_.clear();
     if (!failed_) {
         monodromy_ = plm::monodromy(*model_, intervals_, tolerance, Watch(), modes_.get());
         for (std::int64_t j = 0; j < n; ++j)
@@ -137,6 +138,11 @@ void OrbitEquations::linearize_within(double tolerance) {
     if (overflown_) monodromy_.reset(n, n);
     Matrix a = tangent();
     lu_.factor(a);
+}
+
+const vector<std::complex<double>> &OrbitEquations::multipliers() const {
+    if (multipliers_.empty()) multipliers_ = plm::multipliers(monodromy_);
+    return multipliers_;
 }
 
 Matrix OrbitEquations::tangent() const {

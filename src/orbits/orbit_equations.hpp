@@ -52,6 +52,8 @@ class OrbitEquations final : public Residual {
     OrbitConditions conditions(double p) const;
     /// Of the last linearize(): d(state at the end) / d(state at the beginning), in the unknowns.
     const Matrix &monodromy() const { return monodromy_; }
+    /// Its eigenvalues, the largest first; found once, whoever asks.
+    const vector<std::complex<double>> &multipliers() const;
     /// The matrix of that linearize(): dR/dx.
     Matrix tangent() const;
     void solve_transposed(double *b) const { lu_.solve_transposed(b, 1, size()); }
@@ -77,6 +79,7 @@ class OrbitEquations final : public Residual {
     bool known_ = false, failed_ = false, overflown_ = false;
     std::vector<ContactInterval> intervals_;
     Matrix monodromy_;
+    mutable vector<std::complex<double>> multipliers_; // empty: not asked for yet
     RealLu lu_;
 };
 

@@ -31,7 +31,7 @@ class ExactTracer final : public PathOwner {
     void record(const PathPoint &p) override {
         BranchPoint point = orbit_point(equations_, options_, {p.x, p.parameter}, p.residual, p.iterations);
         put_place(p, point);
-        if (with_stability()) point.multipliers = multipliers(equations_.monodromy());
+        if (with_stability()) point.multipliers = equations_.multipliers();
         branch_.append(std::move(point));
     }
 
@@ -51,7 +51,7 @@ class ExactTracer final : public PathOwner {
     }
 
     void test(const vector<double> &, double, vector<double> &values) override {
-        if (with_stability()) values = bifurcation_tests(multipliers(equations_.monodromy()));
+        if (with_stability()) values = bifurcation_tests(equations_.multipliers());
     }
 
   private:

@@ -306,7 +306,7 @@ bool holds(OrbitEquations &equations) {
 BranchPoint whole_point(OrbitEquations &equations, const HbmOptions &options, const PathState &at,
                         const NewtonOutcome &out) {
     BranchPoint point = orbit_point(equations, options, at, out.residual, out.iterations);
-    if (options.stability != StabilityKind::off) point.multipliers = multipliers(equations.monodromy());
+    if (options.stability != StabilityKind::off) point.multipliers = equations.multipliers();
     return point;
 }
 

@@ -43,7 +43,7 @@ class ExactEquations final : public PointEquations {
         vector<double> r(x.size());
         equations_.residual(x.data(), point.omega, r.data());
         equations_.linearize();
-        return plm::multipliers(equations_.monodromy());
+        return equations_.multipliers();
     }
 
   private:
