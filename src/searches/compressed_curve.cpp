@@ -24,7 +24,7 @@ constexpr double grows = 1.5;
 constexpr double share_of_accuracy = 0.3;
 // Above, the same holds of the motions: a step takes a tenth of a second. Below, they are as exact as others:
 // near grazing, multipliers answer to the root of an error.
-constexpr double long_step = 5e8, share_of_motions = 1e-3;
+constexpr double long_step = 5e8, share_of_motions = 3e-2;
 // Modes below so many times the highest frequency of the range stay whole: they are those that internal
 // resonances of low order can set in motion, and whose multipliers die out slowly.
 constexpr double slow = 3;
@@ -251,7 +251,27 @@ bool CurveCompression::confirms(const Branch &curve) {
                          change_));
     if (change_ <= tolerance()) return true;
     model_ = better_;
+    if (std::isfinite(change_)) grow_beside(one);
     return false;
+}
+
+// Until its highest motion, which is found at once, changes no more: another whole curve would not be the
+// last one before.
+void CurveCompression::grow_beside(std::vector<Point> &highest) {
+    for (std::int64_t round = 0; round < most_rounds; ++round) {
+        CurveCompression next(*this);
+        next.left_out_ *= less;
+        const auto larger = next.compressed_after(model_.get());
+        if (is_dear(*larger)) return;
+        const double change = settle(larger, highest, next.needs_);
+        if (change <= tolerance() || !std::isfinite(change)) return;
+        watch_.log(1, format("%lld of %lld coordinates: it changes by %.2g more",
+                             static_cast<long long>(larger->size()), static_cast<long long>(whole_->size()),
+                             change));
+        model_ = larger;
+        needs_ = std::move(next.needs_);
+        left_out_ = next.left_out_;
+    }
 }
 
 bool CurveCompression::is_spent() const {
@@ -304,7 +324,7 @@ bool CurveCompression::agrees_on_whole(const Branch &curve, std::int64_t point) 
     if (out.converged && moved <= same_motion * norm2(equations.size(), at.x.data())) {
         p = orbit_point(equations, nearly, at, out.residual, out.iterations);
         equations.linearize();
-        p.multipliers = multipliers(equations.monodromy());
+        p.multipliers = equations.multipliers();
     } else {
         p = uncompressed(curve.reduced(), on_curve);
         NewtonWork work;

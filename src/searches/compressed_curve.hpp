@@ -67,6 +67,7 @@ class CurveCompression {
     std::shared_ptr<const ReducedModel> compressed_after(const ReducedModel *last) const;
     double settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points,
                   Needs &needs) const;
+    void grow_beside(std::vector<Point> &highest);
     bool make_exact_on(const std::shared_ptr<const ReducedModel> &model, BranchPoint &point,
                        ElseMarching otherwise) const;
     void take(const BranchPoint &point, Matrix &motions) const;

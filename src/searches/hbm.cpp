@@ -153,6 +153,7 @@ std::shared_ptr<Branch> Hbm::by_harmonics(double omega) const {
 // smaller, or a curve on it is not what the whole basis says.
 std::shared_ptr<Branch> Hbm::sweep_compressed() const {
     constexpr std::int64_t points_of_look = 250;
+    constexpr double share_of_look = 1e-2; // of the accuracy: what a few harmonics leave out is much more
     constexpr int most_curves = 3;
     CurveCompression compression(reduced_, options_, 2 * M_PI * options_.frequency_max_hz, watch_);
     Hbm look(*this), curve(*this);
@@ -161,17 +162,18 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
     look.exact_ = false;
     look.options_.motion = MotionKind::harmonics;
     look.options_.n_harmonics = compression.harmonics_of_look();
+    look.options_.tolerance = std::max(options_.tolerance, share_of_look * options_.accuracy);
     look.options_.max_points = points_of_look;
     look.options_.stability = StabilityKind::off;
     look.options_.bifurcations = false;
     try {
-        const auto first = look.sweep_whole();
+        const auto first = look.follow_curve();
         require_uncancelled(*first);
         if (!compression.begin_with(*first)) return nullptr;
         for (int k = 0; k < most_curves; ++k) {
             curve.reduced_ = compression.model();
             curve.options_ = options_on(*curve.reduced_, options_);
-            const auto branch = curve.sweep_whole();
+            const auto branch = curve.follow_curve();
             if (branch->end_reason == PLM_REASON_CANCELLED) return branch;
             if (is_stuck(*branch)) return nullptr;
             if (!compression.confirms(*branch) && !compression.is_spent()) {
@@ -179,6 +181,7 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
                 continue;
             }
             if (!compression.confirms_stability(*branch)) return nullptr;
+            curve.judge(*branch);
             compression.warn(*branch);
             return branch;
         }
@@ -193,12 +196,15 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
     std::shared_ptr<Branch> branch;
     if (exact_ && options_.motion == MotionKind::automatic && worth_compressing(*reduced_, options_))
         branch = sweep_compressed();
-    if (!branch) branch = sweep_whole();
+    if (!branch) {
+        branch = follow_curve();
+        judge(*branch);
+    }
     branch->seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     return branch;
 }
 
-std::shared_ptr<Branch> Hbm::sweep_whole() const {
+std::shared_ptr<Branch> Hbm::follow_curve() const {
     const Clock::time_point begin = Clock::now();
     auto branch = new_branch();
     const double low = 2 * M_PI * options_.frequency_min_hz, high = 2 * M_PI * options_.frequency_max_hz;
@@ -234,21 +240,22 @@ std::shared_ptr<Branch> Hbm::sweep_whole() const {
         }
     }
     bring_peak_inside(options_, reach_, watch_, *branch);
-    if (branch->end_reason == PLM_REASON_CANCELLED) { // what is found is delivered at once
-        finish(*branch, begin);
-        return branch;
-    }
-    check_window(window_, watch_, *branch);
-    const auto error = [&] {
-        const std::int64_t top = largest_response(*branch);
-        return basis_error_at(made_as_, options_, *branch, top, most_moving(*branch, top), Patience::little,
-                              watch_);
-    };
-    check_basis(window_, error, watch_, *branch);
-    check_span(watch_, *branch);
-    check_switching(watch_, *branch);
     finish(*branch, begin);
     return branch;
+}
+
+// What is wrong with a finished curve. One that was cancelled is delivered at once.
+void Hbm::judge(Branch &curve) const {
+    if (curve.end_reason == PLM_REASON_CANCELLED) return;
+    check_window(window_, watch_, curve);
+    const auto error = [&] {
+        const std::int64_t top = largest_response(curve);
+        return basis_error_at(made_as_, options_, curve, top, most_moving(curve, top), Patience::little,
+                              watch_);
+    };
+    check_basis(window_, error, watch_, curve);
+    check_span(watch_, curve);
+    check_switching(watch_, curve);
 }
 
 BranchPoint Hbm::first_guess(const Branch &start, std::int64_t point) const {

@@ -68,7 +68,8 @@ class Hbm {
     bool solve_by_harmonics_at(double omega, const BranchPoint *guess, Branch &branch,
                                BranchPoint &point) const;
     std::shared_ptr<Branch> by_harmonics(double omega) const;
-    std::shared_ptr<Branch> sweep_whole() const;
+    std::shared_ptr<Branch> follow_curve() const;
+    void judge(Branch &curve) const;
     std::shared_ptr<Branch> sweep_compressed() const;
     BranchPoint first_guess(const Branch &start, std::int64_t point) const;
 
