@@ -132,7 +132,12 @@ SparseMatrix submatrix(const SparseMatrix &a, const vector<std::int64_t> &keep_r
         require(keep_col[j] < n_cols && source[keep_col[j]] < 0, "submatrix: column numbers");
         source[keep_col[j]] = j;
     }
+    const auto is_kept = [&](std::int64_t i) { return keep_row[i] >= 0; };
+    std::int64_t kept = 0;
+    for (std::int64_t j : source)
+        if (j >= 0) kept += std::count_if(a.idx.begin() + a.ptr[j], a.idx.begin() + a.ptr[j + 1], is_kept);
     SparseMatrix s = shaped(n_rows, n_cols, 0);
+    s.idx.reserve(kept), s.val.reserve(kept); // grown step by step, they would take twice the memory
     for (std::int64_t j = 0; j < n_cols; ++j) {
         const std::int64_t from = source[j];
         for (std::int64_t p = from < 0 ? 0 : a.ptr[from]; from >= 0 && p < a.ptr[from + 1]; ++p) {
@@ -146,6 +151,23 @@ SparseMatrix submatrix(const SparseMatrix &a, const vector<std::int64_t> &keep_r
     }
     if (sorted(s)) return s;
     return transpose(transpose(s)); // the rows were permuted: transposing twice sorts them
+}
+
+SparseMatrix without_zeros(SparseMatrix a) {
+    constexpr std::int64_t good_part = 4; // one of so many
+    const auto is_needed = [&](std::int64_t j, std::int64_t p) { return a.val[p] != 0 || a.idx[p] == j; };
+    std::int64_t needed = 0;
+    for (std::int64_t j = 0; j < a.cols; ++j)
+        for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p) needed += is_needed(j, p);
+    if (is_dense(a) || (a.nnz() - needed) * good_part < a.nnz()) return a;
+    SparseMatrix s = shaped(a.rows, a.cols, needed);
+    std::int64_t k = 0;
+    for (std::int64_t j = 0; j < a.cols; ++j) {
+        for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p)
+            if (is_needed(j, p)) s.idx[k] = a.idx[p], s.val[k] = a.val[p], ++k;
+        s.ptr[j + 1] = k;
+    }
+    return s;
 }
 
 Matrix to_dense(const SparseMatrix &a) {

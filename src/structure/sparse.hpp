@@ -22,6 +22,9 @@ SparseMatrix add(double alpha, const SparseMatrix &a, double beta, const SparseM
 /// A(rows, cols) where keep_row[i] / keep_col[j] is the new index or -1 to drop.
 SparseMatrix submatrix(const SparseMatrix &a, const vector<std::int64_t> &keep_row, std::int64_t n_rows,
                        const vector<std::int64_t> &keep_col, std::int64_t n_cols);
+/// Square A without the zeros off its diagonal that it stores, where they are a good part of its entries. A
+/// dense one stays.
+SparseMatrix without_zeros(SparseMatrix a);
 /// y = A x (x: cols, y: rows) and y = A^T x, which gathers and so is the faster one where A is symmetric.
 void multiply(const SparseMatrix &a, const double *x, double *y);
 void multiply_transposed(const SparseMatrix &a, const double *x, double *y);

@@ -120,7 +120,8 @@ void Structure::assemble_matrices(const StructureInput &input) {
     SparseMatrix all = over_all_dofs("stiffness", *input.stiffness, n_dof_);
     translations_ = find_translations(all);
     stiffness_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
-    all = over_all_dofs("mass", *input.mass, n_dof_);
+    // as many codes hand it over: with the pattern of the stiffness, two thirds zero
+    all = without_zeros(over_all_dofs("mass", *input.mass, n_dof_));
     weigh(translations_, all);
     mass_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
     damping_options_ = input.damping;

@@ -47,6 +47,24 @@ void transpose_and_sum_match_dense(void **) {
     assert_true(max_difference(plm::to_dense(s), expected) < 1e-15);
 }
 
+void stored_zeros_go_where_they_are_many(void **) {
+    // a mass matrix of two translations with the pattern of their stiffness; DOF 3 has none
+    const vector<std::int64_t> i = {0, 1, 2, 0, 1, 2, 0, 1, 2, 3}, j = {0, 0, 0, 1, 1, 1, 2, 2, 2, 3};
+    const SparseMatrix m = plm::from_triplets(4, 4, i, j, {2, 0, 1, 0, 2, 0, 1, 0, 2, 0}),
+                       s = plm::without_zeros(m);
+    assert_true(well_formed(s));
+    assert_int_equal(s.nnz(), 6);
+    assert_true(max_difference(plm::to_dense(s), plm::to_dense(m)) == 0);
+    const SparseMatrix few = plm::from_triplets(4, 4, i, j, {2, 0, 1, 0, 2, 3, 1, 3, 2, 1});
+    assert_int_equal(plm::without_zeros(few).nnz(), 10);
+    SparseMatrix full = plm::from_triplets(64, 64, {}, {}, {});
+    for (int k = 0; k < 64; ++k) {
+        full.ptr[k + 1] = 64 * (k + 1);
+        for (int l = 0; l < 64; ++l) full.idx.push_back(l), full.val.push_back(k == l);
+    }
+    assert_int_equal(plm::without_zeros(full).nnz(), 64 * 64);
+}
+
 void submatrix_drops_and_permutes(void **) {
     const SparseMatrix a = random_sparse(6, 5, 25, 3);
     const vector<std::int64_t> rows = {3, -1, 0, 2, -1, 1}, cols = {-1, 2, 0, -1, 1};
@@ -107,6 +125,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(triplets_are_sorted_and_duplicates_summed),
         cmocka_unit_test(transpose_and_sum_match_dense),
+        cmocka_unit_test(stored_zeros_go_where_they_are_many),
         cmocka_unit_test(submatrix_drops_and_permutes),
         cmocka_unit_test(block_products_match_dense_for_any_number_of_columns),
         cmocka_unit_test(matrices_that_store_every_entry_are_dense),
