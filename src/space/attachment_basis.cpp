@@ -150,15 +150,18 @@ void AttachmentBasis::begin(const vector<std::int64_t> &directions) {
     Field x = forces_.combine(chosen_columns(slow_, fresh));
     responses_->modes->take_from_forces(x);
     respond_outside(*structure_, *responses_->modes, x);
-    frontier_.append(next_power(structure_->mass_times(x)));
+    x = structure_->mass_times(x);
+    frontier_.append(next_power(std::move(x)));
 }
 
 void AttachmentBasis::advance(const vector<std::int64_t> &directions) {
     vector<std::int64_t> columns;
     for (std::int64_t i : directions) columns.push_back(at_[i]);
-    const Field y = frontier_.columns(columns), momenta = structure_->mass_times(y);
-    const Field next = next_power(momenta);
-    append(y, momenta, next);
+    Field momenta = appended(frontier_.columns(columns));
+    const Field next = next_power(std::move(momenta));
+    Matrix coupling = forces_.products(next);
+    for (std::int64_t k = 0; k < coupling.rows() * coupling.cols(); ++k) coupling.data()[k] /= reach_;
+    coupling_.append(coupling);
     for (std::size_t k = 0; k < columns.size(); ++k) {
         frontier_.put(columns[k], next.columns(static_cast<std::int64_t>(k), 1));
         ++power_[directions[k]];
@@ -172,15 +175,18 @@ Field AttachmentBasis::next_power(Field momenta) const {
     return momenta;
 }
 
-void AttachmentBasis::append(const Field &y, const Field &momenta, const Field &next) {
+// Returns the momenta M Y. Blocks this wide are what set-up needs most memory for: none lives longer than it
+// is used.
+Field AttachmentBasis::appended(const Field &y) {
     works_.append(forces_.products(y));
-    Matrix coupling = forces_.products(next);
-    for (std::int64_t k = 0; k < coupling.rows() * coupling.cols(); ++k) coupling.data()[k] /= reach_;
-    coupling_.append(coupling);
-    const Field stiff = structure_->shifted_times(y);
-    energy_ = bordered(energy_, gram(further_, stiff), gram(y, stiff));
+    {
+        const Field stiff = structure_->shifted_times(y);
+        energy_ = bordered(energy_, gram(further_, stiff), gram(y, stiff));
+    }
+    Field momenta = structure_->mass_times(y);
     further_inertia_ = bordered(further_inertia_, gram(further_, momenta), gram(y, momenta));
     further_.append(y);
+    return momenta;
 }
 
 // Y less what the responses have of it, made A-orthonormal; then the eigenvectors of M in all of it.

@@ -48,7 +48,7 @@ class AttachmentBasis {
     void begin(const vector<std::int64_t> &directions);
     void advance(const vector<std::int64_t> &directions);
     Field next_power(Field momenta) const;
-    void append(const Field &y, const Field &momenta, const Field &next);
+    Field appended(const Field &y);
 
     std::shared_ptr<const Structure> structure_;
     std::shared_ptr<const StaticResponses> responses_;
