@@ -64,7 +64,7 @@ const std::vector<Key> &hbm_keys() {
         real_option<&O::tolerance>(
             "tolerance", 1e-15, 1e-2,
             "last Newton correction relative to the solution; on a part of a large basis' "
-            "coordinates at least a thousandth of \"accuracy\""),
+            "coordinates at least 0.03 times \"accuracy\""),
         int_option<&O::max_iterations>("max_iterations", 1, 10000, "Newton iterations per point"),
         int_option<&O::max_points>("max_points", 1, 1e9, "points of a sweep"),
         real_option<&O::initial_step>("initial_step", 0, 1,

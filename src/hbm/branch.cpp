@@ -55,10 +55,6 @@ std::string end_text(std::int32_t reason, bool sampled) {
 
 namespace {
 
-bool all_finite(const double *v, std::int64_t n) {
-    return std::all_of(v, v + n, [](double x) { return std::isfinite(x); });
-}
-
 bool is_motion(const BranchPoint &p) {
     return std::isfinite(p.omega) && std::isfinite(p.arclength) && std::isfinite(p.residual) &&
            std::isfinite(p.force_scale) &&

@@ -24,6 +24,12 @@ inline double largest_of(const double *values, std::int64_t n) {
     return largest;
 }
 
+inline bool all_finite(const double *values, std::int64_t n) {
+    for (std::int64_t i = 0; i < n; ++i)
+        if (!std::isfinite(values[i])) return false;
+    return true;
+}
+
 /// What to look at where something is not finite.
 constexpr const char *sizes_apart =
     "sizes in the model, its loads or the options lie too far apart for double "

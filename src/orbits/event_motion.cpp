@@ -1,5 +1,6 @@
 #include "orbits/event_motion.hpp"
 #include "linalg/lapack.hpp"
+#include "linalg/scale.hpp"
 #include "orbits/period_map.hpp"
 #include <algorithm>
 #include <cmath>
@@ -16,10 +17,6 @@ vector<double> applied(const Matrix &m, const vector<double> &x) {
     vector<double> y(m.rows());
     gemv('N', 1.0, m, x.data(), 0.0, y.data());
     return y;
-}
-
-bool is_finite(const vector<double> &x) {
-    return std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); });
 }
 
 } // namespace
@@ -167,7 +164,7 @@ bool EventMotion::solve(const EventSequence &sequence) {
     PeriodRun run;
     run.end = plm::moved(model_, zero, offset, 1);
     vector<double> state = period_step(model_, zero, run, monodromy_, within_);
-    if (!is_finite(state)) return false;
+    if (!all_finite(state.data(), static_cast<std::int64_t>(state.size()))) return false;
     start_ = plm::moved(model_, zero, state, 1);
     states = sequence.first;
     const EnergyNorm norm(model_, omega_);

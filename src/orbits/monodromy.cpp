@@ -1,5 +1,6 @@
 #include "orbits/monodromy.hpp"
 #include "linalg/lapack.hpp"
+#include "linalg/scale.hpp"
 #include "linalg/work.hpp"
 #include "orbits/piece_exponential.hpp"
 #include <algorithm>
@@ -84,10 +85,6 @@ bool saves_in_single(const FlowModel &model, const std::vector<ContactInterval> 
     return in_single < faster * in_double;
 }
 
-bool is_finite(const Matrix &m) {
-    return std::all_of(m.data(), m.col(m.cols()), [](double v) { return std::isfinite(v); });
-}
-
 } // namespace
 
 Matrix monodromy(const FlowModel &model, const std::vector<ContactInterval> &intervals, double tolerance,
@@ -97,7 +94,8 @@ Matrix monodromy(const FlowModel &model, const std::vector<ContactInterval> &int
     if (tolerance >= single_precision && model.n_moving() == model.n_massive() &&
         saves_in_single(model, intervals, tolerance)) {
         Matrix m = chain<float>(model, intervals, tolerance, watch, nullptr);
-        if (is_finite(m)) return m; // units of its own may leave the range of single precision
+        if (all_finite(m.data(), m.rows() * m.cols()))
+            return m; // units of its own may leave the range of single precision
     }
     return chain<double>(model, intervals, tolerance, watch, modes);
 }

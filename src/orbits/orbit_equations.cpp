@@ -1,4 +1,5 @@
 #include "orbits/orbit_equations.hpp"
+#include "linalg/scale.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -133,8 +134,7 @@ void OrbitEquations::linearize_within(double tolerance) {
             for (std::int64_t i = 0; i < n; ++i) monodromy_(i, j) *= weight_[i] / weight_[j];
     }
     // of a motion that grows so fast nothing is left to correct by
-    overflown_ =
-        !std::all_of(monodromy_.data(), monodromy_.col(n), [](double v) { return std::isfinite(v); });
+    overflown_ = !all_finite(monodromy_.data(), n * n);
     if (overflown_) monodromy_.reset(n, n);
     Matrix a = tangent();
     lu_.factor(a);
@@ -153,7 +153,7 @@ Matrix OrbitEquations::tangent() const {
 
 void OrbitEquations::solve(double *b, std::int64_t n) {
     if (overflown_) std::fill_n(b, n * size(), NAN);
-    if (std::all_of(b, b + n * size(), [](double v) { return std::isfinite(v); })) lu_.solve(b, n, size());
+    if (all_finite(b, n * size())) lu_.solve(b, n, size());
 }
 
 void OrbitEquations::parameter_derivative(double *r) {

@@ -17,21 +17,6 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-// Hands on the progress of one piece of a run as progress of the run.
-class RunProgress final : public Monitor {
-  public:
-    RunProgress(Watch watch, double n_pieces) : watch_(watch), n_pieces_(n_pieces) {}
-    void log(int level, const std::string &text) override { watch_.log(level, text); }
-    bool progress(const char *stage, double fraction) override {
-        return watch_.cancelled(stage, (done_ + fraction) / n_pieces_);
-    }
-    void next() { ++done_; }
-
-  private:
-    Watch watch_;
-    double n_pieces_, done_ = 0;
-};
-
 // In the norm of M, velocities against displacements as for the excitation's frequency; without mass in that
 // of K.
 double distance(const FlowModel &model, const FlowState &a, const FlowState &b, double omega) {
@@ -48,6 +33,21 @@ double distance(const FlowModel &model, const FlowState &a, const FlowState &b, 
 // The flow's time is set back after each period: whole periods do not matter to the excitation, and the
 // rounding of the time stays small.
 class ReducedMotion::March {
+    // Hands on the progress of one piece of a run as progress of the run.
+    class Progress final : public Monitor {
+      public:
+        Progress(Watch watch, double n_pieces) : watch_(watch), n_pieces_(n_pieces) {}
+        void log(int level, const std::string &text) override { watch_.log(level, text); }
+        bool progress(const char *stage, double fraction) override {
+            return watch_.cancelled(stage, (done_ + fraction) / n_pieces_);
+        }
+        void next() { ++done_; }
+
+      private:
+        Watch watch_;
+        double n_pieces_, done_ = 0;
+    };
+
   public:
     March(std::shared_ptr<const FlowModel> model, const TransientOptions &options, FlowState state,
           Matrix observed, Watch watch)
@@ -96,7 +96,7 @@ class ReducedMotion::March {
     }
 
     const TransientOptions &options_;
-    RunProgress progress_;
+    Progress progress_;
     ExactFlow flow_;
     Settling settling_;
     FlowState state_, before_;

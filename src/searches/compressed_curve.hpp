@@ -14,8 +14,8 @@ namespace plm {
 /// Whether a curve of exact motions on this model (P_0 = P) is to be followed on a compressed one.
 bool worth_compressing(const ReducedModel &whole, const HbmOptions &options);
 
-/// Where the model is a compressed one and each step on it takes long, motions are exact to a thousandth of
-/// the accuracy: the model has no more of it.
+/// Where the model is a compressed one and each step on it takes long, motions are exact to a few hundredths
+/// of the accuracy: the model has no more of it.
 HbmOptions options_on(const ReducedModel &model, HbmOptions options);
 
 class CurveCompression {

@@ -1,5 +1,6 @@
 #include "searches/exact_motion.hpp"
 #include "hbm/formulation.hpp"
+#include "linalg/scale.hpp"
 #include "orbits/period_map.hpp"
 #include <algorithm>
 #include <cmath>
@@ -50,9 +51,7 @@ Verdict verdict_of(const Matrix &monodromy) {
 template <class Search> Matrix found_by(const Search &search) {
     try {
         Matrix found = search();
-        const bool finite = std::all_of(found.data(), found.data() + found.rows() * found.cols(),
-                                        [](double v) { return std::isfinite(v); });
-        return finite ? std::move(found) : Matrix();
+        return all_finite(found.data(), found.rows() * found.cols()) ? std::move(found) : Matrix();
     } catch (const Error &e) {
         if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
         return {};

@@ -1,6 +1,7 @@
 #include "searches/orbit_folds.hpp"
 #include "hbm/free_frequency.hpp"
 #include "linalg/dense.hpp"
+#include "linalg/scale.hpp"
 #include "searches/orbit_points.hpp"
 #include <algorithm>
 #include <cmath>
@@ -122,7 +123,7 @@ void OrbitFoldSystem::linearize() {
 }
 
 void OrbitFoldSystem::solve(double *b, std::int64_t n) {
-    if (std::all_of(b, b + n * size(), [](double v) { return std::isfinite(v); })) lu_.solve(b, n, size());
+    if (all_finite(b, n * size())) lu_.solve(b, n, size());
 }
 
 void OrbitFoldSystem::parameter_derivative(double *r) {
