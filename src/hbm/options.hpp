@@ -37,6 +37,8 @@ struct HbmOptions {
     // Flops of a step of Newton's method for exact motions, about half a second: where one takes longer, a
     // curve would take minutes, and what it would know better is told, not followed. No key.
     double dearest_step = 2.5e9;
+    // max_harmonics is what a curve can afford, less than what was asked for. No key.
+    bool harmonics_by_cost = false;
 
     /// Half of the accuracy, unless set: the basis takes its share.
     double allowed_harmonic_error() const {

@@ -80,10 +80,8 @@ CurveCompression::CurveCompression(std::shared_ptr<const ReducedModel> whole, co
       watch_(watch) {}
 
 std::int64_t CurveCompression::harmonics_of_look() const {
-    for (std::int64_t h : {5, 4, 3, 2}) {
-        const double n = static_cast<double>(std::min(whole_->size(), whole_->n_pairs()) * (2 * h + 1));
-        if (2.0 / 3 * n * n * n < flops_of_look) return h;
-    }
+    for (std::int64_t h : {5, 4, 3, 2})
+        if (harmonic_step_flops(*whole_, h) < flops_of_look) return h;
     return 1;
 }
 

@@ -14,6 +14,9 @@ constexpr std::int64_t first_harmonics = 5;
 // motions of the surfaces that hardly act back on the structure may be left coarse, but not unresolved.
 constexpr double tail_allowance = 20;
 
+// Of a step, in terms of HbmOptions::dearest_step: a curve takes some two hundred, all of them about alike.
+constexpr double dearest_with_harmonics = 12;
+
 bool loaded(const HarmonicLoad &load) {
     const auto acts = [](double f) { return f != 0; };
     return std::any_of(load.real.begin(), load.real.end(), acts) ||
@@ -45,6 +48,23 @@ std::int64_t highest_excitation(const ReducedModel &m) {
 
 std::int64_t few_harmonics(const ReducedModel &reduced) {
     return std::max(first_harmonics, highest_excitation(reduced));
+}
+
+double harmonic_step_flops(const ReducedModel &m, std::int64_t n_harmonics) {
+    const double n = static_cast<double>(std::min(m.size(), m.n_pairs()) * (2 * n_harmonics + 1));
+    return 2.0 / 3 * n * n * n;
+}
+
+HbmOptions with_affordable_harmonics(const ReducedModel &reduced, HbmOptions options) {
+    if (options.n_harmonics != 0) return options;
+    const std::int64_t fewest = few_harmonics(reduced), asked = options.max_harmonics;
+    const double dearest = dearest_with_harmonics * options.dearest_step;
+    const auto per_period = [&](std::int64_t h) { return h * options.period_multiple; };
+    while (options.max_harmonics > fewest &&
+           harmonic_step_flops(reduced, per_period(options.max_harmonics)) > dearest)
+        --options.max_harmonics;
+    options.harmonics_by_cost = options.harmonics_by_cost || options.max_harmonics < asked;
+    return options;
 }
 
 HbmOptions with_first_harmonics(const ReducedModel &reduced, const HbmOptions &options) {
@@ -134,6 +154,7 @@ bool climb_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptio
             reached = now.n_harmonics;
             stride = std::max(stride, reached / 2);
         } else {
+            if (stride == 1) break; // the same again would be found no more
             ++failures;
             stride = std::max<std::int64_t>(1, stride / 3);
         }
@@ -198,6 +219,12 @@ std::string remedy(const HbmOptions &o, const BranchPoint &p) {
     const char *others =
         "make the basis for more harmonics (n_harmonics of sampler and basis) or the contact "
         "softer, and compare with the exact periodic motion that a transient finds";
+    if (o.harmonics_by_cost && harmonics_of(p, o.period_multiple) >= o.max_harmonics)
+        return format("so many coordinates and pairs move that with more than %lld harmonics the curve takes "
+                      "many minutes. Set n_harmonics for more or, if that is accurate enough, "
+                      "harmonic_tolerance; otherwise ",
+                      static_cast<long long>(o.max_harmonics)) +
+               others;
     if (harmonics_of(p, o.period_multiple) >= o.max_harmonics)
         return format("raise max_harmonics (%lld) or, if that is accurate enough, harmonic_tolerance; "
                       "otherwise ",

@@ -2,6 +2,7 @@
 #include "hbm/branch_path.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/make_system.hpp"
+#include "searches/harmonic_choice.hpp"
 #include "searches/stability.hpp"
 #include "searches/start.hpp"
 #include <algorithm>
@@ -16,8 +17,8 @@ constexpr std::int64_t most_failed_growths = 3; // in a row, from points that sa
 class CurveTracer final : public PathOwner {
   public:
     CurveTracer(const HbmOptions &options, Watch watch, Branch &branch)
-        : asked_(options), options_(options), watch_(watch), branch_(branch),
-          reduced_(branch.reduced_model()), stability_(reduced_, options),
+        : asked_(with_affordable_harmonics(*branch.reduced_model(), options)), options_(asked_),
+          watch_(watch), branch_(branch), reduced_(branch.reduced_model()), stability_(reduced_, options),
           fewest_(std::max<std::int64_t>(3, highest_excitation(*reduced_))) {}
 
     void run(const CurveStart &start) {

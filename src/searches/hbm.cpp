@@ -83,8 +83,8 @@ void Hbm::finish(Branch &branch, Clock::time_point begin) const {
                          static_cast<long long>(branch.failed_steps), branch.seconds));
 }
 
-bool Hbm::solve_with(const HbmOptions &options, double omega, const BranchPoint *guess, Branch &branch,
-                     BranchPoint &point) const {
+bool Hbm::solve_with(const HbmOptions &options, double omega, const BranchPoint *guess, StartPaths paths,
+                     Branch &branch, BranchPoint &point) const {
     const auto system = make_system(reduced_, options);
     vector<double> x(system->size(), 0.0);
     StartOutcome out;
@@ -94,7 +94,7 @@ bool Hbm::solve_with(const HbmOptions &options, double omega, const BranchPoint 
     }
     if (!out.converged) {
         const vector<double> guessed = x;
-        out.add(find_start(*system, *reduced_, options, omega, guess != nullptr, watch_, x));
+        out.add(find_start(*system, *reduced_, options, omega, guess != nullptr, watch_, x, paths));
         if (guess && out.converged) warn_of_other_branch(*system, guessed, x, *guess, omega, branch);
     }
     branch.newton_work += out;
@@ -118,25 +118,42 @@ bool Hbm::solve_exactly_at(double omega, const BranchPoint *guess, Branch &branc
     HbmOptions few = options_;
     few.n_harmonics = few_harmonics(*reduced_);
     if (guess) few.n_harmonics = std::max(few.n_harmonics, harmonics_of(*guess, options_.period_multiple));
-    return solve_with(few, omega, guess, branch, point) &&
+    return solve_from_few(few, omega, guess, branch, point) &&
            make_exact(reduced_, options_, watch_, point, branch.newton_work);
 }
 
 bool Hbm::solve_by_harmonics_at(double omega, const BranchPoint *guess, Branch &branch,
                                 BranchPoint &point) const {
-    HbmOptions wanted = with_first_harmonics(*reduced_, options_);
-    if (guess && options_.n_harmonics == 0) // a start with its harmonics cut would be another motion
+    const HbmOptions options = with_affordable_harmonics(*reduced_, options_);
+    HbmOptions wanted = with_first_harmonics(*reduced_, options);
+    if (guess && options.n_harmonics == 0) // a start with its harmonics cut would be another motion
         wanted.n_harmonics =
-            std::min(options_.max_harmonics,
-                     std::max(wanted.n_harmonics, harmonics_of(*guess, options_.period_multiple)));
-    HbmOptions few = options_;
+            std::min(options.max_harmonics,
+                     std::max(wanted.n_harmonics, harmonics_of(*guess, options.period_multiple)));
+    HbmOptions few = options;
     few.n_harmonics = std::min(wanted.n_harmonics, few_harmonics(*reduced_));
     const bool climbs = !guess && wanted.n_harmonics > 2 * few.n_harmonics;
-    bool found = climbs && solve_with(few, omega, nullptr, branch, point) &&
-                 climb_harmonics(reduced_, options_, wanted.n_harmonics, point, watch_);
-    found = found || solve_with(wanted, omega, guess, branch, point);
-    if (found) settle_harmonics(reduced_, options_, point, watch_);
+    bool found = climbs && solve_from_few(few, omega, nullptr, branch, point) &&
+                 climb_harmonics(reduced_, options, wanted.n_harmonics, point, watch_);
+    found = found || solve_from_few(wanted, omega, guess, branch, point);
+    if (found) settle_harmonics(reduced_, options, point, watch_);
     return found;
+}
+
+// With the harmonics of `wanted` or, where they are chosen and have no solution that is found, with as many
+// as lead to one: the more pairs, the fewer of the ways to a first solution can be gone with all of them.
+bool Hbm::solve_from_few(const HbmOptions &wanted, double omega, const BranchPoint *guess, Branch &branch,
+                         BranchPoint &point) const {
+    if (solve_with(wanted, omega, guess, StartPaths::affordable, branch, point)) return true;
+    HbmOptions fewest = wanted;
+    fewest.n_harmonics = highest_excitation(*reduced_);
+    if (!guess && fewest.n_harmonics < wanted.n_harmonics &&
+        solve_with(fewest, omega, nullptr, StartPaths::affordable, branch, point)) {
+        const bool all = climb_harmonics(reduced_, wanted, wanted.n_harmonics, point, watch_);
+        if (all || options_.n_harmonics == 0) return true;
+    }
+    return !affords_paths(*reduced_, wanted) &&
+           solve_with(wanted, omega, guess, StartPaths::all, branch, point);
 }
 
 // The curve of harmonic balance where that of exact motions could not be followed to its end; null: none
@@ -213,6 +230,7 @@ std::shared_ptr<Branch> Hbm::follow_curve() const {
     // range is entered a little further on then, if that is better.
     CurveStart start;
     bool found = false;
+    const bool dear = !affords_paths(*reduced_, with_first_harmonics(*reduced_, options_));
     constexpr int most_attempts = 5;
     constexpr double further_in = 0.02; // of the range: what is left out of the curve is to be small
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
@@ -221,7 +239,7 @@ std::shared_ptr<Branch> Hbm::follow_curve() const {
         if (!solve_at(from + further_in * attempt * into, nullptr, *branch, point)) continue;
         if (!found || point.harmonic_error < start.point.harmonic_error) start.point = point;
         found = true;
-        if (options_.n_harmonics != 0 || start.point.harmonic_error < worthless_error) break;
+        if (options_.n_harmonics != 0 || start.point.harmonic_error < worthless_error || dear) break;
     }
     if (!found)
         throw Error(
@@ -301,7 +319,7 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
     if (stability.wanted() && result.multipliers.empty())
         branch->warnings.add(PLM_REASON_UNVERIFIED, stability.unknown_text(1, 1));
     branch->append(std::move(result));
-    warn_of_harmonics(options_, *branch);
+    warn_of_harmonics(with_affordable_harmonics(*reduced_, options_), *branch);
     branch->end_reason = PLM_REASON_RANGE_END;
     branch->unknowns_used = branch->points()[0].motion           ? "state"
                             : prefers_modal(*reduced_, options_) ? "modal"

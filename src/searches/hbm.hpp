@@ -4,6 +4,7 @@
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
 #include "reduction/sweep_range.hpp"
+#include "searches/start.hpp"
 #include <chrono>
 
 namespace plm {
@@ -61,10 +62,12 @@ class Hbm {
     using Clock = std::chrono::steady_clock;
     std::shared_ptr<Branch> new_branch() const;
     void finish(Branch &branch, Clock::time_point begin) const;
-    bool solve_with(const HbmOptions &options, double omega, const BranchPoint *guess, Branch &branch,
-                    BranchPoint &point) const;
+    bool solve_with(const HbmOptions &options, double omega, const BranchPoint *guess, StartPaths paths,
+                    Branch &branch, BranchPoint &point) const;
     bool solve_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const;
     bool solve_exactly_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const;
+    bool solve_from_few(const HbmOptions &wanted, double omega, const BranchPoint *guess, Branch &branch,
+                        BranchPoint &point) const;
     bool solve_by_harmonics_at(double omega, const BranchPoint *guess, Branch &branch,
                                BranchPoint &point) const;
     std::shared_ptr<Branch> by_harmonics(double omega) const;

@@ -21,13 +21,8 @@ namespace {
 constexpr double of_solution = 0.1, of_coefficients = 0.01, at_gaps_more = 20;
 constexpr std::int64_t harmonics_at_once = 8;
 
-// A step of harmonic balance with as many harmonics as points near a resonance ask for, in flops.
-double harmonic_step_flops(const ReducedModel &m) {
-    constexpr double usual_harmonics = 20;
-    const double unknowns = static_cast<double>(std::min(m.size(), m.n_pairs())) * (2 * usual_harmonics + 1);
-    return 2.0 / 3 * unknowns * unknowns * unknowns;
-}
-constexpr double cheap_step = 5e7; // a curve takes seconds
+constexpr std::int64_t usual_harmonics = 20; // of points near a resonance
+constexpr double cheap_step = 5e7;           // flops: a curve takes seconds
 
 class OrbitMotion final : public PointMotion {
   public:
@@ -218,7 +213,8 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
     if (o.n_harmonics != 0 || o.tail_correction || o.unknowns != NonlinearUnknowns::automatic ||
         o.formulation != FormulationKind::automatic || reduced->n_pairs() == 0)
         return false;
-    return exact_step_flops(*reduced, o) < std::max(cheap_step, harmonic_step_flops(*reduced));
+    return exact_step_flops(*reduced, o) <
+           std::max(cheap_step, harmonic_step_flops(*reduced, usual_harmonics));
 }
 
 bool march_to_orbit(OrbitEquations &equations, const HbmOptions &options, double omega,

@@ -195,6 +195,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     auto one = std::make_shared<Branch>(reduced, branch.force_scale(), branch.period_multiple());
     one->end_reason = PLM_REASON_RANGE_END;
     BranchPoint point = branch.points()[top];
+    const HbmOptions limits = with_affordable_harmonics(*reduced, options_);
     double error = point.harmonic_error; // in what is asked for, where harmonics are chosen
     if (!is_peak)                        // it stays where it is
         watch_.keeping(one->warnings).warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, highest));
@@ -216,16 +217,16 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         do {
             if (error > wanted)
                 options.n_harmonics =
-                    std::max(options.n_harmonics, std::min(options_.max_harmonics, 2 * options.n_harmonics));
+                    std::max(options.n_harmonics, std::min(limits.max_harmonics, 2 * options.n_harmonics));
             equations = equations_of(reduced, options, point);
             PeakSearch(*equations, options, reduced, dof, measure, harmonic, watch_)
                 .run(branch, around, point);
             if (automatic) error = error_here();
-        } while (error > wanted && options.n_harmonics < options_.max_harmonics);
+        } while (error > wanted && options.n_harmonics < limits.max_harmonics);
         point.multipliers = equations->multipliers(point);
     }
     one->append(std::move(point));
-    warn_of_harmonics(options_, error, *one);
+    warn_of_harmonics(limits, error, *one);
     if (is_peak && options_.n_harmonics != 0 && !one->points()[0].motion)
         warn_of_given_harmonics(reduced, options_, dof, measure, harmonic, *one);
     const double by_basis =

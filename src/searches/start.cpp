@@ -3,11 +3,15 @@
 #include "hbm/formulation.hpp"
 #include "hbm/wrapped_system.hpp"
 #include "reduction/reduced_rest.hpp"
+#include "searches/harmonic_choice.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace plm {
 namespace {
+
+// Of a step along a path: a tenth of a second, of which a path may take a thousand.
+constexpr double dear_on_paths = 5e8; // flops
 
 // Another parameter in the place of the frequency: the force, p = 0 at rest; the gap, p = 0 with contact out
 // of reach; the logarithm of the contact stiffness, p = 0 with soft contact. p = 1 is the problem asked for.
@@ -57,11 +61,12 @@ class Starter {
         for (double coupling : coupling_) loaded_ = loaded_ || coupling == 1;
     }
 
-    StartOutcome run(bool have_guess) {
+    StartOutcome run(bool have_guess, StartPaths paths) {
         if (have_guess && attempt()) return out_;
         for (const vector<double> &coupling :
              {coupling_, vector<double>(coupling_.size(), 0.0), vector<double>(coupling_.size(), 1.0)})
             if (from_linear(coupling)) return out_;
+        if (paths == StartPaths::affordable && !affords_paths(reduced_, options_)) return out_;
         if (loaded_ ? force_path() : gap_path()) return out_;
         if (stiffness_path()) return out_;
         frequency_path();
@@ -200,6 +205,10 @@ vector<double> coupling_at_rest(const ReducedModel &m) {
     return m.contact.closed_shares(rest_of(m)->penetration);
 }
 
+bool affords_paths(const ReducedModel &reduced, const HbmOptions &options) {
+    return harmonic_step_flops(reduced, options.n_harmonics * options.period_multiple) < dear_on_paths;
+}
+
 void StartOutcome::add(const StartOutcome &next) {
     *this += next;
     residual = next.residual;
@@ -218,8 +227,8 @@ StartOutcome correct_at(HbmSystem &system, const HbmOptions &options, double ome
 }
 
 StartOutcome find_start(HbmSystem &system, const ReducedModel &reduced, const HbmOptions &options,
-                        double omega, bool have_guess, Watch watch, vector<double> &x) {
-    return Starter(system, reduced, options, omega, watch, x).run(have_guess);
+                        double omega, bool have_guess, Watch watch, vector<double> &x, StartPaths paths) {
+    return Starter(system, reduced, options, omega, watch, x).run(have_guess, paths);
 }
 
 } // namespace plm
