@@ -27,7 +27,10 @@ const std::vector<Key> &hbm_keys() {
             "accuracy", 1e-12, 0.5,
             "relative error that results may have; a curve or peak that is estimated to "
             "miss it warns"),
-        int_option<&O::max_harmonics>("max_harmonics", 1, 1000, "with n_harmonics = 0: the most allowed"),
+        int_option<&O::max_harmonics>(
+            "max_harmonics", 1, 1000,
+            "with n_harmonics = 0: the most allowed; fewer where hundreds of coordinates and pairs make a "
+            "step with them take seconds, which the result says"),
         real_option<&O::harmonic_tolerance>(
             "harmonic_tolerance", 0, 1,
             "with n_harmonics = 0: allowed \"harmonic_error\" of a point, 0: half of \"accuracy\"; where "

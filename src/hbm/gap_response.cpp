@@ -11,8 +11,13 @@ void GapResponse::set_frequency(double omega) {
     if (omega == omega_) return;
     omega_ = -1; // an update may throw, and not all of them would be of one frequency
     for (std::size_t h = 1; h < harmonic_.size(); ++h)
-        harmonic_[h].update(*m_, static_cast<std::int64_t>(h), omega);
+        harmonic_[h].update(*m_, static_cast<std::int64_t>(h), omega, self_excitation_);
     omega_ = omega;
+}
+
+void GapResponse::set_self_excitation(double xi) {
+    if (xi != self_excitation_) omega_ = -1;
+    self_excitation_ = xi;
 }
 
 void GapResponse::gather(const double *c, const double *s, double factor, vector<Complex> &v) {

@@ -15,6 +15,8 @@ class GapResponse {
     GapResponse(std::shared_ptr<const ReducedModel> reduced, const LawForm &form, std::int64_t n_harmonics);
 
     void set_frequency(double omega);
+    /// From the next set_frequency() on: with the damping -2 xi omega M added.
+    void set_self_excitation(double xi);
 
     StaticReference &mean() { return mean_; }
     const StaticReference &mean() const { return mean_; }
@@ -35,7 +37,7 @@ class GapResponse {
     vector<double> slack_;
     StaticReference mean_;
     std::vector<Receptance> harmonic_; // the first is not used
-    double omega_ = -1;
+    double omega_ = -1, self_excitation_ = 0;
     // of one call to the next: no iteration allocates
     vector<double> real_, imag_, mean_response_, gaps_;
     vector<Complex> response_;

@@ -70,6 +70,7 @@ class GapSystem final : public HbmSystem {
     }
 
     void set_stiffness_factor(double factor) override { stiffness_factor_ = factor; }
+    void set_self_excitation(double xi) override { response_.set_self_excitation(xi); }
 
     void contact_force_change(const Matrix &force, double *r) override { // B D B' N - slack N
         std::fill(r, r + size(), 0.0);

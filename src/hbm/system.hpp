@@ -15,12 +15,13 @@ class ModalFactor;
 class HbmSystem : public Residual {
   public:
     /// Factors dR/dx at the last residual() with rows and columns beside it: what systems with more equations
-    /// are built from. This and the next two: reduced coordinates only.
+    /// are built from. This and the next: reduced coordinates only.
     virtual void factor_bordered(const Border &, ModalFactor &) { throw_not_modal(); }
     /// r = dR/dx v at the last residual()
     virtual void jacobian_product(const double * /*v*/, double * /*r*/) { throw_not_modal(); }
-    /// Adds the force 2 xi omega M q' from the next residual() on (nonlinear modes).
-    virtual void set_self_excitation(double /*xi*/) { throw_not_modal(); }
+    /// Adds the force 2 xi omega M q' from the next residual() or linear_response() on: nonlinear modes and,
+    /// with xi < 0, first solutions. parameter_derivative() knows of it in reduced coordinates only.
+    virtual void set_self_excitation(double xi) = 0;
     /// Solution x of the linear equations with every pair coupled by coupling[i] k_n at all times.
     virtual void linear_response(const vector<double> &coupling, double omega, double *x) = 0;
 

@@ -239,10 +239,11 @@ void warn(const HbmOptions &o, std::int64_t over, std::int64_t worst, double err
     branch.warnings.add(
         PLM_REASON_HARMONICS_TOO_FEW,
         format("harmonic_tolerance (%.2g) was not reached at %lld of %lld points; the largest error is "
-               "estimated as %.2g at point %lld (%.6g Hz, %lld harmonics%s): %s",
+               "estimated as %.2g at point %lld (%.6g Hz, %lld harmonics%s)%s: %s",
                o.allowed_harmonic_error(), static_cast<long long>(over),
                static_cast<long long>(points.size()), error, static_cast<long long>(worst),
                p.omega / (2 * M_PI), static_cast<long long>(p.n_harmonics), most_moved(branch, p).c_str(),
+               error < worthless_error ? "" : ", so that it need not be near any motion",
                remedy(o, p).c_str()));
 }
 

@@ -10,8 +10,10 @@
 namespace plm {
 namespace {
 
-// Of a step along a path: a tenth of a second, of which a path may take a thousand.
+// Of a step along a path: a tenth of a second, of which a path may take a thousand. Every pair that switches
+// makes a corner.
 constexpr double dear_on_paths = 5e8; // flops
+constexpr std::int64_t many_corners = 100;
 
 // Another parameter in the place of the frequency: the force, p = 0 at rest; the gap, p = 0 with contact out
 // of reach; the logarithm of the contact stiffness, p = 0 with soft contact. p = 1 is the problem asked for.
@@ -66,7 +68,9 @@ class Starter {
         for (const vector<double> &coupling :
              {coupling_, vector<double>(coupling_.size(), 0.0), vector<double>(coupling_.size(), 1.0)})
             if (from_linear(coupling)) return out_;
-        if (paths == StartPaths::affordable && !affords_paths(reduced_, options_)) return out_;
+        const bool affords = affords_paths(reduced_, options_);
+        if (!affords && damping_steps()) return out_;
+        if (!affords && paths == StartPaths::affordable) return out_;
         if (loaded_ ? force_path() : gap_path()) return out_;
         if (stiffness_path()) return out_;
         frequency_path();
@@ -134,6 +138,28 @@ class Starter {
         const bool found = follow(path);
         system_.set_extra_gap(0);
         return found && attempt();
+    }
+
+    // With much more damping the response is small and nearly linear, at a resonance of the open, of the
+    // closed or of the breathing structure alike; the damping is taken away in steps as long as Newton's
+    // method lets it, without following every corner on the way.
+    bool damping_steps() {
+        constexpr double at_first = 0.3, least = 1e-5; // ratios at the frequency of the excitation
+        constexpr double boldest = 0.1, too_careful = 0.97;
+        system_.set_self_excitation(-at_first);
+        bool found = false;
+        for (double share : {0.0, 1.0}) found = found || from_linear(vector<double>(coupling_.size(), share));
+        double damping = at_first, factor = 0.3;
+        while (found && damping > 0 && factor < too_careful) {
+            const double next = factor * damping < least ? 0 : factor * damping;
+            system_.set_self_excitation(-next);
+            const bool nearer = attempt();
+            if (nearer) damping = next;
+            factor = nearer ? std::max(boldest, factor * factor) : std::sqrt(factor);
+        }
+        system_.set_self_excitation(0);
+        out_.converged = found && damping == 0;
+        return out_.converged;
     }
 
     // Soft contact has a solution near the linear ones; it is stiffened from there, through folds.
@@ -206,7 +232,8 @@ vector<double> coupling_at_rest(const ReducedModel &m) {
 }
 
 bool affords_paths(const ReducedModel &reduced, const HbmOptions &options) {
-    return harmonic_step_flops(reduced, options.n_harmonics * options.period_multiple) < dear_on_paths;
+    return reduced.n_pairs() < many_corners &&
+           harmonic_step_flops(reduced, options.n_harmonics * options.period_multiple) < dear_on_paths;
 }
 
 void StartOutcome::add(const StartOutcome &next) {
