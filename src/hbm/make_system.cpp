@@ -12,6 +12,11 @@ std::unique_ptr<ContactForce> make_contact_force(const HbmOptions &options, std:
                : make_sampled_force(options.n_harmonics, options.time_samples, n_pairs);
 }
 
+double harmonic_step_flops(const ReducedModel &reduced, std::int64_t n_harmonics) {
+    const double n = static_cast<double>(std::min(reduced.size(), reduced.n_pairs()) * (2 * n_harmonics + 1));
+    return 2.0 / 3 * n * n * n;
+}
+
 bool prefers_modal(const ReducedModel &reduced, const HbmOptions &options) {
     const NonlinearUnknowns unknowns = options.unknowns;
     if (unknowns != NonlinearUnknowns::automatic || reduced.n_pairs() == 0)

@@ -13,6 +13,8 @@ std::unique_ptr<HbmSystem> make_system(std::shared_ptr<const ReducedModel> reduc
                                        const HbmOptions &options);
 /// Reduced coordinates (true) or contact gaps when all pairs move.
 bool prefers_modal(const ReducedModel &reduced, const HbmOptions &options);
+/// What a step of Newton's method costs at the most: the dense factorization of the smaller form.
+double harmonic_step_flops(const ReducedModel &reduced, std::int64_t n_harmonics);
 std::unique_ptr<HbmSystem> make_modal_system(std::shared_ptr<const ReducedModel> reduced,
                                              const HbmOptions &options);
 std::unique_ptr<HbmSystem> make_gap_system(std::shared_ptr<const ReducedModel> reduced,

@@ -1,5 +1,6 @@
 #include "searches/compressed_curve.hpp"
 #include "hbm/branch_path.hpp"
+#include "hbm/make_system.hpp"
 #include "reduction/compression.hpp"
 #include "searches/compressed_motion.hpp"
 #include "searches/harmonic_choice.hpp"

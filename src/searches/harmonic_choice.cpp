@@ -50,11 +50,6 @@ std::int64_t few_harmonics(const ReducedModel &reduced) {
     return std::max(first_harmonics, highest_excitation(reduced));
 }
 
-double harmonic_step_flops(const ReducedModel &m, std::int64_t n_harmonics) {
-    const double n = static_cast<double>(std::min(m.size(), m.n_pairs()) * (2 * n_harmonics + 1));
-    return 2.0 / 3 * n * n * n;
-}
-
 HbmOptions with_affordable_harmonics(const ReducedModel &reduced, HbmOptions options) {
     if (options.n_harmonics != 0) return options;
     const std::int64_t fewest = few_harmonics(reduced), asked = options.max_harmonics;

@@ -13,9 +13,6 @@ std::int64_t highest_excitation(const ReducedModel &reduced);
 /// What a first solution is looked for with, unless more are asked for: few, but all of the excitation's.
 std::int64_t few_harmonics(const ReducedModel &reduced);
 
-/// What a step of Newton's method by harmonic balance costs at the most: the dense factorization.
-double harmonic_step_flops(const ReducedModel &model, std::int64_t n_harmonics);
-
 /// Where harmonics are chosen: with max_harmonics no more than those with which a curve takes minutes, since
 /// a model of hundreds of coordinates and pairs takes one for a step with as many as there may be.
 HbmOptions with_affordable_harmonics(const ReducedModel &reduced, HbmOptions options);

@@ -1,6 +1,7 @@
 #include "searches/orbit_points.hpp"
 #include "hbm/branch_path.hpp"
 #include "hbm/free_motion.hpp"
+#include "hbm/make_system.hpp"
 #include "orbits/recorded_motion.hpp"
 #include "orbits/shooting.hpp"
 #include "reduction/compression.hpp"

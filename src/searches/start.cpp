@@ -1,9 +1,9 @@
 #include "searches/start.hpp"
 #include "hbm/branch_path.hpp"
 #include "hbm/formulation.hpp"
+#include "hbm/make_system.hpp"
 #include "hbm/wrapped_system.hpp"
 #include "reduction/reduced_rest.hpp"
-#include "searches/harmonic_choice.hpp"
 #include <algorithm>
 #include <cmath>
 
