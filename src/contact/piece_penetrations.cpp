@@ -15,8 +15,7 @@ void PiecePenetrations::expand(const vector<double> &at_begin, const vector<doub
         if (!(std::abs(at_begin[i]) > travel[i])) near_.push_back(i);
     const bool most = 4 * static_cast<std::int64_t>(near_.size()) > 3 * z; // not worth being put together
     if (most) {
-        near_.resize(static_cast<std::size_t>(z));
-        std::iota(near_.begin(), near_.end(), std::int64_t(0));
+        all_are_near(z);
     } else {
         rows_.reset(n, static_cast<std::int64_t>(near_.size()));
         for (std::int64_t c = 0; c < rows_.cols(); ++c)
@@ -34,7 +33,11 @@ void PiecePenetrations::expand(const Matrix &powers) {
     powers_ = powers;
     at_begin_.resize(static_cast<std::size_t>(powers.cols()));
     for (std::int64_t i = 0; i < powers.cols(); ++i) at_begin_[i] = powers(0, i);
-    near_.resize(at_begin_.size());
+    all_are_near(powers.cols());
+}
+
+void PiecePenetrations::all_are_near(std::int64_t n_pairs) {
+    near_.resize(static_cast<std::size_t>(n_pairs));
     std::iota(near_.begin(), near_.end(), std::int64_t(0));
 }
 

@@ -23,6 +23,8 @@ class PiecePenetrations {
     const Matrix &powers() const { return powers_; }
 
   private:
+    void all_are_near(std::int64_t n_pairs);
+
     vector<double> at_begin_;
     vector<std::int64_t> near_;
     Matrix rows_, powers_;
