@@ -153,7 +153,7 @@ bool Hbm::solve_from_few(const HbmOptions &wanted, double omega, const BranchPoi
         if (all || options_.n_harmonics == 0) return true;
     }
     return !affords_paths(*reduced_, wanted) &&
-           solve_with(wanted, omega, guess, StartPaths::all, branch, point);
+           solve_with(wanted, omega, guess, StartPaths::alone, branch, point);
 }
 
 // The curve of harmonic balance where that of exact motions could not be followed to its end; null: none

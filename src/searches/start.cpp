@@ -64,13 +64,13 @@ class Starter {
     }
 
     StartOutcome run(bool have_guess, StartPaths paths) {
-        if (have_guess && attempt()) return out_;
-        for (const vector<double> &coupling :
-             {coupling_, vector<double>(coupling_.size(), 0.0), vector<double>(coupling_.size(), 1.0)})
-            if (from_linear(coupling)) return out_;
-        const bool affords = affords_paths(reduced_, options_);
-        if (!affords && damping_steps()) return out_;
-        if (!affords && paths == StartPaths::affordable) return out_;
+        if (paths == StartPaths::affordable) {
+            if ((have_guess && attempt()) || from_linear_responses()) return out_;
+            if (!affords_paths(reduced_, options_)) {
+                damping_steps();
+                return out_;
+            }
+        }
         if (loaded_ ? force_path() : gap_path()) return out_;
         if (stiffness_path()) return out_;
         frequency_path();
@@ -84,6 +84,13 @@ class Starter {
     }
 
     bool from_linear(const vector<double> &coupling) { return from_linear_guess(coupling) && attempt(); }
+
+    bool from_linear_responses() {
+        for (const vector<double> &coupling :
+             {coupling_, vector<double>(coupling_.size(), 0.0), vector<double>(coupling_.size(), 1.0)})
+            if (from_linear(coupling)) return true;
+        return false;
+    }
 
     bool from_linear_guess(const vector<double> &coupling) {
         try {
@@ -143,7 +150,7 @@ class Starter {
     // With much more damping the response is small and nearly linear, at a resonance of the open, of the
     // closed or of the breathing structure alike; the damping is taken away in steps as long as Newton's
     // method lets it, without following every corner on the way.
-    bool damping_steps() {
+    void damping_steps() {
         constexpr double at_first = 0.3, least = 1e-5; // ratios at the frequency of the excitation
         constexpr double boldest = 0.1, too_careful = 0.97;
         system_.set_self_excitation(-at_first);
@@ -159,7 +166,6 @@ class Starter {
         }
         system_.set_self_excitation(0);
         out_.converged = found && damping == 0;
-        return out_.converged;
     }
 
     // Soft contact has a solution near the linear ones; it is stiffened from there, through folds.

@@ -34,8 +34,9 @@ class QuietOwner final : public PathOwner {
 };
 
 /// Paths to a first solution turn at every pair that switches on the way. affordable: none where a step takes
-/// long, and hundreds of pairs make thousands of steps.
-enum class StartPaths { affordable, all };
+/// long, and hundreds of pairs make thousands of steps; alone: those that were left out for that, after all
+/// other ways.
+enum class StartPaths { affordable, alone };
 bool affords_paths(const ReducedModel &reduced, const HbmOptions &options);
 
 /// Solves at omega; on entry x is a first guess when `have_guess`. Then, until one works: the linear response
