@@ -397,7 +397,8 @@ PLM_API plm_status plm_model_solve_rest(plm_model *model);
 #define PLM_SYSTEM_REST 2    /* the pairs closed at rest are coupled */
 #define PLM_SYSTEM_GIVEN 3   /* the pairs with closed[i] != 0 are coupled */
 /* The n lowest natural frequencies (Hz) of a linear system; shape: n_dof x n, mass-normalised, or NULL.
- * closed[n_pairs] for PLM_SYSTEM_GIVEN, else NULL. Relative accuracy: the model's "space_tolerance". */
+ * closed[n_pairs] for PLM_SYSTEM_GIVEN, else NULL. Relative accuracy: the model's "space_tolerance". Of large structures
+ * with many pairs, and no "memory_limit", modes and rest come from another factorization, without a contact space. */
 PLM_API plm_status plm_model_get_modes(plm_model *model, int32_t system, const int32_t *closed, int64_t n,
                                        double *frequency_hz, double *shape);
 /* How many natural frequencies of the open structure lie below frequency_hz (Hz), rigid-body modes included, by

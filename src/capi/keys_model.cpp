@@ -79,7 +79,9 @@ const std::vector<Key> &model_keys() {
                   [](const H &h) { return built(h)->n_rigid(); }),
         result<H>("shift", "sigma of the factored K + sigma M (rad^2/time^2); 0 when K is positive definite",
                   [](const H &h) { return built(h)->shift(); }),
-        result<H>("local_stiffness", "1 / median contact flexibility (force/length); 0 without pairs",
+        result<H>("local_stiffness",
+                  "1 / median contact flexibility (force/length), of 32 pairs where there are more and k_n "
+                  "is given; 0 without pairs",
                   [](const H &h) { return built(h)->local_stiffness(); }),
         result<H>("contact_stiffness", "k_n of every pair (force/length), chosen ones included",
                   [](const H &h) { return built(h)->contact_stiffness(); }),

@@ -13,10 +13,22 @@ const std::shared_ptr<const Model> &built(const ModelHandle &h) {
     return h.core;
 }
 
+namespace {
+
+constexpr std::int64_t modes_beside_rest = 8; // in the space that is made for it
+
+// without: to find it without a space, or null.
+const RestState &solved_rest(ModelHandle &h, Spaceless *without) {
+    if (!h.rest) h.rest = without ? without->rest() : rest_of(contact_space(h, 0, modes_beside_rest));
+    return *h.rest;
+}
+
+} // namespace
+
 const RestState &solved_rest(ModelHandle &h) {
     built(h);
-    if (!h.rest) h.rest = rest_of(contact_space(h, 0, 8));
-    return *h.rest;
+    if (h.rest) return *h.rest;
+    return solved_rest(h, spaceless(h, modes_beside_rest).get());
 }
 
 namespace {
@@ -63,7 +75,7 @@ vector<double> copied_load(const char *name, std::int64_t n, const double *force
     return vector<double>(force, force + n);
 }
 
-PairStates contact_set(ModelHandle &m, std::int32_t system, const std::int32_t *closed) {
+PairStates contact_set(ModelHandle &m, std::int32_t system, const std::int32_t *closed, Spaceless *without) {
     const std::int64_t z = m.core->n_pairs();
     switch (system) {
     case PLM_SYSTEM_OPEN:
@@ -71,7 +83,7 @@ PairStates contact_set(ModelHandle &m, std::int32_t system, const std::int32_t *
     case PLM_SYSTEM_SLIDING:
         return PairStates::all_closed(z);
     case PLM_SYSTEM_REST:
-        return solved_rest(m).states;
+        return solved_rest(m, without).states;
     default:
         if (z > 0) require_pointer(closed, "closed");
         return PairStates::from_flags(closed, z);
@@ -81,14 +93,13 @@ PairStates contact_set(ModelHandle &m, std::int32_t system, const std::int32_t *
 void put_modes(const ModelHandle &m, const LowestModes &found, std::int64_t n, double *frequency_hz,
                double *shape) {
     const Model &model = *m.core;
-    require_finite_result(found.modes.values.data(), n, "frequency_hz");
+    require_finite_result(found.values.data(), n, "frequency_hz");
     if (shape) {
-        const Field free = combine(found.space->vectors, found.modes.vectors.columns(0, n));
+        const Field free = found.shapes(n);
         for (std::int64_t j = 0; j < n; ++j) model.expand(free, j, shape + j * model.n_dof());
     }
     for (std::int64_t j = 0; j < n; ++j)
-        frequency_hz[j] =
-            std::sqrt(std::max(0.0, found.modes.values[static_cast<std::size_t>(j)])) / (2 * M_PI);
+        frequency_hz[j] = std::sqrt(std::max(0.0, found.values[static_cast<std::size_t>(j)])) / (2 * M_PI);
 }
 
 } // namespace
@@ -181,7 +192,9 @@ plm_status plm_model_get_modes(plm_model *model, std::int32_t system, const std:
             bad_argument("closed", -1, "closed must be NULL unless system is PLM_SYSTEM_GIVEN");
         require_range(n, 1, m.core->n_free(), "n");
         require_pointer(frequency_hz, "frequency_hz");
-        put_modes(m, lowest_modes(m, contact_set(m, system, closed), n), n, frequency_hz, shape);
+        const std::unique_ptr<plm::Spaceless> without = spaceless(m, n);
+        const plm::PairStates states = contact_set(m, system, closed, without.get());
+        put_modes(m, lowest_modes(m, states, n, without.get()), n, frequency_hz, shape);
         return PLM_OK;
     });
 }

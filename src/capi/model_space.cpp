@@ -6,14 +6,13 @@
 namespace plm::capi {
 namespace {
 
-std::int64_t count(const SpaceModes &modes) {
-    return static_cast<std::int64_t>(modes.values.size());
-}
-
-[[noreturn]] void too_few(std::int64_t found) {
-    throw Error(PLM_ERR_ARGUMENT, format("n is too large: the model has only %lld modes of finite frequency",
-                                         static_cast<long long>(found)))
-        .argument("n");
+void require_count(const vector<double> &values, std::int64_t n) {
+    const auto found = static_cast<std::int64_t>(values.size());
+    if (found < n)
+        throw Error(PLM_ERR_ARGUMENT,
+                    format("n is too large: the model has only %lld modes of finite frequency",
+                           static_cast<long long>(found)))
+            .argument("n");
 }
 
 } // namespace
@@ -24,20 +23,39 @@ const Space &contact_space(ModelHandle &h, double highest_frequency, std::int64_
     return *h.space;
 }
 
+std::unique_ptr<Spaceless> spaceless(const ModelHandle &h, std::int64_t n_modes) {
+    return h.space ? nullptr : Spaceless::if_worth(h.core, n_modes, h.owner->watch());
+}
+
+Field LowestModes::shapes(std::int64_t n) const {
+    return space ? combine(space->vectors, coordinates.columns(0, n)) : vectors.columns(0, n);
+}
+
+namespace {
+
 // Two passes: the space that is exact in statics gives an upper bound of the n-th frequency, and the space
 // that is accurate up to there gives the modes to the model's space_tolerance.
-LowestModes lowest_modes(ModelHandle &h, const PairStates &states, std::int64_t n) {
+LowestModes modes_in_space(ModelHandle &h, const PairStates &states, std::int64_t n) {
     const double all = std::numeric_limits<double>::infinity();
     const Space &first = contact_space(h, 0, n + 8);
     const bool open = states.n_closed() == 0;
     SpaceModes modes = modes_of_contact_set(first, states, all);
-    if (count(modes) < n) too_few(count(modes));
+    require_count(modes.values, n);
     if (!open) {
         const double highest = std::sqrt(std::max(0.0, modes.values[static_cast<std::size_t>(n - 1)]));
         modes = modes_of_contact_set(contact_space(h, highest, n + 8), states, all);
-        if (count(modes) < n) too_few(count(modes));
+        require_count(modes.values, n);
     }
-    return {h.space, std::move(modes)};
+    return {std::move(modes.values), h.space, std::move(modes.vectors), Field()};
+}
+
+} // namespace
+
+LowestModes lowest_modes(ModelHandle &h, const PairStates &states, std::int64_t n, Spaceless *without) {
+    if (!without) return modes_in_space(h, states, n);
+    StructureModes modes = without->modes(states, n);
+    require_count(modes.values, n);
+    return {std::move(modes.values), nullptr, Matrix(), std::move(modes.vectors)};
 }
 
 } // namespace plm::capi

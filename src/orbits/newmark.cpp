@@ -1,7 +1,7 @@
 #include "orbits/newmark.hpp"
 #include "linalg/scale.hpp"
 #include "orbits/settling.hpp"
-#include "space/rest.hpp"
+#include "space/spaceless.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -93,7 +93,7 @@ FullState rest_state(const std::shared_ptr<const Model> &model, Watch watch) {
     const std::int64_t n = model->n_free();
     FullState state{Field(n, 1), Field(n, 1), 0};
     if (model->has_preload() || model->contact().has_interference())
-        state.q = rest_of(*make_contact_space(model, 0.0, 1, watch))->displacement;
+        state.q = rest_of(model, watch)->displacement;
     return state;
 }
 

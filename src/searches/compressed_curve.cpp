@@ -21,8 +21,8 @@ constexpr double left_out_at_first = 1e-3, less = 0.3;
 // Where all pairs bounce, their motions have something of every direction, most of it too little to move an
 // amplitude: a model grows by no more than this from one to the next.
 constexpr double grows = 1.5;
-// Of the accuracy: the basis takes its share, too.
-constexpr double share_of_accuracy = 0.3;
+// Of the accuracy: the basis takes its share, too; and where a curve takes minutes, not another one for less.
+constexpr double share_of_accuracy = 0.3, share_where_dear = 0.5;
 // Above, the same holds of the motions: a step takes a tenth of a second. Below, they are as exact as others:
 // near grazing, multipliers answer to the root of an error.
 constexpr double long_step = 5e8, share_of_motions = 3e-2;
@@ -87,7 +87,7 @@ std::int64_t CurveCompression::harmonics_of_look() const {
 }
 
 double CurveCompression::tolerance() const {
-    return share_of_accuracy * options_.accuracy;
+    return (is_dear(*whole_) ? share_where_dear : share_of_accuracy) * options_.accuracy;
 }
 
 bool CurveCompression::is_dear(const ReducedModel &model) const {
@@ -204,7 +204,10 @@ bool CurveCompression::begin_with(const Branch &look) {
             model_ = before;
             return true;
         }
-        if (!saves(*smaller, points)) return false;
+        if (!saves(*smaller, points)) { // the whole one may take hours
+            model_ = before;
+            return before && is_dear(*whole_);
+        }
         if (before && is_last_not_dear(*smaller)) {
             model_ = smaller;
             return true;

@@ -14,6 +14,9 @@ double largest_given(const vector<double> &contact_stiffness) {
     return largest;
 }
 
+// Of a contact area, for what its stiffness is compared with.
+constexpr std::int64_t pairs_looked_at = 32;
+
 double median(vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t n = values.size();
@@ -90,9 +93,23 @@ vector<double> Model::elastic_flexibility(Watch watch) const {
     return flexibility;
 }
 
+// The same of pairs spread evenly, in a structure without rigid-body modes.
+vector<double> Model::flexibility_of_some() const {
+    Matrix unit(contact_.n_rows(), pairs_looked_at);
+    for (std::int64_t j = 0; j < pairs_looked_at; ++j)
+        unit(Contact::normal_row((2 * j + 1) * n_pairs() / (2 * pairs_looked_at)), j) = 1;
+    const Field forces = gap_rows().forces(unit);
+    Field x = forces;
+    solve(x);
+    return column_products(forces, x);
+}
+
 void Model::resolve_contact_stiffness(Watch watch) {
     if (n_pairs() == 0) return;
-    const vector<double> flexibility = elastic_flexibility(watch);
+    const vector<double> &k = contact_.stiffness;
+    const bool all_given = std::find(k.begin(), k.end(), PLM_AUTO_STIFFNESS) == k.end(),
+               some_tell = all_given && n_pairs() > pairs_looked_at && shift() == 0;
+    const vector<double> flexibility = some_tell ? flexibility_of_some() : elastic_flexibility(watch);
     if (!flexibility.empty()) local_stiffness_ = 1 / median(flexibility);
     for (std::int64_t i = 0; i < n_pairs(); ++i) {
         if (contact_.stiffness[i] != PLM_AUTO_STIFFNESS) continue;

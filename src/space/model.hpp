@@ -18,9 +18,10 @@ class Model : public Structure {
     const vector<double> &contact_stiffness() const { return contact_.stiffness; } // k_n, resolved
     const vector<double> &initial_gap() const { return contact_.initial_gap; }
     /// 1 / median of the contact flexibility diag(B K^-1 B^T), rigid-body motion left out; 0 without pairs.
+    /// Where every k_n is given, of some pairs at most.
     double local_stiffness() const { return local_stiffness_; }
-    /// What contact forces and loads do statically outside the lowest modes: computed once, at the build
-    /// where there are pairs (auto stiffness and every space need it).
+    /// What contact forces and loads do statically outside the lowest modes: computed once, when it is first
+    /// needed: by auto stiffness at the build, else by the first space.
     std::shared_ptr<const StaticResponses> responses(Watch watch) const;
     /// As lowest_modes(): `wanted` of them, or as many as there are, and those after them until one is not
     /// below `cutoff` (rad/s).
@@ -35,6 +36,7 @@ class Model : public Structure {
     Model(const ModelInput &input, const SpaceOptions &options, const Solver &solver, Watch watch);
     std::shared_ptr<const ExactModes> modes_at_hand(Watch watch) const;
     vector<double> elastic_flexibility(Watch watch) const;
+    vector<double> flexibility_of_some() const;
     void resolve_contact_stiffness(Watch watch);
 
     Contact contact_;

@@ -15,97 +15,100 @@ Error no_equilibrium(const char *load) {
 
 namespace {
 
-// The energy is convex, so Newton with exact line search ends at the minimum from anywhere.
-class RestProblem {
-  public:
-    explicit RestProblem(const StaticProblem &p) : p_(p), pivot_(held_pivots(p.lambda)) {}
+// Slope of the energy along the step, t of it gone.
+double slope_along(const RestEquations::Step &step, const Contact &contact, const vector<double> &u,
+                   double t) {
+    double s = step.slope + t * step.curvature;
+    for (std::size_t i = 0; i < u.size(); ++i)
+        s += step.gaps[i] * contact.force(static_cast<std::int64_t>(i), u[i] + t * step.gaps[i]);
+    return s;
+}
 
-    vector<double> penetration(const vector<double> &eta) const {
+// Exact minimum along the step: the slope is piecewise linear and increasing in t.
+double line_search(const RestEquations::Step &step, const Contact &contact, const vector<double> &u) {
+    const auto slope = [&](double t) { return slope_along(step, contact, u, t); };
+    if (std::abs(slope(1.0)) <= 1e-9 * std::abs(slope(0.0))) return 1.0;
+    double low = 0, high = 1;
+    while (slope(high) < 0) {
+        low = high;
+        high *= 4;
+        if (high > 1e12) return 1.0; // no minimum: rounding, or a rigid-body motion is pushed
+    }
+    for (int k = 0; k < 200 && high - low > 1e-15 * high; ++k) {
+        const double middle = 0.5 * (low + high);
+        (slope(middle) < 0 ? low : high) = middle;
+    }
+    return high;
+}
+
+class RestInSpace final : public RestEquations {
+  public:
+    explicit RestInSpace(const StaticProblem &p)
+        : p_(p), pivot_(held_pivots(p.lambda)), eta_(p.gap.cols(), 0.0) {}
+
+    vector<double> penetration() const override {
         vector<double> u = p_.contact.unloaded_penetration();
-        gemv('N', 1.0, p_.gap, eta.data(), 1.0, u.data());
+        gemv('N', 1.0, p_.gap, eta_.data(), 1.0, u.data());
         return u;
     }
 
-    vector<double> gradient(const vector<double> &eta, const vector<double> &u) const {
-        vector<double> g(p_.gap.cols());
+    // -(D + G' k G)^-1 gradient over the pairs that press.
+    Step step(const vector<double> &u) override {
+        d_.assign(eta_.size(), 0.0);
         const vector<double> n = p_.contact.forces(u);
-        for (std::size_t j = 0; j < g.size(); ++j) g[j] = p_.lambda[j] * eta[j] - p_.load[j];
-        gemv('T', 1.0, p_.gap, n.data(), 1.0, g.data());
-        return g;
+        gemv('T', -1.0, p_.gap, n.data(), 0.0, d_.data());
+        vector<double> elastic(eta_.size());
+        for (std::size_t j = 0; j < d_.size(); ++j) {
+            elastic[j] = p_.lambda[j] * eta_[j] - p_.load[j];
+            d_[j] -= elastic[j];
+        }
+        if (first_ < 0) first_ = norm2(static_cast<std::int64_t>(d_.size()), d_.data());
+        solve_with_springs(pivot_, p_.gap, p_.contact.tangents(u), d_);
+        Step step{vector<double>(u.size(), 0.0), 0, 0, pushes_rigid_motion()};
+        gemv('N', 1.0, p_.gap, d_.data(), 0.0, step.gaps.data());
+        for (std::size_t j = 0; j < d_.size(); ++j) {
+            step.slope += d_[j] * elastic[j];
+            step.curvature += p_.lambda[j] * d_[j] * d_[j];
+        }
+        return step;
     }
 
-    // -(D + G' k G)^-1 g over the pairs that press.
-    vector<double> newton_step(const vector<double> &g, const vector<double> &u) const {
-        vector<double> d(g);
-        for (double &v : d) v = -v;
-        solve_with_springs(pivot_, p_.gap, p_.contact.tangents(u), d);
-        return d;
+    void move(double part) override {
+        for (std::size_t j = 0; j < d_.size(); ++j) eta_[j] += part * d_[j];
     }
 
-    // The force that the fictitious stiffness of rigid-body coordinates would have to carry in a Newton step
-    // d: none to `scale`, where supports and contact hold the structure.
-    bool pushes_rigid_motion(const vector<double> &d, double scale) const {
-        for (std::size_t j = 0; j < d.size(); ++j)
-            if (p_.lambda[j] == 0 && pivot_[j] * std::abs(d[j]) > 1e-8 * scale) return true;
+    vector<double> &coordinates() { return eta_; }
+
+  private:
+    // The force that the fictitious stiffness of rigid-body coordinates would have to carry in the step:
+    // none, compared with the first gradient, where supports and contact hold the structure.
+    bool pushes_rigid_motion() const {
+        for (std::size_t j = 0; j < d_.size(); ++j)
+            if (p_.lambda[j] == 0 && pivot_[j] * std::abs(d_[j]) > 1e-8 * first_) return true;
         return false;
     }
 
-    // Slope of E along eta + t d.
-    double slope(const vector<double> &eta, const vector<double> &d, const vector<double> &u,
-                 const vector<double> &du, double t) const {
-        double s = 0;
-        for (std::size_t j = 0; j < d.size(); ++j)
-            s += d[j] * (p_.lambda[j] * (eta[j] + t * d[j]) - p_.load[j]);
-        for (std::size_t i = 0; i < u.size(); ++i) s += du[i] * p_.contact.force(i, u[i] + t * du[i]);
-        return s;
-    }
-
-    // Exact minimum along d: the slope is piecewise linear and increasing in t.
-    double line_search(const vector<double> &eta, const vector<double> &d, const vector<double> &u) const {
-        vector<double> du(u.size(), 0.0);
-        gemv('N', 1.0, p_.gap, d.data(), 0.0, du.data());
-        const double first = slope(eta, d, u, du, 0.0), full = slope(eta, d, u, du, 1.0);
-        if (std::abs(full) <= 1e-9 * std::abs(first)) return 1.0;
-        double low = 0, high = 1;
-        while (slope(eta, d, u, du, high) < 0) {
-            low = high;
-            high *= 4;
-            if (high > 1e12) return 1.0; // no minimum: rounding, or a rigid-body motion is pushed
-        }
-        for (int k = 0; k < 200 && high - low > 1e-15 * high; ++k) {
-            const double middle = 0.5 * (low + high);
-            (slope(eta, d, u, du, middle) < 0 ? low : high) = middle;
-        }
-        return high;
-    }
-
-  private:
     const StaticProblem &p_;
-    vector<double> pivot_;
+    vector<double> pivot_, eta_, d_;
+    double first_ = -1;
 };
 
 } // namespace
 
-StaticState solve_static(const StaticProblem &p) {
-    const RestProblem problem(p);
-    StaticState state;
-    state.coordinates.assign(p.gap.cols(), 0.0);
-    state.penetration = problem.penetration(state.coordinates);
-    const std::int64_t limit = 200, m = p.gap.cols();
-    int settled = 0; // steps with an unchanged contact set: the second one only refines
-    double first = 0;
+std::int64_t find_rest(RestEquations &equations, const Contact &contact, vector<double> &u) {
+    constexpr std::int64_t limit = 200;
+    std::int64_t iterations = 0;
+    int settled = 0;     // steps with an unchanged contact set: the second one only refines
     bool pushed = false; // by the last step; a huge one has left the slope of the line search to rounding
-    while (settled < 2 && state.iterations < limit) {
-        const vector<double> g = problem.gradient(state.coordinates, state.penetration);
-        const vector<double> d = problem.newton_step(g, state.penetration);
-        if (state.iterations == 0) first = norm2(m, g.data());
-        pushed = problem.pushes_rigid_motion(d, first);
-        const double t = problem.line_search(state.coordinates, d, state.penetration);
-        for (std::size_t j = 0; j < d.size(); ++j) state.coordinates[j] += t * d[j];
-        const PairStates before = p.contact.states(state.penetration);
-        state.penetration = problem.penetration(state.coordinates);
-        settled = (p.contact.states(state.penetration) == before) ? settled + 1 : 0;
-        ++state.iterations;
+    u = equations.penetration();
+    while (settled < 2 && iterations < limit) {
+        const RestEquations::Step step = equations.step(u);
+        pushed = step.pushes_rigid_motion;
+        equations.move(line_search(step, contact, u));
+        const PairStates before = contact.states(u);
+        u = equations.penetration();
+        settled = (contact.states(u) == before) ? settled + 1 : 0;
+        ++iterations;
     }
     if (settled < 2)
         throw Error(PLM_ERR_CONVERGENCE,
@@ -114,6 +117,14 @@ StaticState solve_static(const StaticProblem &p) {
                            static_cast<long long>(limit)))
             .reason(PLM_REASON_NO_EQUILIBRIUM);
     if (pushed) throw no_equilibrium("pre-load");
+    return iterations;
+}
+
+StaticState solve_static(const StaticProblem &p) {
+    RestInSpace equations(p);
+    StaticState state;
+    state.iterations = find_rest(equations, p.contact, state.penetration);
+    state.coordinates = std::move(equations.coordinates());
     return state;
 }
 

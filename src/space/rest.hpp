@@ -24,12 +24,32 @@ struct StaticState {
 /// motion.
 StaticState solve_static(const StaticProblem &problem);
 
+/// The same by whoever solves for the steps: Newton's method, which ends at the minimum from anywhere, for
+/// the energy is convex and the search along a step exact.
+class RestEquations {
+  public:
+    virtual ~RestEquations() = default;
+    struct Step {
+        vector<double> gaps;      // what it does to the penetrations
+        double slope, curvature;  // of the energy along it at its begin, without contact
+        bool pushes_rigid_motion; // a load drives a motion that neither supports nor contact hold
+    };
+    /// From the present state, whose penetrations are u.
+    virtual Step step(const vector<double> &u) = 0;
+    /// Goes this part of the last step.
+    virtual void move(double part) = 0;
+    /// Of the present state.
+    virtual vector<double> penetration() const = 0;
+};
+/// Returns the number of steps; u becomes the penetrations. Throws as solve_static().
+std::int64_t find_rest(RestEquations &equations, const Contact &contact, vector<double> &u);
+
 /// PLM_ERR_CONVERGENCE with PLM_REASON_NO_EQUILIBRIUM: the load ("pre-load") has nothing to rest on.
 Error no_equilibrium(const char *load);
 
 /// The structure at rest under the pre-load.
 struct RestState {
-    vector<double> coordinates; // in the space: q_rest = V coordinates
+    vector<double> coordinates; // in the space: q_rest = V coordinates; none where it was found without
     Field displacement;         // one column
     vector<double> penetration; // u = B q - g, per pair
     vector<double> force;       // N per pair

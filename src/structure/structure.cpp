@@ -201,7 +201,8 @@ bool Structure::multiply_responses(const Field &loads, Matrix &energy, Matrix &i
     return factor_->multiply_responses(f, mass_, energy, inertia);
 }
 
-StructureModes Structure::lowest_modes(std::int64_t n, const ModeSearch &search) const {
+StructureModes lowest_modes(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
+                            std::int64_t n, const ModeSearch &search) {
     EigsOptions options;
     options.cancelled = search.cancelled;
     options.look_for_missed = search.look_for_missed;
@@ -210,11 +211,15 @@ StructureModes Structure::lowest_modes(std::int64_t n, const ModeSearch &search)
         const StructureModes &known = *search.known;
         options.known = {&known.values, &known.vectors.in_core(), known.rest.get()};
     }
-    EigenPairs pairs = lowest_eigenpairs(stiffness_, mass_, *factor_, -shift_, n, options);
+    EigenPairs pairs = lowest_eigenpairs(k, m, factor, shift, n, options);
     StructureModes found{std::move(pairs.values), Field(std::move(pairs.vectors)), nullptr,
                          !search.look_for_missed};
     if (!pairs.rest.theta.empty()) found.rest = std::make_shared<SearchRest>(std::move(pairs.rest));
     return found;
+}
+
+StructureModes Structure::lowest_modes(std::int64_t n, const ModeSearch &search) const {
+    return plm::lowest_modes(stiffness_, mass_, *factor_, -shift_, n, search);
 }
 
 std::int64_t Structure::count_modes_below(double omega) const {

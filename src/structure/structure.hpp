@@ -54,6 +54,10 @@ struct ModeSearch {
     bool look_for_missed = true; // of multiple frequencies; needless where modes are counted
 };
 
+/// Of K x = lambda M x with the factor of K - shift M, as Structure::lowest_modes(): for this room.
+StructureModes lowest_modes(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
+                            std::int64_t n, const ModeSearch &search);
+
 /// What a structure takes before anything is factored: bytes, and the factor.
 struct StructureEstimate {
     std::int64_t n_free = 0;

@@ -5,7 +5,7 @@
 //
 //     bench_rest [DOFS]
 #include "apart.hpp"
-#include "space/rest.hpp"
+#include "space/spaceless.hpp"
 #include "structure/eigs.hpp"
 #include "structure/matrix_input.hpp"
 #include "structure/solver/make_factor.hpp"
@@ -13,7 +13,6 @@
 extern "C" {
 #include "cracked_plate.h"
 }
-#include <limits>
 #include <vector>
 
 namespace {
@@ -59,20 +58,15 @@ struct Found {
     std::int64_t n_closed;
 };
 
-/// In two passes: a space exact in statics tells how far the modes reach.
 Found modes_at_rest(const plm::ModelInput &input) {
     Found found{};
     found.seconds = seconds_of([&] {
         const auto model =
             std::make_shared<const plm::Model>(input, plm::SpaceOptions(), nullptr, plm::Watch());
-        constexpr double all = std::numeric_limits<double>::infinity();
-        auto space = plm::make_contact_space(model, 0, n_modes + 8, plm::Watch());
-        const auto rest = plm::rest_of(*space);
+        const auto without = plm::Spaceless::if_worth(model, n_modes, plm::Watch());
+        const auto rest = without->rest();
         found.n_closed = rest->states.n_closed();
-        plm::SpaceModes modes = plm::modes_of_contact_set(*space, rest->states, all);
-        space = plm::make_contact_space(model, std::sqrt(modes.values[n_modes - 1]), n_modes + 8,
-                                        plm::Watch(), space);
-        modes = plm::modes_of_contact_set(*space, rest->states, all);
+        const plm::StructureModes modes = without->modes(rest->states, n_modes);
         for (int j = 0; j < n_modes; ++j) found.frequency[j] = std::sqrt(modes.values[j]) / (2 * M_PI);
     });
     return found;
