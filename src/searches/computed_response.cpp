@@ -2,6 +2,7 @@
 #include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"
 #include "searches/curve_verdicts.hpp"
+#include "searches/harmonic_choice.hpp"
 #include "searches/orbit_points.hpp"
 #include "searches/refinement.hpp"
 #include <algorithm>
@@ -133,9 +134,13 @@ class Chain {
         o.hbm = last.options;
         o.output = output_;
         o.tolerance = accuracy_;
-        const Refinement found = refine(last.basis, o, watch_);
+        const Refinement found = refine(last.basis, o, watch_, last.curve);
         if (!found.basis) throw Error(PLM_ERR_CONVERGENCE, "no curve on a compressed basis");
-        return on(found.basis, Follow::to_the_end);
+        ComputedResponse r;
+        r.basis = found.basis;
+        r.options = last.options;
+        r.curve = found.branch;
+        return with_peak(std::move(r));
     }
 
     std::int64_t most_points(const Basis &basis) const {
@@ -154,6 +159,11 @@ class Chain {
         r.curve = Hbm(r.basis, limited, watch_).sweep();
         require_uncancelled(*r.curve);
         if (r.curve->end_reason == PLM_REASON_POINT_LIMIT && how == Follow::few_points) return r;
+        return with_peak(std::move(r));
+    }
+
+    // The peak of a curve and its error.
+    ComputedResponse with_peak(ComputedResponse r) {
         if (!spans(*r.curve) && r.curve->end_reason != PLM_REASON_POINT_LIMIT) go_the_other_way(r);
         r.peak = Hbm(r.basis, r.options, watch_).find_peak(*r.curve, output_.dof, output_.measure, 0);
         r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_, Patience::much, watch_);
@@ -166,6 +176,8 @@ class Chain {
     static bool spans(const Branch &curve) {
         return curve.end_reason == PLM_REASON_RANGE_END && !curve.warnings.has(PLM_REASON_TURNED_BACK);
     }
+
+    static bool is_whole(const Branch &curve) { return spans(curve) && !is_worthless(curve); }
 
     // A curve that ended early may be whole from its other end.
     void go_the_other_way(ComputedResponse &r) const {
@@ -194,13 +206,14 @@ class Chain {
         return change <= accuracy_ ? change : INFINITY;
     }
 
-    // False: the attempt failed, or a larger basis brought nothing.
+    // False: the attempt failed, or a larger basis brought nothing, or no longer a whole curve of motions.
     template <class Attempt> bool take_better(ComputedResponse &best, Attempt attempt) const {
         try {
             ComputedResponse next = attempt();
             if (!std::isfinite(next.error)) next.error = change_if_settled(best, next);
             const bool larger = next.basis->reduced()->size() > best.basis->reduced()->size(),
-                       better = next.error < best.error || (larger && !std::isfinite(best.error));
+                       better = (next.error < best.error || (larger && !std::isfinite(best.error))) &&
+                                (is_whole(*next.curve) || !is_whole(*best.curve));
             if (better) best = std::move(next);
             return better;
         } catch (const Error &e) { // what is there already is an answer

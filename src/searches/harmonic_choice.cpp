@@ -244,6 +244,13 @@ void warn(const HbmOptions &o, std::int64_t over, std::int64_t worst, double err
 
 } // namespace
 
+bool is_worthless(const Branch &curve) {
+    const auto &points = curve.points();
+    const auto over = std::count_if(points.begin(), points.end(),
+                                    [](const BranchPoint &p) { return p.harmonic_error >= worthless_error; });
+    return 2 * over > static_cast<std::ptrdiff_t>(points.size());
+}
+
 void warn_of_harmonics(const HbmOptions &options, Branch &branch) {
     if (options.n_harmonics != 0) return;
     const auto &points = branch.points();

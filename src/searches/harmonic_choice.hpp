@@ -44,6 +44,8 @@ MeasuredHarmonics measure_harmonics(std::shared_ptr<const ReducedModel> reduced,
 
 /// An error above which a point says nothing: it need not be near any solution.
 constexpr double worthless_error = 0.1;
+/// So at most of its points.
+bool is_worthless(const Branch &curve);
 
 /// The point with up to `wanted` harmonics, from few to many by warm starts at its frequency: a cold start
 /// with many is slow, and finds less. True: all of them; otherwise as many as were reached.

@@ -157,13 +157,13 @@ bool Hbm::solve_from_few(const HbmOptions &wanted, double omega, const BranchPoi
 }
 
 // The curve of harmonic balance where that of exact motions could not be followed to its end; null: none
-// begins at omega.
+// begins at omega, or most of its points need not be near any motion.
 std::shared_ptr<Branch> Hbm::by_harmonics(double omega) const {
     auto branch = new_branch();
     CurveStart start;
     if (!solve_by_harmonics_at(omega, nullptr, *branch, start.point)) return nullptr;
     trace_curve(options_, start, watch_, *branch);
-    return branch;
+    return is_worthless(*branch) ? nullptr : branch;
 }
 
 // The curve on a model that has what its motions need of the basis; null: such a model would not be much

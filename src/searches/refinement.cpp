@@ -20,11 +20,11 @@ class Refiner {
         : start_(std::move(start)), options_(options), watch_(watch), full_(unreduced_basis(start_, watch)),
           pod_tolerance_(compression * options.tolerance) {}
 
-    Refinement run() {
+    Refinement run(std::shared_ptr<const Branch> known) {
         Refinement best;
         std::shared_ptr<const Basis> basis = start_;
         for (std::int64_t round = 1;; ++round) {
-            const auto branch = sweep(*basis);
+            const auto branch = round == 1 && known ? std::move(known) : sweep(*basis);
             const double error = largest_error(*branch);
             watch_.log(1, format("refinement %lld: %lld columns, estimated error %.2e",
                                  static_cast<long long>(round),
@@ -99,8 +99,9 @@ class Refiner {
 
 } // namespace
 
-Refinement refine(std::shared_ptr<const Basis> start, const RefinementOptions &options, Watch watch) {
-    return Refiner(std::move(start), options, watch).run();
+Refinement refine(std::shared_ptr<const Basis> start, const RefinementOptions &options, Watch watch,
+                  std::shared_ptr<const Branch> known) {
+    return Refiner(std::move(start), options, watch).run(std::move(known));
 }
 
 } // namespace plm

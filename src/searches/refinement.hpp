@@ -26,7 +26,9 @@ struct Refinement {
     Warnings warnings = {}; // where it was met: of what no basis mends
 };
 
-/// start: a basis of any kind; its curve is the first one.
-Refinement refine(std::shared_ptr<const Basis> start, const RefinementOptions &options, Watch watch);
+/// start: a basis of any kind; its curve is the first one. known: that curve, by the same options of hbm, or
+/// null.
+Refinement refine(std::shared_ptr<const Basis> start, const RefinementOptions &options, Watch watch,
+                  std::shared_ptr<const Branch> known = nullptr);
 
 } // namespace plm

@@ -177,6 +177,31 @@ void many_harmonics_are_reached_from_few(void **) {
     assert_true(below(c.difference, 1e-6)); // tolerance of Newton's method
 }
 
+// --- curves that say nothing
+
+BranchPtr with_errors(const std::vector<double> &errors) {
+    const Reduced m = driven_at(1);
+    auto b = std::make_shared<plm::Branch>(m, 1.0);
+    for (double error : errors) {
+        plm::BranchPoint p;
+        p.omega = 1 + 0.1 * static_cast<double>(b->points().size());
+        p.eta_0.assign(1, 0.0);
+        p.eta.reset(1, 2);
+        p.n_harmonics = 1;
+        p.harmonic_error = error;
+        b->append(p);
+    }
+    return b;
+}
+
+// Few such points, as at the edges of regions where contact bounces, leave a curve its worth.
+void a_curve_is_worthless_by_most_of_its_points(void **) {
+    assert_false(plm::is_worthless(*with_errors({0, 0, 0})));
+    assert_false(plm::is_worthless(*with_errors({3, 1e-3, 1e-3})));
+    assert_false(plm::is_worthless(*with_errors({0.09, 0.09, 0.09})));
+    assert_true(plm::is_worthless(*with_errors({0.2, 1e-3, 3})));
+}
+
 } // namespace
 
 int main() {
@@ -186,6 +211,7 @@ int main() {
         cmocka_unit_test(too_few_harmonics_are_said),
         cmocka_unit_test(errors_at_the_struck_part_are_not_hidden_by_the_driven_one),
         cmocka_unit_test(many_harmonics_are_reached_from_few),
+        cmocka_unit_test(a_curve_is_worthless_by_most_of_its_points),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
