@@ -21,6 +21,9 @@ constexpr std::int64_t few_points = 300;
 // flops, and the points that it has anyhow.
 constexpr double most_flops = 1.5e9;
 constexpr std::int64_t points_anyhow = 500;
+// Curves that have cost so many flops together: not another one on a larger basis, but on one that is made of
+// their motions.
+constexpr double much_work = 1.5e10;
 // Where exact motions cost so many flops a step, one of them, found by a curve of few harmonics that takes a
 // fraction of theirs, says first whether the basis is worth a curve.
 constexpr double worth_a_look = 1e7;
@@ -45,7 +48,7 @@ class Chain {
         for (std::int64_t h : more_harmonics) {
             if (h <= best.basis->sampler()->n_harmonics()) continue;
             if (!can_improve(best) || is_complete(*best.basis) ||
-                best.basis->reduced()->size() >= many_columns)
+                best.basis->reduced()->size() >= many_columns || (work_ > much_work && !is_cut(best)))
                 break;
             const auto basis = basis_for(h);
             if (basis->reduced()->size() <= best.basis->reduced()->size()) continue; // it knows no more
@@ -158,6 +161,8 @@ class Chain {
         limited.max_points = how == Follow::few_points ? few_points : most_points(*r.basis);
         r.curve = Hbm(r.basis, limited, watch_).sweep();
         require_uncancelled(*r.curve);
+        work_ += static_cast<double>(r.curve->newton_work.iterations) *
+                 exact_step_flops(r.curve->reduced(), options_);
         if (r.curve->end_reason == PLM_REASON_POINT_LIMIT && how == Follow::few_points) return r;
         return with_peak(std::move(r));
     }
@@ -183,8 +188,10 @@ class Chain {
     void go_the_other_way(ComputedResponse &r) const {
         ComputedResponse other = r;
         other.options.upward = !r.options.upward;
+        HbmOptions limited = other.options;
+        limited.max_points = most_points(*r.basis);
         try {
-            other.curve = Hbm(r.basis, other.options, watch_).sweep();
+            other.curve = Hbm(r.basis, limited, watch_).sweep();
         } catch (const Error &e) {
             if (e.status() != PLM_ERR_CONVERGENCE) throw;
             return;
@@ -258,6 +265,7 @@ class Chain {
     std::shared_ptr<const Space> space_;
     Output output_;
     double accuracy_; // of the basis
+    double work_ = 0; // of the curves, flops
     Watch watch_;
     HbmOptions options_;
 };

@@ -72,8 +72,7 @@ class Spaceless::Equations final : public RestEquations {
             known_.clear();
             answers_ = Field();
             changed_.clear();
-            owner_.sprung_.factor(springs);
-            owner_.factored_ = springs;
+            owner_.factor(springs);
         }
         vector<std::size_t> unknown;
         for (std::size_t i : changed_)
@@ -166,6 +165,12 @@ std::shared_ptr<const RestState> Spaceless::rest() {
     return rest;
 }
 
+void Spaceless::factor(const vector<double> &springs) {
+    factored_.clear(); // should this fail
+    sprung_.factor(springs);
+    factored_ = springs;
+}
+
 StructureModes Spaceless::modes(const PairStates &states, std::int64_t n) {
     ModeSearch search;
     search.cancelled = [this] { return watch_.cancelled("modes", 0.5); };
@@ -174,8 +179,7 @@ StructureModes Spaceless::modes(const PairStates &states, std::int64_t n) {
         return model_->lowest_modes(n, search);
     if (springs != factored_) {
         watch_.step("modes", 0.0);
-        sprung_.factor(springs);
-        factored_ = springs;
+        factor(springs);
     }
     watch_.step("modes", 0.3);
     return sprung_.lowest_modes(n, search);

@@ -25,6 +25,7 @@ class Spaceless {
   private:
     class Equations;
     Spaceless(std::shared_ptr<const Model> model, Watch watch);
+    void factor(const vector<double> &springs);
 
     std::shared_ptr<const Model> model_;
     Watch watch_;
