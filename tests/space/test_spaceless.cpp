@@ -7,7 +7,7 @@
 
 namespace {
 
-constexpr int across = 16, along = 20, n_pairs = across * across, n_dof = 2 * along * n_pairs;
+constexpr int across = 12, along = 36, n_pairs = across * across, n_dof = 2 * along * n_pairs;
 constexpr std::int64_t n_modes = 10;
 
 // Two blocks of a cubic grid of masses 1 and springs 1, one DOF a node, each held at its far end; their near
@@ -65,10 +65,10 @@ plm::ModelInput joint(double pried) {
         in.preload[along * n_pairs + k] -= force;
     };
     for (int k = 0; k < n_pairs; ++k) pull(k, pried > 0 ? 1e-3 : 1e-2);
-    for (int x : {4, 11})
-        for (int y : {4, 11}) pull(y * across + x, 1);
+    for (int x : {3, 8})
+        for (int y : {3, 8}) pull(y * across + x, 1);
     for (int x = 0; x < across; ++x)
-        for (int y : {0, 15}) pull(y * across + x, -pried);
+        for (int y : {0, across - 1}) pull(y * across + x, -pried);
     return in;
 }
 
@@ -78,7 +78,7 @@ std::shared_ptr<const plm::Model> model(const plm::ModelInput &in, plm::SpaceOpt
 
 // The space is exact in statics; the springs of contact lose three or four digits of sixteen.
 void rest_is_that_of_the_space(void **) {
-    for (double pried : {0.0, 0.01, 0.1}) {
+    for (double pried : {0.0, 0.05}) {
         const auto m = model(joint(pried));
         const auto own = plm::Spaceless::if_worth(m, n_modes, plm::Watch())->rest();
         const auto space = plm::make_contact_space(m, 0, n_modes, plm::Watch());
@@ -103,12 +103,12 @@ void rest_is_that_of_the_space(void **) {
 void modes_are_those_of_the_space(void **) {
     const auto m = model(joint(0.02));
     const auto without = plm::Spaceless::if_worth(m, n_modes, plm::Watch());
-    const auto rest = without->rest();
+    const plm::PairStates closed = plm::PairStates::all_closed(n_pairs);
+    const double highest = std::sqrt(without->modes(closed, n_modes).values.back());
+    const auto space = plm::make_contact_space(m, highest, n_modes, plm::Watch());
     for (const plm::PairStates &states :
-         {rest->states, plm::PairStates::all_closed(n_pairs), plm::PairStates::all_open(n_pairs)}) {
+         {without->rest()->states, closed, plm::PairStates::all_open(n_pairs)}) {
         const plm::StructureModes own = without->modes(states, n_modes);
-        const double highest = std::sqrt(own.values.back());
-        const auto space = plm::make_contact_space(m, highest, n_modes, plm::Watch());
         const plm::SpaceModes want =
             plm::modes_of_contact_set(*space, states, std::numeric_limits<double>::infinity());
         assert_int_equal(own.values.size(), n_modes);
