@@ -80,7 +80,7 @@ const std::vector<Key> &model_keys() {
         result<H>("shift", "sigma of the factored K + sigma M (rad^2/time^2); 0 when K is positive definite",
                   [](const H &h) { return built(h)->shift(); }),
         result<H>("local_stiffness",
-                  "1 / median contact flexibility (force/length), of 32 pairs where there are more and k_n "
+                  "1 / median contact flexibility (force/length), of 16 pairs where there are more and k_n "
                   "is given; 0 without pairs",
                   [](const H &h) { return built(h)->local_stiffness(); }),
         result<H>("contact_stiffness", "k_n of every pair (force/length), chosen ones included",
