@@ -204,7 +204,7 @@ bool CurveCompression::begin_with(const Branch &look) {
             model_ = before;
             return true;
         }
-        if (!saves(*smaller, points)) { // the whole one may take hours
+        if (!saves(*smaller, points)) { // a curve on the whole one does not end in minutes
             model_ = before;
             return before && is_dear(*whole_);
         }

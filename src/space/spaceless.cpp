@@ -8,7 +8,7 @@ namespace {
 
 // A space of a smaller structure takes a tenth of a second.
 constexpr std::int64_t large = 10000;
-// A search for modes takes some three solutions a mode, a space two or three for every pair and mode.
+// A search for modes takes some three solutions a mode, a space two or three a pair.
 constexpr std::int64_t pairs_per_mode = 4;
 // Of sixteen.
 constexpr double digits_to_lose = 4;

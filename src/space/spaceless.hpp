@@ -19,7 +19,7 @@ class Spaceless {
 
     /// Throws as solve_static().
     std::shared_ptr<const RestState> rest();
-    /// The n lowest, fewer when there are fewer of finite frequency; of exact modes no accuracy is asked.
+    /// The n lowest, fewer when there are fewer of finite frequency; exact, unlike those in a space.
     StructureModes modes(const PairStates &states, std::int64_t n);
 
   private:

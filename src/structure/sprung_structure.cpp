@@ -33,7 +33,7 @@ double SprungStructure::digits_lost(const vector<double> &springs) const {
 }
 
 void SprungStructure::factor(const vector<double> &springs) {
-    factor_.reset(); // first: both would not fit
+    factor_.reset(); // first: not three at once
     matrix_ = with(springs);
     factor_ = make_factor(matrix_, structure_.matrices().solver);
 }

@@ -1,5 +1,5 @@
 // The structure with springs along its gap rows, as a matrix that is factored by itself: a contact set
-// without a space, whose work grows with the pairs.
+// without a space and without its solutions for every pair.
 #pragma once
 #include "structure/structure.hpp"
 
