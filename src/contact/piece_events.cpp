@@ -7,7 +7,9 @@
 namespace plm {
 namespace {
 
-constexpr double gap_noise = 16 * std::numeric_limits<double>::epsilon();
+constexpr double of_rounding = 16;
+constexpr double gap_noise = of_rounding * std::numeric_limits<double>::epsilon();
+constexpr double clear_of_noise = 1e4;
 
 } // namespace
 
@@ -31,11 +33,19 @@ void PieceEvents::forget_zeros() {
 }
 
 bool PieceEvents::correct(const PiecePenetrations &penetrations, double reach) {
-    const vector<double> &begin = penetrations.at_begin();
-    for (std::int64_t i = 0; i < states_.size(); ++i) {
+    for (std::int64_t i = 0; i < states_.size(); ++i)
         noise_[i] = gap_noise * (std::abs(contact_.initial_gap[i]) + row_norm_[i] * reach);
-        sides_[i] = side_of(&begin[i], 1, i);
-    }
+    return confirm(penetrations);
+}
+
+bool PieceEvents::correct(const PiecePenetrations &penetrations, const vector<double> &rounding) {
+    for (std::int64_t i = 0; i < states_.size(); ++i) noise_[i] = of_rounding * rounding[i];
+    return confirm(penetrations);
+}
+
+bool PieceEvents::confirm(const PiecePenetrations &penetrations) {
+    const vector<double> &begin = penetrations.at_begin();
+    for (std::int64_t i = 0; i < states_.size(); ++i) sides_[i] = side_of(&begin[i], 1, i);
     const Matrix &powers = penetrations.powers();
     for (std::int64_t c = 0; c < powers.cols(); ++c) {
         const std::int64_t i = penetrations.near()[c];
@@ -50,10 +60,17 @@ bool PieceEvents::correct(const PiecePenetrations &penetrations, double reach) {
     return changed;
 }
 
+bool PieceEvents::leave_clearly() const {
+    for (std::size_t i = 0; i < at_zero_.size(); ++i)
+        if (at_zero_[i] && !(sides_[i].power == 1 && sides_[i].size > clear_of_noise * noise_[i]))
+            return false;
+    return true;
+}
+
 PieceEvents::Side PieceEvents::side_of(const double *p, std::int64_t n_terms, std::int64_t pair) const {
     for (std::int64_t k = at_zero_[pair] ? 1 : 0; k < n_terms; ++k)
-        if (std::abs(p[k]) > noise_[pair]) return {k, ContactLaw::closed(p[k])};
-    return {-1, states_.is_closed(pair)}; // rests at zero: either side is right
+        if (std::abs(p[k]) > noise_[pair]) return {k, std::abs(p[k]), ContactLaw::closed(p[k])};
+    return {-1, 0, states_.is_closed(pair)}; // rests at zero: either side is right
 }
 
 double PieceEvents::first(const PiecePenetrations &penetrations, std::int64_t &pair, double together) {

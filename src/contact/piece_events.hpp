@@ -22,6 +22,10 @@ class PieceEvents {
     /// has no influence on derivatives up to j + 1. penetrations: with the states as they are; reach: bound
     /// of how far the coordinates go. True when a pair changed sides.
     bool correct(const PiecePenetrations &penetrations, double reach);
+    /// The same with the penetrations' rounding (Z) in the place of that bound.
+    bool correct(const PiecePenetrations &penetrations, const vector<double> &rounding);
+    /// Whether each pair whose zero was just located leaves it by its velocity, by far more than rounding.
+    bool leave_clearly() const;
     /// Share of the piece after which the first pair leaves its side, 1 and pair -1 when none does. A zero at
     /// the beginning is divided out, so that it is not found again. penetrations: as last handed to
     /// correct(). together: pairs that follow within this share of the piece leave with it, the share being
@@ -36,12 +40,14 @@ class PieceEvents {
     /// Where a pair's penetration first differs from zero: power of s and side; -1 where it never does.
     struct Side {
         std::int64_t power = 0;
+        double size = 0; // of the coefficient
         bool closed = false;
     };
     struct Event {
         double share;
         std::int64_t pair;
     };
+    bool confirm(const PiecePenetrations &penetrations);
     // p: the coefficients of one pair.
     double crossing(const double *p, std::int64_t n_terms, std::int64_t pair, double until);
     Side side_of(const double *p, std::int64_t n_terms, std::int64_t pair) const;

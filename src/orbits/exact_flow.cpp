@@ -70,16 +70,16 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
     may_use_modes_ = model_->n_moving() > 0 && !(recorder && recorder->only_polynomials());
     if (may_use_modes_ && !modes_) modes_ = std::make_shared<ContactModesKept>(model_);
     if (may_use_modes_) modal_ = std::make_unique<ModalPieces>(*model_, omega_, force_scale_, parameter_);
-    fresh_ = true;
     tried_ = INFINITY;
     while (state.time < t_end) {
         if (n_steps_++ % watch_interval == 0)
             watch_.step("exact flow", (state.time - begin) / (t_end - begin));
         worked(flops_of_piece());
         const double left = t_end - state.time;
-        if (may_use_modes_ && !fresh_ && enter_modes(state) && modal_piece(state, left, recorder)) continue;
+        if (may_use_modes_ && enter_modes(state) && modal_piece(state, left, recorder)) continue;
         series_piece(state, left, recorder);
     }
+    if (may_use_modes_ && modal_->inside()) modal_->leave(state, change_);
     if (may_use_modes_) fill_massless(state);
     require_finite_result(state.y.data(), model_->size(), "displacements of the exact flow");
     require_finite_result(state.v.data(), model_->size(), "velocities of the exact flow");
@@ -103,7 +103,6 @@ void ExactFlow::series_piece(FlowState &state, double left, FlowRecorder *record
     move_to(state, fraction, duration, motion_.coefficient);
     tried_ = longer * fraction * duration;
     events_.forget_zeros();
-    fresh_ = pair >= 0;
     if (pair >= 0) switch_pair(pair, fraction, state.time);
 }
 
@@ -120,14 +119,14 @@ bool ExactFlow::enter_modes(const FlowState &state) {
     return modes && modal_->enter(std::move(modes), state, change_);
 }
 
-// False: a pair stands at zero, and the series has to say on which side it leaves; nothing has moved.
+// False: a pair has left zero, or leaves it, by the other side or so slowly that the series has to say where
+// it goes; nothing has moved.
 bool ExactFlow::modal_piece(FlowState &state, double left, FlowRecorder *recorder) {
     double longest = std::min(left, 0.125 * period());
     for (;;) {
         const double duration = modal_->expand(longest);
-        if (correct_sides(state, duration, modal_->penetrations())) {
-            modal_->leave();
-            fresh_ = true;
+        if (events_.correct(modal_->penetrations(), modal_->rounding()) || !events_.leave_clearly()) {
+            modal_->leave(state, change_);
             return false;
         }
         std::int64_t pair = -1;
@@ -142,11 +141,11 @@ bool ExactFlow::modal_piece(FlowState &state, double left, FlowRecorder *recorde
             report(state.time, fraction, duration, wanted ? modal_->coefficient() : nothing_,
                    wanted ? &modal_->fast() : nullptr, *recorder);
         }
-        modal_->advance(fraction * duration, state, change_);
+        modal_->advance(fraction * duration);
+        state.time = modal_->now();
         events_.forget_zeros();
         if (pair < 0 || veiled) return true;
-        modal_->leave();
-        fresh_ = true;
+        modal_->leave(state, change_);
         switch_pair(pair, fraction, state.time);
         return true;
     }

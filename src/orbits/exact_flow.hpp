@@ -93,7 +93,7 @@ class ExactFlow {
     vector<double> following_, ways_, now_,
         travel_; // now_: penetrations at the beginning of a piece, travel_: how far they may go
     std::unique_ptr<ModalPieces> modal_;
-    bool may_use_modes_ = false, fresh_ = true; // fresh_: the states at hand are still to be confirmed
+    bool may_use_modes_ = false;
     double truncation_ = 1e-17;
     std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_ = 0, stalled_ = 0;
     double events_left_ = 0, tried_ = 0; // tried_: longest duration of the next piece

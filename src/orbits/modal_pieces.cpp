@@ -16,6 +16,11 @@ constexpr double most_growth = 100; // of an unstable mode in a piece, its logar
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double unnoticed = 1e-11; // of the motion: fast modes that a recorder is not told of
 
+// Without the library's care for infinities.
+std::complex<double> times(std::complex<double> a, std::complex<double> b) {
+    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
 } // namespace
 
 bool ModalPieces::enter(std::shared_ptr<const ContactModes> modes, const FlowState &state,
@@ -203,7 +208,7 @@ void ModalPieces::find_penetrations() {
     bound_travel();
     aside_powers_.reset(z, puts_aside_ ? n_terms_ : 1);
     add_put_aside(&ContactModes::Load::gap, aside_powers_);
-    penetrations_.expand(now_penetration_, travel_, modes_->gap_by_pair(), 'N', powers_, aside_powers_);
+    penetrations_.expand(now_penetration_, travel_, modes_->gap_by_pair(), 'T', powers_, aside_powers_);
     penetrations_.draw_near(veil_);
 }
 
@@ -239,51 +244,75 @@ void ModalPieces::fill_powers(double duration) {
     for (const ContactModes::Harmonic &load : modes_->loads())
         turn = std::max(turn, load.number * omega_ * duration);
     n_terms_ = std::min(taylor_terms(turn, truncation) + 3, max_polynomial_degree + 1);
-    powers_.reset(n_terms_, modes_->size());
+    powers_.reset(modes_->size(), n_terms_);
     while (static_cast<std::int64_t>(inverse_.size()) < n_terms_)
         inverse_.push_back(1 / static_cast<double>(inverse_.size() + 1));
-    const auto put = [&](const ContactModes::Mode &m, Complex value, Complex ratio) {
-        double re = value.real(), im = value.imag();
-        double *first = powers_.col(m.first), *second = m.is_pair ? first + n_terms_ : nullptr;
-        for (std::int64_t k = 0; k < n_terms_; ++k) {
-            first[k] += re;
-            if (second) second[k] += im;
-            const double a = ratio.real() * inverse_[k], b = ratio.imag() * inverse_[k],
-                         turned = re * a - im * b;
-            im = re * b + im * a;
-            re = turned;
-        }
-    };
-    for (std::int64_t j = 0; j < powers_.cols(); ++j) powers_(0, j) = constant_[j];
-    for (const ContactModes::Mode &m : modes_->modes())
-        if (m.speed * duration <= longest_turn)
-            put(m, Complex(present_[m.first], m.is_pair ? present_[m.first + 1] : 0.0), m.rate * duration);
+    for (std::int64_t j = 0; j < powers_.rows(); ++j) powers_(j, 0) = constant_[j];
+    add_free_powers(duration);
     for (std::size_t l = 0; l < steady_.size(); ++l)
         if (!steady_[l].empty()) add_steady_powers(l, duration);
+}
+
+// z (rate duration)^k / k! of all modes that are resolved, power by power: what is done to one is done to its
+// neighbours at once.
+void ModalPieces::add_free_powers(double duration) {
+    first_.clear();
+    for (vector<double> *v : {&re_, &im_, &turn_re_, &turn_im_}) v->clear();
+    for (const ContactModes::Mode &m : modes_->modes()) {
+        if (m.speed * duration > longest_turn) continue;
+        first_.push_back(m.first);
+        re_.push_back(present_[m.first]);
+        im_.push_back(m.is_pair ? present_[m.first + 1] : 0.0);
+        turn_re_.push_back(m.rate.real() * duration);
+        turn_im_.push_back(m.rate.imag() * duration);
+    }
+    const std::size_t n = first_.size();
+    double *re = re_.data(), *im = im_.data();
+    const double *a = turn_re_.data(), *b = turn_im_.data();
+    for (std::int64_t k = 0; k < n_terms_; ++k) {
+        double *power = powers_.col(k);
+        for (std::size_t i = 0; i < n; ++i) {
+            power[first_[i]] += re[i];
+            if (b[i] != 0) power[first_[i] + 1] += im[i];
+        }
+        const double part = inverse_[static_cast<std::size_t>(k)];
+        for (std::size_t i = 0; i < n; ++i) {
+            const double turned = (re[i] * a[i] - im[i] * b[i]) * part;
+            im[i] = (re[i] * b[i] + im[i] * a[i]) * part;
+            re[i] = turned;
+        }
+    }
 }
 
 // plus exp(iwt) + minus exp(-iwt) of all modes: (iw duration)^k / k! is real for even k, imaginary for odd.
 void ModalPieces::add_steady_powers(std::size_t load, double duration) {
     const double w = modes_->loads()[load].number * omega_;
     const Complex turned = force_scale_ * std::polar(1.0, w * now_);
-    power_.assign(static_cast<std::size_t>(n_terms_), 1.0);
-    for (std::size_t k = 1; k < power_.size(); ++k)
-        power_[k] = power_[k - 1] * w * duration * inverse_[k - 1] * (k % 2 == 0 ? -1 : 1);
+    const std::size_t size = static_cast<std::size_t>(powers_.rows());
+    even_.assign(size, 0.0);
+    odd_.assign(size, 0.0);
     for (std::size_t j = 0; j < modes_->modes().size(); ++j) {
         const ContactModes::Mode &m = modes_->modes()[j];
-        const Complex a = steady_[load][j].plus * turned, b = steady_[load][j].minus * std::conj(turned),
-                      even = a + b, odd = Complex(0, 1) * (a - b);
-        add_alternating(even.real(), odd.real(), powers_.col(m.first));
-        if (m.is_pair) add_alternating(even.imag(), odd.imag(), powers_.col(m.first + 1));
+        const std::size_t first = static_cast<std::size_t>(m.first);
+        const Complex a = times(steady_[load][j].plus, turned),
+                      b = times(steady_[load][j].minus, std::conj(turned)), sum = a + b, way = a - b;
+        even_[first] = sum.real();
+        odd_[first] = -way.imag();
+        if (!m.is_pair) continue;
+        even_[first + 1] = sum.imag();
+        odd_[first + 1] = way.real();
+    }
+    double power = 1;
+    for (std::int64_t k = 0; k < n_terms_; ++k) {
+        const double *part = (k % 2 == 0 ? even_ : odd_).data();
+        double *sum = powers_.col(k);
+        for (std::size_t j = 0; j < size; ++j) sum[j] += power * part[j];
+        power *= w * duration * inverse_[static_cast<std::size_t>(k)] * (k % 2 == 0 ? 1 : -1);
     }
 }
 
-void ModalPieces::add_alternating(double even, double odd, double *powers) const {
-    for (std::size_t k = 0; k < power_.size(); ++k) powers[k] += power_[k] * (k % 2 == 0 ? even : odd);
-}
-
 const Matrix &ModalPieces::coefficient() {
-    coefficient_ = product('N', 'T', modes_->displacement(), powers_);
+    coefficient_ = product('N', 'N', modes_->displacement(), powers_);
     add_put_aside(&ContactModes::Load::following, coefficient_);
     keep_fast();
     return coefficient_;
@@ -313,26 +342,25 @@ void ModalPieces::keep_fast() {
     }
 }
 
-void ModalPieces::advance(double duration, FlowState &state, FlowState &change) {
+void ModalPieces::advance(double duration) {
     now_ += duration;
-    const bool changes = parameter_ != FlowParameter::none;
-    vector<double> changed(changes ? free_.size() : 0), changed_free = changed_free_;
-    steady_at(now_, at_now_, changes ? &changed : nullptr);
+    steady_at(now_, at_now_, nullptr);
+    turn_free(free_, present_);
+    for (std::size_t j = 0; j < at_now_.size(); ++j) at_now_[j] += present_[j];
+}
+
+// The free part from the beginning of the stay to now.
+void ModalPieces::turn_free(const vector<double> &from, vector<double> &to) const {
     for (const ContactModes::Mode &m : modes_->modes()) {
         const Complex factor = std::exp(m.rate * (now_ - start_));
         const std::size_t j = static_cast<std::size_t>(m.first);
-        const auto turn = [&](const vector<double> &from, vector<double> &to) {
-            const Complex z = factor * Complex(from[j], m.is_pair ? from[j + 1] : 0.0);
-            to[j] = z.real();
-            if (m.is_pair) to[j + 1] = z.imag();
-        };
-        turn(free_, present_);
-        if (changes) turn(changed_free_, changed_free);
+        const Complex z = times(factor, Complex(from[j], m.is_pair ? from[j + 1] : 0.0));
+        to[j] = z.real();
+        if (m.is_pair) to[j + 1] = z.imag();
     }
-    for (std::size_t j = 0; j < at_now_.size(); ++j) {
-        at_now_[j] += present_[j];
-        if (changes) changed[j] += changed_free[j];
-    }
+}
+
+void ModalPieces::leave(FlowState &state, FlowState &change) {
     modes_->to_state(at_now_.data(), state.y.data(), state.v.data());
     std::fill(state.v.begin() + model_.n_massive(), state.v.end(), 0.0);
     if (puts_aside_) {
@@ -342,9 +370,15 @@ void ModalPieces::advance(double duration, FlowState &state, FlowState &change) 
             state.y[static_cast<std::size_t>(model_.n_moving()) + i] += aside_[i];
     }
     state.time = now_;
-    if (!changes) return;
-    modes_->to_state(changed.data(), change.y.data(), change.v.data());
-    change.time = now_;
+    if (parameter_ != FlowParameter::none) {
+        vector<double> motion, changed, changed_free(changed_free_);
+        steady_at(now_, motion, &changed);
+        turn_free(changed_free_, changed_free);
+        for (std::size_t j = 0; j < changed.size(); ++j) changed[j] += changed_free[j];
+        modes_->to_state(changed.data(), change.y.data(), change.v.data());
+        change.time = now_;
+    }
+    modes_ = nullptr;
 }
 
 } // namespace plm

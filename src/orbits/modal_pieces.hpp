@@ -17,7 +17,10 @@ class ModalPieces {
     /// resonance with one of them, by which would be divided.
     bool enter(std::shared_ptr<const ContactModes> modes, const FlowState &state, const FlowState &change);
     bool inside() const { return modes_ != nullptr; }
-    void leave() { modes_ = nullptr; }
+    double now() const { return now_; }
+    /// The state (and its change) where the last piece went to. Velocities without mass become zero:
+    /// ExactFlow::complete().
+    void leave(FlowState &state, FlowState &change);
 
     /// Polynomials over the longest piece, no longer than `longest`, that the pairs' distances from zero
     /// allow; its length.
@@ -29,9 +32,10 @@ class ModalPieces {
     /// Displacements as polynomials, n x terms, and what the fast modes add.
     const Matrix &coefficient();
     const FastMotion &fast() const { return fast_; }
-    /// To `duration` beyond the beginning of the last piece. Velocities without mass become zero:
-    /// ExactFlow::complete().
-    void advance(double duration, FlowState &state, FlowState &change);
+    /// Of the penetrations, by the size of the coordinates (Z).
+    const vector<double> &rounding() const { return tiny_; }
+    /// To `duration` beyond the beginning of the last piece.
+    void advance(double duration);
 
   private:
     using Complex = std::complex<double>;
@@ -47,13 +51,14 @@ class ModalPieces {
     void put_aside(Part part, double time, vector<double> &sum) const;
     void add_put_aside(Part part, Matrix &powers) const;
     void steady_at(double time, vector<double> &motion, vector<double> *change) const;
+    void turn_free(const vector<double> &from, vector<double> &to) const;
     void veil(double duration, vector<double> &sum) const;
     bool allows(double duration);
     void bound_travel();
     void find_penetrations();
     void fill_powers(double duration);
+    void add_free_powers(double duration);
     void add_steady_powers(std::size_t load, double duration);
-    void add_alternating(double even, double odd, double *powers) const;
     void keep_fast();
 
     const FlowModel &model_;
@@ -69,10 +74,12 @@ class ModalPieces {
     vector<double> veil_, tiny_;                 // of the pairs
     vector<double> now_penetration_, travel_;    // of the pairs; how far each may go within the piece
     PiecePenetrations penetrations_;
-    vector<double> aside_;          // of the pairs or of what follows
-    vector<double> size_, inverse_; // |z| of the modes; 1, 1/2, 1/3, ...
-    vector<double> power_; // of a load's turn over the piece, over k!; odd ones stand for i times that
-    Matrix powers_;        // terms x size
+    vector<double> aside_;                       // of the pairs or of what follows
+    vector<double> size_, inverse_;              // |z| of the modes; 1, 1/2, 1/3, ...
+    vector<std::int64_t> first_;                 // of the modes that a piece resolves
+    vector<double> re_, im_, turn_re_, turn_im_; // their z and rate x duration
+    vector<double> even_, odd_;                  // of the coordinates
+    Matrix powers_;                              // size x terms
     Matrix aside_powers_, coefficient_;
     FastMotion fast_;
     double duration_ = 0;

@@ -198,6 +198,29 @@ void pairs_that_switch_at_once(void **) {
     }
 }
 
+// u = -1 + 2 s, then from zero: by its velocity; by that no more than rounding would do; by its acceleration.
+void a_pair_leaves_zero_clearly(void **) {
+    const Contact c{{1}, {0}};
+    plm::PieceEvents events(c, Matrix(1, 1));
+    plm::PiecePenetrations piece;
+    Matrix u(3, 1);
+    u(0, 0) = -1, u(1, 0) = 2;
+    piece.expand(u);
+    events.guess({-1});
+    std::int64_t pair = -1;
+    assert_true(!events.correct(piece, 0) && events.leave_clearly() &&
+                close_to(events.first(piece, pair), 0.5, 1e-14));
+    assert_true(events.pass() == 1);
+    u(0, 0) = 0;
+    piece.expand(u);
+    const plm::vector<double> exact{1e-16}, rough{1e-3};
+    assert_true(!events.correct(piece, exact) && events.leave_clearly());
+    assert_true(!events.correct(piece, rough) && !events.leave_clearly());
+    u(1, 0) = 0, u(2, 0) = 2;
+    piece.expand(u);
+    assert_true(!events.correct(piece, exact) && !events.leave_clearly());
+}
+
 } // namespace
 
 int main() {
@@ -216,6 +239,7 @@ int main() {
         cmocka_unit_test(springs_are_summed_as_they_change),
         cmocka_unit_test(the_first_event_of_a_piece),
         cmocka_unit_test(pairs_that_switch_at_once),
+        cmocka_unit_test(a_pair_leaves_zero_clearly),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
