@@ -12,8 +12,11 @@ namespace {
 constexpr double longest_step = 2.0; // rate x duration of a piece: about 26 terms, of which none exceeds 2
 // Where events are dense, a piece is not made longer than its event lets it be used: terms are saved, and
 // pairs that cannot come to zero so soon.
-constexpr double shortest_try = 0.5;                         // rate x duration
-constexpr double longer = 4;                                 // than the last one was used
+constexpr double shortest_try = 0.5; // rate x duration
+constexpr double longer = 4;         // than the last one was used
+// Where a stay in a contact set was no longer than so many pieces of the series, the next one is as likely
+// to end with the first of them.
+constexpr double dense = 2;
 constexpr std::int64_t watch_interval = 64;                  // pieces
 constexpr double least_advance = 0.05, shorter_piece = 0.25; // of a piece, in the modes of its contact set
 // On symmetric structures pairs switch in twos and fours, apart by rounding: one event. The motion is off by
@@ -39,6 +42,7 @@ ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, doubl
     for (std::int64_t k = 0; k < gap_size_.rows() * gap_size_.cols(); ++k)
         gap_size_.data()[k] = std::abs(gap_size_.data()[k]);
     own_set_.assign_stiffest();
+    shortest_series_ = longest_step / std::max(own_set_.rate(), fastest_force_);
     const double pairs = static_cast<double>(model_->n_pairs()), switches = own_set_.rate() * period() / M_PI;
     event_limit_ = static_cast<std::int64_t>(std::min(1000 + pairs * (100 + switches), 1e15));
 }
@@ -70,13 +74,16 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
     may_use_modes_ = model_->n_moving() > 0 && !(recorder && recorder->only_polynomials());
     if (may_use_modes_ && !modes_) modes_ = std::make_shared<ContactModesKept>(model_);
     if (may_use_modes_) modal_ = std::make_unique<ModalPieces>(*model_, omega_, force_scale_, parameter_);
+    fresh_ = dense_ = true;
+    last_event_ = begin;
     tried_ = INFINITY;
     while (state.time < t_end) {
         if (n_steps_++ % watch_interval == 0)
             watch_.step("exact flow", (state.time - begin) / (t_end - begin));
         worked(flops_of_piece());
         const double left = t_end - state.time;
-        if (may_use_modes_ && enter_modes(state) && modal_piece(state, left, recorder)) continue;
+        if (may_use_modes_ && !(fresh_ && dense_) && enter_modes(state) && modal_piece(state, left, recorder))
+            continue;
         series_piece(state, left, recorder);
     }
     if (may_use_modes_ && modal_->inside()) modal_->leave(state, change_);
@@ -103,6 +110,7 @@ void ExactFlow::series_piece(FlowState &state, double left, FlowRecorder *record
     move_to(state, fraction, duration, motion_.coefficient);
     tried_ = longer * fraction * duration;
     events_.forget_zeros();
+    fresh_ = false;
     if (pair >= 0) switch_pair(pair, fraction, state.time);
 }
 
@@ -144,6 +152,7 @@ bool ExactFlow::modal_piece(FlowState &state, double left, FlowRecorder *recorde
         modal_->advance(fraction * duration);
         state.time = modal_->now();
         events_.forget_zeros();
+        fresh_ = false;
         if (pair < 0 || veiled) return true;
         modal_->leave(state, change_);
         switch_pair(pair, fraction, state.time);
@@ -167,6 +176,9 @@ void ExactFlow::differentiate(FlowParameter parameter) {
 
 void ExactFlow::switch_pair(std::int64_t pair, double fraction, double time) {
     const std::int64_t count = events_.pass();
+    fresh_ = true;
+    dense_ = time - last_event_ < dense * shortest_series_;
+    last_event_ = time;
     n_events_ += count;
     stalled_ = fraction > no_progress ? 0 : stalled_ + 1;
     events_left_ -= static_cast<double>(count);

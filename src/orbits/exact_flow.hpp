@@ -94,6 +94,8 @@ class ExactFlow {
         travel_; // now_: penetrations at the beginning of a piece, travel_: how far they may go
     std::unique_ptr<ModalPieces> modal_;
     bool may_use_modes_ = false;
+    bool fresh_ = true, dense_ = true; // an event has just been passed; soon after the one before
+    double last_event_ = 0, shortest_series_ = 0;
     double truncation_ = 1e-17;
     std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_ = 0, stalled_ = 0;
     double events_left_ = 0, tried_ = 0; // tried_: longest duration of the next piece
