@@ -120,8 +120,23 @@ bool AttachmentBasis::refine(AskedError asked, std::int64_t most, Watch watch) {
 
 bool AttachmentBasis::is_finished(std::size_t i, std::int64_t power, AskedError asked,
                                   std::int64_t most) const {
-    const double left = std::pow(share_[i], 2.0 * static_cast<double>(power));
-    return power >= most || (left <= asked.contact && of_loads_[i] * left <= asked.loads);
+    const double rest = left(i, power);
+    return power >= most || (rest <= asked.contact && of_loads_[i] * rest <= asked.loads);
+}
+
+double AttachmentBasis::left(std::size_t i, std::int64_t power) const {
+    return std::pow(share_[i], 2.0 * static_cast<double>(power));
+}
+
+AskedError AttachmentBasis::left_after(AskedError asked, std::int64_t most) const {
+    AskedError sum{0, 0};
+    for (std::size_t i = 0; i < share_.size(); ++i) {
+        std::int64_t power = power_[i];
+        while (!is_finished(i, power, asked, most)) ++power;
+        sum.contact += left(i, power);
+        sum.loads += of_loads_[i] * left(i, power);
+    }
+    return sum;
 }
 
 vector<std::int64_t> AttachmentBasis::unfinished(AskedError asked, std::int64_t most) const {

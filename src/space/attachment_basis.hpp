@@ -25,6 +25,10 @@ class AttachmentBasis {
     /// `most` powers, is reached. False: there were none.
     bool refine(AskedError asked, std::int64_t most, Watch watch);
 
+    /// The shares of energy left out, of all directions together, after refine(); of no more than is asked of
+    /// one there are many.
+    AskedError left_after(AskedError asked, std::int64_t most) const;
+
     /// Of M in a basis that is A-orthonormal: compliances 1 / (lambda + sigma), descending.
     const SymmetricEigen &ritz() const { return ritz_; }
     /// The vectors of that basis: X times the first and Y times the second, s x size() and q x size().
@@ -42,6 +46,7 @@ class AttachmentBasis {
     void orthonormalise_responses();
     void set_shares_of_loads();
     void rayleigh_ritz();
+    double left(std::size_t direction, std::int64_t power) const;
     bool is_finished(std::size_t direction, std::int64_t power, AskedError asked, std::int64_t most) const;
     vector<std::int64_t> unfinished(AskedError asked, std::int64_t most) const;
     std::int64_t powers_missing(AskedError asked, std::int64_t most) const;

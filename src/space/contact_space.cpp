@@ -20,6 +20,8 @@ constexpr double far_above_the_first = 3e4;
 // What is asked of each direction (AttachmentBasis::refine) at first, in tolerances: the error of all of them
 // together is some ten to a hundred times smaller than what is asked of one, and told by measuring alone.
 constexpr double asked_at_first = 1e3;
+constexpr double below_tolerance = 0.7; // where it is to get to
+constexpr double most_at_once = 0.1;    // from one measurement to the next
 
 class ContactSpaceBuilder {
   public:
@@ -52,14 +54,10 @@ class ContactSpaceBuilder {
         choose_probes();
         ReceptanceError found = receptance_error(attached);
         AskedError asked{asked_at_first * options.tolerance, asked_at_first * options.tolerance};
-        // it falls about as what is asked for: a measurement is not for free, nor are vectors in vain
-        const auto ask_more = [&](double error, double &of) {
-            if (error > options.tolerance) of *= std::clamp(0.7 * options.tolerance / error, 0.1, 0.5);
-        };
         while (found.worst() > options.tolerance && std::min(asked.contact, asked.loads) > 1e-16) {
             if (attached.refine(asked, options.max_blocks, watch_)) found = receptance_error(attached);
-            ask_more(found.contact, asked.contact);
-            ask_more(found.loads, asked.loads);
+            ask_more(attached, found.contact, &AskedError::contact, asked);
+            ask_more(attached, found.loads, &AskedError::loads, asked);
         }
         const double error = found.worst();
         if (error > options.tolerance)
@@ -69,6 +67,19 @@ class ContactSpaceBuilder {
                        "for; raise cutoff_factor or max_blocks of the model",
                        error, highest_ / (2 * M_PI), options.tolerance));
         space_->error_estimate = error;
+    }
+
+    // The error falls about as what all directions together leave out: a measurement is not for free, nor are
+    // vectors in vain.
+    void ask_more(const AttachmentBasis &attached, double error, double AskedError::*part,
+                  AskedError &asked) const {
+        const SpaceOptions &options = model_->space_options();
+        if (!(error > options.tolerance)) return;
+        const auto left = [&] { return attached.left_after(asked, options.max_blocks).*part; };
+        const double wanted = below_tolerance * options.tolerance / error * left(),
+                     least = most_at_once * (asked.*part);
+        do asked.*part = std::max(least, 0.5 * (asked.*part));
+        while (asked.*part > least && left() > wanted);
     }
 
     void exact_modes() {
