@@ -119,6 +119,7 @@ KrylovResult run(const Pencil &pencil, std::int64_t n_wanted, std::int64_t times
     if (suits_arpack(pencil, request)) {
         pencil.poll();
         KrylovRequest quick = request;
+        quick.tolerance = 0; // it is measured by theta alone
         quick.max_restarts = std::min<std::int64_t>(request.max_restarts, 20);
         KrylovResult result = run_arpack(pencil, quick);
         if (result.end == KrylovEnd::converged) return result;

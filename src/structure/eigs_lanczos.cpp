@@ -172,7 +172,9 @@ class Lanczos {
         constexpr double glance = 1e-2; // what looks smaller than it is has shown by then
         const double size = std::fabs(theta_[j]), off = residual(j);
         if (off <= glance * size && size + off < request_.of_interest) return true;
-        const double tolerance = request_.tolerance > 0 ? request_.tolerance : eps;
+        // seen from a shift far away all eigenvalues look alike
+        const double share = std::min(1.0, std::fabs(1 + pencil_.shift * theta_[j])), // |lambda theta|
+            tolerance = std::max(eps, request_.tolerance * share);
         return off <= tolerance * std::max(size, std::pow(eps, 2.0 / 3) * std::fabs(theta_[0]));
     }
 
