@@ -226,8 +226,8 @@ std::shared_ptr<Branch> Hbm::follow_curve() const {
     auto branch = new_branch();
     const double low = 2 * M_PI * options_.frequency_min_hz, high = 2 * M_PI * options_.frequency_max_hz;
     const double from = options_.upward ? low : high, into = options_.upward ? high - low : low - high;
-    // A start inside a super-harmonic region may fail, or find no solution that more harmonics confirm: the
-    // range is entered a little further on then, if that is better.
+    // A start inside a super-harmonic region may fail, or find no exact motion, or no solution that more
+    // harmonics confirm: the range is entered a little further on then, if that is better.
     CurveStart start;
     bool found = false;
     const bool dear = !affords_paths(*reduced_, with_first_harmonics(*reduced_, options_));
@@ -239,7 +239,9 @@ std::shared_ptr<Branch> Hbm::follow_curve() const {
         if (!solve_at(from + further_in * attempt * into, nullptr, *branch, point)) continue;
         if (!found || point.harmonic_error < start.point.harmonic_error) start.point = point;
         found = true;
-        if (options_.n_harmonics != 0 || start.point.harmonic_error < worthless_error || dear) break;
+        // an exact motion has no such error
+        const double enough = exact_ ? options_.allowed_harmonic_error() : worthless_error;
+        if (options_.n_harmonics != 0 || start.point.harmonic_error < enough || dear) break;
     }
     if (!found)
         throw Error(
