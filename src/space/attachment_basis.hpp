@@ -25,8 +25,8 @@ class AttachmentBasis {
     /// `most` powers, is reached. False: there were none.
     bool refine(AskedError asked, std::int64_t most, Watch watch);
 
-    /// The shares of energy left out, of all directions together, after refine(); of no more than is asked of
-    /// one there are many.
+    /// What would be left out after refine(), the sums over all directions: many leave out next to nothing,
+    /// and together more than the slowest.
     AskedError left_after(AskedError asked, std::int64_t most) const;
 
     /// Of M in a basis that is A-orthonormal: compliances 1 / (lambda + sigma), descending.

@@ -56,8 +56,9 @@ class ContactSpaceBuilder {
         AskedError asked{asked_at_first * options.tolerance, asked_at_first * options.tolerance};
         while (found.worst() > options.tolerance && std::min(asked.contact, asked.loads) > 1e-16) {
             if (attached.refine(asked, options.max_blocks, watch_)) found = receptance_error(attached);
-            ask_more(attached, found.contact, &AskedError::contact, asked);
-            ask_more(attached, found.loads, &AskedError::loads, asked);
+            const AskedError left = attached.left_after(asked, options.max_blocks);
+            ask_more(attached, found.contact, left.contact, &AskedError::contact, asked);
+            ask_more(attached, found.loads, left.loads, &AskedError::loads, asked);
         }
         const double error = found.worst();
         if (error > options.tolerance)
@@ -71,15 +72,14 @@ class ContactSpaceBuilder {
 
     // The error falls about as what all directions together leave out: a measurement is not for free, nor are
     // vectors in vain.
-    void ask_more(const AttachmentBasis &attached, double error, double AskedError::*part,
+    void ask_more(const AttachmentBasis &attached, double error, double left, double AskedError::*part,
                   AskedError &asked) const {
         const SpaceOptions &options = model_->space_options();
         if (!(error > options.tolerance)) return;
-        const auto left = [&] { return attached.left_after(asked, options.max_blocks).*part; };
-        const double wanted = below_tolerance * options.tolerance / error * left(),
+        const double wanted = below_tolerance * options.tolerance / error * left,
                      least = most_at_once * (asked.*part);
         do asked.*part = std::max(least, 0.5 * (asked.*part));
-        while (asked.*part > least && left() > wanted);
+        while (asked.*part > least && attached.left_after(asked, options.max_blocks).*part > wanted);
     }
 
     void exact_modes() {
