@@ -16,11 +16,6 @@ constexpr double most_growth = 100; // of an unstable mode in a piece, its logar
 constexpr double eps = std::numeric_limits<double>::epsilon();
 constexpr double unnoticed = 1e-11; // of the motion: fast modes that a recorder is not told of
 
-// Without the library's care for infinities.
-std::complex<double> times(std::complex<double> a, std::complex<double> b) {
-    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-}
-
 } // namespace
 
 bool ModalPieces::enter(std::shared_ptr<const ContactModes> modes, const FlowState &state,
@@ -294,8 +289,8 @@ void ModalPieces::add_steady_powers(std::size_t load, double duration) {
     for (std::size_t j = 0; j < modes_->modes().size(); ++j) {
         const ContactModes::Mode &m = modes_->modes()[j];
         const std::size_t first = static_cast<std::size_t>(m.first);
-        const Complex a = times(steady_[load][j].plus, turned),
-                      b = times(steady_[load][j].minus, std::conj(turned)), sum = a + b, way = a - b;
+        const Complex a = steady_[load][j].plus * turned, b = steady_[load][j].minus * std::conj(turned),
+                      sum = a + b, way = a - b;
         even_[first] = sum.real();
         odd_[first] = -way.imag();
         if (!m.is_pair) continue;
@@ -354,7 +349,7 @@ void ModalPieces::turn_free(const vector<double> &from, vector<double> &to) cons
     for (const ContactModes::Mode &m : modes_->modes()) {
         const Complex factor = std::exp(m.rate * (now_ - start_));
         const std::size_t j = static_cast<std::size_t>(m.first);
-        const Complex z = times(factor, Complex(from[j], m.is_pair ? from[j + 1] : 0.0));
+        const Complex z = factor * Complex(from[j], m.is_pair ? from[j + 1] : 0.0);
         to[j] = z.real();
         if (m.is_pair) to[j + 1] = z.imag();
     }
@@ -371,7 +366,7 @@ void ModalPieces::leave(FlowState &state, FlowState &change) {
     }
     state.time = now_;
     if (parameter_ != FlowParameter::none) {
-        vector<double> motion, changed, changed_free(changed_free_);
+        vector<double> motion, changed, changed_free(changed_free_.size());
         steady_at(now_, motion, &changed);
         turn_free(changed_free_, changed_free);
         for (std::size_t j = 0; j < changed.size(); ++j) changed[j] += changed_free[j];

@@ -9,10 +9,11 @@
 namespace plm {
 namespace {
 
-constexpr std::int64_t looked_at = 16;   // points of a curve whose error is estimated, besides its highest
-constexpr std::int64_t corrected = 60;   // points whose corrected motions make the next basis
-constexpr double compression = 0.2;      // of the tolerance, at first
-constexpr double next_compression = 0.3; // of the last one, when it was not enough
+constexpr std::int64_t looked_at = 16; // points of a curve whose error is estimated, besides its highest
+constexpr std::int64_t corrected = 60; // points whose corrected motions make the next basis
+constexpr std::int64_t most_without_number = 3; // curves in a row on which the estimate does not converge
+constexpr double compression = 0.2;             // of the tolerance, at first
+constexpr double next_compression = 0.3;        // of the last one, when it was not enough
 
 class Refiner {
   public:
@@ -23,6 +24,7 @@ class Refiner {
     Refinement run(std::shared_ptr<const Branch> known) {
         Refinement best;
         std::shared_ptr<const Basis> basis = start_;
+        std::int64_t without_number = 0;
         for (std::int64_t round = 1;; ++round) {
             const auto branch = round == 1 && known ? std::move(known) : sweep(*basis);
             const double error = largest_error(*branch);
@@ -40,7 +42,8 @@ class Refiner {
                 return best;
             }
             best.rounds = round;
-            if (round >= options_.max_rounds) return best;
+            without_number = std::isfinite(error) ? 0 : without_number + 1;
+            if (round >= options_.max_rounds || without_number >= most_without_number) return best;
             if (compressed) pod_tolerance_ *= next_compression;
             basis = compress(*branch);
         }
