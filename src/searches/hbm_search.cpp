@@ -34,7 +34,8 @@ IsolatedSearch Hbm::find_isolated(const Branch &given, double force_max) const {
         options.frequency_min_hz = std::min(options.frequency_min_hz, p.omega / (2 * M_PI));
         options.frequency_max_hz = std::max(options.frequency_max_hz, p.omega / (2 * M_PI));
     }
-    return plm::find_isolated(reduced, options, main, force_max, watch_);
+    return plm::find_isolated(reduced, options, main, force_max, watch_,
+                              given.reduced().from ? given.reduced_model() : nullptr);
 }
 
 std::vector<Backbone> Hbm::find_backbones(double force_max) const {

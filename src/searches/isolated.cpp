@@ -1,9 +1,12 @@
 #include "searches/isolated.hpp"
 #include "hbm/branch_path.hpp"
+#include "searches/compressed_curve.hpp"
+#include "searches/compressed_motion.hpp"
 #include "searches/curve.hpp"
 #include "searches/fold_tracking.hpp"
 #include "searches/harmonic_choice.hpp"
 #include "searches/orbit_points.hpp"
+#include "searches/stationary_force.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -22,6 +25,8 @@ constexpr double backbone_reach = 8;       // times the force: where it ends unl
 constexpr double met_there = 1e-3;         // relative distance of a crossing, before it is corrected
 constexpr double of_the_loop = 0.3;        // largest step on a loop, which must not be stepped over
 constexpr double at_first = 0.1;           // of the largest step: the top of a loop is where it bends most
+// What a compressed model may be off by on a loop, of the accuracy: the basis takes its share, too.
+constexpr double share_of_accuracy = 0.3;
 // The fold's extremum of the force lies near that of the backbone, or two folds of the loop meet there; one
 // farther away belongs to another loop.
 constexpr double same_extremum = 0.3, same_turn = 1e-4;
@@ -44,9 +49,9 @@ struct Seed {
 class Search {
   public:
     Search(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, const Branch &main,
-           double force_max, Watch watch)
-        : reduced_(std::move(reduced)), options_(options), main_(main), watch_(watch),
-          force_max_(force_max > 0 ? force_max : backbone_reach * options.force_scale),
+           double force_max, Watch watch, std::shared_ptr<const ReducedModel> smaller)
+        : reduced_(std::move(reduced)), smaller_(std::move(smaller)), options_(options), main_(main),
+          watch_(watch), force_max_(force_max > 0 ? force_max : backbone_reach * options.force_scale),
           resonance_(reduced_, backbone_options(), watch),
           exact_(reduced_->same_static && prefers_exact(reduced_, options)) {}
 
@@ -163,6 +168,23 @@ class Search {
         return true;
     }
 
+    // The same motion on the compressed model, in the place of `start`. False: it is another one there, or is
+    // not found.
+    bool on_smaller(BranchPoint &start) const {
+        BranchPoint there;
+        NewtonWork work;
+        if (!smaller_ || !start.motion || !compress(*smaller_, start, there) ||
+            !make_exact_nearest(smaller_, options_on(*smaller_, options_), there, work))
+            return false;
+        const double distance = solution_distance(uncompressed(*smaller_, there), start);
+        watch_.log(1, format("an isolated motion is off by %.2g of itself on %lld of %lld coordinates",
+                             distance, static_cast<long long>(smaller_->size()),
+                             static_cast<long long>(reduced_->size())));
+        if (!(distance <= share_of_accuracy * options_.accuracy)) return false;
+        start = std::move(there);
+        return true;
+    }
+
     void trace(const Seed &seed) {
         HbmOptions options = options_;
         if (seed.reach > 0)
@@ -172,9 +194,11 @@ class Search {
         BranchPoint start = seed.point;
         if (!enter(options, start)) return;
         IsolatedBranch found;
-        found.branch = trace_through(reduced_, options, start, watch_);
+        const auto model = on_smaller(start) ? smaller_ : reduced_;
+        found.branch = trace_through(model, options_on(*model, options), start, watch_);
         found.closed = found.branch->end_reason == PLM_REASON_LOOP_CLOSED;
-        const std::vector<BranchPoint> met = resonance_.on_curve(*found.branch);
+        const std::vector<BranchPoint> met =
+            resonance_.on_curve(*on_whole_basis(*found.branch, options_, 0, -1));
         for (const BranchPoint &p : met)
             if (p.omega != seed.point.omega && is_known(p)) return; // the main branch, or one found already
         known_.push_back(seed.point);
@@ -190,17 +214,35 @@ class Search {
         found.tracked = birth && merge;
     }
 
-    // From the fold nearest to the backbone's extremum; the others when that leads elsewhere.
+    // Directly, from the backbone's extremum; along the folds where that leads nowhere.
     bool find_end(const Seed &seed, std::ptrdiff_t at, bool upward, const IsolatedBranch &found,
                   double &force) const {
         force = NAN;
         if (at < 0) return false;
         const BranchPoint &extremum = seed.backbone->points()[at];
-        // with the few harmonics of its backbone it says nothing of exact motions
-        if (!found.branch->points().front().motion) force = extremum.force_scale;
+        if (found.branch->points().front().motion) {
+            force = stationary_force(reduced_, options_, extremum,
+                                     upward ? ForceExtremum::saddle : ForceExtremum::centre);
+            if (is_near(force, extremum) && (force > options_.force_scale) == upward) return true;
+            force = NAN;
+        } else { // with the few harmonics of its backbone it says nothing of exact motions
+            force = extremum.force_scale;
+        }
+        return follow_to_end(extremum, upward, *found.branch, force);
+    }
+
+    static bool is_near(double force, const BranchPoint &extremum) {
+        return std::abs(force / extremum.force_scale - 1) < same_extremum;
+    }
+
+    // From the fold nearest to the backbone's extremum; the others when that leads elsewhere.
+    bool follow_to_end(const BranchPoint &extremum, bool upward, const Branch &loop, double &force) const {
         std::vector<BranchPoint> folds;
-        for (const BranchPoint &p : found.branch->points())
-            if (p.bifurcation == PLM_BIFURCATION_FOLD) folds.push_back(p);
+        for (std::size_t i = 0; i < loop.points().size(); ++i) {
+            const auto at = static_cast<std::int64_t>(i);
+            if (loop.points()[i].bifurcation == PLM_BIFURCATION_FOLD)
+                folds.push_back(on_whole_basis(loop, options_, at, at)->points()[i]);
+        }
         std::sort(folds.begin(), folds.end(), [&](const BranchPoint &a, const BranchPoint &b) {
             return std::abs(a.omega - extremum.omega) < std::abs(b.omega - extremum.omega);
         });
@@ -208,8 +250,7 @@ class Search {
         for (const BranchPoint &fold : folds) {
             const double turn = first_turn(fold, upward, extremum.force_scale);
             const auto is_this = [turn](double t) { return std::abs(t / turn - 1) < same_turn; };
-            if (std::abs(turn / extremum.force_scale - 1) < same_extremum ||
-                std::any_of(turns.begin(), turns.end(), is_this)) {
+            if (is_near(turn, extremum) || std::any_of(turns.begin(), turns.end(), is_this)) {
                 force = turn;
                 return true;
             }
@@ -261,7 +302,7 @@ class Search {
         return false;
     }
 
-    std::shared_ptr<const ReducedModel> reduced_;
+    std::shared_ptr<const ReducedModel> reduced_, smaller_; // smaller_: compressed, or null
     HbmOptions options_;
     const Branch &main_;
     Watch watch_;
@@ -295,8 +336,9 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
 }
 
 IsolatedSearch find_isolated(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
-                             const Branch &main, double force_max, Watch watch) {
-    return Search(std::move(reduced), options, main, force_max, watch).run();
+                             const Branch &main, double force_max, Watch watch,
+                             std::shared_ptr<const ReducedModel> smaller) {
+    return Search(std::move(reduced), options, main, force_max, watch, std::move(smaller)).run();
 }
 
 } // namespace plm

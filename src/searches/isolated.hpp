@@ -1,6 +1,6 @@
 // Isolated response branches: found without a hint where the phase-resonant backbone needs a force that is
 // not monotonic in amplitude, entered there and traced as closed curves; the range of forces in which each
-// exists from the folds tracked over the force.
+// exists from the stationary forces beside it, or from the folds tracked over the force.
 #pragma once
 #include "hbm/branch.hpp"
 #include "hbm/options.hpp"
@@ -14,7 +14,7 @@ struct IsolatedBranch {
     bool closed = false;
     // force scales between which it exists; NaN: not found below force_max
     double birth_force = 0, merge_force = 0;
-    bool tracked = false; // both ends by fold tracking, otherwise the extrema of the backbone
+    bool tracked = false; // both ends are those of the curve, otherwise the extrema of the backbone
 };
 
 struct IsolatedSearch {
@@ -25,9 +25,11 @@ struct IsolatedSearch {
 
 /// Searches at options.force_scale, beside `main` (a sweep with the same options over the whole frequency
 /// range). force_max: the largest force scale of the backbones, 0: 8 force_scale; a branch that merges above
-/// it is missed.
+/// it is missed. smaller: `reduced` compressed to the motions of the main branch, on which loops are traced
+/// that it has, too; null: none.
 IsolatedSearch find_isolated(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
-                             const Branch &main, double force_max, Watch watch);
+                             const Branch &main, double force_max, Watch watch,
+                             std::shared_ptr<const ReducedModel> smaller = nullptr);
 
 /// The curve through a solution at options.force_scale: a loop, or both ways to the ends of the frequency
 /// range. Throws PLM_CANCELLED when the host wants to stop: half of the curve would be none.

@@ -1,6 +1,8 @@
 // Isolated branches of a small pre-loaded structure: found without a hint, closed, the range of forces
 // against plain sweeps, stable points against the exact flow, folds tracked against folds located.
 #include "contact/trig_polynomial.hpp"
+#include "reduction/compression.hpp"
+#include "sampling/small_models.hpp"
 #include "searches/fold_tracking.hpp"
 #include "searches/isolated.hpp"
 #include "searches/marching_search.hpp"
@@ -201,6 +203,81 @@ void range_of_forces_of_exact_motions_agrees_with_plain_sweeps(void **) {
     agrees_with_plain_sweeps(check_range(exact_motions));
 }
 
+// The carrier with four small masses in a row on stiff springs, which hardly move against it.
+Model with_fast_coordinates() {
+    const exact::Structure two = carrier(0.2, 3.2);
+    exact::Structure s = two;
+    s.n = 6;
+    const auto n = static_cast<std::size_t>(s.n);
+    s.mass.assign(n, 1e-3);
+    s.stiffness.assign(n * n, 0.0);
+    s.gap_rows.resize(n), s.force.resize(n), s.preload.resize(n);
+    std::copy(two.mass.begin(), two.mass.end(), s.mass.begin());
+    for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t j = 0; j < 2; ++j) s.stiffness[i + n * j] = two.stiffness[i + 2 * j];
+    for (std::size_t i = 2; i < n; ++i) {
+        const std::size_t before = i == 2 ? 0 : i - 1;
+        const double k = 50;
+        s.stiffness[before + n * before] += k, s.stiffness[i + n * i] += k;
+        s.stiffness[before + n * i] -= k, s.stiffness[i + n * before] -= k;
+    }
+    s.damping = s.stiffness;
+    test::ModelExtras extras;
+    extras.beta = 0.004;
+    for (double &c : s.damping) c *= extras.beta;
+    const Model m = test::reduce_exactly(s);
+    m->model = test::make_model(s, extras);
+    return m;
+}
+
+// Compressed to the motions of the main curve; to few others where `poorly`.
+std::shared_ptr<const plm::ReducedModel> compressed(const Model &m, const Branch &main, bool poorly) {
+    plm::Matrix motions(m->size(), poorly ? 1 : 0);
+    for (const BranchPoint &p : main.points())
+        if (!poorly) motions.append(p.eta);
+    if (poorly) motions(m->size() - 1, 0) = 1;
+    return plm::compress_beside_modes(m, motions, {}, 1, poorly ? 1e-3 : 1e-7, poorly ? 0 : 4, m->size());
+}
+
+struct OnSmaller {
+    bool on_whole = false, on_smaller = false, poor_on_whole = false, closed = false;
+    double birth = 1, merge = 1, top = 1, size = 1;
+};
+OnSmaller trace_on_smaller() {
+    const Model m = with_fast_coordinates();
+    const plm::HbmOptions o = options(0.006, exact_motions);
+    const auto main = sweep(m, o);
+    const auto good = compressed(m, *main, false), poor = compressed(m, *main, true);
+    const auto whole = plm::find_isolated(m, o, *main, 0, plm::Watch()),
+               small = plm::find_isolated(m, o, *main, 0, plm::Watch(), good),
+               other = plm::find_isolated(m, o, *main, 0, plm::Watch(), poor);
+    OnSmaller out;
+    if (whole.branches.size() != 1 || small.branches.size() != 1 || other.branches.size() != 1) return out;
+    const plm::IsolatedBranch &a = whole.branches[0], &b = small.branches[0];
+    out.on_whole = !a.branch->reduced().from;
+    out.on_smaller = b.branch->reduced_model() == good;
+    out.poor_on_whole = !other.branches[0].branch->reduced().from;
+    out.closed = a.closed && b.closed;
+    out.birth = std::abs(b.birth_force / a.birth_force - 1);
+    out.merge = std::abs(b.merge_force / a.merge_force - 1);
+    const auto fold = [](const plm::IsolatedBranch &i) { return folds_of(*i.branch).front().omega; };
+    out.top = std::abs(fold(b) / fold(a) - 1);
+    out.size = static_cast<double>(good->size()) / static_cast<double>(m->size());
+    return out;
+}
+// Its ends are those of the whole basis; the loop is as exact as the accuracy, 1e-3, leaves to compression.
+void a_loop_is_traced_on_a_compressed_model_that_has_it(void **) {
+    const OnSmaller s = trace_on_smaller();
+    std::printf("    %.2f of the coordinates: ends of the loop's range differ by %.1e and %.1e, a fold by "
+                "%.1e\n",
+                s.size, s.birth, s.merge, s.top);
+    assert_true(s.on_whole && s.on_smaller && s.poor_on_whole && s.closed);
+    assert_true(s.size < 0.9);
+    assert_true(below(s.birth, 1e-12));
+    assert_true(below(s.merge, 1e-12));
+    assert_true(below(s.top, 3e-4));
+}
+
 std::size_t isolas(const Model &m, const plm::HbmOptions &o) {
     return search(m, o).branches.size();
 }
@@ -356,6 +433,7 @@ int main() {
         cmocka_unit_test(isola_is_found_without_a_hint),
         cmocka_unit_test(range_of_forces_agrees_with_plain_sweeps),
         cmocka_unit_test(range_of_forces_of_exact_motions_agrees_with_plain_sweeps),
+        cmocka_unit_test(a_loop_is_traced_on_a_compressed_model_that_has_it),
         cmocka_unit_test(scenes_without_isola_yield_none),
         cmocka_unit_test(stable_points_are_orbits_of_the_exact_flow),
         cmocka_unit_test(stable_points_of_exact_motions_are_orbits_of_the_exact_flow),

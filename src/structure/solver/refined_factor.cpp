@@ -11,6 +11,9 @@ namespace {
 constexpr double enough = 1e-14;
 /// Left by a refinement that stands still: still as good as what double precision makes of stiff parts.
 constexpr double tolerable = 1e-11;
+/// Of the solution, as the corrections foretell it: what a factor in double leaves where A is well behaved.
+/// It is asked for beside a tolerable residual, and spares solids their third solve.
+constexpr double enough_of_solution = 1e-11;
 /// A refinement that gains less than this ends (as LAPACK's dporfs).
 constexpr double least_gain = 0.5;
 constexpr int most_refinements = 10;
@@ -59,7 +62,7 @@ class Refinement {
     Refinement(const HalfMatrix &a, const PanelFactor<float> &factor, double *x, std::int64_t nrhs,
                std::int64_t ldx)
         : a_(a), factor_(factor), n_(a.size()), x_(x), ldx_(ldx), b_(n_, nrhs), r_(n_, nrhs), column_(nrhs),
-          before_(nrhs, std::numeric_limits<double>::infinity()) {
+          before_(nrhs, {std::numeric_limits<double>::infinity(), 0, 1}) {
         parallel_for(nrhs, work_on(nrhs), [&](std::int64_t j) {
             column_[j] = j;
             std::copy_n(x + j * ldx, n_, b_.col(j));
@@ -79,6 +82,10 @@ class Refinement {
     }
 
   private:
+    struct Progress { // of a column: its residual, and the largest entries of what was added, and of X
+        double residual, correction, solution;
+    };
+
     std::int64_t width() const { return static_cast<std::int64_t>(column_.size()); }
     /// As many flops take as long as a pass over so many columns.
     double work_on(std::int64_t columns) const { return 10 * static_cast<double>(n_ * columns); }
@@ -90,24 +97,27 @@ class Refinement {
         for (std::int64_t c = 0; c < count; ++c) {
             double *x = x_ + column_[first + c] * ldx_;
             const double *b = b_.col(column_[first + c]), *more = r_.col(first + c);
+            Progress &now = now_[first + c] = {};
             for (std::int64_t i = 0; i < n_; ++i) {
                 packed_x[i * pack + c] = x[i] += more[i];
                 packed_r[i * pack + c] = b[i];
+                now.solution = std::max(now.solution, std::fabs(x[i]));
+                now.correction = std::max(now.correction, std::fabs(more[i]));
             }
         }
         subtract_product(a_, packed_x.data(), packed_r.data());
         for (std::int64_t c = 0; c < count; ++c) {
             double *r = r_.col(first + c);
             for (std::int64_t i = 0; i < n_; ++i) r[i] = packed_r[i * pack + c];
-            now_[first + c] = residual(first + c);
+            now_[first + c].residual = residual(first + c);
         }
     }
 
     /// The largest entry of a residual against what its row may sum up.
     double residual(std::int64_t k) const {
-        const double *r = r_.col(k), *b = b_.col(column_[k]), *x = x_ + column_[k] * ldx_;
-        double most = 0, largest = 0;
-        for (std::int64_t i = 0; i < n_; ++i) most = std::max(most, std::fabs(x[i]));
+        const double *r = r_.col(k), *b = b_.col(column_[k]);
+        const double most = now_[k].solution;
+        double largest = 0;
         for (std::int64_t i = 0; i < n_; ++i) {
             if (!std::isfinite(r[i])) return std::numeric_limits<double>::infinity();
             if (r[i] != 0)
@@ -116,14 +126,20 @@ class Refinement {
         return largest;
     }
 
+    /// The corrections fall by a factor, the last of which is what the solution is off by before the next.
+    static bool is_close(const Progress &now, const Progress &before) {
+        return now.residual <= tolerable &&
+               now.correction / before.correction * now.correction <= enough_of_solution * now.solution;
+    }
+
     void drop_finished(int step) {
         std::int64_t left = 0;
         for (std::int64_t k = 0; k < width(); ++k) {
-            const double now = now_[k];
-            double &before = before_[column_[k]];
-            if (now <= enough) continue;
-            if (step == most_refinements || !(now < least_gain * before)) {
-                if (!(now <= tolerable)) throw_no_contraction(now);
+            const Progress &now = now_[k];
+            Progress &before = before_[column_[k]];
+            if (now.residual <= enough || (step > 0 && is_close(now, before))) continue;
+            if (step == most_refinements || !(now.residual < least_gain * before.residual)) {
+                if (!(now.residual <= tolerable)) throw_no_contraction(now.residual);
                 continue;
             }
             before = now;
@@ -138,9 +154,9 @@ class Refinement {
     const std::int64_t n_;
     double *const x_;
     const std::int64_t ldx_;
-    Matrix b_, r_;                // r_: of the columns that are left
-    vector<std::int64_t> column_; // that are left
-    vector<double> before_, now_; // residuals: of all columns, of those that are left
+    Matrix b_, r_;                  // r_: of the columns that are left
+    vector<std::int64_t> column_;   // that are left
+    vector<Progress> before_, now_; // of all columns, of those that are left
 };
 
 } // namespace
