@@ -31,7 +31,10 @@ class ForceSurface {
         Pair at = {}; // frequency and amplitude, from the first motion, in its size
         vector<double> x;
         double force = 0;
-        Pair slope = {}; // of the force
+        Matrix rates; // of both, (n + 1) x 2, by frequency and by amplitude
+        Pair slope() const {
+            return {rates(rates.rows() - 1, 0), rates(rates.rows() - 1, 1)};
+        } // of the force
     };
 
     ForceSurface(const std::shared_ptr<const ReducedModel> &reduced, const HbmOptions &options,
@@ -54,8 +57,11 @@ class ForceSurface {
     }
 
     bool move(const Pair &to, Place &place) {
-        const double more = (to[1] - place.at[1]) * size_;
-        for (std::int64_t i = 0; i < n_; ++i) place.x[i] += more * along_[i];
+        for (int k : {0, 1}) {
+            const double more = to[k] - place.at[k];
+            for (std::int64_t i = 0; i < n_; ++i) place.x[i] += more * place.rates(i, k);
+            place.force += more * place.rates(n_, k);
+        }
         place.at = to;
         return correct(place);
     }
@@ -110,16 +116,16 @@ class ForceSurface {
             for (std::int64_t i = 0; i < n_; ++i) p.x[i] -= c[i];
             p.force -= c[n_] / force_unit_;
             if (moved <= corrected * size_) {
-                p.slope = slopes(p);
-                return std::isfinite(p.slope[0]) && std::isfinite(p.slope[1]);
+                find_rates(p);
+                return all_finite(p.rates.data(), 2 * (n_ + 1));
             }
         }
         return false;
     }
 
     // By the matrix of the last correction.
-    Pair slopes(const Place &p) {
-        Matrix b(n_ + 1, 2);
+    void find_rates(Place &p) {
+        Matrix &b = p.rates = Matrix(n_ + 1, 2);
         by_frequency_.set_other(p.force);
         by_frequency_.residual(p.x.data(), omega_at(p), b.col(1));
         by_frequency_.parameter_derivative(b.col(0));
@@ -127,7 +133,7 @@ class ForceSurface {
         b(n_, 0) = 0;
         b(n_, 1) = size_;
         lu_.solve(b.data(), 2, n_ + 1);
-        return {b(n_, 0) / force_unit_, b(n_, 1) / force_unit_};
+        for (int k : {0, 1}) b(n_, k) /= force_unit_;
     }
 
     OrbitEquations by_force_, by_frequency_;
@@ -160,7 +166,7 @@ bool curvature_at(ForceSurface &surface, const ForceSurface::Place &here, Curvat
         Pair to = here.at;
         to[k] += beside;
         if (!surface.move(to, there)) return false;
-        for (int i : {0, 1}) change[k][i] = (there.slope[i] - here.slope[i]) / beside;
+        for (int i : {0, 1}) change[k][i] = (there.slope()[i] - here.slope()[i]) / beside;
     }
     found = {change[0][0], 0.5 * (change[0][1] + change[1][0]), change[1][1]};
     return found.determinant() != 0;
@@ -176,9 +182,9 @@ double stationary_force(std::shared_ptr<const ReducedModel> reduced, const HbmOp
     for (int k = 0; k < most_steps; ++k) {
         Curvature curvature;
         if (!curvature_at(surface, here, curvature)) return NAN;
-        const Pair step = curvature.step(here.slope);
+        const Pair slope = here.slope(), step = curvature.step(slope);
         const double length = std::hypot(step[0], step[1]),
-                     gain = 0.5 * (here.slope[0] * step[0] + here.slope[1] * step[1]);
+                     gain = 0.5 * (slope[0] * step[0] + slope[1] * step[1]);
         if (length <= longest && std::abs(gain) <= exact_enough * std::abs(here.force))
             return curvature.is(kind) ? here.force + gain : NAN;
         const double part = std::min(1.0, longest / length);

@@ -79,6 +79,12 @@ static plm_basis *reduce(plm_context *context, plm_model *model) {
     return basis;
 }
 
+static void say_warning(plm_branch *branch) {
+    char text[2000] = "";
+    if (plm_branch_get_string(branch, "warning", sizeof text, text, NULL) == PLM_OK && text[0])
+        fprintf(stderr, "%s\n", text);
+}
+
 static void sweep(plm_context *context, plm_basis *basis, int64_t dof) {
     plm_hbm *hbm = NULL;
     plm_branch *curve = NULL, *peak = NULL;
@@ -91,6 +97,8 @@ static void sweep(plm_context *context, plm_basis *basis, int64_t dof) {
     must(context, plm_hbm_find_peak(hbm, curve, dof, PLM_PEAK, 0, &hz, &amplitude, &peak), "peak");
     fprintf(stderr, "r = %lld, %lld points, peak %g at %g Hz\n", (long long)r, (long long)n_points, amplitude,
             hz);
+    say_warning(curve);
+    say_warning(peak);
 }
 
 static scene *structure_of(int solid, double dofs, double pairs) {
