@@ -136,9 +136,10 @@ PLM_API plm_status plm_build_info(int64_t capacity, char *buffer, int64_t *neede
  * Every handle below has options (set before its build/run/sweep) and results (read after it), both named by string
  * keys listed in one table, which these functions expose and from which the reference (docs/keys.md) is made.
  * plm_X_set_int / _set_double / _set_string set an option (an int is taken for a double). An option set after a
- * build/run/sweep takes effect at the next one; a model is built once, so its options come before. plm_X_get_int / _get_double / _get_string read an option
- * or a scalar result. plm_X_get_array / _get_int_array copy an array result: `count` receives its length; with
- * values = NULL (capacity 0) only the length is asked; a capacity too small is PLM_ERR_ARGUMENT.
+ * build/run/sweep takes effect at the next one; a model is built once, so its options come before.
+ * plm_X_get_int / _get_double / _get_string read an option or a scalar result. plm_X_get_array / _get_int_array copy
+ * an array result: `count` receives its length; with values = NULL (capacity 0) only the length is asked; a capacity
+ * too small is PLM_ERR_ARGUMENT.
  * An unknown key is PLM_ERR_KEY, a result asked for too early PLM_ERR_STATE. */
 
 /* kinds of handle */
@@ -584,16 +585,17 @@ PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_b
  * DOF, as in plm_branch_get_amplitude) and frequency_hz[3] (shift of the curve), corrected less computed, by cause: basis,
  * contact sets, harmonics beyond those solved for; the sum is the estimate. It measures errors that are small against the
  * width of the resonance. Where the tangent does not hold as far as its step leads it is renewed; a part whose steps do
- * not contract even then is NaN, with PLM_WARNING (PLM_REASON_NO_CONTRACTION): the error may be large. Away from a peak, amplitude and frequency belong
- * together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the model has no contact
- * pairs. The first call of an hbm prepares the unreduced structure. */
+ * not contract even then is NaN, with PLM_WARNING (PLM_REASON_NO_CONTRACTION): the error may be large. Away from a peak,
+ * amplitude and frequency belong together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the
+ * model has no contact pairs. The first call of an hbm prepares the unreduced structure. */
 PLM_API plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, int64_t point, int64_t dof, int32_t measure,
                                           int32_t harmonic, double *amplitude, double *frequency_hz);
 /* A basis for one number, the tolerance. From the basis of this hbm, however poor, and its curve: the motions, corrected
  * as by plm_hbm_estimate_error, are compressed (kind "pod") to the basis of the next curve, until the estimated error of
  * the reduction on it (of the DOF's amplitude over the curve's highest, of the frequency over itself) is below tolerance.
- * refined: that basis, built, to be used with a new hbm and destroyed by the caller; error or NULL: what is left.
- * PLM_NOT_CONVERGED: not met in eight curves; refined is the best one. */
+ * refined: that basis, built, to be used with a new hbm and destroyed by the caller; error or NULL: what is left, infinite
+ * where the estimate does not converge. PLM_NOT_CONVERGED: not met in eight curves, or no estimate on three in a row;
+ * refined is the best one. */
 PLM_API plm_status plm_hbm_refine_basis(plm_hbm *hbm, int64_t dof, int32_t measure, int32_t harmonic, double tolerance,
                                         plm_basis **refined, double *error);
 /* Nonlinear mode (motion without excitation, extended periodic motion concept): from elastic mode `mode` (1, 2, ...) of

@@ -7,6 +7,7 @@
 #include "reduction/widened_model.hpp"
 #include "searches/error_estimate.hpp"
 #include "searches/refinement.hpp"
+#include <cmath>
 
 namespace plm::capi {
 
@@ -163,6 +164,13 @@ plm_status plm_hbm_refine_basis(plm_hbm *hbm, std::int64_t dof, std::int32_t mea
         *refined = publish(made);
         if (error) *error = found.error + basis->model()->space_options().reduction_error;
         if (found.met) return Outcome(found.warnings);
+        if (!std::isfinite(found.error))
+            return Outcome(
+                PLM_NOT_CONVERGED, PLM_REASON_UNVERIFIED,
+                plm::format("after %lld curves the steps to a better solution converge on none of a refined "
+                            "basis: whether the tolerance %g is met is not known. Compare refined, the first "
+                            "one made, with a larger one or with kind \"full\"",
+                            static_cast<long long>(found.rounds), tolerance));
         return Outcome(
             PLM_NOT_CONVERGED, PLM_REASON_BASIS_TOO_SMALL,
             plm::format("after %lld curves the estimated error is still %.1e, above the tolerance %g; "

@@ -1,4 +1,6 @@
 """Random models with nothing set whose curves were not right at first."""
+import warnings
+
 import numpy as np
 import plm
 
@@ -35,7 +37,20 @@ def a_sweep_begins_where_an_exact_motion_is_found():
     assert curve.get("unknowns") == "state", curve.get("unknowns")
 
 
+def a_refinement_without_an_estimate_ends_and_says_so():
+    """Contact far stiffer than the structure: the steps to a better solution converge on no curve. Three in a row are enough."""
+    m = families.stiff(np.random.default_rng(110140))
+    model = campaign.build(m)
+    hbm = plm.Hbm(plm.Basis(model, plm.Sampler(model).run()).build())
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        refined = hbm.refine_basis(m["out"], 1e-3, measure="peak")
+    assert not np.isfinite(refined.error), refined.error
+    texts = [str(w.message) for w in said]
+    assert any("after 3 curves" in t and "is not known" in t for t in texts), texts
+
+
 for test in (two_bases_that_agree_tell_what_no_estimate_does, a_step_that_crosses_to_a_closed_curve_is_found_out,
-             a_sweep_begins_where_an_exact_motion_is_found):
+             a_sweep_begins_where_an_exact_motion_is_found, a_refinement_without_an_estimate_ends_and_says_so):
     test()
     print(test.__name__, "ok")
