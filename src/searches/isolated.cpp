@@ -222,7 +222,7 @@ class Search {
         const BranchPoint &extremum = seed.backbone->points()[at];
         if (found.branch->points().front().motion) {
             force = stationary_force(reduced_, options_, extremum,
-                                     upward ? ForceExtremum::saddle : ForceExtremum::centre);
+                                     upward ? ForceExtremum::saddle : ForceExtremum::centre, watch_);
             if (is_near(force, extremum) && (force > options_.force_scale) == upward) return true;
             force = NAN;
         } else { // with the few harmonics of its backbone it says nothing of exact motions

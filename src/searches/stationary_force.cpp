@@ -32,14 +32,13 @@ class ForceSurface {
         vector<double> x;
         double force = 0;
         Matrix rates; // of both, (n + 1) x 2, by frequency and by amplitude
-        Pair slope() const {
-            return {rates(rates.rows() - 1, 0), rates(rates.rows() - 1, 1)};
-        } // of the force
+        /// Of the force.
+        Pair slope() const { return {rates(rates.rows() - 1, 0), rates(rates.rows() - 1, 1)}; }
     };
 
     ForceSurface(const std::shared_ptr<const ReducedModel> &reduced, const HbmOptions &options,
-                 const BranchPoint &near)
-        : by_force_(orbit_equations(reduced, options, near.omega, FlowParameter::force_scale)),
+                 const BranchPoint &near, Watch watch)
+        : watch_(watch), by_force_(orbit_equations(reduced, options, near.omega, FlowParameter::force_scale)),
           by_frequency_(orbit_equations(reduced, options, near.omega, FlowParameter::frequency)),
           n_(by_force_.size()), omega_(near.omega) {
         first_.x = orbit_unknowns(by_force_, near, options.period_multiple);
@@ -105,6 +104,7 @@ class ForceSurface {
 
     bool correct(Place &p) {
         for (int k = 0; k < most_corrections; ++k) {
+            watch_.step("isolated branches", 1);
             if (!run(p.x, p.force, omega_at(p))) return false;
             factor();
             vector<double> &c = residual_;
@@ -136,6 +136,7 @@ class ForceSurface {
         for (int k : {0, 1}) b(n_, k) /= force_unit_;
     }
 
+    Watch watch_;
     OrbitEquations by_force_, by_frequency_;
     std::int64_t n_;
     double omega_, size_ = 0, unit_ = 0, force_unit_ = 0;
@@ -175,8 +176,8 @@ bool curvature_at(ForceSurface &surface, const ForceSurface::Place &here, Curvat
 } // namespace
 
 double stationary_force(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
-                        const BranchPoint &near, ForceExtremum kind) {
-    ForceSurface surface(reduced, options, near);
+                        const BranchPoint &near, ForceExtremum kind, Watch watch) {
+    ForceSurface surface(reduced, options, near, watch);
     ForceSurface::Place here;
     if (!surface.begin(here)) return NAN;
     for (int k = 0; k < most_steps; ++k) {

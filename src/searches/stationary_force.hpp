@@ -1,10 +1,10 @@
 // The force of exact motions over their frequency and amplitude, and where it is stationary: there an
-// isolated loop of the response at constant force is born, or merges with another curve (an isola centre and
-// a simple bifurcation; Golubitsky and Schaeffer, Singularities and Groups in Bifurcation Theory I, 1985,
-// chapter III).
+// isolated loop of the response at constant force is born, or merges with another curve (isola centre and
+// simple bifurcation; Golubitsky and Schaeffer, Singularities and Groups in Bifurcation Theory I, 1985).
 #pragma once
 #include "hbm/branch.hpp"
 #include "hbm/options.hpp"
+#include "linalg/monitor.hpp"
 
 namespace plm {
 
@@ -14,6 +14,6 @@ enum class ForceExtremum { centre, saddle };
 /// The stationary force beside a point near a resonance, of an exact motion or of harmonic balance, which
 /// counts from its own force scale; NaN where Newton's method does not lead to one of that kind.
 double stationary_force(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
-                        const BranchPoint &near, ForceExtremum kind);
+                        const BranchPoint &near, ForceExtremum kind, Watch watch);
 
 } // namespace plm
