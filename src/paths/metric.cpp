@@ -51,6 +51,18 @@ PathState tangent_at(Residual &system) {
     return tangent;
 }
 
+vector<double> null_direction(Residual &system) {
+    constexpr int iterations = 4; // the tangent is singular but for how well the point was located
+    const std::int64_t n = system.size();
+    vector<double> v = patternless_vector(n);
+    for (int k = 0; k < iterations; ++k) {
+        system.solve(v.data(), 1);
+        const double length = norm2(n, v.data());
+        for (double &c : v) c /= length;
+    }
+    return v;
+}
+
 PathState step_across(const Metric &metric, const PathState &tangent, const vector<double> &change) {
     PathState step{change, 0};
     scale_by(-1, step);

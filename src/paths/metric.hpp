@@ -31,6 +31,9 @@ struct Metric {
 
 /// The direction (t, 1) of the path through the point linearized last.
 PathState tangent_at(Residual &system);
+/// Near the null vector of that tangent where there is one, by inverse iteration; of Euclidean length 1, or
+/// not finite.
+vector<double> null_direction(Residual &system);
 /// The shortest way from there, where the residual's Newton step is -change, to where the path comes nearest:
 /// (-change, 0) and so much of the tangent that it stands across it.
 PathState step_across(const Metric &metric, const PathState &tangent, const vector<double> &change);

@@ -3,6 +3,7 @@
 // first point of the other one.
 #include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
+#include "linalg/scale.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/harmonic_choice.hpp"
@@ -14,8 +15,6 @@
 namespace plm {
 namespace {
 
-constexpr int inverse_iterations = 4; // the tangent is singular but for how well the point was located
-
 // First steps on the other curve, of the size of the motion: long enough to be clear of the curve at hand,
 // short enough for the curve to begin like its null vector.
 constexpr double first_steps[] = {1e-2, 3e-2, 1e-1, 3e-3, 1e-3};
@@ -23,20 +22,14 @@ constexpr double further_on = 1.5; // of that step: a second point, which gives 
 // A corrected point farther off, of the step or of the range of frequencies, is another solution.
 constexpr double far_away = 10, far_in_frequency = 0.2;
 
-// Null vector of the tangent at x by inverse iteration, of Euclidean length 1.
 vector<double> null_vector(Residual &system, const vector<double> &x, double omega) {
-    const std::int64_t n = system.size();
-    vector<double> v = patternless_vector(n), r(n);
+    vector<double> r(system.size());
     system.residual(x.data(), omega, r.data());
     system.linearize();
-    for (int k = 0; k < inverse_iterations; ++k) {
-        system.solve(v.data(), 1);
-        const double size = norm2(n, v.data());
-        if (!(size > 0) || !std::isfinite(size))
-            throw Error(PLM_ERR_CONVERGENCE, "the tangent's null vector was not found at this point")
-                .reason(PLM_REASON_SINGULAR_TANGENT);
-        for (double &c : v) c /= size;
-    }
+    const vector<double> v = null_direction(system);
+    if (!all_finite(v.data(), system.size()))
+        throw Error(PLM_ERR_CONVERGENCE, "the tangent's null vector was not found at this point")
+            .reason(PLM_REASON_SINGULAR_TANGENT);
     return v;
 }
 

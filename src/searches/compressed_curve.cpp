@@ -43,6 +43,10 @@ constexpr double flops_of_look = 1e9;
 constexpr double multiplier_error = 1e-4, motion_error = 1e-5;
 constexpr double same_motion = 0.1; // of its size: farther away it is another one
 
+bool is_dear_step(const ReducedModel &model, const HbmOptions &options) {
+    return exact_step_flops(model, options) > options.dearest_step;
+}
+
 bool changes_stability(const BranchPoint &p) {
     return p.bifurcation != PLM_BIFURCATION_NONE && p.bifurcation != PLM_BIFURCATION_FOLD;
 }
@@ -86,12 +90,16 @@ std::int64_t CurveCompression::harmonics_of_look() const {
     return 1;
 }
 
+double compression_tolerance(const ReducedModel &whole, const HbmOptions &options) {
+    return (is_dear_step(whole, options) ? share_where_dear : share_of_accuracy) * options.accuracy;
+}
+
 double CurveCompression::tolerance() const {
-    return (is_dear(*whole_) ? share_where_dear : share_of_accuracy) * options_.accuracy;
+    return compression_tolerance(*whole_, options_);
 }
 
 bool CurveCompression::is_dear(const ReducedModel &model) const {
-    return exact_step_flops(model, options_) > options_.dearest_step;
+    return is_dear_step(model, options_);
 }
 
 std::shared_ptr<const ReducedModel> CurveCompression::compressed_after(const ReducedModel *last) const {

@@ -18,6 +18,9 @@ bool worth_compressing(const ReducedModel &whole, const HbmOptions &options);
 /// of the accuracy: the model has no more of it.
 HbmOptions options_on(const ReducedModel &model, HbmOptions options);
 
+/// What a compressed model's motions may be off by: the basis takes its share of the accuracy, too.
+double compression_tolerance(const ReducedModel &whole, const HbmOptions &options);
+
 class CurveCompression {
   public:
     /// highest: angular frequency where the range ends.

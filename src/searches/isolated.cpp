@@ -25,8 +25,6 @@ constexpr double backbone_reach = 8;       // times the force: where it ends unl
 constexpr double met_there = 1e-3;         // relative distance of a crossing, before it is corrected
 constexpr double of_the_loop = 0.3;        // largest step on a loop, which must not be stepped over
 constexpr double at_first = 0.1;           // of the largest step: the top of a loop is where it bends most
-// What a compressed model may be off by on a loop, of the accuracy: the basis takes its share, too.
-constexpr double share_of_accuracy = 0.3;
 // The fold's extremum of the force lies near that of the backbone, or two folds of the loop meet there; one
 // farther away belongs to another loop.
 constexpr double same_extremum = 0.3, same_turn = 1e-4;
@@ -180,7 +178,7 @@ class Search {
         watch_.log(1, format("an isolated motion is off by %.2g of itself on %lld of %lld coordinates",
                              distance, static_cast<long long>(smaller_->size()),
                              static_cast<long long>(reduced_->size())));
-        if (!(distance <= share_of_accuracy * options_.accuracy)) return false;
+        if (!(distance <= compression_tolerance(*reduced_, options_))) return false;
         start = std::move(there);
         return true;
     }

@@ -11,7 +11,6 @@
 namespace plm {
 namespace {
 
-constexpr int inverse_steps = 4;
 constexpr int most_corrections = 12, most_steps = 12;
 // Of the motion: the last correction of a motion, what its derivatives are good to; a farther one is no
 // correction.
@@ -50,7 +49,7 @@ class ForceSurface {
     /// False: there is no motion near the point.
     bool begin(Place &place) {
         if (!(size_ > 0 && std::isfinite(size_)) || !run(first_.x, first_.force, omega_)) return false;
-        choose_direction();
+        along_ = null_direction(by_force_);
         place = first_;
         return correct(place);
     }
@@ -75,15 +74,6 @@ class ForceSurface {
         if (!all_finite(residual_.data(), n_)) return false;
         by_force_.linearize();
         return true;
-    }
-
-    void choose_direction() {
-        along_ = patternless_vector(n_);
-        for (int k = 0; k < inverse_steps; ++k) {
-            by_force_.solve(along_.data(), 1);
-            const double length = norm2(n_, along_.data());
-            for (double &v : along_) v /= length;
-        }
     }
 
     // [dR/dx dR/dforce; along 0]
