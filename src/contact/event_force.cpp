@@ -17,6 +17,9 @@ class EventForce final : public ContactForce {
         : h_(n_harmonics), n_grid_(std::max<std::int64_t>(24, 6 * n_harmonics)), width_(2 * M_PI / n_grid_),
           grid_(trig_grid(n_harmonics, n_grid_)), values_(2 * n_grid_, n_pairs), x_(2 * n_harmonics + 1) {
         roots_.reserve(2 * n_harmonics + 2);
+        share_.push_back(0);
+        for (std::int64_t k = 1; k <= 2 * n_harmonics; ++k)
+            share_.push_back(1 / (2 * M_PI * static_cast<double>(k)));
     }
 
     void indicator(const Matrix &u, ContactIndicator &out) override {
@@ -41,7 +44,8 @@ class EventForce final : public ContactForce {
             for (std::int64_t c = 0; c < u.cols(); ++c) x_[c] = u(i, c);
             find_roots(values_.col(i));
             all.first.set(i, ContactLaw::closed(values_(0, i)));
-            all.instants.push_back(roots_);
+            all.instants.emplace_back();
+            for (const TrigInstant &root : roots_) all.instants.back().push_back(root.t);
         }
         return all;
     }
@@ -125,34 +129,36 @@ class EventForce final : public ContactForce {
         roots_.push_back(trig_root(x_.data(), h_, turn, right));
     }
 
+    // Of two instants at a time: there are as many of opening as of closing.
     void integrate(bool closed_first, double *average) const {
+        const double sign = closed_first ? 1 : -1; // the first event opens or closes
         double closed_time = closed_first ? 2 * M_PI : 0;
-        double sign = closed_first ? 1 : -1; // first event opens or closes
-        for (double t : roots_) {
-            closed_time += sign * t;
-            const double c1 = std::cos(t), s1 = std::sin(t);
-            double c = 1, s = 0;
+        for (std::size_t i = 0; i + 1 < roots_.size(); i += 2) {
+            const TrigInstant &first = roots_[i], &second = roots_[i + 1];
+            closed_time += sign * (first.t - second.t);
+            double c = 1, s = 0, d = 1, e = 0;
             for (std::int64_t k = 1; k <= 2 * h_; ++k) {
-                const double next = c * c1 - s * s1;
-                s = s * c1 + c * s1;
-                c = next;
-                average[2 * k - 1] += sign * s;
-                average[2 * k] -= sign * c;
+                const double next_c = c * first.cosine - s * first.sine,
+                             next_d = d * second.cosine - e * second.sine;
+                s = s * first.cosine + c * first.sine;
+                e = e * second.cosine + d * second.sine;
+                c = next_c, d = next_d;
+                average[2 * k - 1] += s - e;
+                average[2 * k] += d - c;
             }
-            sign = -sign;
         }
         average[0] = closed_time / (2 * M_PI);
         for (std::int64_t k = 1; k <= 2 * h_; ++k) {
-            const double scale = 1 / (2 * M_PI * static_cast<double>(k));
-            average[2 * k - 1] *= scale;
-            average[2 * k] *= scale;
+            average[2 * k - 1] *= sign * share_[k];
+            average[2 * k] *= sign * share_[k];
         }
     }
 
     std::int64_t h_, n_grid_;
     double width_, bend_ = 0, twist_ = 0; // of a grid cell; bounds of the second and third derivative of u
     Matrix grid_, values_;
-    vector<double> x_, roots_;
+    vector<double> x_, share_; // share_: 1 / (2 pi k) of harmonic k
+    vector<TrigInstant> roots_;
 };
 
 } // namespace

@@ -5,21 +5,29 @@
 
 namespace plm {
 
-TrigValue evaluate_trig(const double *x, std::int64_t n_harmonics, double t) {
-    const double c1 = std::cos(t), s1 = std::sin(t);
+namespace {
+
+TrigValue evaluate(const double *x, std::int64_t n_harmonics, double c1, double s1) {
     double c = 1, s = 0;
-    TrigValue v{x[0], 0, 0};
+    TrigValue v{x[0], 0, 0, 0};
     for (std::int64_t h = 1; h <= n_harmonics; ++h) {
         const double next = c * c1 - s * s1;
         s = s * c1 + c * s1;
         c = next;
         const double a = x[2 * h - 1], b = x[2 * h], k = static_cast<double>(h);
-        const double wave = a * c + b * s;
+        const double wave = a * c + b * s, slope = k * (b * c - a * s);
         v.value += wave;
-        v.slope += k * (b * c - a * s);
+        v.slope += slope;
         v.curvature -= k * k * wave;
+        v.third -= k * k * slope;
     }
     return v;
+}
+
+} // namespace
+
+TrigValue evaluate_trig(const double *x, std::int64_t n_harmonics, double t) {
+    return evaluate(x, n_harmonics, std::cos(t), std::sin(t));
 }
 
 Matrix trig_grid(std::int64_t n_harmonics, std::int64_t n) {
@@ -45,28 +53,43 @@ Matrix trig_grid(std::int64_t n_harmonics, std::int64_t n) {
 
 namespace {
 
-// The last step, rad: the next one would be below rounding.
-constexpr double last_newton = 1e-9, last_halley = 1e-6;
+// A step (rad) after which the next one would be below rounding, its error being the cube of itself, and one
+// times the harmonics or the bend after which the third order is exact, the error being the fourth power.
+constexpr double last_halley = 1e-6, last_series = 1e-4;
 
-// Newton from `t` kept inside a bracket that shrinks; falls back to bisection when a step leaves it.
-// Convergence is quadratic, so the step after a change below 1e-9 is below rounding and is not taken; for a
-// zero of x (order 0; 1: of x') the curvature is at hand and makes it cubic (Halley).
-double safeguarded_newton(const double *x, std::int64_t n_harmonics, double low, double high, double t,
-                          bool low_positive, int order) {
+// From cosine and sine of t those of t - step, which is short: the fifth power is beyond rounding.
+TrigInstant step_back(double t, double c, double s, double step) {
+    const double square = step * step, cosine = 1 - square * (0.5 - square / 24),
+                 sine = step * (1 - square / 6);
+    return {t - step, c * cosine + s * sine, s * cosine - c * sine};
+}
+
+// Halley's method from `t` kept inside a bracket that shrinks, for a zero of x (order 0) or of x' (1); falls
+// back to bisection when a step leaves it. Convergence is cubic. The last step to a zero of x goes by the
+// series of the inverse function to the third power, which mostly is the first.
+template <int order>
+TrigInstant bracketed_zero(const double *x, std::int64_t n_harmonics, double low, double high, double t,
+                           bool low_positive) {
     for (int k = 0; k < 60; ++k) {
-        const TrigValue v = evaluate_trig(x, n_harmonics, t);
-        const double f = order == 0 ? v.value : v.slope, df = order == 0 ? v.slope : v.curvature;
-        if (f == 0) return t;
+        const double cosine = std::cos(t), sine = std::sin(t);
+        const TrigValue v = evaluate(x, n_harmonics, cosine, sine);
+        const double f = order == 0 ? v.value : v.slope, df = order == 0 ? v.slope : v.curvature,
+                     ddf = order == 0 ? v.curvature : v.third;
+        if (f == 0) return {t, cosine, sine};
         ((f > 0) == low_positive ? low : high) = t;
-        const double newton = f / df;
-        const double bend = order == 0 ? 0.5 * newton * v.curvature / df : 0.0;
+        const double newton = f / df, half_bend = 0.5 * ddf / df;
+        const double bend = newton * half_bend,
+                     third = newton * newton * (2 * half_bend * half_bend - v.third / (6 * df));
+        if (order == 0 && std::abs(newton) * static_cast<double>(n_harmonics) <= last_series &&
+            std::abs(bend) <= last_series && std::abs(third) <= last_series * last_series)
+            return step_back(t, cosine, sine, newton * (1 + bend + third));
         const double step = std::abs(bend) < 0.5 ? newton / (1 - bend) : newton;
-        if (std::abs(step) <= (order == 0 ? last_halley : last_newton)) return t - step;
+        if (std::abs(step) <= last_halley) return step_back(t, cosine, sine, step);
         const double next = t - step;
         t = next > low && next < high ? next : 0.5 * (low + high);
         if (high - low <= 4e-16 * high) break;
     }
-    return t;
+    return {t, std::cos(t), std::sin(t)};
 }
 
 // Zero of the cubic with the values and slopes of both ends, by the chord and two Newton steps: within the
@@ -86,14 +109,15 @@ double cubic_guess(const TrigEnd &low, const TrigEnd &high) {
 
 } // namespace
 
-double trig_root(const double *x, std::int64_t n_harmonics, TrigEnd low, TrigEnd high) {
-    return safeguarded_newton(x, n_harmonics, low.t, high.t, cubic_guess(low, high), low.value > 0, 0);
+TrigInstant trig_root(const double *x, std::int64_t n_harmonics, TrigEnd low, TrigEnd high) {
+    return bracketed_zero<0>(x, n_harmonics, low.t, high.t, cubic_guess(low, high), low.value > 0);
 }
 
 double trig_stationary(const double *x, std::int64_t n_harmonics, TrigEnd low, TrigEnd high) {
     const double fraction = low.slope / (low.slope - high.slope); // chord of x'
-    return safeguarded_newton(x, n_harmonics, low.t, high.t, low.t + fraction * (high.t - low.t),
-                              low.slope > 0, 1);
+    return bracketed_zero<1>(x, n_harmonics, low.t, high.t, low.t + fraction * (high.t - low.t),
+                             low.slope > 0)
+        .t;
 }
 
 ValueRange trig_range(const double *x, std::int64_t n_harmonics) {

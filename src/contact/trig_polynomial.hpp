@@ -7,9 +7,9 @@
 namespace plm {
 
 struct TrigValue {
-    double value, slope, curvature;
+    double value, slope, curvature, third;
 };
-/// x, x', x'' at t by one recurrence.
+/// x, x', x'', x''' at t by one recurrence.
 TrigValue evaluate_trig(const double *coefficient, std::int64_t n_harmonics, double t);
 
 /// Rows: value (first n) and slope (next n) at the n grid instants 2 pi i / n, as a (2n) x (2H + 1) matrix.
@@ -25,8 +25,12 @@ ValueRange trig_range(const double *coefficient, std::int64_t n_harmonics);
 struct TrigEnd {
     double t, value, slope;
 };
+/// An instant with its cosine and sine.
+struct TrigInstant {
+    double t, cosine, sine;
+};
 /// A zero of x between two ends where x changes sign; converged to rounding.
-double trig_root(const double *coefficient, std::int64_t n_harmonics, TrigEnd low, TrigEnd high);
+TrigInstant trig_root(const double *coefficient, std::int64_t n_harmonics, TrigEnd low, TrigEnd high);
 /// A zero of x' between two ends where x' changes sign.
 double trig_stationary(const double *coefficient, std::int64_t n_harmonics, TrigEnd low, TrigEnd high);
 

@@ -74,7 +74,9 @@ void ContactModes::decompose(const Matrix &system) {
     RealLu lu;
     Matrix copy = w;
     lu.factor(copy);
-    if (lu.singular() || !(lu.reciprocal_condition() > worst_condition)) return;
+    if (lu.singular()) return;
+    condition_ = lu.reciprocal_condition();
+    if (!(condition_ > worst_condition)) return;
     for (std::int64_t j = 0; j < size; ++j) inverse(j, j) = 1;
     lu.solve(inverse.data(), size, size);
     usable_ = true;
@@ -155,20 +157,26 @@ void ContactModes::enter(Matrix &m) const {
     worked(static_cast<double>(size() * size() * m.cols()));
 }
 
-void ContactModes::turn(double dt, Matrix &coordinates) const {
-    for (const Mode &mode : modes_) {
-        const std::complex<double> factor = std::exp(mode.rate * dt);
-        const double re = factor.real(), im = factor.imag();
-        for (std::int64_t j = 0; j < coordinates.cols(); ++j) {
-            double *c = coordinates.col(j) + mode.first;
-            const double first = c[0];
+template <class Real> void ContactModes::turn(double dt, vector<Real> &coordinates) const {
+    vector<std::complex<Real>> factors;
+    for (const Mode &mode : modes_) factors.push_back(std::complex<Real>(std::exp(mode.rate * dt)));
+    const auto n = static_cast<std::size_t>(size());
+    for (std::size_t first = 0; first < coordinates.size(); first += n) {
+        Real *c = coordinates.data() + first;
+        for (std::size_t k = 0; k < modes_.size(); ++k) {
+            const Real re = factors[k].real(), im = factors[k].imag(), real = c[0];
             c[0] *= re;
-            if (!mode.is_pair) continue;
-            c[0] -= im * c[1];
-            c[1] = re * c[1] + im * first;
+            if (modes_[k].is_pair) {
+                c[0] -= im * c[1];
+                c[1] = re * c[1] + im * real;
+                ++c;
+            }
+            ++c;
         }
     }
 }
+template void ContactModes::turn(double, vector<double> &) const;
+template void ContactModes::turn(double, vector<float> &) const;
 
 void ContactModes::leave(Matrix &coordinates) const {
     coordinates = product('N', 'N', to_state_, coordinates);
@@ -215,19 +223,45 @@ std::shared_ptr<const ContactModes> ContactModesKept::find(const PairStates &sta
     return now.modes;
 }
 
-const Matrix &ContactModesKept::transition(const std::shared_ptr<const ContactModes> &from,
-                                           const std::shared_ptr<const ContactModes> &to) {
+template <> std::map<ContactModesKept::Way, vector<double>> &ContactModesKept::transitions() {
+    return transitions_;
+}
+template <> std::map<ContactModesKept::Way, vector<float>> &ContactModesKept::transitions() {
+    return single_transitions_;
+}
+
+template <class Real>
+const vector<Real> &ContactModesKept::transition(const std::shared_ptr<const ContactModes> &from,
+                                                 const std::shared_ptr<const ContactModes> &to) {
+    auto &kept = transitions<Real>();
+    const auto found = kept.find({from, to});
+    if (found != kept.end()) return found->second;
+    const double bytes = sizeof(Real) * static_cast<double>(to->size() * to->size());
+    if (bytes * static_cast<double>(kept.size() + 1) > most_transition_bytes) kept.clear();
+    const Matrix way = from->transition(*to);
+    return kept[{from, to}] = vector<Real>(way.data(), way.data() + way.rows() * way.cols());
+}
+template const vector<double> &ContactModesKept::transition(const std::shared_ptr<const ContactModes> &,
+                                                            const std::shared_ptr<const ContactModes> &);
+template const vector<float> &ContactModesKept::transition(const std::shared_ptr<const ContactModes> &,
+                                                           const std::shared_ptr<const ContactModes> &);
+
+const vector<double> *
+ContactModesKept::known_transition(const std::shared_ptr<const ContactModes> &from,
+                                   const std::shared_ptr<const ContactModes> &to) const {
     const auto found = transitions_.find({from, to});
-    if (found != transitions_.end()) return found->second;
-    const double bytes = 8.0 * static_cast<double>(to->size() * to->size());
-    if (bytes * static_cast<double>(transitions_.size() + 1) > most_transition_bytes) transitions_.clear();
-    return transitions_[{from, to}] = from->transition(*to);
+    return found != transitions_.end() ? &found->second : nullptr;
+}
+
+void ContactModesKept::forget_transitions() {
+    transitions_.clear();
+    single_transitions_.clear();
 }
 
 // The sets not seen for the longest time go, half of them at once.
 void ContactModesKept::make_room(double bytes) {
     if (bytes_ + bytes < most_bytes && static_cast<double>(entries_.size()) < most_entries) return;
-    transitions_.clear(); // they hold what is to go
+    forget_transitions(); // they hold what is to go
     vector<std::int64_t> uses;
     for (const auto &[states, entry] : entries_) uses.push_back(entry.last_use);
     std::nth_element(uses.begin(), uses.begin() + static_cast<std::ptrdiff_t>(uses.size() / 2), uses.end());

@@ -18,6 +18,8 @@ class ContactModes {
     const ContactSet &set() const { return set_; }
     /// False: the eigenvectors are too near to each other, or a motion is free (eigenvalue 0).
     bool usable() const { return usable_; }
+    /// The eigenvectors are so far from each other that products in single precision keep five digits.
+    bool usable_in_single() const { return usable_ && condition_ > well_conditioned; }
 
     struct Mode {
         std::complex<double> rate;
@@ -54,13 +56,14 @@ class ContactModes {
     /// m (size x k, rows y and y') becomes the coordinates that belong to it; these, exp(A dt) times them;
     /// and back.
     void enter(Matrix &m) const;
-    void turn(double dt, Matrix &coordinates) const;
+    template <class Real> void turn(double dt, vector<Real> &coordinates) const;
     void leave(Matrix &coordinates) const;
     /// From these coordinates into those of another set's modes, at the same state: size x size.
     Matrix transition(const ContactModes &to) const;
     double bytes() const;
 
   private:
+    static constexpr double well_conditioned = 1e-4; // reciprocal condition
     Matrix system_matrix(const FlowModel &model, const Matrix &stiffness);
     void decompose(const Matrix &system);
     void find_displacements(const FlowModel &model);
@@ -69,7 +72,8 @@ class ContactModes {
     ContactSet set_;
     std::int64_t moving_, massive_;
     bool usable_ = false;
-    vector<double> root_; // of what moves
+    double condition_ = 0; // reciprocal, of the eigenvectors
+    vector<double> root_;  // of what moves
     std::vector<Mode> modes_;
     Matrix to_state_, from_state_, displacement_, gap_by_pair_, reach_;
     vector<double> gap_size_;
@@ -86,11 +90,16 @@ class ContactModesKept {
     std::shared_ptr<const ContactModes> find(const PairStates &states, std::int64_t effort);
     /// Without any effort: null where they have not been made, or are not usable.
     std::shared_ptr<const ContactModes> known(const PairStates &states) const;
-    /// ContactModes::transition(), kept. Valid until the next call of any of these.
-    const Matrix &transition(const std::shared_ptr<const ContactModes> &from,
-                             const std::shared_ptr<const ContactModes> &to);
+    /// ContactModes::transition(), kept, in double or single precision. Valid until the next call of any of
+    /// these.
+    template <class Real>
+    const vector<Real> &transition(const std::shared_ptr<const ContactModes> &from,
+                                   const std::shared_ptr<const ContactModes> &to);
+    /// Null where it has not been asked for.
+    const vector<double> *known_transition(const std::shared_ptr<const ContactModes> &from,
+                                           const std::shared_ptr<const ContactModes> &to) const;
     /// Where single motions are looked at from now on.
-    void forget_transitions() { transitions_.clear(); }
+    void forget_transitions();
 
   private:
     struct Entry {
@@ -103,7 +112,9 @@ class ContactModesKept {
     std::shared_ptr<const FlowModel> model_;
     std::map<PairStates, Entry> entries_;
     using Way = std::pair<std::shared_ptr<const ContactModes>, std::shared_ptr<const ContactModes>>;
-    std::map<Way, Matrix> transitions_;
+    template <class Real> std::map<Way, vector<Real>> &transitions();
+    std::map<Way, vector<double>> transitions_;
+    std::map<Way, vector<float>> single_transitions_;
     std::int64_t clock_ = 0;
     double bytes_ = 0;
 };

@@ -127,6 +127,13 @@ bool ExactFlow::enter_modes(const FlowState &state) {
     return modes && modal_->enter(std::move(modes), state, change_);
 }
 
+// To the modes of the present set, where the way there is known.
+bool ExactFlow::pass_on() {
+    auto to = modes_->known(events_.states());
+    const vector<double> *way = to ? modes_->known_transition(modal_->modes(), to) : nullptr;
+    return way && modal_->pass(std::move(to), *way);
+}
+
 // False: a pair has left zero, or leaves it, by the other side or so slowly that the series has to say where
 // it goes; nothing has moved.
 bool ExactFlow::modal_piece(FlowState &state, double left, FlowRecorder *recorder) {
@@ -154,8 +161,8 @@ bool ExactFlow::modal_piece(FlowState &state, double left, FlowRecorder *recorde
         events_.forget_zeros();
         fresh_ = false;
         if (pair < 0 || veiled) return true;
-        modal_->leave(state, change_);
         switch_pair(pair, fraction, state.time);
+        if (dense_ || !pass_on()) modal_->leave(state, change_);
         return true;
     }
 }

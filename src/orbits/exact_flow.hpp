@@ -75,6 +75,7 @@ class ExactFlow {
     void series_piece(FlowState &state, double left, FlowRecorder *recorder);
     bool modal_piece(FlowState &state, double left, FlowRecorder *recorder);
     bool enter_modes(const FlowState &state);
+    bool pass_on();
     void take_set();
 
     std::shared_ptr<const FlowModel> model_;

@@ -22,28 +22,50 @@ bool ModalPieces::enter(std::shared_ptr<const ContactModes> modes, const FlowSta
                         const FlowState &change) {
     modes_ = std::move(modes);
     puts_aside_ = model_.n_following() > 0;
-    start_ = now_ = state.time;
-    if (!set_steady()) {
-        modes_ = nullptr;
-        return false;
-    }
+    now_ = state.time;
     const std::size_t size = static_cast<std::size_t>(modes_->size());
-    const bool changes = parameter_ != FlowParameter::none;
-    vector<double> motion(size), changed(size);
-    free_.resize(size);
-    modes_->from_state(state.y.data(), state.v.data(), free_.data());
-    if (changes) {
-        changed_free_.resize(size);
-        modes_->from_state(change.y.data(), change.v.data(), changed_free_.data());
+    vector<double> coordinates(size), changed;
+    modes_->from_state(state.y.data(), state.v.data(), coordinates.data());
+    if (parameter_ != FlowParameter::none) {
+        changed.resize(size);
+        modes_->from_state(change.y.data(), change.v.data(), changed.data());
     }
-    steady_at(start_, motion, changes ? &changed : nullptr);
-    for (std::size_t i = 0; i < size; ++i) {
-        free_[i] -= motion[i];
-        if (changes) changed_free_[i] -= changed[i];
+    if (begin(coordinates, changed)) return true;
+    modes_ = nullptr;
+    return false;
+}
+
+bool ModalPieces::pass(std::shared_ptr<const ContactModes> to, const vector<double> &transition) {
+    const std::int64_t n = to->size(), columns = parameter_ != FlowParameter::none ? 2 : 1;
+    both_ = at_now_;
+    if (columns == 2) {
+        const vector<double> changed = changed_now();
+        both_.insert(both_.end(), changed.begin(), changed.end());
     }
+    passed_.resize(static_cast<std::size_t>(n * columns));
+    gemm('N', n, columns, n, 1.0, transition.data(), n, both_.data(), n, 0.0, passed_.data(), n);
+    const double start = start_;
+    modes_.swap(to);
+    const auto second = passed_.begin() + static_cast<std::ptrdiff_t>(n);
+    if (begin({passed_.begin(), second}, {second, passed_.end()})) return true;
+    modes_.swap(to);
+    start_ = start;
+    set_steady();
+    return false;
+}
+
+// Here and now.
+bool ModalPieces::begin(const vector<double> &coordinates, const vector<double> &changed) {
+    if (!set_steady()) return false;
+    vector<double> steady, changed_steady;
+    steady_at(now_, steady, changed.empty() ? nullptr : &changed_steady);
+    start_ = now_;
+    at_now_ = coordinates;
+    free_ = coordinates;
+    changed_free_ = changed;
+    for (std::size_t i = 0; i < free_.size(); ++i) free_[i] -= steady[i];
+    for (std::size_t i = 0; i < changed_free_.size(); ++i) changed_free_[i] -= changed_steady[i];
     present_ = free_;
-    at_now_ = motion;
-    for (std::size_t i = 0; i < size; ++i) at_now_[i] += present_[i];
     return true;
 }
 
@@ -355,6 +377,14 @@ void ModalPieces::turn_free(const vector<double> &from, vector<double> &to) cons
     }
 }
 
+vector<double> ModalPieces::changed_now() const {
+    vector<double> motion, changed, free(changed_free_.size());
+    steady_at(now_, motion, &changed);
+    turn_free(changed_free_, free);
+    for (std::size_t j = 0; j < changed.size(); ++j) changed[j] += free[j];
+    return changed;
+}
+
 void ModalPieces::leave(FlowState &state, FlowState &change) {
     modes_->to_state(at_now_.data(), state.y.data(), state.v.data());
     std::fill(state.v.begin() + model_.n_massive(), state.v.end(), 0.0);
@@ -366,10 +396,7 @@ void ModalPieces::leave(FlowState &state, FlowState &change) {
     }
     state.time = now_;
     if (parameter_ != FlowParameter::none) {
-        vector<double> motion, changed, changed_free(changed_free_.size());
-        steady_at(now_, motion, &changed);
-        turn_free(changed_free_, changed_free);
-        for (std::size_t j = 0; j < changed.size(); ++j) changed[j] += changed_free[j];
+        const vector<double> changed = changed_now();
         modes_->to_state(changed.data(), change.y.data(), change.v.data());
         change.time = now_;
     }

@@ -17,6 +17,10 @@ class ModalPieces {
     /// resonance with one of them, by which would be divided.
     bool enter(std::shared_ptr<const ContactModes> modes, const FlowState &state, const FlowState &change);
     bool inside() const { return modes_ != nullptr; }
+    const std::shared_ptr<const ContactModes> &modes() const { return modes_; }
+    /// Goes on in the modes of another set where the last piece went to: by ContactModes::transition(), in
+    /// the place of leave() and enter(). False as there; it is then where it was.
+    bool pass(std::shared_ptr<const ContactModes> to, const vector<double> &transition);
     double now() const { return now_; }
     /// The state (and its change) where the last piece went to. Velocities without mass become zero:
     /// ExactFlow::complete().
@@ -46,6 +50,8 @@ class ModalPieces {
     };
     using Part = vector<double> ContactModes::Load::*; // the gaps' or what follows
     bool set_steady();
+    bool begin(const vector<double> &coordinates, const vector<double> &changed);
+    vector<double> changed_now() const;
     /// What the loads put aside at once: at a time; as powers of the share of a piece, added to the last
     /// rows.
     void put_aside(Part part, double time, vector<double> &sum) const;
@@ -70,6 +76,7 @@ class ModalPieces {
     std::vector<std::vector<Steady>> steady_;    // by load and mode
     vector<double> free_, changed_free_;         // free part of c at start_
     vector<double> present_, at_now_;            // free part at now_; c there
+    vector<double> both_, passed_;               // c and its change, before and after pass()
     bool puts_aside_ = false;                    // the harmonic loads do, too
     vector<double> veil_, tiny_;                 // of the pairs
     vector<double> now_penetration_, travel_;    // of the pairs; how far each may go within the piece

@@ -13,6 +13,8 @@ namespace {
 constexpr std::int64_t effort_of_series = 4;
 // The truncation of a piece, from which on single precision is good enough for it.
 constexpr double single_precision = 1e-8;
+// The same in modes, where it costs digits of multipliers that series would lose anyway.
+constexpr double single_in_modes = 1e-6;
 
 void check(const FlowModel &model, const ContactInterval &interval, std::int64_t index) {
     if (interval.states.size() != model.n_pairs())
@@ -29,45 +31,70 @@ void check(const FlowModel &model, const ContactInterval &interval, std::int64_t
             .index(index);
 }
 
-double cube_of(const Matrix &m) {
-    return static_cast<double>(m.rows()) * static_cast<double>(m.rows()) * static_cast<double>(m.cols());
-}
+// Columns of states in the coordinates of a contact set's modes; those of a transition are products in the
+// precision of Real.
+template <class Real> class ModalColumns {
+  public:
+    explicit ModalColumns(ContactModesKept *kept) : kept_(kept) {}
+
+    const std::shared_ptr<const ContactModes> &at() const { return at_; } // null: no columns
+    void enter(std::shared_ptr<const ContactModes> modes, Matrix states) {
+        at_ = std::move(modes);
+        at_->enter(states);
+        now_.assign(states.data(), states.data() + states.rows() * states.cols());
+    }
+    void move(std::shared_ptr<const ContactModes> to) {
+        const std::int64_t n = to->size(), columns = static_cast<std::int64_t>(now_.size()) / n;
+        const vector<Real> &way = kept_->transition<Real>(at_, to);
+        next_.resize(now_.size());
+        gemm('N', n, columns, n, 1, way.data(), n, now_.data(), n, 0, next_.data(), n);
+        now_.swap(next_);
+        at_ = std::move(to);
+        worked(static_cast<double>(n * n * columns));
+    }
+    void turn(double dt) { at_->turn(dt, now_); }
+    Matrix leave() {
+        Matrix states(at_->size(), static_cast<std::int64_t>(now_.size()) / at_->size());
+        std::copy(now_.begin(), now_.end(), states.data());
+        at_->leave(states);
+        at_ = nullptr;
+        return states;
+    }
+
+  private:
+    ContactModesKept *kept_;
+    std::shared_ptr<const ContactModes> at_;
+    vector<Real> now_, next_;
+};
 
 // Product of the exponentials of the intervals, in the modes of the sets that are known by them.
-template <class Real>
+template <class Real, class ModalReal>
 Matrix chain(const FlowModel &model, const std::vector<ContactInterval> &intervals, double tolerance,
              const Watch &watch, ContactModesKept *modes) {
-    PieceExponential<Real> exponential(model, tolerance); // has the product so far, unless `at` has
+    PieceExponential<Real> exponential(model, tolerance); // has the product so far, unless `modal` has
     exponential.set_identity();
-    Matrix m, scratch;
-    std::shared_ptr<const ContactModes> at; // in whose coordinates m is
+    ModalColumns<ModalReal> modal(modes);
+    Matrix m;
     const std::int64_t n = static_cast<std::int64_t>(intervals.size());
     for (std::int64_t i = 0; i < n; ++i) {
         if (i % 16 == 0) watch.step("monodromy", static_cast<double>(i) / static_cast<double>(n));
-        const auto next = modes ? modes->find(intervals[i].states, effort_of_series) : nullptr;
-        if (modes && at && next) {
-            const Matrix &way = modes->transition(at, next);
-            scratch.reset(m.rows(), m.cols());
-            gemm('N', 'N', 1.0, way, m, 0.0, scratch);
-            std::swap(m, scratch);
-            worked(cube_of(m));
-        } else if (at) {
-            at->leave(m);
-            exponential.set(m);
+        auto next = modes ? modes->find(intervals[i].states, effort_of_series) : nullptr;
+        if (next && std::is_same_v<ModalReal, float> && !next->usable_in_single()) next = nullptr;
+        if (modal.at() && next) {
+            modal.move(std::move(next));
+        } else if (modal.at()) {
+            exponential.set(modal.leave());
         } else if (next) {
             exponential.get(m);
-            next->enter(m);
+            modal.enter(std::move(next), m);
         }
-        at = next;
-        if (at)
-            at->turn(intervals[i].duration, m);
+        if (modal.at())
+            modal.turn(intervals[i].duration);
         else
             exponential.apply(intervals[i].states, intervals[i].duration);
     }
-    if (at)
-        at->leave(m);
-    else
-        exponential.get(m);
+    if (modal.at()) return modal.leave();
+    exponential.get(m);
     return m;
 }
 
@@ -93,11 +120,15 @@ Matrix monodromy(const FlowModel &model, const std::vector<ContactInterval> &int
     for (std::int64_t i = 0; i < n; ++i) check(model, intervals[i], i);
     if (tolerance >= single_precision && model.n_moving() == model.n_massive() &&
         saves_in_single(model, intervals, tolerance)) {
-        Matrix m = chain<float>(model, intervals, tolerance, watch, nullptr);
+        Matrix m = chain<float, float>(model, intervals, tolerance, watch, nullptr);
         if (all_finite(m.data(), m.rows() * m.cols()))
             return m; // units of its own may leave the range of single precision
     }
-    return chain<double>(model, intervals, tolerance, watch, modes);
+    if (modes && tolerance >= single_in_modes) {
+        Matrix m = chain<double, float>(model, intervals, tolerance, watch, modes);
+        if (all_finite(m.data(), m.rows() * m.cols())) return m;
+    }
+    return chain<double, double>(model, intervals, tolerance, watch, modes);
 }
 
 vector<std::complex<double>> multipliers(const Matrix &monodromy) {

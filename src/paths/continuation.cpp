@@ -30,8 +30,8 @@ constexpr double across_damping = 0.2; // a step that Newton's method must damp 
 // over; but no less than a part of the largest step, since many a function comes near and turns.
 constexpr double just_beyond = 1.2, least_beside_change = 0.1;
 
-// A factorization so near to a point, also beside the step that led there, has its tangent and its tests.
-constexpr double at_the_point = 1e-6, share_of_step = 1e-3;
+// The same beside the step that led to the point.
+constexpr double share_of_step = 1e-3;
 
 // A step that turned sharply or seems to have crossed to another curve is tried again, shorter, while it is
 // longer than so many of the smallest: three failures away from it.
@@ -124,7 +124,7 @@ class Continuation {
         const vector<double> old_tests = tests_;
         walker_.move(std::move(next));
         walker_.set_factored(true);
-        if (!(out.factored_away < std::min(at_the_point, share_of_step * moved)))
+        if (!(out.factored_away < std::min(PathWalker::at_the_point, share_of_step * moved)))
             walker_.linearize_at_solution();
         walker_.make_tangent(&old_tangent);
         const double cosine = walker_.cosine_with_tangent(old_tangent),

@@ -11,6 +11,8 @@ class PathWalker {
   public:
     /// Neighbouring tangents farther apart (rad) do not belong to one smooth piece of a path.
     static constexpr double sharp_angle = 0.6;
+    /// A factorization so near to a point has its tangent and its tests.
+    static constexpr double at_the_point = 1e-6;
     /// Test functions before those of the owner: fold, branch point.
     static constexpr std::size_t own_tests = 2;
 

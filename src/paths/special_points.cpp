@@ -15,10 +15,12 @@ constexpr double vanishes = 1e-9; // of the smaller value at the ends: found
 constexpr double nearly_vanishes = 1e-2;
 constexpr int most_places = 60;     // more than bisection needs to the narrowest interval
 constexpr double narrowest = 1e-10; // interval, of the step: what is left is rounding
-constexpr double same_place = 1e-7; // of the step: another look would tell nothing new
+constexpr double same_place = 1e-7; // of the step, or what solutions are off by: another look tells nothing
 // A function that has not become smaller than this on either side of so narrow an interval jumps; one that
 // begins with a root has.
 constexpr double jump_width = 1e-4, jump_size = 0.1;
+// So does a test of the owner that is as large as at the ends of the step close to both sides.
+constexpr double flat = 0.9, flat_width = 0.05;
 constexpr double off_the_ends =
     1e-3; // of the interval: places where the function is known need no second look
 constexpr double least_damping = 1e-3; // between two known points Newton's method may take its time
@@ -35,14 +37,22 @@ double value_of(const vector<double> &tests, std::size_t k) {
 // bisection elsewhere (Chandrupatla, Adv. Eng. Software 28, 1997).
 class Enclosure {
   public:
-    Enclosure(double left, double right) : last_{0, left}, other_{1, right}, before_(last_) {}
+    Enclosure(double left, double right) : last_{0, left}, other_{1, right}, before_(last_) {
+        first_[left > 0] = left;
+        first_[right > 0] = right;
+    }
 
     double width() const { return std::abs(last_.t - other_.t); }
+    /// Both ends have come nearer, and the function has not become smaller at either: it jumps in between.
+    bool is_flat() const {
+        return moved_[0] && moved_[1] && std::abs(last_.value) > flat * std::abs(first_[last_.value > 0]) &&
+               std::abs(other_.value) > flat * std::abs(first_[other_.value > 0]);
+    }
     double smaller() const { return std::min(std::abs(last_.value), std::abs(other_.value)); }
     double last() const { return last_.t; }
     double at_part(double part) const { return last_.t + part * (other_.t - last_.t); }
-    bool is_settled() const {
-        return known_ > 0 && interpolates() && std::abs(next() - last_.t) < same_place;
+    bool is_settled(double within) const {
+        return known_ > 0 && interpolates() && std::abs(next() - last_.t) < within;
     }
 
     double next() const {
@@ -53,6 +63,7 @@ class Enclosure {
     // True: in place of the lower end.
     bool take(double t, double value) {
         const bool keeps = (value > 0) == (last_.value > 0);
+        moved_[value > 0] = true;
         before_ = keeps ? last_ : other_;
         if (!keeps) other_ = last_;
         last_ = {t, value};
@@ -76,7 +87,9 @@ class Enclosure {
                (before_.t - last_.t) / (other_.t - last_.t) * f1 / (f3 - f1) * f2 / (f3 - f2);
     }
 
-    Place last_, other_, before_; // the first two enclose the zero
+    Place last_, other_, before_;      // the first two enclose the zero
+    std::array<double, 2> first_ = {}; // of the values, negative and positive
+    std::array<bool, 2> moved_ = {};
     int known_ = 0;
 };
 
@@ -92,10 +105,11 @@ class Finder {
         const double size = std::min(std::abs(left), std::abs(right));
         const bool is_fold = walker_.kind(k) == PLM_BIFURCATION_FOLD;
         Enclosure zero(left, right);
+        const double settled = std::max(same_place, options_.tolerance);
         double best = INFINITY;
         std::size_t unknown = 0; // times in a row that the function had no value (stability at a fold)
         PathState below = step_.before, above = step_.after;
-        for (int i = 0; i < most_places && zero.width() > narrowest && !zero.is_settled(); ++i) {
+        for (int i = 0; i < most_places && zero.width() > narrowest && !zero.is_settled(settled); ++i) {
             const double part = (zero.next() - zero.last()) / (zero.at_part(1) - zero.last());
             const double t = zero.at_part(unknown > 0 ? elsewhere[unknown - 1]
                                                       : std::clamp(part, off_the_ends, 1 - off_the_ends));
@@ -112,6 +126,7 @@ class Finder {
             if (best <= vanishes * size) break;
             (zero.take(t, value) ? below : above) = walker_.now();
             if (!is_fold && zero.width() < jump_width && zero.smaller() > jump_size * size) break;
+            if (k >= PathWalker::own_tests && zero.width() < flat_width && zero.is_flat()) break;
             // what is left is no continuous piece of a curve
             if (walker_.metric().distance(below, above) > most_stretched * zero.width() * step_.length) break;
         }
@@ -135,15 +150,20 @@ class Finder {
         add(db, step_.tangent_after, p);
         return p;
     }
+    // How the distance of the path from that cubic goes along the step, to the lowest order.
+    static double lens(double t) { return t * t * (1 - t) * (1 - t); }
 
     // The point of the path at t of the way becomes the present one.
     bool move_to(double t, double &residual) {
         PathState p = between(t);
+        if (!beside_.x.empty()) add(lens(t), beside_, p);
         const NewtonOutcome out = walker_.correct(p, chord_, least_damping, false);
         if (!out.converged) return false;
         residual = out.residual;
+        beside_ = difference(p, between(t));
+        scale_by(1 / lens(t), beside_);
         walker_.move(std::move(p));
-        walker_.linearize_at_solution();
+        if (!(out.factored_away < PathWalker::at_the_point * step_.length)) walker_.linearize_at_solution();
         walker_.make_tangent(&step_.tangent_before);
         if (walker_.metric().product(step_.tangent_before, step_.tangent_after) <
             std::cos(PathWalker::sharp_angle))
@@ -167,7 +187,7 @@ class Finder {
     const PathOptions &options_;
     const PathStep &step_;
     double orientation_;
-    PathState chord_;
+    PathState chord_, beside_; // beside_: of the last point found, from the cubic, over its lens
     bool jumped_ = false;
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 // What the harmonics of an exact motion may leave out, of harmonic_tolerance: those that harmonic balance
 // would go on with, and those of the coefficients handed out, whose derivatives are read, too. At the gaps,
-// whose local motion hardly acts back, more.
+// whose local motion hardly acts back, more. No less than the motion itself is off by.
 constexpr double of_solution = 0.1, of_coefficients = 0.01, at_gaps_more = 20;
 constexpr std::int64_t harmonics_at_once = 8;
 
@@ -120,6 +120,7 @@ void put_harmonics(const FlowModel &model, const RecordedMotion &motion, const H
     Remainder rest = mean_squares(motion.covariance(), model.gap());
     const std::int64_t fewest = few_harmonics(model.reduced()) * options.period_multiple,
                        most = std::max(fewest, options.max_harmonics * options.period_multiple);
+    const double enough = std::max(of_coefficients * options.allowed_harmonic_error(), options.tolerance);
     const auto told = [&] {
         return rest.gaps > 0 ? std::sqrt(std::max(rest.left_at_gaps, 0.0) / rest.gaps) : 0.0;
     };
@@ -131,8 +132,7 @@ void put_harmonics(const FlowModel &model, const RecordedMotion &motion, const H
             point.n_harmonics = eta.cols() / 2;
             point.harmonic_tail = told();
         }
-        if (point.n_harmonics > 0 && rest.is_within(of_coefficients * options.allowed_harmonic_error()))
-            break;
+        if (point.n_harmonics > 0 && rest.is_within(enough)) break;
         const std::int64_t known = eta.cols() / 2,
                            more = std::min(most - known, known == 0 ? fewest : harmonics_at_once);
         const Matrix next = motion.harmonics(known + 1, more);

@@ -84,19 +84,17 @@ std::string Stability::unknown_text(std::int64_t n_unknown, std::int64_t n_point
 
 vector<double> bifurcation_tests(const vector<std::complex<double>> &multipliers) {
     if (multipliers.empty()) return {NAN, NAN};
-    double doubling = 1, nearest = 1;
-    std::int64_t outside = 0;
+    double doubling = 1, largest = 0;
     for (const std::complex<double> &m : multipliers) {
-        const double size = 1 + std::abs(m); // no product of hundreds overflows
+        const double modulus = std::abs(m), size = 1 + modulus; // no product of hundreds overflows
         if (m.imag() == 0) {
             doubling *= (m.real() + 1) / size;
             continue;
         }
         doubling *= std::abs(m + 1.0) / size; // its conjugate gives the other half
-        nearest = std::min(nearest, std::abs(std::abs(m) - 1));
-        outside += m.imag() > 0 && std::abs(m) > 1;
+        largest = std::max(largest, modulus);
     }
-    return {doubling, outside % 2 == 0 ? nearest : -nearest};
+    return {doubling, largest - 1};
 }
 
 } // namespace plm

@@ -345,6 +345,24 @@ FoldCurve fold_curve(std::size_t from, std::vector<double> &folds) {
     f.reason = tracked->end_reason;
     return f;
 }
+// Two complex pairs that leave the unit circle in one step are not overlooked; a real multiplier is no pair.
+void a_second_pair_does_not_hide_the_first(void **) {
+    const auto test_of = [](const std::vector<std::complex<double>> &upper, double real) {
+        plm::vector<std::complex<double>> all = {real};
+        for (const std::complex<double> &m : upper) all.insert(all.end(), {m, std::conj(m)});
+        return plm::bifurcation_tests(all);
+    };
+    const auto pair = [](double size, double angle) { return std::polar(size, angle); };
+    const auto inside = test_of({pair(0.98, 1), pair(0.97, 2)}, 0.5),
+               first = test_of({pair(1.01, 1), pair(0.97, 2)}, 0.5),
+               both = test_of({pair(1.02, 1), pair(1.01, 2)}, 0.5),
+               saddle = test_of({pair(0.98, 1), pair(0.97, 2)}, 1.5),
+               doubled = test_of({pair(0.98, 1), pair(0.97, 2)}, -1.5);
+    assert_true(inside[1] * first[1] < 0 && inside[1] * both[1] < 0 && first[1] * both[1] > 0);
+    assert_true(inside[1] * saddle[1] > 0 && inside[0] * saddle[0] > 0);
+    assert_true(inside[1] * doubled[1] > 0 && inside[0] * doubled[0] < 0);
+}
+
 void a_curve_of_folds_goes_to_both_sides(void **) {
     for (std::size_t from : {0, 1}) {
         std::vector<double> folds;
@@ -592,6 +610,7 @@ int main() {
         cmocka_unit_test(symmetry_breaking_is_exact_and_both_sides_are_found),
         cmocka_unit_test(the_doubled_response_repeats_after_two_periods),
         cmocka_unit_test(neimark_sacker_points_agree_with_the_exact_flow),
+        cmocka_unit_test(a_second_pair_does_not_hide_the_first),
         cmocka_unit_test(a_curve_of_folds_goes_to_both_sides),
         cmocka_unit_test(folds_are_found_with_sampled_forces),
         cmocka_unit_test(a_solution_from_a_start_keeps_to_its_branch_or_says_so),
