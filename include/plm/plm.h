@@ -122,7 +122,7 @@ typedef int32_t plm_status;
 #define PLM_BIFURCATION_FOLD 1
 #define PLM_BIFURCATION_BRANCH_POINT 2
 #define PLM_BIFURCATION_PERIOD_DOUBLING 3
-#define PLM_BIFURCATION_NEIMARK_SACKER 4
+#define PLM_BIFURCATION_NEIMARK_SACKER 4 /* the first complex pair of multipliers crosses the unit circle */
 
 /* Text that explains a status. Never fails on an unknown status: it says so. */
 PLM_API plm_status plm_status_text(plm_status status, int64_t capacity, char *buffer, int64_t *needed);

@@ -81,7 +81,7 @@ const std::vector<Key> &hbm_keys() {
         choice_option<&O::bifurcations>(
             "bifurcations", "off,on",
             "locate folds and branch points, with stability also period doublings and "
-            "Neimark-Sacker points"),
+            "Neimark-Sacker points (the first complex pair of multipliers crosses the unit circle)"),
         result<HbmHandle>("warning", "what the last call warned of; empty: nothing",
                           [](const HbmHandle &h) { return h.warnings.text(); }),
         result<HbmHandle>("warning_reason", "PLM_REASON_... of the first part of \"warning\"; 0: none",
