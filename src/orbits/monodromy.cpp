@@ -13,7 +13,8 @@ namespace {
 constexpr std::int64_t effort_of_series = 4;
 // The truncation of a piece, from which on single precision is good enough for it.
 constexpr double single_precision = 1e-8;
-// The same in modes, where it costs digits of multipliers that series would lose anyway.
+// The same in modes, for what only leads Newton's method: of multipliers close to the unit circle more digits
+// are wanted.
 constexpr double single_in_modes = 1e-6;
 
 void check(const FlowModel &model, const ContactInterval &interval, std::int64_t index) {
@@ -79,14 +80,13 @@ Matrix chain(const FlowModel &model, const std::vector<ContactInterval> &interva
     for (std::int64_t i = 0; i < n; ++i) {
         if (i % 16 == 0) watch.step("monodromy", static_cast<double>(i) / static_cast<double>(n));
         auto next = modes ? modes->find(intervals[i].states, effort_of_series) : nullptr;
-        if (next && std::is_same_v<ModalReal, float> && !next->usable_in_single()) next = nullptr;
         if (modal.at() && next) {
             modal.move(std::move(next));
         } else if (modal.at()) {
             exponential.set(modal.leave());
         } else if (next) {
             exponential.get(m);
-            modal.enter(std::move(next), m);
+            modal.enter(std::move(next), std::move(m));
         }
         if (modal.at())
             modal.turn(intervals[i].duration);
@@ -112,6 +112,14 @@ bool saves_in_single(const FlowModel &model, const std::vector<ContactInterval> 
     return in_single < faster * in_double;
 }
 
+// The modes that are known by now.
+bool bear_single(const std::vector<ContactInterval> &intervals, const ContactModesKept &modes) {
+    return std::all_of(intervals.begin(), intervals.end(), [&](const ContactInterval &interval) {
+        const auto known = modes.known(interval.states);
+        return !known || known->usable_in_single();
+    });
+}
+
 } // namespace
 
 Matrix monodromy(const FlowModel &model, const std::vector<ContactInterval> &intervals, double tolerance,
@@ -124,7 +132,7 @@ Matrix monodromy(const FlowModel &model, const std::vector<ContactInterval> &int
         if (all_finite(m.data(), m.rows() * m.cols()))
             return m; // units of its own may leave the range of single precision
     }
-    if (modes && tolerance >= single_in_modes) {
+    if (modes && tolerance >= single_in_modes && bear_single(intervals, *modes)) {
         Matrix m = chain<double, float>(model, intervals, tolerance, watch, modes);
         if (all_finite(m.data(), m.rows() * m.cols())) return m;
     }
