@@ -38,12 +38,13 @@ void free_bodies_press_on_each_other(void **) {
             for (double k : {1e-3, 1.0, 1e2, 1e4, 1e5, 1e6, 1e8, 1e10}) {
                 const plm::RestState rest = rest_of(two_free_chains(n, n_pairs, k, 1, -1));
                 const double first = n_pairs == 1 ? 1 : 1 / (2 + 2 * k);
-                // the space is right to 1e-8; displacements to a few eps of n, which k turns into forces
-                const double tolerance = 1e-8 + 2e-15 * n * k;
+                // the space is right to 1e-8; displacements to some tens of eps of n, which k turns into
+                // forces: by the kernels of other processors up to 2.4e-15 n k was seen
+                const double tolerance = 1e-8 + 1e-14 * n * k;
                 assert_true(std::abs(rest.force[0] - first) < tolerance);
                 if (n_pairs == 2) assert_true(std::abs(rest.force[1] - (1 - first)) < tolerance);
                 if (first > tolerance) assert_true(rest.states == plm::PairStates::all_closed(n_pairs));
-                assert_true(rest.iterations <= 20);
+                assert_true(rest.iterations <= 40); // 25 where the second force is rounding, too
             }
 }
 
