@@ -30,7 +30,8 @@ constexpr double across_damping = 0.2; // a step that Newton's method must damp 
 // over; but no less than a part of the largest step, since many a function comes near and turns.
 constexpr double just_beyond = 1.2, least_beside_change = 0.1;
 
-// The same beside the step that led to the point.
+// A factorization has the tangent and the tests of a point (PathWalker::at_the_point) if it is also so near,
+// beside the step that led there.
 constexpr double share_of_step = 1e-3;
 
 // A step that turned sharply or seems to have crossed to another curve is tried again, shorter, while it is

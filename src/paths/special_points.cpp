@@ -23,6 +23,8 @@ constexpr double jump_width = 1e-4, jump_size = 0.1;
 constexpr double flat = 0.9, flat_width = 0.05;
 constexpr double off_the_ends =
     1e-3; // of the interval: places where the function is known need no second look
+// What a point is off by grows with the lens where it foretells another, farther from the ends.
+constexpr double most_magnified = 4;
 constexpr double least_damping = 1e-3; // between two known points Newton's method may take its time
 // How far the ends of an interval may lie apart, as a multiple of its part of the step, on one continuous
 // curve.
@@ -156,12 +158,12 @@ class Finder {
     // The point of the path at t of the way becomes the present one.
     bool move_to(double t, double &residual) {
         PathState p = between(t);
-        if (!beside_.x.empty()) add(lens(t), beside_, p);
+        if (lens(t) < most_magnified * lens_) add(lens(t) / lens_, beside_, p);
         const NewtonOutcome out = walker_.correct(p, chord_, least_damping, false);
         if (!out.converged) return false;
         residual = out.residual;
         beside_ = difference(p, between(t));
-        scale_by(1 / lens(t), beside_);
+        lens_ = lens(t);
         walker_.move(std::move(p));
         if (!(out.factored_away < PathWalker::at_the_point * step_.length)) walker_.linearize_at_solution();
         walker_.make_tangent(&step_.tangent_before);
@@ -187,7 +189,8 @@ class Finder {
     const PathOptions &options_;
     const PathStep &step_;
     double orientation_;
-    PathState chord_, beside_; // beside_: of the last point found, from the cubic, over its lens
+    PathState chord_, beside_; // beside_: of the last point found, from the cubic
+    double lens_ = 0;          // there; 0: none was found
     bool jumped_ = false;
 };
 
