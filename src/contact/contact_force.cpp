@@ -1,5 +1,7 @@
 #include "contact/contact_force.hpp"
+#include "contact/trig_lanes.hpp"
 #include "linalg/work.hpp"
+#include <algorithm>
 #include <cstdlib>
 
 namespace plm {
@@ -12,31 +14,6 @@ double cosine(const double *s, std::int64_t k) {
 double sine(const double *s, std::int64_t k) {
     if (k == 0) return 0;
     return k > 0 ? s[2 * k] : -s[-2 * k];
-}
-
-// force(pair, :) = k J(s) u(pair, :): the sums of indicator_entry() with what two rows and two columns have
-// in common taken once.
-void apply_averages(const double *s, double k, const Matrix &u, std::int64_t pair, Matrix &force) {
-    const std::int64_t n_harmonics = (u.cols() - 1) / 2, stride = u.rows();
-    const double *x = u.data() + pair, mean = x[0];
-    double f = s[0] * mean;
-    for (std::int64_t n = 1; n <= n_harmonics; ++n)
-        f += s[2 * n - 1] * x[(2 * n - 1) * stride] + s[2 * n] * x[2 * n * stride];
-    force(pair, 0) = k * f;
-    for (std::int64_t m = 1; m <= n_harmonics; ++m) {
-        double c = 2 * s[2 * m - 1] * mean, d = 2 * s[2 * m] * mean;
-        const auto add = [&](std::int64_t n, double cos_difference, double sin_difference) { // of (m - n) t
-            const double a = x[(2 * n - 1) * stride], b = x[2 * n * stride];
-            const double cos_sum = s[2 * (m + n) - 1], sin_sum = s[2 * (m + n)];
-            c += (cos_difference + cos_sum) * a + (sin_sum - sin_difference) * b;
-            d += (sin_sum + sin_difference) * a + (cos_difference - cos_sum) * b;
-        };
-        for (std::int64_t n = 1; n < m; ++n) add(n, s[2 * (m - n) - 1], s[2 * (m - n)]);
-        add(m, s[0], 0);
-        for (std::int64_t n = m + 1; n <= n_harmonics; ++n) add(n, s[2 * (n - m) - 1], -s[2 * (n - m)]);
-        force(pair, 2 * m - 1) = k * c;
-        force(pair, 2 * m) = k * d;
-    }
 }
 
 } // namespace
@@ -80,18 +57,28 @@ void constant_indicator(const vector<double> &coupling, std::int64_t n_harmonics
 
 void apply_indicator(const ContactIndicator &s, const vector<double> &stiffness, const Matrix &u,
                      Matrix &force) {
-    const std::int64_t z = u.rows(), n = u.cols();
-    force.reset(z, n);
-    for (std::int64_t i = 0; i < z; ++i) {
-        if (s.state[i] == PairState::open) continue;
-        const double k = stiffness[i];
-        if (s.state[i] == PairState::closed) {
-            for (std::int64_t c = 0; c < n; ++c) force(i, c) = k * u(i, c);
+    const std::int64_t z = u.rows(), n = u.cols(), h = n / 2, n_averages = s.averages.rows();
+    force.reshape(z, n);
+    constexpr std::int64_t few = 129; // averages that need no allocation, which would be felt
+    double few_averages[n_lanes * few];
+    vector<double> many_averages(n_averages > few ? n_lanes * n_averages : 0);
+    double *averages = n_averages > few ? many_averages.data() : few_averages;
+    std::int64_t i = 0;
+    for (; i + n_lanes <= z; i += n_lanes) {
+        const auto first = s.state.begin() + i;
+        if (std::none_of(first, first + n_lanes, ContactLaw::acts)) {
+            for (std::int64_t c = 0; c < n; ++c) std::fill_n(force.col(c) + i, n_lanes, 0.0);
             continue;
         }
-        apply_averages(s.averages.col(i), k, u, i, force);
-        worked(12.0 * static_cast<double>(n * n));
+        for (std::int64_t l = 0; l < n_lanes; ++l) {
+            const double *average = s.averages.col(i + l);
+            for (std::int64_t k = 0; k < n_averages; ++k) averages[k * n_lanes + l] = average[k];
+        }
+        apply_averages(h, averages, &stiffness[i], u.data() + i, z, force.data() + i);
+        worked(12.0 * static_cast<double>(n_lanes * n * n));
     }
+    for (; i < z; ++i)
+        apply_averages_of_one(h, s.averages.col(i), stiffness[i], u.data() + i, z, force.data() + i);
 }
 
 } // namespace plm

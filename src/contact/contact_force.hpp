@@ -42,14 +42,6 @@ std::unique_ptr<ContactForce> make_event_force(std::int64_t n_harmonics, std::in
 std::unique_ptr<ContactForce> make_sampled_force(std::int64_t n_harmonics, std::int64_t time_samples,
                                                  std::int64_t n_pairs);
 
-/// When each pair changes its state in a period: instants in radian, ascending, all zeros of its penetration.
-struct SwitchingInstants {
-    PairStates first; // at t = 0
-    std::vector<vector<double>> instants;
-};
-/// u: Z x (2H + 1) coefficients.
-SwitchingInstants switching_instants(const Matrix &u);
-
 /// Averages for a constant indicator: coupling[i] in [0, 1] per pair.
 void constant_indicator(const vector<double> &coupling, std::int64_t n_harmonics, ContactIndicator &out);
 

@@ -1,4 +1,5 @@
 #include "contact/event_sequence.hpp"
+#include "contact/penetration_zeros.hpp"
 #include <algorithm>
 #include <cmath>
 #include <tuple>

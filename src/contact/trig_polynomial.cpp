@@ -31,21 +31,18 @@ TrigValue evaluate_trig(const double *x, std::int64_t n_harmonics, double t) {
 }
 
 Matrix trig_grid(std::int64_t n_harmonics, std::int64_t n) {
+    Matrix grid(n, 2 * n_harmonics + 1);
     vector<double> cosine(n), sine(n);
     for (std::int64_t i = 0; i < n; ++i) {
         const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(n);
         cosine[i] = std::cos(angle), sine[i] = std::sin(angle);
+        grid(i, 0) = 1;
     }
-    Matrix grid(2 * n, 2 * n_harmonics + 1);
-    for (std::int64_t i = 0; i < n; ++i) grid(i, 0) = 1;
     for (std::int64_t h = 1; h <= n_harmonics; ++h) {
-        double *c = grid.col(2 * h - 1), *s = grid.col(2 * h);
-        const double k = static_cast<double>(h);
         worked(20.0 * static_cast<double>(n));
         for (std::int64_t i = 0; i < n; ++i) {
             const std::int64_t at = (h * i) % n; // h 2 pi i / n, reduced in integers
-            c[i] = cosine[at], s[i] = sine[at];
-            c[n + i] = -k * sine[at], s[n + i] = k * cosine[at];
+            grid(i, 2 * h - 1) = cosine[at], grid(i, 2 * h) = sine[at];
         }
     }
     return grid;

@@ -12,7 +12,7 @@ struct TrigValue {
 /// x, x', x'', x''' at t by one recurrence.
 TrigValue evaluate_trig(const double *coefficient, std::int64_t n_harmonics, double t);
 
-/// Rows: value (first n) and slope (next n) at the n grid instants 2 pi i / n, as a (2n) x (2H + 1) matrix.
+/// Cosines and sines, in the order of the coefficients, at the n instants 2 pi i / n: n x (2H + 1).
 Matrix trig_grid(std::int64_t n_harmonics, std::int64_t n);
 
 struct ValueRange {

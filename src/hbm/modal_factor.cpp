@@ -15,22 +15,26 @@ constexpr double worthwhile = 0.85; // order of the condensed equations against 
 
 } // namespace
 
-void ModalFactor::factor(const ModalJacobian &jacobian, const Border &border, bool may_condense) {
-    jacobian_ = jacobian;
+void ModalFactor::factor(ModalJacobian &jacobian, const Border &border, bool may_condense) {
     border_ = border;
-    condensed_ = may_condense && pays() && condense();
-    if (!condensed_) factor_dense();
+    n_inner_ = jacobian.size();
+    condensed_ = false;
+    if (may_condense && pays(jacobian)) {
+        jacobian_ = jacobian;
+        condensed_ = condense();
+    }
+    if (!condensed_) factor_dense(jacobian);
 }
 
-bool ModalFactor::pays() const {
-    return static_cast<double>(n_forces()) < worthwhile * static_cast<double>(inner_size());
+bool ModalFactor::pays(const ModalJacobian &jacobian) const {
+    return static_cast<double>(n_forces(jacobian)) < worthwhile * static_cast<double>(inner_size());
 }
 
-void ModalFactor::factor_dense() {
+void ModalFactor::factor_dense(ModalJacobian &jacobian) {
     const std::int64_t n = inner_size(), k = n_borders();
     condensed_ = false;
-    matrix_.reset(n + k, n + k);
-    jacobian_.add_to(matrix_);
+    matrix_.reshape(n + k, n + k);
+    jacobian.write_to(matrix_);
     for (std::int64_t j = 0; j < k; ++j) {
         std::copy(border_.columns.col(j), border_.columns.col(j) + n, matrix_.col(n + j));
         for (std::int64_t i = 0; i < n; ++i) matrix_(n + j, i) = border_.rows(i, j);
@@ -44,10 +48,10 @@ void ModalFactor::factor_dense() {
 bool ModalFactor::condense() {
     if (!invert_linear_part()) return false;
     jacobian_.expand_tangent();
-    const std::int64_t n = n_forces() + n_borders();
+    const std::int64_t n = n_forces(jacobian_) + n_borders();
     matrix_.reset(n, n);
-    for (std::int64_t i = 0; i < n_forces(); ++i) matrix_(i, i) = 1;
-    if (n_forces() > 0)
+    for (std::int64_t i = 0; i < n_forces(jacobian_); ++i) matrix_(i, i) = 1;
+    if (n_forces(jacobian_) > 0)
         for (std::int64_t h = 0; h <= jacobian_.n_harmonics(); ++h) add_contact_columns(h);
     add_borders();
     scale_borders();
@@ -115,7 +119,7 @@ void ModalFactor::add_contact_columns(std::int64_t h) {
 }
 
 void ModalFactor::add_borders() {
-    const std::int64_t n = inner_size(), forces = n_forces(), k = n_borders();
+    const std::int64_t n = inner_size(), forces = n_forces(jacobian_), k = n_borders();
     Matrix &gaps = gaps_, &force = force_;
     vector<double> &v = v_;
     for (std::int64_t j = 0; j < k; ++j) {
@@ -135,7 +139,7 @@ void ModalFactor::add_borders() {
 
 // Their size has nothing to do with that of the others, I + T R; pivots are chosen among both.
 void ModalFactor::scale_borders() {
-    const std::int64_t forces = n_forces(), n = forces + n_borders();
+    const std::int64_t forces = n_forces(jacobian_), n = forces + n_borders();
     scale_.assign(n_borders(), 1.0);
     for (std::int64_t i = forces; i < n; ++i) {
         double largest = 0;
@@ -180,7 +184,7 @@ void ModalFactor::solve(bool transposed, double *b, std::int64_t n) {
         if (solve_refined(transposed, b + done * size())) {
             ++done;
         } else {
-            factor_dense();
+            factor_dense(jacobian_);
         }
     b += done * size();
     transposed ? lu_.solve_transposed(b, n - done, size()) : lu_.solve(b, n - done, size());
@@ -208,7 +212,7 @@ bool ModalFactor::solve_refined(bool transposed, double *b) {
 }
 
 void ModalFactor::solve_once(double *b) {
-    const std::int64_t n = inner_size(), forces = n_forces(), k = n_borders();
+    const std::int64_t n = inner_size(), forces = n_forces(jacobian_), k = n_borders();
     vector<double> &v = v_, &ys = forces_;
     Matrix &gaps = gaps_, &force = force_;
     v.assign(b, b + n);
@@ -229,7 +233,7 @@ void ModalFactor::solve_once(double *b) {
 
 // The same equations transposed, for (-G z, t).
 void ModalFactor::solve_once_transposed(double *b) {
-    const std::int64_t n = inner_size(), forces = n_forces(), k = n_borders();
+    const std::int64_t n = inner_size(), forces = n_forces(jacobian_), k = n_borders();
     vector<double> &v = v_, &wt = forces_;
     Matrix &gaps = gaps_, &force = force_;
     v.assign(b, b + n);

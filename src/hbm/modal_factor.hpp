@@ -23,7 +23,7 @@ struct Border {
 /// and each solution is refined by its residual. Otherwise, and where D is singular, J is factored itself.
 class ModalFactor {
   public:
-    void factor(const ModalJacobian &jacobian, const Border &border, bool may_condense = true);
+    void factor(ModalJacobian &jacobian, const Border &border, bool may_condense = true);
     /// Overwrites n right-hand sides (leading dimension size()).
     void solve(double *b, std::int64_t n) { solve(false, b, n); }
     void solve_transposed(double *b, std::int64_t n) { solve(true, b, n); }
@@ -34,17 +34,19 @@ class ModalFactor {
     }
 
   private:
-    std::int64_t inner_size() const { return jacobian_.size(); }
+    std::int64_t inner_size() const { return n_inner_; }
     std::int64_t n_borders() const { return border_.corner.rows(); }
-    std::int64_t n_forces() const { return jacobian_.n_acting() * jacobian_.n_coefficients(); }
+    static std::int64_t n_forces(const ModalJacobian &jacobian) {
+        return jacobian.n_acting() * jacobian.n_coefficients();
+    }
 
-    bool pays() const;
+    bool pays(const ModalJacobian &jacobian) const;
     bool invert_linear_part();
     bool condense();
     void add_contact_columns(std::int64_t h);
     void add_borders();
     void scale_borders();
-    void factor_dense();
+    void factor_dense(ModalJacobian &jacobian);
 
     void apply_inverse(bool transposed, double *v); // D^-1 or D^-T
     void product(bool transposed, const double *x, double *y);
@@ -53,8 +55,9 @@ class ModalFactor {
     void solve_once(double *b);
     void solve_once_transposed(double *b);
 
-    ModalJacobian jacobian_;
+    ModalJacobian jacobian_; // while condensed
     Border border_;
+    std::int64_t n_inner_ = 0;
     bool condensed_ = false;
     int sign_ = 1; // of det D
     std::vector<Receptance> receptance_;

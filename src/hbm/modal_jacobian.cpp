@@ -147,8 +147,11 @@ void ModalJacobian::apply_tangent(bool transposed, const Matrix &u, Matrix &f) c
 
 // --- the dense form
 
-void ModalJacobian::add_to(Matrix &out) {
-    if (n_acting() > 0) add_contact(out);
+void ModalJacobian::write_to(Matrix &out) {
+    if (n_acting() > 0)
+        write_contact(out);
+    else
+        for (std::int64_t j = 0; j < size(); ++j) std::fill_n(out.col(j), size(), 0.0);
     add_linear(out);
 }
 
@@ -178,30 +181,30 @@ void ModalJacobian::add_linear(Matrix &out) const {
 }
 
 // Contact matrices A_k = G' diag(weights_k) G, one per average of the indicator.
-void ModalJacobian::add_contact(Matrix &out) {
+void ModalJacobian::write_contact(Matrix &out) {
     products_->make(*m_);
     Matrix &dynamic = scratch_.dynamic, &other = scratch_.other;
     expand_symmetric(products_->dynamic, r_, dynamic);
     if (m_->same_static) {
-        add_static(dynamic, r_, out);
-        add_mixed(dynamic, r_, out);
+        write_static(dynamic, r_, out);
+        write_mixed(dynamic, r_, out);
     } else {
         expand_symmetric(products_->constant, r0_, other);
-        add_static(other, r0_, out);
-        other.reset(r0_ * r_, weights_.rows());
+        write_static(other, r0_, out);
+        other.reshape(r0_ * r_, weights_.rows());
         gemm('N', 'T', 1.0, products_->mixed, weights_, 0.0, other);
-        add_mixed(other, r0_, out);
+        write_mixed(other, r0_, out);
     }
     for (std::int64_t n = 1; n <= h_; ++n)
-        for (std::int64_t m = 1; m <= h_; ++m) add_dynamic(dynamic, m, n, out);
+        for (std::int64_t m = 1; m <= h_; ++m) write_dynamic(dynamic, m, n, out);
 }
 
 // One column per average: the packed upper triangles, unpacked to full n x n blocks.
 void ModalJacobian::expand_symmetric(const Matrix &products, std::int64_t n, Matrix &blocks) {
     Matrix &packed = scratch_.packed;
-    packed.reset(products.rows(), weights_.rows());
+    packed.reshape(products.rows(), weights_.rows());
     gemm('N', 'T', 1.0, products, weights_, 0.0, packed);
-    blocks.reset(n * n, weights_.rows());
+    blocks.reshape(n * n, weights_.rows());
     for (std::int64_t k = 0; k < weights_.rows(); ++k) {
         const double *in = packed.col(k);
         double *out = blocks.col(k);
@@ -210,44 +213,49 @@ void ModalJacobian::expand_symmetric(const Matrix &products, std::int64_t n, Mat
     }
 }
 
-void ModalJacobian::add_static(const Matrix &blocks, std::int64_t ld, Matrix &out) const {
+void ModalJacobian::write_static(const Matrix &blocks, std::int64_t ld, Matrix &out) const {
     for (std::int64_t j = 0; j < r0_; ++j)
-        for (std::int64_t i = 0; i < r0_; ++i) out(i, j) += blocks(i + j * ld, 0);
+        for (std::int64_t i = 0; i < r0_; ++i) out(i, j) = blocks(i + j * ld, 0);
 }
 
 // Blocks between h = 0 (rows, leading dimension ld of each block) and h = n, and their transposes
 // doubled.
-void ModalJacobian::add_mixed(const Matrix &blocks, std::int64_t ld, Matrix &out) const {
+void ModalJacobian::write_mixed(const Matrix &blocks, std::int64_t ld, Matrix &out) const {
     for (std::int64_t c = 1; c <= 2 * h_; ++c) {
         const double *block = blocks.col(c);
         const std::int64_t at = r0_ + (c - 1) * r_;
         for (std::int64_t j = 0; j < r_; ++j)
             for (std::int64_t i = 0; i < r0_; ++i) {
-                out(i, at + j) += block[i + j * ld];
-                out(at + j, i) += 2 * block[i + j * ld];
+                out(i, at + j) = block[i + j * ld];
+                out(at + j, i) = 2 * block[i + j * ld];
             }
     }
 }
 
+// What four pointers in one loop would not tell the compiler: they do not overlap.
+static void sum_and_difference(std::int64_t n, const double *__restrict a, double sign,
+                               const double *__restrict b, double *__restrict left,
+                               double *__restrict right) {
+    for (std::int64_t i = 0; i < n; ++i) {
+        left[i] = a[i] + sign * b[i];
+        right[i] = a[i] - sign * b[i];
+    }
+}
+
 // The four blocks between harmonics m (rows) and n (columns); see indicator_entry.
-void ModalJacobian::add_dynamic(const Matrix &blocks, std::int64_t m, std::int64_t n, Matrix &out) const {
+void ModalJacobian::write_dynamic(const Matrix &blocks, std::int64_t m, std::int64_t n, Matrix &out) const {
     const std::int64_t difference = std::abs(m - n), sum = m + n;
     const double *cos_difference = blocks.col(difference == 0 ? 0 : 2 * difference - 1);
     const double *cos_sum = blocks.col(2 * sum - 1), *sin_sum = blocks.col(2 * sum);
-    const double *sin_difference = difference == 0 ? nullptr : blocks.col(2 * difference);
-    const double sign = m > n ? 1.0 : -1.0; // sin (m - n) from sin |m - n|
+    const double *sin_difference = blocks.col(2 * difference); // of |m - n|, not used for 0
+    const double sign = m == n ? 0 : m > n ? 1 : -1;
     const std::int64_t row = cosine_at(m), column = cosine_at(n);
     worked(20.0 * static_cast<double>(r_ * r_));
     for (std::int64_t j = 0; j < r_; ++j) {
         double *left = out.col(column + j) + row, *right = out.col(column + r_ + j) + row;
         const std::int64_t at = j * r_;
-        for (std::int64_t i = 0; i < r_; ++i) {
-            const double d = sin_difference ? sign * sin_difference[at + i] : 0.0;
-            left[i] += cos_difference[at + i] + cos_sum[at + i];
-            left[r_ + i] += sin_sum[at + i] + d;
-            right[i] += sin_sum[at + i] - d;
-            right[r_ + i] += cos_difference[at + i] - cos_sum[at + i];
-        }
+        sum_and_difference(r_, cos_difference + at, 1, cos_sum + at, left, right + r_);
+        sum_and_difference(r_, sin_sum + at, sign, sin_difference + at, left + r_, right);
     }
 }
 

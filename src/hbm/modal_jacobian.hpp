@@ -22,7 +22,7 @@ class ModalJacobian {
     void set_hold(const ContactIndicator &indicator, const double *mean_load) {
         hold_.set(*m_, indicator, mean_load);
     }
-    /// Call it before product() and what stands below add_to(), which does without.
+    /// Call it before product() and what stands below write_to(), which does without.
     void expand_tangent();
 
     const ReducedModel &model() const { return *m_; }
@@ -40,8 +40,8 @@ class ModalJacobian {
     void add_linear_product(const double *x, double *y) const;
     /// y = J x or J' x
     void product(bool transposed, const double *x, double *y);
-    /// Adds J to the leading rows and columns of `out`.
-    void add_to(Matrix &out);
+    /// Overwrites the leading rows and columns of `out` by J.
+    void write_to(Matrix &out);
 
     std::int64_t n_acting() const { return static_cast<std::int64_t>(acting_.size()); }
     /// Rows of the pairs that act at some time.
@@ -65,10 +65,10 @@ class ModalJacobian {
         Scratch &operator=(const Scratch &) { return *this; } // nothing of it belongs to the value
     };
     void add_linear(Matrix &out) const;
-    void add_contact(Matrix &out);
-    void add_static(const Matrix &blocks, std::int64_t ld, Matrix &out) const;
-    void add_mixed(const Matrix &blocks, std::int64_t ld, Matrix &out) const;
-    void add_dynamic(const Matrix &blocks, std::int64_t m, std::int64_t n, Matrix &out) const;
+    void write_contact(Matrix &out);
+    void write_static(const Matrix &blocks, std::int64_t ld, Matrix &out) const;
+    void write_mixed(const Matrix &blocks, std::int64_t ld, Matrix &out) const;
+    void write_dynamic(const Matrix &blocks, std::int64_t m, std::int64_t n, Matrix &out) const;
     void expand_symmetric(const Matrix &products, std::int64_t n, Matrix &blocks);
 
     std::shared_ptr<const ReducedModel> m_;

@@ -13,8 +13,13 @@ void Matrix::outside(std::int64_t i, std::int64_t j) const {
 }
 
 void Matrix::reset(std::int64_t rows, std::int64_t cols) {
-    require(rows >= 0 && cols >= 0 && (rows == 0 || cols <= INT64_MAX / rows), "Matrix::reset: shape");
-    data_.assign(static_cast<std::size_t>(rows * cols), 0.0);
+    reshape(rows, cols);
+    std::fill(data_.begin(), data_.end(), 0.0);
+}
+
+void Matrix::reshape(std::int64_t rows, std::int64_t cols) {
+    require(rows >= 0 && cols >= 0 && (rows == 0 || cols <= INT64_MAX / rows), "Matrix::reshape: shape");
+    data_.resize(static_cast<std::size_t>(rows * cols));
     rows_ = rows;
     cols_ = cols;
 }

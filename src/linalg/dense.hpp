@@ -22,6 +22,8 @@ class Matrix {
 
     /// New shape, contents zeroed; storage is kept when it suffices.
     void reset(std::int64_t rows, std::int64_t cols);
+    /// New shape, contents left to be overwritten.
+    void reshape(std::int64_t rows, std::int64_t cols);
     /// Columns [first, first + count) as a copy.
     Matrix columns(std::int64_t first, std::int64_t count) const;
     /// Appends the columns of `other` (same number of rows; an empty matrix takes its shape).

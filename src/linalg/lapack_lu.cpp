@@ -1,5 +1,6 @@
 // Dense factorizations: dgetrf, zgetrf, dpotrf.
 #include "blas_lapack.hpp"
+#include "lanes.hpp"
 #include "lapack.hpp"
 #include "work.hpp"
 #include <algorithm>
@@ -50,22 +51,34 @@ struct ColumnSize {
     double sum, largest; // of the absolute values
 };
 
-// In four sums side by side: one alone waits for each addition, as long as a small matrix takes to factor.
-ColumnSize column_size(const double *c, std::int64_t n) {
-    constexpr std::int64_t lanes = 4;
-    double sum[lanes] = {}, largest[lanes] = {};
+template <class L> PLM_IN_LANES ColumnSize size_in_lanes(const double *c, std::int64_t n) {
+    L sums{}, most{};
     std::int64_t i = 0;
-    for (; i + lanes <= n; i += lanes)
-        for (std::int64_t k = 0; k < lanes; ++k) {
-            const double value = std::fabs(c[i + k]);
-            sum[k] += value;
-            largest[k] = value > largest[k] ? value : largest[k];
-        }
+    for (; i + n_lanes <= n; i += n_lanes) {
+        const L value = absolute(L::load(c + i));
+        sums += value;
+        most = larger(most, value);
+    }
+    double sum[n_lanes], largest[n_lanes];
+    sums.store(sum);
+    most.store(largest);
+    for (std::int64_t l = 1; l < n_lanes; ++l) {
+        sum[0] += sum[l];
+        largest[0] = std::max(largest[0], largest[l]);
+    }
     for (; i < n; ++i) {
         sum[0] += std::fabs(c[i]);
         largest[0] = std::max(largest[0], std::fabs(c[i]));
     }
-    return {sum[0] + sum[1] + (sum[2] + sum[3]), std::max({largest[0], largest[1], largest[2], largest[3]})};
+    return {sum[0], largest[0]};
+}
+PLM_WIDE_LANES ColumnSize size_in_wide_lanes(const double *c, std::int64_t n) {
+    return size_in_lanes<Lanes<4>>(c, n);
+}
+
+// One sum alone would wait for each addition, as long as a small matrix takes to factor.
+ColumnSize column_size(const double *c, std::int64_t n) {
+    return has_wide_lanes() ? size_in_wide_lanes(c, n) : size_in_lanes<Lanes<2>>(c, n);
 }
 
 } // namespace

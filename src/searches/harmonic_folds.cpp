@@ -1,5 +1,5 @@
 #include "searches/harmonic_folds.hpp"
-#include "contact/trig_polynomial.hpp"
+#include "contact/penetration_zeros.hpp"
 #include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
 #include "searches/harmonic_choice.hpp"

@@ -104,8 +104,8 @@ void print_row(std::int64_t r, std::int64_t pairs) {
         residual.add([&] { system->residual(x.data(), 1.0, b.data()); });
         jacobian.add([&] {
             form.set_tangent(system->indicator(), m->contact.stiffness);
-            matrix.reset(n, n);
-            form.add_to(matrix);
+            matrix.reshape(n, n);
+            form.write_to(matrix);
         });
         copy = matrix;
         factor.add([&] { lu.factor(matrix); });

@@ -278,8 +278,7 @@ struct Comparison {
     double worst = 0; // of the solutions
 };
 
-void compare(const plm::ModalJacobian &jacobian, const plm::Border &border, std::mt19937 &random,
-             Comparison &all) {
+void compare(plm::ModalJacobian &jacobian, const plm::Border &border, std::mt19937 &random, Comparison &all) {
     plm::ModalFactor condensed, dense;
     condensed.factor(jacobian, border);
     dense.factor(jacobian, border, false);
@@ -303,8 +302,7 @@ Comparison compare_random(Damping damping, bool separate, std::int64_t n_borders
     std::mt19937 random(7);
     Comparison all;
     for (int k = 0; k < 20; ++k) {
-        const plm::ModalJacobian jacobian =
-            random_jacobian(random_model(damping, separate, random), 0.83, random);
+        plm::ModalJacobian jacobian = random_jacobian(random_model(damping, separate, random), 0.83, random);
         compare(jacobian, random_border(jacobian.size(), n_borders, random), random, all);
     }
     return all;
@@ -328,7 +326,7 @@ double product_error(Damping damping, bool separate, bool transposed) {
     plm::ModalJacobian jacobian = random_jacobian(random_model(damping, separate, random), 0.83, random);
     const std::int64_t n = jacobian.size();
     plm::Matrix dense(n, n), columns(n, n);
-    jacobian.add_to(dense);
+    jacobian.write_to(dense);
     for (std::int64_t j = 0; j < n; ++j) {
         plm::vector<double> e(n, 0.0);
         e[j] = 1;
@@ -371,7 +369,7 @@ Repeated solve_by_soft_structure(double gap) {
     const auto m = random_model(Damping::diagonal, true, random);
     m->lambda_0[0] = 1e-8;
     m->gap_0(0, 0) = gap;
-    const plm::ModalJacobian jacobian = random_jacobian(m, 0.83, random);
+    plm::ModalJacobian jacobian = random_jacobian(m, 0.83, random);
     const plm::Border border = random_border(jacobian.size(), 1, random);
     plm::ModalFactor factor, dense;
     factor.factor(jacobian, border);
@@ -393,7 +391,7 @@ void hopeless_condensed_solutions_are_repeated_with_the_whole_matrix(void **) {
 }
 
 // As its whole matrix, to the last bit.
-bool is_solved_whole(const plm::ModalJacobian &jacobian, std::mt19937 &random) {
+bool is_solved_whole(plm::ModalJacobian jacobian, std::mt19937 &random) {
     plm::ModalFactor factor, dense;
     factor.factor(jacobian, plm::Border());
     dense.factor(jacobian, plm::Border(), false);
