@@ -82,7 +82,8 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
             watch_.step("exact flow", (state.time - begin) / (t_end - begin));
         worked(flops_of_piece());
         const double left = t_end - state.time;
-        if (may_use_modes_ && !(fresh_ && dense_) && enter_modes(state) && modal_piece(state, left, recorder))
+        if (may_use_modes_ && (modal_->inside() || !(fresh_ && dense_)) && enter_modes(state) &&
+            modal_piece(state, left, recorder))
             continue;
         series_piece(state, left, recorder);
     }
@@ -162,7 +163,7 @@ bool ExactFlow::modal_piece(FlowState &state, double left, FlowRecorder *recorde
         fresh_ = false;
         if (pair < 0 || veiled) return true;
         switch_pair(pair, fraction, state.time);
-        if (dense_ || !pass_on()) modal_->leave(state, change_);
+        if (!pass_on()) modal_->leave(state, change_);
         return true;
     }
 }

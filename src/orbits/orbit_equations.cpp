@@ -32,8 +32,10 @@ ExactFlow OrbitConditions::flow(std::shared_ptr<const FlowModel> model,
 OrbitEquations::OrbitEquations(std::shared_ptr<const FlowModel> model, FlowState rest,
                                const OrbitConditions &conditions, FlowParameter parameter)
     : model_(std::move(model)), rest_(std::move(rest)), conditions_(conditions), parameter_(parameter),
-      modes_(std::make_shared<ContactModesKept>(model_)), weight_(size()), x_(size()), end_(size()),
-      change_(size()) {
+      modes_(std::make_shared<ContactModesKept>(model_)), weight_(size()) {
+    run_.x.resize(size());
+    run_.end.resize(size());
+    run_.change.resize(size());
     const std::int64_t moving = model_->n_moving();
     for (std::int64_t j = 0; j < moving; ++j)
         weight_[j] = std::sqrt(model_->lambda()[j] + model_->mass(j) * conditions_.omega * conditions_.omega);
@@ -54,8 +56,14 @@ OrbitConditions OrbitEquations::conditions(double p) const {
 
 void OrbitEquations::set_other(double value) {
     double &other = parameter_ == FlowParameter::force_scale ? conditions_.omega : conditions_.force_scale;
-    known_ = known_ && other == value;
+    if (other != value) run_.known = remembered_.known = false;
     other = value;
+}
+
+OrbitEquations OrbitEquations::beside(const OrbitConditions &conditions, FlowParameter parameter) const {
+    OrbitEquations others(model_, rest_, conditions, parameter);
+    others.modes_ = modes_;
+    return others;
 }
 
 FlowState OrbitEquations::state(const double *x) const {
@@ -77,11 +85,11 @@ vector<double> OrbitEquations::unknowns(const FlowState &state) const {
 
 // By the frequency at a fixed phase: ExactFlow::differentiate().
 void OrbitEquations::run(const double *x, double p) {
-    if (known_ && p == p_ && std::equal(x_.begin(), x_.end(), x)) return;
-    std::copy_n(x, size(), x_.begin());
-    p_ = p;
-    known_ = true;
-    failed_ = false;
+    if (run_.known && p == run_.p && std::equal(run_.x.begin(), run_.x.end(), x)) return;
+    std::copy_n(x, size(), run_.x.begin());
+    run_.p = p;
+    run_.known = true;
+    run_.failed = false;
     const OrbitConditions now = conditions(p);
     try {
         ExactFlow flow = now.flow(model_, modes_);
@@ -90,25 +98,25 @@ void OrbitEquations::run(const double *x, double p) {
         ContactHistory recorder;
         const double duration = static_cast<double>(now.period_multiple) * flow.period();
         flow.advance(state, duration, &recorder);
-        intervals_ = recorder.intervals();
-        end_ = unknowns(state);
+        run_.intervals = recorder.intervals();
+        run_.end = unknowns(state);
         const double back = parameter_ == FlowParameter::frequency ? duration / now.omega : 0;
         const std::int64_t moving = model_->n_moving();
         const vector<double> acceleration = flow.acceleration(state);
         for (std::int64_t j = 0; j < moving; ++j)
-            change_[j] = (flow.change().y[j] - back * state.v[j]) * weight_[j];
+            run_.change[j] = (flow.change().y[j] - back * state.v[j]) * weight_[j];
         for (std::int64_t j = 0; j < model_->n_massive(); ++j)
-            change_[moving + j] = flow.change().v[j] - back * acceleration[j];
-        size_ = norm2(size(), end_.data());
+            run_.change[moving + j] = flow.change().v[j] - back * acceleration[j];
+        run_.size = norm2(size(), run_.end.data());
     } catch (const Error &e) { // chatter, overflow: no motion from here
         if (e.status() != PLM_ERR_CONVERGENCE && e.status() != PLM_ERR_ARGUMENT) throw;
-        failed_ = true;
+        run_.failed = true;
     }
 }
 
 void OrbitEquations::residual(const double *x, double p, double *r) {
     run(x, p);
-    for (std::int64_t i = 0; i < size(); ++i) r[i] = failed_ ? NAN : end_[i] - x[i];
+    for (std::int64_t i = 0; i < size(); ++i) r[i] = run_.failed ? NAN : run_.end[i] - x[i];
 }
 
 bool OrbitEquations::is_small() const {
@@ -126,38 +134,38 @@ bool OrbitEquations::linearize_roughly() {
 
 void OrbitEquations::linearize_within(double tolerance) {
     const std::int64_t n = size();
-    monodromy_.reset(n, n);
-    multipliers_.clear();
-    if (!failed_) {
-        monodromy_ = plm::monodromy(*model_, intervals_, tolerance, Watch(), modes_.get());
+    run_.monodromy.reset(n, n);
+    run_.multipliers.clear();
+    if (!run_.failed) {
+        run_.monodromy = plm::monodromy(*model_, run_.intervals, tolerance, Watch(), modes_.get());
         for (std::int64_t j = 0; j < n; ++j)
-            for (std::int64_t i = 0; i < n; ++i) monodromy_(i, j) *= weight_[i] / weight_[j];
+            for (std::int64_t i = 0; i < n; ++i) run_.monodromy(i, j) *= weight_[i] / weight_[j];
     }
     // of a motion that grows so fast nothing is left to correct by
-    overflown_ = !all_finite(monodromy_.data(), n * n);
-    if (overflown_) monodromy_.reset(n, n);
+    run_.overflown = !all_finite(run_.monodromy.data(), n * n);
+    if (run_.overflown) run_.monodromy.reset(n, n);
     Matrix a = tangent();
-    lu_.factor(a);
+    run_.lu.factor(a);
 }
 
 const vector<std::complex<double>> &OrbitEquations::multipliers() const {
-    if (multipliers_.empty()) multipliers_ = plm::multipliers(monodromy_);
-    return multipliers_;
+    if (run_.multipliers.empty()) run_.multipliers = plm::multipliers(run_.monodromy);
+    return run_.multipliers;
 }
 
 Matrix OrbitEquations::tangent() const {
-    Matrix a = monodromy_;
+    Matrix a = run_.monodromy;
     for (std::int64_t j = 0; j < size(); ++j) a(j, j) -= 1;
     return a;
 }
 
 void OrbitEquations::solve(double *b, std::int64_t n) {
-    if (overflown_) std::fill_n(b, n * size(), NAN);
-    if (all_finite(b, n * size())) lu_.solve(b, n, size());
+    if (run_.overflown) std::fill_n(b, n * size(), NAN);
+    if (all_finite(b, n * size())) run_.lu.solve(b, n, size());
 }
 
 void OrbitEquations::parameter_derivative(double *r) {
-    std::copy(change_.begin(), change_.end(), r);
+    std::copy(run_.change.begin(), run_.change.end(), r);
 }
 
 } // namespace plm

@@ -26,19 +26,26 @@ class OrbitEquations final : public Residual {
     /// depends on the frequency: such a model serves at one frequency only.
     OrbitEquations(std::shared_ptr<const FlowModel> model, FlowState rest, const OrbitConditions &conditions,
                    FlowParameter parameter);
+    /// Others of the same model, which come by the same contact sets.
+    OrbitEquations beside(const OrbitConditions &conditions, FlowParameter parameter) const;
 
     std::int64_t size() const override { return model_->state_size(); }
     void residual(const double *x, double p, double *r) override;
     void linearize() override;
     bool linearize_roughly() override;
     void solve(double *b, std::int64_t n) override;
-    int determinant_sign() const override { return lu_.determinant_sign(); }
+    int determinant_sign() const override { return run_.lu.determinant_sign(); }
     void parameter_derivative(double *r) override;
     /// What rings for a moment must not dictate the steps.
     const vector<double> *weights() const override { return &share_; }
-    double residual_scale() const override { return size_; }
+    double residual_scale() const override { return run_.size; }
     bool is_cheap_to_linearize() const override { return true; } // half a run of the flow, or one
-    std::int64_t piece() const override { return static_cast<std::int64_t>(intervals_.size()); }
+    void remember() override { remembered_ = run_; }
+    bool recall() override {
+        if (remembered_.known) run_ = remembered_;
+        return remembered_.known;
+    }
+    std::int64_t piece() const override { return static_cast<std::int64_t>(run_.intervals.size()); }
 
     /// The one of frequency and force scale that is not the parameter, from the next residual() on.
     void set_other(double value);
@@ -51,36 +58,41 @@ class OrbitEquations final : public Residual {
     /// Of a value of the path's parameter.
     OrbitConditions conditions(double p) const;
     /// Of the last linearize(): d(state at the end) / d(state at the beginning), in the unknowns.
-    const Matrix &monodromy() const { return monodromy_; }
+    const Matrix &monodromy() const { return run_.monodromy; }
     /// Its eigenvalues, the largest first; found once, whoever asks.
     const vector<std::complex<double>> &multipliers() const;
     /// The matrix of that linearize(): dR/dx.
     Matrix tangent() const;
-    void solve_transposed(double *b) const { lu_.solve_transposed(b, 1, size()); }
+    void solve_transposed(double *b) const { run_.lu.solve_transposed(b, 1, size()); }
     /// Of the tangent of the last linearize(): of the order of rounding where a motion is free to go
     /// anywhere.
-    double reciprocal_condition() const { return lu_.reciprocal_condition(); }
+    double reciprocal_condition() const { return run_.lu.reciprocal_condition(); }
     /// Contact of the last residual(), from the beginning of the period.
-    const std::vector<ContactInterval> &intervals() const { return intervals_; }
+    const std::vector<ContactInterval> &intervals() const { return run_.intervals; }
 
   private:
     void run(const double *x, double p);
     bool is_small() const;
     void linearize_within(double tolerance);
 
+    // A run from x to `end`, its change by the parameter, and what it was linearised to.
+    struct Run {
+        vector<double> x, end, change;
+        double p = 0, size = 0;
+        bool known = false, failed = false, overflown = false;
+        std::vector<ContactInterval> intervals;
+        Matrix monodromy;
+        mutable vector<std::complex<double>> multipliers; // empty: not asked for yet
+        RealLu lu;
+    };
+
     std::shared_ptr<const FlowModel> model_;
     FlowState rest_;
     OrbitConditions conditions_;
     FlowParameter parameter_;
     std::shared_ptr<ContactModesKept> modes_;
-    vector<double> weight_, share_;   // of the unknowns
-    vector<double> x_, end_, change_; // the last run: from, to, and by the parameter
-    double p_ = 0, size_ = 0;
-    bool known_ = false, failed_ = false, overflown_ = false;
-    std::vector<ContactInterval> intervals_;
-    Matrix monodromy_;
-    mutable vector<std::complex<double>> multipliers_; // empty: not asked for yet
-    RealLu lu_;
+    vector<double> weight_, share_; // of the unknowns
+    Run run_, remembered_;
 };
 
 } // namespace plm

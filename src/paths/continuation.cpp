@@ -249,7 +249,9 @@ class Continuation {
     // before it.
     bool locate(const PathState &before, const PathState &old_tangent, double moved,
                 const vector<double> &old_tests) {
+        if (!any_special_points(old_tests, tests_)) return true;
         const PathState after = walker_.now(), new_tangent = walker_.tangent();
+        walker_.remember();
         const SpecialPoints special =
             find_special_points(walker_, options_, {before, after, old_tangent, new_tangent, moved},
                                 orientation_, old_tests, tests_);
@@ -265,9 +267,7 @@ class Continuation {
             record(point.residual, 0, point.kind);
         }
         arclength_ = base;
-        if (!special.found.empty() || walker_.now().parameter != after.parameter ||
-            walker_.now().x != after.x)
-            walker_.restore(after, new_tangent);
+        walker_.come_back();
         return true;
     }
 

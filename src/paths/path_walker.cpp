@@ -34,18 +34,18 @@ void PathWalker::linearize_at(const PathState &at) {
     system_.residual(at.x.data(), at.parameter, scratch_.data());
     system_.linearize();
     ++work.factorizations;
-    factored_ = false;
+    factored_ = stands_ = false;
 }
 
 void PathWalker::linearize_at_solution() {
     system_.linearize();
     ++work.factorizations;
-    factored_ = true;
+    factored_ = stands_ = true;
 }
 
 void PathWalker::linearize_here() {
     linearize_at(now_);
-    factored_ = true;
+    factored_ = stands_ = true;
 }
 
 void PathWalker::make_tangent(const PathState *previous) {
@@ -65,9 +65,25 @@ void PathWalker::orient(double wanted) {
 }
 
 void PathWalker::restore(const PathState &at, const PathState &tangent) {
-    now_ = at;
-    linearize_here();
+    if (!(stands_ && now_.parameter == at.parameter && now_.x == at.x)) {
+        now_ = at;
+        linearize_here();
+    }
     tangent_ = tangent;
+}
+
+void PathWalker::remember() {
+    system_.remember();
+    remembered_ = now_;
+    remembered_tangent_ = tangent_;
+}
+
+void PathWalker::come_back() {
+    if (system_.recall()) {
+        now_ = remembered_;
+        factored_ = stands_ = true;
+    }
+    restore(remembered_, remembered_tangent_);
 }
 
 NewtonOutcome PathWalker::correct(PathState &at, const PathState &direction, double min_damping,
@@ -83,6 +99,7 @@ NewtonOutcome PathWalker::correct(PathState &at, const PathState &direction, dou
         for (double &v : slope) v /= tangent_.parameter;
         limits.slope = &slope;
     }
+    stands_ = false;
     const NewtonOutcome out = newton_across(system_, metric_, direction, limits, at);
     work += out;
     return out;
@@ -93,6 +110,7 @@ NewtonOutcome PathWalker::correct_at_parameter(PathState &at) {
     limits.tolerance = options_.tolerance;
     limits.max_iterations = options_.max_iterations;
     limits.parameter_scale = metric_.width;
+    stands_ = false;
     const NewtonOutcome out = newton_at(system_, limits, at.x, at.parameter);
     work += out;
     return out;

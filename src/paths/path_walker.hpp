@@ -30,7 +30,12 @@ class PathWalker {
     NewtonWork work;
 
     /// Goes to a point without asking whether it is a solution.
-    void move(PathState to) { now_ = std::move(to); }
+    void move(PathState to) {
+        now_ = std::move(to);
+        stands_ = false;
+    }
+    /// The system is linearised at the present point, as near as a last correction.
+    void stand() { stands_ = true; }
     void set_tangent(const PathState &tangent) { tangent_ = tangent; }
     /// The metric follows the largest response met, so that the flanks behind a resonance cost few points, or
     /// that of now (PathOptions::scale_falls). True: it changed.
@@ -51,6 +56,9 @@ class PathWalker {
     /// The tangent on the side with this orientation.
     void orient(double wanted);
     void restore(const PathState &at, const PathState &tangent);
+    /// The present point is one to come back to, and does so.
+    void remember();
+    void come_back();
     /// Back to the path in the plane across `direction` through the first guess; factored: by the present
     /// factorization, of which the tangent is, as long as it serves.
     NewtonOutcome correct(PathState &at, const PathState &direction, double min_damping, bool factored);
@@ -67,8 +75,8 @@ class PathWalker {
     PathOwner &owner_;
     std::int64_t n_;
     Metric metric_;
-    PathState now_, tangent_;
-    bool factored_ = false;
+    PathState now_, tangent_, remembered_, remembered_tangent_;
+    bool factored_ = false, stands_ = false;
     std::vector<std::int32_t> kinds_; // of the test functions
     vector<double> scratch_;
 };

@@ -37,6 +37,10 @@ class Residual {
     virtual bool is_cheap_to_linearize() const { return false; }
     /// How much the square of each unknown counts in a length along the path; null: all alike.
     virtual const vector<double> *weights() const { return nullptr; }
+    /// Keeps what linearize() has made of the present x and p, until the next remember(); recall() is back
+    /// there, where false says that this system has to do it again.
+    virtual void remember() {}
+    virtual bool recall() { return false; }
     /// A number for the smooth piece of R at the last residual(): where it goes to and fro, Newton's method
     /// cycles.
     virtual std::int64_t piece() const { return 0; }

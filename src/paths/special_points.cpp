@@ -165,7 +165,10 @@ class Finder {
         beside_ = difference(p, between(t));
         lens_ = lens(t);
         walker_.move(std::move(p));
-        if (!(out.factored_away < PathWalker::at_the_point * step_.length)) walker_.linearize_at_solution();
+        if (out.factored_away < PathWalker::at_the_point * step_.length)
+            walker_.stand();
+        else
+            walker_.linearize_at_solution();
         walker_.make_tangent(&step_.tangent_before);
         if (walker_.metric().product(step_.tangent_before, step_.tangent_after) <
             std::cos(PathWalker::sharp_angle))
@@ -196,11 +199,16 @@ class Finder {
 
 } // namespace
 
+bool any_special_points(const vector<double> &tests_before, const vector<double> &tests_after) {
+    for (std::size_t k = 0; k < tests_before.size(); ++k)
+        if (tests_before[k] * value_of(tests_after, k) < 0) return true;
+    return false;
+}
+
 SpecialPoints find_special_points(PathWalker &walker, const PathOptions &options, const PathStep &step,
                                   double orientation, const vector<double> &tests_before,
                                   const vector<double> &tests_after) {
     SpecialPoints all;
-    if (!options.locate) return all;
     Finder finder(walker, options, step, orientation);
     for (std::size_t k = 0; k < walker.n_tests(); ++k) {
         const double left = value_of(tests_before, k), right = value_of(tests_after, k);

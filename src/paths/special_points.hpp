@@ -23,6 +23,8 @@ struct SpecialPoints {
     bool jumped = false;             // the step seems to have crossed to another curve
 };
 
+/// Whether a test function changes its sign.
+bool any_special_points(const vector<double> &tests_before, const vector<double> &tests_after);
 /// Zeros of the test functions, whose values at both ends are given; `orientation`: of the path before the
 /// step. Leaves the walker where its search ended.
 SpecialPoints find_special_points(PathWalker &walker, const PathOptions &options, const PathStep &step,

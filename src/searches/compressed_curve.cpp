@@ -51,6 +51,14 @@ bool changes_stability(const BranchPoint &p) {
     return p.bifurcation != PLM_BIFURCATION_NONE && p.bifurcation != PLM_BIFURCATION_FOLD;
 }
 
+// Mean and harmonics, side by side.
+Matrix motions_of(const BranchPoint &point) {
+    Matrix columns(static_cast<std::int64_t>(point.eta_0.size()), 1);
+    std::copy(point.eta_0.begin(), point.eta_0.end(), columns.data());
+    columns.append(point.eta);
+    return columns;
+}
+
 // Half-way between special points, of which one is no fold.
 vector<std::size_t> beside_changes(const std::vector<BranchPoint> &points) {
     vector<std::size_t> at;
@@ -94,6 +102,28 @@ double compression_tolerance(const ReducedModel &whole, const HbmOptions &option
     return (is_dear_step(whole, options) ? share_where_dear : share_of_accuracy) * options.accuracy;
 }
 
+std::shared_ptr<const ReducedModel> compressed_with(const ReducedModel &smaller, const BranchPoint &exact,
+                                                    const HbmOptions &options, double left_out) {
+    const ReducedModel &whole = *smaller.from->model;
+    Matrix motions = motions_of(exact);
+    const auto energy_of = [&](const double *q) {
+        double energy = 0;
+        for (std::int64_t j = 0; j < whole.size(); ++j)
+            energy += (whole.lambda[j] + exact.omega * exact.omega * whole.mass(j)) * q[j] * q[j];
+        return energy;
+    };
+    double all = 0;
+    for (std::int64_t k = 0; k < motions.cols(); ++k) all += energy_of(motions.col(k));
+    Matrix known = smaller.from->coordinates; // orthogonal by their energy: together as much as the motion
+    for (std::int64_t k = 0; k < known.cols(); ++k) {
+        const double factor = std::sqrt(all / static_cast<double>(known.cols()) / energy_of(known.col(k)));
+        for (std::int64_t j = 0; j < known.rows(); ++j) known(j, k) *= factor;
+    }
+    motions.append(known);
+    return compress_beside_modes(smaller.from->model, motions, {mean_springs(whole, exact)}, exact.omega,
+                                 left_out, slow * 2 * M_PI * options.frequency_max_hz, whole.size());
+}
+
 double CurveCompression::tolerance() const {
     return compression_tolerance(*whole_, options_);
 }
@@ -112,9 +142,7 @@ std::shared_ptr<const ReducedModel> CurveCompression::compressed_after(const Red
 
 // point: in the coordinates of the whole basis.
 void CurveCompression::take(const BranchPoint &point, Matrix &motions) const {
-    Matrix columns(static_cast<std::int64_t>(point.eta_0.size()), 1);
-    std::copy(point.eta_0.begin(), point.eta_0.end(), columns.data());
-    columns.append(point.eta);
+    Matrix columns = motions_of(point);
     for (std::int64_t k = 0; k < columns.rows() * columns.cols(); ++k) columns.data()[k] /= scale_;
     motions.append(columns);
 }
@@ -320,11 +348,14 @@ bool CurveCompression::agrees(const BranchPoint &on_curve, const std::shared_ptr
 }
 
 // The whole basis beside a point of the curve: the motion found from the point's own state, or by other ways.
-bool CurveCompression::agrees_on_whole(const Branch &curve, std::int64_t point) const {
+bool CurveCompression::agrees_on_whole(const Branch &curve, std::int64_t point) {
     const BranchPoint &on_curve = curve.points()[static_cast<std::size_t>(point)];
     HbmOptions nearly = options_;
     nearly.tolerance = std::max(options_.tolerance, motion_error);
-    OrbitEquations equations = orbit_equations(whole_, nearly, on_curve.omega, FlowParameter::frequency);
+    if (!on_whole_)
+        on_whole_ = std::make_shared<const OrbitEquations>(
+            orbit_equations(whole_, nearly, on_curve.omega, FlowParameter::frequency));
+    OrbitEquations equations = orbit_equations(*on_whole_, nearly, on_curve.omega, FlowParameter::frequency);
     PathState at = {equations.unknowns(start_of(curve, point).state), on_curve.omega};
     const vector<double> start = at.x;
     const NewtonOutcome out = newton_at(equations, newton_limits(nearly), at.x, at.parameter);
@@ -344,7 +375,7 @@ bool CurveCompression::agrees_on_whole(const Branch &curve, std::int64_t point) 
 }
 
 // The same on the last model that was better.
-bool CurveCompression::agrees_on_better(const Branch &curve, std::int64_t point) const {
+bool CurveCompression::agrees_on_better(const Branch &curve, std::int64_t point) {
     const BranchPoint &on_curve = curve.points()[static_cast<std::size_t>(point)];
     BranchPoint p = top_on_better_;
     if (point != top_ || !p.motion) {
@@ -363,6 +394,7 @@ bool CurveCompression::confirms_stability(const Branch &curve) {
     const auto agrees =
         is_dear(*whole_) ? &CurveCompression::agrees_on_better : &CurveCompression::agrees_on_whole;
     doubtful_.clear();
+    on_whole_ = nullptr;
     for (std::size_t i : at) {
         if (!points[i].motion || stability_of(points[i]) < 0 ||
             (this->*agrees)(curve, static_cast<std::int64_t>(i)))

@@ -21,6 +21,11 @@ HbmOptions options_on(const ReducedModel &model, HbmOptions options);
 /// What a compressed model's motions may be off by: the basis takes its share of the accuracy, too.
 double compression_tolerance(const ReducedModel &whole, const HbmOptions &options);
 
+/// A compressed model with the directions of one more motion of the basis, as many as leave out this part of
+/// it.
+std::shared_ptr<const ReducedModel> compressed_with(const ReducedModel &smaller, const BranchPoint &exact,
+                                                    const HbmOptions &options, double left_out);
+
 class CurveCompression {
   public:
     /// highest: angular frequency where the range ends.
@@ -76,8 +81,8 @@ class CurveCompression {
     void take(const BranchPoint &point, Matrix &motions) const;
     bool agrees(const BranchPoint &on_curve, const std::shared_ptr<const ReducedModel> &model,
                 const BranchPoint &there, double amplitude_on_curve, double error) const;
-    bool agrees_on_whole(const Branch &curve, std::int64_t point) const;
-    bool agrees_on_better(const Branch &curve, std::int64_t point) const;
+    bool agrees_on_whole(const Branch &curve, std::int64_t point);
+    bool agrees_on_better(const Branch &curve, std::int64_t point);
     double amplitude(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &point) const;
 
     std::shared_ptr<const ReducedModel> whole_, model_, better_;
@@ -91,6 +96,8 @@ class CurveCompression {
     double change_ = INFINITY; // of the highest motion, on better_
     std::int64_t top_ = 0;     // which of the curve's points that is
     BranchPoint top_on_better_;
+    std::shared_ptr<const OrbitEquations>
+        on_whole_;         // while the curve is confirmed: they know its contact sets
     std::string doubtful_; // where stability is not as on the curve
 };
 

@@ -16,8 +16,8 @@ constexpr int inverse_steps = 4;
 
 OrbitFoldSystem::OrbitFoldSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                                  const BranchPoint &about)
-    : by_frequency_(orbit_equations(reduced, options, about.omega, FlowParameter::frequency)),
-      by_force_(orbit_equations(reduced, options, about.omega, FlowParameter::force_scale)),
+    : by_frequency_(orbit_equations(std::move(reduced), options, about.omega, FlowParameter::frequency)),
+      by_force_(orbit_equations(by_frequency_, options, about.omega, FlowParameter::force_scale)),
       n_(by_frequency_.size()), omega_(about.omega), weight_(*by_frequency_.weights()) {
     weight_.push_back(1);
     x_ = orbit_unknowns(by_frequency_, about, options.period_multiple);

@@ -157,6 +157,10 @@ FlowState rest_state(const FlowModel &model) {
             vector<double>(static_cast<std::size_t>(model.size()), 0.0), 0};
 }
 
+OrbitConditions orbit_conditions(const HbmOptions &options, double omega) {
+    return {omega, options.force_scale, options.period_multiple, options.tolerance};
+}
+
 // Rigid-body motion that no pair ever holds has no place of its own: harmonic balance keeps its mean.
 bool moves_freely(const OrbitEquations &equations, const ReducedModel &reduced) {
     vector<char> acting(static_cast<std::size_t>(reduced.n_pairs()), 0);
@@ -240,9 +244,12 @@ OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, cons
                                double omega, FlowParameter parameter) {
     auto model = std::make_shared<const FlowModel>(std::move(reduced), omega);
     FlowState rest = rest_state(*model);
-    return OrbitEquations(std::move(model), std::move(rest),
-                          {omega, options.force_scale, options.period_multiple, options.tolerance},
-                          parameter);
+    return OrbitEquations(std::move(model), std::move(rest), orbit_conditions(options, omega), parameter);
+}
+
+OrbitEquations orbit_equations(const OrbitEquations &known, const HbmOptions &options, double omega,
+                               FlowParameter parameter) {
+    return known.beside(orbit_conditions(options, omega), parameter);
 }
 
 FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_t period_multiple) {

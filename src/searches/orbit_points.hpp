@@ -20,6 +20,10 @@ double exact_step_flops(const ReducedModel &model, const HbmOptions &options);
 /// Unknowns are measured at `omega`, where the flow's model is made, too.
 OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                                double omega, FlowParameter parameter);
+/// Others of the same model, without structural damping or at the same frequency: with the modes of the
+/// contact sets that those have come by.
+OrbitEquations orbit_equations(const OrbitEquations &known, const HbmOptions &options, double omega,
+                               FlowParameter parameter);
 
 /// The state at the beginning of the period, of an exact motion or of harmonic balance.
 FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_t period_multiple);

@@ -38,7 +38,7 @@ class ForceSurface {
     ForceSurface(const std::shared_ptr<const ReducedModel> &reduced, const HbmOptions &options,
                  const BranchPoint &near, Watch watch)
         : watch_(watch), by_force_(orbit_equations(reduced, options, near.omega, FlowParameter::force_scale)),
-          by_frequency_(orbit_equations(reduced, options, near.omega, FlowParameter::frequency)),
+          by_frequency_(orbit_equations(by_force_, options, near.omega, FlowParameter::frequency)),
           n_(by_force_.size()), omega_(near.omega) {
         first_.x = orbit_unknowns(by_force_, near, options.period_multiple);
         first_.force = near.force_scale;

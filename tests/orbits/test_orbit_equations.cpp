@@ -282,6 +282,43 @@ void modes_know_what_has_no_mass(void **) {
             }
 }
 
+// Back where they were linearised, with all that belongs to that place, unless other equations have come.
+struct Recalled {
+    double solution = 1e300, derivative = 1e300, multiplier = 1e300;
+    bool known = false, still_known = true;
+};
+Recalled recalled() {
+    OrbitEquations e = equations(damped_chain(), 0.4, FlowParameter::frequency);
+    const plm::vector<double> x = solution(e, 0.4);
+    plm::vector<double> elsewhere = x, b(x.size(), 1.0), c = b, by_p(x.size()), again = by_p;
+    elsewhere[0] *= 1.1;
+    residual(e, x, 0.4);
+    e.linearize();
+    e.remember();
+    e.solve(b.data(), 1);
+    e.parameter_derivative(by_p.data());
+    const auto multiplier = e.multipliers()[0];
+    residual(e, elsewhere, 0.41);
+    e.linearize();
+    e.multipliers();
+    Recalled out;
+    out.known = e.recall();
+    e.solve(c.data(), 1);
+    e.parameter_derivative(again.data());
+    out.solution = max_difference({b.begin(), b.end()}, {c.begin(), c.end()});
+    out.derivative = max_difference({by_p.begin(), by_p.end()}, {again.begin(), again.end()});
+    out.multiplier = std::abs(e.multipliers()[0] - multiplier);
+    e.set_other(2);
+    out.still_known = e.recall();
+    return out;
+}
+void a_place_that_is_remembered_is_there_again(void **) {
+    const Recalled r = recalled();
+    assert_true(r.known);
+    assert_true(r.solution == 0 && r.derivative == 0 && r.multiplier == 0);
+    assert_false(r.still_known);
+}
+
 // Damping of the wrong sign and size, where rounding grows beyond all numbers within a period: no motion, in
 // finite time, and no error.
 void what_overflows_ends_newton_s_method(void **) {
@@ -391,6 +428,7 @@ void crests_of_fast_motion_are_found_at_once(void **) {
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(what_overflows_ends_newton_s_method),
+        cmocka_unit_test(a_place_that_is_remembered_is_there_again),
         cmocka_unit_test(derivatives_are_those_of_differences),
         cmocka_unit_test(stiff_contact_has_the_same_derivatives),
         cmocka_unit_test(solutions_are_orbits),

@@ -266,6 +266,52 @@ void a_special_point_takes_few_looks(void **) {
     assert_true(smooth <= 8 && steep <= 40 && jump <= 20);
 }
 
+// One that may keep where it stands, and counts its tangents but for those of Newton's method.
+class Remembering final : public KnownCurve {
+  public:
+    explicit Remembering(bool remembers)
+        : KnownCurve([](double x) { return x + x * x * x; }, [](double x) { return 1 + 3 * x * x; }),
+          remembers_(remembers) {}
+    void linearize() override {
+        ++n_tangents;
+        KnownCurve::linearize();
+    }
+    bool linearize_roughly() override {
+        KnownCurve::linearize();
+        return true;
+    }
+    bool is_cheap_to_linearize() const override { return true; }
+    void remember() override { kept_x_ = x_, kept_tangent_ = tangent_; }
+    bool recall() override {
+        if (remembers_) x_ = kept_x_, tangent_ = kept_tangent_;
+        return remembers_;
+    }
+    int n_tangents = 0;
+
+  private:
+    bool remembers_;
+    double kept_x_ = 0, kept_tangent_ = 1;
+};
+struct Work {
+    int tangents = 0, looks = 0, points = 0;
+    double end = 0;
+};
+Work work_for_zero(bool remembers, bool any_zero) {
+    Remembering curve(remembers);
+    const Followed f = follow(curve, {{{0}, 0}},
+                              Owner([any_zero](double p) { return any_zero ? std::sinh(p - 0.537) : 1.0; }));
+    return {curve.n_tangents, f.owner.n_looks, f.owner.n_points, f.out.at.x[0]};
+}
+// Each look takes a tangent. The point found is the last place looked at, and the end of the step is known.
+void nothing_is_linearised_twice_beside_a_special_point(void **) {
+    const Work plain = work_for_zero(true, false), known = work_for_zero(true, true),
+               anew = work_for_zero(false, true);
+    assert_int_equal(known.points, plain.points + 1);
+    assert_int_equal(known.tangents - plain.tangents, known.looks - plain.looks);
+    assert_int_equal(anew.tangents, known.tangents + 1);
+    assert_true(near(known.end, anew.end, 1e-12) && near(known.end, plain.end, 1e-9));
+}
+
 } // namespace
 
 int main() {
@@ -281,6 +327,7 @@ int main() {
         cmocka_unit_test(a_test_function_that_dips_is_not_stepped_over),
         cmocka_unit_test(a_test_function_that_is_infinite_has_no_zero),
         cmocka_unit_test(a_special_point_takes_few_looks),
+        cmocka_unit_test(nothing_is_linearised_twice_beside_a_special_point),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

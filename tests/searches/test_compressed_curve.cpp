@@ -4,8 +4,11 @@
 #include "reduction/compression.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/compressed_curve.hpp"
+#include "searches/compressed_motion.hpp"
 #include "searches/orbit_points.hpp"
+#include "searches/phase_resonance.hpp"
 #include "searches/responses.hpp"
+#include "searches/wider_range.hpp"
 #include "space/linear_contact.hpp"
 #include "support/test.hpp"
 #include <algorithm>
@@ -303,6 +306,36 @@ void a_bouncing_curve_is_as_stable_as_on_the_whole_basis(void **) {
     assert_true(first.unverified || below(std::abs(first.unstable - there.unstable), 0.03));
 }
 
+// What the model of a curve, and that with one more motion, of three times its force, leaves out of this one.
+struct LeftOut {
+    double before = 0, after = 1e300;
+    std::int64_t size = 0, more = 0;
+};
+LeftOut left_out_of_another() {
+    const Plate &p = plate(true);
+    plm::HbmOptions o;
+    o.motion = plm::MotionKind::exact;
+    o.force_scale = 3;
+    const CurvePtr other = plm::Hbm(p.basis, o, plm::Watch()).sweep();
+    const plm::BranchPoint &motion = other->points()[static_cast<std::size_t>(plm::largest_response(*other))];
+    const auto left_out = [&](const plm::ReducedModel &model) {
+        plm::BranchPoint there;
+        return plm::compress(model, motion, there)
+                   ? plm::solution_distance(plm::uncompressed(model, there), motion)
+                   : 1e300;
+    };
+    const auto larger = plm::compressed_with(p.curve->reduced(), motion, o, 1e-5);
+    return {left_out(p.curve->reduced()), left_out(*larger), p.curve->reduced().size(), larger->size()};
+}
+void a_model_takes_in_one_more_motion(void **) {
+    const LeftOut l = left_out_of_another();
+    std::printf("    left out %.1e on %d coordinates, %.1e on %d\n", l.before, static_cast<int>(l.size),
+                l.after, static_cast<int>(l.more));
+    // 1e-5 by energy, most of it elastic at the gaps: less of the displacements
+    assert_true(l.before > 1e-5 && below(l.after, 1e-6));
+    assert_true(l.more > l.size && l.more < plate(true).whole->size());
+}
+
 bool is_compressed(std::int64_t n_harmonics) {
     plm::BasisOptions o;
     o.n_harmonics = n_harmonics;
@@ -327,6 +360,7 @@ int main() {
         cmocka_unit_test(a_bouncing_curve_is_as_stable_as_on_the_whole_basis),
         cmocka_unit_test(a_model_that_may_not_grow_says_what_a_better_one_changes),
         cmocka_unit_test(a_small_basis_is_not_compressed),
+        cmocka_unit_test(a_model_takes_in_one_more_motion),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

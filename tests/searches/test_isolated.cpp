@@ -230,38 +230,52 @@ Model with_fast_coordinates() {
     return m;
 }
 
-// Compressed to the motions of the main curve; to few others where `poorly`.
-std::shared_ptr<const plm::ReducedModel> compressed(const Model &m, const Branch &main, bool poorly) {
-    plm::Matrix motions(m->size(), poorly ? 1 : 0);
-    for (const BranchPoint &p : main.points())
-        if (!poorly) motions.append(p.eta);
-    if (poorly) motions(m->size() - 1, 0) = 1;
-    return plm::compress_beside_modes(m, motions, {}, 1, poorly ? 1e-3 : 1e-7, poorly ? 0 : 4, m->size());
+// Compressed to the motions of the main curve; to another one; to all of them.
+std::shared_ptr<const plm::ReducedModel> compressed(const Model &m, const Branch &main) {
+    plm::Matrix motions(m->size(), 0);
+    for (const BranchPoint &p : main.points()) motions.append(p.eta);
+    return plm::compress_beside_modes(m, motions, {}, 1, 1e-7, 4, m->size());
+}
+std::shared_ptr<const plm::ReducedModel> compressed_poorly(const Model &m) {
+    plm::Matrix motions(m->size(), 1);
+    motions(m->size() - 1, 0) = 1;
+    return plm::compress_beside_modes(m, motions, {}, 1, 1e-3, 0, m->size());
+}
+std::shared_ptr<const plm::ReducedModel> compressed_to_nothing_less(const Model &m) {
+    plm::Matrix motions(m->size(), m->size());
+    for (std::int64_t j = 0; j < m->size(); ++j) motions(j, j) = 1;
+    return plm::compress_beside_modes(m, motions, {}, 1, 0, 0, m->size());
 }
 
 struct OnSmaller {
-    bool on_whole = false, on_smaller = false, poor_on_whole = false, closed = false;
-    double birth = 1, merge = 1, top = 1, size = 1;
+    bool on_whole = false, on_smaller = false, poor_enlarged = false, large_on_whole = false, closed = false;
+    double birth = 1, merge = 1, top = 1, enlarged_top = 1, size = 1;
 };
 OnSmaller trace_on_smaller() {
     const Model m = with_fast_coordinates();
     const plm::HbmOptions o = options(0.006, exact_motions);
     const auto main = sweep(m, o);
-    const auto good = compressed(m, *main, false), poor = compressed(m, *main, true);
+    const auto good = compressed(m, *main), poor = compressed_poorly(m),
+               large = compressed_to_nothing_less(m);
     const auto whole = plm::find_isolated(m, o, *main, 0, plm::Watch()),
                small = plm::find_isolated(m, o, *main, 0, plm::Watch(), good),
-               other = plm::find_isolated(m, o, *main, 0, plm::Watch(), poor);
+               other = plm::find_isolated(m, o, *main, 0, plm::Watch(), poor),
+               same = plm::find_isolated(m, o, *main, 0, plm::Watch(), large);
     OnSmaller out;
-    if (whole.branches.size() != 1 || small.branches.size() != 1 || other.branches.size() != 1) return out;
-    const plm::IsolatedBranch &a = whole.branches[0], &b = small.branches[0];
+    for (const auto *found : {&whole, &small, &other, &same})
+        if (found->branches.size() != 1) return out;
+    const plm::IsolatedBranch &a = whole.branches[0], &b = small.branches[0], &c = other.branches[0];
     out.on_whole = !a.branch->reduced().from;
     out.on_smaller = b.branch->reduced_model() == good;
-    out.poor_on_whole = !other.branches[0].branch->reduced().from;
-    out.closed = a.closed && b.closed;
+    out.poor_enlarged = c.branch->reduced().from && c.branch->reduced().size() > poor->size() &&
+                        c.branch->reduced().size() < m->size();
+    out.large_on_whole = !same.branches[0].branch->reduced().from;
+    out.closed = a.closed && b.closed && c.closed;
     out.birth = std::abs(b.birth_force / a.birth_force - 1);
     out.merge = std::abs(b.merge_force / a.merge_force - 1);
     const auto fold = [](const plm::IsolatedBranch &i) { return folds_of(*i.branch).front().omega; };
     out.top = std::abs(fold(b) / fold(a) - 1);
+    out.enlarged_top = std::abs(fold(c) / fold(a) - 1);
     out.size = static_cast<double>(good->size()) / static_cast<double>(m->size());
     return out;
 }
@@ -269,9 +283,10 @@ OnSmaller trace_on_smaller() {
 void a_loop_is_traced_on_a_compressed_model_that_has_it(void **) {
     const OnSmaller s = trace_on_smaller();
     std::printf("    %.2f of the coordinates: ends of the loop's range differ by %.1e and %.1e, a fold by "
-                "%.1e\n",
-                s.size, s.birth, s.merge, s.top);
-    assert_true(s.on_whole && s.on_smaller && s.poor_on_whole && s.closed);
+                "%.1e; by %.1e on a poor model with the loop's first motion\n",
+                s.size, s.birth, s.merge, s.top, s.enlarged_top);
+    assert_true(s.on_whole && s.on_smaller && s.poor_enlarged && s.large_on_whole && s.closed);
+    assert_true(below(s.enlarged_top, 3e-4));
     assert_true(s.size < 0.9);
     assert_true(below(s.birth, 1e-12));
     assert_true(below(s.merge, 1e-12));
