@@ -559,11 +559,13 @@ PLM_API plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, int64
  * whole range), without a hint: where the phase-resonant backbone (displacement in quadrature to the force) needs a
  * force that falls with growing amplitude, a closed branch exists; it is entered there and traced. force_max: largest
  * force scale looked at, 0: eight times "force_scale". count: branches found, read by plm_hbm_get_found. Where curves are
- * made of exact motions ("motion"), backbones have few harmonics, branches and the forces between which they exist are
- * exact, and what exists only with few harmonics is left out. */
+ * made of exact motions ("motion"), the backbone of this search has few harmonics, branches and the forces between which
+ * they exist are exact, and what exists only with few harmonics is left out. */
 PLM_API plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double force_max, int64_t *count);
 /* The phase-resonant backbones in the frequency range: frequency and amplitude of the resonance against the force. The
- * points of each carry their own "point_force_scale". None without pre-load and gap (the force changes nothing then). */
+ * points of each carry their own "point_force_scale". Exact where curves are made of exact motions ("motion"), with their
+ * stability at that force and frequency; else of as many harmonics as the hbm has, few where it is to choose them. None
+ * without pre-load and gap (the force changes nothing then). */
 PLM_API plm_status plm_hbm_find_backbones(plm_hbm *hbm, double force_max, int64_t *count);
 /* What the last plm_hbm_find_... of this hbm found. force_range[2] or NULL: force scales between which an isolated
  * branch exists, NaN where unknown or meaningless. */

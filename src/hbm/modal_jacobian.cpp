@@ -19,6 +19,15 @@ Matrix row_products(const Matrix &left, const Matrix &right, bool symmetric) {
     return products;
 }
 
+// What four pointers in one loop would not tell the compiler: they do not overlap.
+void sum_and_difference(std::int64_t n, const double *__restrict a, double sign, const double *__restrict b,
+                        double *__restrict left, double *__restrict right) {
+    for (std::int64_t i = 0; i < n; ++i) {
+        left[i] = a[i] + sign * b[i];
+        right[i] = a[i] - sign * b[i];
+    }
+}
+
 } // namespace
 
 void gaps_of_coordinates(const Matrix &gap_0, const Matrix &gap, const double *x, Matrix &u) {
@@ -229,16 +238,6 @@ void ModalJacobian::write_mixed(const Matrix &blocks, std::int64_t ld, Matrix &o
                 out(i, at + j) = block[i + j * ld];
                 out(at + j, i) = 2 * block[i + j * ld];
             }
-    }
-}
-
-// What four pointers in one loop would not tell the compiler: they do not overlap.
-static void sum_and_difference(std::int64_t n, const double *__restrict a, double sign,
-                               const double *__restrict b, double *__restrict left,
-                               double *__restrict right) {
-    for (std::int64_t i = 0; i < n; ++i) {
-        left[i] = a[i] + sign * b[i];
-        right[i] = a[i] - sign * b[i];
     }
 }
 

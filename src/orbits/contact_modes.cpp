@@ -185,6 +185,18 @@ void ContactModes::leave(Matrix &coordinates) const {
     worked(static_cast<double>(size() * size() * coordinates.cols()));
 }
 
+void ContactModes::enter_row(vector<double> &row) const {
+    vector<double> scaled = row;
+    for (std::int64_t i = 0; i < moving_; ++i) scaled[i] /= root_[i];
+    gemv('T', 1.0, to_state_, scaled.data(), 0.0, row.data());
+}
+
+void ContactModes::leave_row(vector<double> &row) const {
+    const vector<double> of_coordinates = row;
+    gemv('T', 1.0, from_state_, of_coordinates.data(), 0.0, row.data());
+    for (std::int64_t i = 0; i < moving_; ++i) row[i] *= root_[i];
+}
+
 Matrix ContactModes::transition(const ContactModes &to) const {
     Matrix state = to_state_;
     for (std::int64_t j = 0; j < state.cols(); ++j)

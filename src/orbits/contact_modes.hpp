@@ -58,6 +58,9 @@ class ContactModes {
     void enter(Matrix &m) const;
     template <class Real> void turn(double dt, vector<Real> &coordinates) const;
     void leave(Matrix &coordinates) const;
+    /// A row that is multiplied by states becomes one that is multiplied by their coordinates; and back.
+    void enter_row(vector<double> &row) const;
+    void leave_row(vector<double> &row) const;
     /// From these coordinates into those of another set's modes, at the same state: size x size.
     Matrix transition(const ContactModes &to) const;
     double bytes() const;

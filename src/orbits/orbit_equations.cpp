@@ -83,6 +83,10 @@ vector<double> OrbitEquations::unknowns(const FlowState &state) const {
     return x;
 }
 
+void OrbitEquations::to_unknowns(vector<double> &derivative) const {
+    for (std::int64_t j = 0; j < size(); ++j) derivative[j] /= weight_[j];
+}
+
 // By the frequency at a fixed phase: ExactFlow::differentiate().
 void OrbitEquations::run(const double *x, double p) {
     if (run_.known && p == run_.p && std::equal(run_.x.begin(), run_.x.end(), x)) return;

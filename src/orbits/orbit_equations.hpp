@@ -54,6 +54,8 @@ class OrbitEquations final : public Residual {
     const std::shared_ptr<const FlowModel> &shared_model() const { return model_; }
     FlowState state(const double *x) const;
     vector<double> unknowns(const FlowState &state) const;
+    /// A derivative by the state as one by the unknowns.
+    void to_unknowns(vector<double> &derivative) const;
     const std::shared_ptr<ContactModesKept> &modes() const { return modes_; }
     /// Of a value of the path's parameter.
     OrbitConditions conditions(double p) const;

@@ -59,6 +59,7 @@ class Hbm {
                                                       double amplitude_max) const;
 
   private:
+    void warn_of_few_harmonics(Branch &backbone) const;
     using Clock = std::chrono::steady_clock;
     std::shared_ptr<Branch> new_branch() const;
     void finish(Branch &branch, Clock::time_point begin) const;

@@ -2,6 +2,7 @@
 #include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/modes_at_rest.hpp"
+#include "searches/orbit_phase.hpp"
 #include "searches/start.hpp"
 #include <algorithm>
 #include <cmath>
@@ -91,24 +92,58 @@ void PhaseResonantSystem::fill(Border &border) {
 
 // --- a path of phase-resonant points
 
+namespace {
+
+// Those of harmonic balance.
+class HarmonicPhase final : public PointEquations {
+  public:
+    HarmonicPhase(const std::shared_ptr<const ReducedModel> &reduced, const HbmOptions &options,
+                  const BranchPoint &about)
+        : inner_(make_system(reduced, options)) {
+        const vector<double> x = unknowns_of(*inner_, about);
+        // a change of omega over the whole range counts as much as the response at the force asked for
+        const std::int64_t statics = reduced->static_size();
+        const double response = norm2(inner_->size() - statics, x.data() + statics),
+                     range = 2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz);
+        scale_ = about.force_scale > 0 ? response * options.force_scale / about.force_scale : response;
+        if (!(scale_ > 0)) scale_ = 1;
+        system_ = std::make_unique<PhaseResonantSystem>(*inner_, *reduced, options.period_multiple,
+                                                        about.omega, scale_ / range);
+    }
+    double scale() const { return scale_; }
+    Residual &residual() override { return *system_; }
+    vector<double> unknowns(const BranchPoint &point) const override { return unknowns_of(*system_, point); }
+    BranchPoint solved_point(const PathState &at, double residual, std::int64_t iterations) override {
+        return plm::solved_point(*system_, at, residual, iterations);
+    }
+    vector<std::complex<double>> multipliers(const BranchPoint &) override { return {}; }
+
+  private:
+    std::unique_ptr<HbmSystem> inner_;
+    std::unique_ptr<PhaseResonantSystem> system_;
+    double scale_ = 0;
+};
+
+} // namespace
+
 struct PhaseResonance::Followed final : public PathOwner {
     Followed(const PhaseResonance &of, const BranchPoint &about)
-        : m(*of.reduced_), options(of.options_.hbm), watch(of.watch_) {
+        : options(of.options_.hbm), watch(of.watch_) {
         low = 2 * M_PI * options.frequency_min_hz, high = 2 * M_PI * options.frequency_max_hz;
-        inner = make_system(of.reduced_, options);
-        const vector<double> x = unknowns_of(*inner, about);
-        // a change of omega over the whole range counts as much as the response at the force asked for
-        const double response = norm2(inner->size() - m.static_size(), x.data() + m.static_size());
-        scale = about.force_scale > 0 ? response * options.force_scale / about.force_scale : response;
-        if (!(scale > 0)) scale = 1;
-        system = std::make_unique<PhaseResonantSystem>(*inner, m, options.period_multiple, about.omega,
-                                                       scale / (high - low));
+        take(of.options_.exact ? std::make_unique<OrbitPhase>(of.reduced_, options, about) : nullptr);
+        if (!equations) take(std::make_unique<HarmonicPhase>(of.reduced_, options, about));
+    }
+    template <class Equations> void take(std::unique_ptr<Equations> of) {
+        if (of) scale = of->scale();
+        equations = std::move(of);
     }
 
     void record(const PathPoint &p) override {
         if (p.bifurcation == crossing) result.crossings.push_back(result.branch->points().size());
-        BranchPoint point = solved_point(*system, p);
+        BranchPoint point = equations->solved_point({p.x, p.parameter}, p.residual, p.iterations);
+        put_place(p, point);
         if (p.bifurcation == crossing) point.bifurcation = PLM_BIFURCATION_NONE;
+        point.multipliers = equations->multipliers(point);
         omega = point.omega;
         result.branch->append(std::move(point));
     }
@@ -123,12 +158,10 @@ struct PhaseResonance::Followed final : public PathOwner {
     vector<std::int32_t> test_kinds() const override { return {crossing}; }
     bool interrupt() override { return omega < low || omega > high; }
 
-    const ReducedModel &m;
     HbmOptions options;
     Watch watch;
     double low, high, scale = 0, omega = 0;
-    std::unique_ptr<HbmSystem> inner;
-    std::unique_ptr<PhaseResonantSystem> system;
+    std::unique_ptr<PointEquations> equations;
     Backbone result;
 };
 
@@ -142,10 +175,10 @@ PhaseResonance::PhaseResonance(std::shared_ptr<const ReducedModel> reduced, cons
 
 bool PhaseResonance::correct(double force, BranchPoint &point) const {
     const Followed path(*this, point);
-    vector<double> y = unknowns_of(*path.system, point);
-    const NewtonOutcome out = newton_at(*path.system, newton_limits(options_.hbm), y, force);
+    vector<double> y = path.equations->unknowns(point);
+    const NewtonOutcome out = newton_at(path.equations->residual(), newton_limits(options_.hbm), y, force);
     if (!out.converged) return false;
-    BranchPoint found = solved_point(*path.system, {y, force}, out.residual, out.iterations);
+    BranchPoint found = path.equations->solved_point({y, force}, out.residual, out.iterations);
     if (!(found.omega > 0)) return false;
     point = std::move(found);
     return true;
@@ -164,12 +197,12 @@ Backbone PhaseResonance::follow(const BranchPoint &start, bool upward) const {
     range.max_step = std::min(longest_step, options_.hbm.max_step);
     range.locate = true;
     PathStart from;
-    from.at = {unknowns_of(*path.system, start), start.force_scale};
+    from.at = {path.equations->unknowns(start), start.force_scale};
     from.scale = path.scale;
     Branch &branch = *path.result.branch;
-    take_outcome(follow_path(*path.system, range, from, path), branch);
+    take_outcome(follow_path(path.equations->residual(), range, from, path), branch);
     if (branch.end_reason == PLM_REASON_NONE) branch.end_reason = PLM_REASON_RANGE_END;
-    branch.unknowns_used = "modal";
+    branch.unknowns_used = options_.exact ? "state" : "modal";
     return path.result;
 }
 

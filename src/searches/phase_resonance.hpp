@@ -36,6 +36,7 @@ class PhaseResonantSystem final : public FreeFrequency<AugmentedSystem> {
 struct BackboneOptions {
     HbmOptions hbm;       // n_harmonics > 0; its force_scale is the force whose crossings are wanted
     double force_max = 0; // the backbone is followed up to this force scale; 0: 8 force_scale
+    bool exact = false;   // of exact motions: the model has P_0 = P
 };
 
 struct Backbone {

@@ -189,6 +189,7 @@ ROWS = (automatic_harmonics, harmonic_tolerance_out_of_reach, deep_crack, far_ou
 
 ELSEWHERE = ("Curves of the examples' plates and cylinders with nothing set (143 s and minutes with version 0.1), s: the output of",
              "`build/release/tests/bench/bench_defaults` and, at the paper's size, `bench_defaults cracked_plate paper`.",
+             "An isolated branch beside a curve, found and followed with nothing set: `build/release/tests/bench/bench_isolated`.",
              "Impacts: [extreme.md](extreme.md); random models: [campaign.md](campaign.md).")
 
 

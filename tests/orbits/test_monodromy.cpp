@@ -1,6 +1,8 @@
 // The monodromy matrix of a given sequence of contact sets: against finite differences of the flow,
 // Liouville's theorem, and what is known of single systems.
 #include "flows.hpp"
+#include "orbits/recorded_motion.hpp"
+#include "orbits/work_gradient.hpp"
 #include <chrono>
 
 using namespace test;
@@ -252,11 +254,60 @@ void print_times(void **) {
     }
 }
 
+// The mean work against a harmonic load over two periods, by the Fourier coefficients of the motion; and its
+// derivative by where that begins.
+double work_of(plm::ExactFlow &flow, FlowState state, const plm::HarmonicLoad &load) {
+    plm::RecordedMotion motion;
+    flow.advance(state, 2 * flow.period(), &motion);
+    const Matrix q = motion.harmonics(4, 1);
+    double sum = 0;
+    for (std::int64_t j = 0; j < q.rows(); ++j) sum += load.real[j] * q(j, 0) - load.imag[j] * q(j, 1);
+    return 0.5 * sum;
+}
+double error_of_work_gradient(double k_n) {
+    const Case c = damped_chain(k_n);
+    const auto model = flow_model(c.s);
+    const auto modes = std::make_shared<plm::ContactModesKept>(model);
+    plm::ExactFlow flow(model, c.omega, 1, plm::Watch(), modes);
+    const std::int64_t n = model->size();
+    plm::HarmonicLoad load;
+    for (std::int64_t j = 0; j < n; ++j) {
+        load.real.push_back(1 + 0.3 * static_cast<double>(j));
+        load.imag.push_back(std::sin(static_cast<double>(j) + 1));
+    }
+    FlowState start{plm::vector<double>(n), plm::vector<double>(n), 0};
+    start.y[0] = 0.3;
+    flow.advance(start, c.periods * flow.period());
+    start.time = 0;
+    plm::ContactHistory history;
+    FlowState end = start;
+    flow.advance(end, 2 * flow.period(), &history);
+    const plm::vector<double> row =
+        plm::work_gradient(*model, history.intervals(), load, 2 * c.omega, *modes);
+    if (static_cast<std::int64_t>(row.size()) != 2 * n || history.intervals().size() < 4) return 1e300;
+    double worst = 0, size = 0;
+    const double step = 1e-6, duration = 2 * flow.period();
+    for (std::int64_t j = 0; j < 2 * n; ++j) {
+        FlowState plus = start, minus = start;
+        (j < n ? plus.y[j] : plus.v[j - n]) += step;
+        (j < n ? minus.y[j] : minus.v[j - n]) -= step;
+        const double difference =
+            duration * (work_of(flow, plus, load) - work_of(flow, minus, load)) / (2 * step);
+        worst = std::max(worst, std::abs(row[j] - difference));
+        size = std::max(size, std::abs(row[j]));
+    }
+    return worst / size;
+}
+void work_has_the_derivative_of_differences(void **) {
+    for (double k_n : {3.0, 300.0}) assert_true(below(error_of_work_gradient(k_n), 1e-6)); // see compare()
+}
+
 } // namespace
 
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(it_is_the_derivative_of_the_flow),
+        cmocka_unit_test(work_has_the_derivative_of_differences),
         cmocka_unit_test(a_single_interval_is_its_exponential),
         cmocka_unit_test(what_is_damped_hard_keeps_its_digits),
         cmocka_unit_test(what_nothing_holds_goes_on),

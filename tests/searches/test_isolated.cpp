@@ -440,11 +440,75 @@ void tracked_folds_of_exact_motions_are_those_of_the_curves(void **) {
     are_those_of_the_curves(track(exact_motions));
 }
 
+// --- backbones of exact motions
+
+// Where the backbone comes by the force for the last time, by harmonic balance or exactly; and what is in
+// phase with the force there.
+struct Crossing {
+    double omega = 0, amplitude = 0, phase = 1;
+    bool exact = false, with_multipliers = false;
+};
+Crossing crossing_of(const Model &m, const std::vector<plm::Backbone> &backbones) {
+    if (backbones.size() != 1 || backbones[0].crossings.empty()) return {};
+    const BranchPoint &p = backbones[0].branch->points()[backbones[0].crossings.back()];
+    const double amplitude = peak_at(*m, p, 0); // the force acts there
+    return {p.omega, amplitude, std::abs(plm::phase_of(*m, p, 1)) / amplitude, p.motion != nullptr,
+            !p.multipliers.empty()};
+}
+struct Backbones {
+    Crossing exact, by_hbm, by_harmonics;
+    bool said = false, said_of_given = true; // that few harmonics were chosen, and were asked for
+    std::vector<double> distances;           // of the frequency with 9, 27, 81 harmonics from the exact one
+};
+Backbones compare_backbones() {
+    const Model m = with_isola();
+    const double force = 0.006;
+    plm::BackboneOptions o;
+    o.hbm = options(force);
+    Backbones out;
+    o.exact = true;
+    out.exact = crossing_of(m, plm::PhaseResonance(m, o, plm::Watch()).backbones());
+    o.exact = false;
+    for (int harmonics : {9, 27, 81}) {
+        o.hbm.n_harmonics = harmonics;
+        const Crossing c = crossing_of(m, plm::PhaseResonance(m, o, plm::Watch()).backbones());
+        out.distances.push_back(std::abs(c.omega / out.exact.omega - 1));
+    }
+    out.by_hbm =
+        crossing_of(m, plm::Hbm(m, 0, 0, options(force, exact_motions), plm::Watch()).find_backbones(0));
+    plm::HbmOptions few = options(force, 0);
+    few.motion = plm::MotionKind::harmonics;
+    few.accuracy = 1e-9;
+    const auto said = [&m](const plm::HbmOptions &asked) {
+        return !plm::Hbm(m, 0, 0, asked, plm::Watch())
+                    .find_backbones(0)
+                    .at(0)
+                    .branch->warnings.list()
+                    .empty();
+    };
+    out.said = said(few), out.said_of_given = said(options(force));
+    out.by_harmonics = crossing_of(m, plm::Hbm(m, 0, 0, options(force), plm::Watch()).find_backbones(0));
+    return out;
+}
+void an_exact_backbone_is_the_limit_of_many_harmonics(void **) {
+    const Backbones b = compare_backbones();
+    std::printf("    9, 27, 81 harmonics off by %.1e, %.1e, %.1e\n", b.distances[0], b.distances[1],
+                b.distances[2]);
+    assert_true(b.exact.exact && b.exact.with_multipliers && below(b.exact.phase, 1e-9));
+    // the motion has a bend in its acceleration's slope: coefficients fall with the fourth power
+    assert_true(b.distances[1] < 0.1 * b.distances[0] && b.distances[2] < 0.1 * b.distances[1]);
+    assert_true(below(b.distances[2], 1e-8));
+    assert_true(b.by_hbm.exact && !b.by_harmonics.exact);
+    assert_true(b.said && !b.said_of_given);
+    assert_true(close_to(b.by_hbm.omega, b.exact.omega, 1e-9));
+}
+
 } // namespace
 
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(linear_backbone_is_a_straight_line_at_the_phase_resonance),
+        cmocka_unit_test(an_exact_backbone_is_the_limit_of_many_harmonics),
         cmocka_unit_test(isola_is_found_without_a_hint),
         cmocka_unit_test(range_of_forces_agrees_with_plain_sweeps),
         cmocka_unit_test(range_of_forces_of_exact_motions_agrees_with_plain_sweeps),
