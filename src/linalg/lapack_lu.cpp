@@ -10,18 +10,18 @@ namespace plm {
 
 namespace {
 
-// Up to this order narrow panels take 15 % less than dgetrf at once, which solves triangles where they
+// Between these orders narrow panels take 15 % less than dgetrf at once, which solves triangles where they
 // multiply (OpenBLAS's kernels for 512 bit; 3 % with those for 256).
-constexpr std::int64_t small = 128, narrow = 8;
+constexpr std::int64_t smallest = 48, small = 128, narrow = 8;
 
 // Matrices of some size at once, large ones by panels of columns, so that the host hears of it between them.
 // False: singular.
 bool factor_panels(Matrix &lu, vector<int> &pivots) {
     const std::int64_t size = lu.rows();
     const double n_real = static_cast<double>(size), all = 2.0 / 3 * n_real * n_real * n_real;
-    const std::int64_t width = size <= small         ? narrow
-                               : all < piece_of_work ? size
-                                                     : 128,
+    const std::int64_t width = size >= smallest && size <= small ? narrow
+                               : all < piece_of_work             ? size
+                                                                 : 128,
                        strip = std::max<std::int64_t>(
                            1, static_cast<std::int64_t>(piece_of_work / (256.0 * n_real)));
     const blas_int lda = leading(size), one = 1;

@@ -128,10 +128,12 @@ bool ExactFlow::enter_modes(const FlowState &state) {
     return modes && modal_->enter(std::move(modes), state, change_);
 }
 
-// To the modes of the present set, where the way there is known.
+// To the modes of the present set, where the way there is known. An impact lasts no longer than a piece of
+// the series, which keeps the digits that stiff contact leaves the eigenvectors without.
 bool ExactFlow::pass_on() {
     auto to = modes_->known(events_.states());
-    const vector<double> *way = to ? modes_->known_transition(modal_->modes(), to) : nullptr;
+    if (!to || (dense_ && !(to->usable_in_single() && modal_->modes()->usable_in_single()))) return false;
+    const vector<double> *way = modes_->known_transition(modal_->modes(), to);
     return way && modal_->pass(std::move(to), *way);
 }
 
