@@ -12,8 +12,8 @@ struct TrigCells {
     double cosine_low[n_lanes], sine_low[n_lanes], cosine_high[n_lanes], sine_high[n_lanes];
     double low[n_lanes], high[n_lanes], twist[n_lanes];
 };
-/// Of each lane the zero's distance from the low end, its cosine and sine; `found` is false where the cell may
-/// hold none or several, or where a few evaluations leave an error above rounding.
+/// Of each lane the zero's distance from the low end, its cosine and sine; `found` is false where the cell
+/// may hold none or several, or where a few evaluations leave an error above rounding.
 struct TrigZeros {
     double after_low[n_lanes], cosine[n_lanes], sine[n_lanes];
     bool found[n_lanes];

@@ -5,6 +5,7 @@
 #include "orbits/recorded_motion.hpp"
 #include "orbits/work_gradient.hpp"
 #include "searches/orbit_points.hpp"
+#include "searches/phase_resonance.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -22,23 +23,16 @@ OrbitPhaseSystem::OrbitPhaseSystem(std::shared_ptr<const ReducedModel> reduced, 
       n_(by_frequency_.size()), period_multiple_(options.period_multiple), omega_(about.omega),
       weight_(*by_frequency_.weights()) {
     weight_.push_back(1);
-    for (const auto &[harmonic, load] : by_frequency_.model().excitation()) {
-        const auto loaded = [](double f) { return f != 0; };
-        if (harmonic == 0 || !(std::any_of(load.real.begin(), load.real.end(), loaded) ||
-                               std::any_of(load.imag.begin(), load.imag.end(), loaded)))
-            continue;
-        harmonic_ = harmonic;
-        load_ = &load;
-        break;
+    if (const auto *driven = driven_harmonic(by_frequency_.model().excitation())) {
+        harmonic_ = driven->first;
+        load_ = &driven->second;
     }
     take_unit(options, about);
 }
 
 void OrbitPhaseSystem::take_unit(const HbmOptions &options, const BranchPoint &about) {
     x_ = orbit_unknowns(by_frequency_, about, period_multiple_);
-    const double response = norm2(n_, x_.data());
-    scale_ = about.force_scale > 0 ? response * options.force_scale / about.force_scale : response;
-    if (!(scale_ > 0)) scale_ = 1;
+    scale_ = response_at_force(norm2(n_, x_.data()), about, options);
     unit_ = scale_ / (2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz));
     if (!load_) return;
     // like the other equations: a load of this size on a displacement, as an energy

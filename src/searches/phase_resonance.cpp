@@ -20,20 +20,25 @@ constexpr double below_the_force = 0.5, next_to_nothing = 1e-3; // of the force 
 constexpr double before_switching = 0.5, small_force = 0.1, no_force = 1e-9;
 constexpr double about_resonance = 0.02; // relative: a corrected start farther off is another resonance
 
-// The lowest dynamic harmonic with a load; null: nothing is driven.
-const std::pair<const int, HarmonicLoad> *driven_harmonic(const ReducedModel &m) {
+} // namespace
+
+const std::pair<const int, HarmonicLoad> *driven_harmonic(const HarmonicLoads &excitation) {
     const auto loaded = [](const vector<double> &f) {
         return std::any_of(f.begin(), f.end(), [](double v) { return v != 0; });
     };
-    for (const auto &entry : m.excitation)
+    for (const auto &entry : excitation)
         if (entry.first > 0 && (loaded(entry.second.real) || loaded(entry.second.imag))) return &entry;
     return nullptr;
 }
 
-} // namespace
+double response_at_force(double response, const BranchPoint &about, const HbmOptions &options) {
+    const double there =
+        about.force_scale > 0 ? response * options.force_scale / about.force_scale : response;
+    return there > 0 ? there : 1;
+}
 
 double phase_of(const ReducedModel &m, const BranchPoint &point, std::int64_t period_multiple) {
-    const auto *driven = driven_harmonic(m);
+    const auto *driven = driven_harmonic(m.excitation);
     if (!driven) return 0;
     const std::int64_t h = driven->first * period_multiple;
     if (2 * h > point.eta.cols()) return 0;
@@ -58,7 +63,7 @@ double solution_distance(const BranchPoint &a, const BranchPoint &b) {
 PhaseResonantSystem::PhaseResonantSystem(HbmSystem &inner, const ReducedModel &m,
                                          std::int64_t period_multiple, double omega_reference, double unit)
     : FreeFrequency(omega_reference, unit, inner, 1), phase_(inner.size(), 0.0) {
-    const auto *driven = driven_harmonic(m);
+    const auto *driven = driven_harmonic(m.excitation);
     if (!driven) return;
     const std::int64_t r = m.size(), at = m.static_size() + 2 * (driven->first * period_multiple - 1) * r;
     if (at + 2 * r > inner.size())
@@ -101,12 +106,10 @@ class HarmonicPhase final : public PointEquations {
                   const BranchPoint &about)
         : inner_(make_system(reduced, options)) {
         const vector<double> x = unknowns_of(*inner_, about);
-        // a change of omega over the whole range counts as much as the response at the force asked for
         const std::int64_t statics = reduced->static_size();
         const double response = norm2(inner_->size() - statics, x.data() + statics),
                      range = 2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz);
-        scale_ = about.force_scale > 0 ? response * options.force_scale / about.force_scale : response;
-        if (!(scale_ > 0)) scale_ = 1;
+        scale_ = response_at_force(response, about, options);
         system_ = std::make_unique<PhaseResonantSystem>(*inner_, *reduced, options.period_multiple,
                                                         about.omega, scale_ / range);
     }
@@ -224,7 +227,7 @@ Backbone PhaseResonance::through(const BranchPoint &point) const {
 std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
     const ReducedModel &m = *reduced_;
     const vector<double> coupling = coupling_at_rest(m);
-    const auto *driven = driven_harmonic(m);
+    const auto *driven = driven_harmonic(m.excitation);
     if (!driven || driven->first > options_.hbm.n_harmonics) return {};
     const vector<double> lambda = modes_at_rest(m, coupling).values;
     const auto system = make_system(reduced_, options_.hbm);
