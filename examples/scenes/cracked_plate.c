@@ -45,6 +45,21 @@ void cracked_plate_paper(cracked_plate_params *p) {
     p->load_fy[0] = p->load_fy[1] = -254;
 }
 
+void cracked_plate_isolated(cracked_plate_params *p) {
+    cracked_plate_paper(p);
+    p->nx = 24;
+    p->ny = 13;
+    p->nz = 1;
+    p->crack_position = 37.5;
+    p->crack_rows = 7;
+    p->contact_stiffness = -1;
+    p->quality_factor = 500;
+    p->quality_frequency_hz = 1500;
+    p->with_preload = 1;
+    p->n_loads = 0;
+    p->end_compression = 92;
+}
+
 void cracked_plate_quick(cracked_plate_params *p) {
     cracked_plate_paper(p);
     p->nx = 12;

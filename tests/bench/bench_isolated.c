@@ -16,16 +16,7 @@ static double seconds(void) {
 static scene *plate(void) {
     cracked_plate_params p;
     scene *s = NULL;
-    cracked_plate_paper(&p);
-    p.nx = 24, p.ny = 13, p.nz = 1;
-    p.crack_position = 37.5;
-    p.crack_rows = 7;
-    p.contact_stiffness = -1;
-    p.quality_factor = 500;
-    p.quality_frequency_hz = 1500;
-    p.with_preload = 1;
-    p.n_loads = 0;
-    p.end_compression = 92;
+    cracked_plate_isolated(&p);
     if (cracked_plate_create(&p, &s)) fprintf(stderr, "no plate\n");
     return s;
 }
