@@ -52,8 +52,9 @@ typedef struct cracked_plate_params {
 /* The paper's plate: 33 x 35 x 4 bricks, 18,630 DOFs, crack at mid length, 18 of 35 rows deep, 90 pairs. */
 void cracked_plate_paper(cracked_plate_params *params);
 
-/* One with an isolated branch between 1,250 and 2,100 Hz at a force scale of 0.3: 24 x 13 x 1 bricks, the crack at a
- * quarter of the length, 7 of 13 rows deep, closed at rest by an even pressure on its end, Q = 500. */
+/* One with an isolated branch between 1,250 and 2,100 Hz at a force scale of 0.3: 24 x 13 x 1 bricks, the
+ * crack at a quarter of the length, 7 of 13 rows deep, closed at rest by an even pressure on its end, Q =
+ * 500. */
 void cracked_plate_isolated(cracked_plate_params *params);
 
 /* The paper's plate on 12 x 10 x 2 bricks, 15 pairs. */
