@@ -4,8 +4,8 @@
 #include "linalg/scale.hpp"
 #include "orbits/recorded_motion.hpp"
 #include "orbits/work_gradient.hpp"
+#include "searches/driven_harmonic.hpp"
 #include "searches/orbit_points.hpp"
-#include "searches/phase_resonance.hpp"
 #include <algorithm>
 #include <cmath>
 

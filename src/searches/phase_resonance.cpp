@@ -2,6 +2,7 @@
 #include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/modes_at_rest.hpp"
+#include "searches/driven_harmonic.hpp"
 #include "searches/orbit_phase.hpp"
 #include "searches/start.hpp"
 #include <algorithm>
@@ -21,21 +22,6 @@ constexpr double before_switching = 0.5, small_force = 0.1, no_force = 1e-9;
 constexpr double about_resonance = 0.02; // relative: a corrected start farther off is another resonance
 
 } // namespace
-
-const std::pair<const int, HarmonicLoad> *driven_harmonic(const HarmonicLoads &excitation) {
-    const auto loaded = [](const vector<double> &f) {
-        return std::any_of(f.begin(), f.end(), [](double v) { return v != 0; });
-    };
-    for (const auto &entry : excitation)
-        if (entry.first > 0 && (loaded(entry.second.real) || loaded(entry.second.imag))) return &entry;
-    return nullptr;
-}
-
-double response_at_force(double response, const BranchPoint &about, const HbmOptions &options) {
-    const double there =
-        about.force_scale > 0 ? response * options.force_scale / about.force_scale : response;
-    return there > 0 ? there : 1;
-}
 
 double phase_of(const ReducedModel &m, const BranchPoint &point, std::int64_t period_multiple) {
     const auto *driven = driven_harmonic(m.excitation);

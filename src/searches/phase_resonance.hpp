@@ -16,13 +16,6 @@ namespace plm {
 /// negative above a resonance. Does not depend on the force scale.
 double phase_of(const ReducedModel &reduced, const BranchPoint &point, std::int64_t period_multiple);
 
-/// The lowest dynamic harmonic with a load; null: nothing is driven.
-const std::pair<const int, HarmonicLoad> *driven_harmonic(const HarmonicLoads &excitation);
-
-/// The response at the force asked for, of one at another: a change of omega over the whole range counts as
-/// much as it. 1 where nothing moves.
-double response_at_force(double response, const BranchPoint &about, const HbmOptions &options);
-
 /// |x - x'| over the dynamic part and |omega - omega'|, both relative; small for the same solution.
 double solution_distance(const BranchPoint &a, const BranchPoint &b);
 

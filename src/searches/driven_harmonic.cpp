@@ -1,0 +1,21 @@
+#include "searches/driven_harmonic.hpp"
+#include <algorithm>
+
+namespace plm {
+
+const std::pair<const int, HarmonicLoad> *driven_harmonic(const HarmonicLoads &excitation) {
+    const auto loaded = [](const vector<double> &f) {
+        return std::any_of(f.begin(), f.end(), [](double v) { return v != 0; });
+    };
+    for (const auto &entry : excitation)
+        if (entry.first > 0 && (loaded(entry.second.real) || loaded(entry.second.imag))) return &entry;
+    return nullptr;
+}
+
+double response_at_force(double response, const BranchPoint &about, const HbmOptions &options) {
+    const double there =
+        about.force_scale > 0 ? response * options.force_scale / about.force_scale : response;
+    return there > 0 ? there : 1;
+}
+
+} // namespace plm
