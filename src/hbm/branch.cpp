@@ -212,6 +212,10 @@ Field Branch::field(std::int64_t point, double fraction) const {
         for (std::int64_t j = 0; j < reduced_->size(); ++j)
             eta[j] += c * p.eta(j, 2 * h - 2) + s * p.eta(j, 2 * h - 1);
     }
+    if (reduced_->same_static) {
+        for (std::int64_t j = 0; j < reduced_->size(); ++j) eta[j] += p.eta_0[j];
+        return combine(reduced_->vectors, eta);
+    }
     Field q = combine(reduced_->static_vectors(), p.eta_0);
     add_combination(1.0, reduced_->vectors, eta, q);
     return q;

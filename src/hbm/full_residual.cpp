@@ -139,6 +139,7 @@ double Branch::full_residual(std::int64_t point) const {
     const double back_substitution = 1e4 * static_cast<double>(reduced_->model->n_free()); // flops
     const std::int64_t last = points_[point].n_harmonics, block = harmonics_at_once(*reduced_->model);
     worked(back_substitution);
+    reduced_->vectors.worth_forming(2 * last); // rather at once than after as many columns, one by one
     full.add_mean(contact, residual, energy);
     for (std::int64_t first = 1; first <= last; first += block) {
         vector<std::int64_t> harmonics;

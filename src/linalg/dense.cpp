@@ -1,5 +1,6 @@
 #include "dense.hpp"
 #include "blas_lapack.hpp"
+#include "panel_lanes.hpp"
 #include "row_bands.hpp"
 #include <algorithm>
 #include <cmath>
@@ -90,12 +91,51 @@ namespace {
 
 constexpr std::int64_t tall = 1024 * row_bands;
 
+/// So few columns that packing A for them takes longer than the product.
+bool are_few(std::int64_t columns) {
+    return columns > 1 && columns <= side_by_side<double>;
+}
+
+LaneBlock<double> in_lanes(std::int64_t rows, std::int64_t columns, double factor, const double *b,
+                           std::int64_t ldb) {
+    LaneBlock<double> x(rows, columns);
+    for (std::int64_t i = 0; i < rows; ++i)
+        for (std::int64_t j = 0; j < columns; ++j) x(i, j) = factor * b[i + j * ldb];
+    return x;
+}
+
+/// C = alpha A B + beta C of few columns.
+void multiply_few(std::int64_t rows, const Matrix &b, double alpha, const double *a, std::int64_t lda,
+                  double beta, double *c, std::int64_t ldc) {
+    const LaneBlock<double> x = in_lanes(b.rows(), b.cols(), alpha, b.data(), b.rows());
+    LaneBlock<double> y(rows, b.cols());
+    multiply_panel<double>(rows, b.rows(), a, lda, x.all(), 1, true, y.all());
+    for (std::int64_t j = 0; j < b.cols(); ++j)
+        for (std::int64_t i = 0; i < rows; ++i)
+            c[i + j * ldc] = beta == 0 ? y(i, j) : beta * c[i + j * ldc] + y(i, j);
+}
+
+/// C = alpha A^T B of few columns.
+void multiply_few_transposed(std::int64_t rows, std::int64_t n, std::int64_t columns, double alpha,
+                             const double *a, const double *b, std::int64_t ld, double *c) {
+    const LaneBlock<double> x = in_lanes(rows, columns, -alpha, b, ld);
+    LaneBlock<double> y(n, columns);
+    subtract_panel_transposed<double>(rows, n, a, ld, x.all(), y.all());
+    for (std::int64_t j = 0; j < columns; ++j)
+        for (std::int64_t i = 0; i < n; ++i) c[i + j * n] = y(i, j);
+}
+
 /// C = alpha A op(B) + beta C, band by band of A and C.
 void multiply_tall(char op_b, double alpha, const Matrix &a, const Matrix &b, double beta, Matrix &c) {
     const double flops = 2.0 * static_cast<double>(a.rows() * a.cols()) * static_cast<double>(c.cols());
     const blas_int n = to_blas(c.cols()), k = to_blas(a.cols()), ld = leading(a.rows()),
                    ldb = leading(b.rows());
     for_row_bands(a.rows(), flops, [&](std::int64_t, std::int64_t first, std::int64_t rows) {
+        if (op_b == 'N' && are_few(c.cols()))
+            return multiply_few(rows, b, alpha, a.data() + first, a.rows(), beta, c.data() + first, c.rows());
+        if (op_b == 'N')
+            return gemm('N', rows, c.cols(), a.cols(), alpha, a.data() + first, a.rows(), b.data(), b.rows(),
+                        beta, c.data() + first, c.rows());
         const blas_int m = to_blas(rows);
         dgemm_("N", &op_b, &m, &n, &k, &alpha, a.data() + first, &ld, b.data(), &ldb, &beta, c.data() + first,
                &ld, 1, 1);
@@ -108,8 +148,12 @@ void multiply_tall_transposed(double alpha, const Matrix &a, const Matrix &b, do
     const double flops = 2.0 * static_cast<double>(ld) * static_cast<double>(entries);
     vector<double> parts(row_bands * entries);
     for_row_bands(ld, flops, [&](std::int64_t band, std::int64_t first, std::int64_t rows) {
-        gemm('T', c.rows(), c.cols(), rows, alpha, a.data() + first, ld, b.data() + first, ld, 0.0,
-             parts.data() + band * entries, c.rows());
+        double *part = parts.data() + band * entries;
+        if (are_few(c.cols()))
+            return multiply_few_transposed(rows, c.rows(), c.cols(), alpha, a.data() + first,
+                                           b.data() + first, ld, part);
+        gemm('T', c.rows(), c.cols(), rows, alpha, a.data() + first, ld, b.data() + first, ld, 0.0, part,
+             c.rows());
     });
     for (std::int64_t e = 0; e < entries; ++e) {
         double sum = beta == 0 ? 0 : beta * c.data()[e];
@@ -132,6 +176,9 @@ void gemm(char op_a, char op_b, double alpha, const Matrix &a, const Matrix &b, 
     if (worth && ta && !tb && inner >= tall &&
         c.rows() * c.cols() * row_bands <= inner * (c.rows() + c.cols()))
         return multiply_tall_transposed(alpha, a, b, beta, c);
+    if (!tb)
+        return gemm(op_a, c.rows(), c.cols(), inner, alpha, a.data(), a.rows(), b.data(), b.rows(), beta,
+                    c.data(), c.rows());
     const blas_int m = to_blas(c.rows()), n = to_blas(c.cols()), k = to_blas(inner);
     const blas_int lda = leading(a.rows()), ldb = leading(b.rows()), ldc = leading(c.rows());
     dgemm_(&op_a, &op_b, &m, &n, &k, &alpha, a.data(), &lda, b.data(), &ldb, &beta, c.data(), &ldc, 1, 1);
@@ -146,6 +193,8 @@ void gemm(char op, double alpha, const Matrix &a, const double *b, std::int64_t 
 
 void gemm(char op, std::int64_t m, std::int64_t n, std::int64_t k, double alpha, const double *a,
           std::int64_t lda, const double *b, std::int64_t ldb, double beta, double *c, std::int64_t ldc) {
+    if (n == 1 && k > 0) // dgemm packs A even for that
+        return gemv(op, op == 'N' ? m : k, op == 'N' ? k : m, alpha, a, lda, b, beta, c);
     const blas_int rows = to_blas(m), cols = to_blas(n), inner = to_blas(k);
     const blas_int ld_a = leading(lda), ld_b = leading(ldb), ld_c = leading(ldc);
     dgemm_(&op, "N", &rows, &cols, &inner, &alpha, a, &ld_a, b, &ld_b, &beta, c, &ld_c, 1, 1);

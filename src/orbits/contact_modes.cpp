@@ -8,7 +8,8 @@ namespace {
 
 constexpr double worst_condition = 1e-8; // reciprocal, of the eigenvectors: digits lost on the way to and fro
 constexpr double free_rate = 1e-10;      // of the fastest: nothing brings such a motion back
-constexpr std::int64_t worth_it = 40;    // pieces: as much work as the eigenvectors
+// Pieces that are as much work as the eigenvectors, n^3 against n^2: some at least, and by the coordinate.
+constexpr std::int64_t worth_it = 40, worth_a_coordinate = 2;
 constexpr double most_bytes = 1.5e8, most_transition_bytes = 1e8, most_entries = 4096;
 
 } // namespace
@@ -222,7 +223,7 @@ std::shared_ptr<const ContactModes> ContactModesKept::find(const PairStates &sta
     entry.last_use = ++clock_;
     entry.effort += effort;
     if (entry.tried) return entry.modes;
-    if (entry.effort < worth_it) return nullptr;
+    if (entry.effort < std::max(worth_it, worth_a_coordinate * model_->n_moving())) return nullptr;
     entry.tried = true;
     auto modes = std::make_shared<const ContactModes>(*model_, states);
     if (!modes->usable()) return nullptr;

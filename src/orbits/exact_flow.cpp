@@ -1,6 +1,7 @@
 #include "orbits/exact_flow.hpp"
 #include "contact/contact_step.hpp"
 #include "contact/polynomial.hpp"
+#include "linalg/lane_products.hpp"
 #include "linalg/scale.hpp"
 #include "linalg/work.hpp"
 #include <algorithm>
@@ -38,9 +39,6 @@ ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, doubl
             .argument("omega");
     for (const auto &entry : model_->excitation())
         fastest_force_ = std::max(fastest_force_, static_cast<double>(entry.first) * omega);
-    gap_size_ = model_->gap();
-    for (std::int64_t k = 0; k < gap_size_.rows() * gap_size_.cols(); ++k)
-        gap_size_.data()[k] = std::abs(gap_size_.data()[k]);
     own_set_.assign_stiffest();
     shortest_series_ = longest_step / std::max(own_set_.rate(), fastest_force_);
     const double pairs = static_cast<double>(model_->n_pairs()), switches = own_set_.rate() * period() / M_PI;
@@ -104,11 +102,12 @@ void ExactFlow::series_piece(FlowState &state, double left, FlowRecorder *record
     std::int64_t pair = -1;
     const double fraction = events_.first(motion_.penetrations, pair, at_once);
     if (recorder) report(state.time, fraction, duration, motion_.coefficient, nullptr, *recorder);
-    if (parameter_ != FlowParameter::none) {
-        expand(change_, duration, derivative_);
-        move_to(change_, fraction, duration, derivative_.coefficient);
-    }
     move_to(state, fraction, duration, motion_.coefficient);
+    if (parameter_ != FlowParameter::none && fraction > 0) {
+        const double passed = step_length(fraction * duration);
+        expand(change_, passed, derivative_);
+        move_to(change_, 1.0, passed, derivative_.coefficient);
+    }
     tried_ = longer * fraction * duration;
     events_.forget_zeros();
     fresh_ = false;
@@ -268,8 +267,7 @@ void ExactFlow::expand(const FlowState &state, double duration, Series &series) 
         const double order = static_cast<double>(k), factor = duration * duration / (order * (order - 1));
         const double *before = y.col(k - 1);
         double *next = y.col(k);
-        std::copy_n(series.force.col(k - 2), moving, next);
-        gemv('N', -factor, set_->stiffness(), y.col(k - 2), factor, next);
+        multiply_and_add(set_->stiffness(), -factor, y.col(k - 2), factor, series.force.col(k - 2), next);
         if (model_->has_diagonal_damping()) {
             const vector<double> &c = model_->damping_diagonal();
             for (std::int64_t j = 0; j < n; ++j) next[j] -= duration / order * c[j] * before[j];
@@ -293,15 +291,14 @@ void ExactFlow::expand(const FlowState &state, double duration, Series &series) 
 // zero: by its first powers, and by what the others have at most.
 void ExactFlow::find_penetrations(Series &series) {
     const Matrix &y = series.coefficient;
-    const std::int64_t z = model_->n_pairs(), known = std::min<std::int64_t>(known_powers, n_terms_);
+    const std::int64_t z = model_->n_pairs(), known = known_powers;
     if (z == 0) return;
-    known_.reset(z, known);
-    for (std::int64_t k = 0; k < known; ++k) gemv('N', 1.0, model_->gap(), y.col(k), 0.0, known_.col(k));
+    known_.reshape(z, known);
     ways_.assign(static_cast<std::size_t>(y.rows()), 0.0);
     for (std::int64_t k = known; k < n_terms_; ++k)
         for (std::int64_t j = 0; j < y.rows(); ++j) ways_[j] += spare * std::abs(y(j, k));
     travel_.resize(static_cast<std::size_t>(z));
-    gemv('N', 1.0, gap_size_, ways_.data(), 0.0, travel_.data());
+    multiply_three_and_bound(model_->gap(), y.data(), ways_.data(), known_.data(), travel_.data());
     now_.resize(static_cast<std::size_t>(z));
     for (std::int64_t i = 0; i < z; ++i) {
         now_[i] = series.offset(i, 0) + known_(i, 0);

@@ -89,7 +89,7 @@ class ExactFlow {
     FlowParameter parameter_ = FlowParameter::none;
     FlowState change_;
     Series motion_, derivative_;
-    Matrix contact_force_, shortened_, gap_size_, known_; // gap_size_: of its entries
+    Matrix contact_force_, shortened_, known_;
     const Matrix nothing_;
     vector<double> following_, ways_, now_,
         travel_; // now_: penetrations at the beginning of a piece, travel_: how far they may go

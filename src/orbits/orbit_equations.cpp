@@ -19,6 +19,8 @@ constexpr double loose = 1e-7, of_tolerance = 1e-5;
 // Where the monodromy only leads Newton's method, of a piece: corrections are as good (with thirty times as
 // much the cylinders of the examples take a third more of them).
 constexpr double roughly = 1e-5;
+// The last two points are farther apart than that from the next: a guess would be worth nothing.
+constexpr double farthest_guess = 3;
 
 } // namespace
 
@@ -56,7 +58,9 @@ OrbitConditions OrbitEquations::conditions(double p) const {
 
 void OrbitEquations::set_other(double value) {
     double &other = parameter_ == FlowParameter::force_scale ? conditions_.omega : conditions_.force_scale;
-    if (other != value) run_.known = remembered_.known = false;
+    if (other == value) return;
+    run_.known = remembered_.known = false;
+    before_ = last_ = {};
     other = value;
 }
 
@@ -129,17 +133,45 @@ bool OrbitEquations::is_small() const {
 
 void OrbitEquations::linearize() {
     linearize_within(is_small() ? 1e-15 : enough);
+    if (is_small() || run_.failed || run_.overflown) return;
+    std::swap(before_, last_);
+    last_ = {run_.x, run_.p, run_.monodromy};
+    guessed_ = false;
 }
 
-bool OrbitEquations::linearize_roughly() {
-    linearize_within(is_small() ? 1e-15 : roughly);
-    return !is_small();
+Tangent OrbitEquations::linearize_roughly() {
+    if (is_small()) {
+        linearize();
+        return Tangent::exact;
+    }
+    if (guess_monodromy()) return Tangent::guessed;
+    linearize_within(roughly);
+    return Tangent::rough;
+}
+
+// Along a path, from those of the last two points; once from there.
+bool OrbitEquations::guess_monodromy() {
+    if (guessed_ || run_.failed || before_.x.empty()) return false;
+    double square = 0, along = 0;
+    for (std::int64_t i = 0; i < size(); ++i) {
+        const double step = last_.x[i] - before_.x[i];
+        square += share_[i] * step * step;
+        along += share_[i] * step * (run_.x[i] - last_.x[i]);
+    }
+    const double factor = along / square;
+    if (!(std::abs(factor) <= farthest_guess)) return false;
+    const std::int64_t n = size();
+    run_.monodromy = last_.monodromy;
+    for (std::int64_t k = 0; k < n * n; ++k)
+        run_.monodromy.data()[k] += factor * (last_.monodromy.data()[k] - before_.monodromy.data()[k]);
+    factor_tangent();
+    guessed_ = true;
+    return true;
 }
 
 void OrbitEquations::linearize_within(double tolerance) {
     const std::int64_t n = size();
     run_.monodromy.reset(n, n);
-    run_.multipliers.clear();
     if (!run_.failed) {
         run_.monodromy = plm::monodromy(*model_, run_.intervals, tolerance, Watch(), modes_.get());
         for (std::int64_t j = 0; j < n; ++j)
@@ -148,6 +180,11 @@ void OrbitEquations::linearize_within(double tolerance) {
     // of a motion that grows so fast nothing is left to correct by
     run_.overflown = !all_finite(run_.monodromy.data(), n * n);
     if (run_.overflown) run_.monodromy.reset(n, n);
+    factor_tangent();
+}
+
+void OrbitEquations::factor_tangent() {
+    run_.multipliers.clear();
     Matrix a = tangent();
     run_.lu.factor(a);
 }

@@ -32,7 +32,7 @@ class OrbitEquations final : public Residual {
     std::int64_t size() const override { return model_->state_size(); }
     void residual(const double *x, double p, double *r) override;
     void linearize() override;
-    bool linearize_roughly() override;
+    Tangent linearize_roughly() override;
     void solve(double *b, std::int64_t n) override;
     int determinant_sign() const override { return run_.lu.determinant_sign(); }
     void parameter_derivative(double *r) override;
@@ -76,6 +76,8 @@ class OrbitEquations final : public Residual {
     void run(const double *x, double p);
     bool is_small() const;
     void linearize_within(double tolerance);
+    bool guess_monodromy();
+    void factor_tangent();
 
     // A run from x to `end`, its change by the parameter, and what it was linearised to.
     struct Run {
@@ -95,6 +97,13 @@ class OrbitEquations final : public Residual {
     std::shared_ptr<ContactModesKept> modes_;
     vector<double> weight_, share_; // of the unknowns
     Run run_, remembered_;
+    struct Known {
+        vector<double> x;
+        double p = 0;
+        Matrix monodromy;
+    };
+    Known before_, last_;  // of the last two linearize(), where it takes long
+    bool guessed_ = false; // since then
 };
 
 } // namespace plm

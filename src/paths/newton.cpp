@@ -19,7 +19,9 @@ constexpr std::size_t least_pieces =
     6; // factorizations after which coming back to the same pieces is no chance
 
 constexpr double negligible = 1e-3; // of the tolerance: as small as a last correction leaves the next one
-constexpr double remainder = 1e-2;  // of the tolerance: what a last correction by an old tangent may leave
+// Of the tolerance: what a last correction by an old tangent may leave; and where that is no more than a
+// share of something else's, so that one more digit is worth nothing.
+constexpr double remainder = 1e-2, loose_remainder = 0.1, loose = 1e-7;
 
 class Newton {
   public:
@@ -94,8 +96,9 @@ class Newton {
   private:
     // The correction by a tangent of some point before leaves a part of itself.
     bool is_last(double size, double contraction) const {
-        return size <= allowed() && contraction * size <= remainder * limits_.tolerance + smallest();
+        return size <= allowed() && contraction * size <= left_at_last() * limits_.tolerance + smallest();
     }
+    double left_at_last() const { return limits_.tolerance < loose ? remainder : loose_remainder; }
     // Whether the factorization serves for the correction after that, too. One that costs less than a
     // residual is made anew, since it gains as many digits as there are, unless the old one suffices for the
     // last.
@@ -104,9 +107,10 @@ class Newton {
     }
 
     void refactor() {
-        rough_ = system_.linearize_roughly();
+        const Tangent tangent = system_.linearize_roughly();
         ++out_.factorizations;
-        fresh_ = true;
+        rough_ = tangent != Tangent::exact;
+        fresh_ = tangent != Tangent::guessed;
         pieces_.push_back(system_.piece());
         make_border();
     }

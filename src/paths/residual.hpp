@@ -6,6 +6,13 @@
 
 namespace plm {
 
+/// What linearize_roughly() has made.
+enum class Tangent {
+    exact,
+    rough,  // nearly as good for Newton's method
+    guessed // from other points: better than theirs, but no reason to shorten a step by
+};
+
 class Residual {
   public:
     virtual ~Residual() = default;
@@ -17,10 +24,10 @@ class Residual {
     /// Factors dR/dx at the x and p of the last residual().
     virtual void linearize() = 0;
     /// The same as nearly as Newton's method needs it, where that costs less: it is good for solve() alone
-    /// then. True: it is not the tangent itself.
-    virtual bool linearize_roughly() {
+    /// then.
+    virtual Tangent linearize_roughly() {
         linearize();
-        return false;
+        return Tangent::exact;
     }
     /// Overwrites n right-hand sides (leading dimension size()) by (dR/dx)^-1 b.
     virtual void solve(double *b, std::int64_t n) = 0;

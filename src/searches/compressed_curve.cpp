@@ -36,7 +36,7 @@ constexpr double much_smaller_where_unstable = 0.6;
 constexpr std::int64_t motions_looked_at = 6; // of the first curve, besides its highest
 constexpr std::int64_t most_rounds = 6;
 // Of the first curve: some two hundred solutions that together take a second or two.
-constexpr double flops_of_look = 1e9;
+constexpr double flops_of_look = 4e8;
 
 // Of multipliers near the unit circle, on curves of cracked plates; and of motions whose multipliers are
 // right to that.

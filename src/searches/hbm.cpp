@@ -136,7 +136,7 @@ bool Hbm::solve_by_harmonics_at(double omega, const BranchPoint *guess, Branch &
     bool found = climbs && solve_from_few(few, omega, nullptr, branch, point) &&
                  climb_harmonics(reduced_, options, wanted.n_harmonics, point, watch_);
     found = found || solve_from_few(wanted, omega, guess, branch, point);
-    if (found) settle_harmonics(reduced_, options, point, watch_);
+    if (found && !only_looks_) settle_harmonics(reduced_, options, point, watch_);
     return found;
 }
 
@@ -175,6 +175,7 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
     CurveCompression compression(reduced_, options_, 2 * M_PI * options_.frequency_max_hz, watch_);
     Hbm look(*this), curve(*this);
     look.made_as_ = nullptr;
+    look.only_looks_ = true;
     look.watch_ = watch_.quiet();
     look.exact_ = false;
     look.options_.motion = MotionKind::harmonics;

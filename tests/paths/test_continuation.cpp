@@ -276,9 +276,9 @@ class Remembering final : public KnownCurve {
         ++n_tangents;
         KnownCurve::linearize();
     }
-    bool linearize_roughly() override {
+    plm::Tangent linearize_roughly() override {
         KnownCurve::linearize();
-        return true;
+        return plm::Tangent::rough;
     }
     bool is_cheap_to_linearize() const override { return true; }
     void remember() override { kept_x_ = x_, kept_tangent_ = tangent_; }
@@ -312,6 +312,47 @@ void nothing_is_linearised_twice_beside_a_special_point(void **) {
     assert_true(near(known.end, anew.end, 1e-12) && near(known.end, plain.end, 1e-9));
 }
 
+// A guess stands in for the tangent until it leads nowhere: near the truth it serves for every correction,
+// and with the wrong sign it costs one look and the tangent itself.
+class Guessing final : public KnownCurve {
+  public:
+    explicit Guessing(double factor)
+        : KnownCurve([](double x) { return x + x * x * x; }, [](double x) { return 1 + 3 * x * x; }),
+          factor_(factor) {}
+    plm::Tangent linearize_roughly() override {
+        KnownCurve::linearize();
+        if (n_tangents++ > 0) return plm::Tangent::exact;
+        tangent_ *= factor_;
+        return plm::Tangent::guessed;
+    }
+    bool is_cheap_to_linearize() const override { return true; }
+    int n_tangents = 0;
+
+  private:
+    double factor_;
+};
+struct Solved {
+    double x = 0;
+    std::int64_t tangents = 0;
+    bool converged = false;
+};
+Solved solved_from_guess(double factor, double start) {
+    Guessing curve(factor);
+    vector<double> x = {start};
+    plm::NewtonLimits limits;
+    const plm::NewtonOutcome out = plm::newton_at(curve, limits, x, 2.0);
+    return {x[0], curve.n_tangents, out.converged};
+}
+void a_guessed_tangent_leads_no_longer_than_it_helps(void **) {
+    const Solved near_it = solved_from_guess(1.02, 1 + 1e-7), wrong = solved_from_guess(-1, 0.7);
+    for (const Solved &s : {near_it, wrong}) {
+        assert_true(s.converged);
+        assert_true(near(s.x, 1, 1e-9)); // 1 + 1^3 = 2; the tolerance asked for
+    }
+    assert_int_equal(near_it.tangents, 1);
+    assert_true(wrong.tangents > 1);
+}
+
 } // namespace
 
 int main() {
@@ -328,6 +369,7 @@ int main() {
         cmocka_unit_test(a_test_function_that_is_infinite_has_no_zero),
         cmocka_unit_test(a_special_point_takes_few_looks),
         cmocka_unit_test(nothing_is_linearised_twice_beside_a_special_point),
+        cmocka_unit_test(a_guessed_tangent_leads_no_longer_than_it_helps),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

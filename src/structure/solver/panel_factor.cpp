@@ -16,42 +16,8 @@ constexpr std::int64_t panel_strip = 256, panel_band = 512;
 /// sums, and with it the digits, hangs on it.
 constexpr double largest_share = 1.0 / 16;
 
-/// B = op(L)^-1 B, L unit lower triangular: of one right-hand side, and of several.
-void solve_one(char op, blas_int n, const float *l, blas_int ld, float *b) {
-    const blas_int step = 1;
-    strsv_("L", &op, "U", &n, l, &ld, b, &step, 1, 1, 1);
-}
-void solve_one(char op, blas_int n, const double *l, blas_int ld, double *b) {
-    const blas_int step = 1;
-    dtrsv_("L", &op, "U", &n, l, &ld, b, &step, 1, 1, 1);
-}
-void solve_some(char op, blas_int n, blas_int nrhs, const float *l, blas_int ld, float *b, blas_int ldb) {
-    const float one = 1;
-    strsm_("L", "L", &op, "U", &n, &nrhs, &one, l, &ld, b, &ldb, 1, 1, 1, 1);
-}
-void solve_some(char op, blas_int n, blas_int nrhs, const double *l, blas_int ld, double *b, blas_int ldb) {
-    const double one = 1;
-    dtrsm_("L", "L", &op, "U", &n, &nrhs, &one, l, &ld, b, &ldb, 1, 1, 1, 1);
-}
-
-/// One right-hand side alone reads L without packing it.
-template <class T>
-void triangular_solve(char op, std::int64_t n, std::int64_t nrhs, const T *l, std::int64_t ld, T *b,
-                      std::int64_t ldb) {
-    if (nrhs == 1)
-        solve_one(op, to_blas(n), l, leading(ld), b);
-    else
-        solve_some(op, to_blas(n), to_blas(nrhs), l, leading(ld), b, leading(ldb));
-}
-
-/// C = alpha op(A) B + beta C, op(A) m x k: the same.
-template <class T>
-void multiply_panel(char op, std::int64_t m, std::int64_t nrhs, std::int64_t k, T alpha, const T *a,
-                    std::int64_t lda, const T *b, std::int64_t ldb, T beta, T *c, std::int64_t ldc) {
-    if (nrhs == 1)
-        gemv(op, op == 'N' ? m : k, op == 'N' ? k : m, alpha, a, lda, b, beta, c);
-    else
-        gemm(op, m, nrhs, k, alpha, a, lda, b, ldb, beta, c, ldc);
+template <class T> void add_row(T sign, const T *from, T *to) {
+    for (std::int64_t k = 0; k < side_by_side<T>; ++k) to[k] += sign * from[k];
 }
 
 double flops_of_product(std::int64_t m, std::int64_t n, std::int64_t k) {
@@ -165,51 +131,55 @@ template <class T> void PanelFactor<T>::solve(double *x, std::int64_t nrhs, std:
     // then the largest entry of a right-hand side, and the largest pivot, become one, whatever the units are
     constexpr bool rounded = std::is_same<T, float>::value;
     const double scale_of_pivots = rounded ? largest_pivot_ : 1;
-    vector<T> entries(n_ * nrhs); // in the new order
+    LaneBlock<T> entries(n_, nrhs); // in the new order
     vector<double> size(nrhs, 1.0);
     const double work = 10 * static_cast<double>(n_ * nrhs); // it takes as long as so many flops
-    parallel_for(nrhs, work, [&](std::int64_t j) {
+    parallel_for(rounded ? nrhs : 0, work, [&](std::int64_t j) {
         const double *column = x + j * ldx;
-        if (rounded) {
-            size[j] = 0;
-            for (std::int64_t i = 0; i < n_; ++i) size[j] = std::max(size[j], std::fabs(column[i]));
-        }
-        const double scale = size[j] > 0 ? 1 / size[j] : 0;
-        T *to = entries.data() + j * n_;
-        for (std::int64_t i = 0; i < n_; ++i) to[i] = static_cast<T>(column[original_[i]] * scale);
+        size[j] = 0;
+        for (std::int64_t i = 0; i < n_; ++i) size[j] = std::max(size[j], std::fabs(column[i]));
     });
-    solve_in_order({entries.data(), n_, 0, nullptr}, nrhs, scale_of_pivots);
-    parallel_for(nrhs, work, [&](std::int64_t j) {
-        const T *from = entries.data() + j * n_;
-        for (std::int64_t i = 0; i < n_; ++i) x[original_[i] + j * ldx] = from[i] * size[j] / scale_of_pivots;
+    const auto for_rows = [&](const auto &body) { // body(row of x, entries of the group, its columns)
+        parallel_for(entries.groups(), work, [&](std::int64_t g) {
+            const std::int64_t first = g * side_by_side<T>, width = std::min(side_by_side<T>, nrhs - first);
+            T *row = entries.all().group(g);
+            for (std::int64_t i = 0; i < n_; ++i, row += side_by_side<T>)
+                for (std::int64_t k = 0; k < width; ++k)
+                    body(x[original_[i] + (first + k) * ldx], row[k], size[first + k]);
+        });
+    };
+    for_rows([](double from, T &to, double scale) {
+        to = rounded ? (scale > 0 ? static_cast<T>(from / scale) : T(0)) : static_cast<T>(from);
     });
+    solve_in_order(entries.all(), scale_of_pivots);
+    for_rows([&](double &to, T from, double scale) { to = from * scale / scale_of_pivots; });
     worked(4.0 * static_cast<double>(nonzeros_) * static_cast<double>(nrhs));
 }
 
-template <class T>
-void PanelFactor<T>::solve_in_order(const Rows &x, std::int64_t nrhs, double scale_of_pivots) const {
+template <class T> void PanelFactor<T>::solve_in_order(const LaneRows<T> &all, double scale_of_pivots) const {
+    const Rows x{all, 0, nullptr};
     const auto count = static_cast<std::int64_t>(subtrees_.size());
-    const double flops = flops_of_product(nonzeros_, nrhs, 1);
-    std::vector<vector<T>> from_subtrees(subtrees_.size());
+    const double flops = flops_of_product(nonzeros_, all.groups * side_by_side<T>, 1);
+    std::vector<LaneBlock<T>> from_subtrees(subtrees_.size());
     parallel_for(count, flops, [&](std::int64_t k) {
-        forward_subtree(subtrees_[k], x, nrhs, from_subtrees[static_cast<std::size_t>(k)]);
+        forward_subtree(subtrees_[k], x, from_subtrees[static_cast<std::size_t>(k)]);
     });
-    forward_rest(from_subtrees, x, nrhs);
-    parallel_for(nrhs, 10 * static_cast<double>(n_ * nrhs), [&](std::int64_t j) {
-        divide(0, n_, {x.entries + j * x.ld, x.ld, 0, nullptr}, 1, scale_of_pivots);
+    forward_rest(from_subtrees, x);
+    parallel_for(all.groups, 10 * static_cast<double>(n_ * side_by_side<T>), [&](std::int64_t g) {
+        divide(0, n_, {{all.group(g), all.stride, 1}, 0, nullptr}, scale_of_pivots);
     });
-    backward_rest(x, nrhs);
-    parallel_for(count, flops, [&](std::int64_t k) { backward_subtree(subtrees_[k], x, x, nrhs); });
+    backward_rest(x);
+    parallel_for(count, flops, [&](std::int64_t k) { backward_subtree(subtrees_[k], x, x); });
 }
 
 /// By the pivots, of some columns of L.
 template <class T>
-void PanelFactor<T>::divide(std::int64_t first, std::int64_t last, const Rows &x, std::int64_t nrhs,
-                            double scale) const {
-    for (std::int64_t j = 0; j < nrhs; ++j) {
-        T *column = x.at(first) + j * x.ld;
-        for (std::int64_t i = first; i < last; ++i)
-            column[i - first] = static_cast<T>(column[i - first] * (scale / pivots_[i]));
+void PanelFactor<T>::divide(std::int64_t first, std::int64_t last, const Rows &x, double scale) const {
+    for (std::int64_t g = 0; g < x.all.groups; ++g) {
+        T *row = x.at(first, g);
+        for (std::int64_t i = first; i < last; ++i, row += side_by_side<T>)
+            for (std::int64_t k = 0; k < side_by_side<T>; ++k)
+                row[k] = static_cast<T>(row[k] * (scale / pivots_[i]));
     }
 }
 
@@ -219,109 +189,109 @@ template <class T> std::int64_t PanelFactor<T>::most_below(const Subtree &subtre
     return most;
 }
 
-/// above: what it adds to the rows below its root.
 template <class T>
-void PanelFactor<T>::forward_subtree(const Subtree &subtree, const Rows &x, std::int64_t nrhs,
-                                     vector<T> &above) const {
-    const std::int64_t reached = below(subtree.last);
-    above.assign(reached * nrhs, 0);
-    vector<T> sums(most_below(subtree) * nrhs);
+void PanelFactor<T>::forward_subtree(const Subtree &subtree, const Rows &x, LaneBlock<T> &above) const {
+    const std::int64_t groups = x.all.groups, lanes = side_by_side<T>;
+    above = LaneBlock<T>(below(subtree.last), groups * lanes);
+    LaneBlock<T> sums(most_below(subtree), groups * lanes);
     for (std::int64_t node = subtree.first; node <= subtree.last; ++node) {
-        forward_own(node, x, nrhs, sums.data());
+        forward_own(node, x, sums.all());
         const std::int64_t *row = rows_below(node), *place = place_.data() + first_place_[node];
         const std::int64_t inside = inside_[node], outside = below(node) - inside;
-        for (std::int64_t j = 0; j < nrhs; ++j) {
-            const T *sum = sums.data() + j * below(node);
-            for (std::int64_t i = 0; i < inside; ++i) x.at(row[i])[j * x.ld] -= sum[i];
-            for (std::int64_t i = 0; i < outside; ++i) above[place[i] + j * reached] += sum[inside + i];
+        for (std::int64_t g = 0; g < groups; ++g) {
+            const T *sum = sums.all().group(g);
+            T *to = above.all().group(g);
+            for (std::int64_t i = 0; i < inside; ++i) add_row<T>(-1, sum + i * lanes, x.at(row[i], g));
+            for (std::int64_t i = 0; i < outside; ++i)
+                add_row<T>(1, sum + (inside + i) * lanes, to + place[i] * lanes);
         }
     }
 }
 
-/// The supernodes above the subtrees; from_subtrees: empty where one adds nothing.
+/// The supernodes above the subtrees.
 template <class T>
-void PanelFactor<T>::forward_rest(const std::vector<vector<T>> &from_subtrees, const Rows &x,
-                                  std::int64_t nrhs) const {
-    const auto subtract = [&](std::int64_t node, const T *sums) {
+void PanelFactor<T>::forward_rest(const std::vector<LaneBlock<T>> &from_subtrees, const Rows &x) const {
+    const std::int64_t groups = x.all.groups, lanes = side_by_side<T>;
+    const auto subtract = [&](std::int64_t node, const LaneRows<const T> &sums) {
         const std::int64_t *row = rows_below(node);
-        for (std::int64_t j = 0; j < nrhs; ++j)
+        for (std::int64_t g = 0; g < groups; ++g)
             for (std::int64_t i = 0; i < below(node); ++i)
-                x.at(row[i])[j * x.ld] -= sums[i + j * below(node)];
+                add_row<T>(-1, sums.group(g) + i * lanes, x.at(row[i], g));
     };
     for (std::size_t k = 0; k < subtrees_.size(); ++k)
-        if (!from_subtrees[k].empty()) subtract(subtrees_[k].last, from_subtrees[k].data());
-    vector<T> sums(most_below_ * nrhs);
+        if (!from_subtrees[k].empty()) subtract(subtrees_[k].last, from_subtrees[k].all());
+    LaneBlock<T> sums(most_below_, groups * lanes);
     for (std::int64_t node : rest_) {
-        forward_own(node, x, nrhs, sums.data());
-        subtract(node, sums.data());
+        forward_own(node, x, sums.all());
+        subtract(node, sums.all());
     }
 }
 
-/// The columns of a supernode, and `sums`, below x nrhs: what is to be subtracted below them.
+/// The columns of a supernode, and `sums`: what is to be subtracted below them.
 template <class T>
-void PanelFactor<T>::forward_own(std::int64_t node, const Rows &x, std::int64_t nrhs, T *sums) const {
+void PanelFactor<T>::forward_own(std::int64_t node, const Rows &x, const LaneRows<T> &sums) const {
     const std::int64_t rows = nodes().rows_of(node), columns = nodes().columns_of(node);
     const std::int64_t staying = rows - columns, bands = (staying + panel_band - 1) / panel_band;
     const T *panel = panels_.data() + first_entry_[node];
-    T *own = x.at(first_column_[node]);
+    const LaneRows<T> own = x.from(first_column_[node]);
     for (std::int64_t first = 0; first < columns; first += panel_strip) {
         const std::int64_t width = std::min(panel_strip, columns - first), last = first + width;
         const T *l = panel + first * rows;
-        triangular_solve('N', width, nrhs, l + first, rows, own + first, x.ld);
-        parallel_for(1 + bands, flops_of_product(rows - last, nrhs, width), [&](std::int64_t k) {
+        const LaneRows<T> strip = own.from(first);
+        solve_lower(width, l + first, rows, strip);
+        const double flops = flops_of_product(rows - last, own.groups * side_by_side<T>, width);
+        parallel_for(1 + bands, flops, [&](std::int64_t k) {
             if (k == 0 && last < columns)
-                multiply_panel<T>('N', columns - last, nrhs, width, -1, l + last, rows, own + first, x.ld, 1,
-                                  own + last, x.ld);
+                multiply_panel<T>(columns - last, width, l + last, rows, strip, -1, false, own.from(last));
             if (k == 0) return;
             const std::int64_t begin = (k - 1) * panel_band, height = std::min(panel_band, staying - begin);
-            multiply_panel<T>('N', height, nrhs, width, 1, l + columns + begin, rows, own + first, x.ld,
-                              first > 0, sums + begin, staying);
+            multiply_panel<T>(height, width, l + columns + begin, rows, strip, 1, first == 0,
+                              sums.from(begin));
         });
     }
 }
 
-template <class T> void PanelFactor<T>::backward_rest(const Rows &x, std::int64_t nrhs) const {
-    vector<T> known(most_below_ * nrhs);
-    for (auto node = rest_.rbegin(); node != rest_.rend(); ++node)
-        backward_node(*node, x, x, nrhs, known.data());
+template <class T> void PanelFactor<T>::backward_rest(const Rows &x) const {
+    LaneBlock<T> known(most_below_, x.all.groups * side_by_side<T>);
+    for (auto node = rest_.rbegin(); node != rest_.rend(); ++node) backward_node(*node, x, x, known.all());
 }
 
 template <class T>
-void PanelFactor<T>::backward_subtree(const Subtree &subtree, const Rows &x, const KnownRows &above,
-                                      std::int64_t nrhs) const {
-    vector<T> known(most_below(subtree) * nrhs);
+void PanelFactor<T>::backward_subtree(const Subtree &subtree, const Rows &x, const KnownRows &above) const {
+    LaneBlock<T> known(most_below(subtree), x.all.groups * side_by_side<T>);
     for (std::int64_t node = subtree.last; node >= subtree.first; --node)
-        backward_node(node, x, above, nrhs, known.data());
+        backward_node(node, x, above, known.all());
 }
 
-/// above: rows above the subtree; known: room for below x nrhs.
+/// above: rows above the subtree; known: room for those below the supernode.
 template <class T>
 void PanelFactor<T>::backward_node(std::int64_t node, const Rows &x, const KnownRows &above,
-                                   std::int64_t nrhs, T *known) const {
+                                   const LaneRows<T> &known) const {
     const std::int64_t rows = nodes().rows_of(node), columns = nodes().columns_of(node);
     const std::int64_t staying = rows - columns, strips = (columns + panel_strip - 1) / panel_strip;
     const std::int64_t *row = rows_below(node);
     const T *panel = panels_.data() + first_entry_[node];
-    T *own = x.at(first_column_[node]);
-    for (std::int64_t j = 0; j < nrhs; ++j) {
-        T *column = known + j * staying;
-        for (std::int64_t i = 0; i < inside_[node]; ++i) column[i] = x.at(row[i])[j * x.ld];
-        for (std::int64_t i = inside_[node]; i < staying; ++i) column[i] = above.at(row[i])[j * above.ld];
+    const LaneRows<T> own = x.from(first_column_[node]);
+    for (std::int64_t g = 0; g < own.groups; ++g) {
+        T *to = known.group(g);
+        for (std::int64_t i = 0; i < staying; ++i, to += side_by_side<T>)
+            std::copy_n(i < inside_[node] ? x.at(row[i], g) : above.at(row[i], g), side_by_side<T>, to);
     }
-    const auto subtract = [&](std::int64_t s, std::int64_t first_row, std::int64_t height, const T *from,
-                              std::int64_t ld) {
+    const auto subtract = [&](std::int64_t s, std::int64_t first_row, std::int64_t height,
+                              const LaneRows<const T> &from) {
         const std::int64_t first = s * panel_strip, width = std::min(panel_strip, columns - first);
-        multiply_panel<T>('T', width, nrhs, height, -1, panel + first_row + first * rows, rows, from, ld, 1,
-                          own + first, x.ld);
+        subtract_panel_transposed<T>(height, width, panel + first_row + first * rows, rows, from,
+                                     own.from(first));
     };
+    const std::int64_t nrhs = own.groups * side_by_side<T>;
     if (staying > 0)
         parallel_for(strips, flops_of_product(staying, nrhs, columns),
-                     [&](std::int64_t s) { subtract(s, columns, staying, known, staying); });
+                     [&](std::int64_t s) { subtract(s, columns, staying, known); });
     for (std::int64_t s = strips - 1; s >= 0; --s) {
         const std::int64_t first = s * panel_strip, width = std::min(panel_strip, columns - first);
-        triangular_solve('T', width, nrhs, panel + first + first * rows, rows, own + first, x.ld);
+        solve_lower_transposed(width, panel + first + first * rows, rows, own.from(first));
         parallel_for(s, flops_of_product(first, nrhs, width),
-                     [&](std::int64_t earlier) { subtract(earlier, first, width, own + first, x.ld); });
+                     [&](std::int64_t earlier) { subtract(earlier, first, width, own.from(first)); });
     }
 }
 

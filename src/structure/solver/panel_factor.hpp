@@ -2,6 +2,7 @@
 // rounded to single front by front, while they are computed in double: half the memory then, and far nearer
 // to A than a factorization in single precision.
 #pragma once
+#include "linalg/panel_lanes.hpp"
 #include "structure/solver/fronts.hpp"
 
 namespace plm {
@@ -37,26 +38,28 @@ template <class T> class PanelFactor final : PanelTaker {
     vector<std::int64_t> parents() const;
 
     /// Where rows of right-hand sides in the new order stand: one after the other from `offset` on, or each
-    /// in its place; columns are `ld` apart.
+    /// in its place.
     template <class Entry> struct RowsOf {
-        Entry *entries;
-        std::int64_t ld, offset;
+        LaneRows<Entry> all;
+        std::int64_t offset;
         const std::int64_t *place;
-        Entry *at(std::int64_t row) const { return entries + (place ? place[row] : row - offset); }
-        operator RowsOf<const Entry>() const { return {entries, ld, offset, place}; }
+        LaneRows<Entry> from(std::int64_t row) const { return all.from(place ? place[row] : row - offset); }
+        Entry *at(std::int64_t row, std::int64_t group) const { return from(row).group(group); }
+        operator RowsOf<const Entry>() const { return {all, offset, place}; }
     };
     using Rows = RowsOf<T>;
     using KnownRows = RowsOf<const T>;
-    void solve_in_order(const Rows &x, std::int64_t nrhs, double scale_of_pivots) const;
-    void forward_subtree(const Subtree &subtree, const Rows &x, std::int64_t nrhs, vector<T> &above) const;
-    void backward_subtree(const Subtree &subtree, const Rows &x, const KnownRows &above,
-                          std::int64_t nrhs) const;
-    void forward_rest(const std::vector<vector<T>> &from_subtrees, const Rows &x, std::int64_t nrhs) const;
-    void backward_rest(const Rows &x, std::int64_t nrhs) const;
-    void forward_own(std::int64_t node, const Rows &x, std::int64_t nrhs, T *sums) const;
-    void backward_node(std::int64_t node, const Rows &x, const KnownRows &above, std::int64_t nrhs,
-                       T *known) const;
-    void divide(std::int64_t first, std::int64_t last, const Rows &x, std::int64_t nrhs, double scale) const;
+    void solve_in_order(const LaneRows<T> &all, double scale_of_pivots) const;
+    /// above: what it adds to the rows below its root.
+    void forward_subtree(const Subtree &subtree, const Rows &x, LaneBlock<T> &above) const;
+    void backward_subtree(const Subtree &subtree, const Rows &x, const KnownRows &above) const;
+    /// from_subtrees: empty where one adds nothing.
+    void forward_rest(const std::vector<LaneBlock<T>> &from_subtrees, const Rows &x) const;
+    void backward_rest(const Rows &x) const;
+    void forward_own(std::int64_t node, const Rows &x, const LaneRows<T> &sums) const;
+    void backward_node(std::int64_t node, const Rows &x, const KnownRows &above,
+                       const LaneRows<T> &known) const;
+    void divide(std::int64_t first, std::int64_t last, const Rows &x, double scale) const;
     std::int64_t most_below(const Subtree &subtree) const;
 
     Supernodes nodes() const {

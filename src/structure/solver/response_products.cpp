@@ -110,47 +110,59 @@ class ResponseProducts {
     /// root.
     struct Forward {
         vector<std::int64_t> columns;
-        Matrix x;
-        vector<double> above;
+        LaneBlock<double> x, above;
     };
     Forward forward(const Subtree &t) const {
         const std::int64_t begin = begin_of(t), rows = end_of(t) - begin;
         const Span forces = forces_on(begin, end_of(t));
         Forward f{columns_of(forces), {}, {}};
         const auto width = static_cast<std::int64_t>(f.columns.size());
-        f.x = Matrix(rows, width);
+        f.x = LaneBlock<double>(rows, width);
         if (width == 0) return f;
         vector<std::int64_t> at(s_);
         for (std::int64_t k = 0; k < width; ++k) at[f.columns[k]] = k;
         for (const Entry *e = forces.first; e != forces.last; ++e)
             f.x(e->row - begin, at[e->column]) += e->value;
-        p_.forward_subtree(t, {f.x.data(), rows, begin, nullptr}, width, f.above);
-        p_.divide(begin, begin + rows, {f.x.data(), rows, begin, nullptr}, width, 1);
+        const Rows x{f.x.all(), begin, nullptr};
+        p_.forward_subtree(t, x, f.above);
+        p_.divide(begin, begin + rows, x, 1);
         return f;
     }
 
     void solve_shared() {
         const auto count = static_cast<std::int64_t>(p_.subtrees_.size());
-        std::vector<vector<double>> from_subtrees(p_.subtrees_.size());
+        std::vector<LaneBlock<double>> from_subtrees(p_.subtrees_.size());
         parallel_for(count, [&](std::int64_t k) {
             const Forward f = forward(p_.subtrees_[k]);
             if (f.columns.empty()) return;
             const std::int64_t reached = p_.below(p_.subtrees_[k].last);
-            vector<double> &above = from_subtrees[static_cast<std::size_t>(k)];
-            above.assign(reached * s_, 0);
-            for (std::size_t c = 0; c < f.columns.size(); ++c)
-                std::copy_n(f.above.data() + static_cast<std::int64_t>(c) * reached, reached,
-                            above.data() + f.columns[c] * reached);
+            LaneBlock<double> &above = from_subtrees[static_cast<std::size_t>(k)];
+            above = LaneBlock<double>(reached, s_);
+            put_columns(f.above, f.columns, above);
         });
-        const auto rows = static_cast<std::int64_t>(shared_row_.size());
-        shared_ = Matrix(rows, s_);
+        shared_rows_ = LaneBlock<double>(static_cast<std::int64_t>(shared_row_.size()), s_);
         for (const Entry &e : entries_)
-            if (place_[e.row] >= 0) shared_(place_[e.row], e.column) += e.value;
-        const Rows x{shared_.data(), rows, 0, place_.data()};
-        p_.forward_rest(from_subtrees, x, s_);
+            if (place_[e.row] >= 0) shared_rows_(place_[e.row], e.column) += e.value;
+        const Rows x{shared_rows_.all(), 0, place_.data()};
+        p_.forward_rest(from_subtrees, x);
         for (std::int64_t node : p_.rest_)
-            p_.divide(p_.first_column_[node], p_.first_column_[node + 1], x, s_, 1);
-        p_.backward_rest(x, s_);
+            p_.divide(p_.first_column_[node], p_.first_column_[node + 1], x, 1);
+        p_.backward_rest(x);
+        shared_ = by_columns(shared_rows_);
+    }
+
+    static Matrix by_columns(const LaneBlock<double> &block) {
+        Matrix a(block.rows(), block.columns());
+        for (std::int64_t j = 0; j < a.cols(); ++j)
+            for (std::int64_t i = 0; i < a.rows(); ++i) a(i, j) = block(i, j);
+        return a;
+    }
+
+    static void put_columns(const LaneBlock<double> &from, const vector<std::int64_t> &columns,
+                            LaneBlock<double> &to) {
+        for (std::size_t c = 0; c < columns.size(); ++c)
+            for (std::int64_t i = 0; i < from.rows(); ++i)
+                to(i, columns[c]) = from(i, static_cast<std::int64_t>(c));
     }
 
     void add_shared(Sums &sums) const {
@@ -169,12 +181,12 @@ class ResponseProducts {
 
     void add_subtree(const Subtree &t, Sums &sums) const {
         const std::int64_t begin = begin_of(t), end = end_of(t);
-        Matrix x(end - begin, s_);
+        LaneBlock<double> rows(end - begin, s_);
         const Forward f = forward(t);
-        for (std::size_t c = 0; c < f.columns.size(); ++c)
-            std::copy_n(f.x.col(static_cast<std::int64_t>(c)), x.rows(), x.col(f.columns[c]));
-        p_.backward_subtree(t, {x.data(), x.rows(), begin, nullptr},
-                            {shared_.data(), shared_.rows(), 0, place_.data()}, s_);
+        put_columns(f.x, f.columns, rows);
+        const LaneBlock<double> &shared = shared_rows_;
+        p_.backward_subtree(t, {rows.all(), begin, nullptr}, {shared.all(), 0, place_.data()});
+        const Matrix x = by_columns(rows);
         const Span forces = forces_on(begin, end);
         for (const Entry *e = forces.first; e != forces.last; ++e)
             for (std::int64_t c = 0; c < s_; ++c)
@@ -255,8 +267,9 @@ class ResponseProducts {
     vector<std::int64_t> position_; // new order of each row of A
     vector<std::int64_t> place_;    // of each row in the new order: among those above the subtrees, or -1
     vector<std::int64_t> shared_row_;
-    vector<Entry> entries_; // by rows in the new order
-    Matrix shared_;         // X above the subtrees
+    vector<Entry> entries_;         // by rows in the new order
+    LaneBlock<double> shared_rows_; // X above the subtrees
+    Matrix shared_;                 // the same by columns
 };
 
 bool multiply_responses(const PanelFactor<double> &factor, const SparseMatrix &f, const SparseMatrix &m,
