@@ -149,7 +149,7 @@ template <class T> void PanelFactor<T>::solve(double *x, std::int64_t nrhs, std:
         });
     };
     for_rows([](double from, T &to, double scale) {
-        to = rounded ? (scale > 0 ? static_cast<T>(from / scale) : T(0)) : static_cast<T>(from);
+        to = static_cast<T>(!rounded ? from : scale > 0 ? from / scale : 0 * from); // NaN stays
     });
     solve_in_order(entries.all(), scale_of_pivots);
     for_rows([&](double &to, T from, double scale) { to = from * scale / scale_of_pivots; });

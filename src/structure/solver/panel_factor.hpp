@@ -15,7 +15,7 @@ template <class T> class PanelFactor final : PanelTaker {
     PanelFactor(const SparseMatrix &a, const Supernodes &supernodes);
     PanelFactor(const PanelFactor &) = delete;
 
-    /// Right-hand sides at once: enough for the speed of BLAS 3.
+    /// Right-hand sides at once: more are hardly faster.
     static constexpr std::int64_t widest_solve = 64;
     /// X becomes A^-1 X, to the precision of T; X is n x nrhs with leading dimension ldx, nrhs <=
     /// widest_solve.
