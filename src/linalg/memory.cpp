@@ -2,6 +2,10 @@
 #include <cstdint>
 #include <cstdlib>
 #include <new>
+#if defined(__linux__)
+#include <cerrno>
+#include <sys/mman.h>
+#endif
 
 namespace plm {
 namespace {
@@ -19,6 +23,20 @@ struct Header {
     void *user;
     void *raw;
 };
+
+/// Large blocks are asked for in large pages, which the system clears and finds faster; where it has none, or
+/// is set not to, nothing happens.
+void ask_for_large_pages([[maybe_unused]] void *raw, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+    constexpr std::size_t large = std::size_t(1) << 24, page = std::size_t(1) << 21;
+    if (bytes < large) return;
+    const auto begin = (reinterpret_cast<std::uintptr_t>(raw) + page - 1) / page * page,
+               end = (reinterpret_cast<std::uintptr_t>(raw) + bytes) / page * page;
+    const int before = errno; // the host's
+    madvise(reinterpret_cast<void *>(begin), end - begin, MADV_HUGEPAGE);
+    errno = before;
+#endif
+}
 
 } // namespace
 
@@ -39,6 +57,7 @@ void *allocate_block(std::size_t bytes) {
     const bool hosts = active && active->allocate;
     void *raw = hosts ? active->allocate(bytes + overhead, active->user) : std::malloc(bytes + overhead);
     if (!raw) throw std::bad_alloc();
+    if (!hosts) ask_for_large_pages(raw, bytes + overhead);
     const auto first = reinterpret_cast<std::uintptr_t>(raw) + sizeof(Header);
     const auto aligned = (first + alignment - 1) / alignment * alignment;
     auto *header = reinterpret_cast<Header *>(aligned) - 1;

@@ -30,7 +30,9 @@ class ResponseProducts {
         std::vector<Sums> sums(groups + 1);
         for (Sums &one : sums) one = {Matrix(s_, s_), Matrix(s_, s_)};
         solve_shared();
+        to_columns(shared_, s_);
         add_shared(sums[groups]);
+        to_lanes(shared_);
         const auto count = static_cast<std::int64_t>(p_.subtrees_.size());
         parallel_for(groups, [&](std::int64_t group) {
             for (std::int64_t k = group; k < count; k += groups)
@@ -140,22 +142,47 @@ class ResponseProducts {
             above = LaneBlock<double>(reached, s_);
             put_columns(f.above, f.columns, above);
         });
-        shared_rows_ = LaneBlock<double>(static_cast<std::int64_t>(shared_row_.size()), s_);
+        shared_ = for_lanes(static_cast<std::int64_t>(shared_row_.size()), s_);
         for (const Entry &e : entries_)
-            if (place_[e.row] >= 0) shared_rows_(place_[e.row], e.column) += e.value;
-        const Rows x{shared_rows_.all(), 0, place_.data()};
+            if (place_[e.row] >= 0) lane(shared_, place_[e.row], e.column) += e.value;
+        const Rows x{in_lanes(shared_), 0, place_.data()};
         p_.forward_rest(from_subtrees, x);
         for (std::int64_t node : p_.rest_)
             p_.divide(p_.first_column_[node], p_.first_column_[node + 1], x, 1);
         p_.backward_rest(x);
-        shared_ = by_columns(shared_rows_);
     }
 
-    static Matrix by_columns(const LaneBlock<double> &block) {
-        Matrix a(block.rows(), block.columns());
-        for (std::int64_t j = 0; j < a.cols(); ++j)
-            for (std::int64_t i = 0; i < a.rows(); ++i) a(i, j) = block(i, j);
-        return a;
+    // What is solved for in lanes is multiplied by columns: it changes from one to the other where it stands.
+    static constexpr std::int64_t lanes = side_by_side<double>;
+    static Matrix for_lanes(std::int64_t rows, std::int64_t columns) {
+        return Matrix(rows, groups_of<double>(columns) * lanes);
+    }
+    static LaneRows<double> in_lanes(Matrix &a) { return {a.data(), a.rows() * lanes, a.cols() / lanes}; }
+    static LaneRows<const double> in_lanes(const Matrix &a) {
+        return {a.data(), a.rows() * lanes, a.cols() / lanes};
+    }
+    static double &lane(Matrix &a, std::int64_t row, std::int64_t column) {
+        return in_lanes(a).group(column / lanes)[row * lanes + column % lanes];
+    }
+    static void to_columns(Matrix &a, std::int64_t columns) {
+        vector<double> group(a.rows() * lanes);
+        for (std::int64_t first = 0; first < a.cols(); first += lanes) {
+            std::copy_n(a.col(first), group.size(), group.data());
+            for (std::int64_t k = 0; k < lanes; ++k)
+                for (std::int64_t i = 0; i < a.rows(); ++i) a(i, first + k) = group[i * lanes + k];
+        }
+        a.cut(columns);
+    }
+    static void to_lanes(Matrix &a) {
+        const std::int64_t padding = groups_of<double>(a.cols()) * lanes - a.cols();
+        if (padding > 0) a.append(Matrix(a.rows(), padding));
+        vector<double> group(a.rows() * lanes);
+        for (std::int64_t first = 0; first < a.cols(); first += lanes) {
+            std::copy_n(a.col(first), group.size(), group.data());
+            double *to = a.col(first);
+            for (std::int64_t k = 0; k < lanes; ++k)
+                for (std::int64_t i = 0; i < a.rows(); ++i) to[i * lanes + k] = group[i + k * a.rows()];
+        }
     }
 
     static void put_columns(const LaneBlock<double> &from, const vector<std::int64_t> &columns,
@@ -181,12 +208,13 @@ class ResponseProducts {
 
     void add_subtree(const Subtree &t, Sums &sums) const {
         const std::int64_t begin = begin_of(t), end = end_of(t);
-        LaneBlock<double> rows(end - begin, s_);
+        Matrix x = for_lanes(end - begin, s_);
         const Forward f = forward(t);
-        put_columns(f.x, f.columns, rows);
-        const LaneBlock<double> &shared = shared_rows_;
-        p_.backward_subtree(t, {rows.all(), begin, nullptr}, {shared.all(), 0, place_.data()});
-        const Matrix x = by_columns(rows);
+        for (std::size_t c = 0; c < f.columns.size(); ++c)
+            for (std::int64_t i = 0; i < x.rows(); ++i)
+                lane(x, i, f.columns[c]) = f.x(i, static_cast<std::int64_t>(c));
+        p_.backward_subtree(t, {in_lanes(x), begin, nullptr}, {in_lanes(shared_), 0, place_.data()});
+        to_columns(x, s_);
         const Span forces = forces_on(begin, end);
         for (const Entry *e = forces.first; e != forces.last; ++e)
             for (std::int64_t c = 0; c < s_; ++c)
@@ -205,21 +233,23 @@ class ResponseProducts {
     void add_coupling(const Subtree &t, const Matrix &x, Matrix &sum) const {
         const std::int64_t begin = begin_of(t), end = end_of(t), border = p_.below(t.last);
         const std::int64_t *above = p_.rows_below(t.last);
-        vector<std::int64_t> coupled, known(border);
+        vector<std::int64_t> coupled;
         for (std::int64_t j = begin; j < end; ++j) {
             bool reaches_above = false;
             for_entries(j, [&](std::int64_t row, double) { reaches_above |= row >= end; });
             if (reaches_above) coupled.push_back(j - begin);
         }
-        for (std::int64_t i = 0; i < border; ++i) known[i] = place_[above[i]];
+        Matrix known(border, s_); // rows of X above
+        for (std::int64_t c = 0; c < s_; ++c)
+            for (std::int64_t i = 0; i < border; ++i)
+                known(i, c) = in_lanes(shared_).group(c / lanes)[place_[above[i]] * lanes + c % lanes];
         const auto count = static_cast<std::int64_t>(coupled.size());
         const SparseMatrix outer = part_of_mass(border, count, [&](std::int64_t k, auto put) {
             for_entries(begin + coupled[k], [&](std::int64_t row, double value) {
                 if (row >= end) put(std::lower_bound(above, above + border, row) - above, 2 * value);
             });
         });
-        gemm('T', 'N', 1.0, select_rows(x, coupled), multiply_transposed(outer, select_rows(shared_, known)),
-             1.0, sum);
+        gemm('T', 'N', 1.0, select_rows(x, coupled), multiply_transposed(outer, known), 1.0, sum);
     }
 
     /// Columns of entries that each(column, put) puts, in ascending order of rows.
@@ -267,9 +297,8 @@ class ResponseProducts {
     vector<std::int64_t> position_; // new order of each row of A
     vector<std::int64_t> place_;    // of each row in the new order: among those above the subtrees, or -1
     vector<std::int64_t> shared_row_;
-    vector<Entry> entries_;         // by rows in the new order
-    LaneBlock<double> shared_rows_; // X above the subtrees
-    Matrix shared_;                 // the same by columns
+    vector<Entry> entries_; // by rows in the new order
+    Matrix shared_;         // X above the subtrees, in lanes
 };
 
 bool multiply_responses(const PanelFactor<double> &factor, const SparseMatrix &f, const SparseMatrix &m,
