@@ -193,6 +193,8 @@ void gemm(char op, double alpha, const Matrix &a, const double *b, std::int64_t 
 
 void gemm(char op, std::int64_t m, std::int64_t n, std::int64_t k, double alpha, const double *a,
           std::int64_t lda, const double *b, std::int64_t ldb, double beta, double *c, std::int64_t ldc) {
+    if (n == 1 && k > 0) // dgemm packs A even for that
+        return gemv(op, op == 'N' ? m : k, op == 'N' ? k : m, alpha, a, lda, b, beta, c);
     const blas_int rows = to_blas(m), cols = to_blas(n), inner = to_blas(k);
     const blas_int ld_a = leading(lda), ld_b = leading(ldb), ld_c = leading(ldc);
     dgemm_(&op, "N", &rows, &cols, &inner, &alpha, a, &ld_a, b, &ld_b, &beta, c, &ld_c, 1, 1);
