@@ -24,7 +24,7 @@ constexpr double least_advance = 0.05, shorter_piece = 0.25; // of a piece, in t
 // the square of this.
 constexpr double at_once = 1e-8;         // fraction of a piece
 constexpr double no_progress = 1e-12;    // fraction of a piece
-constexpr std::int64_t known_powers = 3; // of every pair's penetration
+constexpr std::int64_t known_powers = 3; // of every pair's penetration: what one pass over the gap rows gives
 constexpr double spare = 2;              // of the way of a pair: the bound itself is rounded
 constexpr int side_corrections = 8;      // one is usual; more when pairs that rest at zero act on each other
 
@@ -291,11 +291,11 @@ void ExactFlow::expand(const FlowState &state, double duration, Series &series) 
 // zero: by its first powers, and by what the others have at most.
 void ExactFlow::find_penetrations(Series &series) {
     const Matrix &y = series.coefficient;
-    const std::int64_t z = model_->n_pairs(), known = known_powers;
+    const std::int64_t z = model_->n_pairs();
     if (z == 0) return;
-    known_.reshape(z, known);
+    known_.reshape(z, known_powers);
     ways_.assign(static_cast<std::size_t>(y.rows()), 0.0);
-    for (std::int64_t k = known; k < n_terms_; ++k)
+    for (std::int64_t k = known_powers; k < n_terms_; ++k)
         for (std::int64_t j = 0; j < y.rows(); ++j) ways_[j] += spare * std::abs(y(j, k));
     travel_.resize(static_cast<std::size_t>(z));
     multiply_three_and_bound(model_->gap(), y.data(), ways_.data(), known_.data(), travel_.data());
@@ -303,7 +303,8 @@ void ExactFlow::find_penetrations(Series &series) {
     for (std::int64_t i = 0; i < z; ++i) {
         now_[i] = series.offset(i, 0) + known_(i, 0);
         const double side = now_[i] > 0 ? 1 : -1;
-        for (std::int64_t k = 1; k < known; ++k) travel_[i] += spare * std::max(0.0, -side * known_(i, k));
+        for (std::int64_t k = 1; k < known_powers; ++k)
+            travel_[i] += spare * std::max(0.0, -side * known_(i, k));
     }
     series.penetrations.expand(now_, travel_, model_->gap_by_pair(), 'T', y, series.offset);
 }

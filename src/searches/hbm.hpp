@@ -83,9 +83,8 @@ class Hbm {
     std::shared_ptr<const Basis> made_as_;                // null: not known
     std::shared_ptr<const ReducedModel> basis_, reduced_; // as handed over; widened for exact motions
     HbmOptions options_;
-    bool exact_ = false; // curves of exact motions, where their first point is one
-    bool only_looks_ =
-        false; // at motions with a given number of harmonics, not at what the next would change
+    bool exact_ = false;        // curves of exact motions, where their first point is one
+    bool only_looks_ = false;   // what the next harmonics would change is not measured
     SweepRange window_, reach_; // of the basis; of a sweep with these options
     Watch watch_;
 };

@@ -1,6 +1,7 @@
 // The context allocator: alignment, origin of blocks, and what happens when it fails.
 #include "linalg/lapack.hpp"
 #include "support.hpp"
+#include <cerrno>
 #include <cstring>
 #include <thread>
 
@@ -70,6 +71,17 @@ void other_threads_and_later_code_use_malloc(void **) {
     assert_int_equal(c.made, 0);
 }
 
+// Large pages are asked for; what the system answers is nothing of the host's.
+void a_large_block_leaves_errno_alone(void **) {
+    constexpr std::size_t bytes = std::size_t(48) << 20;
+    errno = 7;
+    auto *block = static_cast<char *>(plm::allocate_block(bytes));
+    const int after = errno;
+    block[0] = block[bytes - 1] = 1;
+    plm::release_block(block);
+    assert_int_equal(after, 7);
+}
+
 void absurd_sizes_are_refused(void **) {
     const auto huge = outcome_of([] { plm::release_block(plm::allocate_block(SIZE_MAX - 10)); });
     const auto negative = outcome_of([] { Matrix().reset(-1, 3); });
@@ -137,6 +149,7 @@ int main() {
         cmocka_unit_test(blocks_are_aligned_to_64_bytes),
         cmocka_unit_test(a_block_returns_to_its_maker_on_any_thread_after_the_scope),
         cmocka_unit_test(other_threads_and_later_code_use_malloc),
+        cmocka_unit_test(a_large_block_leaves_errno_alone),
         cmocka_unit_test(absurd_sizes_are_refused),
         cmocka_unit_test(every_failing_allocation_is_bad_alloc_and_leaks_nothing),
         cmocka_unit_test(repeated_lu_of_one_size_allocates_nothing),
