@@ -17,9 +17,10 @@ template <class Index> class Reader {
     void check() const {
         if (compressed()) check_pointers();
         check_entries();
-        if (compressed()) check_duplicates();
+        const bool regular = is_symmetric_at_a_glance(); // then none is given twice
+        if (compressed() && !regular) check_duplicates();
         if (!f_.negative_diagonal) check_diagonal();
-        if (f_.part == PLM_FULL) check_symmetry();
+        if (f_.part == PLM_FULL && !regular) check_symmetry();
     }
 
     SparseMatrix mirrored() const {
@@ -58,10 +59,9 @@ template <class Index> class Reader {
             }
     }
 
-    /// visit(p, q) over the positions of mirror images; by columns, p is below the diagonal. False where the
-    /// entries are not compressed, or do not ascend, or one has no mirror image: then not all were visited.
+    /// visit(p, q) over the positions of mirror images in a compressed full matrix; by columns, p is below the
+    /// diagonal. False where entries do not ascend or one has no mirror image: then not all were visited.
     template <class Visit> bool for_each_couple(Visit visit) const {
-        if (!compressed() || f_.part != PLM_FULL) return false;
         const Index base = static_cast<Index>(f_.index_base);
         vector<Index> next(a_, a_ + f_.n); // of each column: the first entry not yet met as a mirror image
         for (std::int64_t k = 0; k < f_.n; ++k) {
@@ -201,7 +201,6 @@ template <class Index> class Reader {
     }
 
     void check_symmetry() const {
-        if (is_symmetric_at_a_glance()) return;
         const SparseMatrix s = as_stored(), t = transpose(s);
         double largest = 0;
         for (double v : s.val) largest = std::max(largest, std::abs(v));
@@ -225,7 +224,9 @@ template <class Index> class Reader {
         }
     }
 
+    /// By columns (or rows) that ascend, each entry next to its mirror image; false: not seen.
     bool is_symmetric_at_a_glance() const {
+        if (!compressed() || f_.part != PLM_FULL) return false;
         double largest = 0, apart = 0;
         for (std::int64_t p = 0; p < f_.nnz; ++p) largest = std::max(largest, std::abs(value_[p]));
         return for_each_couple([&](std::int64_t p, std::int64_t q) {

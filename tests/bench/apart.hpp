@@ -12,6 +12,7 @@ extern "C" {
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <malloc.h>
 #include <memory>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -81,6 +82,20 @@ inline plm::SparseMatrix free_matrix(const plm::ModelInput &input, const plm::Ma
     const auto n =
         static_cast<std::int64_t>(std::count_if(number.begin(), number.end(), [](auto k) { return k >= 0; }));
     return plm::submatrix(matrix.to_sparse(), number, n, number, n);
+}
+
+/// From here on memory given back stays with the process, this much of it touched before: the first touch of
+/// a page is the machine's doing, and on a virtual one may take as long as what is measured.
+inline void warm_memory([[maybe_unused]] double mebibytes) {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, -1);
+    const auto bytes = static_cast<std::size_t>(mebibytes * (1 << 20));
+    auto *block = static_cast<volatile char *>(std::malloc(bytes));
+    if (!block) std::exit(1);
+    for (std::size_t i = 0; i < bytes; i += 1024) block[i] = 1;
+    std::free(const_cast<char *>(block));
+#endif
 }
 
 /// What `step` returns, from a process of its own; `mebibytes`: the most it held beside what there was.
