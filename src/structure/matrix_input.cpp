@@ -59,8 +59,8 @@ template <class Index> class Reader {
             }
     }
 
-    /// visit(p, q) over the positions of mirror images in a compressed full matrix; by columns, p is below the
-    /// diagonal. False where entries do not ascend or one has no mirror image: then not all were visited.
+    /// visit(p, q) over the positions of mirror images in a compressed full matrix; by columns, p is below
+    /// the diagonal. False where entries do not ascend or one has no mirror image: then not all were visited.
     template <class Visit> bool for_each_couple(Visit visit) const {
         const Index base = static_cast<Index>(f_.index_base);
         vector<Index> next(a_, a_ + f_.n); // of each column: the first entry not yet met as a mirror image

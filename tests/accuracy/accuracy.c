@@ -64,7 +64,7 @@ static plm_basis *make_basis(const study *t, const char *kind, const char *selec
 }
 
 static answer peak(const study *t, plm_basis *b, double force_scale) {
-    answer a = {0, 0, 0, 0, 0};
+    answer a = {0, 0, 0, 0};
     plm_hbm *h = NULL;
     plm_branch *curve = NULL, *top = NULL;
     must(t->ctx, plm_hbm_create(b, &h), "hbm");

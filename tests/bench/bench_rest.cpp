@@ -1,8 +1,8 @@
 // Modes at rest of a bolted beam, two leaves pressed together, nearly all pairs closed: the library's way
 // from matrices to modes (as plm_model_get_modes) against one shift-invert run for as many modes by the same
 // factorization and eigensolver, with the closed pairs as springs in the stiffness. Seconds of the processor,
-// the medians of three runs in turn, each in memory touched before, and MiB at most beside the matrices handed
-// over. Not a test: prints Markdown.
+// the medians of three runs in turn, each in memory touched before, and MiB at most beside the matrices
+// handed over. Not a test: prints Markdown.
 //
 //     bench_rest [DOFS]
 #include "apart.hpp"

@@ -16,7 +16,7 @@ static double allowed = 1.0;
 
 typedef struct {
     double heard, longest, stop_after, began;
-    char now[64], stage[64], worst[140];
+    char now[64], stage[64], worst[224];
     int stopped;
 } ear;
 
@@ -30,7 +30,7 @@ static void hear(ear *e, const char *stage) {
     const double now = processor_seconds();
     if (now - e->heard > e->longest) {
         e->longest = now - e->heard;
-        snprintf(e->worst, sizeof e->worst, "%s, between %s and %s", e->now, e->stage, stage);
+        snprintf(e->worst, sizeof e->worst, "%s, between %s and %.63s", e->now, e->stage, stage);
     }
     e->heard = now;
     snprintf(e->stage, sizeof e->stage, "%s", stage);
