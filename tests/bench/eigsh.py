@@ -29,6 +29,8 @@ def matrix(library, which, n, entries):
 
 
 def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
     library = ctypes.CDLL(sys.argv[1])
     library.eigsh_set_up.restype = ctypes.c_int64
     sizes = (ctypes.c_int64 * 4)()
