@@ -3,6 +3,7 @@
 // highest point of the scenes' curves. Not a test: prints Markdown.
 #include "capi/handles.hpp"
 #include "hbm/make_system.hpp"
+#include "median.hpp"
 #include "searches/hbm.hpp"
 #include "searches/orbit_points.hpp"
 #include "searches/wider_range.hpp"
@@ -10,7 +11,6 @@ extern "C" {
 #include "scene.h"
 #include "scene_model.h"
 }
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <functional>
@@ -28,8 +28,7 @@ double median_milliseconds(const std::function<void()> &step) {
         times.push_back(1e3 *
                         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }
-    std::nth_element(times.begin(), times.begin() + runs / 2, times.end());
-    return times[runs / 2];
+    return median(std::move(times));
 }
 
 // The highest point of a curve of five harmonics.

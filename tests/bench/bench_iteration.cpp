@@ -7,6 +7,7 @@
 #include "hbm/options.hpp"
 #include "hbm/system.hpp"
 #include "linalg/lapack.hpp"
+#include "median.hpp"
 #include "searches/start.hpp"
 #include "support/count_allocations.hpp"
 #include <algorithm>
@@ -34,11 +35,7 @@ class Samples {
         work();
         milliseconds_.push_back(1e3 * (processor_seconds() - begin));
     }
-    double median() {
-        const auto middle = milliseconds_.begin() + static_cast<std::ptrdiff_t>(milliseconds_.size() / 2);
-        std::nth_element(milliseconds_.begin(), middle, milliseconds_.end());
-        return *middle;
-    }
+    double median() const { return ::median(milliseconds_); }
 
   private:
     std::vector<double> milliseconds_;

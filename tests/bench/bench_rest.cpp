@@ -6,6 +6,7 @@
 //
 //     bench_rest [DOFS]
 #include "apart.hpp"
+#include "median.hpp"
 #include "space/spaceless.hpp"
 #include "structure/eigs.hpp"
 #include "structure/matrix_input.hpp"
@@ -96,11 +97,6 @@ Found shift_invert(const plm::ModelInput &input) {
         for (int j = 0; j < n_modes; ++j) found.frequency[j] = std::sqrt(pairs.values[j]) / (2 * M_PI);
     });
     return found;
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
 }
 
 } // namespace

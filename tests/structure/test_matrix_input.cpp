@@ -141,6 +141,10 @@ void duplicates_nan_and_wrong_triangle_are_named(void **) {
     Sample<std::int32_t> s = full<std::int32_t>(PLM_CSC, 1);
     s.b[4] = 1;
     assert_true(is(s.check(), "b", 4, "given twice"));
+    s = full<std::int32_t>(PLM_CSC, 0), s.b = {1, 1, 0, 0, 1, 2, 2}; // with its mirror image, and a diagonal
+    assert_true(is(s.check(), "b", 1, "given twice"));
+    s = full<std::int32_t>(PLM_CSR, 0), s.b = {0, 1, 0, 1, 2, 2, 2}, s.v[4] = s.v[5] = 0;
+    assert_true(is(s.check(), "b", 6, "given twice"));
     s = full<std::int32_t>(PLM_CSC, 1), s.v[5] = std::numeric_limits<double>::quiet_NaN();
     assert_true(is(s.check(), "value", 5, "row 2, column 3 (counted from 1)"));
     s = full<std::int32_t>(PLM_CSC, 0), s.part = PLM_LOWER;
