@@ -50,6 +50,10 @@ class Branch {
     /// Takes back the points from `count` on.
     void truncate(std::int64_t count) { points_.resize(static_cast<std::size_t>(count)); }
     const std::vector<BranchPoint> &points() const { return points_; }
+    /// Of all points' multipliers.
+    void set_multiplier_error(double error) {
+        for (BranchPoint &p : points_) p.multiplier_error = error;
+    }
     const ReducedModel &reduced() const { return *reduced_; }
     const std::shared_ptr<const ReducedModel> &reduced_model() const { return reduced_; }
     std::int64_t n_harmonics() const { return n_harmonics_; }

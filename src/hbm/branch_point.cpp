@@ -5,9 +5,10 @@ namespace plm {
 
 std::int64_t stability_of(const BranchPoint &point) {
     if (point.multipliers.empty()) return -1;
-    for (const std::complex<double> &m : point.multipliers)
-        if (std::abs(m) > 1 + 1e-9) return 0;
-    return 1;
+    double largest = 0;
+    for (const std::complex<double> &m : point.multipliers) largest = std::max(largest, std::abs(m));
+    if (std::abs(largest - 1) < point.multiplier_error) return -1;
+    return largest > 1 + 1e-9 ? 0 : 1;
 }
 
 void set_harmonics(Matrix &eta, std::int64_t n) {

@@ -21,6 +21,7 @@ struct BranchPoint {
     double damping_ratio = 0;     // of a nonlinear mode, see Branch::is_mode
     std::int32_t bifurcation = PLM_BIFURCATION_NONE;
     vector<std::complex<double>> multipliers; // Floquet multipliers; empty: not computed
+    double multiplier_error = 0;              // of the largest one's modulus, by the basis
     // Compliance formulation only (formulation.hpp): Z x (2H + 1) polynomials and their stiffness, whose
     // positive part gives the contact force; null: the penetration and k_n
     Matrix contact_motion;
@@ -33,7 +34,8 @@ struct BranchPoint {
     std::shared_ptr<const PointMotion> motion;
 };
 
-/// +1 stable (all multipliers inside the unit circle), 0 unstable, -1 not computed.
+/// +1 stable (all multipliers inside the unit circle), 0 unstable, -1 not computed, or nearer to the circle
+/// than the multipliers are certain.
 std::int64_t stability_of(const BranchPoint &point);
 
 /// The same coefficients with n harmonics: padded with zeros or cut.

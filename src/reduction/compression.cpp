@@ -12,6 +12,14 @@
 namespace plm {
 namespace {
 
+void put_damping(const vector<double> &diagonal, const Matrix &matrix, Space &s) {
+    s.damping_diagonal = diagonal;
+    s.damping = matrix;
+    if (!s.model->damping().has_matrix || !matrix.empty()) return;
+    s.damping.reset(s.size(), s.size()); // diagonal in these coordinates, not in others
+    for (std::int64_t j = 0; j < s.size(); ++j) s.damping(j, j) = diagonal[j];
+}
+
 // The reduced model as a space of its own, to project again.
 Space as_space(const ReducedModel &m) {
     Space s;
@@ -20,14 +28,22 @@ Space as_space(const ReducedModel &m) {
     s.lambda = m.lambda;
     s.n_massless = m.n_massless;
     s.gap = m.whole_gap();
-    s.damping_diagonal = m.damping_diagonal;
-    s.damping = m.damping;
-    if (m.model->damping().has_matrix && m.damping.empty()) { // diagonal in these coordinates, not in others
-        s.damping.reset(m.size(), m.size());
-        for (std::int64_t j = 0; j < m.size(); ++j) s.damping(j, j) = m.damping_diagonal[j];
-    }
+    put_damping(m.damping_diagonal, m.damping, s);
     for (const auto &[harmonic, load] : m.excitation)
         if (harmonic > 0) s.excitation[harmonic] = load;
+    return s;
+}
+
+// Its static directions as one.
+Space as_static_space(const ReducedModel &m) {
+    Space s;
+    s.model = m.model;
+    s.lambda = m.lambda_0;
+    s.n_massless = m.n_massless_0;
+    if (m.same_static)
+        put_damping(m.damping_diagonal, m.damping, s);
+    else
+        put_damping(m.damping_diagonal_0, m.damping_0, s);
     return s;
 }
 
@@ -90,9 +106,7 @@ Matrix remainder(const Matrix &motions, const Matrix &y) {
 void reduce_statics(const ReducedModel &from, Matrix y, const Matrix &beside, ReducedModel &to) {
     to.same_static = beside.cols() == 0;
     if (!to.same_static) {
-        Space statics;
-        statics.lambda = from.lambda_0;
-        statics.n_massless = from.n_massless_0;
+        const Space statics = as_static_space(from);
         Matrix all = y;
         all.append(beside);
         const Coordinates c = diagonalise(statics, thin_svd(all).u);
@@ -101,8 +115,12 @@ void reduce_statics(const ReducedModel &from, Matrix y, const Matrix &beside, Re
         to.n_massless_0 = c.n_massless;
         to.gap_0 = product('N', 'N', from.whole_gap_0(), c.y);
         to.vectors_0 = from.static_vectors().times(c.y);
+        ProjectedDamping damping = projected_damping(statics, c);
+        to.damping_diagonal_0 = std::move(damping.diagonal);
+        to.damping_0 = std::move(damping.matrix);
         y = c.y;
     }
+    to.in_space = from.in_space.empty() ? y : product('N', 'N', from.in_space, y);
     const auto projected = [&](const vector<double> &f) {
         vector<double> g(y.cols(), 0.0);
         if (!f.empty()) gemv('T', 1.0, y, f.data(), 0.0, g.data());
@@ -213,6 +231,19 @@ Matrix uncompressed(const ReducedModel &m, const Matrix &coordinates) {
 
 std::shared_ptr<const ReducedModel> uncompressed(const std::shared_ptr<const ReducedModel> &m) {
     return m->from ? m->from->model : m;
+}
+
+std::shared_ptr<const ReducedModel> as_part_of(std::shared_ptr<const ReducedModel> whole,
+                                               const ReducedModel &part) {
+    auto model = std::make_shared<ReducedModel>(part);
+    Matrix coordinates = part.in_space;
+    if (coordinates.empty()) { // the whole itself
+        coordinates.reset(whole->size(), whole->size());
+        for (std::int64_t j = 0; j < whole->size(); ++j) coordinates(j, j) = 1;
+    }
+    model->from =
+        std::make_shared<const CompressedFrom>(CompressedFrom{std::move(whole), std::move(coordinates)});
+    return model;
 }
 
 namespace {

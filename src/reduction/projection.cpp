@@ -21,34 +21,41 @@ bool is_diagonal(const Matrix &c) {
     return true;
 }
 
-void set_damping(Matrix c, ReducedModel &reduced) {
+ProjectedDamping as_damping(Matrix c) {
+    ProjectedDamping d;
     if (!is_diagonal(c)) {
-        reduced.damping = std::move(c);
-        return;
+        d.matrix = std::move(c);
+        return d;
     }
-    reduced.damping_diagonal.resize(c.cols());
-    for (std::int64_t j = 0; j < c.cols(); ++j) reduced.damping_diagonal[j] = c(j, j);
+    d.diagonal.resize(c.cols());
+    for (std::int64_t j = 0; j < c.cols(); ++j) d.diagonal[j] = c(j, j);
+    return d;
 }
 
-void project_damping(const Space &space, const Coordinates &dynamic, ReducedModel &reduced) {
+} // namespace
+
+ProjectedDamping projected_damping(const Space &space, const Coordinates &to) {
     const Damping &damping = space.model->damping();
-    if (!space.damping.empty()) {
-        set_damping(product('T', 'N', dynamic.y, product('N', 'N', space.damping, dynamic.y)), reduced);
-    } else if (damping.modal_ratio.empty()) { // Rayleigh: diagonal wherever m and k are
-        for (std::int64_t j = 0; j < reduced.size(); ++j)
-            reduced.damping_diagonal.push_back(damping.alpha * reduced.mass(j) +
-                                               damping.beta * reduced.lambda[j]);
-    } else {
-        Matrix cy = dynamic.y;
-        for (std::int64_t j = 0; j < cy.cols(); ++j)
-            for (std::int64_t i = 0; i < cy.rows(); ++i) cy(i, j) *= space.damping_diagonal[i];
-        Matrix c = product('T', 'N', dynamic.y, cy); // a ratio of critical damping is nothing without mass
-        for (std::int64_t j = 0; j < c.cols(); ++j)
-            for (std::int64_t i = 0; i < c.rows(); ++i)
-                if (reduced.mass(i) * reduced.mass(j) == 0) c(i, j) = 0;
-        set_damping(std::move(c), reduced);
+    if (!space.damping.empty())
+        return as_damping(product('T', 'N', to.y, product('N', 'N', space.damping, to.y)));
+    const std::int64_t r = static_cast<std::int64_t>(to.lambda.size()), massive = r - to.n_massless;
+    if (damping.modal_ratio.empty()) { // Rayleigh: diagonal wherever m and k are
+        ProjectedDamping d;
+        for (std::int64_t j = 0; j < r; ++j)
+            d.diagonal.push_back((j < massive ? damping.alpha : 0) + damping.beta * to.lambda[j]);
+        return d;
     }
+    Matrix cy = to.y;
+    for (std::int64_t j = 0; j < cy.cols(); ++j)
+        for (std::int64_t i = 0; i < cy.rows(); ++i) cy(i, j) *= space.damping_diagonal[i];
+    Matrix c = product('T', 'N', to.y, cy); // a ratio of critical damping is nothing without mass
+    for (std::int64_t j = 0; j < c.cols(); ++j)
+        for (std::int64_t i = 0; i < c.rows(); ++i)
+            if (i >= massive || j >= massive) c(i, j) = 0;
+    return as_damping(std::move(c));
 }
+
+namespace {
 
 // What does not depend on the basis, and the static members repeated from the dynamic ones.
 void finish(const Space &space, ReducedModel &reduced) {
@@ -69,11 +76,14 @@ std::shared_ptr<const ReducedModel> project(const Space &space, const Coordinate
                                             const StaticBasis &statics) {
     auto reduced = std::make_shared<ReducedModel>();
     const Matrix &y_0 = statics.same ? dynamic.y : statics.coordinates.y;
+    reduced->in_space = y_0;
     reduced->lambda = dynamic.lambda;
     reduced->n_massless = dynamic.n_massless;
     reduced->gap = product('N', 'N', space.gap, dynamic.y);
     reduced->vectors = space.vectors.times(dynamic.y);
-    project_damping(space, dynamic, *reduced);
+    ProjectedDamping damping = projected_damping(space, dynamic);
+    reduced->damping_diagonal = std::move(damping.diagonal);
+    reduced->damping = std::move(damping.matrix);
     reduced->same_static = statics.same;
     if (!statics.same) {
         reduced->lambda_0 = statics.coordinates.lambda;
@@ -81,6 +91,9 @@ std::shared_ptr<const ReducedModel> project(const Space &space, const Coordinate
         reduced->gap_0 = product('N', 'N', space.gap, y_0);
         reduced->vectors_0 = space.vectors.times(y_0);
         reduced->to_static = coordinates_among(space, dynamic.y, statics.coordinates);
+        damping = projected_damping(space, statics.coordinates);
+        reduced->damping_diagonal_0 = std::move(damping.diagonal);
+        reduced->damping_0 = std::move(damping.matrix);
     }
     reduced->preload_0 = project_vector(y_0, space.preload);
     for (const auto &[harmonic, load] : space.excitation) {
@@ -97,10 +110,13 @@ std::shared_ptr<const ReducedModel> project_whole(const Space &space) {
     reduced->n_massless = space.n_massless;
     reduced->gap = space.gap;
     reduced->vectors = space.vectors.whole();
-    if (space.damping.empty())
+    if (space.damping.empty()) {
         reduced->damping_diagonal = space.damping_diagonal;
-    else
-        set_damping(space.damping, *reduced);
+    } else {
+        ProjectedDamping damping = as_damping(space.damping);
+        reduced->damping_diagonal = std::move(damping.diagonal);
+        reduced->damping = std::move(damping.matrix);
+    }
     reduced->preload_0 = space.preload;
     reduced->excitation = space.excitation;
     finish(space, *reduced);

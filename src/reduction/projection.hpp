@@ -5,6 +5,15 @@
 
 namespace plm {
 
+struct ProjectedDamping {
+    vector<double> diagonal; // or, where it is not diagonal,
+    Matrix matrix;
+};
+
+/// Of the same structure in every basis, modal damping, too: what the ratios of the space's modes make of
+/// other motions.
+ProjectedDamping projected_damping(const Space &space, const Coordinates &to);
+
 /// P = V Y, P_0 = V Y_0.
 std::shared_ptr<const ReducedModel> project(const Space &space, const Coordinates &dynamic,
                                             const StaticBasis &statics);

@@ -5,8 +5,7 @@
 
 namespace plm {
 
-/// `reduced` itself where P_0 = P; otherwise made when first asked for and kept with it. Rayleigh damping and
-/// an explicit C are projected; modal damping, known on P only, is continued by its largest value.
+/// `reduced` itself where P_0 = P; otherwise made when first asked for and kept with it.
 std::shared_ptr<const ReducedModel> widened(const std::shared_ptr<const ReducedModel> &reduced);
 
 /// The last n coordinates, without mass and without damping of their own, have none with others either, where

@@ -1,5 +1,7 @@
 #include "searches/basis_error.hpp"
 #include "searches/harmonic_choice.hpp"
+#include "searches/orbit_points.hpp"
+#include "searches/wider_range.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,10 +9,9 @@
 namespace plm {
 namespace {
 
-// The estimate factors one matrix of all gaps in all harmonics: unknowns that take some tenths of a second,
-// or seconds, and numbers of the unreduced vectors that are at hand for it.
-constexpr std::int64_t few_unknowns = 1400, many_unknowns = 4000;
-constexpr double few_numbers = 3e7, many_numbers = 3e8;
+// The estimate by harmonics factors one matrix of all gaps in all harmonics, and forms vectors of the
+// unreduced structure: so many numbers for a flop.
+constexpr double of_factor = 2.0 / 3.0, numbers_for_a_flop = 0.01;
 // An exact motion is compared with fewer harmonics than it has where they are many, but not with fewer.
 constexpr std::int64_t least_harmonics = 5;
 // A point that misses the equations of the whole structure by more of its size is too far from the better
@@ -20,26 +21,28 @@ constexpr double too_far = 0.02;
 constexpr double not_judged = std::numeric_limits<double>::quiet_NaN();
 
 // Harmonics to estimate with; 0: too many gaps.
-std::int64_t affordable_harmonics(const Branch &branch, std::int64_t point, Patience patience) {
+std::int64_t affordable_harmonics(const Branch &branch, std::int64_t point, double flops) {
     const BranchPoint &p = branch.points()[static_cast<std::size_t>(point)];
     const std::int64_t has = harmonics_of(p, branch.period_multiple()) * branch.period_multiple(),
-                       most = ((patience == Patience::much ? many_unknowns : few_unknowns) /
-                                   branch.reduced().n_whole_pairs() -
-                               1) /
-                              2;
+                       unknowns = static_cast<std::int64_t>(std::cbrt(flops / of_factor)),
+                       most = (unknowns / branch.reduced().n_whole_pairs() - 1) / 2;
     if (has <= most) return std::max<std::int64_t>(has, 1);
     return p.motion && most >= least_harmonics * branch.period_multiple() ? most : 0;
 }
 
 // Whether the unreduced structure is there to be asked, and what it answers differs by the basis alone:
 // forces from samples miss by themselves, and so does damping by a matrix and by ratios at once.
-bool can_be_judged(const Basis &basis, const Branch &branch, Patience patience) {
+bool can_be_judged(const Basis &basis, const Branch &branch, double flops) {
     const Damping &damping = basis.model()->damping();
     const Space &space = *basis.space();
     return space.is_contact_space && branch.reduced().n_pairs() > 0 && !branch.sampled && !branch.is_mode &&
            !(damping.has_matrix && !damping.modal_ratio.empty()) &&
            static_cast<double>(space.vectors.rows()) * static_cast<double>(space.size()) <
-               (patience == Patience::much ? many_numbers : few_numbers);
+               numbers_for_a_flop * flops;
+}
+
+bool is_complete(const Basis &basis, const Branch &branch) {
+    return branch.reduced().size() >= basis.space()->size() && !basis.reduced()->all_pairs;
 }
 
 } // namespace
@@ -76,22 +79,54 @@ double basis_error(const ErrorEstimator &estimator, const Branch &branch, std::i
 }
 
 double basis_error_at(const std::shared_ptr<const Basis> &basis, const HbmOptions &options,
-                      const Branch &branch, std::int64_t point, const Output &output, Patience patience,
+                      const Branch &branch, std::int64_t point, const Output &output, double flops,
                       Watch watch) {
-    if (!basis || !can_be_judged(*basis, branch, patience)) return not_judged;
-    HbmOptions o = options;
-    o.max_harmonics = affordable_harmonics(branch, point, patience) / branch.period_multiple();
+    if (!basis || !can_be_judged(*basis, branch, flops)) return not_judged;
     const double amplitude = branch.amplitude(point, output.dof, output.measure, output.harmonic);
-    if (o.max_harmonics == 0 || amplitude == 0) return not_judged;
-    if (branch.full_residual(point) > too_far) return std::numeric_limits<double>::infinity();
-    if (basis->reduced()->size() >= basis->space()->size() && !basis->reduced()->all_pairs) return 0;
+    if (amplitude == 0) return not_judged;
+    if (is_complete(*basis, branch)) return 0;
     try {
-        const ErrorEstimator estimator(unreduced_basis(basis, watch)->reduced(), branch, o);
+        HbmOptions o = options;
+        o.max_harmonics = affordable_harmonics(branch, point, flops) / branch.period_multiple();
+        const ErrorEstimator estimator(unreduced_basis(basis, watch)->reduced(), branch, o, flops);
+        if (!estimator.moves_whole(point)) {
+            if (o.max_harmonics == 0) return not_judged;
+            if (branch.full_residual(point) > too_far) return std::numeric_limits<double>::infinity();
+        }
         return basis_error(estimator, branch, point, output, amplitude);
     } catch (const Error &e) { // a tangent that is singular, motions that nothing holds
         if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
         return not_judged;
     }
+}
+
+double flops_of(const Branch &curve, const HbmOptions &options) {
+    return static_cast<double>(curve.newton_work.iterations) * exact_step_flops(curve.reduced(), options);
+}
+
+double multiplier_error_of(const std::shared_ptr<const Basis> &basis, const HbmOptions &options,
+                        const Branch &curve, double flops, Watch watch) {
+    if (!basis || !basis->space()->is_contact_space || is_complete(*basis, curve)) return 0;
+    const auto &points = curve.points();
+    const auto from_circle = [&](std::int64_t i) {
+        const auto &m = points[static_cast<std::size_t>(i)].multipliers;
+        return m.empty() ? INFINITY : std::abs(std::abs(m[0]) - 1);
+    };
+    std::int64_t nearest = 0;
+    for (std::int64_t i = 1; i < static_cast<std::int64_t>(points.size()); ++i)
+        if (from_circle(i) < from_circle(nearest)) nearest = i;
+    double worst = 0;
+    try {
+        const ErrorEstimator estimator(unreduced_basis(basis, watch)->reduced(), curve, options, flops / 2);
+        for (std::int64_t i : {largest_response(curve), nearest}) {
+            if (!std::isfinite(from_circle(i)) || !estimator.moves_whole(i)) continue;
+            const ErrorEstimate e = estimator.estimate(i, 0, Measure::peak, 0, false);
+            if (std::isfinite(e.multiplier)) worst = std::max(worst, std::abs(e.multiplier));
+        }
+    } catch (const Error &e) {
+        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
+    }
+    return worst;
 }
 
 } // namespace plm

@@ -16,14 +16,21 @@ vector<std::int64_t> spread_over(const Branch &branch, std::int64_t wanted);
 double basis_error(const ErrorEstimator &estimator, const Branch &branch, std::int64_t point,
                    const Output &output, double peak);
 
-/// What an estimate may cost: some points of a curve, or more than the curve.
-enum class Patience { little, much };
+/// What an estimate may cost by itself, flops: some tenths of a second.
+constexpr double few_flops = 2e9;
+/// What a curve of exact motions has cost, estimated: what it may cost to judge it.
+double flops_of(const Branch &curve, const HbmOptions &options);
 
-/// The same of one point and its own amplitude; infinite where it does not contract or is too
-/// far off for it, NaN where it would cost
-/// more, or a basis cannot be judged so.
+/// The same of one point and its own amplitude, within `flops`; infinite where it does not contract or is too
+/// far off for it, NaN where it would cost more, or a basis cannot be judged so.
 double basis_error_at(const std::shared_ptr<const Basis> &basis, const HbmOptions &options,
-                      const Branch &branch, std::int64_t point, const Output &output, Patience patience,
+                      const Branch &branch, std::int64_t point, const Output &output, double flops,
                       Watch watch);
+
+/// How far the largest Floquet multipliers of a curve of exact motions are from those of the whole structure,
+/// by its highest motion and the one whose multiplier is nearest to the unit circle; 0 where the basis is
+/// complete, and where that would cost more than the flops.
+double multiplier_error_of(const std::shared_ptr<const Basis> &basis, const HbmOptions &options,
+                        const Branch &curve, double flops, Watch watch);
 
 } // namespace plm

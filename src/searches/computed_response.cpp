@@ -28,8 +28,12 @@ constexpr double much_work = 1.5e10;
 // fraction of theirs, says first whether the basis is worth a curve.
 constexpr double worth_a_look = 1e7;
 constexpr std::int64_t harmonics_of_look = 5, points_of_look = 250;
+// A step of exact motions on the whole structure: no basis saves anything.
+constexpr double cheap_whole = 3e6;
 // Columns beyond which a compressed basis is the better next step than a larger one.
 constexpr std::int64_t many_columns = 150;
+// For the estimate of an error: some seconds.
+constexpr double much_flops = 4e10;
 
 class Chain {
   public:
@@ -77,9 +81,16 @@ class Chain {
                !r.peak.branch->warnings.has(PLM_REASON_NO_PEAK);
     }
 
-    // The first that is not too small by what a curve of few harmonics tells.
+    // All of the structure where that is cheap; else the first basis that is not too small by what a curve of
+    // few harmonics tells.
     std::shared_ptr<const Basis> first_basis() {
         std::shared_ptr<const Basis> basis = basis_for(0);
+        if (basis->space()->is_contact_space) {
+            const auto whole = unreduced_basis(basis, watch_);
+            if (prefers_exact(whole->reduced(), options_) &&
+                exact_step_flops(*whole->reduced(), options_) <= cheap_whole)
+                return whole;
+        }
         for (std::int64_t h : looked_at) {
             if (h <= basis->sampler()->n_harmonics()) continue;
             if (basis->reduced()->size() >= many_columns || !looks_too_small(basis)) break;
@@ -99,7 +110,7 @@ class Chain {
             if (e.status() != PLM_ERR_CONVERGENCE) throw;
             return false;
         }
-        const double error = basis_error_at(basis, options_, one, 0, output_, Patience::much, watch_);
+        const double error = basis_error_at(basis, options_, one, 0, output_, much_flops, watch_);
         watch_.log(1, format("%lld coordinates: error by the basis %.2g near the peak",
                              static_cast<long long>(basis->reduced()->size()), error));
         return std::isfinite(error) && error > accuracy_;
@@ -171,7 +182,7 @@ class Chain {
     ComputedResponse with_peak(ComputedResponse r) {
         if (!spans(*r.curve) && r.curve->end_reason != PLM_REASON_POINT_LIMIT) go_the_other_way(r);
         r.peak = Hbm(r.basis, r.options, watch_).find_peak(*r.curve, output_.dof, output_.measure, 0);
-        r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_, Patience::much, watch_);
+        r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_, much_flops, watch_);
         watch_.log(1, format("%lld coordinates: peak %.6g at %.6g Hz, its error by the basis %.2g",
                              static_cast<long long>(r.basis->reduced()->size()), r.peak.amplitude,
                              r.peak.frequency_hz, r.error));
@@ -230,9 +241,12 @@ class Chain {
         }
     }
 
+    // An upper bound, or no number: no less than what the space and the solution leave open.
     void finish(ComputedResponse &r) const {
         tell(r);
-        r.error += model_->space_options().reduction_error;
+        r.error = std::max(r.error, r.options.tolerance + r.basis->space()->error_estimate) +
+                  model_->space_options().reduction_error;
+        if (!std::isfinite(r.error)) r.error = NAN;
     }
 
     void tell(ComputedResponse &r) const {

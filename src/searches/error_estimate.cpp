@@ -3,8 +3,10 @@
 #include "hbm/formulation.hpp"
 #include "hbm/make_system.hpp"
 #include "paths/metric.hpp"
+#include "reduction/compression.hpp"
 #include "searches/curve.hpp"
 #include "searches/harmonic_choice.hpp"
+#include "searches/orbit_points.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -130,11 +132,14 @@ std::int64_t finer(std::int64_t harmonics) {
     return 2 * harmonics + 2;
 }
 
+// Newton's method takes so many steps, and the modes of new contact sets a few more.
+constexpr double steps_of_motion = 8;
+
 } // namespace
 
 ErrorEstimator::ErrorEstimator(std::shared_ptr<const ReducedModel> full, const Branch &branch,
-                               const HbmOptions &options)
-    : branch_(branch), full_(std::move(full)), options_(options) {
+                               const HbmOptions &options, double affordable)
+    : branch_(branch), full_(std::move(full)), options_(options), affordable_(affordable) {
     options_.unknowns = NonlinearUnknowns::gaps;
     options_.period_multiple = branch.period_multiple();
     if (full_->n_pairs() == 0)
@@ -151,6 +156,7 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
             .index(point);
     HbmOptions o = options_at(p, branch_.period_multiple(), options_);
     ErrorEstimate e;
+    if (moves_whole(point)) return by_exact_motion(point, dof, measure, harmonic);
     BranchPoint from = p;
     if (p.motion) { // no harmonics are missing: what both structures answer with as many differs by the basis
         with_harmonics = false;
@@ -178,6 +184,41 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
         if (!more.settle(further)) e.amplitude.harmonics = e.frequency_hz.harmonics = unknown;
     }
     if (!e.known) e.amplitude = e.frequency_hz = {unknown, unknown, unknown};
+    return e;
+}
+
+bool ErrorEstimator::moves_whole(std::int64_t point) const {
+    const HbmOptions o =
+        options_at(branch_.points().at(static_cast<std::size_t>(point)), branch_.period_multiple(), options_);
+    return branch_.points()[static_cast<std::size_t>(point)].motion && !branch_.reduced().all_pairs &&
+           steps_of_motion * exact_step_flops(*full_, o) <= affordable_;
+}
+
+// The whole structure's own motion, across the curve from the point's own state. Nothing of it is cut off.
+ErrorEstimate ErrorEstimator::by_exact_motion(std::int64_t point, std::int64_t dof, Measure measure,
+                                              std::int64_t harmonic) const {
+    const BranchPoint &p = branch_.points()[static_cast<std::size_t>(point)];
+    HbmOptions o = options_;
+    o.force_scale = p.force_scale;
+    o.period_multiple = branch_.period_multiple();
+    const auto part = as_part_of(full_, branch_.reduced());
+    Branch in_part(part, branch_.force_scale(), branch_.period_multiple());
+    in_part.append(p);
+    BranchPoint own = p;
+    NewtonWork work;
+    ErrorEstimate e;
+    e.known = make_exact_beside(full_, o, start_of(in_part, 0), own, work);
+    if (!e.known) {
+        e.amplitude = e.frequency_hz = {unknown, unknown, unknown};
+        return e;
+    }
+    Branch alone(full_, branch_.force_scale(), branch_.period_multiple());
+    alone.append(own);
+    e.amplitude.basis = alone.amplitude(0, dof, measure, harmonic) -
+                        branch_.amplitude(point, dof, measure, harmonic);
+    e.frequency_hz.basis = (own.omega - p.omega) / (2 * M_PI);
+    if (!own.multipliers.empty() && !p.multipliers.empty())
+        e.multiplier = std::abs(own.multipliers[0]) - std::abs(p.multipliers[0]);
     return e;
 }
 

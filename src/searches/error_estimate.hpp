@@ -8,6 +8,7 @@
 #include "hbm/options.hpp"
 #include "hbm/system.hpp"
 #include <cmath>
+#include <limits>
 
 namespace plm {
 
@@ -23,14 +24,20 @@ struct ErrorEstimate {
     ErrorParts frequency_hz; // shift of the curve along the frequency
     // Parts whose steps do not contract are NaN: that of the harmonics, or all of them
     bool known = true; // false: all of them
+    // Of the modulus of the largest Floquet multiplier, where exact motions are compared; NaN: not known
+    double multiplier = std::numeric_limits<double>::quiet_NaN();
     bool complete() const { return std::isfinite(amplitude.sum()); }
 };
 
 class ErrorEstimator {
   public:
     /// full: the unreduced structure (project_whole of its contact space). The options are those of the
-    /// curve; exact motions are compared with at most their max_harmonics.
-    ErrorEstimator(std::shared_ptr<const ReducedModel> full, const Branch &branch, const HbmOptions &options);
+    /// curve. Exact motions are compared with that of the whole structure where this takes no more than
+    /// `affordable` flops; else by harmonic balance, with at most their max_harmonics.
+    ErrorEstimator(std::shared_ptr<const ReducedModel> full, const Branch &branch, const HbmOptions &options,
+                   double affordable = 3e10);
+    /// Whether a point is compared with the whole structure's own exact motion.
+    bool moves_whole(std::int64_t point) const;
     /// PLM_ERR_CONVERGENCE when the tangent is singular.
     ErrorEstimate estimate(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic,
                            bool with_harmonics = true) const;
@@ -39,9 +46,13 @@ class ErrorEstimator {
     BranchPoint corrected(std::int64_t point) const;
 
   private:
+    ErrorEstimate by_exact_motion(std::int64_t point, std::int64_t dof, Measure measure,
+                                  std::int64_t harmonic) const;
+
     const Branch &branch_;
     std::shared_ptr<const ReducedModel> full_;
     HbmOptions options_;
+    double affordable_;
 };
 
 } // namespace plm

@@ -331,6 +331,37 @@ bool take_exact(OrbitEquations &equations, const HbmOptions &options, const Path
 
 } // namespace
 
+namespace {
+
+// Across the tangent where it begins; again across that where it got to, as a tangent off the solution is not
+// that of the curve.
+bool correct_across(OrbitEquations &equations, const HbmOptions &options, vector<double> start,
+                    const ReducedModel &reduced, BranchPoint &point, NewtonWork &work) {
+    const PathState from = {std::move(start), point.omega};
+    const Metric metric = {size_of(equations, from.x), point.omega, equations.weights()};
+    if (!(metric.scale > 0)) return false;
+    PathState at = from;
+    NewtonOutcome all;
+    for (int pass = 0; pass < 2; ++pass) {
+        vector<double> r(at.x.size());
+        equations.residual(at.x.data(), at.parameter, r.data());
+        equations.linearize();
+        PathState direction = tangent_at(equations);
+        scale_by(1 / metric.length(direction), direction);
+        const double along = metric.product(direction, difference(from, at));
+        PathState foot = direction;
+        scale_by(along, foot);
+        add(1, foot, at);
+        const NewtonOutcome out = newton_across(equations, metric, direction, newton_limits(options), at);
+        work += out;
+        all = out;
+        if (!out.converged || metric.distance(at, from) > near_enough) return false;
+    }
+    return take_exact(equations, options, at, all, reduced, point);
+}
+
+} // namespace
+
 bool make_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, Watch watch,
                 BranchPoint &point, NewtonWork &work, ElseMarching otherwise) {
     if (has_no_place(*reduced, options, point)) return false;
@@ -346,20 +377,14 @@ bool make_exact_nearest(std::shared_ptr<const ReducedModel> reduced, const HbmOp
                         BranchPoint &point, NewtonWork &work) {
     if (has_no_place(*reduced, options, point)) return false;
     OrbitEquations equations = orbit_equations(reduced, options, point.omega, FlowParameter::frequency);
-    const PathState from = {orbit_unknowns(equations, point, options.period_multiple), point.omega};
-    vector<double> r(from.x.size());
-    equations.residual(from.x.data(), from.parameter, r.data());
-    equations.linearize();
-    const Metric metric = {size_of(equations, from.x),
-                           2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz),
-                           equations.weights()};
-    if (!(metric.scale > 0 && metric.width > 0)) return false;
-    PathState at = from, direction = tangent_at(equations);
-    scale_by(1 / metric.length(direction), direction);
-    const NewtonOutcome out = newton_across(equations, metric, direction, newton_limits(options), at);
-    work += out;
-    return out.converged && metric.distance(at, from) <= near_enough &&
-           take_exact(equations, options, at, out, *reduced, point);
+    return correct_across(equations, options, orbit_unknowns(equations, point, options.period_multiple),
+                          *reduced, point, work);
+}
+
+bool make_exact_beside(std::shared_ptr<const ReducedModel> whole, const HbmOptions &options,
+                       const PointStart &start, BranchPoint &point, NewtonWork &work) {
+    OrbitEquations equations = orbit_equations(whole, options, point.omega, FlowParameter::frequency);
+    return correct_across(equations, options, equations.unknowns(start.state), *whole, point, work);
 }
 
 bool follow_exactly_to(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,

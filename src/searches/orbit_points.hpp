@@ -52,6 +52,10 @@ bool make_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &o
 bool make_exact_nearest(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                         BranchPoint &point, NewtonWork &work);
 
+/// The same from a state of the model's flow at point.omega.
+bool make_exact_beside(std::shared_ptr<const ReducedModel> whole, const HbmOptions &options,
+                       const PointStart &start, BranchPoint &point, NewtonWork &work);
+
 /// Along the exact motions from a point that is one to another frequency; short of folds only.
 bool follow_exactly_to(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                        const BranchPoint &from, double omega, Watch watch, BranchPoint &point,
