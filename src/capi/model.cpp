@@ -33,11 +33,10 @@ const RestState &solved_rest(ModelHandle &h) {
 
 namespace {
 
-std::shared_ptr<const Model> build(ModelHandle &m) {
+std::shared_ptr<const Model> build(ModelHandle &m, Watch watch) {
     const std::shared_ptr<SolverBinding> binding = m.owner->bind_solver();
     const HostSolver host = binding ? binding->for_core() : HostSolver();
-    auto model =
-        std::make_unique<const Model>(m.input, m.space_options, binding ? &host : nullptr, m.owner->watch());
+    auto model = std::make_unique<const Model>(m.input, m.space_options, binding ? &host : nullptr, watch);
     // the host's solver lives as long as the model whose factors it owns
     return std::shared_ptr<const Model>(model.release(), [binding](const Model *p) { delete p; });
 }
@@ -163,9 +162,11 @@ plm_status plm_model_estimate_memory(plm_model *model, double *bytes) {
 plm_status plm_model_build(plm_model *model) {
     return call<ModelHandle>("plm_model_build", model, [&](ModelHandle &m) {
         require_open(m);
-        std::shared_ptr<const plm::Model> core = build(m);
+        plm::Warnings said;
+        std::shared_ptr<const plm::Model> core = build(m, m.owner->watch().keeping(said));
         const std::vector<plm::Finding> findings = plm::quick_audit(*core);
         m.warnings = look_over(findings, m.owner->watch());
+        m.warnings.add(said);
         m.n_findings = n_worth_a_look(findings);
         m.core = std::move(core);
         const std::int64_t n_dof = m.input.n_dof;

@@ -1,4 +1,5 @@
 #include "capi/model_space.hpp"
+#include "space/set_modes.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,20 +34,20 @@ Field LowestModes::shapes(std::int64_t n) const {
 
 namespace {
 
-// Two passes: the space that is exact in statics gives an upper bound of the n-th frequency, and the space
-// that is accurate up to there gives the modes to the model's space_tolerance.
+// The space that is exact in statics gives an upper bound of the n-th frequency, and the space that is
+// accurate up to there the modes to the model's space_tolerance, from where it is not far to exact ones.
 LowestModes modes_in_space(ModelHandle &h, const PairStates &states, std::int64_t n) {
     const double all = std::numeric_limits<double>::infinity();
     const Space &first = contact_space(h, 0, n + 8);
     const bool open = states.n_closed() == 0;
     SpaceModes modes = modes_of_contact_set(first, states, all);
     require_count(modes.values, n);
-    if (!open) {
-        const double highest = std::sqrt(std::max(0.0, modes.values[static_cast<std::size_t>(n - 1)]));
-        modes = modes_of_contact_set(contact_space(h, highest, n + 8), states, all);
-        require_count(modes.values, n);
-    }
-    return {std::move(modes.values), h.space, std::move(modes.vectors), Field()};
+    if (open) return {std::move(modes.values), h.space, std::move(modes.vectors), Field()};
+    const double highest = std::sqrt(std::max(0.0, modes.values[static_cast<std::size_t>(n - 1)]));
+    modes = modes_of_contact_set(contact_space(h, highest, n + 8), states, all);
+    require_count(modes.values, n);
+    StructureModes exact = exact_set_modes(*h.space, states, modes, n, h.owner->watch());
+    return {std::move(exact.values), nullptr, Matrix(), std::move(exact.vectors)};
 }
 
 } // namespace

@@ -1,5 +1,4 @@
 #include "space/audit.hpp"
-#include "linalg/lapack.hpp"
 #include "space/modal_audit.hpp"
 #include <algorithm>
 #include <cmath>
@@ -88,7 +87,7 @@ class Audit {
             add(0, 0, "no rigid-body mode: the structure is held while its contacts are open");
             return;
         }
-        const std::int64_t loose = n - held_by_contact();
+        const std::int64_t loose = m_.n_unheld();
         const std::string fact =
             format("%lld rigid-body modes while the contacts are open%s", Int(n),
                    n > 6 ? " (several loose bodies, or parts that are not connected)" : "");
@@ -103,22 +102,6 @@ class Audit {
                        "model a pre-load, or fix DOFs");
         else
             add(n > 6 ? 1 : 0, static_cast<double>(n), fact + "; closed contacts can hold them");
-    }
-
-    // Rank of the gaps' answer to rigid motion: B R, each row over what its terms are before they cancel.
-    std::int64_t held_by_contact() const {
-        if (m_.n_pairs() == 0) return 0;
-        Matrix answer = m_.gap_rows().of(m_.rigid_modes());
-        const Matrix terms = m_.gap_rows().terms_of(m_.rigid_modes());
-        for (std::int64_t i = 0; i < answer.rows(); ++i) {
-            double scale = 0;
-            for (std::int64_t j = 0; j < answer.cols(); ++j) scale = std::max(scale, terms(i, j));
-            for (std::int64_t j = 0; j < answer.cols(); ++j)
-                answer(i, j) = scale > 0 ? answer(i, j) / scale : 0;
-        }
-        constexpr double cancelled = 1e-6; // rigid modes of rounded matrices
-        const vector<double> values = thin_svd(answer).values;
-        return std::count_if(values.begin(), values.end(), [](double v) { return v > cancelled; });
     }
 
     void conditioning() {

@@ -5,11 +5,11 @@
 
 namespace plm {
 
-Error no_equilibrium(const char *load) {
+Error no_equilibrium(const char *load, const std::string &resultant) {
     return Error(PLM_ERR_CONVERGENCE,
-                 format("the %s drives a rigid-body motion that no support and no contact holds; "
+                 format("the %s drives a rigid-body motion that no support and no contact holds%s%s; "
                         "fix DOFs or check the direction of the %s",
-                        load, load))
+                        load, resultant.empty() ? "" : ": ", resultant.c_str(), load))
         .reason(PLM_REASON_NO_EQUILIBRIUM);
 }
 
@@ -140,6 +140,7 @@ RestState solve_rest(const Space &space) {
     RestState rest;
     rest.coordinates.assign(space.size(), 0.0);
     rest.penetration = model.contact().unloaded_penetration();
+    if (!model.preload_resultant().empty()) throw no_equilibrium("pre-load", model.preload_resultant());
     if (model.has_preload() || model.contact().has_interference()) {
         vector<double> load(space.preload);
         load.resize(space.size(), 0.0);

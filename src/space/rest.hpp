@@ -45,7 +45,8 @@ class RestEquations {
 std::int64_t find_rest(RestEquations &equations, const Contact &contact, vector<double> &u);
 
 /// PLM_ERR_CONVERGENCE with PLM_REASON_NO_EQUILIBRIUM: the load ("pre-load") has nothing to rest on.
-Error no_equilibrium(const char *load);
+/// resultant: what is known of it (Structure::preload_resultant()).
+Error no_equilibrium(const char *load, const std::string &resultant = {});
 
 /// The structure at rest under the pre-load.
 struct RestState {

@@ -23,6 +23,12 @@ struct Pencil {
 /// have unit M-norm.
 EigenPairs dense_eigenpairs(const Pencil &pencil, std::int64_t n_wanted);
 
+/// Makes the columns of X M-orthonormal, one after another, and returns M X.
+Matrix orthonormalize(const SparseMatrix &m, Matrix &x);
+/// Pairs that miss K x = lambda M x by more than rounding, row by row, become better ones; mx: M X. Their
+/// order may be another one then. Throws PLM_ERR_EIGENSOLVER where one does not come to meet it.
+void improve(const Pencil &pencil, EigenPairs &pairs, Matrix mx);
+
 struct KrylovRequest {
     std::int64_t n_wanted, n_lanczos; // pairs, and the largest dimension of the space: more than n_wanted
     double tolerance;                 // of theta, relative; 0: machine precision

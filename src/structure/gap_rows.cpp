@@ -4,7 +4,19 @@
 namespace plm {
 
 Matrix GapRows::of(const Field &v) const {
-    return multiply(matrix_, v.in_core());
+    Matrix u = multiply(matrix_, v.in_core());
+    if (!momenta_.empty()) gemm('N', 'N', -1.0, left_out_, gram(momenta_, v), 1.0, u);
+    return u;
+}
+
+void GapRows::of(const Field &v, vector<double> &u) const {
+    multiply(matrix_, v.in_core().data(), u.data());
+    if (!momenta_.empty()) gemv('N', -1.0, left_out_, gram(momenta_, v).data(), 1.0, u.data());
+}
+
+void GapRows::leave_out(const Field &motions, Field momenta) {
+    left_out_ = of(motions);
+    momenta_ = std::move(momenta);
 }
 
 Matrix GapRows::terms_of(const Field &v) const {
@@ -20,11 +32,14 @@ Field GapRows::forces(const Matrix &f) const {
     Field on_dofs(matrix_.cols, f.cols());
     for (std::int64_t j = 0; j < f.cols(); ++j)
         multiply_transposed(matrix_, f.col(j), on_dofs.in_core().col(j));
+    if (!momenta_.empty()) add_combination(-1.0, momenta_, product('T', 'N', left_out_, f), on_dofs);
     return on_dofs;
 }
 
 Field GapRows::columns() const {
-    return Field(to_dense(transpose(matrix_)));
+    Field all(to_dense(transpose(matrix_)));
+    if (!momenta_.empty()) add_combination(-1.0, momenta_, left_out_.transposed(), all);
+    return all;
 }
 
 std::vector<vector<GapRows::Term>> GapRows::rows() const {

@@ -20,12 +20,17 @@ class GapRows {
     GapRows(SparseMatrix matrix, GapSize size) : matrix_(std::move(matrix)), size_(size) {}
 
     std::int64_t n_rows() const { return size_.n_rows(); }
+    const GapSize &size() const { return size_; }
     /// B V, n_rows() x k.
     Matrix of(const Field &v) const;
     /// The same of one column, into u.
-    void of(const Field &v, vector<double> &u) const { multiply(matrix_, v.in_core().data(), u.data()); }
+    void of(const Field &v, vector<double> &u) const;
     /// What the terms of B V are before they cancel: |B| |V|.
     Matrix terms_of(const Field &v) const;
+    /// From here on B is what it was less its part along rigid-body motions R_0 (M-orthonormal; momenta:
+    /// M R_0), as rows that balance with the structure's inertia: B - (B R_0) (M R_0)^T. Their terms stay.
+    void leave_out(const Field &motions, Field momenta);
+
     /// B^T F, forces F (n_rows() x k) on the DOFs.
     Field forces(const Matrix &f) const;
     /// B^T.
@@ -41,7 +46,7 @@ class GapRows {
     vector<std::int64_t> dofs_of(const vector<std::int64_t> &pairs) const;
     vector<std::int64_t> dofs() const;
 
-    /// For this room, and for tests.
+    /// The terms alone: for this room, and for tests.
     const SparseMatrix &matrix() const { return matrix_; }
 
   private:
@@ -49,6 +54,8 @@ class GapRows {
 
     SparseMatrix matrix_; // n_rows() x n_free
     GapSize size_;
+    Matrix left_out_; // B R_0, and M R_0; both empty where nothing is
+    Field momenta_;
 };
 
 } // namespace plm

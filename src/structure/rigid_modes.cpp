@@ -81,16 +81,19 @@ struct LowModes {
 // Matrices of codes that sum element matrices carry more than the rounding of their entries; measured on
 // bricks with internal modes: up to 3 times it. Between these two a mode is rigid when it stands alone.
 constexpr double certain = 16, doubtful = 2048, alone = 1e-3;
+// Of a usual eigenvalue: where K is zero, what a vector right to 1e-12 holds of other motions.
+constexpr double nothing = 1e-24;
 // So much larger is the first elastic eigenvalue at least, if it is one.
 constexpr double clear = 1e-2;
 
 /// How many of the lowest modes are rigid. Negative values are noise, too, unless refused later.
-std::int64_t count_rigid(const LowModes &low) {
+/// scale: the size of a usual eigenvalue.
+std::int64_t count_rigid(const LowModes &low, double scale) {
     const vector<double> &value = low.pairs.values;
     const double negative = value.empty() ? 0 : std::max(0.0, -value.front());
     const std::int64_t n = low.size();
     const auto noise = [&](std::int64_t j, double factor) {
-        return std::max(factor * low.rounding[j], factor / certain * negative);
+        return std::max({factor * low.rounding[j], factor / certain * negative, nothing * scale});
     };
     std::int64_t count = 0;
     while (count < n && value[count] <= noise(count, certain)) ++count;
@@ -213,7 +216,7 @@ class RigidModeSearch {
                 if (!slow) throw;
                 return false;
             }
-            n_rigid_ = count_rigid(low_);
+            n_rigid_ = count_rigid(low_, scale_);
             if (n_rigid_ < low_.size() || low_.size() < count || count == k_.cols) return true;
         }
     }

@@ -68,6 +68,7 @@ Structure::Structure(const StructureInput &input, GapSize gap, double largest_co
                      Watch watch)
     : Structure(input, gap, solver) {
     factor_stiffness(largest_contact, watch);
+    leave_out_rounding(watch);
 }
 
 StructureEstimate Structure::estimate(const StructureInput &input, GapSize gap, const Solver &solver) {
@@ -185,6 +186,46 @@ void Structure::factor_stiffness(double largest_contact, Watch watch) {
     if (shift_ > 0) shifted_ = add(1.0, stiffness_, shift_, mass_);
     rigid_modes_ = std::move(result.rigid_modes);
     uncertainty_ = result.uncertainty;
+}
+
+// Also what is too small to be said: what carries no force has moved far before a tiny one is felt.
+void Structure::leave_out_rounding(Watch watch) {
+    constexpr double eps = 1e-15;
+    unheld_ = unheld_motion(gap_rows_, rigid_modes_);
+    if (unheld_.cols() == 0) return;
+    unheld_momenta_ = mass_times(unheld_);
+    const RowMiss miss = largest_miss(gap_rows_, unheld_, rigid_modes_);
+    if (miss.size > eps) gap_rows_.leave_out(unheld_, unheld_momenta_);
+    if (miss.size > exactly_zero)
+        watch.warn(PLM_REASON_ROUNDED,
+                   format("the gap rows miss rigid-body motion by up to %.1e of their terms (pair %lld): they "
+                          "are taken to leave it free, as with coordinates and weights of more digits",
+                          miss.size, Int(gap_rows_.size().pair_of(miss.row))));
+    preload_resultant_ = balance(preload_, "pre-load", miss, watch);
+    const auto mean = excitation_.find(0);
+    if (mean != excitation_.end())
+        mean_resultant_ = balance(mean->second.real, "mean of the excitation", miss, watch);
+}
+
+// A load that is meant to balance becomes one that does, by the inertia of the structure.
+std::string Structure::balance(Field &load, const char *name, const RowMiss &miss, Watch watch) const {
+    const Resultant r = resultant(load, unheld_);
+    std::string fact = format("its resultant is %.3g, %.1e of its forces, along the one in which DOF %lld "
+                              "(counted from 0) moves most",
+                              r.force, r.relative, Int(free_dof_[r.dof]));
+    if (r.relative > meant_as_zero) {
+        if (miss.size > exactly_zero)
+            fact += format("; the row nearest to holding it is that of pair %lld, by %.1e of its terms",
+                           Int(gap_rows_.size().pair_of(miss.row)), miss.size);
+        return fact;
+    }
+    if (r.relative > 0) add_combination(-1.0, unheld_momenta_, gram(unheld_, load), load);
+    if (r.relative > exactly_zero)
+        watch.warn(PLM_REASON_ROUNDED,
+               format("the %s acts on rigid-body motion that neither supports nor contact hold: %s; it is "
+                      "taken as balanced, and that much left out through the masses: balance it, or fix DOFs",
+                      name, fact.c_str()));
+    return {};
 }
 
 bool Structure::multiply_responses(const Field &loads, Matrix &energy, Matrix &inertia) const {

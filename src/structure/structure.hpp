@@ -8,6 +8,7 @@
 #include "structure/loads.hpp"
 #include "structure/mode_count.hpp"
 #include "structure/translations.hpp"
+#include "structure/unheld_motion.hpp"
 #include <functional>
 #include <memory>
 
@@ -116,6 +117,13 @@ class Structure {
     /// M-orthonormal rigid-body modes (may have no column).
     const Field &rigid_modes() const { return rigid_modes_; }
     std::int64_t n_rigid() const { return rigid_modes_.cols(); }
+    /// Rigid-body motions that no gap row holds, among them (unheld_motion.hpp): rows and loads that miss
+    /// them by rounding do not act on them, which is warned of.
+    std::int64_t n_unheld() const { return unheld_.cols(); }
+    /// Of the pre-load and of the mean of the excitation along them, more than rounding, so that they have
+    /// nothing to rest on: what to read; empty where there is none.
+    const std::string &preload_resultant() const { return preload_resultant_; }
+    const std::string &mean_resultant() const { return mean_resultant_; }
     /// What rounding of K makes of the first elastic eigenvalue where there are rigid-body modes, relative.
     double uncertainty() const { return uncertainty_; }
 
@@ -163,6 +171,8 @@ class Structure {
     void assemble_gap(const StructureInput &input, GapSize size);
     void assemble_loads(const StructureInput &input);
     void factor_stiffness(double largest_contact, Watch watch);
+    void leave_out_rounding(Watch watch);
+    std::string balance(Field &load, const char *name, const RowMiss &miss, Watch watch) const;
 
     std::int64_t n_dof_ = 0;
     vector<std::int64_t> free_dof_, free_of_;
@@ -175,7 +185,8 @@ class Structure {
     vector<Translation> translations_;
     double excitation_on_supports_ = 0, shift_ = 0, uncertainty_ = 0;
     std::unique_ptr<Factor> factor_;
-    Field rigid_modes_;
+    Field rigid_modes_, unheld_, unheld_momenta_; // R, R_0, M R_0
+    std::string preload_resultant_, mean_resultant_;
     Solver solver_;
 };
 

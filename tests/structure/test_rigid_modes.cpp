@@ -49,6 +49,48 @@ void every_loose_body_has_its_mode(void **) {
         }
 }
 
+// A row of zeros in K beside a chain of a hundred, held at one end: what a vector of the search holds of the
+// chain by rounding is no stiffness.
+void a_free_mass_beside_a_structure_is_rigid(void **) {
+    for (double mass : {1e-3, 1.0, 1e3}) {
+        const int n = 100;
+        test::Dense k = test::free_chain(n + 1, 1e7), m = test::diagonal(n + 1, 1);
+        k[0][0] += 1e7;
+        k[n - 1][n - 1] = 1e7, k[n][n] = k[n][n - 1] = k[n - 1][n] = 0;
+        m[n][n] = mass;
+        const auto model = test::build(test::input(m, k));
+        assert_int_equal(model->n_rigid(), 1);
+        assert_true(below(model->uncertainty(), 1e-9));
+        const plm::StructureModes modes = model->lowest_modes(6);
+        for (int p = 1; p < 6; ++p) {
+            const double lambda = 4e7 * std::pow(std::sin((2 * p - 1) * M_PI / (4 * n + 2)), 2);
+            assert_true(close_to(modes.values[static_cast<std::size_t>(p)], lambda, 1e-9));
+        }
+    }
+}
+
+// A free chain with a mass of 20 on a spring so soft that its frequency is down to 1e-5 of the next one: the
+// modes of the chain are not worse for it. The soft spring changes their values by 1e-7 at most.
+void soft_suspensions_leave_the_elastic_modes_their_digits(void **) {
+    const int n = 100;
+    for (double hz : {3.0, 0.3, 0.1, 0.01}) {
+        const double soft = 20 * std::pow(2 * M_PI * hz, 2);
+        test::Dense k = test::free_chain(n + 1, 1e9), m = test::diagonal(n + 1, 1);
+        k[n - 1][n - 1] = 1e9 + soft, k[n][n] = soft, k[n][n - 1] = k[n - 1][n] = -soft;
+        m[n][n] = 20;
+        const auto model = test::build(test::input(m, k));
+        assert_int_equal(model->n_rigid(), 1);
+        const plm::StructureModes modes = model->lowest_modes(12);
+        assert_true(close_to(modes.values[1], soft * (1.0 / 20 + 1.0 / n), 1e-3));
+        for (int p = 1; p < 11; ++p) {
+            const double lambda = 4e9 * std::pow(std::sin(p * M_PI / (2 * n)), 2);
+            const double soft_share = 2 * soft / n / lambda; // first order: phi_end^2 soft
+            assert_true(close_to(modes.values[static_cast<std::size_t>(p + 1)], lambda * (1 + soft_share),
+                                 1e-9 + soft_share * soft_share));
+        }
+    }
+}
+
 void rigid_motion_does_not_soften_the_contact(void **) {
     // Two loose chains meet: the elastic flexibility of a free chain of four at its end is known in closed
     // form.
@@ -271,6 +313,8 @@ void a_mesh_nearly_too_fine_is_said(void **) {
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(every_loose_body_has_its_mode),
+        cmocka_unit_test(a_free_mass_beside_a_structure_is_rigid),
+        cmocka_unit_test(soft_suspensions_leave_the_elastic_modes_their_digits),
         cmocka_unit_test(rigid_motion_does_not_soften_the_contact),
         cmocka_unit_test(bodies_without_stiffness_need_a_given_one),
         cmocka_unit_test(massless_dofs_are_allowed_where_they_are_held),

@@ -1,0 +1,106 @@
+// What eigenpairs miss their equation by, and the iteration by which they come to meet it.
+#include "linalg/blas_lapack.hpp"
+#include "linalg/lapack.hpp"
+#include "structure/eigs_internal.hpp"
+#include <cmath>
+
+namespace plm {
+
+// By the Cholesky factor of their Gram matrix (close to the identity, so that one pass suffices).
+Matrix orthonormalize(const SparseMatrix &m, Matrix &x) {
+    Matrix mx = multiply_transposed(m, x);
+    Matrix gram = product('T', 'N', x, mx);
+    const blas_int n = to_blas(x.rows()), count = to_blas(x.cols());
+    if (n == 0 || count == 0) return mx;
+    require_finite(gram.data(), gram.rows() * gram.cols(), "eigensolver, Gram matrix");
+    blas_int info = 0;
+    dpotrf_("L", &count, gram.data(), &count, &info, 1);
+    if (info != 0)
+        throw Error(PLM_ERR_EIGENSOLVER, "the eigenvectors found are linearly dependent").library_code(info);
+    const double one = 1;
+    for (Matrix *block : {&x, &mx})
+        dtrsm_("R", "L", "T", "N", &n, &count, &one, gram.data(), &count, block->data(), &n, 1, 1, 1, 1);
+    return mx;
+}
+
+namespace {
+
+/// K X and |K| |X|: the size of the terms of each row, of which rounding is a share.
+struct Products {
+    Matrix kx, terms;
+    Products(const SparseMatrix &k, const Matrix &x) : kx(multiply_transposed(k, x)) {
+        SparseMatrix sizes = k;
+        for (double &a : sizes.val) a = std::fabs(a);
+        Matrix motion = x;
+        for (std::int64_t i = 0; i < x.rows() * x.cols(); ++i) motion.data()[i] = std::fabs(x.data()[i]);
+        terms = multiply_transposed(sizes, motion);
+    }
+};
+
+/// R = K X - M X diag(lambda), and the share of it in the size of its terms that rounding of K X, which
+/// counts in its own row only, does not explain: with penalties rounding of theirs exceeds lambda M x.
+struct Residuals {
+    Matrix r;
+    vector<double> relative;
+    Residuals(const Pencil &pencil, const EigenPairs &pairs, const Products &p, const Matrix &mx) : r(p.kx) {
+        constexpr double rounding = 1e-12;
+        const std::int64_t n = r.rows();
+        vector<double> beyond(n);
+        for (std::int64_t j = 0; j < r.cols(); ++j) {
+            const double lambda = pairs.values[j];
+            for (std::int64_t i = 0; i < n; ++i) {
+                r(i, j) -= lambda * mx(i, j);
+                beyond[i] = std::max(0.0, std::fabs(r(i, j)) - rounding * p.terms(i, j));
+            }
+            const double inertia = (std::fabs(lambda) + std::fabs(lambda - pencil.shift)) * norm2(n, mx.col(j));
+            relative.push_back(finite(r.col(j), n) ? norm2(n, beyond.data()) / inertia : INFINITY);
+        }
+    }
+};
+
+vector<std::int64_t> larger_than(const vector<double> &values, double limit) {
+    vector<std::int64_t> larger;
+    for (std::size_t j = 0; j < values.size(); ++j)
+        if (!(values[j] <= limit)) larger.push_back(static_cast<std::int64_t>(j));
+    return larger;
+}
+
+Matrix chosen(const Matrix &a, const vector<std::int64_t> &columns) {
+    Matrix some(a.rows(), 0);
+    for (std::int64_t j : columns) some.append(a.columns(j, 1));
+    return some;
+}
+
+} // namespace
+
+// Beside a far smaller eigenvalue, theta = 1 / (lambda - shift) leaves a pair few digits of its value: its
+// Rayleigh quotient has them. A vector less what A = K - shift M makes of its residual is the next one of an
+// inverse iteration, as accurate as the residual.
+void improve(const Pencil &pencil, EigenPairs &pairs, Matrix mx) {
+    constexpr int rounds = 6;
+    const double allowed = std::max(1e-6, 100 * pencil.options.tolerance);
+    for (int round = 0;; ++round) {
+        const Products products(pencil.k, pairs.vectors);
+        Residuals found(pencil, pairs, products, mx);
+        vector<std::int64_t> large = larger_than(found.relative, allowed);
+        if (large.empty()) return;
+        if (round == rounds)
+            throw Error(PLM_ERR_EIGENSOLVER,
+                        format("eigenpair %lld (eigenvalue %g) has a relative residual of %g",
+                               static_cast<long long>(large[0]), pairs.values[large[0]],
+                               found.relative[large[0]]))
+                .index(large[0]);
+        pairs.rest = SearchRest();
+        for (std::int64_t j : large)
+            pairs.values[j] = dot(pencil.size(), pairs.vectors.col(j), products.kx.col(j));
+        if (round == 0) continue;
+        Matrix step = chosen(found.r, large);
+        pencil.factor.solve(step);
+        for (std::size_t c = 0; c < large.size(); ++c)
+            for (std::int64_t i = 0; i < pencil.size(); ++i)
+                pairs.vectors(i, large[c]) -= step(i, static_cast<std::int64_t>(c));
+        mx = orthonormalize(pencil.m, pairs.vectors);
+    }
+}
+
+} // namespace plm
