@@ -3,6 +3,7 @@
 #include "linalg/lapack.hpp"
 #include "structure/eigs_internal.hpp"
 #include <cmath>
+#include <limits>
 
 namespace plm {
 
@@ -52,16 +53,26 @@ struct Residuals {
                 r(i, j) -= lambda * mx(i, j);
                 beyond[i] = std::max(0.0, std::fabs(r(i, j)) - rounding * p.terms(i, j));
             }
-            const double inertia = (std::fabs(lambda) + std::fabs(lambda - pencil.shift)) * norm2(n, mx.col(j));
+            const double inertia =
+                (std::fabs(lambda) + std::fabs(lambda - pencil.shift)) * norm2(n, mx.col(j));
             relative.push_back(finite(r.col(j), n) ? norm2(n, beyond.data()) / inertia : INFINITY);
         }
     }
 };
 
-vector<std::int64_t> larger_than(const vector<double> &values, double limit) {
+/// No pair is more certain than rounding of K leaves its value above the shift.
+vector<std::int64_t> larger_than_allowed(const Pencil &pencil, const EigenPairs &pairs, const Products &p,
+                                         const vector<double> &relative) {
+    constexpr double eps = std::numeric_limits<double>::epsilon();
+    const double allowed = std::max(1e-6, 100 * pencil.options.tolerance);
     vector<std::int64_t> larger;
-    for (std::size_t j = 0; j < values.size(); ++j)
-        if (!(values[j] <= limit)) larger.push_back(static_cast<std::int64_t>(j));
+    for (std::int64_t j = 0; j < p.terms.cols(); ++j) {
+        double energy = 0;
+        for (std::int64_t i = 0; i < p.terms.rows(); ++i)
+            energy += std::fabs(pairs.vectors(i, j)) * p.terms(i, j);
+        const double uncertain = eps * energy / std::fabs(pairs.values[j] - pencil.shift);
+        if (!(relative[j] <= std::max(allowed, uncertain))) larger.push_back(j);
+    }
     return larger;
 }
 
@@ -78,11 +89,10 @@ Matrix chosen(const Matrix &a, const vector<std::int64_t> &columns) {
 // inverse iteration, as accurate as the residual.
 void improve(const Pencil &pencil, EigenPairs &pairs, Matrix mx) {
     constexpr int rounds = 6;
-    const double allowed = std::max(1e-6, 100 * pencil.options.tolerance);
     for (int round = 0;; ++round) {
         const Products products(pencil.k, pairs.vectors);
         Residuals found(pencil, pairs, products, mx);
-        vector<std::int64_t> large = larger_than(found.relative, allowed);
+        const vector<std::int64_t> large = larger_than_allowed(pencil, pairs, products, found.relative);
         if (large.empty()) return;
         if (round == rounds)
             throw Error(PLM_ERR_EIGENSOLVER,

@@ -41,6 +41,41 @@ void require_nonnegative_diagonal(const char *name, const SparseMatrix &a,
                     .index(free_dof[j]);
 }
 
+// Two nodes that are joined have a negative entry of stiffness between them, and only mass can be without.
+bool has_negative_entry(const SparseMatrix &a, const Translation &t) {
+    for (std::int64_t j = t.first; j < a.cols; j += t.step)
+        for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p)
+            if (t.holds(a.idx[p]) && a.val[p] < 0) return true;
+    return false;
+}
+
+// The translations in which K looks like a mass.
+vector<Translation> without_negative_entries(const SparseMatrix &k) {
+    vector<Translation> found;
+    for (std::int64_t step : {1, 2, 3, 6})
+        for (std::int64_t first = 0; first < std::min(step, k.cols); ++first)
+            if (!has_negative_entry(k, {first, step})) found.push_back({first, step});
+    return found;
+}
+
+// M over all DOFs, which looks like a stiffness where K looks like a mass.
+void refuse_exchanged(const vector<Translation> &mass_like, const SparseMatrix &m) {
+    for (const Translation &t : find_translations(m)) {
+        const bool also = std::any_of(mass_like.begin(), mass_like.end(), [&](const Translation &k) {
+            return k.first == t.first && k.step == t.step;
+        });
+        if (also && has_negative_entry(m, t))
+            throw Error(
+                PLM_ERR_MATRIX,
+                format("mass and stiffness are probably exchanged: the entries of the mass matrix "
+                       "cancel where DOFs %lld, %lld, ... (%lld per node, counted from 0) move alike, "
+                       "as those of a stiffness do, and those of the stiffness matrix are all "
+                       "positive there; hand them over the other way round (PLM_MASS, PLM_STIFFNESS)",
+                       Int(t.first), Int(t.first + t.step), Int(t.step)))
+                .argument("which");
+    }
+}
+
 // What the parts of a model are made of: the largest entry of each counts.
 void require_scale(const char *what, const double *values, std::int64_t n, plm_status status,
                    const char *argument) {
@@ -120,9 +155,12 @@ void Structure::assemble_matrices(const StructureInput &input) {
     // one at a time: over all DOFs they are large
     SparseMatrix all = over_all_dofs("stiffness", *input.stiffness, n_dof_);
     translations_ = find_translations(all);
+    const vector<Translation> mass_like =
+        translations_.empty() ? without_negative_entries(all) : vector<Translation>();
     stiffness_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
     // as many codes hand it over: with the pattern of the stiffness, two thirds zero
     all = without_zeros(over_all_dofs("mass", *input.mass, n_dof_));
+    if (!mass_like.empty()) refuse_exchanged(mass_like, all);
     weigh(translations_, all);
     mass_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
     damping_options_ = input.damping;
@@ -197,10 +235,11 @@ void Structure::leave_out_rounding(Watch watch) {
     const RowMiss miss = largest_miss(gap_rows_, unheld_, rigid_modes_);
     if (miss.size > eps) gap_rows_.leave_out(unheld_, unheld_momenta_);
     if (miss.size > exactly_zero)
-        watch.warn(PLM_REASON_ROUNDED,
-                   format("the gap rows miss rigid-body motion by up to %.1e of their terms (pair %lld): they "
-                          "are taken to leave it free, as with coordinates and weights of more digits",
-                          miss.size, Int(gap_rows_.size().pair_of(miss.row))));
+        watch.warn(
+            PLM_REASON_ROUNDED,
+            format("the gap rows miss rigid-body motion by up to %.1e of their terms (pair %lld): they "
+                   "are taken to leave it free, as with coordinates and weights of more digits",
+                   miss.size, Int(gap_rows_.size().pair_of(miss.row))));
     preload_resultant_ = balance(preload_, "pre-load", miss, watch);
     const auto mean = excitation_.find(0);
     if (mean != excitation_.end())
@@ -221,10 +260,11 @@ std::string Structure::balance(Field &load, const char *name, const RowMiss &mis
     }
     if (r.relative > 0) add_combination(-1.0, unheld_momenta_, gram(unheld_, load), load);
     if (r.relative > exactly_zero)
-        watch.warn(PLM_REASON_ROUNDED,
-               format("the %s acts on rigid-body motion that neither supports nor contact hold: %s; it is "
-                      "taken as balanced, and that much left out through the masses: balance it, or fix DOFs",
-                      name, fact.c_str()));
+        watch.warn(
+            PLM_REASON_ROUNDED,
+            format("the %s acts on rigid-body motion that neither supports nor contact hold: %s; it is "
+                   "taken as balanced, and that much left out through the masses: balance it, or fix DOFs",
+                   name, fact.c_str()));
     return {};
 }
 

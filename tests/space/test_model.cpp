@@ -57,6 +57,23 @@ void fixed_dofs_vanish(void **) {
     assert_true(all[0] == 0 && all[1] == 7 && all[2] == 8 && back.at(0) == 7 && back.at(1) == 8);
 }
 
+// A chain of consistent masses, held by fixing its end: what strains nothing is the stiffness.
+void mass_and_stiffness_exchanged_are_refused(void **) {
+    constexpr int n = 5;
+    test::Dense mass = test::diagonal(n, 4);
+    for (int i = 0; i + 1 < n; ++i) mass[i][i + 1] = mass[i + 1][i] = 1;
+    ModelInput in = test::input(mass, test::free_chain(n, 10));
+    in.fixed = {0};
+    assert_int_equal(test::build(in)->n_free(), n - 1);
+    std::swap(in.mass, in.stiffness);
+    const Caught c = refused(in);
+    assert_int_equal(c.status, PLM_ERR_MATRIX);
+    assert_true(c.says("mass and stiffness are probably exchanged"));
+    // a mass that two DOFs have between them alone is none of that, on springs that join them
+    const ModelInput inerter = test::input({{1, -1}, {-1, 1}}, {{3, -1}, {-1, 3}});
+    assert_int_equal(test::build(inerter)->n_free(), 2);
+}
+
 void no_pair_is_a_linear_model(void **) {
     const auto m = test::build(test::input({{2}}, {{100}}));
     assert_int_equal(m->n_pairs(), 0);
@@ -108,6 +125,7 @@ int main() {
         cmocka_unit_test(auto_stiffness_of_one_spring),
         cmocka_unit_test(auto_stiffness_of_two_springs_in_series),
         cmocka_unit_test(fixed_dofs_vanish),
+        cmocka_unit_test(mass_and_stiffness_exchanged_are_refused),
         cmocka_unit_test(no_pair_is_a_linear_model),
         cmocka_unit_test(zero_preload_is_none),
         cmocka_unit_test(wholes_that_make_no_sense_are_refused),

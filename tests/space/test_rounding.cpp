@@ -13,7 +13,9 @@ struct Built {
     explicit Built(const plm::ModelInput &in)
         : model(std::make_shared<const plm::Model>(in, plm::SpaceOptions(), nullptr,
                                                    plm::Watch().keeping(warnings))) {}
-    plm::RestState rest() const { return *plm::rest_of(*plm::make_contact_space(model, 1.0, 4, plm::Watch())); }
+    plm::RestState rest() const {
+        return *plm::rest_of(*plm::make_contact_space(model, 1.0, 4, plm::Watch()));
+    }
     bool says(const char *part) const { return warnings.text().find(part) != std::string::npos; }
 };
 
@@ -44,7 +46,9 @@ void rounded_rows_and_loads_rest(void **) {
             double centre = 0; // of mass: it stays, but for rounding of the loads over what holds it, 1e-10
             for (int i = 0; i < 8; ++i) centre += rest.displacement.at(i);
             assert_true(std::abs(centre) < 1e-4 + digits);
-            const bool row_is_said = row > 1e-10, load_is_said = std::abs(load) > 1e-10;
+            // the motion that the rows see least is (1 + row^2 / 2, 1): the loads miss that, too
+            const bool row_is_said = row > 1e-10,
+                       load_is_said = std::max(std::abs(load), row * row / 2) > 1e-10;
             assert_true(b.warnings.has(PLM_REASON_ROUNDED) == (row_is_said || load_is_said));
             assert_true(b.says("gap rows") == row_is_said && b.says("pre-load") == load_is_said);
         }

@@ -84,12 +84,10 @@ double error_of(bool held, double contact_stiffness, bool all_closed, bool of_th
     const plm::SymmetricEigen exact = dense_modes(blocks.k, contact_stiffness, states);
     const double highest = std::sqrt(exact.values[wanted - 1]);
     const auto space = plm::make_contact_space(model, highest, wanted + 8, plm::Watch());
-    plm::SpaceModes ritz =
-        plm::modes_of_contact_set(*space, states, std::numeric_limits<double>::infinity());
+    plm::SpaceModes ritz = plm::modes_of_contact_set(*space, states, std::numeric_limits<double>::infinity());
     const plm::StructureModes found =
-        of_the_space
-            ? plm::StructureModes{ritz.values, plm::combine(space->vectors, ritz.vectors), nullptr}
-            : plm::exact_set_modes(*space, states, ritz, wanted, plm::Watch());
+        of_the_space ? plm::StructureModes{ritz.values, plm::combine(space->vectors, ritz.vectors), nullptr}
+                     : plm::exact_set_modes(*space, states, ritz, wanted, plm::Watch());
     double worst = 0;
     for (std::int64_t j = 0; j < wanted; ++j) {
         const double want = exact.values[static_cast<std::size_t>(j)],
