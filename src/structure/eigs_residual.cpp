@@ -60,6 +60,25 @@ struct Residuals {
     }
 };
 
+/// |x|' |K| |x|, of which rounding leaves eps in x' K x.
+double absolute_energy(const EigenPairs &pairs, const Products &p, std::int64_t j) {
+    double energy = 0;
+    for (std::int64_t i = 0; i < p.terms.rows(); ++i)
+        energy += std::fabs(pairs.vectors(i, j)) * p.terms(i, j);
+    return energy;
+}
+
+/// Beside a far smaller eigenvalue theta = 1 / (lambda - shift) leaves a value few digits: then its Rayleigh
+/// quotient has more.
+void take_better_values(const Pencil &pencil, EigenPairs &pairs, const Products &p) {
+    const double first = std::fabs(pairs.values[0] - pencil.shift);
+    for (std::int64_t j = 0; j < p.kx.cols(); ++j) {
+        const double apart = std::fabs(pairs.values[j] - pencil.shift);
+        if (apart * (apart / first) > absolute_energy(pairs, p, j))
+            pairs.values[j] = dot(pencil.size(), pairs.vectors.col(j), p.kx.col(j));
+    }
+}
+
 /// No pair is more certain than rounding of K leaves its value above the shift.
 vector<std::int64_t> larger_than_allowed(const Pencil &pencil, const EigenPairs &pairs, const Products &p,
                                          const vector<double> &relative) {
@@ -67,10 +86,8 @@ vector<std::int64_t> larger_than_allowed(const Pencil &pencil, const EigenPairs 
     const double allowed = std::max(1e-6, 100 * pencil.options.tolerance);
     vector<std::int64_t> larger;
     for (std::int64_t j = 0; j < p.terms.cols(); ++j) {
-        double energy = 0;
-        for (std::int64_t i = 0; i < p.terms.rows(); ++i)
-            energy += std::fabs(pairs.vectors(i, j)) * p.terms(i, j);
-        const double uncertain = eps * energy / std::fabs(pairs.values[j] - pencil.shift);
+        const double uncertain =
+            eps * absolute_energy(pairs, p, j) / std::fabs(pairs.values[j] - pencil.shift);
         if (!(relative[j] <= std::max(allowed, uncertain))) larger.push_back(j);
     }
     return larger;
@@ -84,14 +101,15 @@ Matrix chosen(const Matrix &a, const vector<std::int64_t> &columns) {
 
 } // namespace
 
-// Beside a far smaller eigenvalue, theta = 1 / (lambda - shift) leaves a pair few digits of its value: its
-// Rayleigh quotient has them. A vector less what A = K - shift M makes of its residual is the next one of an
-// inverse iteration, as accurate as the residual.
+// A vector less what A = K - shift M makes of its residual is the next one of an inverse iteration, as
+// accurate as the residual.
 void improve(const Pencil &pencil, EigenPairs &pairs, Matrix mx) {
-    constexpr int rounds = 6;
+    constexpr int rounds = 5;
+    if (pairs.values.empty()) return;
     for (int round = 0;; ++round) {
         const Products products(pencil.k, pairs.vectors);
-        Residuals found(pencil, pairs, products, mx);
+        take_better_values(pencil, pairs, products);
+        const Residuals found(pencil, pairs, products, mx);
         const vector<std::int64_t> large = larger_than_allowed(pencil, pairs, products, found.relative);
         if (large.empty()) return;
         if (round == rounds)
@@ -101,15 +119,16 @@ void improve(const Pencil &pencil, EigenPairs &pairs, Matrix mx) {
                                found.relative[large[0]]))
                 .index(large[0]);
         pairs.rest = SearchRest();
-        for (std::int64_t j : large)
-            pairs.values[j] = dot(pencil.size(), pairs.vectors.col(j), products.kx.col(j));
-        if (round == 0) continue;
         Matrix step = chosen(found.r, large);
         pencil.factor.solve(step);
         for (std::size_t c = 0; c < large.size(); ++c)
             for (std::int64_t i = 0; i < pencil.size(); ++i)
                 pairs.vectors(i, large[c]) -= step(i, static_cast<std::int64_t>(c));
         mx = orthonormalize(pencil.m, pairs.vectors);
+        for (std::int64_t j : large) { // now M-orthonormal
+            const Matrix x = pairs.vectors.columns(j, 1);
+            pairs.values[j] = dot(pencil.size(), x.col(0), multiply_transposed(pencil.k, x).col(0));
+        }
     }
 }
 
