@@ -38,27 +38,22 @@ struct Products {
     }
 };
 
-/// R = K X - M X diag(lambda), and the share of it in the size of its terms that rounding of K X, which
-/// counts in its own row only, does not explain: with penalties rounding of theirs exceeds lambda M x.
-struct Residuals {
-    Matrix r;
-    vector<double> relative;
-    Residuals(const Pencil &pencil, const EigenPairs &pairs, const Products &p, const Matrix &mx) : r(p.kx) {
-        constexpr double rounding = 1e-12;
-        const std::int64_t n = r.rows();
-        vector<double> beyond(n);
-        for (std::int64_t j = 0; j < r.cols(); ++j) {
-            const double lambda = pairs.values[j];
-            for (std::int64_t i = 0; i < n; ++i) {
-                r(i, j) -= lambda * mx(i, j);
-                beyond[i] = std::max(0.0, std::fabs(r(i, j)) - rounding * p.terms(i, j));
-            }
-            const double inertia =
-                (std::fabs(lambda) + std::fabs(lambda - pencil.shift)) * norm2(n, mx.col(j));
-            relative.push_back(finite(r.col(j), n) ? norm2(n, beyond.data()) / inertia : INFINITY);
-        }
+/// The share of K X - M X diag(lambda) in the size of its terms that rounding of K X, which counts in its own
+/// row only, does not explain: with penalties rounding of theirs exceeds lambda M x.
+vector<double> relative_residuals(const Pencil &pencil, const EigenPairs &pairs, const Products &p,
+                                  const Matrix &mx) {
+    constexpr double rounding = 1e-12;
+    const std::int64_t n = pencil.size();
+    vector<double> beyond(n), relative;
+    for (std::int64_t j = 0; j < mx.cols(); ++j) {
+        const double lambda = pairs.values[j];
+        for (std::int64_t i = 0; i < n; ++i)
+            beyond[i] = std::max(0.0, std::fabs(p.kx(i, j) - lambda * mx(i, j)) - rounding * p.terms(i, j));
+        const double inertia = (std::fabs(lambda) + std::fabs(lambda - pencil.shift)) * norm2(n, mx.col(j));
+        relative.push_back(finite(p.kx.col(j), n) ? norm2(n, beyond.data()) / inertia : INFINITY);
     }
-};
+    return relative;
+}
 
 /// |x|' |K| |x|, of which rounding leaves eps in x' K x.
 double absolute_energy(const EigenPairs &pairs, const Products &p, std::int64_t j) {
@@ -101,34 +96,33 @@ Matrix chosen(const Matrix &a, const vector<std::int64_t> &columns) {
 
 } // namespace
 
-// A vector less what A = K - shift M makes of its residual is the next one of an inverse iteration, as
-// accurate as the residual.
+// Inverse iteration: K x, whose rounding beside penalties exceeds a small residual, has no part in it.
 void improve(const Pencil &pencil, EigenPairs &pairs, Matrix mx) {
     constexpr int rounds = 5;
     if (pairs.values.empty()) return;
     for (int round = 0;; ++round) {
         const Products products(pencil.k, pairs.vectors);
         take_better_values(pencil, pairs, products);
-        const Residuals found(pencil, pairs, products, mx);
-        const vector<std::int64_t> large = larger_than_allowed(pencil, pairs, products, found.relative);
+        const vector<double> relative = relative_residuals(pencil, pairs, products, mx);
+        const vector<std::int64_t> large = larger_than_allowed(pencil, pairs, products, relative);
         if (large.empty()) return;
         if (round == rounds)
             throw Error(PLM_ERR_EIGENSOLVER,
                         format("eigenpair %lld (eigenvalue %g) has a relative residual of %g",
-                               static_cast<long long>(large[0]), pairs.values[large[0]],
-                               found.relative[large[0]]))
+                               static_cast<long long>(large[0]), pairs.values[large[0]], relative[large[0]]))
                 .index(large[0]);
         pairs.rest = SearchRest();
-        Matrix step = chosen(found.r, large);
-        pencil.factor.solve(step);
-        for (std::size_t c = 0; c < large.size(); ++c)
-            for (std::int64_t i = 0; i < pencil.size(); ++i)
-                pairs.vectors(i, large[c]) -= step(i, static_cast<std::int64_t>(c));
-        mx = orthonormalize(pencil.m, pairs.vectors);
-        for (std::int64_t j : large) { // now M-orthonormal
-            const Matrix x = pairs.vectors.columns(j, 1);
-            pairs.values[j] = dot(pencil.size(), x.col(0), multiply_transposed(pencil.k, x).col(0));
+        Matrix next = chosen(mx, large);
+        pencil.factor.solve(next);
+        for (std::size_t c = 0; c < large.size(); ++c) {
+            const std::int64_t j = large[c], n = pencil.size();
+            double *x = pairs.vectors.col(j);
+            const double *y = next.col(static_cast<std::int64_t>(c));
+            const double theta = dot(n, mx.col(j), y) / dot(n, mx.col(j), x);
+            pairs.values[j] = pencil.shift + 1 / theta;
+            for (std::int64_t i = 0; i < n; ++i) x[i] = y[i] / theta;
         }
+        mx = orthonormalize(pencil.m, pairs.vectors);
     }
 }
 
