@@ -1,6 +1,8 @@
-"""Log, progress, cancel, Ctrl-C, the user's own solver."""
+"""Log, progress, cancel, Ctrl-C and other signals, the end of the interpreter, the user's own solver."""
 import gc
+import pathlib
 import signal
+import subprocess
 import sys
 import threading
 import types
@@ -96,6 +98,70 @@ class Callbacks(unittest.TestCase):
             plm.Sampler(self.basis.model).run(progress=lambda *_: signal.raise_signal(signal.SIGINT))
         self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
         self.assertEqual(self.sweep().status, plm.OK)
+
+    def test_what_handlers_of_signals_raise(self):
+        """A time limit as scripts and pytest-timeout set it. Its signal comes while the library computes, so that Python runs the
+        handler when it enters a callback, before any `try` of that."""
+        def limit(_number, _frame):
+            raise kind("limit")
+        before = signal.signal(signal.SIGALRM, limit)
+        hook = sys.unraisablehook
+        hbm = plm.Hbm(self.basis, n_harmonics=31, max_step=1e-3)  # seconds, if nothing ends it
+        try:
+            for kind, progress in ((OfTheUser, None), (OfTheUser, lambda *_: False), (KeyboardInterrupt, None)):
+                signal.setitimer(signal.ITIMER_REAL, 0.3)
+                with self.assertRaisesRegex(kind, "limit") as caught:
+                    hbm.sweep(progress=progress)
+            self.assertGreater(len(caught.exception.branch), 0)
+            self.assertIs(signal.getsignal(signal.SIGALRM), limit)
+            self.assertIs(sys.unraisablehook, hook)
+        finally:
+            signal.setitimer(signal.ITIMER_REAL, 0)
+            signal.signal(signal.SIGALRM, before)
+        self.assertEqual(self.sweep().status, plm.OK)
+
+    def test_what_is_not_ours_goes_where_it_went(self):
+        class Waste:
+            def __del__(self):
+                raise OfTheUser("waste")
+        seen, before = [], sys.unraisablehook
+        sys.unraisablehook = lambda unraisable: seen.append(str(unraisable.exc_value))
+        try:
+            self.assertEqual(self.sweep(lambda *_: bool(Waste()) and False).status, plm.OK)
+        finally:
+            sys.unraisablehook = before
+        self.assertEqual(set(seen), {"waste"})
+
+    def run_to_its_end(self, end):
+        """A program whose daemon thread is inside a call, and what its main thread does then: (exit code, what it printed)."""
+        program = """
+import os, sys, threading
+import models, plm
+model = models.model(context=plm.Context()).build()
+inside, held = threading.Event(), threading.Event()
+def told(stage, fraction):
+    inside.set()
+    hold()
+def compute():
+    while True:
+        model.compute_response(models.WATCHED, accuracy=1e-6, progress=told)
+def hold():
+    pass
+threading.Thread(target=compute, daemon=True).start()
+inside.wait()
+""" + end
+        done = subprocess.run([sys.executable, "-c", program], cwd=pathlib.Path(__file__).parent, capture_output=True, text=True,
+                              timeout=60, check=False)
+        return done.returncode, done.stdout + done.stderr
+
+    def test_the_interpreter_ends_inside_a_call(self):
+        """Python ends daemon threads that want to run, and with one inside a callback the whole process would end."""
+        self.assertEqual(self.run_to_its_end("print('bye')"), (0, "bye\n"))
+        # nobody waits for ever for a function of the user
+        self.assertEqual(self.run_to_its_end("plm._calls.PATIENCE = 0.2\nhold = held.wait\nprint('bye')"), (0, "bye\n"))
+        # nor a child process for a thread that it has not got
+        self.assertEqual(self.run_to_its_end("child = os.fork()\nif not child: sys.exit(3)\n"
+                                             "print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))"), (0, "3\n"))
 
     def test_log(self):
         lines = []

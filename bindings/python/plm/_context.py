@@ -3,15 +3,16 @@ import contextlib
 import ctypes
 import logging
 import pathlib
-import signal
 import sys
 import threading
+import time
 import warnings
 
 import numpy
 import scipy.sparse
 
-from . import _c
+from . import _c, _calls
+from ._calls import callback
 from ._errors import PlmWarning, make_error
 from ._handle import real_parts
 from ._progress import make_bar
@@ -29,16 +30,24 @@ class _Host:
 
     def __init__(self):
         self.log = self.progress = self.bar = self.solver = self.inertia = None
-        self.raised = None  # what a callback raised
-        self.interrupted = False  # Ctrl-C
+        self.raised = None  # what a callback raised, or the handler of a signal meanwhile: Ctrl-C's, a time limit's
+        self.stopped = False  # the interpreter ends
+        self.in_function_since = None  # when a function of the user was called
         self.factors = {}
 
+    def keep(self, error):
+        """For the end of the call under way; the first one counts."""
+        if self.raised is None:
+            self.raised = error
+
+    @callback
     def on_log(self, _ctx, level, text, _user):
         self.guarded(lambda: self.log(level, text.decode("utf-8", "replace")))
 
+    @callback
     def on_progress(self, _ctx, stage, fraction, _user):
         stop = self.guarded(lambda: self._progress_now(stage.decode("utf-8", "replace"), fraction))
-        return int(bool(stop) or self.raised is not None or self.interrupted)
+        return int(bool(stop) or self.raised is not None or self.stopped)
 
     def _progress_now(self, stage, fraction):
         if self.bar is not None:
@@ -46,15 +55,19 @@ class _Host:
         return self.progress(stage, fraction) if callable(self.progress) else False
 
     def guarded(self, function):
-        """Calls a function of the user; keeps the first exception for the end of the call under way."""
+        """Calls a function of the user; keeps what it raises."""
         if self.raised is not None:
             return None
         try:
+            self.in_function_since = time.monotonic()
             return function()
         except BaseException as error:  # pylint: disable=broad-except
-            self.raised = error
+            self.keep(error)
             return None
+        finally:
+            self.in_function_since = None
 
+    @callback
     def on_factor(self, _ctx, n, col_ptr, row, value, positive_definite, out, _user):
         def factor():
             starts = look(col_ptr, n + 1, ctypes.c_int64).copy()
@@ -69,6 +82,7 @@ class _Host:
             return True
         return 0 if self.guarded(factor) else 1
 
+    @callback
     def on_solve(self, _ctx, key, n_rhs, x, ld, _user):
         def run():
             solve, n = self.factors[key]
@@ -77,14 +91,25 @@ class _Host:
             return True
         return 0 if self.guarded(run) else 1
 
+    @callback
     def on_inertia(self, _ctx, key, negative, _user):
         def count():
             negative[0] = int(self.inertia(self.factors[key][0]))
             return True
         return 0 if self.guarded(count) else 1
 
+    @callback
     def on_free(self, _ctx, key, _user):
         self.factors.pop(key, None)
+
+    @callback
+    def on_recover(self, recover, _ctx, n_dof, n_columns, reduced, size, full, _user):
+        def run():
+            q = look(reduced, n_dof * n_columns, ctypes.c_double).reshape((n_dof, n_columns), order="F")
+            whole = real_parts(recover(q.copy(order="F")), "the recovered motion").reshape((size, n_columns))
+            look(full, size * n_columns, ctypes.c_double).reshape((size, n_columns), order="F")[...] = whole
+            return True
+        return 0 if self.guarded(run) else 1
 
 
 class Context:
@@ -93,12 +118,15 @@ class Context:
     log       None: silence; True: the logger "plm"; or a function of (level, text), level 0 detail, 1 information, 2 warning
     progress  None; True: a bar (tqdm if present); or a function of (stage, fraction) that returns True to cancel
 
-    An exception that leaves a function given here stops the call under way, which raises it again; so does Ctrl-C.
+    An exception that leaves a function given here stops the call under way, which raises it again; so does one that the
+    handler of a signal raises meanwhile, Ctrl-C's or that of a time limit. When the interpreter ends, calls under way in daemon
+    threads are cancelled.
     """
 
     def __init__(self, log=None, progress=None):
         self._h = ctypes.c_void_p()
         self._depth = 0  # calls under way: more than one when a callback calls in
+        self._thread = None  # of the last call
         self._orphans = []  # handles that were collected while a call was under way
         self._host = _Host()
         # kept alive here: ctypes does not
@@ -109,6 +137,7 @@ class Context:
         status = _c.lib.plm_context_create(_c.API_VERSION, ctypes.byref(self._h))
         if status != _c.OK:
             raise make_error("plm_context_create: " + status_text(status), status, function="plm_context_create")
+        _calls.register(self)
         # always there: Ctrl-C cancels by way of it
         self.call("plm_context_set_progress", self._h, ctypes.cast(self._callbacks[1], ctypes.c_void_p), None)
         self.log, self.progress = log, progress
@@ -174,7 +203,7 @@ class Context:
 
     def run(self, name, *arguments, progress=None):
         """The same for work that takes time: with progress, Ctrl-C cancels. The status is checked by `finish`."""
-        with self._showing(progress), self._interruptible():
+        with self._showing(progress):
             return self._run(name, arguments)
 
     def finish(self, name, status, has_result=False):
@@ -198,19 +227,20 @@ class Context:
                 destroy(ctypes.byref(handle))
         self._depth += 1
         try:
+            _calls.begin(self)
             return getattr(_c.lib, name)(*arguments)
         except ctypes.ArgumentError as error:
             raise TypeError(f"{name}: {str(error).replace('TypeError: ', '')}") from None
         finally:
             self._depth -= 1
+            _calls.end()
 
     def _checked(self, name, status):
         if self._depth == 0 and self._host.raised is not None:
             error, self._host.raised = self._host.raised, None
             raise error
-        if self._depth == 0 and self._host.interrupted:
-            self._host.interrupted = False
-            raise KeyboardInterrupt
+        if self._depth == 0 and self._host.stopped:
+            raise SystemExit  # the thread's, and silent
         if status < 0:
             self._fail(name, status)
         return status
@@ -241,8 +271,12 @@ class Context:
         """Destroys a child, or remembers to do so when a call is under way (garbage collected inside a callback)."""
         if self._depth:
             self._orphans.append((function, handle))
-        else:
+            return
+        self._depth += 1
+        try:
             function(ctypes.byref(handle))
+        finally:
+            self._depth -= 1
 
     @contextlib.contextmanager
     def _showing(self, progress):
@@ -259,23 +293,6 @@ class Context:
             self._host.bar = before
             if bar is not None:
                 bar.close()
-
-    @contextlib.contextmanager
-    def _interruptible(self):
-        """For the life of the scope Ctrl-C is noted and cancels at the next progress call."""
-        main = threading.current_thread() is threading.main_thread()
-        if self._depth or not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-            yield
-            return
-
-        def note(_number, _frame):
-            self._host.interrupted = True
-        self._host.interrupted = False
-        signal.signal(signal.SIGINT, note)
-        try:
-            yield
-        finally:
-            signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 _PACKAGE = str(pathlib.Path(__file__).parent)

@@ -1,12 +1,13 @@
 """The model: matrices, supports, contact pairs, loads."""
 import ctypes
+import functools
 from typing import NamedTuple
 
 import numpy
 import scipy.sparse
 
 from . import _c
-from ._context import default_context, look
+from ._context import default_context
 from ._handle import Handle, address, alike, integers, real_parts, reals
 from ._methods import ModelMethods
 
@@ -151,16 +152,8 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
     def set_recovery(self, recover, n_full):
         """The way from a superelement to the structure it was reduced from, before build: recover(q) of motions n_dof x k
         returns n_full x k, as T @ q. None: there is none."""
-        host = self.context._host  # not self: no cycle
-
-        def on_recover(_ctx, n_dof, n_columns, reduced, size, full, _user):
-            def run():
-                q = look(reduced, n_dof * n_columns, ctypes.c_double).reshape((n_dof, n_columns), order="F")
-                whole = real_parts(recover(q.copy(order="F")), "the recovered motion").reshape((size, n_columns))
-                look(full, size * n_columns, ctypes.c_double).reshape((size, n_columns), order="F")[...] = whole
-                return True
-            return 0 if host.guarded(run) else 1
-        function = _c.RECOVER_FN(on_recover) if recover else None
+        # of the host, not of self: no cycle
+        function = _c.RECOVER_FN(functools.partial(self.context._host.on_recover, recover)) if recover else None
         self._call("set_recovery", n_full, ctypes.cast(function, ctypes.c_void_p) if function else None, None)
         self._recovery = function  # kept alive here: ctypes does not
 

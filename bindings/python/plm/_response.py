@@ -195,9 +195,8 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
 
     def _deliver(self, verb, branch, *arguments, progress):
         name = f"plm_hbm_{verb}"
-        status = self.context.run(name, self._h, *arguments, progress=progress)
-        branch._status = status
         try:
+            branch._status = status = self.context.run(name, self._h, *arguments, progress=progress)
             self.context.finish(name, status, has_result=bool(branch._h))
         except KeyboardInterrupt as interrupt:
             interrupt.branch = branch if branch._h else None
