@@ -353,7 +353,8 @@ void ExactFlow::expand_loads(double time, double duration, Matrix &force) const 
     for (std::int64_t j = 0; j < n; ++j) force(j, 0) = model_->preload()[j];
     for (const auto &[harmonic, load] : model_->excitation()) {
         const double step = static_cast<double>(harmonic) * omega_ * duration;
-        std::complex<double> z = std::polar(force_scale_, static_cast<double>(harmonic) * omega_ * time);
+        std::complex<double> z =
+            force_scale_ * std::polar(1.0, static_cast<double>(harmonic) * omega_ * time);
         for (std::int64_t k = 0; k < count; ++k) {
             double *f = force.col(k);
             for (std::int64_t j = 0; j < n; ++j) f[j] += z.real() * load.real[j];

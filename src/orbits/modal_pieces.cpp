@@ -146,7 +146,7 @@ void ModalPieces::put_aside(Part part, double time, vector<double> &sum) const {
     sum = modes_->constant_load().*part;
     for (const ContactModes::Harmonic &load : modes_->loads()) {
         if (!puts_aside_) break;
-        const Complex z = std::polar(force_scale_, load.number * omega_ * time);
+        const Complex z = force_scale_ * std::polar(1.0, load.number * omega_ * time);
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] += z.real() * (load.real.*part)[i] - z.imag() * (load.imag.*part)[i];
     }
@@ -159,7 +159,7 @@ void ModalPieces::add_put_aside(Part part, Matrix &powers) const {
     for (const ContactModes::Harmonic &load : modes_->loads()) {
         if (!puts_aside_) break;
         const double w = load.number * omega_;
-        Complex z = std::polar(force_scale_, w * now_);
+        Complex z = force_scale_ * std::polar(1.0, w * now_);
         for (std::int64_t k = 0; k < powers.cols(); ++k) {
             for (std::int64_t i = 0; i < n; ++i)
                 powers(first + i, k) += z.real() * (load.real.*part)[i] - z.imag() * (load.imag.*part)[i];

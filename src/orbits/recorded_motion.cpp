@@ -196,7 +196,7 @@ void RecordedMotion::weigh_powers(const Piece &p, std::int64_t first, Matrix &we
         const double number = static_cast<double>(first + h);
         exponential_moments({0, -number * turn}, std::polar(1.0, -number * turn), terms - 1, m);
         const Complex phase =
-            std::polar(2 * p.duration / duration_, -2 * M_PI * number * p.start / duration_);
+            2 * p.duration / duration_ * std::polar(1.0, -2 * M_PI * number * p.start / duration_);
         for (std::int64_t k = 0; k < terms; ++k) {
             const Complex w = phase * m[k];
             weight(k, 2 * h) = w.real();
@@ -216,7 +216,7 @@ void RecordedMotion::weigh_fast(const Piece &p, std::int64_t first, Matrix &of_c
     for (std::int64_t h = 0; 2 * h < of_cosine.cols(); ++h) {
         const double per_time = 2 * M_PI * static_cast<double>(first + h) / duration_;
         const Complex turn(0, per_time), turned = std::polar(1.0, -per_time * p.duration),
-                                         phase = std::polar(1 / duration_, -per_time * p.start);
+                                         phase = 1 / duration_ * std::polar(1.0, -per_time * p.start);
         for (std::int64_t k = 0; k < n; ++k) {
             const Complex rate = p.fast.rate[k],
                           w = phase * exponential_integral(rate - turn, p.duration, end[k] * turned),

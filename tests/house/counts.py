@@ -58,6 +58,13 @@ RULES = [
         "limit": 1,
         "other_senses": [],
     },
+    {
+        "what": "files give std::polar a size: of a negative one, such as a force turned round, it makes what it likes",
+        "pattern": r"std::polar\((?!1\.0,)",
+        "outside": "capi",
+        "limit": 0,
+        "other_senses": [],
+    },
 ]
 
 
