@@ -1,27 +1,58 @@
 // The exception barrier through which every exported body goes. It also looks up the handle, holds the host's
-// floating-point environment, refuses re-entry, and sets the context's allocator and threads.
+// floating-point environment and the cancellation of its thread, refuses re-entry, and sets the context's
+// allocator and threads.
 #pragma once
 #include "capi/context.hpp"
 #include "capi/outcome.hpp"
 #include "linalg/blas_host.hpp"
 #include "linalg/parallel.hpp"
 #include "linalg/work.hpp"
+#if defined(__unix__) || defined(__APPLE__)
+#include <pthread.h>
+#endif
 
 namespace plm::capi {
 
-/// Host programs trap floating-point exceptions, round or flush as they like; numerics here run in the
-/// default environment, and the host gets its own back with the flags it had.
-class HeldFloatingPoint {
+/// pthread_cancel() would unwind the thread from inside a call, out of a callback of the host's for one: past
+/// the barrier that is the end of the process. It waits until the call is over.
+class HeldCancellation {
+#if defined(__unix__) || defined(__APPLE__)
   public:
-    HeldFloatingPoint() {
+    HeldCancellation() {
+        pthread_setcancelstate(PTHREAD_CANCEL_DISABLE, &host_);
+    }
+    ~HeldCancellation() {
+        pthread_setcancelstate(host_, nullptr);
+    }
+    HeldCancellation(const HeldCancellation &) = delete;
+    /// What waits takes place here, where nothing has begun; the frames above are the host's.
+    static void take_place() {
+        pthread_testcancel();
+    }
+
+  private:
+    int host_ = PTHREAD_CANCEL_ENABLE;
+#else
+  public:
+    static void take_place() {}
+#endif
+};
+
+/// What a call holds of the host's thread. Host programs trap floating-point exceptions, round or flush as
+/// they like; numerics here run in the default environment, and the host gets its own back with the flags it
+/// had.
+class HeldThread {
+  public:
+    HeldThread() {
         std::feholdexcept(&host_);
         std::fesetenv(FE_DFL_ENV);
     }
-    ~HeldFloatingPoint() { std::fesetenv(&host_); }
-    HeldFloatingPoint(const HeldFloatingPoint &) = delete;
+    ~HeldThread() { std::fesetenv(&host_); }
+    HeldThread(const HeldThread &) = delete;
     std::fenv_t *host() { return &host_; }
 
   private:
+    HeldCancellation cancellation_;
     std::fenv_t host_;
 };
 
@@ -58,10 +89,11 @@ plm_status record_failure(const char *function, Context *context) noexcept;
 /// The status of a call that is done; what it has to say goes to the context.
 plm_status finished(const char *function, Context &context, const Outcome &outcome) noexcept;
 
-/// An exported function on a handle of class H: body(H &) returns the status, or an Outcome.
-template <class H, class Body>
-plm_status call(const char *function, typename H::Opaque *handle, Body body) noexcept {
-    HeldFloatingPoint held;
+/// An exported function on a handle of class H: body(H &) returns the status, or an Outcome. Nothing is
+/// thrown; but a host that cancels its thread meanwhile has it unwound here by the next call.
+template <class H, class Body> plm_status call(const char *function, typename H::Opaque *handle, Body body) {
+    HeldCancellation::take_place();
+    HeldThread held;
     try {
         const std::shared_ptr<H> object = find<H>(handle);
         if (!object) return PLM_ERR_HANDLE;
@@ -84,7 +116,7 @@ plm_status call(const char *function, typename H::Opaque *handle, Body body) noe
 
 /// An exported function that needs no context.
 template <class Body> plm_status call_free(Body body) noexcept {
-    HeldFloatingPoint held;
+    HeldThread held;
     try {
         return body();
     } catch (...) {
@@ -103,7 +135,7 @@ template <class H> plm_status forget(typename H::Opaque **handle) {
 /// plm_X_destroy.
 template <class H> plm_status destroy(typename H::Opaque **handle) noexcept {
     if (!handle || !*handle) return PLM_OK;
-    HeldFloatingPoint held;
+    HeldThread held;
     try {
         std::shared_ptr<H> object = find<H>(*handle);
         if (!object) return forget<H>(handle);

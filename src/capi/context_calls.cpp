@@ -51,7 +51,7 @@ plm_status plm_context_create_with_allocator(std::int32_t api_version, plm_alloc
 
 plm_status plm_context_destroy(plm_context **ctx) {
     if (!ctx || !*ctx) return PLM_OK;
-    HeldFloatingPoint held;
+    HeldThread held;
     try {
         const std::shared_ptr<Context> context = find<Context>(*ctx);
         if (!context) return forget<Context>(ctx);

@@ -57,7 +57,7 @@ def guarded(body, helpers):
             depth += {"(": 1, "{": 1, ")": -1, "}": -1}.get(c, 0)
             if c == ";" and depth == 0:
                 return rest[i + 1:].strip() == ""
-    return bool(re.match(r"HeldFloatingPoint held;\s*try \{", rest) and
+    return bool(re.match(r"HeldThread held;\s*try \{", rest) and
                 re.search(r"\} catch \(\.\.\.\) \{\s*return record_failure\([^;]*\);\s*\}$", rest))
 
 
@@ -72,7 +72,7 @@ def unguarded(text):
 for bad in ("plm_status plm_x(int a) {\n    return compute(a);\n}",
             "plm_status plm_x(int a) {\n    std::string s;\n    return call_free([&] { return 0; });\n}",
             "plm_status plm_x(int a) {\n    const int s = call_free([&] { return 0; });\n    work();\n    return s;\n}",
-            "plm_status plm_x(int a) {\n    HeldFloatingPoint held;\n    try { work(); } catch (int) { return 1; }\n}"):
+            "plm_status plm_x(int a) {\n    HeldThread held;\n    try { work(); } catch (int) { return 1; }\n}"):
     if unguarded(bad)[1] != {"plm_x"}:
         sys.exit(f"the check does not see this one:\n{bad}")
 

@@ -111,7 +111,7 @@ double turned_force_error(double k_n, double damping) {
     q[4] = 0.7, q[7] = -0.2;
     FlowState x = to_state(*model, s, q), y = x;
     const double half = 0.5 * forth.period();
-    x.t = half;
+    x.time = half;
     forth.advance(x, half + 5 * forth.period());
     back.advance(y, 5 * back.period());
     return forth.n_events() > 0 && forth.n_events() == back.n_events()
