@@ -95,7 +95,8 @@ double basis_error_at(const std::shared_ptr<const Basis> &basis, const HbmOption
         }
         return basis_error(estimator, branch, point, output, amplitude);
     } catch (const Error &e) { // a tangent that is singular, motions that nothing holds
-        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
+        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK)
+            throw;
         return not_judged;
     }
 }

@@ -204,7 +204,8 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
             return branch;
         }
     } catch (const Error &e) {
-        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
+        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK)
+            throw;
     }
     return nullptr;
 }

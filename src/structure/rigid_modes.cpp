@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 namespace plm {
 namespace {
@@ -25,8 +26,10 @@ bool solves(const SparseMatrix &k, const Factor &factor) {
     return true;
 }
 
-/// Factor of K, or null when K is singular to working precision, or may be.
-std::unique_ptr<Factor> factor_regular(const SparseMatrix &k, const Solver &solver) {
+/// Factor of K, or null when K is singular to working precision, or may be: a host's solver has no other way
+/// to say so than to fail, and that failure is kept.
+std::unique_ptr<Factor> factor_regular(const SparseMatrix &k, const Solver &solver,
+                                       std::optional<Error> &of_host) {
     for (double d : diagonal(k))
         if (!(d > 0)) return nullptr; // no need to try
     try {
@@ -36,11 +39,11 @@ std::unique_ptr<Factor> factor_regular(const SparseMatrix &k, const Solver &solv
         if ((solver.serving_host() || condition < 1e-9) && !solves(k, *factor)) return nullptr;
         return factor;
     } catch (const Error &e) {
-        // a host's solver has no other way than its failure code to say "singular"
-        if (e.status() == PLM_ERR_NOT_POSITIVE_DEFINITE || e.status() == PLM_ERR_SINGULAR ||
-            e.status() == PLM_ERR_CALLBACK)
-            return nullptr;
-        throw;
+        if (e.status() == PLM_ERR_CALLBACK)
+            of_host = e;
+        else if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE && e.status() != PLM_ERR_SINGULAR)
+            throw;
+        return nullptr;
     }
 }
 
@@ -309,8 +312,12 @@ class RigidModeSearch {
 FactoredStiffness factor_with_rigid_modes(const SparseMatrix &k, const SparseMatrix &m,
                                           double largest_contact, const vector<std::int64_t> &free_dof,
                                           const Solver &solver, Watch watch) {
-    if (std::unique_ptr<Factor> factor = factor_regular(k, solver)) return {std::move(factor), 0.0, Field()};
-    return RigidModeSearch(k, m, largest_contact, free_dof, solver, watch).run();
+    std::optional<Error> of_host;
+    if (std::unique_ptr<Factor> factor = factor_regular(k, solver, of_host))
+        return {std::move(factor), 0.0, Field()};
+    FactoredStiffness found = RigidModeSearch(k, m, largest_contact, free_dof, solver, watch).run();
+    if (of_host && found.rigid_modes.cols() == 0) throw *of_host; // K is regular: it was a failure
+    return found;
 }
 
 } // namespace plm

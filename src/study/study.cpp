@@ -178,7 +178,7 @@ class Study {
             out_.harmonic_error = worse(out_.harmonic_error, check.amplitude);
             out_.harmonic_shift = worse(out_.harmonic_shift, check.frequency);
         } catch (const Error &e) { // stays not known
-            if (e.status() == PLM_CANCELLED) throw;
+            if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_CALLBACK) throw;
             watch_.log(2, e.what());
         }
     }
@@ -391,7 +391,7 @@ class Study {
             if (difference > smallest_error) r.effectivity = expected / difference;
         } catch (
             const Error &e) { // not known: contacts that do not hold all rigid-body modes, a singular tangent
-            if (e.status() == PLM_CANCELLED) throw;
+            if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_CALLBACK) throw;
             watch_.log(1, "study: " + method.name + ": no estimate: " + e.what());
         }
     }

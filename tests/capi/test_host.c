@@ -160,6 +160,7 @@ static void progress_cancels(void **state) {
 /* ---- the host's own solver: dense elimination without pivoting ---- */
 typedef struct {
     int64_t n, fail, factors, indefinite, counted, more, solves, live;
+    int64_t fail_factor, fail_solve; /* these calls fail, from 1; 0: none */
     plm_context *ctx;
     int wrong;
 } solver;
@@ -176,6 +177,7 @@ static int32_t dense_factor(plm_context *ctx, int64_t n, const int64_t *col_ptr,
     s->wrong |= ctx != s->ctx || n > CHAIN_DOFS || col_ptr[0] != 0;
     ++s->factors, s->indefinite += !positive_definite;
     if (s->fail) return (int32_t)s->fail;
+    if (s->factors == s->fail_factor) return 42;
     d = (dense *)calloc(1, sizeof *d);
     d->n = n;
     for (j = 0; j < n; ++j)
@@ -202,7 +204,7 @@ static int32_t dense_solve(plm_context *ctx, void *factor, int64_t nrhs, double 
     int64_t i, j, r;
     solver *s = (solver *)user;
     s->wrong |= ctx != s->ctx;
-    ++s->solves;
+    if (++s->solves == s->fail_solve) return 42;
     for (r = 0; r < nrhs; ++r, x += ldx) {
         for (i = 0; i < d->n; ++i)
             for (j = 0; j < i; ++j) x[i] -= d->a[i * d->n + j] * x[j];
@@ -325,6 +327,48 @@ static void a_failing_solver_is_reported(void **state) {
     plm_context_destroy(&ctx);
 }
 
+/* A whole way with that many good calls. */
+static plm_status one_call(plm_context *ctx, solver *s, int64_t fail_factor, int64_t fail_solve,
+                           double *amplitude) {
+    plm_model *model = NULL;
+    plm_status got;
+    double hz, error;
+    s->factors = s->solves = 0, s->fail_factor = fail_factor, s->fail_solve = fail_solve;
+    got = chain_built(ctx, 1, &model);
+    if (got >= 0)
+        got = plm_model_compute_response(model, 12, PLM_PEAK, 1e-2, &hz, amplitude, &error, NULL, NULL);
+    plm_model_destroy(&model);
+    return got;
+}
+
+/* Also the first one: a solver says by a failure that K is singular, but a regular K was not meant to fail.
+ */
+static void a_failure_of_the_solver_is_never_taken_for_an_answer(void **state) {
+    solver s;
+    plm_context *ctx = NULL;
+    double amplitude = 0, again = 0;
+    int64_t k, code, factors, solves;
+    (void)state;
+    memset(&s, 0, sizeof s);
+    assert_int_equal(plm_context_create(PLM_API_VERSION, &ctx), PLM_OK);
+    s.ctx = ctx;
+    plm_context_set_solver(ctx, dense_factor, dense_solve, dense_free, &s);
+    assert_true(one_call(ctx, &s, 0, 0, &amplitude) >= 0);
+    factors = s.factors, solves = s.solves;
+    for (k = 1; k <= factors + solves; ++k) {
+        const plm_status got = one_call(ctx, &s, k <= factors ? k : 0, k > factors ? k - factors : 0, &again);
+        plm_context_get_error_info(ctx, NULL, NULL, NULL, &code);
+        if (got != PLM_ERR_CALLBACK || code != 42)
+            print_message("call %d of %d factors, %d solves: status %d, code %d\n", (int)k, (int)factors,
+                          (int)solves, (int)got, (int)code);
+        assert_int_equal(got, PLM_ERR_CALLBACK);
+        assert_int_equal(code, 42);
+    }
+    assert_true(one_call(ctx, &s, 0, 0, &again) >= 0 && again == amplitude);
+    assert_int_equal(s.live, 0);
+    plm_context_destroy(&ctx);
+}
+
 /* ---- the floating-point environment ---- */
 static void rounding_and_flags_stay_the_hosts(void **state) {
     plm_context *ctx = NULL;
@@ -409,6 +453,7 @@ int main(void) {
         cmocka_unit_test(the_hosts_solver_serves),
         cmocka_unit_test(modes_are_verified_by_the_hosts_inertia),
         cmocka_unit_test(a_failing_solver_is_reported),
+        cmocka_unit_test(a_failure_of_the_solver_is_never_taken_for_an_answer),
         cmocka_unit_test(rounding_and_flags_stay_the_hosts),
 #ifdef __GLIBC__
         cmocka_unit_test(a_trapping_host_survives),
