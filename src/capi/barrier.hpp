@@ -100,6 +100,7 @@ template <class H, class Body> plm_status call(const char *function, typename H:
         Context &context = object->context();
         RunningCall running(context, held.host());
         if (!running) return running.refusal();
+        context.begin(function);
         const AllocatorScope scope(&context.allocator);
         const WorkScope work(context.listener());
         const ThreadsScope threads(context.threads);

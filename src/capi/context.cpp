@@ -1,4 +1,6 @@
 #include "capi/context.hpp"
+#include <algorithm>
+#include <cstring>
 
 namespace plm::capi {
 namespace {
@@ -26,6 +28,18 @@ int host_inertia(void *handle, std::int64_t *negative, void *user) {
     return s.inertia(s.context->handle, handle, negative, s.user);
 }
 
+// Calls of which one stage tells how far they are.
+struct OwnStage {
+    const char *function, *stage;
+};
+constexpr OwnStage own_stages[] = {{"plm_hbm_sweep", "sweep"},
+                                   {"plm_hbm_track_fold", "folds"},
+                                   {"plm_hbm_find_nonlinear_mode", "nonlinear mode"},
+                                   {"plm_hbm_find_by_marching", "search by marching"},
+                                   {"plm_transient_run", "time integration"},
+                                   {"plm_transient_run", "exact flow"},
+                                   {"plm_study_run", "study"}};
+
 } // namespace
 
 HostSolver SolverBinding::for_core() {
@@ -42,12 +56,31 @@ void Context::HostMonitor::log(int level, const std::string &text) {
     context.log(context.handle, level, text.c_str(), context.log_user);
 }
 
+// Fractions of the call's own stage are those of the call, whatever else is done on the way. Other calls have
+// many stages, and nobody knows how many: each gets half of what is left.
+void Context::HostMonitor::take(double done) {
+    bool has_own = false, is_own = false;
+    for (const OwnStage &own : own_stages) {
+        if (std::strcmp(own.function, function) != 0) continue;
+        has_own = true;
+        is_own = is_own || stage == own.stage;
+    }
+    if (has_own && !is_own) return;
+    if (done < heard) base = told;
+    heard = done;
+    told = std::max(told, has_own ? done : base + 0.5 * (1 - base) * done);
+}
+
 bool Context::HostMonitor::progress(const char *now, double done) {
     if (!context.progress) return false;
     if (stage != now) stage = now;
-    fraction = done;
+    take(std::clamp(done, 0.0, 1.0));
+    return goes_on();
+}
+
+bool Context::HostMonitor::goes_on() {
     const HostCode host(context);
-    return context.progress(context.handle, stage.c_str(), fraction, context.progress_user) != 0;
+    return context.progress(context.handle, stage.c_str(), told, context.progress_user) != 0;
 }
 
 } // namespace plm::capi

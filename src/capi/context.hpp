@@ -39,6 +39,8 @@ struct Context final : Object {
     Watch watch() { return Watch(log || progress ? &monitor : nullptr); }
     /// For a WorkScope around a call.
     WorkListener *listener() { return progress ? &monitor : nullptr; }
+    /// A call begins: its progress starts anew.
+    void begin(const char *function) { monitor.begin(function); }
     /// Null when the host brings no solver.
     std::shared_ptr<SolverBinding> bind_solver();
 
@@ -60,14 +62,19 @@ struct Context final : Object {
     std::fenv_t *host_environment = nullptr; // during a call: the host's floating-point environment
 
   private:
+    /// A call has stages, each with fractions of its own from 0 on; what the host is told never runs
+    /// backwards.
     struct HostMonitor final : Monitor, WorkListener {
         explicit HostMonitor(Context &c) : context(c) {}
+        void begin(const char *name) { function = name, told = base = heard = 0; }
         void log(int level, const std::string &text) override;
         bool progress(const char *stage, double fraction) override;
-        bool goes_on() override { return progress(stage.c_str(), fraction); }
+        bool goes_on() override;
+        void take(double fraction);
         Context &context;
+        const char *function = "";
         std::string stage = "working"; // what was heard last
-        double fraction = 0;
+        double heard = 0, base = 0, told = 0;
     } monitor;
 };
 

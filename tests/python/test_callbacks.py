@@ -33,6 +33,37 @@ class Callbacks(unittest.TestCase):
         self.assertTrue(all(isinstance(stage, str) and 0 <= fraction <= 1 for stage, fraction in calls))
         self.assertIn("sweep", [stage for stage, _ in calls])
 
+    def test_progress_never_runs_backwards(self):
+        """Within a call, whatever its stages tell of themselves; and where one stage is the call, it goes to the end."""
+        def heard(call, *arguments, **more):
+            told = []
+            call(*arguments, progress=lambda stage, fraction: told.append(fraction), **more)
+            self.assertEqual(told, sorted(told), call.__name__)
+            self.assertTrue(told and 0 <= told[0] and told[-1] <= 1, call.__name__)
+            return told
+        model = models.model(context=self.context)
+        heard(model.build)
+        heard(model.solve_rest)
+        sampler = plm.Sampler(model)
+        heard(sampler.run)
+        basis = plm.Basis(model, sampler)
+        heard(basis.build)
+        hbm = plm.Hbm(basis, n_harmonics=5)
+        self.assertGreater(max(heard(hbm.sweep)), 0.9)
+        curve = hbm.sweep()
+        heard(hbm.find_peak, curve, models.WATCHED)
+        heard(hbm.estimate_error, hbm.find_peak(curve, models.WATCHED).branch, 0, models.WATCHED)
+        heard(hbm.refine_basis, models.WATCHED, 1e-2)
+        of_all = heard(model.compute_response, models.WATCHED)
+        self.assertGreater(len(set(of_all)), 20)
+        self.assertLess(max(of_all), 1)  # something is left, as long as there is more to do
+        self.assertGreater(max(heard(plm.Transient(basis, frequency_hz=10, periods=50).run)), 0.9)
+        study = plm.Study(model, repeats=1)
+        study.set_output(models.WATCHED)
+        study.add_response("one", hbm)
+        study.add_response("other", plm.Hbm(basis, n_harmonics=3))
+        self.assertEqual(len(set(heard(study.run))), 3)  # the reference and two methods
+
     def test_true_cancels(self):
         curve = self.sweep(lambda stage, fraction: stage == "sweep" and fraction > 0.3)
         self.assertEqual(curve.status, plm.CANCELLED)
