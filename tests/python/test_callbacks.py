@@ -1,5 +1,6 @@
 """Log, progress, cancel, Ctrl-C and other signals, the end of the interpreter, the user's own solver."""
 import gc
+import os
 import pathlib
 import signal
 import subprocess
@@ -181,8 +182,9 @@ def hold():
 threading.Thread(target=compute, daemon=True).start()
 inside.wait()
 """ + end
+        alone = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}  # a fork beside its threads is more than OpenBLAS bears
         done = subprocess.run([sys.executable, "-c", program], cwd=pathlib.Path(__file__).parent, capture_output=True, text=True,
-                              timeout=60, check=False)
+                              timeout=60, check=False, env=alone)
         return done.returncode, done.stdout + done.stderr
 
     def test_the_interpreter_ends_inside_a_call(self):

@@ -1,5 +1,6 @@
 """The calls under way in this process: what Python raises on its way into their callbacks, and the end of the interpreter."""
 import atexit
+import os
 import sys
 import threading
 import time
@@ -10,6 +11,8 @@ _contexts = weakref.WeakSet()
 _callbacks = set()  # codes of the methods that the library calls
 _hook_before = None
 _ending = False
+if hasattr(os, "fork"):  # a child process must not find it taken by a thread that it has not got
+    os.register_at_fork(before=_lock.acquire, after_in_parent=_lock.release, after_in_child=_lock.release)
 PATIENCE = 5  # seconds that a function of the user may take at the end of the interpreter
 
 
