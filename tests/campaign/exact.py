@@ -31,7 +31,6 @@ class Piece:
         self.fixed = -np.linalg.solve(a, load)
         self.drive = self.inverse @ np.concatenate([np.zeros(n), s.Minv @ s.F])
         self.gaps = s.B @ self.vectors[:n]
-        self.out = self.vectors[s.out]
 
     def forced(self, omega):
         """Complex amplitude of the forced motion."""
@@ -52,7 +51,7 @@ def condensation(M, K, kept, reach=40.0, fewest=20):
 
 
 class Structure:
-    """M q'' + C q' + K q + B' max(kn (B q - g), 0) = P + Re(F exp(i omega t)); `out`: the DOF looked at."""
+    """M q'' + C q' + K q + B' max(kn (B q - g), 0) = P + Re(F exp(i omega t)); `out`: the DOF looked at, or several."""
 
     def __init__(self, M, C, K, B, kn, g, P, F, out):
         self.n = len(M)
@@ -63,22 +62,24 @@ class Structure:
     def piece(self, closed):
         key = closed.tobytes()
         if key not in self._pieces:
-            if len(self._pieces) > 3000:
+            if len(self._pieces) > min(3000, 3e6 / self.n**2):  # some hundred megabytes
                 self._pieces.clear()
             self._pieces[key] = Piece(self, closed)
         return self._pieces[key]
 
     def flow(self, x, omega, periods=1, derivative=False, samples=150):
-        """State after the periods; with `derivative` the monodromy. Keeps the largest |q_out| as self.peak."""
+        """State after the periods; with `derivative` the monodromy. Keeps the largest |q_out| as self.peak, one number for
+        each DOF of `out`."""
         n, end = self.n, periods * 2 * np.pi / omega
-        t, events, peak = 0.0, 0, 0.0
+        outs = np.atleast_1d(self.out)
+        t, events, peak = 0.0, 0, np.zeros(len(outs))
         phi = np.eye(2 * n) if derivative else None
         u = self.B @ x[:n] - self.g
         closed = np.where(np.abs(u) > 1e-13 * (np.abs(self.g) + np.abs(self.B) @ np.abs(x[:n])), u > 0, self.B @ x[n:] > 0)
         while end - t > 1e-14 * end:
             p = self.piece(closed)
             f = p.forced(omega)
-            fg, fo = self.B @ f[:n], f[self.out]
+            fg, fo, out = self.B @ f[:n], f[outs, None], p.vectors[outs]
             xp = lambda time: np.real(f * np.exp(1j * omega * time)) + p.fixed
             c = p.inverse @ (x - xp(t))
             base = self.B @ p.fixed[:n] - self.g
@@ -103,16 +104,19 @@ class Structure:
                 if len(self.g):
                     gaps = np.real(p.gaps @ free) + np.real(np.outer(fg, wave)) + base[:, None]
                     hit = self._first_event(gaps, np.real(p.gaps @ rate) + np.real(np.outer(fg, swing)), alone, grid, closed)
-                q = np.real(p.out @ free) + np.real(fo * wave) + p.fixed[self.out]
-                v = np.real(p.out @ rate) + np.real(fo * swing)
+                q = np.real(out @ free) + np.real(fo * wave) + p.fixed[outs, None]
+                v = np.real(out @ rate) + np.real(fo * swing)
                 stop = grid[-1]
                 if hit is not None:
                     stop, before = hit[0], grid < hit[0]
                     free, wave = c * np.exp(p.values * stop), np.exp(1j * omega * (t + stop))
                     grid = np.append(grid[before], stop)
-                    q = np.append(q[before], (p.out @ free + fo * wave).real + p.fixed[self.out])
-                    v = np.append(v[before], (p.out @ (p.values * free) + 1j * omega * fo * wave).real)
-                peak = max(peak, largest(grid, q, v))
+                    q = np.c_[q[:, before], np.real(out @ free + fo[:, 0] * wave) + p.fixed[outs]]
+                    v = np.c_[v[:, before], np.real(out @ (p.values * free) + 1j * omega * fo[:, 0] * wave)]
+                for i in range(len(outs)):
+                    at = lambda time: (out[i] @ (c * np.exp(p.values * time)) + fo[i, 0] * np.exp(1j * omega * (t + time))
+                                       ).real + p.fixed[outs[i]]
+                    peak[i] = max(peak[i], largest(grid, q[i], v[i], at))
                 tau = stop
             growth = np.exp(p.values * tau)
             if derivative:
@@ -125,7 +129,7 @@ class Structure:
                 events += 1
                 if events > 4000 * periods or not np.all(np.isfinite(x)):
                     raise NoPeriodicMotion("chatter")
-        self.peak, self.events = peak, events
+        self.peak, self.events = (peak if np.ndim(self.out) else peak[0]), events
         return (x, phi) if derivative else x
 
     @staticmethod
@@ -212,6 +216,22 @@ class Structure:
                 return x, omega, new / np.linalg.norm(new), jx + np.eye(n2)
         raise NoPeriodicMotion("no point of the curve near %.6g Hz" % (omega / 2 / np.pi))
 
+    def nearest(self, x, omega, width=1e-3, tolerance=1e-8):
+        """The exact motion nearest (x, omega), state and frequency alike: (state, omega, monodromy). At folds, too."""
+        scale = np.append(self.scales(x, omega), width * omega)
+        h = 1e-7 * omega
+        jw = (self.flow(x, omega + h) - self.flow(x, omega - h)) / (2 * h)
+        for _ in range(12):
+            r, jx = self.residual(x, omega, 1)
+            a = np.c_[jx, jw] * scale / scale[:-1, None]
+            step = np.linalg.lstsq(a, -r / scale[:-1], rcond=None)[0]
+            x, omega = x + step[:-1] * scale[:-1], omega + step[-1] * scale[-1]
+            if not np.all(np.isfinite(x)) or omega <= 0:
+                break
+            if np.abs(step).max() < tolerance:
+                return x, omega, jx + np.eye(2 * self.n)
+        raise NoPeriodicMotion("no motion near %.6g Hz" % (omega / 2 / np.pi))
+
     def peak_near(self, x, omega, periods=1, width=1e-3):
         """The highest amplitude along the curve of exact motions through the motion nearest (x, omega): (omega, amplitude,
         monodromy, moved): moved is how far along the curve, in steps of `width`."""
@@ -252,14 +272,14 @@ def scaled_direction(x, scale):
     return d / np.linalg.norm(d)
 
 
-def largest(t, q, v):
-    """max |q| of samples with slopes: of the cubics between them."""
+def largest(t, q, v, at):
+    """max |q| of a function `at` that is known with its slope at the times t: at these and where the cubics between them turn."""
     top = np.abs(q).max()
     for k in np.nonzero(v[:-1] * v[1:] < 0)[0]:
         h = t[k + 1] - t[k]
         a, b = q[k], q[k + 1]
         c = np.array([2 * a + h * v[k] - 2 * b + h * v[k + 1], -3 * a - 2 * h * v[k] + 3 * b - h * v[k + 1], h * v[k], a])
         for s in np.roots(np.polyder(c)):
-            if abs(s.imag) < 1e-12 and 0 < s.real < 1:
-                top = max(top, abs(np.polyval(c, s.real)))
+            if abs(s.imag) < 1e-12 and 0 < s.real < 1 and abs(np.polyval(c, s.real)) > 0.99 * top:
+                top = max(top, abs(at(t[k] + s.real * h)))
     return top

@@ -1,0 +1,240 @@
+"""Random models of the kinds on which users' structures were answered wrongly: functions of a random generator like those of
+families.py, with more of what the judge should know:
+
+    says       reasons (plm.REASON_...) that are true of every model of the family
+    all_dofs   the motion of the peak is judged at all DOFs
+    twin       (T, out): the same model in other coordinates, q = T q_twin; its answer must be the same
+    K_library  what the library is given where the exact motion needs more (B_library likewise)
+    exact_to   how exact the exact motion is, where not 1e-6
+"""
+import numpy as np
+import scipy.linalg
+
+import families
+from families import beam_matrices, chain, finish, gap_row, membrane_matrices
+
+ROUNDED, TIE = 29, 28  # PLM_REASON_..., whether the library at hand has them or not
+
+
+def modal_matrix(M, K, ratios):
+    """C of damping ratios for the modes of K, the last one for those beyond."""
+    w2, phi = scipy.linalg.eigh(K, M)
+    ratio = np.full(len(M), float(ratios[-1]))
+    ratio[:len(ratios)] = ratios
+    mp = M @ phi
+    return (mp * (2 * ratio * np.sqrt(np.maximum(w2, 0)))) @ mp.T
+
+
+def with_modal_damping(m, ratios):
+    m["damping"], m["C"] = ("modal", ratios), modal_matrix(m["M"], m["K"], ratios)
+    return m
+
+
+def hard_stops(rng):
+    """A cantilever beside stops of 1e1 to 1e5 of its stiffness there; a ratio for every mode. The force matches the damping."""
+    ne = int(rng.integers(4, 11))
+    M, K = (a[2:, 2:] for a in beam_matrices(ne))
+    n = len(M)
+    nodes = rng.choice(np.arange(ne // 2, ne), int(rng.integers(1, 3)), replace=False)
+    B = [gap_row(n, (2 * int(i), 1.0)) for i in nodes]
+    m = finish(rng, M, K, B, stiffness=(1, 5), gap=rng.choice(["zero", "open"]), drive=n - 2,
+               out=int(rng.choice([n - 2, 2 * int(nodes[0])])))
+    m["F"] *= 3.0  # with all its modes damped alike it moves less
+    return with_modal_damping(m, np.full(n, 10 ** rng.uniform(-2.3, -1.3)))
+
+
+def hard_stops_one_ratio(rng):
+    """The same, one ratio given: it is that of all modes."""
+    m = hard_stops(rng)
+    return with_modal_damping(m, m["damping"][1][:1])
+
+
+def many_gaps(rng):
+    """A plate of masses and springs held at one edge over 30 to 100 stops; looked at anywhere, judged everywhere."""
+    nx, ny = int(rng.integers(6, 11)), int(rng.integers(6, 11))
+    n = nx * ny
+    K = np.zeros((n, n))
+    for i in range(n):
+        if i < ny:
+            K[i, i] += 2e4
+        for j, k in ((i + ny, 1e4), (i + 1 if (i + 1) % ny else n, 5e3)):
+            if j < n:
+                row = gap_row(n, (i, 1.0), (j, -1.0))
+                K += k * rng.uniform(0.9, 1.1) * np.outer(row, row)
+    under = rng.choice(np.arange(n), int(rng.integers(30, min(n, 100) + 1)), replace=False)
+    m = finish(rng, 0.1 * np.eye(n), K, [gap_row(n, (int(i), 1.0)) for i in under], stiffness=(-1, 1),
+               gap=rng.choice(["open", "open", "zero"]), out=int(rng.integers(n)), drive=int(n - 1 - rng.integers(2 * ny)))
+    if m["kind"] == "open":
+        m["g"] = m["g"] * rng.uniform(0.2, 2, len(under))
+    if m["damping"][0] == "modal":
+        m = with_modal_damping(m, np.full(n, m["damping"][1]))
+    return dict(m, all_dofs=True)
+
+
+def twin_of(m, T, out):
+    return dict(m, twin=(T, out))
+
+
+def permuted(rng):
+    """A model of the first families, its DOFs in another order."""
+    of = (families.chains, families.beam_with_stops, families.plate, families.shrouds, families.close_modes, families.cracked_beam)
+    m = of[int(rng.integers(len(of)))](rng)
+    order = rng.permutation(len(m["M"]))
+    return twin_of(m, np.eye(len(order))[:, order], int(np.argsort(order)[m["out"]]))
+
+
+def turned(rng, n, groups, kept):
+    """T: each group of DOFs (of one node) in axes of its own, but that of the DOF kept; then all in another order."""
+    T = np.eye(n)
+    for group in groups:
+        if kept not in group:
+            q, _ = np.linalg.qr(rng.normal(size=(len(group), len(group))))
+            T[np.ix_(group, group)] = q
+    order = rng.permutation(n)
+    return T[:, order], int(np.argsort(order)[kept])
+
+
+def turned_mesh(rng):
+    """A cracked mesh, each node in axes of its own."""
+    m = families.cracked_mesh(rng)
+    n = len(m["M"])
+    return twin_of(m, *turned(rng, n, np.arange(n).reshape(-1, 2), m["out"]))
+
+
+def round_shaft(rng):
+    """A round cantilever: two bending planes of one frequency, the stop in one of them, the force anywhere."""
+    ne = int(rng.integers(4, 9))
+    M, K = (np.kron(np.eye(2), a[2:, 2:]) for a in beam_matrices(ne))
+    n = len(M)
+    node = int(rng.integers(ne // 2, ne))
+    F, angle = np.zeros(n), rng.uniform(-0.45, 0.45) * np.pi
+    m = finish(rng, M, K, [gap_row(n, (2 * node, 1.0))], stiffness=(-1, 2), gap=rng.choice(["zero", "open"]), out=n // 2 - 2)
+    F[[n // 2 - 2, n - 2]] = np.abs(m["F"]).max() * np.array([np.cos(angle), np.sin(angle)])
+    groups = [[plane, n // 2 + plane] for plane in range(n // 2)]
+    zeta = 10 ** rng.uniform(-2.3, -1.5)
+    m = with_modal_damping(dict(m, F=F), np.full(n, zeta))
+    return dict(twin_of(m, *turned(rng, n, groups, m["out"])), says={TIE})
+
+
+def cantilever_mesh(nx, ny, length, height, below=0.0):
+    nodes = np.array([[length * i / nx, below + height * j / ny] for i in range(nx + 1) for j in range(ny + 1)])
+    at = lambda i, j: i * (ny + 1) + j
+    elements = [[at(x, y), at(x + 1, y), at(x + 1, y + 1), at(x, y + 1)] for x in range(nx) for y in range(ny)]
+    return nodes, elements
+
+
+def twin_plates(rng):
+    """Two equal cantilevers that touch along their length; the force on one of them."""
+    nx, ny = int(rng.integers(5, 10)), 1
+    one, elements = cantilever_mesh(nx, ny, 200.0, 4.0)
+    other = one + [0.0, 4.0]
+    M, K = membrane_matrices(np.vstack([one, other]), elements + [[c + len(one) for c in e] for e in elements])
+    held = np.concatenate([np.arange(4), 2 * len(one) + np.arange(4)])
+    kept = np.setdiff1d(np.arange(len(M)), held)
+    M, K = M[np.ix_(kept, kept)], K[np.ix_(kept, kept)]
+    n = len(M)
+    low = lambda i, j: 4 * (i - 1) + 2 * j + 1
+    B = [gap_row(n, (low(i, 1), 1.0), (n // 2 + low(i, 0), -1.0)) for i in range(1, nx + 1)]
+    out = low(nx, 0)
+    m = finish(rng, M, K, B, stiffness=(-1, 1), gap=rng.choice(["zero", "zero", "open"]), out=out, condense=True)
+    m = with_modal_damping(m, np.full(n, 10 ** rng.uniform(-2.3, -1.7)))
+    return dict(twin_of(m, *turned(rng, n, np.arange(n).reshape(-1, 2), out)), says={TIE}, exact_to=3e-5)
+
+
+def held_softly(m, w):
+    """For the exact motion: what nothing holds is held by springs that are 1e-6 of what the motion is about (of 1e-8 rounding
+    makes 1e-3; of 1e-5 the peak is the same to 1e-5)."""
+    return dict(m, K_library=m["K"], K=m["K"] + (1e-3 * w) ** 2 * m["M"], exact_to=3e-5)
+
+
+def pressed(rng, M, K, B, kn, load, drive, out):
+    """Bodies that touch at B and are pressed together by `load`; the damping is that of the closed structure, so that nothing
+    damps a motion of the whole."""
+    closed = K + B.T @ (kn[:, None] * B)
+    w2, phi = scipy.linalg.eigh(closed, M)
+    elastic = w2 > 1e-9 * w2[-1]
+    w1, zeta = np.sqrt(w2[elastic][0]), 10 ** rng.uniform(-2.3, -1.3)
+    C = 2 * zeta / w1 * closed
+    F = np.zeros(len(M))
+    F[drive] = 1.0
+    mode = np.flatnonzero(elastic)[int(np.argmax(np.abs(phi[drive] * phi[out])[elastic][:4] / w2[elastic][:4]))]
+    q = np.linalg.solve(closed - w2[mode] * M + 1j * np.sqrt(w2[mode]) * C, F)
+    rest = B @ np.linalg.lstsq(closed, load, rcond=1e-9)[0]
+    F *= 10 ** rng.uniform(-0.5, 0.5) * np.median(np.abs(rest)) / np.abs(B @ q).max()
+    m = dict(M=M, K=K, C=C, damping=("matrix",), B=B, kn=kn, g=np.zeros(len(B)), P=load, F=F, out=out, kind="preload")
+    return held_softly(m, w1)
+
+
+def free_bodies(rng):
+    """Two free beams pressed on each other; the rows interpolate between nodes with the digits of a deck, so that they miss the
+    rigid motions by about 1e-7. The exact motion is that of rows without rounding."""
+    ne = int(rng.integers(3, 6))
+    M, K = (scipy.linalg.block_diag(a, b) for a, b in zip(beam_matrices(ne), beam_matrices(ne + 1)))
+    n, n1 = len(M), 2 * ne + 2
+    rows, given = [], []
+    for node in rng.choice(np.arange(ne + 1), int(rng.integers(2, 4)), replace=False):
+        at = node * (ne + 1) / ne
+        e = min(int(at), ne)
+        part = at - e
+        for s, to in ((part, rows), (round(part, 7) + 1e-7 * rng.uniform(-1, 1), given)):
+            w = np.array([1 - 3 * s**2 + 2 * s**3, (s - 2 * s**2 + s**3) / (ne + 1), 3 * s**2 - 2 * s**3, (s**3 - s**2) / (ne + 1)])
+            to.append(gap_row(n, (2 * int(node), 1.0), *((n1 + 2 * e + k, -w[k]) for k in range(4))))
+    B, given = np.array(rows), np.array(given)
+    if len(given):  # what a deck prints: weights with seven digits do not sum up
+        given *= 1 + 1e-7 * rng.uniform(-1, 1, given.shape)
+    local = 175.0 * 3 * 8
+    kn = np.full(len(B), local * 10 ** rng.uniform(0, 1.5))
+    load = B.T @ rng.uniform(0.5, 1.5, len(B)) * local * 1e-5  # presses, and has no resultant
+    m = pressed(rng, M, K, B, kn, load, int(2 * rng.integers(ne + 1)), int(2 * rng.integers(ne + 1)))
+    return dict(m, B_library=given, says={ROUNDED})
+
+
+def hanging_parts(rng):
+    """Parts that contact alone holds: a chain on the ground, and one or two bodies pressed on it."""
+    n1 = int(rng.integers(2, 6))
+    M, K = chain(rng, n1)
+    rows, load = [], np.zeros(0)
+    for _ in range(int(rng.integers(1, 3))):
+        M2, K2 = chain(rng, int(rng.integers(1, 4)), grounded=False)
+        n = len(M)
+        M, K = scipy.linalg.block_diag(M, M2), scipy.linalg.block_diag(K, K2)
+        rows.append((int(rng.integers(n1)), n))
+        load = np.concatenate([load if len(load) else np.zeros(n1), np.zeros(len(M2))])
+        load[-1] = -(10 ** rng.uniform(0, 1))
+    B = np.array([gap_row(len(M), (a, 1.0), (b, -1.0)) for a, b in rows])
+    kn = 1e4 * 10 ** rng.uniform(-0.5, 1.5, len(B))
+    return pressed(rng, M, K, B, kn, load, int(rng.integers(n1)), int(rng.integers(n1)))
+
+
+def dashpots(rng):
+    """Dampers at a few DOFs, from hardly any damping to about critical there; nothing else damps but 1e-3."""
+    m = (families.chains, families.beam_with_stops)[int(rng.integers(2))](rng)
+    n = len(m["M"])
+    w2 = scipy.linalg.eigh(m["K"], m["M"], eigvals_only=True)
+    C = 2e-3 / np.sqrt(w2[0]) * m["K"]
+    for dof in rng.choice(np.arange(0, n, 2), min(2, (n + 1) // 2), replace=False):
+        local = np.sqrt(w2[0]) / np.linalg.inv(m["K"])[dof, dof] / w2[0]
+        C[dof, dof] += local * 10 ** rng.uniform(-2.5, 0)
+    q = np.linalg.solve(m["K"] - w2[0] * m["M"] + 1j * np.sqrt(w2[0]) * C, m["F"])
+    before = np.linalg.solve(m["K"] - w2[0] * m["M"] + 1j * np.sqrt(w2[0]) * m["C"], m["F"])
+    more = np.abs(m["B"] @ before).max() / np.abs(m["B"] @ q).max()
+    return dict(m, C=C, damping=("matrix",), F=m["F"] * min(more, 100.0))
+
+
+def superelements(rng):
+    """A cracked mesh that the host has reduced: dense matrices in contact DOFs and modes. They are what is exact."""
+    m = families.cracked_mesh(rng)
+    from exact import condensation
+    kept = np.flatnonzero(np.abs(m["B"]).sum(axis=0) + np.abs(m["F"]))
+    T = condensation(m["M"], m["K"], kept, reach=8.0, fewest=6)
+    small = dict(m, out=int(np.flatnonzero(kept == m["out"])[0]), condense=False, dense=True, exact_to=3e-6)
+    small.update((name, T.T @ m[name] @ T) for name in "MCK")
+    small.update((name, (a + a.T) / 2) for name, a in small.items() if name in ("M", "C", "K"))
+    small.update(B=m["B"] @ T, P=T.T @ m["P"], F=T.T @ m["F"])
+    if m["damping"][0] == "modal":
+        small = with_modal_damping(small, np.full(len(small["M"]), m["damping"][1]))
+    return small
+
+
+FAMILIES = (hard_stops, hard_stops_one_ratio, many_gaps, permuted, turned_mesh, round_shaft, twin_plates, free_bodies, hanging_parts,
+            dashpots, superelements)
