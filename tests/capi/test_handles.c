@@ -1,6 +1,7 @@
 /* A handle that is NULL, stale, foreign or of the wrong kind gives PLM_ERR_HANDLE in every function, and
  * nothing is written. Destroying works in any order. */
 #include "check.h"
+#include "oscillator.h"
 
 /* where outputs would go */
 static union {
@@ -372,6 +373,81 @@ static void contexts_do_not_mix(void **state) {
     plm_context_destroy(&two.context);
 }
 
+/* A handle of a live object with another number of its place, near and far, is none; the bits are those of
+ * registry.cpp, the place in the lower ones. */
+static void handles_of_places_that_do_not_exist_are_refused(void **state) {
+    handles h;
+    int bit, beyond;
+    (void)state;
+    assert_true(make(&h));
+    for (bit = 1; bit < (int)(8 * sizeof(uintptr_t)); ++bit)
+        for (beyond = 0; beyond < 64; ++beyond) {
+            const uintptr_t bits =
+                ((uintptr_t)(void *)h.model ^ ((uintptr_t)1 << bit)) + 2 * (uintptr_t)beyond;
+            plm_model *forged = (plm_model *)(void *)bits;
+            if (forged == h.model) continue;
+            assert_int_equal(plm_model_set_int(forged, "max_blocks", 3), PLM_ERR_HANDLE);
+        }
+    assert_int_equal(plm_model_set_int(h.model, "max_blocks", 3), PLM_OK);
+    plm_context_destroy(&h.context);
+}
+
+/* ---- what is left in a context goes youngest first: the host's factors tell ---- */
+static struct {
+    int number; /* of the model that is built */
+    int n_gone, gone[64];
+} order;
+typedef struct {
+    double value;
+    int number;
+} factor_1x1;
+
+static int32_t order_factor(plm_context *ctx, int64_t n, const int64_t *col_ptr, const int64_t *row,
+                            const double *value, int32_t positive_definite, void **factor, void *user) {
+    factor_1x1 *f = malloc(sizeof *f);
+    (void)ctx, (void)col_ptr, (void)row, (void)positive_definite, (void)user;
+    if (n != 1 || !f) return 1;
+    f->value = value[0], f->number = order.number;
+    *factor = f;
+    return 0;
+}
+static int32_t order_solve(plm_context *ctx, void *factor, int64_t nrhs, double *x, int64_t ldx, void *user) {
+    int64_t k;
+    (void)ctx, (void)user;
+    for (k = 0; k < nrhs; ++k) x[k * ldx] /= ((const factor_1x1 *)factor)->value;
+    return 0;
+}
+static void order_release(plm_context *ctx, void *factor, void *user) {
+    (void)ctx, (void)user;
+    if (order.n_gone < 64) order.gone[order.n_gone++] = ((const factor_1x1 *)factor)->number;
+    free(factor);
+}
+
+static void the_youngest_goes_first(void **state) {
+    static const oscillator sane = {1, 0.1, 3, 0.1, 1};
+    plm_context *ctx = NULL;
+    plm_model *model[4] = {NULL, NULL, NULL, NULL};
+    int k, seen = 4;
+    (void)state;
+    assert_int_equal(plm_context_create(PLM_API_VERSION, &ctx), PLM_OK);
+    assert_int_equal(plm_context_set_solver(ctx, order_factor, order_solve, order_release, &order), PLM_OK);
+    for (k = 0; k < 4; ++k) {
+        order.number = k;
+        assert_true(done(ctx, oscillator_built(ctx, &sane, 1, &model[k], NULL)));
+        /* the last one takes the place of one that was made before the others */
+        if (k == 2) assert_int_equal(plm_model_destroy(&model[0]), PLM_OK);
+    }
+    order.n_gone = 0;
+    assert_int_equal(plm_context_destroy(&ctx), PLM_OK);
+    assert_true(order.n_gone >= 3);
+    for (k = 0; k < order.n_gone; ++k) { /* some have several factors */
+        assert_true(order.gone[k] <= seen && order.gone[k] > 0);
+        seen = order.gone[k];
+    }
+    assert_int_equal(order.gone[0], 3);
+    assert_int_equal(seen, 1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(null_and_foreign_handles_are_refused),
@@ -380,6 +456,8 @@ int main(void) {
         cmocka_unit_test(destroying_twice_or_nothing),
         cmocka_unit_test(the_context_goes_first),
         cmocka_unit_test(contexts_do_not_mix),
+        cmocka_unit_test(handles_of_places_that_do_not_exist_are_refused),
+        cmocka_unit_test(the_youngest_goes_first),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -50,6 +50,32 @@ static void models_of_absurd_size_are_refused(void **state) {
     assert_true(is_refused("damper", o, PLM_ERR_ARGUMENT, "plm_model_set_rayleigh_damping"));
 }
 
+/* Sums of what was handed over, too. */
+static void matrices_of_absurd_size_are_refused(void **state) {
+    static const int64_t at[2] = {0, 0};
+    static const int32_t which[3] = {PLM_MASS, PLM_STIFFNESS, PLM_DAMPING};
+    static const char *const words[3] = {"mass matrix", "stiffness matrix", "damping matrix"};
+    static const double sizes[2] = {0.9e60, 0.9e-70};
+    int k, s;
+    (void)state;
+    for (k = 0; k < 3; ++k)
+        for (s = 0; s < 2; ++s) {
+            const double one[2] = {1, 1}, absurd[2] = {sizes[s], sizes[s]};
+            plm_context *ctx = NULL;
+            plm_model *model = NULL;
+            int j;
+            assert_int_equal(plm_context_create(PLM_API_VERSION, &ctx), PLM_OK);
+            assert_int_equal(plm_model_create(ctx, 1, &model), PLM_OK);
+            for (j = 0; j < 3; ++j)
+                assert_int_equal(plm_model_set_matrix_i64(model, which[j], PLM_TRIPLETS, PLM_FULL, 0,
+                                                          PLM_COPY, 2, at, at, j == k ? absurd : one),
+                                 PLM_OK);
+            assert_true(refused(ctx, plm_model_build(model), PLM_ERR_MATRIX, "plm_model_build", "value", -1,
+                                words[k]));
+            plm_context_destroy(&ctx);
+        }
+}
+
 static void frequencies_of_absurd_size_are_refused(void **state) {
     plm_context *ctx = NULL;
     plm_model *model = NULL;
@@ -75,6 +101,7 @@ static void frequencies_of_absurd_size_are_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(models_of_absurd_size_are_refused),
+        cmocka_unit_test(matrices_of_absurd_size_are_refused),
         cmocka_unit_test(frequencies_of_absurd_size_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -52,7 +52,7 @@ static void reduce(entry_fn a, entry_fn t, int n, double *out) {
 
 typedef struct recovery {
     entry_fn t;
-    int fail, calls;
+    int fail, calls; /* fail > 0: that code; < 0: NaN in column -1 - fail */
 } recovery;
 
 static int32_t recover(plm_context *c, int64_t n_dof, int64_t n_columns, const double *reduced,
@@ -65,7 +65,7 @@ static int32_t recover(plm_context *c, int64_t n_dof, int64_t n_columns, const d
         for (i = 0; i < n_full; ++i) {
             double q = 0;
             for (j = 0; j < n_dof; ++j) q += r->t((int)i, (int)j) * reduced[j + k * n_dof];
-            full[i + k * n_full] = r->fail < 0 ? NAN : q;
+            full[i + k * n_full] = r->fail == -1 - k ? NAN : q;
         }
     return r->fail > 0 ? r->fail : 0;
 }
@@ -302,7 +302,7 @@ static void dense_rows_are_checked(void **state) {
 
 static void recoveries_may_fail(void **state) {
     recovery r = {craig_bampton, 7, 0};
-    double q[SMALL] = {1}, full[WHOLE] = {-5}, amplitude[1];
+    double q[3 * SMALL] = {1}, full[3 * WHOLE] = {-5}, amplitude[1];
     plm_model *m = NULL, *other = NULL;
     plm_branch *curve = NULL, *stale;
     int64_t n, code;
@@ -316,6 +316,9 @@ static void recoveries_may_fail(void **state) {
     r.fail = -1;
     assert_true(refused(ctx, plm_model_recover(m, 1, q, WHOLE, full), PLM_ERR_CALLBACK, "plm_model_recover",
                         "fn", 0, "NaN"));
+    r.fail = -3; /* whichever column it is in */
+    assert_true(refused(ctx, plm_model_recover(m, 3, q, WHOLE, full), PLM_ERR_CALLBACK, "plm_model_recover",
+                        "fn", 2 * WHOLE, "NaN"));
     r.fail = 0;
     assert_true(full[0] == -5);
     assert_true(refused(ctx, plm_model_recover(m, 1, q, WHOLE - 1, full), PLM_ERR_ARGUMENT,

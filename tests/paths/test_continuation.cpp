@@ -4,6 +4,7 @@
 #include "support/test.hpp"
 #include <cmath>
 #include <functional>
+#include <vector>
 
 namespace {
 
@@ -82,6 +83,7 @@ class Owner final : public plm::PathOwner {
     explicit Owner(std::function<double(double)> test = nullptr) : test_(std::move(test)) {}
     void record(const plm::PathPoint &p) override {
         ++n_points;
+        if (!p.x.empty()) heights.push_back(p.x[0]);
         all_whole = all_whole && p.x.size() == 1;
         if (p.bifurcation == PLM_BIFURCATION_NEIMARK_SACKER) ++n_changes, change = p.parameter;
         if (p.bifurcation != PLM_BIFURCATION_FOLD) return;
@@ -101,6 +103,12 @@ class Owner final : public plm::PathOwner {
     int n_points = 0, n_folds = 0, n_changes = 0, n_looks = 0;
     double fold = 0, change = 0;
     bool all_whole = true;
+    std::vector<double> heights; // x of each point
+    int n_between(double low, double high) const {
+        int n = 0;
+        for (double x : heights) n += x > low && x < high;
+        return n;
+    }
 
   private:
     std::function<double(double)> test_;
@@ -246,6 +254,30 @@ void a_test_function_that_is_infinite_has_no_zero(void **) {
     assert_true(f.owner.all_whole);
 }
 
+// Not known at one of the path's points: a change of sign behind that is one from the last known value.
+void a_test_function_that_is_not_known_keeps_its_sign(void **) {
+    KnownCurve line([](double x) { return x; }, [](double) { return 1; });
+    const auto gap = [](double p) { return p > 0.22 && p < 0.32 ? NAN : p - 0.36; };
+    const Followed f = follow(line, {{{0}, 0}}, Owner(gap));
+    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(f.owner.n_between(0.22, 0.32), 1);
+    assert_int_equal(f.owner.n_between(0.32, 0.355), 0); // the next one lies beyond the zero
+    assert_int_equal(f.owner.n_changes, 1);
+    assert_true(near(f.owner.change, 0.36, 1e-8));
+}
+
+// A cliff of fifty times the height so far, narrower than any step: the plane across a step that went beyond
+// it meets the curve above, which is no neighbour of the last point. The path climbs.
+void a_correction_far_beyond_its_step_is_no_step(void **) {
+    constexpr double width = 1e-3;
+    Response cliff([](double p) { return 1 + 25 * (1 + std::tanh((p - 0.5) / width)); },
+                   [](double p) { return 25 / width / std::pow(std::cosh((p - 0.5) / width), 2); });
+    const Followed f = follow(cliff, {{{1}, 0}});
+    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_true(near(f.out.at.x[0], 51, 1e-9));
+    assert_true(f.owner.n_between(2, 50) >= 3);
+}
+
 // Each look is a solution and a tangent. A smooth function has its zero after a few, one that begins with a
 // root by bisection, and one that jumps is left soon.
 int looks_for_zero(const std::function<double(double)> &test, int n_changes, double error) {
@@ -367,6 +399,8 @@ int main() {
         cmocka_unit_test(the_last_point_belongs_to_the_curve),
         cmocka_unit_test(a_test_function_that_dips_is_not_stepped_over),
         cmocka_unit_test(a_test_function_that_is_infinite_has_no_zero),
+        cmocka_unit_test(a_test_function_that_is_not_known_keeps_its_sign),
+        cmocka_unit_test(a_correction_far_beyond_its_step_is_no_step),
         cmocka_unit_test(a_special_point_takes_few_looks),
         cmocka_unit_test(nothing_is_linearised_twice_beside_a_special_point),
         cmocka_unit_test(a_guessed_tangent_leads_no_longer_than_it_helps),

@@ -96,6 +96,18 @@ void rigid_body_motion_stays_exactly_without_stiffness(void **) {
     assert_true(result.coordinates.lambda[0] == 0 && result.coordinates.lambda[1] > 1);
 }
 
+// The columns span everything, so that the values are those of the space: a mode 1e12 times as fast has lost
+// twelve digits in its compliance, and has them from Rayleigh's quotient (2e-16 of its own stiffness).
+void fast_modes_keep_their_digits(void **) {
+    const Space space = space_with({1, 4, 1e12});
+    const auto result =
+        plm::condition_columns(space, columns(3, {.8, .6, .3, .6, -.8, .2, .1, .2, .9}), 1e-9);
+    assert_int_equal(result.coordinates.lambda.size(), 3);
+    assert_true(close_to(result.coordinates.lambda[0], 1, 1e-12));
+    assert_true(close_to(result.coordinates.lambda[1], 4, 1e-12));
+    assert_true(close_to(result.coordinates.lambda[2], 1e12, 1e-12));
+}
+
 void the_static_basis_contains_the_rest_displacement(void **) {
     const Space space = space_with({1, 4, 9, 16});
     const auto dynamic =
@@ -127,6 +139,7 @@ int main() {
         cmocka_unit_test(repeated_columns_are_dropped),
         cmocka_unit_test(reduced_stiffness_is_diagonal_and_mass_the_identity),
         cmocka_unit_test(rigid_body_motion_stays_exactly_without_stiffness),
+        cmocka_unit_test(fast_modes_keep_their_digits),
         cmocka_unit_test(the_static_basis_contains_the_rest_displacement),
         cmocka_unit_test(nothing_is_added_to_the_static_basis_without_need),
     };
