@@ -1,4 +1,4 @@
-"""Random models with nothing set, against exact motions: campaign.py [--count N] [--seed S] [--one_call | --steps] [--families SET] [--only FAMILY] [--one K] [--limit S] [--markdown FILE]
+"""Random models with nothing set, against exact motions: campaign.py [--count N] [--seed S] [--one_call | --steps] [--families SET] [--only FAMILIES] [--one K] [--limit S] [--markdown FILE]
 
 Each model goes through compute_response, the whole way in one call, or with --steps through sampler, basis, sweep, peak and error
 estimate with defaults. Its peak is then compared with the highest amplitude of the exact periodic motions of the unreduced model
@@ -110,7 +110,7 @@ def compare(m, x, omega, result):
         m, x = condensed(m, x)
     s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], m["F"].astype(complex), m["out"])
     w, amplitude, phi, moved = s.peak_near(x, omega)
-    result.update(exact_hz=w / 2 / np.pi, exact_amplitude=amplitude, moved=moved,
+    result.update(exact_hz=w / 2 / np.pi, exact_amplitude=amplitude, moved=moved, events=s.events,
                   error=abs(result["amplitude"] / amplitude - 1), frequency_error=abs(omega / w - 1),
                   multiplier=float(np.abs(np.linalg.eigvals(phi)).max()))
 
@@ -131,8 +131,8 @@ def compare_everywhere(m, peak, hbm, x, omega, result):
         warnings.simplefilter("ignore")
         stated = stated_at(hbm, peak, worst)
     energy = lambda z: np.sqrt(z[:n] @ m["K"] @ z[:n] + z[n:] @ m["M"] @ z[n:])
-    result.update(exact_hz=w / 2 / np.pi, exact_amplitude=true[m["out"]], moved=0.0, error=off[m["out"]] or abs(of[m["out"]] / true[m["out"]] - 1),
-                  frequency_error=abs(omega / w - 1), multiplier=float(np.abs(np.linalg.eigvals(phi)).max()),
+    result.update(exact_hz=w / 2 / np.pi, exact_amplitude=true[m["out"]], moved=0.0, events=s.events,
+                  error=abs(of[m["out"]] / true[m["out"]] - 1), frequency_error=abs(omega / w - 1), multiplier=float(np.abs(np.linalg.eigvals(phi)).max()),
                   worst_dof=worst, worst_error=float(off[worst]), worst_stated=float(stated), energy_error=energy(x - y) / energy(y))
 
 
@@ -225,7 +225,7 @@ def main():
     way.add_argument("--steps", action="store_true", help="sampler, basis, sweep, peak and its error instead")
     sets = {"first": families.FAMILIES, "brought": families_brought.FAMILIES, "all": EVERY}
     parser.add_argument("--families", choices=sets, default="all", help="families.py, families_brought.py or both")
-    parser.add_argument("--only", default="")
+    parser.add_argument("--only", default="", metavar="FAMILY[,FAMILY...]")
     parser.add_argument("--one", type=int, default=-1)
     parser.add_argument("--limit", type=int, default=120, help="seconds of the processor a model may take, exact motion included")
     parser.add_argument("--markdown", default="", metavar="FILE", help="write the table and the models that are not simply right")
@@ -235,7 +235,7 @@ def main():
     results = []
     for k in range(a.count) if a.one < 0 else [a.one]:
         family = chosen[k % len(chosen)]
-        if a.only and family.__name__ != a.only:
+        if a.only and family.__name__ not in a.only.split(","):
             continue
         way = in_steps if a.steps else in_one_call
         r = in_child(family, a.seed + k, way, a.limit) if a.one < 0 else one(family, a.seed + k, way)
