@@ -49,7 +49,7 @@ contains
         call finish(self%context, plm_sampler_destroy(self%handle), stat, errmsg)
     end subroutine sampler_destroy
 
-    ! system: PLM_SYSTEM_OPEN or PLM_SYSTEM_SLIDING; mode: 1, 2, ...
+    ! system: PLM_SYSTEM_OPEN, _SLIDING or _REST; mode: 1, 2, ...
     subroutine add_dominant_mode(self, system, mode, stat, errmsg)
         class(plm_sampler), intent(inout) :: self
         integer(plm_status), intent(in) :: system

@@ -116,6 +116,7 @@ typedef int32_t plm_status;
 #define PLM_REASON_HOST_REDUCTION 24   /* what the host states of its superelement is too much for the accuracy */
 #define PLM_REASON_UNSTABLE_PEAK 25    /* the structure does not stay on the motion of the peak */
 #define PLM_REASON_CROSSED_OVER 26     /* branch: goes round a closed curve onto which one of its steps had crossed */
+#define PLM_REASON_TIE 28              /* another resonance is driven alike, or resembles the dominant mode alike */
 #define PLM_REASON_ROUNDED 29          /* rows or loads that miss rigid-body motion by rounding are taken to mean it */
 
 /* What a point of a branch is ("bifurcation" of a branch). */
@@ -447,7 +448,7 @@ PLM_API plm_status plm_sampler_get_array(plm_sampler *sampler, const char *key, 
                                          int64_t *count);
 PLM_API plm_status plm_sampler_get_int_array(plm_sampler *sampler, const char *key, int64_t capacity, int64_t *values,
                                              int64_t *count);
-/* A further dominant mode whose sweep is sampled too. system: PLM_SYSTEM_OPEN or _SLIDING; mode: 1, 2, ... */
+/* A further dominant mode whose sweep is sampled too. system: PLM_SYSTEM_OPEN, _SLIDING or _REST; mode: 1, 2, ... */
 PLM_API plm_status plm_sampler_add_dominant_mode(plm_sampler *sampler, int32_t system, int64_t mode);
 /* Finds the dominant mode, the sweep, the samples and the window. PLM_ERR_STATE when the model is not built or has no
  * contact pair. */

@@ -122,6 +122,9 @@ const std::shared_ptr<const Sampler> &built(const SamplerHandle &h);
 const std::shared_ptr<const Basis> &built(const BasisHandle &h);
 const std::shared_ptr<const Branch> &built(const BranchHandle &h);
 
+/// Of the model's build and of the run: samples of a model that is not meant so are not meant so.
+Warnings warnings_of(const SamplerHandle &h);
+
 /// The rest state, solved when it is not known yet.
 const RestState &solved_rest(ModelHandle &h);
 

@@ -49,10 +49,6 @@ std::int64_t n_sweep_samples(const H &h) {
     return n;
 }
 
-std::string system_name(LinearSystem s) {
-    return s == LinearSystem::sliding ? "sliding" : "open";
-}
-
 /// Row of the MAC table by the system's name; empty when that system was not compared.
 Reals mac_row(const H &h, const char *system, Reals MacRow::*what) {
     for (const MacRow &row : window(h).mac)
@@ -66,9 +62,10 @@ void add_options(std::vector<Key> &keys) {
         keys.end(),
         {
             choice_option<&O::system, -1>(
-                "system", "auto,open,sliding",
-                "linear system of the dominant mode; auto: sliding when most pairs are closed at rest, else "
-                "open; without pre-load and gap open, unless contact alone holds a part or the sliding mode "
+                "system", "auto,open,sliding,rest",
+                "linear system of the dominant mode; rest: the pairs closed at rest are coupled; auto: "
+                "sliding when most pairs are closed at rest, else open, or what holds parts that float then; "
+                "without pre-load and gap open, unless contact alone holds a part or the sliding mode "
                 "explains both half cycles clearly better"),
             int_option<&O::mode>("mode", 0, 1e6,
                                  "number of the dominant mode, 1, 2, ...; 0: by mode_frequency_hz, or "
@@ -103,8 +100,8 @@ void add_sweep_results(std::vector<Key> &keys) {
     keys.insert(
         keys.end(),
         {
-            result<H>("dominant_system", "linear system of the dominant mode: open or sliding",
-                      [](const H &h) { return system_name(main_mode(h).system); }),
+            result<H>("dominant_system", "linear system of the dominant mode: open, sliding or rest",
+                      [](const H &h) { return std::string(name_of(main_mode(h).system)); }),
             result<H>("dominant_mode", "number of the dominant mode in its system, 1, 2, ...",
                       [](const H &h) { return main_mode(h).mode; }),
             result<H>("dominant_frequency_hz", "frequency of the dominant mode (Hz)",
@@ -116,7 +113,7 @@ void add_sweep_results(std::vector<Key> &keys) {
                       [](const H &h) { return core(h).n_harmonics(); }),
             result<H>("n_dominant", "dominant modes swept",
                       [](const H &h) { return static_cast<std::int64_t>(core(h).dominant().size()); }),
-            result<H>("dominant_systems", "PLM_SYSTEM_OPEN or _SLIDING of every dominant mode",
+            result<H>("dominant_systems", "PLM_SYSTEM_OPEN, _SLIDING or _REST of every dominant mode",
                       [](const H &h) {
                           return each<Ints>(core(h).dominant(),
                                             [](auto &d) { return static_cast<std::int64_t>(d.system); });
@@ -210,9 +207,9 @@ void add_window_results(std::vector<Key> &keys) {
                       [](const H &h) { return window(h).rest_hz; }),
             result<H>("preload_case", "1: case with pre-load (paper, case B)",
                       [](const H &h) { return static_cast<std::int64_t>(window(h).preload_case); }),
-            result<H>("window_low_hz", "lower end of the frequency window (Hz)",
+            result<H>("window_low_hz", "lower end of the frequency window (Hz), of the excitation",
                       [](const H &h) { return window(h).min_hz; }),
-            result<H>("window_high_hz", "upper end of the frequency window (Hz)",
+            result<H>("window_high_hz", "upper end of the frequency window (Hz), of the excitation",
                       [](const H &h) { return window(h).max_hz; }),
             result<H>("window_why", "one sentence: where the window comes from",
                       [](const H &h) { return window(h).why; }),
@@ -232,8 +229,8 @@ void add_window_results(std::vector<Key> &keys) {
                       [](const H &h) { return core(h).space()->description; }),
             result<H>("space_error", "relative error of the contact receptances at the highest frequency",
                       [](const H &h) { return core(h).space()->error_estimate; }),
-            warning_text<H>([](const H &h) -> const Warnings & { return core(h).warnings(); }),
-            warning_reasons<H>([](const H &h) -> const Warnings & { return core(h).warnings(); }),
+            warning_text<H>(warnings_of),
+            warning_reasons<H>(warnings_of),
         });
 }
 

@@ -11,7 +11,8 @@ using namespace plm::capi;
 namespace {
 
 /// The handles behind what was computed, as if the host had made one after the other.
-std::shared_ptr<HbmHandle> handles_of(const plm::ComputedResponse &r, std::shared_ptr<ModelHandle> model) {
+std::shared_ptr<HbmHandle> handles_of(const plm::ComputedResponse &r, const plm::Warnings &warnings,
+                                      std::shared_ptr<ModelHandle> model) {
     const std::shared_ptr<Context> owner = model->owner;
     const auto basis = std::make_shared<BasisHandle>(owner, model);
     basis->basis_options = r.basis->options();
@@ -23,13 +24,13 @@ std::shared_ptr<HbmHandle> handles_of(const plm::ComputedResponse &r, std::share
     }
     const auto hbm = std::make_shared<HbmHandle>(owner, basis);
     hbm->hbm_options = r.options;
-    hbm->warnings = r.warnings;
+    hbm->warnings = warnings;
     return hbm;
 }
 
 /// How the curve ended, where that is not as it should be, else what there is to look at.
-Outcome outcome_of(const plm::ComputedResponse &r) {
-    Outcome outcome(r.warnings);
+Outcome outcome_of(const plm::ComputedResponse &r, const plm::Warnings &warnings) {
+    Outcome outcome(warnings);
     const plm_status ended = end_status(r.curve->end_reason);
     if (ended == PLM_OK) return outcome;
     const plm::BranchPoint &last = r.curve->points().back();
@@ -69,8 +70,10 @@ plm_status plm_model_compute_response(plm_model *model, std::int64_t dof, std::i
         m.space = r.basis->sampler() ? r.basis->sampler()->space() : m.space; // the next one starts from it
         const double highest[] = {r.peak.frequency_hz, r.peak.amplitude};
         plm::require_finite_result(highest, 2, "frequency_hz, amplitude");
-        const Outcome outcome = outcome_of(r);
-        plm_hbm *solver = hbm ? publish(handles_of(r, find<ModelHandle>(model))) : nullptr;
+        plm::Warnings warnings = m.warnings; // of a model that is not meant so no answer is
+        warnings.add(r.warnings);
+        const Outcome outcome = outcome_of(r, warnings);
+        plm_hbm *solver = hbm ? publish(handles_of(r, warnings, find<ModelHandle>(model))) : nullptr;
         plm_branch *branch = curve ? publish(std::make_shared<BranchHandle>(m.owner, r.curve)) : nullptr;
         if (hbm) *hbm = solver;
         if (curve) *curve = branch;

@@ -9,6 +9,13 @@ const std::shared_ptr<const Sampler> &built(const SamplerHandle &h) {
     return h.core;
 }
 
+Warnings warnings_of(const SamplerHandle &h) {
+    const Sampler &core = *built(h);
+    Warnings all = h.model->warnings;
+    all.add(core.warnings());
+    return all;
+}
+
 } // namespace plm::capi
 
 using namespace plm::capi;
@@ -27,7 +34,7 @@ plm_status plm_sampler_destroy(plm_sampler **sampler) {
 
 plm_status plm_sampler_add_dominant_mode(plm_sampler *sampler, std::int32_t system, std::int64_t mode) {
     return call<SamplerHandle>("plm_sampler_add_dominant_mode", sampler, [&](SamplerHandle &s) {
-        require_range(system, PLM_SYSTEM_OPEN, PLM_SYSTEM_SLIDING, "system");
+        require_range(system, PLM_SYSTEM_OPEN, PLM_SYSTEM_REST, "system");
         require_range(mode, 1, 1000000, "mode");
         s.sampler_options.extra.push_back({static_cast<plm::LinearSystem>(system), mode});
         return PLM_OK;
@@ -46,6 +53,6 @@ plm_status plm_sampler_run(plm_sampler *sampler) {
             std::make_shared<const plm::Sampler>(model, s.sampler_options, s.owner->watch(), s.model->space);
         s.model->space = s.core->space(); // the next sampler of this model starts from it
         if (!s.model->rest) s.model->rest = plm::rest_of(*s.core->space());
-        return Outcome(s.core->warnings());
+        return Outcome(warnings_of(s));
     });
 }

@@ -11,7 +11,7 @@ CollectedModes collect_bilinear_modes(const Space &space, const SelectionRule &r
     for (const LinearSystem system : {LinearSystem::open, LinearSystem::sliding}) {
         watch.step("modes", system == LinearSystem::open ? 0.0 : 0.5);
         const SpaceModes modes =
-            modes_of_contact_set(space, contact_set(system, space.n_pairs()), rule.highest_eigenvalue());
+            modes_of_contact_set(space, contact_set(system, space), rule.highest_eigenvalue());
         SampleSelection s;
         for (double value : modes.values) {
             s.frequency_hz.push_back(to_hz(value));

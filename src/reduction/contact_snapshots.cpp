@@ -20,6 +20,7 @@
 #include "reduction/basis_kind.hpp"
 #include "reduction/mode_selection.hpp"
 #include "sampling/dominant_mode.hpp"
+#include "sampling/mode_clusters.hpp"
 #include "sampling/sampler.hpp"
 #include "space/linear_contact.hpp"
 #include "space/rest.hpp"
@@ -150,9 +151,11 @@ class RestSystem {
 
     /// Modes up to `highest` (rad/s) that the forces (m x n) move by more than the tolerance.
     Matrix modes(double highest, const Matrix &forces, double tolerance) const {
-        const SpaceModes all = modes_with_springs(space_.lambda, space_.n_massless, space_.gap, springs_,
-                                                  highest * highest * (1 + 1e-12));
+        SpaceModes all = modes_with_springs(space_.lambda, space_.n_massless, space_.gap, springs_,
+                                            highest * highest * (1 + 1e-12));
         if (forces.cols() == 0) return all.vectors;
+        const Matrix seen = forces.transposed();
+        align_clusters({&seen}, all);
         const Matrix work = product('T', 'N', all.vectors, forces);
         Matrix kept;
         for (std::int64_t j = 0; j < all.vectors.cols(); ++j) {
@@ -245,7 +248,7 @@ std::vector<RestSystem> rest_systems(const Space &space, const RestState &rest, 
         return systems;
     }
     for (LinearSystem s : {LinearSystem::open, LinearSystem::sliding})
-        systems.emplace_back(space, contact_set(s, space.n_pairs()), rule);
+        systems.emplace_back(space, contact_set(s, space), rule);
     return systems;
 }
 

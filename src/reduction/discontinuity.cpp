@@ -14,7 +14,7 @@ namespace plm {
 namespace {
 
 PairStates reference_contact(const Space &space) {
-    if (is_homogeneous(*space.model)) return contact_set(LinearSystem::sliding, space.n_pairs());
+    if (is_homogeneous(*space.model)) return contact_set(LinearSystem::sliding, space);
     return rest_of(space)->states;
 }
 

@@ -1,8 +1,10 @@
 #include "reduction/equivalent_motion.hpp"
 #include "contact/describing_function.hpp"
+#include "sampling/mode_clusters.hpp"
 #include "sampling/mode_match.hpp"
 #include "space/linear_contact.hpp"
 #include "space/rest.hpp"
+#include "structure/driven_harmonic.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -87,14 +89,8 @@ class MeanEquilibrium {
 class Resonance {
   public:
     explicit Resonance(const Space &space) : space_(space) {
-        const auto moves = [](double f) { return f != 0; };
-        for (auto load = space.excitation.upper_bound(0); load != space.excitation.end() && !load_; ++load) {
-            const vector<double> &re = load->second.real, &im = load->second.imag;
-            if (std::none_of(re.begin(), re.end(), moves) && std::none_of(im.begin(), im.end(), moves))
-                continue;
-            harmonic_ = load->first; // the first harmonic, or the lowest there is
-            load_ = &load->second;
-        }
+        if (const auto *driven = driven_harmonic(space.excitation))
+            harmonic_ = driven->first, load_ = &driven->second;
     }
 
     bool excited() const { return load_ != nullptr; }
@@ -212,9 +208,12 @@ class Iteration {
     SpaceModes lowest_modes() const {
         SpaceModes modes = modes_with_springs(space_.lambda, space_.n_massless, space_.gap, motion_.spring,
                                               options_.highest_eigenvalue);
-        if (!modes.values.empty() && modes.values.back() > 0) return modes;
-        return modes_with_springs(space_.lambda, space_.n_massless, space_.gap, motion_.spring,
-                                  std::numeric_limits<double>::infinity());
+        if (modes.values.empty() || !(modes.values.back() > 0))
+            modes = modes_with_springs(space_.lambda, space_.n_massless, space_.gap, motion_.spring,
+                                       std::numeric_limits<double>::infinity());
+        const Matrix seen = shape_.empty() ? driving_loads(space_) : row_of(space_, shape_);
+        align_clusters({&seen}, modes);
+        return modes;
     }
 
     // First by its response, then by its likeness with the last one. Rigid-body motion has no resonance.

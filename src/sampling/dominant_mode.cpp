@@ -1,5 +1,9 @@
 #include "sampling/dominant_mode.hpp"
+#include "sampling/contact_motion.hpp"
+#include "sampling/mode_clusters.hpp"
 #include "sampling/mode_match.hpp"
+#include "space/rest.hpp"
+#include "structure/driven_harmonic.hpp"
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -8,8 +12,14 @@
 
 namespace plm {
 
-PairStates contact_set(LinearSystem system, std::int64_t n_pairs) {
-    return system == LinearSystem::sliding ? PairStates::all_closed(n_pairs) : PairStates::all_open(n_pairs);
+PairStates contact_set(LinearSystem system, const Space &space) {
+    if (system == LinearSystem::rest) return rest_of(space)->states;
+    return system == LinearSystem::sliding ? PairStates::all_closed(space.n_pairs())
+                                           : PairStates::all_open(space.n_pairs());
+}
+
+const char *name_of(LinearSystem system) {
+    return system == LinearSystem::rest ? "rest" : system == LinearSystem::sliding ? "sliding" : "open";
 }
 
 bool is_homogeneous(const Model &model) {
@@ -20,14 +30,18 @@ bool is_homogeneous(const Model &model) {
 namespace {
 
 constexpr std::int64_t n_proposed = 20; // modes a proposal looks at when no range is given
-
-const char *name_of(LinearSystem system) {
-    return system == LinearSystem::sliding ? "sliding" : "open";
-}
+// Modal forces, of the largest: what rounding leaves of one that is none.
+constexpr double not_driven = 1e-9;
+// Contact motion, of that of the mode that has most: what passes the contact by and moves it by inertia
+// alone, as a structure does on soft supports.
+constexpr double passes_by = 0.03;
+// Resonances, estimated at equal damping, that one cannot tell apart by their size; and those that are equal
+// but for rounding.
+constexpr double alike = 0.95, same = 1 - 1e-6;
 
 // At least `count` modes and one above `hz`, or all there are.
 SpaceModes lowest_modes(const Space &space, LinearSystem system, std::int64_t count, double hz) {
-    const PairStates states = contact_set(system, space.n_pairs());
+    const PairStates states = contact_set(system, space);
     const double reach = 2 * std::max(space.highest_frequency, 2 * M_PI * hz);
     if (reach > 0) {
         SpaceModes modes = modes_of_contact_set(space, states, reach * reach);
@@ -37,32 +51,34 @@ SpaceModes lowest_modes(const Space &space, LinearSystem system, std::int64_t co
     return modes_of_contact_set(space, states, std::numeric_limits<double>::infinity());
 }
 
-// phi . F, F the first harmonic of the excitation (or its lowest one).
-std::complex<double> modal_force(const Space &space, const double *phi) {
-    const auto load = space.excitation.upper_bound(0);
-    if (load == space.excitation.end()) return 0;
-    const auto modal = [&](const vector<double> &f) {
-        return f.empty() ? 0.0 : dot(space.size(), phi, f.data());
-    };
-    return {modal(load->second.real), modal(load->second.imag)};
-}
+// The lowest modes, and what a choice looks at.
+struct Candidates {
+    SpaceModes modes;
+    vector<std::complex<double>> force; // phi . F
+    vector<double> response;            // |phi . F| / omega^2: of a resonance at equal Q; 0 of rigid modes
+    vector<double> contact_motion;      // 0 of rigid modes
+};
 
-// |phi . F|^2 / omega^4: the squared resonance amplitude of each mode at equal Q, up to a common factor; 0
-// for rigid-body modes.
-vector<double> responses(const Space &space, const SpaceModes &modes) {
-    vector<double> response(modes.values.size(), 0.0);
-    for (std::size_t j = 0; j < response.size(); ++j)
-        if (modes.values[j] > 0)
-            response[j] = std::norm(modal_force(space, modes.vectors.col(static_cast<std::int64_t>(j))) /
-                                    modes.values[j]);
-    return response;
+Candidates candidates(const Space &space, SpaceModes modes) {
+    const Matrix loads = driving_loads(space);
+    align_clusters({&loads, &space.gap}, modes);
+    Candidates c{std::move(modes), {}, {}, {}};
+    const Matrix force = product('N', 'N', loads, c.modes.vectors),
+                 gap = product('N', 'N', space.gap, c.modes.vectors);
+    for (std::int64_t j = 0; j < c.modes.vectors.cols(); ++j) {
+        const double lambda = c.modes.values[j];
+        c.force.emplace_back(force(0, j), force(1, j));
+        c.response.push_back(lambda > 0 ? std::abs(c.force.back()) / lambda : 0);
+        const vector<double> dv(gap.col(j), gap.col(j + 1));
+        c.contact_motion.push_back(lambda > 0 ? contact_motion(space, dv, std::sqrt(lambda)) : 0);
+    }
+    return c;
 }
 
 // The sign of a mode is an eigensolver's whim, and the samples of a sweep are taken from one end to the
 // other: it moves along the load, or, where that does not move it, first closes the pair on which it acts
 // most.
-bool points_backwards(const Space &space, const DominantMode &mode) {
-    const std::complex<double> force = modal_force(space, mode.coordinates.data());
+bool points_backwards(const std::complex<double> &force, const DominantMode &mode) {
     const double along = std::abs(force.imag()) > std::abs(force.real()) ? force.imag() : force.real();
     if (along != 0) return along < 0;
     constexpr double as_much = 1 - 1e-9; // pairs that mirror each other: the first one
@@ -74,7 +90,7 @@ bool points_backwards(const Space &space, const DominantMode &mode) {
 }
 
 // Flexible modes in the range searched, or the lowest ones.
-vector<std::int64_t> candidates(const SpaceModes &modes, const ModeRequest &request) {
+vector<std::int64_t> searched(const SpaceModes &modes, const ModeRequest &request) {
     vector<std::int64_t> found;
     for (std::size_t j = 0; j < modes.values.size(); ++j) {
         const double hz = to_hz(modes.values[j]);
@@ -99,7 +115,8 @@ std::int64_t by_number(const SpaceModes &modes, const ModeRequest &request) {
 
 std::int64_t nearest_mode(const SpaceModes &modes, double hz) {
     std::int64_t best = 0;
-    for (std::int64_t j = 1; j < modes.vectors.cols(); ++j)
+    for (std::int64_t j = cluster_end(modes.values, 0); j < modes.vectors.cols();
+         j = cluster_end(modes.values, j))
         if (std::abs(to_hz(modes.values[j]) - hz) < std::abs(to_hz(modes.values[best]) - hz)) best = j;
     return best;
 }
@@ -122,37 +139,83 @@ std::int64_t by_frequency(const SpaceModes &modes, double hz, Watch watch) {
     return best;
 }
 
-std::int64_t by_response(const vector<double> &response, const vector<std::int64_t> &among,
-                         const ModeRequest &request, Watch watch) {
+// Those of some that come up to this share of the largest.
+vector<std::int64_t> largest(const vector<double> &size, const vector<std::int64_t> &of, double share) {
+    double most = 0;
+    for (std::int64_t j : of) most = std::max(most, size[j]);
+    vector<std::int64_t> found;
+    for (std::int64_t j : of)
+        if (size[j] > 0 && size[j] >= share * most) found.push_back(j);
+    return found;
+}
+
+// Those that move the contact; of the others only where there are none of these.
+vector<std::int64_t> moving(const Candidates &c, const vector<std::int64_t> &among,
+                            const vector<std::int64_t> &wanted) {
+    vector<std::int64_t> found;
+    for (std::int64_t j : largest(c.contact_motion, among, passes_by))
+        if (c.contact_motion[j] > no_contact_motion && std::count(wanted.begin(), wanted.end(), j) > 0)
+            found.push_back(j);
+    return found.empty() ? wanted : found;
+}
+
+void tell_of_ties(const Candidates &c, const vector<std::int64_t> &eligible, std::int64_t taken,
+                  Watch watch) {
+    const std::int64_t end = cluster_end(c.modes.values, taken);
+    for (std::int64_t j : largest(c.response, eligible, alike)) {
+        if (j >= taken && j < end) continue;
+        const double taken_hz = to_hz(c.modes.values[taken]), hz = to_hz(c.modes.values[j]);
+        watch.warn(PLM_REASON_TIE,
+                   format("the excitation drives two modes alike, at %.6g Hz and at %.6g Hz (by responses "
+                          "estimated as 1 to %.3g): that at %.6g Hz is taken as the dominant mode, but the "
+                          "resonance of the other may be higher. Look at that, too: mode_frequency_hz = %.6g "
+                          "of a sampler",
+                          taken_hz, hz, c.response[j] / c.response[taken], taken_hz, hz));
+    }
+}
+
+std::int64_t by_response(const Candidates &c, const vector<std::int64_t> &among, const ModeRequest &request,
+                         Watch watch) {
     if (among.empty())
-        throw Error(PLM_ERR_ARGUMENT,
-                    format("the %s system has no flexible mode in [%g, %g] Hz; widen the search or "
-                           "name the mode",
-                           name_of(request.system), request.search_min_hz, request.search_max_hz))
+        throw Error(
+            PLM_ERR_ARGUMENT,
+            format("the %s system has no flexible mode%s; widen the search (\"search_max_hz\"), name "
+                   "the mode (\"mode\"), or take another \"system\"",
+                   name_of(request.system),
+                   request.search_max_hz > 0
+                       ? format(" in [%g, %g] Hz", request.search_min_hz, request.search_max_hz).c_str()
+                       : ""))
             .argument(request.search_max_hz > 0 ? "search_max_hz" : "mode");
-    const auto weaker = [&](std::int64_t i, std::int64_t j) { return response[i] < response[j]; };
-    const std::int64_t best = *std::max_element(among.begin(), among.end(), weaker);
-    if (response[best] > 0) return best;
+    vector<double> force;
+    for (const std::complex<double> &f : c.force) force.push_back(std::abs(f));
+    const vector<std::int64_t> driven = largest(force, among, not_driven),
+                               eligible = moving(c, among, driven);
+    if (!eligible.empty()) { // of equal ones the lowest: rounding is not to choose
+        const std::int64_t best = largest(c.response, eligible, same).front();
+        tell_of_ties(c, eligible, best, watch);
+        return best;
+    }
     watch.warn(
         PLM_REASON_LOST_MODE,
         "the excitation moves no mode searched: the lowest flexible one is taken as the dominant mode; name "
         "the mode if another is meant");
-    return among.front();
+    return moving(c, among, among).front();
 }
 
-std::int64_t choose(const SpaceModes &modes, const vector<double> &response,
-                    const vector<std::int64_t> &among, const ModeRequest &request, Watch watch) {
-    if (request.mode > 0) return by_number(modes, request);
-    if (request.frequency_hz > 0 && modes.vectors.cols() > 0)
-        return by_frequency(modes, request.frequency_hz, watch);
-    return by_response(response, among, request, watch);
+std::int64_t choose(const Candidates &c, const vector<std::int64_t> &among, const ModeRequest &request,
+                    Watch watch) {
+    if (request.mode > 0) return by_number(c.modes, request);
+    if (request.frequency_hz > 0 && c.modes.vectors.cols() > 0)
+        return by_frequency(c.modes, request.frequency_hz, watch);
+    return by_response(c, among, request, watch);
 }
 
+// Of the squares of the responses.
 double participation_of(const vector<double> &response, vector<std::int64_t> among, std::int64_t chosen) {
     if (std::find(among.begin(), among.end(), chosen) == among.end()) among.push_back(chosen);
-    double sum = 0;
-    for (std::int64_t j : among) sum += response[j];
-    return sum > 0 ? response[chosen] / sum : 0;
+    double size = 0;
+    for (std::int64_t j : among) size = std::hypot(size, response[j]);
+    return size > 0 ? std::pow(response[chosen] / size, 2) : 0;
 }
 
 } // namespace
@@ -160,21 +223,22 @@ double participation_of(const vector<double> &response, vector<std::int64_t> amo
 DominantMode find_dominant_mode(const Space &space, const ModeRequest &request, Watch watch) {
     std::int64_t rigid = 0; // not proposed, but counted
     while (rigid < space.n_massive() && space.lambda[rigid] == 0) ++rigid;
-    const SpaceModes modes = lowest_modes(space, request.system, std::max(request.mode, rigid + n_proposed),
-                                          std::max(request.frequency_hz, request.search_max_hz));
-    const vector<double> response = responses(space, modes);
-    const vector<std::int64_t> among = candidates(modes, request);
-    const std::int64_t chosen = choose(modes, response, among, request, watch);
+    const Candidates c =
+        candidates(space, lowest_modes(space, request.system, std::max(request.mode, rigid + n_proposed),
+                                       std::max(request.frequency_hz, request.search_max_hz)));
+    const vector<std::int64_t> among = searched(c.modes, request);
+    const std::int64_t chosen = choose(c, among, request, watch);
 
     DominantMode dominant;
     dominant.system = request.system;
     dominant.mode = chosen + 1;
-    dominant.frequency_hz = to_hz(modes.values[chosen]);
-    dominant.participation = participation_of(response, among, chosen);
-    dominant.coordinates.assign(modes.vectors.col(chosen), modes.vectors.col(chosen) + space.size());
+    dominant.frequency_hz = to_hz(c.modes.values[chosen]);
+    if (const auto *driven = driven_harmonic(space.excitation)) dominant.harmonic = driven->first;
+    dominant.participation = participation_of(c.response, among, chosen);
+    dominant.coordinates.assign(c.modes.vectors.col(chosen), c.modes.vectors.col(chosen) + space.size());
     dominant.mode_penetration.assign(space.n_pairs(), 0.0);
     gemv('N', 1.0, space.gap, dominant.coordinates.data(), 0.0, dominant.mode_penetration.data());
-    if (points_backwards(space, dominant))
+    if (points_backwards(c.force[chosen], dominant))
         for (vector<double> *values : {&dominant.coordinates, &dominant.mode_penetration})
             for (double &v : *values) v = -v;
     return dominant;

@@ -12,8 +12,9 @@ double bilinear_frequency(double f1_hz, double f2_hz) {
 
 namespace {
 
-// Half of a mode's kinetic energy: below it the mode is more unlike than like the dominant one.
-constexpr double resembles = 0.5;
+// Half of a mode's kinetic energy, but for rounding: below it the mode is more unlike than like the dominant
+// one.
+constexpr double resembles = 0.5 * (1 - 1e-6);
 
 // The frequency of the mode that resembles the dominant one; its row is added to the table. `decides`: the
 // window stands or falls with it, otherwise it only makes it wider than it need be.
@@ -32,7 +33,8 @@ double matched_frequency(const Space &space, const DominantMode &dominant, const
         row.frequency_hz.push_back(to_hz(matched.modes.values[j]));
         row.mac.push_back(matched.mac[j]);
     }
-    const double best = row.mac[row.best], hz = row.frequency_hz[row.best];
+    const double best = matched.likeness, hz = row.frequency_hz[row.best];
+    if (matched.rival >= 0 && best >= resembles) row.rival_hz = to_hz(matched.modes.values[matched.rival]);
     if (best < resembles) {
         const std::string text = format(
             "no mode of %s resembles the dominant mode: the best, at %.6g Hz, has a MAC of %.2f; check "
@@ -52,7 +54,29 @@ void around(double least, double most, double half_width, FrequencyWindow &windo
     window.max_hz = most * (1 + half_width);
 }
 
-void estimate(double half_width, FrequencyWindow &w) {
+// Where two modes of a half cycle resemble the dominant one alike, another resonance belongs to each.
+void tell_of_rivals(const FrequencyWindow &w, const DominantMode &dominant, Watch watch) {
+    const double found = w.blf_hz > 0 ? w.blf_hz : w.rest_hz;
+    for (const MacRow &row : w.mac) {
+        if (row.rival_hz == 0) continue;
+        const bool is_first = row.system == "system 1", is_second = row.system == "system 2";
+        const double other = is_first    ? bilinear_frequency(row.rival_hz, w.f2_hz)
+                             : is_second ? bilinear_frequency(w.f1_hz, row.rival_hz)
+                                         : row.rival_hz,
+                     hz = other / dominant.harmonic;
+        if (!(other > 0) || (hz >= w.min_hz && hz <= w.max_hz)) continue;
+        watch.warn(
+            PLM_REASON_TIE,
+            format("two modes of %s resemble the dominant mode alike, at %.6g Hz and at %.6g Hz, and "
+                   "so there are two resonances: the window is about the one estimated at %.6g Hz; the "
+                   "other is near %.6g Hz and may be higher. Look at that, too: window_min_hz and "
+                   "window_max_hz of a sampler",
+                   row.system.c_str(), row.frequency_hz[row.best], row.rival_hz, found / dominant.harmonic,
+                   hz));
+    }
+}
+
+void estimate(double half_width, const DominantMode &dominant, FrequencyWindow &w) {
     const double percent = 100 * half_width;
     if (!w.preload_case) {
         around(w.blf_hz, w.blf_hz, half_width, w);
@@ -69,6 +93,11 @@ void estimate(double half_width, FrequencyWindow &w) {
         around(w.rest_hz, w.rest_hz, half_width, w);
         w.why = format("frequency with the contact as at rest, %.6g Hz, -+ %.3g %%", w.rest_hz, percent);
     }
+    if (dominant.harmonic > 1) {
+        w.min_hz /= dominant.harmonic;
+        w.max_hz /= dominant.harmonic;
+        w.why += format(", over %d, the harmonic of the excitation that drives it", dominant.harmonic);
+    }
     if (w.max_hz > 0) return;
     throw Error(PLM_ERR_ARGUMENT,
                 "no frequency window follows from the dominant mode, which is a rigid-body motion of "
@@ -77,8 +106,8 @@ void estimate(double half_width, FrequencyWindow &w) {
 }
 
 // A window without the dominant mode that would hold it if its limits were angular frequencies.
-void check_unit(const FrequencyWindow &w, Watch watch) {
-    const auto holds = [&](double hz) { return hz >= w.min_hz && hz <= w.max_hz; };
+void check_unit(const FrequencyWindow &w, int harmonic, Watch watch) {
+    const auto holds = [&](double hz) { return hz >= w.min_hz * harmonic && hz <= w.max_hz * harmonic; };
     for (double hz : {w.f1_hz, w.f2_hz, w.rest_hz, w.blf_hz})
         if (hz > 0 && holds(hz)) return;
     const double resonance = w.blf_hz > 0 ? w.blf_hz : w.rest_hz;
@@ -87,7 +116,7 @@ void check_unit(const FrequencyWindow &w, Watch watch) {
                format("the window, %.6g to %.6g Hz, does not hold the resonance of the dominant mode, near "
                       "%.6g Hz, but would if its limits were in rad/s, which are wanted in Hz. Divide them "
                       "by 2 pi; or, if another mode is meant, name it (\"mode\" or \"mode_frequency_hz\")",
-                      w.min_hz, w.max_hz, resonance));
+                      w.min_hz, w.max_hz, resonance / harmonic));
 }
 
 } // namespace
@@ -107,9 +136,10 @@ FrequencyWindow find_window(const Space &space, const DominantMode &dominant, co
         w.max_hz = options.window_max_hz;
         w.why = format("given by the caller; the bilinear frequency is %.6g Hz", w.blf_hz);
         if (w.preload_case) w.why += format(", that with the contact as at rest %.6g Hz", w.rest_hz);
-        check_unit(w, watch);
+        check_unit(w, dominant.harmonic, watch);
     } else {
-        estimate(options.window_half_width, w);
+        estimate(options.window_half_width, dominant, w);
+        tell_of_rivals(w, dominant, watch);
     }
     return w;
 }

@@ -1,5 +1,6 @@
 // Which mode of one linear system resembles a given shape: the mass-weighted modal assurance criterion (MAC).
-// In the coordinates of a Space it is the squared cosine of the coordinates that have mass.
+// In the coordinates of a Space it is the squared cosine of the coordinates that have mass. Modes of one
+// frequency are turned so that one of them has all that they resemble the shape together.
 #pragma once
 #include "space/space.hpp"
 
@@ -14,7 +15,11 @@ double to_hz(double eigenvalue);
 struct MatchedModes {
     SpaceModes modes;
     vector<double> mac;     // of each mode with the reference shape
-    std::int64_t best = -1; // the highest; the lower frequency wins a tie. -1: the space has no mode
+    std::int64_t best = -1; // the highest of those that move the contact, if there are any; of equal ones the
+                            // lowest. -1: the space has no mode
+    bool moves = false;     // it moves the contact
+    double likeness = 0;    // MAC of that one with what of the shape moves the contact
+    std::int64_t rival = -1; // one of another frequency that resembles the shape as well, or -1
 };
 
 /// The modes of a contact set below `upper` (rad^2/s^2), and beyond it as far as is needed to be sure of the

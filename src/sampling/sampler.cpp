@@ -1,4 +1,5 @@
 #include "sampling/sampler.hpp"
+#include "sampling/contact_motion.hpp"
 #include "sampling/dominant_mode.hpp"
 #include "sampling/frequency_window.hpp"
 #include "sampling/mode_match.hpp"
@@ -19,15 +20,16 @@ constexpr double space_margin = 1.1; // accurate this far beyond the highest har
 constexpr std::int64_t least_harmonics = 5, least_of_small = 10, most_harmonics = 15;
 constexpr std::int64_t small_structure = 10000; // DOFs
 
-// Whatever else is known of the structure, so that the answer does not hang on what was asked before.
-std::int64_t harmonics_within_reach(const Space &space, double window_max_hz) {
-    if (space.n_exact_modes < modes_anyhow) return most_harmonics; // these are all
+// Of the harmonic that drives the resonance, whatever else is known of the structure, so that the answer does
+// not hang on what was asked before.
+std::int64_t harmonics_within_reach(const Space &space, double window_max_hz, int driven) {
+    if (space.n_exact_modes < modes_anyhow) return driven * most_harmonics; // these are all
     const double reach =
                      std::sqrt(space.lambda[modes_anyhow - 1]) / space.model->space_options().cutoff_factor,
-                 n = reach / (2 * M_PI * space_margin * window_max_hz);
+                 n = reach / (2 * M_PI * space_margin * driven * window_max_hz);
     const std::int64_t least = space.model->n_free() <= small_structure ? least_of_small : least_harmonics;
-    return static_cast<std::int64_t>(
-        std::clamp(n, static_cast<double>(least), static_cast<double>(most_harmonics)));
+    return driven * static_cast<std::int64_t>(
+                        std::clamp(n, static_cast<double>(least), static_cast<double>(most_harmonics)));
 }
 
 // Highest frequency (rad/s) that one can tell before the dominant mode is known; 0: none.
@@ -65,23 +67,9 @@ std::vector<DominantMode> find_dominant_modes(const Space &space, const RestStat
     return dominant;
 }
 
-// A mode that does not move the pairs has a dV of rounding errors only, against what motions of its energy
-// can do to them: a light or mass-less part moves far for little.
-bool moves_contact(const Space &space, const DominantMode &d) {
-    const double omega = 2 * M_PI * d.frequency_hz;
-    double dv = 0, scale = 0;
-    for (double v : d.mode_penetration) dv = std::max(dv, std::abs(v));
-    for (std::int64_t j = 0; j < space.size(); ++j) {
-        const double reach = omega / std::sqrt(space.lambda[j] + space.mass(j) * omega * omega);
-        for (std::int64_t i = 0; i < space.gap.rows(); ++i)
-            scale = std::max(scale, reach * std::abs(space.gap(i, j)));
-    }
-    return dv > 1e-12 * scale;
-}
-
 ContactSweep sweep_of(const Space &space, const RestState &rest, bool homogeneous, const DominantMode &d,
                       Watch watch) {
-    if (!moves_contact(space, d)) {
+    if (!(contact_motion(space, d.mode_penetration, 2 * M_PI * d.frequency_hz) > no_contact_motion)) {
         watch.warn(
             PLM_REASON_LOST_MODE,
             format("the dominant mode at %.6g Hz does not move the contact: there is one sample only; name "
@@ -115,7 +103,8 @@ Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &optio
         for (const DominantMode &d : dominant_)
             sweeps_.push_back(sweep_of(*space_, *rest_, homogeneous, d, watch));
         window_ = find_window(*space_, dominant_.front(), sweeps_.front(), *rest_, options, watch);
-        if (n_harmonics_ == 0) n_harmonics_ = harmonics_within_reach(*space_, window_.max_hz);
+        if (n_harmonics_ == 0)
+            n_harmonics_ = harmonics_within_reach(*space_, window_.max_hz, dominant_.front().harmonic);
         const double needed = 2 * M_PI * space_margin * static_cast<double>(n_harmonics_) * window_.max_hz;
         if (space_->highest_frequency >= needed) break;
         highest = 1.01 * needed; // the frequencies move a little in the better space
@@ -126,8 +115,7 @@ Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &optio
         1,
         format("dominant mode %lld of the %s system at %.6g Hz; %zu contact sets in its sweep, %zu samples; "
                "window [%.6g, %.6g] Hz: %s",
-               static_cast<long long>(dominant_.front().mode),
-               dominant_.front().system == LinearSystem::sliding ? "sliding" : "open",
+               static_cast<long long>(dominant_.front().mode), name_of(dominant_.front().system),
                dominant_.front().frequency_hz, sweeps_.front().samples.size(), samples_.size(),
                window_.min_hz, window_.max_hz, window_.why.c_str()));
 }

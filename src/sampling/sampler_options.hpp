@@ -6,7 +6,7 @@
 
 namespace plm {
 
-enum class LinearSystem { automatic = -1, open = 0, sliding = 1 };
+enum class LinearSystem { automatic = -1, open = 0, sliding = 1, rest = 2 }; // rest: closed as at rest
 
 struct SamplerOptions {
     LinearSystem system = LinearSystem::automatic; // automatic: see reference_system()
@@ -22,7 +22,7 @@ struct SamplerOptions {
     std::int64_t n_harmonics = 0; // the space must be accurate up to n_harmonics x window; 0: 5, and up to
                                   // 15 as far as the modes reach that are computed anyhow
     struct Extra {
-        LinearSystem system; // open or sliding
+        LinearSystem system; // open, sliding or rest
         std::int64_t mode;   // 1, 2, ...
     };
     std::vector<Extra> extra; // further dominant modes

@@ -271,8 +271,7 @@ class Chain {
 
     // Signs that it might be unfit, which the estimate of its error outweighs.
     static bool is_about_the_basis(const Warning &w) {
-        return w.reason == PLM_REASON_LOST_MODE || w.reason == PLM_REASON_BASIS_TOO_SMALL ||
-               w.reason == PLM_REASON_OUTSIDE_BASIS;
+        return w.reason == PLM_REASON_BASIS_TOO_SMALL || w.reason == PLM_REASON_OUTSIDE_BASIS;
     }
 
     std::shared_ptr<const Model> model_;

@@ -4,8 +4,9 @@
 #include "linalg/scale.hpp"
 #include "orbits/recorded_motion.hpp"
 #include "orbits/work_gradient.hpp"
-#include "searches/driven_harmonic.hpp"
 #include "searches/orbit_points.hpp"
+#include "searches/response_at_force.hpp"
+#include "structure/driven_harmonic.hpp"
 #include <algorithm>
 #include <cmath>
 

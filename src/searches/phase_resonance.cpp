@@ -2,9 +2,10 @@
 #include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/modes_at_rest.hpp"
-#include "searches/driven_harmonic.hpp"
 #include "searches/orbit_phase.hpp"
+#include "searches/response_at_force.hpp"
 #include "searches/start.hpp"
+#include "structure/driven_harmonic.hpp"
 #include <algorithm>
 #include <cmath>
 

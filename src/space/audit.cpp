@@ -1,8 +1,8 @@
 #include "space/audit.hpp"
 #include "space/modal_audit.hpp"
+#include "space/row_audit.hpp"
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace plm {
 namespace {
@@ -16,9 +16,11 @@ class Audit {
     std::vector<Finding> run(bool quick) {
         mass();
         massless_dofs();
+        still_dofs();
         rigid_modes();
         conditioning();
         rounding();
+        units();
         if (!quick)
             for (Finding &f : modal_audit(m_)) findings_.push_back(std::move(f));
         damping();
@@ -29,10 +31,7 @@ class Audit {
         }
         gaps();
         opened_by_preload();
-        rotations();
-        mixed_components();
-        repeated_rows();
-        row_balance();
+        for (Finding &f : row_audit(m_)) findings_.push_back(std::move(f));
         contact_stiffness();
         return findings_;
     }
@@ -44,6 +43,14 @@ class Audit {
 
     // Only what the matrices tell: how many DOFs a node has is not known otherwise.
     void mass() {
+        if (m_.diagonal_twice()) {
+            add(2, m_.trace_of_mass(),
+                "the stiffness matrix looks as if its diagonal was added up twice, as a triangle and its "
+                "mirror image do that both hold it: with half of it a translation would strain nothing. Give "
+                "each entry once (one triangle with PLM_LOWER or PLM_UPPER, or all with PLM_FULL), of the "
+                "mass matrix, too");
+            return;
+        }
         if (m_.translations().empty()) {
             add(0, m_.trace_of_mass(),
                 format("which DOFs are translations cannot be told from K (it holds supports already, or the "
@@ -81,6 +88,21 @@ class Audit {
                        Int(count)));
     }
 
+    void still_dofs() {
+        const StillDofs &still = m_.still_dofs();
+        if (still.dof.empty()) return;
+        const bool alike = still.high_hz < (1 + 1e-6) * still.low_hz;
+        add(1, static_cast<double>(still.dof.size()),
+            format("%lld DOFs (the first: DOF %lld) are coupled to nothing: alone in their rows of mass, "
+                   "stiffness and damping, without contact and load. They are held at zero, and their own "
+                   "frequency, %s, is no mode. If they are supports, fix them (plm_model_fix_dofs); if not, "
+                   "entries are missing from the matrices",
+                   Int(still.dof.size()), Int(still.dof.front()),
+                   (alike ? format("%.6g Hz", still.low_hz)
+                          : format("%.6g to %.6g Hz", still.low_hz, still.high_hz))
+                       .c_str()));
+    }
+
     void rigid_modes() {
         const std::int64_t n = m_.n_rigid();
         if (n == 0) {
@@ -91,8 +113,8 @@ class Audit {
         const std::string fact =
             format("%lld rigid-body modes while the contacts are open%s", Int(n),
                    n > 6 ? " (several loose bodies, or parts that are not connected)" : "");
-        if (loose > 0)
-            add(1, static_cast<double>(n),
+        if (loose > 0) // stops at the ground make sense of what stands on it, or is pressed against them
+            add(!m_.has_preload() && touches_ground(m_) ? 2 : 1, static_cast<double>(n),
                 format("%s, and %lld of them whatever contact closes: is a support missing? Fix DOFs; "
                        "where free flight is meant, its mean position is taken as zero",
                        fact.c_str(), Int(loose)));
@@ -122,6 +144,15 @@ class Audit {
                 "it: the mesh is too fine, or a penalty too stiff, for double precision; use larger "
                 "elements, a softer penalty, or supports",
                 uncertain));
+    }
+
+    void units() {
+        const double hz = m_.rough_lowest_elastic() / (2 * M_PI);
+        if (!(hz > 0) || (hz >= 1e-3 && hz <= 1e7)) return;
+        add(2, hz,
+            format("the lowest elastic frequency of the open structure is about %.2g Hz, outside 1e-3..1e7 "
+                   "Hz: do the units of mass and stiffness belong together (mm-N-t or m-N-kg)?",
+                   hz));
     }
 
     void damping() {
@@ -188,111 +219,13 @@ class Audit {
             u[i] = answer[Contact::normal_row(i)] - m_.initial_gap()[i];
         const double closest = *std::max_element(u.begin(), u.end());
         if (closest >= 0) return;
-        add(1, closest,
+        // what only touches with its gap taken up may be moved away from it
+        const bool touched = *std::min_element(m_.initial_gap().begin(), m_.initial_gap().end()) <= 0;
+        add(touched ? 2 : 1, closest,
             format("under the pre-load all %lld pairs are open, the closest by %g: if it should press them "
                    "together, "
                    "its sign, the normals (out of body a towards b) or the gaps are wrong",
                    Int(m_.n_pairs()), -closest));
-    }
-
-    // Where translations are known, a gap row of other DOFs alone measures an angle.
-    void rotations() {
-        const vector<Translation> &known = m_.translations();
-        if (known.empty() || known.front().step < 2) return;
-        const auto rows = m_.gap_rows().rows();
-        std::int64_t turned = 0, one = -1;
-        for (std::int64_t i = 0; i < m_.n_pairs(); ++i) {
-            const auto &row = rows[Contact::normal_row(i)];
-            const bool moves = std::any_of(row.begin(), row.end(), [&](const GapRows::Term &g) {
-                return std::any_of(known.begin(), known.end(),
-                                   [&](const Translation &t) { return t.holds(m_.dof(g.dof)); });
-            });
-            if (!moves && turned++ == 0) one = i;
-        }
-        if (turned > 0)
-            add(1, static_cast<double>(turned),
-                format("%lld pairs (the first: pair %lld, DOF %lld) touch no DOF of a translation: do they "
-                       "use a "
-                       "rotation, or numbers that are off by one? Translations are DOFs %lld, %lld, ... "
-                       "counted from 0",
-                       Int(turned), Int(one), Int(m_.dof(rows[static_cast<std::size_t>(one)].front().dof)),
-                       Int(known.front().first), Int(known.front().first + known.front().step)));
-    }
-
-    // Two nodes touch along an axis by one component, the same on both sides, unless their DOFs were counted
-    // with another number of them per node.
-    void mixed_components() {
-        const vector<Translation> &known = m_.translations();
-        if (known.empty() || known.front().step < 2) return;
-        const std::int64_t step = known.front().step;
-        const auto is_mixed = [&](const vector<GapRows::Term> &row) {
-            if (row.size() != 2) return false;
-            const std::int64_t a = m_.dof(row[0].dof), b = m_.dof(row[1].dof);
-            const bool opposed =
-                std::abs(row[0].coefficient + row[1].coefficient) < 1e-6 * std::abs(row[0].coefficient);
-            return opposed && a / step != b / step && a % step != b % step;
-        };
-        const auto rows = m_.gap_rows().rows();
-        std::int64_t mixed = 0, one = -1;
-        for (std::int64_t i = 0; i < m_.n_pairs(); ++i)
-            if (is_mixed(rows[Contact::normal_row(i)]) && mixed++ == 0) one = i;
-        if (mixed == 0) return;
-        const auto &row = rows[Contact::normal_row(one)];
-        const std::int64_t a = m_.dof(row[0].dof), b = m_.dof(row[1].dof);
-        add(1, static_cast<double>(mixed),
-            format("%lld pairs of two DOFs (the first: pair %lld, DOFs %lld and %lld) join component %lld of "
-                   "one node to component %lld of another: the stiffness matrix has %lld DOFs per node; were "
-                   "they counted with another number of them?",
-                   Int(mixed), Int(one), Int(a), Int(b), Int(a % step), Int(b % step), Int(step)));
-    }
-
-    // Rows as (DOF, coefficient) lists; equal ones share a key.
-    void repeated_rows() {
-        const auto rows = m_.gap_rows().rows();
-        std::map<std::vector<std::pair<std::int64_t, double>>, std::int64_t> first;
-        std::int64_t repeated = 0, one = 0, other = 0;
-        for (std::int64_t i = 0; i < m_.n_pairs(); ++i) {
-            std::vector<std::pair<std::int64_t, double>> row;
-            for (const GapRows::Term &t : rows[Contact::normal_row(i)])
-                row.emplace_back(t.dof, t.coefficient);
-            const auto [place, fresh] = first.emplace(std::move(row), i);
-            if (fresh) continue;
-            if (repeated++ == 0) one = place->second, other = i;
-        }
-        if (repeated > 0)
-            add(2, static_cast<double>(repeated),
-                format("%lld gap rows repeat an earlier one (the first: pair %lld repeats pair %lld): the "
-                       "contact stiffness counts twice there; add each pair once",
-                       Int(repeated), Int(other), Int(one)));
-    }
-
-    // A pair of nodes moved together keeps its gap: the coefficients of a row cancel, unless a side is ground
-    // or fixed.
-    void row_balance() {
-        std::int64_t unbalanced = 0, scaled = 0;
-        for (const auto &row : m_.gap_rows().rows()) {
-            double sum = 0, positive = 0, negative = 0;
-            for (const GapRows::Term &t : row) {
-                sum += t.coefficient;
-                (t.coefficient > 0 ? positive : negative) += t.coefficient * t.coefficient;
-            }
-            const double side = std::sqrt(std::max(positive, negative));
-            const bool two_sided = positive > 0 && negative > 0 && row.size() == 2;
-            unbalanced += two_sided && std::abs(sum) > 1e-6 * side;
-            scaled += side > 1.5 || side < 0.3;
-        }
-        if (unbalanced > 0)
-            add(1, static_cast<double>(unbalanced),
-                format("%lld two-DOF gap rows do not sum to zero: moving both nodes together changes the "
-                       "gap. Give "
-                       "both sides the same normal, with opposite signs",
-                       Int(unbalanced)));
-        if (scaled > 0)
-            add(1, static_cast<double>(scaled),
-                format("%lld gap rows are far from unit length: k_n and the gap are "
-                       "then not per unit of distance. Divide each row by its length (a DOF given twice adds "
-                       "up)",
-                       Int(scaled)));
     }
 
     void contact_stiffness() {
@@ -315,9 +248,10 @@ class Audit {
                 fact + (ratio > 1e6 ? "; are k_n and K in the same units? Above 1000" : "; above 1000") +
                     ", curves of few harmonics grow small loops and are slow: 1 to 50 is a good choice "
                     "(PLM_AUTO_STIFFNESS: 10)");
-        else if (*low / local < 0.1)
-            add(1, *low / local,
-                fact + "; below 0.1 the contact is soft and bodies interpenetrate: 1 to 50 is a good choice");
+        else if (*low / local < 0.1) // and where it does next to nothing the curve is that of no contact
+            add(*high / local < 1e-4 ? 2 : 1, *low / local,
+                fact + "; below 0.1 the contact is soft and bodies interpenetrate: 1 to 50 is a good choice "
+                       "(PLM_AUTO_STIFFNESS: 10). Are k_n and K in the same units?");
         else
             add(0, ratio, fact);
     }

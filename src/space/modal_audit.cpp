@@ -46,12 +46,7 @@ class ModalAudit {
     double hz(std::int64_t j) const { return omega(j) / (2 * M_PI); }
 
     void lowest_frequency() {
-        const bool odd = !(hz(rigid_) >= 1e-3 && hz(rigid_) <= 1e7);
-        add(odd ? 2 : 0, hz(rigid_),
-            format("lowest elastic frequency of the open structure: %.6g Hz%s", hz(rigid_),
-                   odd ? "; outside 1e-3..1e7 Hz: do the units of mass and stiffness belong "
-                         "together (mm-N-t or m-N-kg)?"
-                       : ""));
+        add(0, hz(rigid_), format("lowest elastic frequency of the open structure: %.6g Hz", hz(rigid_)));
     }
 
     // Viscous, of every mode: phi^T C phi.

@@ -3,6 +3,7 @@
 #include "structure/eigs.hpp"
 #include "structure/rigid_factor.hpp"
 #include "structure/solver/make_factor.hpp"
+#include "structure/still_dofs.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -256,15 +257,33 @@ class RigidModeSearch {
 
     void refuse_free_massless_dofs() const {
         const vector<double> dk = diagonal(k_), dm = diagonal(m_);
-        for (std::int64_t i = 0; i < k_.cols; ++i)
-            if (!(dk[i] > 0) && !(dm[i] > 0))
-                throw Error(
-                    PLM_ERR_NOT_POSITIVE_DEFINITE,
-                    format("DOF %lld (counted from 0) has neither stiffness nor mass; fix it or give it one",
-                           Int(free_dof_[i])))
-                    .reason(PLM_REASON_NOT_POSITIVE_DEFINITE)
-                    .argument("K")
-                    .index(free_dof_[i]);
+        vector<char> coupled(k_.cols, 0);
+        mark_coupled(k_, coupled);
+        Int multipliers = 0;
+        std::int64_t first = -1;
+        for (std::int64_t i = 0; i < k_.cols; ++i) {
+            if (dk[i] > 0 || dm[i] > 0) continue;
+            if (!coupled[i])
+                throw unfit(i, format("DOF %lld (counted from 0) has neither stiffness nor mass; fix it or "
+                                      "give it one",
+                                      Int(free_dof_[i])));
+            if (multipliers++ == 0) first = i;
+        }
+        if (multipliers > 0)
+            throw unfit(first,
+                        format("%lld rows of the stiffness matrix (the first: DOF %lld, counted from 0) are "
+                               "coupled to others, but have zero on the diagonal and no mass: they look like "
+                               "Lagrange multipliers of constraints, which leave K indefinite. Eliminate "
+                               "the constraints instead, K and M by T^T K T and T^T M T with u = T q, or "
+                               "tie the DOFs by a penalty",
+                               multipliers, Int(free_dof_[first])));
+    }
+
+    Error unfit(std::int64_t column, const std::string &text) const {
+        return Error(PLM_ERR_NOT_POSITIVE_DEFINITE, text)
+            .reason(PLM_REASON_NOT_POSITIVE_DEFINITE)
+            .argument("K")
+            .index(free_dof_[column]);
     }
 
     void refuse_negative(double flexible) const {

@@ -125,6 +125,16 @@ void Structure::assemble(const StructureInput &input, GapSize gap) {
                                        ? "the stiffness matrix is missing; hand it over with PLM_STIFFNESS"
                                        : "the mass matrix is missing; hand it over with PLM_MASS");
     number_free_dofs(input.fixed);
+    assemble_parts(input, gap);
+    still_dofs_ = find_still_dofs();
+    if (still_dofs_.dof.empty()) return;
+    vector<std::int64_t> held = input.fixed;
+    held.insert(held.end(), still_dofs_.dof.begin(), still_dofs_.dof.end());
+    number_free_dofs(held);
+    assemble_parts(input, gap);
+}
+
+void Structure::assemble_parts(const StructureInput &input, GapSize gap) {
     assemble_matrices(input);
     require_nonnegative_diagonal("mass", mass_, free_dof_);
     require_nonnegative_diagonal("stiffness", stiffness_, free_dof_);
@@ -138,8 +148,25 @@ void Structure::assemble(const StructureInput &input, GapSize gap) {
     assemble_loads(input);
 }
 
+// None where damping ratios count the modes, which would be others, nor where nothing else moves.
+StillDofs Structure::find_still_dofs() const {
+    if (damping_options_.modal_ratio.size() > 1) return {};
+    vector<char> moves(n_free(), 0);
+    for (const SparseMatrix *a : {&stiffness_, &mass_, &damping_}) mark_coupled(*a, moves);
+    for (std::int64_t dof : gap_rows_.dofs()) moves[dof] = 1;
+    const auto mark_loaded = [&](const Field &load) {
+        for (std::int64_t i = 0; i < load.rows() && load.cols() > 0; ++i)
+            if (load.at(i, 0) != 0) moves[i] = 1;
+    };
+    mark_loaded(preload_);
+    for (const auto &entry : excitation_) mark_loaded(entry.second.real), mark_loaded(entry.second.imag);
+    const bool others_move = std::count(moves.begin(), moves.end(), 1) > 0;
+    return others_move ? plm::still_dofs(stiffness_, mass_, moves, free_dof_) : StillDofs();
+}
+
 void Structure::number_free_dofs(const vector<std::int64_t> &fixed_dofs) {
     constexpr std::int64_t fixed = -1;
+    free_dof_.clear();
     free_of_.assign(n_dof_, 0);
     for (std::int64_t dof : fixed_dofs) free_of_[dof] = fixed;
     for (std::int64_t i = 0; i < n_dof_; ++i)
@@ -157,6 +184,7 @@ void Structure::assemble_matrices(const StructureInput &input) {
     translations_ = find_translations(all);
     const vector<Translation> mass_like =
         translations_.empty() ? without_negative_entries(all) : vector<Translation>();
+    diagonal_twice_ = translations_.empty() && is_diagonal_twice(all);
     stiffness_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
     // as many codes hand it over: with the pattern of the stiffness, two thirds zero
     all = without_zeros(over_all_dofs("mass", *input.mass, n_dof_));
@@ -201,6 +229,7 @@ void Structure::assemble_loads(const StructureInput &input) {
         require_scale(name, free.in_core().data(), n_free(), PLM_ERR_ARGUMENT, "force");
         return free;
     };
+    excitation_on_supports_ = 0;
     preload_ = on_free_dofs("preload", "pre-load", input.preload);
     if (largest_entry(preload_).size == 0) preload_ = Field(); // none: nobody downstream pays for it
     for (const auto &[harmonic, load] : input.excitation) {
@@ -301,6 +330,26 @@ StructureModes lowest_modes(const SparseMatrix &k, const SparseMatrix &m, const 
 
 StructureModes Structure::lowest_modes(std::int64_t n, const ModeSearch &search) const {
     return plm::lowest_modes(stiffness_, mass_, *factor_, -shift_, n, search);
+}
+
+// Inverse iteration, and the Rayleigh quotient of what it comes to.
+double Structure::rough_lowest_elastic() const {
+    if (n_rigid() == n_free()) return 0;
+    const vector<double> start = patternless_vector(n_free());
+    Field x(n_free(), 1);
+    std::copy(start.begin(), start.end(), x.in_core().data());
+    double square = 0;
+    for (int step = 0; step < 3; ++step) {
+        Field force = mass_times(x);
+        if (n_rigid() > 0) add_combination(-1, mass_times(rigid_modes_), gram(rigid_modes_, force), force);
+        x = force;
+        solve(x);
+        const double energy = column_products(x, force)[0], inertia = column_products(x, mass_times(x))[0];
+        if (!(energy > 0 && inertia > 0)) return 0;
+        square = energy / inertia - shift_;
+        for (std::int64_t i = 0; i < n_free(); ++i) x.in_core()(i, 0) /= std::sqrt(inertia);
+    }
+    return std::sqrt(std::max(0.0, square));
 }
 
 std::int64_t Structure::count_modes_below(double omega) const {

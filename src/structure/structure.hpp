@@ -7,6 +7,7 @@
 #include "structure/gap_rows.hpp"
 #include "structure/loads.hpp"
 #include "structure/mode_count.hpp"
+#include "structure/still_dofs.hpp"
 #include "structure/translations.hpp"
 #include "structure/unheld_motion.hpp"
 #include <functional>
@@ -111,6 +112,8 @@ class Structure {
     bool tells_inertia() const { return solver_.tells_inertia(); }
     /// The n lowest modes, fewer when there are fewer of finite frequency.
     StructureModes lowest_modes(std::int64_t n, const ModeSearch &search = {}) const;
+    /// About the lowest elastic frequency (rad/s), from above, for a few solutions; 0 where there is none.
+    double rough_lowest_elastic() const;
     /// Modes below omega (rad/s), cannot_tell_count or hit_a_mode; where it may move a little: near it.
     std::int64_t count_modes_below(double omega) const;
     std::int64_t count_modes_near(double &omega, Watch watch) const;
@@ -142,6 +145,10 @@ class Structure {
 
     /// Motions known to strain nothing before supports are applied; empty where the matrices do not tell.
     const vector<Translation> &translations() const { return translations_; }
+    /// Those held like fixed ones, which they were meant to be, since nothing moves them.
+    const StillDofs &still_dofs() const { return still_dofs_; }
+    /// The stiffness matrix looks as if its diagonal was added up twice.
+    bool diagonal_twice() const { return diagonal_twice_; }
     /// Norm of the harmonic excitation on fixed DOFs, where it does nothing.
     double excitation_on_supports() const { return excitation_on_supports_; }
     double trace_of_mass() const { return trace(mass_); }
@@ -166,6 +173,8 @@ class Structure {
         return Field(multiply_transposed(a, x.in_core()));
     }
     void assemble(const StructureInput &input, GapSize gap);
+    void assemble_parts(const StructureInput &input, GapSize gap);
+    StillDofs find_still_dofs() const;
     void number_free_dofs(const vector<std::int64_t> &fixed);
     void assemble_matrices(const StructureInput &input);
     void assemble_gap(const StructureInput &input, GapSize size);
@@ -183,6 +192,8 @@ class Structure {
     Field preload_;
     std::map<int, HarmonicForce> excitation_;
     vector<Translation> translations_;
+    StillDofs still_dofs_;
+    bool diagonal_twice_ = false;
     double excitation_on_supports_ = 0, shift_ = 0, uncertainty_ = 0;
     std::unique_ptr<Factor> factor_;
     Field rigid_modes_, unheld_, unheld_momenta_; // R, R_0, M R_0

@@ -17,6 +17,10 @@ struct Translation {
 /// that gives any. K over all DOFs, before supports are applied. Empty where K holds supports or springs to
 /// the ground already, or the DOFs are numbered otherwise: then nothing is known.
 vector<Translation> find_translations(const SparseMatrix &k);
+/// Whether they would be there if the diagonal of K was half of what it is: a triangle and its mirror image,
+/// each with the diagonal, were added up. Of nodes with 2 DOFs or more, for of springs in a row to the ground
+/// and to one another that may be meant.
+bool is_diagonal_twice(const SparseMatrix &k);
 /// Their masses, from M over all DOFs.
 void weigh(vector<Translation> &translations, const SparseMatrix &m);
 

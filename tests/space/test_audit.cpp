@@ -60,8 +60,10 @@ void unsound_models_are_found_out(void **) {
     assert_true(warns(in, "repeat", 2));
     in = sound(), in.contact.stiffness[0] = 1e9;
     assert_true(warns(in, "small loops", 1));
-    in = sound(), in.contact.stiffness[0] = 1;
+    in = sound(), in.contact.stiffness[0] = 100;
     assert_true(warns(in, "below 0.1", 1));
+    in.contact.stiffness[0] = 0.01; // a million times too soft
+    assert_true(warns(in, "below 0.1", 2));
     in = sound(), in.gap_coefficient[1] = -0.5;
     assert_true(warns(in, "do not sum to zero", 1));
     in = sound(), in.mass = test::matrix(test::diagonal(6, 0.5e14));
@@ -115,7 +117,7 @@ void translations_are_what_the_matrices_tell(void **) {
     assert_true(close_to(with(list, "translation of DOFs 0, 2, 4, ... (2 per node)")->value, 0.7, 1e-12));
     assert_true(with(list, "off by one") == nullptr);
     touch(in, 19, 1, 0.1); // a slope
-    assert_true(warns(in, "touch no DOF of a translation", 1) && warns(in, "(the first: pair 1, DOF 19)", 1));
+    assert_true(warns(in, "touch no DOF of a translation", 2) && warns(in, "(the first: pair 1, DOF 19)", 2));
     // three uncoupled chains, DOFs 0, 3, 6, ... the first of them: three translations, one of them light
     test::Dense k = test::diagonal(12, 0), m = test::diagonal(12, 0.5);
     for (int i = 0; i + 3 < 12; ++i) k[i][i] += 2, k[i + 3][i + 3] += 2, k[i + 3][i] -= 2, k[i][i + 3] -= 2;
@@ -138,7 +140,7 @@ void loose_structures_are_told_from_held_ones(void **) {
         in, "1 rigid-body modes while the contacts are open, and 1 of them whatever contact closes", 1));
     in = beam(10);
     touch(in, 20, 1, 0.1); // a stop holds the deflection there, not the rotation about it
-    assert_true(warns(in, "2 rigid-body modes while the contacts are open, and 1 of them", 1));
+    assert_true(warns(in, "2 rigid-body modes while the contacts are open, and 1 of them", 2));
     touch(in, 0, -1);
     assert_true(warns(in, "no pre-load presses the contacts together", 1));
     in.preload.assign(22, 0.0);
@@ -156,7 +158,10 @@ void reversed_signs_show(void **) {
     assert_true(warns(in, "motion of DOF 20 in its negative direction closes pair 0", 0));
     in.preload.assign(22, 0.0);
     in.preload[20] = 3; // lifts the tip by F L^3 / (3 EI)
+    assert_true(warns(in, "under the pre-load all 1 pairs are open", 2));
+    in.contact.initial_gap[0] = 0.1; // away from a stop that it did not touch
     assert_true(warns(in, "under the pre-load all 1 pairs are open", 1));
+    in.contact.initial_gap[0] = 0;
     const std::vector<Finding> list = findings(in);
     assert_true(close_to(with(list, "under the pre-load")->value, -3.0 / (3 * 2e3), 1e-8));
     in.preload[20] = -3;
@@ -247,6 +252,83 @@ void pairs_of_mixed_components_are_told(void **) {
         warns(in, "(the first: pair 1, DOFs 5 and 19) join component 2 of one node to component 1", 1));
 }
 
+// Bricks' nodes have three DOFs; here the springs of a row of masses, alike in x, y and z.
+ModelInput row_of_nodes(int nodes) {
+    test::Dense k = test::diagonal(3 * nodes, 0), m = test::diagonal(3 * nodes, 0.5);
+    for (int i = 0; i + 3 < 3 * nodes; ++i)
+        k[i][i] += 1e4, k[i + 3][i + 3] += 1e4, k[i + 3][i] -= 1e4, k[i][i + 3] -= 1e4;
+    ModelInput in = test::input(m, k);
+    in.damping.beta = 1e-5;
+    in.excitation[1].real.assign(static_cast<std::size_t>(3 * nodes), 0.0);
+    for (int x = 0; x < 3; ++x) in.excitation[1].real[static_cast<std::size_t>(3 * nodes - 3 + x)] = 1;
+    return in;
+}
+
+void row_of(ModelInput &in, std::int64_t a, double on_a, std::int64_t b, double on_b) {
+    std::vector<double> row(static_cast<std::size_t>(in.n_dof), 0.0);
+    row[static_cast<std::size_t>(a)] = on_a, row[static_cast<std::size_t>(b)] = on_b;
+    test::add_pair(in, row, PLM_AUTO_STIFFNESS, 0.1);
+}
+
+// One node against a wall is not a pair of nodes; two nodes with two normals are one that was meant
+// otherwise.
+void oblique_walls_are_no_pairs_of_nodes(void **) {
+    ModelInput in = row_of_nodes(6);
+    in.fixed = {0, 1, 2};
+    row_of(in, 12, 0.8, 14, -0.6);
+    assert_true(with(findings(in), "do not sum to zero") == nullptr);
+    row_of(in, 12, 0.8, 9, -0.6);
+    assert_true(warns(in, "1 two-DOF gap rows do not sum to zero", 1));
+    // the matrices do not tell the nodes: a direction is taken for one, other numbers are not
+    in = sound();
+    in.gap_coefficient = {0.8, -0.6};
+    assert_true(with(findings(in), "do not sum to zero") == nullptr);
+}
+
+// Supports left in the matrices as a number on the diagonal: held, named, and without a mode.
+void supports_left_on_the_diagonal_are_held_and_named(void **) {
+    test::Dense k = test::diagonal(18, 0), m = test::diagonal(18, 0.5);
+    for (int i = 0; i + 3 < 18; ++i)
+        k[i][i] += 1e4, k[i + 3][i + 3] += 1e4, k[i + 3][i] -= 1e4, k[i][i + 3] -= 1e4;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 18; ++j) k[i][j] = k[j][i] = i == j ? 666 : 0;
+    for (int i = 0; i < 3; ++i) m[i][i] = 1;
+    ModelInput in = test::input(m, k), fixed = row_of_nodes(6);
+    in.damping = fixed.damping, in.excitation = fixed.excitation;
+    fixed.fixed = {0, 1, 2};
+    for (ModelInput *model : {&in, &fixed}) row_of(*model, 15, 1, 9, -1);
+    assert_true(warns(in, "3 DOFs (the first: DOF 0) are coupled to nothing", 1));
+    assert_true(warns(in, plm::format("%.6g Hz", std::sqrt(666.0) / (2 * M_PI)).c_str(), 1));
+    const auto model = test::build(in), right = test::build(fixed);
+    assert_int_equal(model->n_free(), 15);
+    const plm::StructureModes found = model->lowest_modes(6), want = right->lowest_modes(6);
+    for (std::size_t j = 0; j < 6; ++j) assert_true(close_to(found.values[j], want.values[j], 1e-12));
+    in.preload.assign(18, 0.0), in.preload[1] = 1; // loaded: it moves
+    assert_int_equal(test::build(in)->n_free(), 16);
+    in.damping.modal_ratio = {0.01, 0.02}; // by the number of a mode, which would be another
+    assert_int_equal(test::build(in)->n_free(), 18);
+}
+
+void diagonals_added_up_twice_are_told(void **) {
+    test::Dense k = test::diagonal(18, 0), twice = k;
+    for (int i = 0; i + 3 < 18; ++i)
+        k[i][i] += 1e4, k[i + 3][i + 3] += 1e4, k[i + 3][i] -= 1e4, k[i][i + 3] -= 1e4;
+    twice = k;
+    for (int i = 0; i < 18; ++i) twice[i][i] *= 2;
+    for (const test::Dense *stiffness : {&k, &twice}) {
+        ModelInput in = test::input(test::diagonal(18, 0.5), *stiffness);
+        row_of(in, 15, 1, 9, -1);
+        const std::vector<Finding> list = findings(in);
+        const Finding *told = with(list, "added up twice");
+        assert_true((told != nullptr) == (stiffness == &twice));
+        assert_true(!told || told->severity == 2);
+    }
+    // two masses on springs to the ground and to one another are meant so
+    ModelInput in = test::input(test::diagonal(2, 1), {{2, -1}, {-1, 2}});
+    test::add_pair(in, {1, -1}, 10, 0.1);
+    assert_true(with(findings(in), "added up twice") == nullptr);
+}
+
 } // namespace
 
 int main() {
@@ -259,6 +341,9 @@ int main() {
         cmocka_unit_test(gaps_that_never_close_are_told),
         cmocka_unit_test(excitation_of_no_low_mode_is_told),
         cmocka_unit_test(pairs_of_mixed_components_are_told),
+        cmocka_unit_test(oblique_walls_are_no_pairs_of_nodes),
+        cmocka_unit_test(supports_left_on_the_diagonal_are_held_and_named),
+        cmocka_unit_test(diagonals_added_up_twice_are_told),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

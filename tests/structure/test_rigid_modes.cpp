@@ -140,6 +140,16 @@ void massless_dofs_are_allowed_where_they_are_held(void **) {
     assert_true(c.says("DOF 1"));
 }
 
+// A spring of 10 on either side of a rigid link, kept together by the third row.
+void lagrange_multipliers_are_named(void **) {
+    ModelInput in = test::input({{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}},
+                                {{10, 0, 1, 0}, {0, 10, -1, 1}, {1, -1, 0, 0}, {0, 1, 0, 0}});
+    const Caught c = caught([&] { test::build(in); });
+    assert_int_equal(c.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+    assert_int_equal(c.index, 2);
+    assert_true(c.says("2 rows") && c.says("Lagrange multipliers") && c.says("DOF 2"));
+}
+
 void loose_massless_part_is_refused(void **) {
     // DOFs 1 and 2 hang together by a spring, but on nothing, and have no mass.
     ModelInput in = test::input({{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {{5, 0, 0}, {0, 10, -10}, {0, -10, 10}});
@@ -328,6 +338,7 @@ int main() {
         cmocka_unit_test(rigid_motion_does_not_soften_the_contact),
         cmocka_unit_test(bodies_without_stiffness_need_a_given_one),
         cmocka_unit_test(massless_dofs_are_allowed_where_they_are_held),
+        cmocka_unit_test(lagrange_multipliers_are_named),
         cmocka_unit_test(loose_massless_part_is_refused),
         cmocka_unit_test(negative_stiffness_is_refused),
         cmocka_unit_test(singular_stiffness_shows_with_any_solver),

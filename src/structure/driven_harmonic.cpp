@@ -1,4 +1,4 @@
-#include "searches/driven_harmonic.hpp"
+#include "structure/driven_harmonic.hpp"
 #include <algorithm>
 
 namespace plm {
@@ -10,12 +10,6 @@ const std::pair<const int, HarmonicLoad> *driven_harmonic(const HarmonicLoads &e
     for (const auto &entry : excitation)
         if (entry.first > 0 && (loaded(entry.second.real) || loaded(entry.second.imag))) return &entry;
     return nullptr;
-}
-
-double response_at_force(double response, const BranchPoint &about, const HbmOptions &options) {
-    const double there =
-        about.force_scale > 0 ? response * options.force_scale / about.force_scale : response;
-    return there > 0 ? there : 1;
 }
 
 } // namespace plm

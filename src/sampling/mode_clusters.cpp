@@ -1,0 +1,73 @@
+#include "sampling/mode_clusters.hpp"
+#include "linalg/lapack.hpp"
+#include "structure/driven_harmonic.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+constexpr double equal = 1e-6;  // eigenvalues, relative
+constexpr double unseen = 1e-9; // of the largest row: what rounding leaves of modes that are not seen
+
+double largest_row(const Matrix &a) {
+    double most = 0;
+    for (std::int64_t i = 0; i < a.rows(); ++i) {
+        double sum = 0;
+        for (std::int64_t j = 0; j < a.cols(); ++j) sum = std::hypot(sum, a(i, j));
+        most = std::max(most, sum);
+    }
+    return most;
+}
+
+// Columns [first, end) by the singular vectors of what is seen of them; how many are.
+std::int64_t turn(const Matrix &seen, std::int64_t first, std::int64_t end, Matrix &vectors) {
+    const std::int64_t n = end - first;
+    const Matrix group = vectors.columns(first, n);
+    Matrix view = product('N', 'N', seen, group);
+    const double size = largest_row(seen);
+    if (!(size > 0)) return 0;
+    for (std::int64_t k = 0; k < view.rows() * view.cols(); ++k) view.data()[k] /= size;
+    const SymmetricEigen e = symmetric_eigen(product('T', 'N', view, view)); // ascending
+    Matrix by(n, n);
+    for (std::int64_t j = 0; j < n; ++j) std::copy_n(e.vectors.col(n - 1 - j), n, by.col(j));
+    const Matrix turned = product('N', 'N', group, by);
+    std::copy_n(turned.data(), turned.rows() * n, vectors.col(first));
+    return std::count_if(e.values.begin(), e.values.end(), [](double v) { return v > unseen * unseen; });
+}
+
+} // namespace
+
+std::int64_t cluster_end(const vector<double> &values, std::int64_t first) {
+    const auto start = values.begin() + first;
+    return std::upper_bound(start, values.end(), *start * (1 + equal)) - values.begin();
+}
+
+void align_clusters(const std::vector<const Matrix *> &seen, SpaceModes &modes) {
+    const std::int64_t count = modes.vectors.cols();
+    for (std::int64_t first = 0, end = 0; first < count; first = end) {
+        end = cluster_end(modes.values, first);
+        std::int64_t left = first; // to be turned
+        for (const Matrix *by : seen)
+            if (end - left > 1) left += turn(*by, left, end, modes.vectors);
+    }
+}
+
+Matrix driving_loads(const Space &space) {
+    Matrix loads(2, space.size());
+    const auto *driven = driven_harmonic(space.excitation);
+    if (!driven) return loads;
+    const vector<double> *parts[] = {&driven->second.real, &driven->second.imag};
+    for (std::int64_t i = 0; i < 2; ++i)
+        for (std::size_t j = 0; j < parts[i]->size(); ++j)
+            loads(i, static_cast<std::int64_t>(j)) = (*parts[i])[j];
+    return loads;
+}
+
+Matrix row_of(const Space &space, const vector<double> &shape) {
+    Matrix row(1, space.size());
+    std::copy_n(shape.data(), space.n_massive(), row.data());
+    return row;
+}
+
+} // namespace plm
