@@ -96,10 +96,8 @@ class SetModes {
         look();
     }
 
-    /// Of the first n, relative to its energy.
-    double largest_residual(std::int64_t n) const {
-        return *std::max_element(residual_.begin(), residual_.begin() + n);
-    }
+    /// Relative to the energy of each mode.
+    const vector<double> &residuals() const { return residual_; }
     void go_on() {
         x_.append(step_);
         orthonormalise(model_, x_);
@@ -149,15 +147,23 @@ StructureModes exact_set_modes(const Space &space, const PairStates &states, con
                                   x.columns(0, n), nullptr};
     if (!solver.is_regular()) return as_found;
     SetModes modes(model, solver, x, n_rigid);
-    const double first = modes.largest_residual(n);
-    double residual = first, before = INFINITY;
-    for (int round = 0; round < most_rounds && residual > allowed && residual < 0.5 * before; ++round) {
+    const vector<double> first = modes.residuals();
+    vector<double> before(first.size(), INFINITY);
+    const auto any_falls = [&] {
+        for (std::size_t j = 0; j < as_found.values.size(); ++j)
+            if (modes.residuals()[j] > allowed && modes.residuals()[j] < 0.5 * before[j]) return true;
+        return false;
+    };
+    for (int round = 0; round < most_rounds && any_falls(); ++round) {
         watch.step("modes", 0.5);
-        before = residual;
+        before = modes.residuals();
         modes.go_on();
-        residual = modes.largest_residual(n);
     }
-    return residual < 0.1 * first ? modes.first(n) : as_found; // or there was only rounding
+    StructureModes exact = modes.first(n);
+    // where there was only rounding to take off the value of the space has more digits
+    for (std::size_t j = 0; j < exact.values.size(); ++j)
+        if (!(modes.residuals()[j] < 0.1 * first[j])) exact.values[j] = as_found.values[j];
+    return exact;
 }
 
 } // namespace plm

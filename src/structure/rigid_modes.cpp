@@ -87,8 +87,8 @@ struct LowModes {
 constexpr double certain = 16, doubtful = 2048, alone = 1e-3;
 // Of a usual eigenvalue: where K is zero, what a vector right to 1e-12 holds of other motions.
 constexpr double nothing = 1e-24;
-// So much larger is the first elastic eigenvalue at least, if it is one.
-constexpr double clear = 1e-2;
+// So much larger is the first elastic eigenvalue at least, if it is one. What rounding leaves of it is said.
+constexpr double clear = 0.1;
 
 /// How many of the lowest modes are rigid. Negative values are noise, too, unless refused later.
 /// scale: the size of a usual eigenvalue.
