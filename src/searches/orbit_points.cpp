@@ -23,6 +23,7 @@ constexpr double of_solution = 0.1, of_coefficients = 0.01, at_gaps_more = 20;
 constexpr std::int64_t harmonics_at_once = 8;
 
 constexpr std::int64_t usual_harmonics = 20; // of points near a resonance
+constexpr double hopeless_period = 3e9;      // flops: a curve takes many minutes
 constexpr double cheap_step = 5e7;           // flops: a curve takes seconds
 
 class OrbitMotion final : public PointMotion {
@@ -200,6 +201,23 @@ double exact_step_flops(const ReducedModel &m, const HbmOptions &o) {
     return events * (per_event + pieces_per_event * per_piece);
 }
 
+namespace {
+
+// Of a period of the slowest mode where damping couples the modes: the flow goes by series then, whose pieces
+// are no longer than its fastest decay.
+double coupled_decay_flops(const ReducedModel &m) {
+    constexpr double terms = 26, radians = 2;
+    const auto slowest = std::find_if(m.lambda.begin(), m.lambda.end(), [](double l) { return l > 0; });
+    if (m.damping.cols() == 0 || slowest == m.lambda.end()) return 0;
+    double rate = 0;
+    for (std::int64_t j = 0; j < m.size() - m.n_massless; ++j) rate = std::max(rate, m.damping(j, j));
+    const double n = static_cast<double>(m.size()), z = static_cast<double>(m.n_pairs()),
+                 pieces = rate * 2 * M_PI / std::sqrt(*slowest) / radians;
+    return pieces * terms * 2 * n * (n + z);
+}
+
+} // namespace
+
 bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &o) {
     if (o.motion == MotionKind::harmonics) return false;
     const bool asked = o.motion == MotionKind::exact;
@@ -218,6 +236,7 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
     if (o.n_harmonics != 0 || o.tail_correction || o.unknowns != NonlinearUnknowns::automatic ||
         o.formulation != FormulationKind::automatic || reduced->n_pairs() == 0)
         return false;
+    if (coupled_decay_flops(*reduced) > hopeless_period) return false;
     return exact_step_flops(*reduced, o) <
            std::max(cheap_step, harmonic_step_flops(*reduced, usual_harmonics));
 }

@@ -1,6 +1,6 @@
 #include "space/linear_contact.hpp"
-#include "linalg/error.hpp"
 #include "linalg/lapack.hpp"
+#include "space/spring_compliance.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -28,22 +28,7 @@ struct ActivePairs {
         }
         Matrix t(gap.rows(), gap.rows());
         gemm('N', 'T', 1.0, root, root, 0.0, t);
-        for (std::int64_t i = 0; i < t.rows(); ++i) t(i, i) += 1 / spring[i];
-        if (factor(t, 0)) return;
-        // More pairs than they can move, on springs that are rigid to rounding: how they share the force is
-        // open. A compliance below the rounding of T lets them, and changes nothing else.
-        const double rounding = 1e-15 * static_cast<double>(10 + t.rows());
-        for (double softening : {rounding, 10 * rounding, 100 * rounding})
-            if (factor(t, softening)) return;
-        throw Error(PLM_ERR_SINGULAR, "the contact flexibility is not positive definite; look for gap rows "
-                                      "of very different size")
-            .reason(PLM_REASON_SINGULAR);
-    }
-
-  private:
-    bool factor(Matrix t, double softening) {
-        for (std::int64_t i = 0; i < t.rows(); ++i) t(i, i) *= 1 + softening;
-        return cholesky.factor(t);
+        cholesky = with_springs(std::move(t), spring);
     }
 };
 

@@ -1,5 +1,5 @@
 #include "space/set_modes.hpp"
-#include "linalg/lapack.hpp"
+#include "space/spring_compliance.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -20,15 +20,15 @@ class SprungSolver {
         for (std::size_t i = 0; i < springs.size(); ++i)
             if (springs[i] > 0) active_.push_back(static_cast<std::int64_t>(i));
         const auto n = static_cast<std::int64_t>(active_.size());
-        Matrix t(n, n);
-        for (std::int64_t j = 0; j < n; ++j)
-            for (std::int64_t i = 0; i < n; ++i) t(i, j) = flexibility(responses, active_[i], active_[j]);
-        for (std::int64_t i = 0; i < n; ++i) t(i, i) += 1 / springs[active_[i]];
-        is_regular_ = compliance_.factor(t);
+        Matrix compliance(n, n);
+        vector<double> active_springs;
+        for (std::int64_t j = 0; j < n; ++j) {
+            for (std::int64_t i = 0; i < n; ++i)
+                compliance(i, j) = flexibility(responses, active_[i], active_[j]);
+            active_springs.push_back(springs[active_[j]]);
+        }
+        compliance_ = with_springs(std::move(compliance), active_springs);
     }
-
-    /// False: springs that are rigid to rounding repeat one another.
-    bool is_regular() const { return is_regular_; }
 
     void solve(Field &r) const {
         Field x = r;
@@ -65,7 +65,6 @@ class SprungSolver {
     vector<double> springs_;
     vector<std::int64_t> active_;
     DenseCholesky compliance_;
-    bool is_regular_ = false;
 };
 
 // Combinations of the columns that are M-orthonormal; those that the others contain are left out.
@@ -145,7 +144,6 @@ StructureModes exact_set_modes(const Space &space, const PairStates &states, con
     const SprungSolver solver(model, *space.responses, model.contact().springs(states));
     const StructureModes as_found{vector<double>(ritz.values.begin(), ritz.values.begin() + n),
                                   x.columns(0, n), nullptr};
-    if (!solver.is_regular()) return as_found;
     SetModes modes(model, solver, x, n_rigid);
     const vector<double> first = modes.residuals();
     vector<double> before(first.size(), INFINITY);
