@@ -99,11 +99,11 @@ void refuse_same_nodes(const Index *dof_a, const Index *dof_b, const double *nor
         for (std::int64_t k = 3 * i; k < 3 * i + 3; ++k)
             same = same && (normal[k] == 0 || dof_a[k] == dof_b[k] || (dof_a[k] < base && dof_b[k] < base));
         if (same)
-            bad_argument(
-                "dof_b", 3 * i,
-                format("both sides of pair %lld have the same DOFs along the normal: its gap can never "
-                       "change; give the DOFs of the two nodes that face each other",
-                       Int(i)));
+            bad_argument("dof_b", 3 * i,
+                         format("both sides of pair %lld have the same DOFs, or none, along the normal: its "
+                                "gap can never "
+                                "change; give the DOFs of the two nodes that face each other",
+                                Int(i)));
     }
 }
 

@@ -217,12 +217,15 @@ void check_switching(Watch watch, Branch &branch) {
     const double factor = factor_to_switching(branch.penetration_coefficients(top).transposed());
     if (factor < far_from_switching) return;
     watch.keeping(branch.warnings)
-        .warn(
-            PLM_REASON_NO_SWITCHING,
-            format("no contact pair opens or closes on this curve, nor would one unless the motion were %.2g "
-                   "times as large: this is a linear response. Check the units of gaps, pre-load and "
-                   "excitation, and the direction of the pairs",
-                   factor));
+        .warn(PLM_REASON_NO_SWITCHING,
+              std::isfinite(factor)
+                  ? format("no contact pair opens or closes on this curve, nor would one unless the motion "
+                           "were %.2g times as large: this is a linear response. Check the units of gaps, "
+                           "pre-load and excitation, and the direction of the pairs",
+                           factor)
+                  : "no contact pair opens or closes on this curve, however large the excitation: it moves "
+                    "none of them. Check where it acts, and that it has a harmonic of 1 or above (a constant "
+                    "force is a pre-load)");
 }
 
 } // namespace plm

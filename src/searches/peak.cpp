@@ -170,7 +170,9 @@ bool neighbours(const Branch &branch, std::int64_t top, std::array<std::int64_t,
 std::string why_no_peak(const Branch &branch, std::int64_t top, double amplitude) {
     const std::int64_t n = static_cast<std::int64_t>(branch.points().size());
     const double hz = branch.points()[static_cast<std::size_t>(top)].omega / (2 * M_PI);
-    if (amplitude == 0) return "this DOF does not move on the curve (in this measure): it has no peak";
+    if (amplitude == 0)
+        return "this DOF does not move on the curve (in this measure), as one that is fixed, or at a node of "
+               "the motion: it has no peak. Ask for a DOF that moves";
     if (n == 1) return format("the curve is a single point, %.6g Hz: its amplitude is no peak", hz);
     if (top > 0 && branch.end_reason != PLM_REASON_RANGE_END)
         return format(

@@ -114,7 +114,9 @@ class Widening {
         watch_.keeping(branch_.warnings)
             .warn(PLM_REASON_NO_PEAK,
                   format("the response is largest at the %s end of the curve, %.6g Hz, though the range was "
-                         "moved there from %.6g Hz: the resonance lies elsewhere or does not stand out. Set "
+                         "moved there from %.6g Hz: the resonance lies elsewhere or does not stand out, as "
+                         "under damping near critical (1 %% is the ratio 0.01; of Rayleigh's damping alpha "
+                         "is in 1/s, beta in s). Set "
                          "frequency_min_hz and frequency_max_hz of the hbm, or name the dominant mode of the "
                          "sampler (mode, mode_frequency_hz)",
                          low ? "lower" : "upper", hz(at), low ? asked_min_ : asked_max_));

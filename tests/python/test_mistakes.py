@@ -140,9 +140,9 @@ MISTAKES = [
     ("E in MPa, the rest in kg and m", lambda: model(stiffness=STIFFNESS * 1e-6), "of the local stiffness", "are k_n and K in the same units"),
     ("density in kg/m3, the rest in mm and N", lambda: model(mass=MASS * 1e12), "lowest elastic frequency .* outside 1e-3..1e7 Hz",
      "do the units of mass and stiffness belong together"),
-    ("one entry without its mirror", unsymmetric, "not symmetric: .* at row 12, column 10", "pass PLM_LOWER or PLM_UPPER"),
-    ("one triangle as full", lambda: model(stiffness=scipy.sparse.tril(STIFFNESS).tocsr()), "not symmetric", "pass PLM_LOWER or PLM_UPPER"),
-    ("a full matrix as one triangle", lambda: model(part="lower"), "not in the lower triangle", "pass PLM_FULL or PLM_UPPER"),
+    ("one entry without its mirror", unsymmetric, "not symmetric: .* at row 12, column 10", "pass plm.LOWER or plm.UPPER"),
+    ("one triangle as full", lambda: model(stiffness=scipy.sparse.tril(STIFFNESS).tocsr()), "not symmetric", "pass plm.LOWER or plm.UPPER"),
+    ("a full matrix as one triangle", lambda: model(part="lower"), "not in the lower triangle", "pass plm.FULL or plm.UPPER"),
     ("build forgotten", lambda: run(model(build=False)), "the model is not built", "build it first"),
     ("the sampler's run forgotten", lambda: without_build("sampler"), "the sampler has not run", "run it first"),
     ("the basis' build forgotten", lambda: without_build("basis"), "the basis is not built", "build it first"),
@@ -164,8 +164,8 @@ MISTAKES = [
     ("a pre-load that opens every pair", lambda: model(gap=0, preload=unit(TIP, -5.0)), "under the pre-load all 1 pairs are open", "are wrong"),
     ("contact 1e12 times too stiff", lambda: model(contact=5e14), "9.52e.11 of the local stiffness", "1 to 50 is a good choice"),
     ("an option misspelt", lambda: plm.Hbm(plm.Basis(model()), n_harmonic=5), 'has no key "n_harmonic"', 'did you mean "n_harmonics"'),
-    ("an option of another type", lambda: plm.Hbm(plm.Basis(model()), n_harmonics=5.5), '"n_harmonics" is of type int', "use the set_int function"),
-    ("a negative contact stiffness", lambda: model(contact=-3.0), "stiffness.0. is -3", "must be > 0.*or PLM_AUTO_STIFFNESS"),
+    ("an option of another type", lambda: plm.Hbm(plm.Basis(model()), n_harmonics=5.5), "^n_harmonics is", "an integer, not 5.5"),
+    ("a negative contact stiffness", lambda: model(contact=-3.0), "stiffness.0. is -3", "must be > 0.*or plm.AUTO_STIFFNESS"),
     ("a normal of length 2", lambda: model(build=False).add_node_pairs([TIP, -1, -1], [2, -1, -1], [2, 0, 0]), "not of unit length",
      "normalise the three components"),
     ("NaN in a matrix", lambda: model(stiffness=STIFFNESS * numpy.nan), "NaN or infinite, at row 0, column 0", "look for a failed element"),
@@ -190,9 +190,11 @@ def answer(attempt):
         warnings.simplefilter("always", plm.PlmWarning)
         try:
             result = attempt()
-        except (plm.PlmError, ValueError) as error:
+        except (plm.PlmError, ValueError, TypeError, AttributeError) as error:
             result, told = None, [str(error)]
     told += [str(w.message) for w in caught if issubclass(w.category, plm.PlmWarning)]
+    if isinstance(result, str):
+        told.append(result)
     if isinstance(result, plm.Model):
         told += [f"audit ({finding.severity}): {finding.text}" for finding in result.audit()]
     return told

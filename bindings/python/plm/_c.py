@@ -5,6 +5,7 @@ import numbers
 import operator
 import os
 import pathlib
+import re
 
 from ._functions import *  # noqa: F403 - the constants and the types of callbacks, as _c.NAME
 from ._functions import FUNCTIONS, OK, pointer
@@ -69,7 +70,9 @@ class _Functions:
     def __init__(self, library):
         letters = {"i": _Integer(ctypes.c_int32), "q": _Integer(ctypes.c_int64), "d": _Real, "s": ctypes.c_char_p, "p": pointer}
         self.path = library._name
-        for name, arguments in FUNCTIONS.items():
+        self.argument_names = {name: described.split()[1:] for name, described in FUNCTIONS.items()}
+        for name, described in FUNCTIONS.items():
+            arguments = described.split()[0]
             try:
                 function = getattr(library, name)
             except AttributeError:
@@ -82,6 +85,12 @@ class _Functions:
 lib = _Functions(_load())
 
 
+def text_in(buffer):
+    """A text of the library, with the constants of plm.h as they are called here: plm.LOWER."""
+    text = buffer.value.decode("utf-8", "replace")
+    return re.sub(r"\bPLM_([A-Z0-9_]+)", lambda found: f"plm.{found[1]}" if found[1] in globals() else found[0], text)
+
+
 def text_of(function, *arguments):
     """A text the library copies out: function(*arguments, capacity, buffer, needed). Empty when it has none."""
     needed = ctypes.c_int64(0)
@@ -89,4 +98,4 @@ def text_of(function, *arguments):
         return ""
     buffer = ctypes.create_string_buffer(max(needed.value, 1))
     function(*arguments, len(buffer), buffer, None)
-    return buffer.value.decode("utf-8", "replace")
+    return text_in(buffer)

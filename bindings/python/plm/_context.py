@@ -3,6 +3,7 @@ import contextlib
 import ctypes
 import logging
 import pathlib
+import re
 import sys
 import threading
 import time
@@ -230,7 +231,7 @@ class Context:
             _calls.begin(self)
             return getattr(_c.lib, name)(*arguments)
         except ctypes.ArgumentError as error:
-            raise TypeError(f"{name}: {str(error).replace('TypeError: ', '')}") from None
+            raise TypeError(_in_words(name, str(error))) from None
         finally:
             self._depth -= 1
             _calls.end()
@@ -293,6 +294,12 @@ class Context:
             self._host.bar = before
             if bar is not None:
                 bar.close()
+
+
+def _in_words(name, told):
+    """What ctypes says of an argument ("argument 2: TypeError: ..."), by the argument's name."""
+    found = re.match(r"argument (\d+): (?:<class 'TypeError'>: |TypeError: )?(.*)", told)
+    return f"{name}: {_c.lib.argument_names[name][int(found[1]) - 1]}: {found[2]}" if found else f"{name}: {told}"
 
 
 _PACKAGE = str(pathlib.Path(__file__).parent)

@@ -1,5 +1,6 @@
 """Handles, and their options and results as attributes made from the library's own table."""
 import ctypes
+import difflib
 import numbers
 import re
 from typing import NamedTuple
@@ -61,10 +62,26 @@ def _make_property(key):
     return property(read, write if key.is_option else None, doc=key.doc())
 
 
+def handle_of(value, noun, argument, *others):
+    """The handle in an object of this kind; others: what else may stand there, None for one."""
+    if isinstance(value, Handle) and value._noun == noun:
+        return value._h
+    if value is None and None in others:
+        return None
+    raise TypeError(f"{argument} must be a plm.{noun.capitalize()}, not {type(value).__name__}")
+
+
+def context_of(value, noun, argument):
+    """The context of an object that must be of this kind."""
+    handle_of(value, noun, argument)
+    return value.context
+
+
 def branch_array(branches):
     """(array of handles, its length) of one branch or several."""
     branches = [branches] if isinstance(branches, Handle) else list(branches)
-    return (ctypes.c_void_p * len(branches))(*(branch._h.value for branch in branches)), len(branches)
+    handles = [handle_of(branch, "branch", "each of the branches").value for branch in branches]
+    return (ctypes.c_void_p * len(branches))(*handles), len(branches)
 
 
 class Handle:
@@ -99,6 +116,13 @@ class Handle:
         else:
             self.set(name, value)  # the library refuses and names the nearest key
 
+    def __getattr__(self, name):  # only where nothing else is found
+        if name.startswith("_"):
+            raise AttributeError(name)
+        near = difflib.get_close_matches(name, [n for n in dir(type(self)) if not n.startswith("_")], 1)
+        raise AttributeError(f"a plm.{type(self).__name__} has no attribute {name!r}"
+                             + (f"; did you mean {near[0]!r}?" if near else f"; help(plm.{type(self).__name__}) lists them"))
+
     def __repr__(self):
         """What it is and how far it has come; nothing is computed for it."""
         name = f"plm.{type(self).__name__}"
@@ -122,6 +146,7 @@ class Handle:
         if self._noun == "branch":
             raise AttributeError(f"a branch is read-only: {key}")
         name = self._name_of(key)
+        self._check_type(key, value)
         if isinstance(value, (bool, numpy.bool_, numbers.Integral)):
             self._call("set_int", name, int(value))
         elif isinstance(value, str):
@@ -130,6 +155,18 @@ class Handle:
             self._call("set_double", name, float(value))
         else:
             raise TypeError(f"{key}: options are int, float or str, not {type(value).__name__}")
+
+    def _check_type(self, key, value):
+        """In the words of Python; what is no key, the library refuses."""
+        row = self.keys.get(key)
+        if row is None or not row.is_option:
+            return
+        if row.type == _c.TYPE_STRING and not isinstance(value, str):
+            raise TypeError(f"{key} is one of the words {row.choices.replace(',', ', ')}, not {value!r}")
+        if row.type == _c.TYPE_INT and not isinstance(value, (bool, numpy.bool_, numbers.Integral)):
+            raise TypeError(f"{key} is an integer, not {value!r}")
+        if row.type == _c.TYPE_DOUBLE and not isinstance(value, numbers.Real):
+            raise TypeError(f"{key} is a number, not {value!r}")
 
     def set_options(self, options):
         """Sets options from a dict."""
@@ -182,7 +219,7 @@ class Handle:
         self._call("get_string", name, 0, None, ctypes.byref(needed))
         buffer = ctypes.create_string_buffer(max(needed.value, 1))
         self._call("get_string", name, len(buffer), buffer, None)
-        return buffer.value.decode("utf-8", "replace")
+        return _c.text_in(buffer)
 
     def _get_array(self, verb, name, dtype):
         count = ctypes.c_int64(0)
@@ -235,15 +272,15 @@ def real_parts(values, name, remedy="give its real part, if the rest means nothi
     return numpy.asarray(array, dtype=numpy.float64)
 
 
-def reals(values, shape, name):
-    """A contiguous array of doubles of this shape (a number is repeated); None stays None."""
+def reals(values, shape, name, what="as many as there are"):
+    """A contiguous array of doubles of this shape (a number is repeated); None stays None. what: of which there are so many."""
     if values is None:
         return None
     array = real_parts(values, name)
     try:
         array = numpy.broadcast_to(array, shape)
     except ValueError:
-        raise ValueError(f"{name} has shape {array.shape}; needed is {shape}") from None
+        raise ValueError(f"{name} has shape {array.shape}; needed is {shape}, {what}") from None
     return numpy.ascontiguousarray(array)
 
 

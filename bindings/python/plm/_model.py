@@ -8,13 +8,14 @@ import scipy.sparse
 
 from . import _c
 from ._context import default_context
-from ._handle import Handle, address, alike, integers, real_parts, reals
+from ._handle import Handle, address, alike, handle_of, integers, real_parts, reals
 from ._methods import ModelMethods
 
 SYSTEMS = {"open": _c.SYSTEM_OPEN, "sliding": _c.SYSTEM_SLIDING, "rest": _c.SYSTEM_REST, "given": _c.SYSTEM_GIVEN}
 MATRICES = {_c.MASS: "mass", _c.STIFFNESS: "stiffness", _c.DAMPING: "damping"}
 COMPLEX_MATRIX = ("hand over the real part, and damping by set_structural_damping (a loss factor, K (1 + i eta)), "
                   "set_damping, set_rayleigh_damping or set_modal_damping")
+OF_DOFS = "one for each DOF, the fixed ones included"
 PARTS = {"full": _c.FULL, "lower": _c.LOWER, "upper": _c.UPPER}
 
 
@@ -101,6 +102,8 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         """DOFs held at zero: numbers, or a mask of n_dof."""
         dof = numpy.asarray(dof)
         if dof.dtype == numpy.bool_:
+            if dof.shape != (self.n_dof,):
+                raise ValueError(f"a mask of DOFs has one entry for each of the {self.n_dof} DOFs; this one has shape {dof.shape}")
             dof = numpy.flatnonzero(dof)
         (dof,), width = alike(integers(dof, "dof").ravel())
         self._call("fix_dofs" + width, 0, dof.size, address(dof))
@@ -137,6 +140,11 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         n = rows.shape[0]
         if rows.shape[1] != self.n_dof:
             raise ValueError(f"rows has {rows.shape[1]} columns; needed is n_dof = {self.n_dof}")
+        rows.eliminate_zeros()
+        empty = numpy.flatnonzero(numpy.diff(rows.indptr) == 0)
+        if empty.size:
+            raise ValueError(f"row {empty[0]} of rows is all zeros: it touches no DOF, and its gap can never change; leave it out, "
+                             "or check the numbers of its DOFs")
         (start, dof), width = alike(rows.indptr, rows.indices)
         _, stiffness, gap = self._pairs(n, None, stiffness, gap)
         self._call("add_gap_rows" + width, 0, n, address(start), address(dof), address(coefficient), address(stiffness),
@@ -145,7 +153,9 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
     @staticmethod
     def _pairs(n, normal, stiffness, gap):
         stiffness = _c.AUTO_STIFFNESS if stiffness is None else stiffness
-        return reals(normal, (n, 3), "normal"), reals(stiffness, (n,), "stiffness"), reals(gap, (n,), "gap")
+        of_pairs = "one for each pair, or one number for all"
+        return (reals(normal, (n, 3), "normal", "a row for each pair, or three numbers for all"),
+                reals(stiffness, (n,), "stiffness", of_pairs), reals(gap, (n,), "gap", of_pairs))
 
     # ---- superelements ----
 
@@ -172,24 +182,24 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         from ._response import MEASURES  # which needs a Model
         count = ctypes.c_int64(branch.n_points)
         values = numpy.empty(count.value)
-        self._work("recover_amplitude", branch._h, full_dof, choice(measure, MEASURES, "measure"), harmonic, values.size,
-                   address(values), ctypes.byref(count))
+        self._work("recover_amplitude", handle_of(branch, "branch", "branch"), full_dof, choice(measure, MEASURES, "measure"),
+                   harmonic, values.size, address(values), ctypes.byref(count))
         return values
 
     # ---- loads ----
 
     def set_preload(self, force):
         """Static force, n_dof; None removes it."""
-        force = reals(force, (self.n_dof,), "force")
+        force = reals(force, (self.n_dof,), "force", OF_DOFS)
         self._call("set_preload", self.n_dof, address(force))
 
     def set_excitation(self, force, harmonic=1):
         """F(t) = sum Re(F_h exp(i h omega t)); force: F_h, n_dof, real or complex. None removes the harmonic."""
         imaginary = None
         if numpy.iscomplexobj(force):
-            imaginary = reals(numpy.imag(force), (self.n_dof,), "force")
+            imaginary = reals(numpy.imag(force), (self.n_dof,), "force", OF_DOFS)
             force = numpy.real(force)
-        force = reals(force, (self.n_dof,), "force")
+        force = reals(force, (self.n_dof,), "force", OF_DOFS)
         self._call("set_excitation", harmonic, self.n_dof, address(force), address(imaginary))
 
     # ---- work ----
@@ -242,7 +252,7 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         self._call("get_finding", index, *numbers, 0, None, ctypes.byref(needed))
         buffer = ctypes.create_string_buffer(max(needed.value, 1))
         self._call("get_finding", index, *numbers, len(buffer), buffer, None)
-        return Finding(severity.value, value.value, buffer.value.decode("utf-8", "replace"))
+        return Finding(severity.value, value.value, _c.text_in(buffer))
 
     def _n_pairs(self):
         return self.n_pairs

@@ -7,6 +7,8 @@ import numpy
 from . import _c
 from ._handle import Handle, address, alike, integers, reals
 from ._methods import TransientMethods
+from ._model import Model
+from ._reduction import Basis
 
 
 class MotionState(NamedTuple):
@@ -24,6 +26,8 @@ class Transient(TransientMethods, Handle, noun="transient", kind=_c.KIND_TRANSIE
     """
 
     def __init__(self, basis_or_model, **options):
+        if not isinstance(basis_or_model, (Basis, Model)):
+            raise TypeError(f"a transient is made of a plm.Basis or a plm.Model, not {type(basis_or_model).__name__}")
         super().__init__(basis_or_model.context)
         self._model = getattr(basis_or_model, "model", basis_or_model)
         basis = None if self._model is basis_or_model else basis_or_model._h

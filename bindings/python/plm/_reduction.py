@@ -4,7 +4,7 @@ import ctypes
 import numpy
 
 from . import _c
-from ._handle import Handle, address, branch_array, reals
+from ._handle import Handle, address, branch_array, context_of, reals
 from ._methods import BasisMethods, SamplerMethods
 from ._model import SYSTEMS, choice
 
@@ -16,7 +16,7 @@ class Sampler(SamplerMethods, Handle, noun="sampler", kind=_c.KIND_SAMPLER):
     """
 
     def __init__(self, model, **options):
-        super().__init__(model.context)
+        super().__init__(context_of(model, "model", "model"))
         self._model = model
         self.context.call("plm_sampler_create", model._h, ctypes.byref(self._h))
         self.set_options(options)
@@ -53,7 +53,7 @@ class Basis(BasisMethods, Handle, noun="basis", kind=_c.KIND_BASIS):
     """
 
     def __init__(self, model, sampler=None, parent=None, responses=None, **options):
-        super().__init__(model.context)
+        super().__init__(context_of(model, "model", "model"))
         self._model = model
         self.context.call("plm_basis_create", model._h, ctypes.byref(self._h))
         if sampler is not None:

@@ -6,7 +6,7 @@ import numpy
 
 from . import _c
 from ._context import status_text
-from ._handle import Handle, address, branch_array
+from ._handle import Handle, address, branch_array, context_of, handle_of
 from ._methods import BranchMethods, HbmMethods
 from ._model import choice
 from ._reduction import Basis
@@ -91,7 +91,7 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
     """
 
     def __init__(self, basis, **options):
-        super().__init__(basis.context)
+        super().__init__(context_of(basis, "basis", "basis"))
         self._basis = basis
         self.context.call("plm_hbm_create", basis._h, ctypes.byref(self._h))
         self.set_options(options)
@@ -113,13 +113,13 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
     def solve(self, frequency_hz, start=None, point=0, progress=None):
         """The response at one frequency, from a point of the branch `start` or from rest."""
         branch = Branch(self)
-        return self._deliver("solve", branch, frequency_hz, start._h if start is not None else None, point,
+        return self._deliver("solve", branch, frequency_hz, handle_of(start, "branch", "start", None), point,
                              ctypes.byref(branch._h), progress=progress)
 
     def find_peak(self, branch, dof, measure="half_peak_to_peak", harmonic=0, progress=None):
         """The highest amplitude of a DOF on the exact curve."""
         hz, amplitude, top = ctypes.c_double(), ctypes.c_double(), Branch(self)
-        self._deliver("find_peak", top, branch._h, dof, choice(measure, MEASURES, "measure"), harmonic,
+        self._deliver("find_peak", top, handle_of(branch, "branch", "branch"), dof, choice(measure, MEASURES, "measure"), harmonic,
                       ctypes.byref(hz), ctypes.byref(amplitude), ctypes.byref(top._h), progress=progress)
         return Peak(hz.value, amplitude.value, top)
 
@@ -128,8 +128,8 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
         cause: .basis, .contact (contact sets), .harmonics, and .total; NaN where the steps do not contract, see
         `warning`."""
         amplitude, hz = numpy.empty(3), numpy.empty(3)
-        self._work("estimate_error", branch._h, branch._from_end(point), dof, choice(measure, MEASURES, "measure"), harmonic,
-                   address(amplitude), address(hz), progress=progress)
+        self._work("estimate_error", handle_of(branch, "branch", "branch"), branch._from_end(point), dof,
+                   choice(measure, MEASURES, "measure"), harmonic, address(amplitude), address(hz), progress=progress)
         return ErrorEstimate(ErrorParts(*amplitude.tolist()), ErrorParts(*hz.tolist()))
 
     def refine_basis(self, dof, tolerance, measure="half_peak_to_peak", harmonic=0, progress=None):
@@ -144,13 +144,13 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
         """The curve that crosses `branch` at a located branch point, or leaves it at a period doubling (with twice the
         period); see Branch.bifurcations. mirrored: on the other side."""
         other = Branch(self)
-        return self._deliver("switch_branch", other, branch._h, branch._from_end(point), int(mirrored),
+        return self._deliver("switch_branch", other, handle_of(branch, "branch", "branch"), branch._from_end(point), int(mirrored),
                              ctypes.byref(other._h), progress=progress)
 
     def find_isolated(self, main_branch, force_max=0.0, progress=None):
         """A list of Isolated(branch, force_range): closed branches beside the whole main curve. force_max: the largest force
         scale looked at, 0: eight times force_scale."""
-        return self._found("find_isolated", main_branch._h, force_max, progress=progress)
+        return self._found("find_isolated", handle_of(main_branch, "branch", "main_branch"), force_max, progress=progress)
 
     def find_backbones(self, force_max=0.0, progress=None):
         """A list of branches: frequency and amplitude of the resonance against the force, see point_force_scale."""
@@ -175,7 +175,7 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
     def track_fold(self, branch, point, force_min, force_max, progress=None):
         """The curve of folds over frequency and force (point_force_scale) from a located fold of `branch`."""
         folds = Branch(self)
-        return self._deliver("track_fold", folds, branch._h, branch._from_end(point), force_min, force_max,
+        return self._deliver("track_fold", folds, handle_of(branch, "branch", "branch"), branch._from_end(point), force_min, force_max,
                              ctypes.byref(folds._h), progress=progress)
 
     def _found(self, verb, *arguments, progress):
@@ -191,7 +191,7 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
 
     def _summary(self):
         harmonics = f"{self.n_harmonics} harmonics" if self.n_harmonics else "automatic harmonics"
-        return f"{harmonics}, on {self._basis!r}"
+        return f"{harmonics}, on {self._basis!r}" if self._basis._h else f"{harmonics}, on a basis of the library's choice"
 
     def _deliver(self, verb, branch, *arguments, progress):
         name = f"plm_hbm_{verb}"

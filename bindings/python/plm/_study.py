@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy
 
 from . import _c
-from ._handle import Handle, address
+from ._handle import Handle, address, context_of, handle_of
 from ._methods import StudyMethods
 from ._model import choice
 from ._response import MEASURES, Branch
@@ -37,7 +37,7 @@ class Study(StudyMethods, Handle, noun="study", kind=_c.KIND_STUDY):
     """
 
     def __init__(self, model, **options):
-        super().__init__(model.context)
+        super().__init__(context_of(model, "model", "model"))
         self._model, self._status = model, _c.OK
         self.context.call("plm_study_create", model._h, ctypes.byref(self._h))
         self.set_options(options)
@@ -63,21 +63,21 @@ class Study(StudyMethods, Handle, noun="study", kind=_c.KIND_STUDY):
 
     def add_response(self, name, hbm):
         """A method: the curve of hbm by the options that it, its basis and its sampler hold now. Returns its index."""
-        return self._add("response", name, hbm._h)
+        return self._add("response", name, handle_of(hbm, "hbm", "hbm"))
 
     def add_compressed(self, name, hbm, size=0):
         """That response at the lowest and highest force level, then a basis of kind "pod" from it, of `size` columns (0: as
         many as pod_tolerance asks for), and its curve. Returns the method's index."""
-        return self._add("compressed", name, hbm._h, size)
+        return self._add("compressed", name, handle_of(hbm, "hbm", "hbm"), size)
 
     def add_refined(self, name, hbm, tolerance):
         """The curve on the basis that Hbm.refine_basis makes for the tolerance. Returns the method's index."""
-        return self._add("refined", name, hbm._h, tolerance)
+        return self._add("refined", name, handle_of(hbm, "hbm", "hbm"), tolerance)
 
     def add_marching(self, name, transient, n_frequencies):
         """Steady states by marching in time at n_frequencies frequencies; give the transient `settled`. Returns the method's
         index."""
-        return self._add("marching", name, transient._h, n_frequencies)
+        return self._add("marching", name, handle_of(transient, "transient", "transient"), n_frequencies)
 
     def run(self, progress=None):
         """Runs each method once to warm up, then `repeats` times for the times. See .status and outcome for how it ended. What

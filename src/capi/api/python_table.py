@@ -39,9 +39,9 @@ def written(api):
     """The text of the file."""
     lines = [HEAD]
     lines += [callback_line(callback) for callback in api.callbacks]
-    lines += ["", "# One letter per argument: i int32_t, q int64_t, d double, s text in, p any other pointer.", "FUNCTIONS = {"]
-    lines += [f'    "{function.name}": "{"".join(letter(api, argument) for argument in function.arguments)}",'
-              for function in api.functions]
+    lines += ["", "# One letter per argument: i int32_t, q int64_t, d double, s text in, p any other pointer; then their names.", "FUNCTIONS = {"]
+    lines += [f'    "{function.name}": "{"".join(letter(api, argument) for argument in function.arguments)}'
+              f' {" ".join(argument.name for argument in function.arguments)}",' for function in api.functions]
     lines += ["}", ""]
     lines += [f"{name[len('PLM_'):]} = {value}" for name, value in api.constants.items()]
     return "\n".join(lines) + "\n"
