@@ -3,7 +3,7 @@
 #     sh tests/run.sh             preset dev
 #     sh tests/run.sh --all       preset dev with half a minute of fuzzing, asan without the other languages but with half a minute of
 #                                 scenarios drawn by chance, and of tsan,
-#                                 permissive and release what differs there from dev (all of one: name it)
+#                                 permissive, release, asserting and libcxx what differs there from dev (all of one: name it)
 #     sh tests/run.sh PRESET...   these presets of CMakePresets.json
 # Missing packages are installed where that is possible. Works from any folder; everything goes to build/.
 set -u
@@ -14,14 +14,14 @@ cd "$root" || exit 1
 fuzz_longer=
 case ${1-} in
 -h | --help) sed -n '2,8s/^# //p' tests/run.sh; exit 0 ;;
---all) set -- dev asan tsan permissive release; fuzz_longer=dev ;;
+--all) set -- dev asan tsan permissive release asserting libcxx; fuzz_longer=dev ;;
 -*) echo "run.sh: unknown option $1 (see --help)" >&2; exit 2 ;;
 '') set -- dev ;;
 esac
 
 # shellcheck disable=SC2086,SC2154
 need_packages $plm_build_packages gfortran pkg-config libcmocka-dev python3 python3-numpy python3-scipy \
-    python3-matplotlib python3-pip calculix-ccx abigail-tools valgrind doxygen clang libclang-rt-dev make ccache
+    python3-matplotlib python3-pip calculix-ccx abigail-tools valgrind doxygen clang libclang-rt-dev libc++-dev libc++abi-dev make ccache
 
 jobs=2
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
@@ -66,6 +66,10 @@ choose() {
     permissive) # its own factorization and transforms
         programs='plm plm_static test_structure_factor test_linalg_dft test_capi_run test_capi_transient accuracy'
         tests='^(structure[.]factor|linalg[.]dft|capi[.](run|transient)|accuracy[.]quick|abi[.](object|ledger))$' ;;
+    asserting | libcxx) # another C++ library under the rooms that ask it for most
+        programs='plm plm_static test_orbits_flow test_orbits_orbit_equations test_contact_contact_force test_capi_run
+                  test_capi_search_calls test_capi_transient_runs test_host_cancelled_thread test_host_scenarios'
+        tests='^(orbits[.](flow|orbit_equations)|contact[.]contact_force|capi[.](run|search_calls|transient_runs)|host[.](cancelled_thread|scenarios))$' ;;
     release) # what the shared object carries and hides
         programs='plm plm_static test_capi_run test_host_own_lapack test_host_quiet_blas test_host_ilp64 test_host_fork
                   test_host_limit test_host_starved test_host_unload test_host_plugin_shared test_host_plugin_static'

@@ -148,8 +148,10 @@ class Runs(unittest.TestCase):
         self.assertEqual(caught.exception.function, "plm_study_run")
         with self.assertRaises(plm.PlmKeyError):
             study.repeat = 3
-        with self.assertRaises(plm.PlmError):
+        with self.assertRaisesRegex(TypeError, "^repeats is an integer, not 'three'"):
             study.set("repeats", "three")
+        with self.assertRaises(plm.PlmKeyError):
+            study.set("repeat", "three")
         with self.assertRaises(plm.PlmError):
             study._get_string(b"repeats")  # no key of a study is a text
         with self.assertRaises(ValueError):
