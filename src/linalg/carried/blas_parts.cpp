@@ -3,6 +3,7 @@
 // work buffers: a build without threads has none, and gives two threads of the host the same buffer now and
 // then.
 #include "linalg/carried/reserve.hpp"
+#include <cstddef>
 #include <cstdlib>
 #include <mutex>
 #include <sched.h>

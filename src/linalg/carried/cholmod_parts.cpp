@@ -1,5 +1,6 @@
 // Parts of our own in the carried CHOLMOD.
 #include <cholmod.h>
+#include <cstddef>
 
 /// In place of CHOLMOD's, which prints: the status is kept for the caller, and that is all.
 int cholmod_l_error(int status, const char *, int, const char *, cholmod_common *common) {
