@@ -32,7 +32,7 @@ namespace {
 constexpr std::int64_t n_proposed = 20; // modes a proposal looks at when no range is given
 // Modal forces, of the largest: what rounding leaves of one that is none.
 constexpr double not_driven = 1e-9;
-// Contact motion, of that of the mode that has most: what passes the contact by and moves it by inertia
+// Contact share, of that of the mode that has most: what passes the contact by and moves it by inertia
 // alone, as a structure does on soft supports.
 constexpr double passes_by = 0.03;
 // Resonances, estimated at equal damping, that one cannot tell apart by their size; and those that are equal
@@ -56,10 +56,10 @@ struct Candidates {
     SpaceModes modes;
     vector<std::complex<double>> force; // phi . F
     vector<double> response;            // |phi . F| / omega^2: of a resonance at equal Q; 0 of rigid modes
-    vector<double> contact_motion;      // 0 of rigid modes
+    vector<double> contact_share;       // 0 of rigid modes, and where there is no more than rounding
 };
 
-Candidates candidates(const Space &space, SpaceModes modes) {
+Candidates candidates(const Space &space, const vector<double> &spring, SpaceModes modes) {
     const Matrix loads = driving_loads(space);
     align_clusters({&loads, &space.gap}, modes);
     Candidates c{std::move(modes), {}, {}, {}};
@@ -70,7 +70,9 @@ Candidates candidates(const Space &space, SpaceModes modes) {
         c.force.emplace_back(force(0, j), force(1, j));
         c.response.push_back(lambda > 0 ? std::abs(c.force.back()) / lambda : 0);
         const vector<double> dv(gap.col(j), gap.col(j + 1));
-        c.contact_motion.push_back(lambda > 0 ? contact_motion(space, dv, std::sqrt(lambda)) : 0);
+        const double omega = std::sqrt(std::max(0.0, lambda));
+        const bool moves = lambda > 0 && contact_motion(space, dv, omega) > no_contact_motion;
+        c.contact_share.push_back(moves ? contact_share(space, dv, omega, spring) : 0);
     }
     return c;
 }
@@ -153,9 +155,8 @@ vector<std::int64_t> largest(const vector<double> &size, const vector<std::int64
 vector<std::int64_t> moving(const Candidates &c, const vector<std::int64_t> &among,
                             const vector<std::int64_t> &wanted) {
     vector<std::int64_t> found;
-    for (std::int64_t j : largest(c.contact_motion, among, passes_by))
-        if (c.contact_motion[j] > no_contact_motion && std::count(wanted.begin(), wanted.end(), j) > 0)
-            found.push_back(j);
+    for (std::int64_t j : largest(c.contact_share, among, passes_by))
+        if (std::count(wanted.begin(), wanted.end(), j) > 0) found.push_back(j);
     return found.empty() ? wanted : found;
 }
 
@@ -224,8 +225,9 @@ DominantMode find_dominant_mode(const Space &space, const ModeRequest &request, 
     std::int64_t rigid = 0; // not proposed, but counted
     while (rigid < space.n_massive() && space.lambda[rigid] == 0) ++rigid;
     const Candidates c =
-        candidates(space, lowest_modes(space, request.system, std::max(request.mode, rigid + n_proposed),
-                                       std::max(request.frequency_hz, request.search_max_hz)));
+        candidates(space, space.model->contact().springs(contact_set(request.system, space)),
+                   lowest_modes(space, request.system, std::max(request.mode, rigid + n_proposed),
+                                std::max(request.frequency_hz, request.search_max_hz)));
     const vector<std::int64_t> among = searched(c.modes, request);
     const std::int64_t chosen = choose(c, among, request, watch);
 

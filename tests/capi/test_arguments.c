@@ -239,7 +239,7 @@ static void too_early(void **state) {
             "not built; build it first");
     REFUSED(plm_hbm_sweep(hbm, &branch), PLM_ERR_STATE, "plm_hbm_sweep", "basis", -1, "build it first");
     BAD(plm_hbm_solve(hbm, 0, NULL, 0, &branch), "plm_hbm_solve", "frequency_hz", -1, "> 0");
-    BAD(plm_sampler_add_dominant_mode(sampler, 2, 1), "plm_sampler_add_dominant_mode", "system", -1, "0..1");
+    BAD(plm_sampler_add_dominant_mode(sampler, 3, 1), "plm_sampler_add_dominant_mode", "system", -1, "0..2");
     BAD(plm_sampler_add_dominant_mode(sampler, 0, 0), "plm_sampler_add_dominant_mode", "mode", -1,
         "mode is 0");
     assert_true(hz == 5 && n == 5 && severity == 5 && branch == NULL);

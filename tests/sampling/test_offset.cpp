@@ -18,7 +18,8 @@ Matrix dense_offset(const exact::Structure &s, LinearSystem system, const plm::v
             rows(p, j) = s.gap_rows[p * s.n + j];
             load(j, 0) -= rows(p, j) * std::abs(dv[p]);
         }
-    Matrix k = test::dense_stiffness(s, plm::contact_set(system, s.z));
+    Matrix k = test::dense_stiffness(s, system == LinearSystem::sliding ? plm::PairStates::all_closed(s.z)
+                                                                        : plm::PairStates::all_open(s.z));
     plm::DenseCholesky cholesky;
     cholesky.factor(k);
     cholesky.solve(load.data(), 1, s.n);
