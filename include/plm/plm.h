@@ -384,8 +384,8 @@ PLM_API plm_status plm_model_get_int_array(plm_model *model, const char *key, in
  * PLM_ERR_MEMORY, before anything is factored. PLM_ERR_STATE without M or K, and once the model is built. */
 PLM_API plm_status plm_model_estimate_memory(plm_model *model, double *bytes);
 
-/* Checks the whole, removes the fixed DOFs, factors K. Afterwards the model no longer changes. PLM_WARNING when something
- * is probably wrong, such as a pair given twice: "warning"; what is only worth a look goes to the log (plm_model_audit).
+/* Checks the whole, removes fixed DOFs and those that nothing moves, factors K. Then the model no longer changes.
+ * PLM_WARNING when something is probably wrong ("warning"); what is only worth a look goes to the log (plm_model_audit).
  * PLM_ERR_STATE without M or K; PLM_ERR_NOT_POSITIVE_DEFINITE if K + sigma M is not. Rigid-body modes are allowed. */
 PLM_API plm_status plm_model_build(plm_model *model);
 
@@ -450,8 +450,8 @@ PLM_API plm_status plm_sampler_get_int_array(plm_sampler *sampler, const char *k
                                              int64_t *count);
 /* A further dominant mode whose sweep is sampled too. system: PLM_SYSTEM_OPEN, _SLIDING or _REST; mode: 1, 2, ... */
 PLM_API plm_status plm_sampler_add_dominant_mode(plm_sampler *sampler, int32_t system, int64_t mode);
-/* Finds the dominant mode, the sweep, the samples and the window. PLM_ERR_STATE when the model is not built or has no
- * contact pair. */
+/* Finds the dominant mode, the sweep, the samples and the window. PLM_WARNING of what the build warned of, too, and with
+ * PLM_REASON_TIE when two resonances are driven alike. PLM_ERR_STATE without a built model, or a contact pair in it. */
 PLM_API plm_status plm_sampler_run(plm_sampler *sampler);
 
 /* ---- Basis: reduction matrices (paper, 2.3.3 and 2.3.4) ----------------------------------------------------------

@@ -32,12 +32,13 @@ namespace {
 constexpr std::int64_t n_proposed = 20; // modes a proposal looks at when no range is given
 // Modal forces, of the largest: what rounding leaves of one that is none.
 constexpr double not_driven = 1e-9;
-// Contact share, of that of the mode that has most: what passes the contact by and moves it by inertia
-// alone, as a structure does on soft supports.
-constexpr double passes_by = 0.03;
+// A structure on soft supports moves far below its first elastic mode, and its contact by inertia alone: a
+// frequency over the next one, with nothing between, and a contact share over the largest.
+constexpr double soft = 0.125, passes_by = 0.1;
 // Resonances, estimated at equal damping, that one cannot tell apart by their size; and those that are equal
 // but for rounding.
 constexpr double alike = 0.95, same = 1 - 1e-6;
+constexpr double together = 0.05; // of the frequency: the window about one resonance holds the other
 
 // At least `count` modes and one above `hz`, or all there are.
 SpaceModes lowest_modes(const Space &space, LinearSystem system, std::int64_t count, double hz) {
@@ -151,21 +152,35 @@ vector<std::int64_t> largest(const vector<double> &size, const vector<std::int64
     return found;
 }
 
+vector<std::int64_t> on_contact(const Candidates &c, const vector<std::int64_t> &among) {
+    double most = 0;
+    for (std::int64_t j : among) most = std::max(most, c.contact_share[j]);
+    std::size_t elastic = 0; // the first that is not on soft supports
+    for (std::size_t p = 1; p < among.size(); ++p)
+        if (c.modes.values[among[p - 1]] < soft * soft * c.modes.values[among[p]]) elastic = p;
+    vector<std::int64_t> found;
+    for (std::size_t p = 0; p < among.size(); ++p) {
+        const double share = c.contact_share[among[p]];
+        if (share > 0 && (p >= elastic || share >= passes_by * most)) found.push_back(among[p]);
+    }
+    return found;
+}
+
 // Those that move the contact; of the others only where there are none of these.
 vector<std::int64_t> moving(const Candidates &c, const vector<std::int64_t> &among,
                             const vector<std::int64_t> &wanted) {
     vector<std::int64_t> found;
-    for (std::int64_t j : largest(c.contact_share, among, passes_by))
+    for (std::int64_t j : on_contact(c, among))
         if (std::count(wanted.begin(), wanted.end(), j) > 0) found.push_back(j);
     return found.empty() ? wanted : found;
 }
 
 void tell_of_ties(const Candidates &c, const vector<std::int64_t> &eligible, std::int64_t taken,
                   Watch watch) {
-    const std::int64_t end = cluster_end(c.modes.values, taken);
+    const double taken_hz = to_hz(c.modes.values[taken]);
     for (std::int64_t j : largest(c.response, eligible, alike)) {
-        if (j >= taken && j < end) continue;
-        const double taken_hz = to_hz(c.modes.values[taken]), hz = to_hz(c.modes.values[j]);
+        const double hz = to_hz(c.modes.values[j]);
+        if (std::abs(hz / taken_hz - 1) < together) continue;
         watch.warn(PLM_REASON_TIE,
                    format("the excitation drives two modes alike, at %.6g Hz and at %.6g Hz (by responses "
                           "estimated as 1 to %.3g): that at %.6g Hz is taken as the dominant mode, but the "

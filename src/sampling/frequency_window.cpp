@@ -12,9 +12,9 @@ double bilinear_frequency(double f1_hz, double f2_hz) {
 
 namespace {
 
-// Half of a mode's kinetic energy, but for rounding: below it the mode is more unlike than like the dominant
-// one.
-constexpr double resembles = 0.5 * (1 - 1e-6);
+// Of a mode's kinetic energy: with less in the best of them, it is spread over so many that none of them is
+// the dominant one. (Where two have half of it each, both are told: tell_of_rivals().)
+constexpr double resembles = 1.0 / 3;
 
 // The frequency of the mode that resembles the dominant one; its row is added to the table. `decides`: the
 // window stands or falls with it, otherwise it only makes it wider than it need be.
