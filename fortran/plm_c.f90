@@ -54,6 +54,7 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_REASON_HOST_REDUCTION = 24_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_UNSTABLE_PEAK = 25_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_CROSSED_OVER = 26_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_LARGER_MOTION = 27_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_TIE = 28_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_ROUNDED = 29_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_NONE = 0_c_int32_t

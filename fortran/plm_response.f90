@@ -258,8 +258,8 @@ contains
         call finish(self%context, status, stat, errmsg)
     end subroutine find_by_marching
 
-    ! Branch number `index` (from 1) of the last find_...; force_range: the force scales between which an isolated
-    ! branch exists, NaN where unknown.
+    ! Branch number `index` (from 1) of the last find_... ("n_found" of them), or beside the curve of plm_compute_response
+    ! ("larger_amplitude"); force_range: the force scales between which an isolated branch exists, NaN where unknown.
     subroutine found(self, index, branch, force_range, stat, errmsg)
         class(plm_hbm), intent(inout) :: self
         integer, intent(in) :: index

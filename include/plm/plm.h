@@ -116,6 +116,7 @@ typedef int32_t plm_status;
 #define PLM_REASON_HOST_REDUCTION 24   /* what the host states of its superelement is too much for the accuracy */
 #define PLM_REASON_UNSTABLE_PEAK 25    /* the structure does not stay on the motion of the peak */
 #define PLM_REASON_CROSSED_OVER 26     /* branch: goes round a closed curve onto which one of its steps had crossed */
+#define PLM_REASON_LARGER_MOTION 27    /* a larger stable motion exists at the same force, beside the curve */
 #define PLM_REASON_TIE 28              /* another resonance is driven alike, or resembles the dominant mode alike */
 #define PLM_REASON_ROUNDED 29          /* rows or loads that miss rigid-body motion by rounding are taken to mean it */
 
@@ -424,7 +425,11 @@ PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_
  * from it: the basis grows until the error it makes is estimated (as by plm_hbm_estimate_error; where that does not
  * converge, by what a clearly larger basis changes) to be within. Outputs: frequency (Hz) and amplitude of the peak;
  * error: that estimate, NaN where there is none, or NULL; curve: or NULL; hbm: the solver that computed it, to go on with
- * (other points, isolated branches, stability), with its basis behind it, or NULL. PLM_WARNING says what of the accuracy
+ * (other points, isolated branches, stability), with its basis behind it, or NULL. With pre-load or gaps motions beside
+ * the curve are looked for at the same force, for no more work than the curve took: PLM_WARNING with
+ * PLM_REASON_LARGER_MOTION where a stable one is larger than the peak; "larger_amplitude" and "larger_frequency_hz" of hbm
+ * are the highest one, and its curve with the force scales between which that exists is the first of plm_hbm_get_found.
+ * error is NaN on a curve that ended early. PLM_WARNING says what of the accuracy
  * was not reached and what else should be looked at, with the reasons of plm_sampler_run, plm_basis_build, plm_hbm_sweep
  * and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a sweep, the former, where contact bounces and a
  * curve winds, after the points of some seconds (500 to 1,000). PLM_ERR_STATE before plm_model_build and without contact
@@ -532,7 +537,10 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
  * 1 %, and when so many pairs open and close that the curve was followed on a part of the basis' coordinates and more of
  * them change its highest motion by more than "accuracy"; with PLM_REASON_UNVERIFIED when, on such a curve, stability is
  * not as more coordinates have it; with PLM_REASON_NO_SWITCHING when no pair would open or close
- * under a hundred times the motion; with PLM_REASON_TURNED_BACK when a fold led back to the end where the curve began. A
+ * under a hundred times the motion; with PLM_REASON_TURNED_BACK when a fold led back to the end where the curve began,
+ * with PLM_REASON_LOOP_CLOSED when it began on a closed curve and came back to its first point. What comes back so, ends
+ * early or finds no first motion is followed from the other end of the range ("direction"), and delivered from there if
+ * it leads across. A
  * curve that goes round a closed one beside it, onto which a step had crossed, is followed anew with shorter steps,
  * twice; then PLM_NOT_CONVERGED with PLM_REASON_CROSSED_OVER. A structure in free flight, or free along a rail: mean
  * position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
@@ -547,7 +555,9 @@ PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *
  * PLM_REASON_NO_PEAK when the highest point stands at an end of the curve (also of one that was cut off): frequency and
  * amplitude are those of that point, and the peak lies elsewhere; with PLM_REASON_BASIS_TOO_SMALL when the error that the
  * basis makes is estimated to be above "accuracy", or, where an estimate would cost more than some points of the curve,
- * as for a sweep; with PLM_REASON_UNSTABLE_PEAK when the motion of the peak is known to be unstable ("stable" of the
+ * as for a sweep; with PLM_REASON_NO_CONTRACTION when the steps of that estimate do not contract; with
+ * PLM_REASON_UNVERIFIED when no solution was found around the highest point of `branch`, which is then the result, and the
+ * peak may be higher by more than "accuracy"; with PLM_REASON_UNSTABLE_PEAK when the motion of the peak is known to be unstable ("stable" of the
  * branch) and no stable motion of the curve is as high within "accuracy". A closed curve has no ends. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
@@ -569,7 +579,8 @@ PLM_API plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, 
  * stability at that force and frequency; else of as many harmonics as the hbm has, few where it is to choose them. None
  * without pre-load and gap (the force changes nothing then). */
 PLM_API plm_status plm_hbm_find_backbones(plm_hbm *hbm, double force_max, int64_t *count);
-/* What the last plm_hbm_find_... of this hbm found. force_range[2] or NULL: force scales between which an isolated
+/* What the last plm_hbm_find_... of this hbm found ("n_found"), or what lies beside the curve of the
+ * plm_model_compute_response that made it. force_range[2] or NULL: force scales between which an isolated
  * branch exists, NaN where unknown or meaningless. */
 PLM_API plm_status plm_hbm_get_found(plm_hbm *hbm, int64_t index, double *force_range, plm_branch **branch);
 /* The curve of folds over (frequency, force) through a located fold of `branch`, to both sides of it as far as the range

@@ -1080,6 +1080,12 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
     std::vector<Isolated> find_isolated(const Branch &main_branch, double force_max = 0) {
         std::int64_t n = 0;
         finished(plm_hbm_find_isolated(handle_, main_branch.handle_, force_max, &n), "find_isolated");
+        return found();
+    }
+    /// What the last search of this hbm found, or the curve beside that of Model::compute_response whose
+    /// highest stable motion is "larger_amplitude" at "larger_frequency_hz".
+    std::vector<Isolated> found() {
+        const std::int64_t n = get_int("n_found");
         std::vector<Isolated> all;
         for (std::int64_t i = 0; i < n; ++i) {
             std::array<double, 2> range{};

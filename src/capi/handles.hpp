@@ -8,6 +8,7 @@
 #include "sampling/sampler.hpp"
 #include "searches/hbm.hpp"
 #include "searches/isolated.hpp"
+#include "searches/larger_motion.hpp"
 #include "space/audit.hpp"
 #include "space/memory_estimate.hpp"
 #include "space/rest.hpp"
@@ -80,8 +81,9 @@ struct HbmHandle final : HandleOf<plm_hbm, Kind::hbm> {
 
     std::shared_ptr<BasisHandle> basis;
     HbmOptions hbm_options;
-    std::vector<FoundBranch> found; // by the last plm_hbm_find_...
-    Warnings warnings;              // of the last call that computed something
+    std::vector<FoundBranch> found;     // by the last plm_hbm_find_..., or beside the curve of the one call
+    std::optional<LargerMotion> larger; // beside that curve
+    Warnings warnings;                  // of the last call that computed something
 };
 
 struct BranchHandle final : HandleOf<plm_branch, Kind::branch> {

@@ -32,6 +32,7 @@ plm_status keep_found(HbmHandle &h, std::vector<FoundBranch> found, std::int64_t
     plm::Warnings warnings;
     for (const FoundBranch &f : found) warnings.add(f.branch->warnings);
     h.found = std::move(found);
+    h.larger.reset(); // it was the first of those before
     *count = static_cast<std::int64_t>(h.found.size());
     return deliver(h, std::move(warnings));
 }

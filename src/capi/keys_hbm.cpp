@@ -27,10 +27,10 @@ const std::vector<Key> &hbm_keys() {
             "accuracy", 1e-12, 0.5,
             "relative error that results may have; a curve or peak that is estimated to "
             "miss it warns"),
-        int_option<&O::max_harmonics>(
-            "max_harmonics", 1, 1000,
-            "with n_harmonics = 0: the most allowed; fewer where hundreds of coordinates and pairs make a "
-            "step with them take seconds, which the result says"),
+        int_option<&O::max_harmonics>("max_harmonics", 1, 1000,
+                                      "with n_harmonics = 0, or of the coefficients of an exact motion: the "
+                                      "most allowed; fewer where hundreds of coordinates and pairs make a "
+                                      "step with them take seconds, which the result says"),
         real_option<&O::harmonic_tolerance>(
             "harmonic_tolerance", 0, 1,
             "with n_harmonics = 0: allowed \"harmonic_error\" of a point, 0: half of \"accuracy\"; where "
@@ -60,8 +60,10 @@ const std::vector<Key> &hbm_keys() {
                                           "inside"),
         real_option<&O::frequency_max_hz>("frequency_max_hz", 0, huge,
                                           "upper end of a sweep (Hz); 0: as frequency_min_hz"),
-        choice_option<&O::upward>("direction", "down,up",
-                                  "a sweep starts at the upper (down) or lower (up) end"),
+        choice_option<&O::upward>(
+            "direction", "down,up",
+            "a sweep starts at the upper (down) or lower (up) end; where the curve from "
+            "there comes back or ends early, from the other one"),
         real_option<&O::force_scale>("force_scale", -huge, huge,
                                      "factor on the excitation, not on the pre-load"),
         real_option<&O::tolerance>(
@@ -82,6 +84,19 @@ const std::vector<Key> &hbm_keys() {
             "bifurcations", "off,on",
             "locate folds and branch points, with stability also period doublings and "
             "Neimark-Sacker points (the first complex pair of multipliers crosses the unit circle)"),
+        result<HbmHandle>(
+            "n_found",
+            "branches that plm_hbm_get_found reads: of the last plm_hbm_find_..., or beside the "
+            "curve of plm_model_compute_response",
+            [](const HbmHandle &h) { return static_cast<std::int64_t>(h.found.size()); }),
+        result<HbmHandle>(
+            "larger_amplitude",
+            "of plm_model_compute_response: the highest stable motion known beside its curve at "
+            "the same force, on the first branch of plm_hbm_get_found; NaN: none is known",
+            [](const HbmHandle &h) { return h.larger ? h.larger->amplitude : std::nan(""); }),
+        result<HbmHandle>(
+            "larger_frequency_hz", "where that motion stands (Hz); NaN: none is known",
+            [](const HbmHandle &h) { return h.larger ? h.larger->frequency_hz : std::nan(""); }),
         result<HbmHandle>("warning", "what the last call warned of; empty: nothing",
                           [](const HbmHandle &h) { return h.warnings.text(); }),
         result<HbmHandle>("warning_reason", "PLM_REASON_... of the first part of \"warning\"; 0: none",
@@ -128,7 +143,9 @@ const std::vector<Key> &branch_keys() {
             "harmonic_error",
             "what the next harmonics would change, of every point, by one step of Newton's method: the "
             "largest share of the whole motion, of the motion of a DOF in contact (or of 3 % of the largest "
-            "such motion), or of the frequency; -1: unknown",
+            "such motion), or of the frequency; of an exact motion, what its coefficients leave out, as root "
+            "mean squares over a period (its amplitudes are exact; a larger \"max_harmonics\" leaves out "
+            "less); -1: unknown",
             [](const B &b) { return per_point<Reals>(b, [](auto &p) { return p.harmonic_error; }); }),
         result<B>("period_multiple",
                   "excitation periods in a period of the response; harmonics count from the latter",

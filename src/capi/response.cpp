@@ -25,6 +25,8 @@ std::shared_ptr<HbmHandle> handles_of(const plm::ComputedResponse &r, const plm:
     const auto hbm = std::make_shared<HbmHandle>(owner, basis);
     hbm->hbm_options = r.options;
     hbm->warnings = warnings;
+    hbm->larger = r.larger;
+    if (r.larger) hbm->found.push_back({r.larger->curve, r.larger->force_low, r.larger->force_high});
     return hbm;
 }
 

@@ -74,6 +74,7 @@ class Branch {
     bool sampled = false;      // contact forces from time samples
     Warnings warnings;         // what should be looked at before its points are used
     bool is_mode = false;      // a nonlinear mode: motions without excitation, each with a damping ratio
+    std::shared_ptr<const Branch> beside; // a closed curve that its sweep came upon first; or null
 
     /// (2H + 1) coefficients a0, a1, b1, ... of a full-model DOF (base 0; zeros when fixed) at a point.
     vector<double> coefficients(std::int64_t point, std::int64_t dof) const;

@@ -16,7 +16,8 @@ struct BranchPoint {
     Matrix eta;                   // r x 2H: columns a1, b1, a2, b2, ...
     std::int64_t n_harmonics = 0; // solved for; further columns are zero or the tail that follows from them
     double harmonic_tail = -1;    // share of the gaps' motion in the next harmonics, from the exact force
-    double harmonic_error = -1;   // what they would change, see harmonic_error(); -1: unknown
+    double harmonic_error = -1;   // what they would change, see harmonic_error(); -1: unknown. Of an exact
+                                  // motion: what its coefficients leave out
     double force_scale = 1;       // factor on the excitation
     double damping_ratio = 0;     // of a nonlinear mode, see Branch::is_mode
     std::int32_t bifurcation = PLM_BIFURCATION_NONE;

@@ -170,7 +170,7 @@ class Chain {
         r.error = INFINITY;
         HbmOptions limited = options_;
         limited.max_points = how == Follow::few_points ? few_points : most_points(*r.basis);
-        r.curve = Hbm(r.basis, limited, watch_).sweep();
+        r.curve = Hbm(r.basis, limited, watch_).sweep(output_);
         require_uncancelled(*r.curve);
         work_ += static_cast<double>(r.curve->newton_work.iterations) *
                  exact_step_flops(r.curve->reduced(), options_);
@@ -180,7 +180,6 @@ class Chain {
 
     // The peak of a curve and its error.
     ComputedResponse with_peak(ComputedResponse r) {
-        if (!spans(*r.curve) && r.curve->end_reason != PLM_REASON_POINT_LIMIT) go_the_other_way(r);
         r.peak = Hbm(r.basis, r.options, watch_).find_peak(*r.curve, output_.dof, output_.measure, 0);
         r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_, much_flops, watch_);
         watch_.log(1, format("%lld coordinates: peak %.6g at %.6g Hz, its error by the basis %.2g",
@@ -189,27 +188,7 @@ class Chain {
         return r;
     }
 
-    static bool spans(const Branch &curve) {
-        return curve.end_reason == PLM_REASON_RANGE_END && !curve.warnings.has(PLM_REASON_TURNED_BACK);
-    }
-
     static bool is_whole(const Branch &curve) { return spans(curve) && !is_worthless(curve); }
-
-    // A curve that ended early may be whole from its other end.
-    void go_the_other_way(ComputedResponse &r) const {
-        ComputedResponse other = r;
-        other.options.upward = !r.options.upward;
-        HbmOptions limited = other.options;
-        limited.max_points = most_points(*r.basis);
-        try {
-            other.curve = Hbm(r.basis, limited, watch_).sweep();
-        } catch (const Error &e) {
-            if (e.status() != PLM_ERR_CONVERGENCE) throw;
-            return;
-        }
-        require_uncancelled(*other.curve);
-        if (spans(*other.curve)) r = std::move(other);
-    }
 
     // Where an estimate is not to be had: what a clearly larger basis changes is the error of the one before,
     // and where that is small its own is no larger. Infinite: it is not.
@@ -246,7 +225,16 @@ class Chain {
         tell(r);
         r.error = std::max(r.error, r.options.tolerance + r.basis->space()->error_estimate) +
                   model_->space_options().reduction_error;
-        if (!std::isfinite(r.error)) r.error = NAN;
+        // what was not followed may be higher by any amount
+        if (!std::isfinite(r.error) || !spans(*r.curve) || r.peak.branch->warnings.has(PLM_REASON_NO_PEAK))
+            r.error = NAN;
+        look_beside(r);
+    }
+
+    void look_beside(ComputedResponse &r) const {
+        const KnownResponse known = {r.basis, r.options, r.curve, r.peak.amplitude, output_};
+        r.larger = find_larger_motion(known, watch_);
+        if (r.larger) watch_.keeping(r.warnings).warn(PLM_REASON_LARGER_MOTION, words_for(*r.larger, known));
     }
 
     void tell(ComputedResponse &r) const {
@@ -271,7 +259,8 @@ class Chain {
 
     // Signs that it might be unfit, which the estimate of its error outweighs.
     static bool is_about_the_basis(const Warning &w) {
-        return w.reason == PLM_REASON_BASIS_TOO_SMALL || w.reason == PLM_REASON_OUTSIDE_BASIS;
+        return w.reason == PLM_REASON_BASIS_TOO_SMALL || w.reason == PLM_REASON_OUTSIDE_BASIS ||
+               w.reason == PLM_REASON_NO_CONTRACTION;
     }
 
     std::shared_ptr<const Model> model_;

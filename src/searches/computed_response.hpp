@@ -2,7 +2,7 @@
 // with a larger basis until the error that the basis makes is estimated to be small enough.
 #pragma once
 #include "reduction/basis.hpp"
-#include "searches/hbm.hpp"
+#include "searches/larger_motion.hpp"
 
 namespace plm {
 
@@ -11,8 +11,9 @@ struct ComputedResponse {
     HbmOptions options; // of the curve
     std::shared_ptr<const Branch> curve;
     Peak peak;
+    std::optional<LargerMotion> larger; // beside the curve
     /// Of the peak, relative: by the basis, as estimated, and what the host states of its own reduction; NaN:
-    /// not known.
+    /// not known, or the curve ended early.
     double error = 0;
     Warnings warnings; // of all steps, as far as the estimate does not know better
 };

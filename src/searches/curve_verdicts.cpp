@@ -126,6 +126,15 @@ void check_peak(const SweepRange &window, double accuracy, double error, Watch w
     if (!std::isfinite(error))
         check_basis(
             window, [=] { return error; }, watch, peak);
+    if (std::isinf(error) && !peak.warnings.has(PLM_REASON_BASIS_TOO_SMALL))
+        watch.keeping(peak.warnings)
+            .warn(PLM_REASON_NO_CONTRACTION,
+                  format("how much the basis (%lld coordinates) changes this peak, at %.6g Hz, is not known: "
+                         "the steps from it to the motion of the whole structure do not contract, so that it "
+                         "may be off by more than \"accuracy\" allows. Compare with a larger basis (more "
+                         "n_harmonics of sampler and basis, or below_factor) or with kind \"full\"",
+                         static_cast<long long>(uncompressed(peak.reduced_model())->size()),
+                         peak.points()[0].omega / (2 * M_PI)));
     else if (error > accuracy)
         warn_of_basis(
             peak.points()[0],
@@ -133,6 +142,18 @@ void check_peak(const SweepRange &window, double accuracy, double error, Watch w
                    "frequency is), where \"accuracy\" allows %.2g",
                    error, accuracy),
             watch, peak);
+}
+
+void check_top(double accuracy, double above, Watch watch, Branch &peak) {
+    constexpr double of_parabola = 2; // it may miss a sharp top by as much as it rises
+    if (of_parabola * above <= accuracy) return;
+    watch.keeping(peak.warnings)
+        .warn(PLM_REASON_UNVERIFIED,
+              format("the peak, at %.6g Hz, is only the highest point of the curve: no solutions were found "
+                     "close around it, and by its neighbours the peak may be higher by about %.2g of itself, "
+                     "where \"accuracy\" allows %.2g. Sweep with a smaller max_step, or allow more "
+                     "max_iterations",
+                     peak.points()[0].omega / (2 * M_PI), of_parabola * above, accuracy));
 }
 
 namespace {
@@ -143,7 +164,8 @@ bool ends_stable_motions(const std::vector<BranchPoint> &points, std::size_t i) 
     return points[i].bifurcation != PLM_BIFURCATION_NONE && (stable(i + 1) || (i > 0 && stable(i - 1)));
 }
 
-// -1: none.
+} // namespace
+
 std::int64_t highest_stable(const Branch &curve, const Output &of) {
     const std::vector<BranchPoint> &points = curve.points();
     std::int64_t best = -1;
@@ -155,8 +177,6 @@ std::int64_t highest_stable(const Branch &curve, const Output &of) {
     }
     return best;
 }
-
-} // namespace
 
 void check_stability(const Branch &curve, const Output &of, double accuracy, Watch watch, Branch &peak) {
     const BranchPoint &top = peak.points()[0];
@@ -190,7 +210,19 @@ void check_host_reduction(const Model &model, double accuracy, double error, Wat
                of_host, accuracy));
 }
 
+bool spans(const Branch &curve) {
+    return curve.end_reason == PLM_REASON_RANGE_END && !curve.warnings.has(PLM_REASON_TURNED_BACK);
+}
+
 void check_span(Watch watch, Branch &branch) {
+    if (branch.end_reason == PLM_REASON_LOOP_CLOSED)
+        watch.keeping(branch.warnings)
+            .warn(PLM_REASON_LOOP_CLOSED,
+                  format("the sweep began, at %.6g Hz, on a closed curve and came back to its first point: "
+                         "it says nothing of the response outside that loop, whose peak may be much higher, "
+                         "and no curve was found from the other end. Sweep over a wider range "
+                         "(frequency_min_hz, frequency_max_hz), whose ends lie beside the loop",
+                         branch.points().front().omega / (2 * M_PI)));
     if (branch.end_reason != PLM_REASON_RANGE_END || branch.points().size() < 3) return;
     constexpr double same = 1e-9; // of the frequency: the boundary of the range
     const double begin = branch.points().front().omega, end = branch.points().back().omega;

@@ -16,8 +16,16 @@ void check_window(const SweepRange &window, Watch watch, Branch &branch);
 /// then asked for, knows better: the estimated error (basis_error.hpp), infinite or NaN where there is none.
 void check_basis(const SweepRange &window, const std::function<double()> &error, Watch watch, Branch &branch);
 
-/// The same of a peak and its estimated error, which is to be within the accuracy.
+/// The same of a peak and its estimated error, which is to be within the accuracy; infinite: its steps do not
+/// contract.
 void check_peak(const SweepRange &window, double accuracy, double error, Watch watch, Branch &peak);
+
+/// A peak around which no solutions were found is the highest point of its curve, and may be higher by
+/// `above` of itself.
+void check_top(double accuracy, double above, Watch watch, Branch &peak);
+
+/// The highest point of a curve that is stable, or where stable motions end; -1: none.
+std::int64_t highest_stable(const Branch &curve, const Output &of);
 
 /// A peak whose motion is not stable is not what the structure does, unless a motion of the curve is stable
 /// and as high within the accuracy (that beside a fold, for one).
@@ -28,8 +36,11 @@ constexpr double allowed_of_host = 0.5;
 /// Where it takes more, no basis can mend it. error: of the basis, as estimated.
 void check_host_reduction(const Model &model, double accuracy, double error, Watch watch);
 
-/// A curve that folds and comes back to the end of the range where it began says nothing of the rest.
+/// A curve that folds and comes back to the end of the range where it began, or to its first point, says
+/// nothing of the rest.
 void check_span(Watch watch, Branch &branch);
+/// Whether a curve goes from one end of its range to the other, after check_span().
+bool spans(const Branch &curve);
 
 /// A curve on which no pair comes near to opening or closing is a linear response, most often of a gap or a
 /// pre-load in other units than the force.

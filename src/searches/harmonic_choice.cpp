@@ -244,10 +244,19 @@ void warn(const HbmOptions &o, std::int64_t over, std::int64_t worst, double err
 
 } // namespace
 
+namespace {
+
+// Of a solution of harmonic balance; an exact motion has all harmonics, whatever its coefficients leave out.
+double balance_error(const BranchPoint &p) {
+    return p.motion ? 0 : p.harmonic_error;
+}
+
+} // namespace
+
 bool is_worthless(const Branch &curve) {
     const auto &points = curve.points();
     const auto over = std::count_if(points.begin(), points.end(),
-                                    [](const BranchPoint &p) { return p.harmonic_error >= worthless_error; });
+                                    [](const BranchPoint &p) { return balance_error(p) >= worthless_error; });
     return 2 * over > static_cast<std::ptrdiff_t>(points.size());
 }
 
@@ -256,11 +265,11 @@ void warn_of_harmonics(const HbmOptions &options, Branch &branch) {
     const auto &points = branch.points();
     std::int64_t over = 0, worst = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (points[i].harmonic_error > points[static_cast<std::size_t>(worst)].harmonic_error)
+        if (balance_error(points[i]) > balance_error(points[static_cast<std::size_t>(worst)]))
             worst = static_cast<std::int64_t>(i);
-        over += points[i].harmonic_error > options.allowed_harmonic_error();
+        over += balance_error(points[i]) > options.allowed_harmonic_error();
     }
-    if (over > 0) warn(options, over, worst, points[static_cast<std::size_t>(worst)].harmonic_error, branch);
+    if (over > 0) warn(options, over, worst, balance_error(points[static_cast<std::size_t>(worst)]), branch);
 }
 
 void warn_of_harmonics(const HbmOptions &options, double error, Branch &branch) {

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 
 namespace plm {
 namespace {
@@ -210,8 +211,7 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
     return nullptr;
 }
 
-std::shared_ptr<const Branch> Hbm::sweep() const {
-    const Clock::time_point begin = Clock::now();
+std::shared_ptr<Branch> Hbm::sweep_from_its_end() const {
     std::shared_ptr<Branch> branch;
     if (exact_ && options_.motion == MotionKind::automatic && worth_compressing(*reduced_, options_))
         branch = sweep_compressed();
@@ -219,8 +219,53 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
         branch = follow_curve();
         judge(*branch);
     }
+    return branch;
+}
+
+// What comes back, is stuck or finds no first motion from one end may be a whole curve from the other.
+std::shared_ptr<const Branch> Hbm::sweep() const {
+    const Clock::time_point begin = Clock::now();
+    std::shared_ptr<Branch> branch;
+    std::exception_ptr no_start;
+    try {
+        branch = sweep_from_its_end();
+    } catch (const Error &e) {
+        if (e.reason() != PLM_REASON_START_FAILED) throw;
+        no_start = std::current_exception();
+    }
+    if (!branch || (!spans(*branch) && branch->end_reason != PLM_REASON_POINT_LIMIT &&
+                    branch->end_reason != PLM_REASON_CANCELLED))
+        take_other_way(branch);
+    if (!branch) std::rethrow_exception(no_start);
     branch->seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     return branch;
+}
+
+std::shared_ptr<const Branch> Hbm::sweep(const Output &asked) const {
+    Hbm one(*this);
+    one.asked_ = &asked;
+    return one.sweep();
+}
+
+void Hbm::take_other_way(std::shared_ptr<Branch> &branch) const {
+    Hbm back(*this);
+    back.options_.upward = !options_.upward;
+    watch_.log(
+        1, format("no whole curve from the %s end; from the other one", options_.upward ? "lower" : "upper"));
+    try {
+        const auto other = back.sweep_from_its_end();
+        const bool is_better = spans(*other) || other->end_reason == PLM_REASON_POINT_LIMIT;
+        if (branch && other->end_reason == PLM_REASON_CANCELLED) branch->end_reason = PLM_REASON_CANCELLED;
+        if (branch && !is_better) return;
+        if (branch && branch->end_reason == PLM_REASON_LOOP_CLOSED) other->beside = branch;
+        branch = other;
+    } catch (const Error &e) {
+        if (branch && e.status() == PLM_CANCELLED) {
+            branch->end_reason = PLM_REASON_CANCELLED;
+        } else if (e.status() != PLM_ERR_CONVERGENCE) {
+            throw;
+        }
+    }
 }
 
 std::shared_ptr<Branch> Hbm::follow_curve() const {
@@ -241,15 +286,17 @@ std::shared_ptr<Branch> Hbm::follow_curve() const {
         if (!solve_at(from + further_in * attempt * into, nullptr, *branch, point)) continue;
         if (!found || point.harmonic_error < start.point.harmonic_error) start.point = point;
         found = true;
-        // an exact motion has no such error
+        // an exact motion has all harmonics, whatever its coefficients leave out
         const double enough = exact_ ? options_.allowed_harmonic_error() : worthless_error;
-        if (options_.n_harmonics != 0 || start.point.harmonic_error < enough || dear) break;
+        if (options_.n_harmonics != 0 || start.point.motion || start.point.harmonic_error < enough || dear)
+            break;
     }
     if (!found)
         throw Error(
             PLM_ERR_CONVERGENCE,
-            format("no periodic response was found at the start of the sweep (%.6g Hz and four neighbours); "
-                   "start from the other end (direction) or with a smaller force_scale%s",
+            format("no periodic response was found at the start of the sweep (%.6g Hz and four neighbours), "
+                   "nor at its other end; sweep over another range (frequency_min_hz, frequency_max_hz) or "
+                   "with a smaller force_scale%s",
                    from / (2 * M_PI), drift_hint(*reduced_).c_str()))
             .reason(PLM_REASON_START_FAILED);
     trace_curve(options_, start, watch_, *branch);
@@ -261,7 +308,7 @@ std::shared_ptr<Branch> Hbm::follow_curve() const {
             branch = other;
         }
     }
-    bring_peak_inside(options_, reach_, watch_, *branch);
+    bring_peak_inside(options_, reach_, asked_, watch_, *branch);
     finish(*branch, begin);
     return branch;
 }

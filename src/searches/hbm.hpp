@@ -35,6 +35,8 @@ class Hbm {
 
     /// Always returns a branch with at least one point, or throws; the outcome is in branch->end_reason.
     std::shared_ptr<const Branch> sweep() const;
+    /// The same over a range that has the peak of this, too.
+    std::shared_ptr<const Branch> sweep(const Output &asked) const;
     /// start may be null (cold start).
     std::shared_ptr<const Branch> solve(double frequency_hz, const Branch *start, std::int64_t point) const;
     Peak find_peak(const Branch &branch, std::int64_t dof, Measure measure, std::int64_t harmonic) const;
@@ -75,6 +77,9 @@ class Hbm {
     std::shared_ptr<Branch> follow_curve() const;
     void judge(Branch &curve) const;
     std::shared_ptr<Branch> sweep_compressed() const;
+    std::shared_ptr<Branch> sweep_from_its_end() const;
+    /// The curve from the other end in the place of `branch` (null: there is none) if it leads farther.
+    void take_other_way(std::shared_ptr<Branch> &branch) const;
     BranchPoint first_guess(const Branch &start, std::int64_t point) const;
 
     /// The model that a branch of this basis was computed on. PLM_ERR_ARGUMENT for one of another basis.
@@ -83,9 +88,10 @@ class Hbm {
     std::shared_ptr<const Basis> made_as_;                // null: not known
     std::shared_ptr<const ReducedModel> basis_, reduced_; // as handed over; widened for exact motions
     HbmOptions options_;
-    bool exact_ = false;        // curves of exact motions, where their first point is one
-    bool only_looks_ = false;   // what the next harmonics would change is not measured
-    SweepRange window_, reach_; // of the basis; of a sweep with these options
+    const Output *asked_ = nullptr; // of the sweep of now
+    bool exact_ = false;            // curves of exact motions, where their first point is one
+    bool only_looks_ = false;       // what the next harmonics would change is not measured
+    SweepRange window_, reach_;     // of the basis; of a sweep with these options
     Watch watch_;
 };
 

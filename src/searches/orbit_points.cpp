@@ -91,9 +91,12 @@ class OrbitMotion final : public PointMotion {
     mutable ValueRange known_range_ = {};
 };
 
-// Of the motion and of the gaps: mean squares, of all and of what the harmonics so far leave out.
+// Of the motion, of the gaps together and of each of them: mean squares, of all and of what the harmonics so
+// far leave out.
 struct Remainder {
     double all, gaps, left, left_at_gaps;
+    vector<double> at_pair, left_at_pair;
+
     bool is_within(double share) const {
         return left <= share * share * all &&
                left_at_gaps <= share * share * at_gaps_more * at_gaps_more * gaps;
@@ -102,16 +105,32 @@ struct Remainder {
         for (std::int64_t k = 0; k < harmonics.cols(); ++k) {
             left -= 0.5 * dot(harmonics.rows(), harmonics.col(k), harmonics.col(k));
             left_at_gaps -= 0.5 * dot(at_gaps.rows(), at_gaps.col(k), at_gaps.col(k));
+            for (std::int64_t i = 0; i < at_gaps.rows(); ++i)
+                left_at_pair[i] -= 0.5 * at_gaps(i, k) * at_gaps(i, k);
         }
+    }
+    /// The largest share, of the motion or of a pair's, as harmonic_error() counts them.
+    double largest_share() const {
+        constexpr double least_motion = 0.03; // of the pair that moves most
+        constexpr double rounding = 1e-14;    // of differences of squares
+        const double most = at_pair.empty() ? 0 : *std::max_element(at_pair.begin(), at_pair.end());
+        double share = all > 0 ? left / all : 0;
+        for (std::size_t i = 0; i < at_pair.size() && most > 0; ++i)
+            share =
+                std::max(share, left_at_pair[i] / std::max(at_pair[i], least_motion * least_motion * most));
+        return share > rounding ? std::sqrt(share) : 0;
     }
 };
 
 Remainder mean_squares(const Matrix &covariance, const Matrix &gap) {
     const Matrix at_gaps = product('N', 'N', gap, covariance);
-    double all = 0;
+    double all = 0, gaps = 0;
     for (std::int64_t j = 0; j < covariance.cols(); ++j) all += covariance(j, j);
-    const double gaps = std::max(0.0, dot(gap.rows() * gap.cols(), gap.data(), at_gaps.data()));
-    return {all, gaps, all, gaps};
+    vector<double> at_pair(static_cast<std::size_t>(gap.rows()), 0.0);
+    for (std::int64_t j = 0; j < gap.cols(); ++j)
+        for (std::int64_t i = 0; i < gap.rows(); ++i) at_pair[i] += gap(i, j) * at_gaps(i, j);
+    for (double &square : at_pair) gaps += square = std::max(0.0, square);
+    return {all, gaps, all, gaps, at_pair, at_pair};
 }
 
 // Mean and harmonics in the coordinates of the basis.
@@ -150,7 +169,7 @@ void put_harmonics(const FlowModel &model, const RecordedMotion &motion, const H
         std::copy(turned.begin(), turned.end(), eta.col(k));
     }
     point.eta = std::move(eta);
-    point.harmonic_error = 0;
+    point.harmonic_error = rest.largest_share();
 }
 
 FlowState rest_state(const FlowModel &model) {

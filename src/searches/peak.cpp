@@ -36,17 +36,23 @@ class PeakSearch {
     bool run(const Branch &branch, const std::array<std::int64_t, 3> &around, BranchPoint &highest) {
         for (int k = 0; k < 3; ++k) load(branch, around[k], three_[k]);
         set_chord();
+        above_ = rise(); // until it is looked for more closely
         if (!is_exact() && !solve_triple()) return false;
-        close_in();
+        const bool settled = close_in();
         const Sample &top = *std::max_element(three_.begin(), three_.end(), [](const auto &a, const auto &b) {
             return a.amplitude < b.amplitude;
         });
         constexpr double same_height = 1e-9; // rounding decides between them
         Sample best;
+        above_ = settled ? 0 : rise();
         if (!corrected(vertex(), best) || best.amplitude < top.amplitude * (1 - same_height)) best = top;
+        above_ = std::max(0.0, above_ - (best.amplitude / top.amplitude - 1));
         highest = std::move(best.point);
         return true;
     }
+
+    /// By how much the peak may be higher than the point found, of that: 0 where it was closed in upon.
+    double above() const { return above_; }
 
   private:
     bool is_exact() const {
@@ -66,7 +72,7 @@ class PeakSearch {
     // New triples around the vertex, ten times closer as long as the top is inside: the error of a parabola
     // falls with its square. One that misses the top (far from it the curve is no parabola) goes to its
     // higher side with wider steps.
-    void close_in() {
+    bool close_in() {
         // Closer, differences of amplitudes drown in the error of their solutions, which corrected() keeps
         // small; and where contact forces come from samples, in the jumps as a pair switches past one.
         constexpr double usual = 1e-9, close = 2e-3; // the height of a parabola goes with the square
@@ -82,12 +88,25 @@ class PeakSearch {
             Sample left, middle, right;
             if (!corrected(vertex(), middle) || !corrected(middle.s - reach, left) ||
                 !corrected(middle.s + reach, right))
-                return;
+                return false;
             three_ = {left, middle, right};
             const bool inside = left.amplitude < middle.amplitude && right.amplitude < middle.amplitude;
-            if (inside && reach <= closest) return;
+            if (inside && reach <= closest) return true;
             reach = inside ? std::max(0.1 * reach, closest) : std::min(2 * reach, widest);
         }
+        return false;
+    }
+
+    // Of the parabola above the highest of the three, relative.
+    double rise() const {
+        const double s = vertex();
+        double height = 0, top = 0;
+        for (int k = 0; k < 3; ++k) {
+            const Sample &a = three_[k], &b = three_[(k + 1) % 3], &c = three_[(k + 2) % 3];
+            height += a.amplitude * (s - b.s) * (s - c.s) / ((a.s - b.s) * (a.s - c.s));
+            top = std::max(top, a.amplitude);
+        }
+        return top > 0 ? std::max(0.0, height / top - 1) : 0;
     }
 
     void load(const Branch &branch, std::int64_t i, Sample &s) {
@@ -154,7 +173,7 @@ class PeakSearch {
     std::array<Sample, 3> three_;
     Metric metric_;
     PathState origin_, chord_; // the latter of length 1
-    double first_ = 0, last_ = 1, span_ = 1;
+    double first_ = 0, last_ = 1, span_ = 1, above_ = 0;
 };
 
 // The highest point and its neighbours; a closed curve, whose last point is its first, has no ends. False:
@@ -198,8 +217,9 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     one->end_reason = PLM_REASON_RANGE_END;
     BranchPoint point = branch.points()[top];
     const HbmOptions limits = with_affordable_harmonics(*reduced, options_);
-    double error = point.harmonic_error; // in what is asked for, where harmonics are chosen
-    if (!is_peak)                        // it stays where it is
+    // in what is asked for, where harmonics are chosen; an exact motion lacks none
+    double error = point.motion ? 0 : point.harmonic_error, above = 0;
+    if (!is_peak) // it stays where it is
         watch_.keeping(one->warnings).warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, highest));
     if (is_peak) {
         HbmOptions options = options_on(*reduced, options_);
@@ -221,14 +241,16 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
                 options.n_harmonics =
                     std::max(options.n_harmonics, std::min(limits.max_harmonics, 2 * options.n_harmonics));
             equations = equations_of(reduced, options, point);
-            PeakSearch(*equations, options, reduced, dof, measure, harmonic, watch_)
-                .run(branch, around, point);
+            PeakSearch search(*equations, options, reduced, dof, measure, harmonic, watch_);
+            search.run(branch, around, point);
+            above = search.above();
             if (automatic) error = error_here();
         } while (error > wanted && options.n_harmonics < limits.max_harmonics);
         point.multipliers = equations->multipliers(point);
         point.multiplier_error = branch.points()[top].multiplier_error;
     }
     one->append(std::move(point));
+    check_top(options_.accuracy, above, watch_, *one);
     warn_of_harmonics(limits, error, *one);
     if (is_peak && options_.n_harmonics != 0 && !one->points()[0].motion)
         warn_of_given_harmonics(reduced, options_, dof, measure, harmonic, *one);

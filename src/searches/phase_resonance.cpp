@@ -174,15 +174,11 @@ bool PhaseResonance::correct(double force, BranchPoint &point) const {
     return true;
 }
 
-Backbone PhaseResonance::follow(const BranchPoint &start, bool upward) const {
+Backbone PhaseResonance::follow(const BranchPoint &start, bool upward, double low) const {
     Followed path(*this, start);
     path.result.branch =
         std::make_shared<Branch>(reduced_, options_.hbm.force_scale, options_.hbm.period_multiple);
-    PathOptions range =
-        path_options(options_.hbm,
-                     upward ? below_the_force * std::min(start.force_scale, options_.hbm.force_scale)
-                            : next_to_nothing * start.force_scale,
-                     options_.force_max);
+    PathOptions range = path_options(options_.hbm, low, options_.force_max);
     range.upward = upward;
     range.max_step = std::min(longest_step, options_.hbm.max_step);
     range.locate = true;
@@ -196,8 +192,16 @@ Backbone PhaseResonance::follow(const BranchPoint &start, bool upward) const {
     return path.result;
 }
 
+Backbone PhaseResonance::upward_from(const BranchPoint &start) const {
+    return follow(start, true, below_the_force * std::min(start.force_scale, options_.hbm.force_scale));
+}
+
+Backbone PhaseResonance::onward(const BranchPoint &point) const {
+    return follow(point, true, next_to_nothing * point.force_scale);
+}
+
 Backbone PhaseResonance::through(const BranchPoint &point) const {
-    const Backbone down = follow(point, false), up = follow(point, true);
+    const Backbone down = follow(point, false, next_to_nothing * point.force_scale), up = upward_from(point);
     Backbone all{joined(*down.branch, *up.branch), {}};
     const std::size_t joint = down.branch->points().size() - 1;
     for (std::size_t i : down.crossings)
@@ -266,7 +270,7 @@ std::vector<Backbone> PhaseResonance::backbones() const {
         const double omega = start.omega;
         if (!correct(start.force_scale, start) || std::abs(start.omega / omega - 1) > about_resonance)
             continue;
-        all.push_back(follow(start, true));
+        all.push_back(upward_from(start));
     }
     return all;
 }

@@ -57,6 +57,9 @@ class PhaseResonance {
     std::vector<Backbone> backbones() const;
     /// The backbone through a phase-resonant point, to both sides.
     Backbone through(const BranchPoint &point) const;
+    /// On from a phase-resonant point at the force asked for, to the side where the force grows, down to no
+    /// force.
+    Backbone onward(const BranchPoint &point) const;
     /// The phase-resonant points of a response curve at its force, in the order of the curve.
     std::vector<BranchPoint> on_curve(const Branch &curve) const;
 
@@ -64,7 +67,8 @@ class PhaseResonance {
     struct Followed;
     std::vector<BranchPoint> linear_resonances() const;
     bool linear_range(const vector<double> &coupling, const BranchPoint &point, double &force) const;
-    Backbone follow(const BranchPoint &start, bool upward) const;
+    Backbone follow(const BranchPoint &start, bool upward, double low) const;
+    Backbone upward_from(const BranchPoint &start) const;
 
     std::shared_ptr<const ReducedModel> reduced_;
     BackboneOptions options_;

@@ -36,17 +36,37 @@ class Widening {
           part_(0.5 * (options.frequency_max_hz - options.frequency_min_hz)),
           asked_min_(options.frequency_min_hz), asked_max_(options.frequency_max_hz) {}
 
-    void run() {
-        for (;;) {
-            const End at = where_highest();
-            if (at == End::none) return leave_room();
-            if (is_fixed(at)) return;
-            if (!move_range(is_low(at)) || !go_on(at)) return warn(at);
-            if (branch_.end_reason != PLM_REASON_RANGE_END) return;
-        }
+    void run(const Output *asked) {
+        if (bring_inside()) leave_room();
+        asked_ = asked;
+        if (asked_ && branch_.end_reason == PLM_REASON_RANGE_END) bring_inside();
     }
 
   private:
+    // True: it stands inside.
+    bool bring_inside() {
+        for (;;) {
+            const End at = where_highest();
+            if (at == End::none) return true;
+            if (is_fixed(at)) return false;
+            if (!move_range(is_low(at)) || !go_on(at)) {
+                if (!asked_) warn(at); // of what is asked its search for the peak speaks
+                return false;
+            }
+            if (branch_.end_reason != PLM_REASON_RANGE_END) return false;
+        }
+    }
+
+    double height(std::int64_t point) const {
+        return asked_ ? branch_.amplitude(point, asked_->dof, asked_->measure, asked_->harmonic)
+                      : response_size(branch_, point);
+    }
+
+    std::int64_t highest() const {
+        return asked_ ? branch_.highest_point(asked_->dof, asked_->measure, asked_->harmonic)
+                      : largest_response(branch_);
+    }
+
     const std::vector<BranchPoint> &points() const { return branch_.points(); }
     double hz(End at) const {
         return (at == End::first ? points().front() : points().back()).omega / (2 * M_PI);
@@ -55,8 +75,8 @@ class Widening {
 
     // Both ends may lie at one frequency: a curve that comes back through its folds.
     End where_highest() const {
-        const std::int64_t top = largest_response(branch_), n = static_cast<std::int64_t>(points().size());
-        if (n < 2 || (top > 0 && top < n - 1) || !(response_size(branch_, top) > 0)) return End::none;
+        const std::int64_t top = highest(), n = static_cast<std::int64_t>(points().size());
+        if (n < 2 || (top > 0 && top < n - 1) || !(height(top) > 0)) return End::none;
         return top == 0 ? End::first : End::last;
     }
 
@@ -93,13 +113,20 @@ class Widening {
         Branch piece(branch_.reduced_model(), branch_.force_scale(), branch_.period_multiple());
         trace_curve(options, start, watch_, piece);
         add_cost(piece);
-        if (at == End::first)
+        if (piece.end_reason == PLM_REASON_LOOP_CLOSED) // what was known is a part of it
+            take_loop(piece);
+        else if (at == End::first)
             branch_.prepend(piece);
         else
             branch_.continue_with(piece);
         if (at == End::last || piece.end_reason != PLM_REASON_RANGE_END)
             branch_.end_reason = piece.end_reason;
         return piece.points().size() > 1;
+    }
+
+    void take_loop(const Branch &loop) {
+        branch_.truncate(0);
+        for (const BranchPoint &point : loop.points()) branch_.append(point);
     }
 
     void add_cost(const Branch &piece) {
@@ -127,6 +154,7 @@ class Widening {
     Watch watch_;
     Branch &branch_;
     const double part_, asked_min_, asked_max_;
+    const Output *asked_ = nullptr;
 };
 
 } // namespace
@@ -151,8 +179,9 @@ std::int64_t largest_response(const Branch &branch) {
     return best;
 }
 
-void bring_peak_inside(const HbmOptions &options, const SweepRange &range, Watch watch, Branch &branch) {
-    if (branch.end_reason == PLM_REASON_RANGE_END) Widening(options, range, watch, branch).run();
+void bring_peak_inside(const HbmOptions &options, const SweepRange &range, const Output *asked, Watch watch,
+                       Branch &branch) {
+    if (branch.end_reason == PLM_REASON_RANGE_END) Widening(options, range, watch, branch).run(asked);
 }
 
 } // namespace plm

@@ -14,7 +14,9 @@ std::int64_t largest_response(const Branch &branch);
 
 /// Goes on past the end of a finished sweep where its largest response stands, half the width of the range at
 /// a time, until it stands inside or `range` ends; says so in branch.warnings when it could not be brought
-/// inside. options: those of the sweep.
-void bring_peak_inside(const HbmOptions &options, const SweepRange &range, Watch watch, Branch &branch);
+/// inside. asked: or null; the largest amplitude there, which may stand elsewhere, is then brought inside,
+/// too. options: those of the sweep.
+void bring_peak_inside(const HbmOptions &options, const SweepRange &range, const Output *asked, Watch watch,
+                       Branch &branch);
 
 } // namespace plm

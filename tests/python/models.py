@@ -62,3 +62,39 @@ def carrier():
     m.set_preload([0.5, 0])
     m.set_excitation([1.0, 0])
     return full(m, 0.14, 0.26)
+
+
+def chain_with_a_loop():
+    """Nine masses (kg, N/m, s), one of them against a stop without gap; four harmonics of loads."""
+    between = numpy.array([4138.54, 17549.8, 10484.3, 24292.7, 6992.12, 20824.5, 8799.79, 25044.8])
+    to_ground = numpy.array([4741.59, 0, 0, 0, 0, 0, 0, 0, 8794.38])
+    stiffness = numpy.diag(to_ground)
+    for i, k in enumerate(between):
+        stiffness[i:i + 2, i:i + 2] += k * numpy.array([[1, -1], [-1, 1]])
+    m = plm.Model(numpy.diag([1.04226, 2.30371, 2.23371, 0.973192, 0.546982, 0.372734, 1.74499, 0.848973, 2.24706]), stiffness)
+    m.set_rayleigh_damping(0.194518, 0.000342893)
+    m.add_gap_rows(numpy.eye(9)[6:7], 49360.5)
+    loads = {
+        1: ([-0.0445585, 0.0237861, 0.0278688, -0.0661016, 0.234496, -0.0585426, -0.109204, 0.00311814, -0.109548],
+            [-0.10085, 0.0918369, 0.0283251, -0.111779, -0.0840631, 0.0348429, -0.00918742, -0.159914, -0.108808]),
+        2: ([0.0947004, 0.0739447, -0.129457, 0.0434274, 0.250084, 0.172261, 0.0105597, -0.0724364, -0.187726],
+            [-0.102315, 0.130301, 0.055124, 0.169857, 0.0328004, -0.0634536, -0.0885025, -0.0453464, -0.219181]),
+        4: ([0.0235428, -0.0330795, -0.00927949, -0.0156485, -0.0221261, -0.0245689, -0.0525303, 0.017132, 0.00340794],
+            [-0.0016586, 0.0130358, -0.00507278, 0.0173906, -0.0209081, -0.00168733, 0.0177704, -0.00210531, -0.0444596]),
+        5: ([0.0427516, 0.0155659, -0.0317551, -0.00853107, 0.0158102, -0.047008, -0.0208266, 0.0310259, 0.0416106],
+            [0.0174857, -0.0190105, -0.00458834, 0.119728, -0.0151802, 0.0185008, 0.0451852, 0.0501483, 0.00359349]),
+    }
+    for harmonic, (real, imaginary) in loads.items():
+        m.set_excitation(numpy.array(real) + 1j * numpy.array(imaginary), harmonic)
+    return m.build()
+
+
+def damped_chain(ratio):
+    """Seven masses between two walls, the fifth against a stop without gap, driven at the first."""
+    between = 1e3 * numpy.array([9.047, 5.615, 5.248, 17.2, 18.69, 14.1, 15.94, 13.15])
+    stiffness = numpy.diag(between[:-1] + between[1:]) - numpy.diag(between[1:-1], 1) - numpy.diag(between[1:-1], -1)
+    m = plm.Model(numpy.diag([1.903, 1.724, 0.5041, 1.786, 0.5504, 1.594, 0.7635]), stiffness)
+    m.set_modal_damping(ratio)
+    m.add_gap_rows(numpy.eye(7)[4:5], 1 / numpy.linalg.inv(stiffness)[4, 4])
+    m.set_excitation(numpy.eye(7)[0])
+    return m.build()

@@ -4,6 +4,7 @@
 #include "reduction/basis.hpp"
 #include "sampling/sampler.hpp"
 #include "sampling/small_models.hpp"
+#include "searches/curve_verdicts.hpp"
 #include "searches/hbm.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"
@@ -206,8 +207,41 @@ void a_linear_response_is_said_where_contact_is_out_of_reach(void **) {
     assert_true(said(1e-5).has(PLM_REASON_NO_SWITCHING));
     assert_true(said(1e-5).text().find("2e+03") != std::string::npos);
     assert_true(said(1e-3).empty() && said(0).empty());
-    // the resonance of the struck mass leaves the range above: the curve from there folds and goes back
-    assert_true(!said(0.05).has(PLM_REASON_NO_SWITCHING) && said(0.05).has(PLM_REASON_TURNED_BACK));
+    assert_true(!said(0.05).has(PLM_REASON_NO_SWITCHING));
+}
+
+// The resonance of the struck mass leaves the range above: the curve from there folds and goes back, that
+// from below leads across, whatever direction is asked for.
+void a_curve_that_comes_back_is_followed_from_the_other_end(void **) {
+    const Case c = unreduced(test::bilinear_oscillator(0, 3, 1, 0.05, 0), 1.2 / (2 * M_PI));
+    const plm::Hbm up(c.basis->reduced(), 0.9 / (2 * M_PI), 1.1 / (2 * M_PI), five(true), plm::Watch()),
+        down(c.basis->reduced(), 0.9 / (2 * M_PI), 1.1 / (2 * M_PI), five(false), plm::Watch());
+    const auto rising = up.sweep(), falling = down.sweep();
+    assert_true(plm::spans(*rising) && plm::spans(*falling));
+    assert_int_equal(rising->points().size(), falling->points().size());
+    const plm::BranchPoint &last = falling->points().back();
+    assert_true(close_to(last.omega, 1.1, 1e-9) && last.omega == rising->points().back().omega);
+    // near the top end of its hardening branch, far above the stop
+    assert_true(falling->amplitude(static_cast<std::int64_t>(falling->points().size()) - 1, 0,
+                                   plm::Measure::peak, 0) > 1.2);
+}
+
+// What no other end helps against is an outcome of its own, though the curve is complete in itself.
+void a_sweep_that_is_a_loop_says_so(void **) {
+    const Case c = oscillator();
+    for (std::int32_t reason : {PLM_REASON_LOOP_CLOSED, PLM_REASON_RANGE_END}) {
+        plm::Branch curve(c.basis->reduced(), 1);
+        for (double omega : {1.0, 1.1, 1.2, 1.3}) {
+            plm::BranchPoint p;
+            p.omega = reason == PLM_REASON_LOOP_CLOSED && omega == 1.3 ? 1.0 : omega;
+            curve.append(p);
+        }
+        curve.end_reason = reason;
+        plm::check_span(plm::Watch(), curve);
+        assert_true(curve.warnings.has(PLM_REASON_LOOP_CLOSED) == (reason == PLM_REASON_LOOP_CLOSED));
+        assert_true(plm::spans(curve) == (reason == PLM_REASON_RANGE_END));
+        assert_true(plm::spans(curve) == curve.warnings.empty());
+    }
 }
 
 // Two unit masses on unit springs to the ground and one between them; the first strikes a stop of stiffness
@@ -273,6 +307,8 @@ int main() {
         cmocka_unit_test(responses_outside_the_basis_are_said),
         cmocka_unit_test(a_basis_too_small_for_the_contact_is_said),
         cmocka_unit_test(a_linear_response_is_said_where_contact_is_out_of_reach),
+        cmocka_unit_test(a_curve_that_comes_back_is_followed_from_the_other_end),
+        cmocka_unit_test(a_sweep_that_is_a_loop_says_so),
         cmocka_unit_test(a_peak_that_does_not_last_is_said),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

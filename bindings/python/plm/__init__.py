@@ -29,11 +29,11 @@ from ._handle import Key, keys
 from ._model import Finding, Model
 from ._motion import MotionState, Transient
 from ._reduction import Basis, Sampler
-from ._response import Bifurcation, Branch, Contact, Energy, ErrorEstimate, ErrorParts, Hbm, Isolated, Peak, Refined, Response
+from ._response import Bifurcation, Branch, Contact, Energy, ErrorEstimate, ErrorParts, Hbm, Isolated, Larger, Peak, Refined, Response
 from ._study import Study, StudyPoints
 
 __version__ = "0.1.0"
-__all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Transient", "Study", "Peak", "Isolated", "Bifurcation",
+__all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Transient", "Study", "Peak", "Isolated", "Larger", "Bifurcation",
            "Energy", "ErrorEstimate", "ErrorParts", "Refined", "Response", "Contact", "MotionState", "StudyPoints", "Finding", "Key",
            "PlmError", "PlmKeyError", "PlmCancelled", "PlmWarning", "build_info", "default_context", "keys", "plot", "status_text", "version"]
 

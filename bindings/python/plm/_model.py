@@ -219,7 +219,7 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
     def compute_response(self, dof, accuracy=1e-3, measure="half_peak_to_peak", progress=None):
         """Response(frequency_hz, amplitude, error, curve, hbm): the whole way in one call, from the built model to the curve
         around the resonance that the excitation drives most and its peak, which may be wrong by `accuracy`. measure: "peak",
-        "half_peak_to_peak" or "rms"."""
+        "half_peak_to_peak" or "rms". Where a larger stable motion exists beside the curve, it warns, and `larger` has it."""
         from ._response import MEASURES, Branch, Hbm, Response  # which need a Model
         hz, amplitude, error = ctypes.c_double(), ctypes.c_double(), ctypes.c_double()
         hbm = Hbm._made_by(self)

@@ -66,6 +66,15 @@ class Refined(NamedTuple):
     error: float
 
 
+class Larger(NamedTuple):
+    """The highest stable motion known beside the curve of a Response at the same force; branch: the curve that it lies on;
+    force_range: the force scales between which that exists, NaN where unknown."""
+    frequency_hz: float
+    amplitude: float
+    branch: "Branch"
+    force_range: tuple
+
+
 class Response(NamedTuple):
     """Peak, curve and solver of Model.compute_response; error: relative, of the peak by the basis, estimated (NaN: not
     known)."""
@@ -74,6 +83,15 @@ class Response(NamedTuple):
     error: float
     curve: "Branch"
     hbm: "Hbm"
+
+    @property
+    def larger(self):
+        """Larger(frequency_hz, amplitude, branch, force_range), where the curve is not all that the force allows, or None.
+        To be read before other searches of hbm."""
+        if not self.hbm.larger_amplitude > self.amplitude:
+            return None
+        beside = self.hbm._get_found(0)
+        return Larger(self.hbm.larger_frequency_hz, self.hbm.larger_amplitude, *beside)
 
 
 class Contact(NamedTuple):
@@ -182,12 +200,12 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
         """What a plm_hbm_find_... that counts has found."""
         count = ctypes.c_int64(0)
         self._work(verb, *arguments, ctypes.byref(count), progress=progress)
-        found = []
-        for i in range(count.value):
-            branch, force_range = Branch(self), numpy.empty(2)
-            self._call("get_found", i, address(force_range), ctypes.byref(branch._h))
-            found.append(Isolated(branch, tuple(force_range.tolist())))
-        return found
+        return [self._get_found(i) for i in range(count.value)]
+
+    def _get_found(self, index):
+        branch, force_range = Branch(self), numpy.empty(2)
+        self._call("get_found", index, address(force_range), ctypes.byref(branch._h))
+        return Isolated(branch, tuple(force_range.tolist()))
 
     def _summary(self):
         harmonics = f"{self.n_harmonics} harmonics" if self.n_harmonics else "automatic harmonics"

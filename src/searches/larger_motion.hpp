@@ -1,0 +1,36 @@
+// Beside the curve of a response, at the same force: a stable motion that is larger than the curve's peak, on
+// a curve of its own. Where contact is pressed together or apart at rest, the resonance goes on past the
+// curve's own, in growing amplitude: the force that it needs may rise, fall and rise again (the backbone),
+// and where it comes back to the force of the curve there is such a motion.
+#pragma once
+#include "reduction/basis.hpp"
+#include "searches/hbm.hpp"
+#include <optional>
+
+namespace plm {
+
+struct LargerMotion {
+    double frequency_hz = 0, amplitude = 0; // of the highest stable motion
+    std::shared_ptr<const Branch> curve;    // that it lies on
+    // force scales between which that exists, by the extrema of the backbone; NaN: not known
+    double force_low = 0, force_high = 0;
+};
+
+/// What is looked at: the basis and the options that `curve` was followed with, and its highest motion.
+struct KnownResponse {
+    std::shared_ptr<const Basis> basis;
+    HbmOptions options;
+    std::shared_ptr<const Branch> curve;
+    double amplitude = 0; // of the peak, of `output`
+    Output output;
+};
+
+/// The highest one that is found for no more work than the curve took (at least a part of a second); none: no
+/// larger one, or none that is stable. Each was solved on the basis itself, and lies near a solution of the
+/// whole structure where that can be told.
+std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch);
+
+/// What is said of it.
+std::string words_for(const LargerMotion &larger, const KnownResponse &known);
+
+} // namespace plm
