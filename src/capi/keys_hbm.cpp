@@ -92,11 +92,11 @@ const std::vector<Key> &hbm_keys() {
         result<HbmHandle>(
             "larger_amplitude",
             "of plm_model_compute_response: the highest stable motion known beside its curve at "
-            "the same force, on the first branch of plm_hbm_get_found; NaN: none is known",
-            [](const HbmHandle &h) { return h.larger ? h.larger->amplitude : std::nan(""); }),
+            "the same force, on the first branch of plm_hbm_get_found; 0: none is known",
+            [](const HbmHandle &h) { return h.larger ? h.larger->amplitude : 0.0; }),
         result<HbmHandle>(
-            "larger_frequency_hz", "where that motion stands (Hz); NaN: none is known",
-            [](const HbmHandle &h) { return h.larger ? h.larger->frequency_hz : std::nan(""); }),
+            "larger_frequency_hz", "where that motion stands (Hz); 0: none is known",
+            [](const HbmHandle &h) { return h.larger ? h.larger->frequency_hz : 0.0; }),
         result<HbmHandle>("warning", "what the last call warned of; empty: nothing",
                           [](const HbmHandle &h) { return h.warnings.text(); }),
         result<HbmHandle>("warning_reason", "PLM_REASON_... of the first part of \"warning\"; 0: none",

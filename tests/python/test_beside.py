@@ -52,7 +52,8 @@ class LargerMotion(unittest.TestCase):
         self.assertIsNone(r.larger)  # the list is that of the last search
 
     def test_is_stable_in_time(self):
-        """Runge and Kutta's method from the point's own state, disturbed by 1 %: after 60 periods it is that motion."""
+        """Runge and Kutta's method from the point's own state, disturbed by 0.5 %: after 300 periods it is that motion, to which
+        each leads nearer by 1 %."""
         r, _ = self.response(0.6)
         branch = r.larger.branch
         stable = numpy.where(branch.stable == 1, branch.amplitude(0), 0)
@@ -69,10 +70,10 @@ class LargerMotion(unittest.TestCase):
 
         h = 1e-5
         at = [branch.field(top, f) for f in (0, h, 1 - h)]
-        start = numpy.r_[at[0], (at[1] - at[2]) / (2 * h) * omega / (2 * math.pi)] * 1.01
+        start = numpy.r_[at[0], (at[1] - at[2]) / (2 * h) * omega / (2 * math.pi)] * 1.005
         period = 2 * math.pi / omega
-        run = scipy.integrate.solve_ivp(motion, (0, 61 * period), start, rtol=1e-8, atol=1e-10,
-                                        t_eval=numpy.linspace(60, 61, 400) * period)
+        run = scipy.integrate.solve_ivp(motion, (0, 301 * period), start, rtol=1e-7, atol=1e-9,
+                                        t_eval=numpy.linspace(300, 301, 400) * period)
         self.assertAlmostEqual(numpy.ptp(run.y[0]) / 2 / stable[top], 1, delta=1e-3)
 
     def test_is_not_said_where_there_is_none(self):
@@ -81,7 +82,7 @@ class LargerMotion(unittest.TestCase):
             self.assertEqual((r.curve.status, said), (plm.OK, []), force)
             self.assertIsNone(r.larger)
             self.assertEqual(r.hbm.n_found, 0)
-            self.assertTrue(math.isnan(r.hbm.larger_amplitude))
+            self.assertEqual((r.hbm.larger_amplitude, r.hbm.larger_frequency_hz), (0, 0))
 
 
 class SweepOnALoop(unittest.TestCase):
@@ -136,7 +137,7 @@ class Coefficients(unittest.TestCase):
     @staticmethod
     def left_out(branch, point):
         """Root mean square of the exact motion less its series, over that of the motion about its mean."""
-        c, t = branch.coefficients(point, 0)[:, 0], numpy.arange(4000) / 4000
+        c, t = branch.coefficients(point, 0), numpy.arange(4000) / 4000
         h = numpy.arange(1, (len(c) - 1) // 2 + 1)
         angle = 2 * math.pi * t[:, None] * h
         series = c[0] + numpy.cos(angle) @ c[1::2] + numpy.sin(angle) @ c[2::2]
