@@ -116,13 +116,14 @@ typedef int32_t plm_status;
 #define PLM_REASON_HOST_REDUCTION 24   /* what the host states of its superelement is too much for the accuracy */
 #define PLM_REASON_UNSTABLE_PEAK 25    /* the structure does not stay on the motion of the peak */
 #define PLM_REASON_CROSSED_OVER 26     /* branch: goes round a closed curve onto which one of its steps had crossed */
+#define PLM_REASON_LARGER_MOTION 27    /* a larger stable motion exists at the same force, beside the curve */
 
 /* What a point of a branch is ("bifurcation" of a branch). */
 #define PLM_BIFURCATION_NONE 0
 #define PLM_BIFURCATION_FOLD 1
 #define PLM_BIFURCATION_BRANCH_POINT 2
 #define PLM_BIFURCATION_PERIOD_DOUBLING 3
-#define PLM_BIFURCATION_NEIMARK_SACKER 4
+#define PLM_BIFURCATION_NEIMARK_SACKER 4 /* the first complex pair of multipliers crosses the unit circle */
 
 /* Text that explains a status. Never fails on an unknown status: it says so. */
 PLM_API plm_status plm_status_text(plm_status status, int64_t capacity, char *buffer, int64_t *needed);
@@ -136,9 +137,10 @@ PLM_API plm_status plm_build_info(int64_t capacity, char *buffer, int64_t *neede
  * Every handle below has options (set before its build/run/sweep) and results (read after it), both named by string
  * keys listed in one table, which these functions expose and from which the reference (docs/keys.md) is made.
  * plm_X_set_int / _set_double / _set_string set an option (an int is taken for a double). An option set after a
- * build/run/sweep takes effect at the next one; a model is built once, so its options come before. plm_X_get_int / _get_double / _get_string read an option
- * or a scalar result. plm_X_get_array / _get_int_array copy an array result: `count` receives its length; with
- * values = NULL (capacity 0) only the length is asked; a capacity too small is PLM_ERR_ARGUMENT.
+ * build/run/sweep takes effect at the next one; a model is built once, so its options come before.
+ * plm_X_get_int / _get_double / _get_string read an option or a scalar result. plm_X_get_array / _get_int_array copy
+ * an array result: `count` receives its length; with values = NULL (capacity 0) only the length is asked; a capacity
+ * too small is PLM_ERR_ARGUMENT.
  * An unknown key is PLM_ERR_KEY, a result asked for too early PLM_ERR_STATE. */
 
 /* kinds of handle */
@@ -397,7 +399,8 @@ PLM_API plm_status plm_model_solve_rest(plm_model *model);
 #define PLM_SYSTEM_REST 2    /* the pairs closed at rest are coupled */
 #define PLM_SYSTEM_GIVEN 3   /* the pairs with closed[i] != 0 are coupled */
 /* The n lowest natural frequencies (Hz) of a linear system; shape: n_dof x n, mass-normalised, or NULL.
- * closed[n_pairs] for PLM_SYSTEM_GIVEN, else NULL. Relative accuracy: the model's "space_tolerance". */
+ * closed[n_pairs] for PLM_SYSTEM_GIVEN, else NULL. Relative accuracy: the model's "space_tolerance". Of large structures
+ * with many pairs, and no "memory_limit", modes and rest come from another factorization, without a contact space. */
 PLM_API plm_status plm_model_get_modes(plm_model *model, int32_t system, const int32_t *closed, int64_t n,
                                        double *frequency_hz, double *shape);
 /* How many natural frequencies of the open structure lie below frequency_hz (Hz), rigid-body modes included, by
@@ -420,7 +423,11 @@ PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_
  * from it: the basis grows until the error it makes is estimated (as by plm_hbm_estimate_error; where that does not
  * converge, by what a clearly larger basis changes) to be within. Outputs: frequency (Hz) and amplitude of the peak;
  * error: that estimate, NaN where there is none, or NULL; curve: or NULL; hbm: the solver that computed it, to go on with
- * (other points, isolated branches, stability), with its basis behind it, or NULL. PLM_WARNING says what of the accuracy
+ * (other points, isolated branches, stability), with its basis behind it, or NULL. With pre-load or gaps motions beside
+ * the curve are looked for at the same force, for no more work than the curve took: PLM_WARNING with
+ * PLM_REASON_LARGER_MOTION where a stable one is larger than the peak; "larger_amplitude" and "larger_frequency_hz" of hbm
+ * are the highest one, and its curve with the force scales between which that exists is the first of plm_hbm_get_found.
+ * error is NaN on a curve that ended early. PLM_WARNING says what of the accuracy
  * was not reached and what else should be looked at, with the reasons of plm_sampler_run, plm_basis_build, plm_hbm_sweep
  * and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a sweep, the former, where contact bounces and a
  * curve winds, after the points of some seconds (500 to 1,000). PLM_ERR_STATE before plm_model_build and without contact
@@ -528,9 +535,13 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
  * 1 %, and when so many pairs open and close that the curve was followed on a part of the basis' coordinates and more of
  * them change its highest motion by more than "accuracy"; with PLM_REASON_UNVERIFIED when, on such a curve, stability is
  * not as more coordinates have it; with PLM_REASON_NO_SWITCHING when no pair would open or close
- * under a hundred times the motion; with PLM_REASON_TURNED_BACK when a fold led back to the end where the curve began. A
- * structure in free flight, or free along a rail: mean position zero; PLM_ERR_CONVERGENCE when the mean of the loads would
- * carry it away. */
+ * under a hundred times the motion; with PLM_REASON_TURNED_BACK when a fold led back to the end where the curve began,
+ * with PLM_REASON_LOOP_CLOSED when it began on a closed curve and came back to its first point. What comes back so, ends
+ * early or finds no first motion is followed from the other end of the range ("direction"), and delivered from there if
+ * it leads across. A
+ * curve that goes round a closed one beside it, onto which a step had crossed, is followed anew with shorter steps,
+ * twice; then PLM_NOT_CONVERGED with PLM_REASON_CROSSED_OVER. A structure in free flight, or free along a rail: mean
+ * position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
  * start. PLM_ERR_CONVERGENCE when no strategy converges; PLM_WARNING with PLM_REASON_OUTSIDE_BASIS as for a sweep. */
@@ -542,7 +553,9 @@ PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *
  * PLM_REASON_NO_PEAK when the highest point stands at an end of the curve (also of one that was cut off): frequency and
  * amplitude are those of that point, and the peak lies elsewhere; with PLM_REASON_BASIS_TOO_SMALL when the error that the
  * basis makes is estimated to be above "accuracy", or, where an estimate would cost more than some points of the curve,
- * as for a sweep; with PLM_REASON_UNSTABLE_PEAK when the motion of the peak is known to be unstable ("stable" of the
+ * as for a sweep; with PLM_REASON_NO_CONTRACTION when the steps of that estimate do not contract; with
+ * PLM_REASON_UNVERIFIED when no solution was found around the highest point of `branch`, which is then the result, and the
+ * peak may be higher by more than "accuracy"; with PLM_REASON_UNSTABLE_PEAK when the motion of the peak is known to be unstable ("stable" of the
  * branch) and no stable motion of the curve is as high within "accuracy". A closed curve has no ends. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
@@ -556,13 +569,16 @@ PLM_API plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, int64
  * whole range), without a hint: where the phase-resonant backbone (displacement in quadrature to the force) needs a
  * force that falls with growing amplitude, a closed branch exists; it is entered there and traced. force_max: largest
  * force scale looked at, 0: eight times "force_scale". count: branches found, read by plm_hbm_get_found. Where curves are
- * made of exact motions ("motion"), backbones have few harmonics, branches and the forces between which they exist are
- * exact, and what exists only with few harmonics is left out. */
+ * made of exact motions ("motion"), the backbone of this search has few harmonics, branches and the forces between which
+ * they exist are exact, and what exists only with few harmonics is left out. */
 PLM_API plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double force_max, int64_t *count);
 /* The phase-resonant backbones in the frequency range: frequency and amplitude of the resonance against the force. The
- * points of each carry their own "point_force_scale". None without pre-load and gap (the force changes nothing then). */
+ * points of each carry their own "point_force_scale". Exact where curves are made of exact motions ("motion"), with their
+ * stability at that force and frequency; else of as many harmonics as the hbm has, few where it is to choose them. None
+ * without pre-load and gap (the force changes nothing then). */
 PLM_API plm_status plm_hbm_find_backbones(plm_hbm *hbm, double force_max, int64_t *count);
-/* What the last plm_hbm_find_... of this hbm found. force_range[2] or NULL: force scales between which an isolated
+/* What the last plm_hbm_find_... of this hbm found ("n_found"), or what lies beside the curve of the
+ * plm_model_compute_response that made it. force_range[2] or NULL: force scales between which an isolated
  * branch exists, NaN where unknown or meaningless. */
 PLM_API plm_status plm_hbm_get_found(plm_hbm *hbm, int64_t index, double *force_range, plm_branch **branch);
 /* The curve of folds over (frequency, force) through a located fold of `branch`, to both sides of it as far as the range
@@ -582,16 +598,17 @@ PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_b
  * DOF, as in plm_branch_get_amplitude) and frequency_hz[3] (shift of the curve), corrected less computed, by cause: basis,
  * contact sets, harmonics beyond those solved for; the sum is the estimate. It measures errors that are small against the
  * width of the resonance. Where the tangent does not hold as far as its step leads it is renewed; a part whose steps do
- * not contract even then is NaN, with PLM_WARNING (PLM_REASON_NO_CONTRACTION): the error may be large. Away from a peak, amplitude and frequency belong
- * together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the model has no contact
- * pairs. The first call of an hbm prepares the unreduced structure. */
+ * not contract even then is NaN, with PLM_WARNING (PLM_REASON_NO_CONTRACTION): the error may be large. Away from a peak,
+ * amplitude and frequency belong together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the
+ * model has no contact pairs. The first call of an hbm prepares the unreduced structure. */
 PLM_API plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, int64_t point, int64_t dof, int32_t measure,
                                           int32_t harmonic, double *amplitude, double *frequency_hz);
 /* A basis for one number, the tolerance. From the basis of this hbm, however poor, and its curve: the motions, corrected
  * as by plm_hbm_estimate_error, are compressed (kind "pod") to the basis of the next curve, until the estimated error of
  * the reduction on it (of the DOF's amplitude over the curve's highest, of the frequency over itself) is below tolerance.
- * refined: that basis, built, to be used with a new hbm and destroyed by the caller; error or NULL: what is left.
- * PLM_NOT_CONVERGED: not met in eight curves; refined is the best one. */
+ * refined: that basis, built, to be used with a new hbm and destroyed by the caller; error or NULL: what is left, infinite
+ * where the estimate does not converge. PLM_NOT_CONVERGED: not met in eight curves, or no estimate on three in a row;
+ * refined is the best one. */
 PLM_API plm_status plm_hbm_refine_basis(plm_hbm *hbm, int64_t dof, int32_t measure, int32_t harmonic, double tolerance,
                                         plm_basis **refined, double *error);
 /* Nonlinear mode (motion without excitation, extended periodic motion concept): from elastic mode `mode` (1, 2, ...) of
