@@ -84,19 +84,17 @@ const std::vector<Key> &hbm_keys() {
             "bifurcations", "off,on",
             "locate folds and branch points, with stability also period doublings and "
             "Neimark-Sacker points (the first complex pair of multipliers crosses the unit circle)"),
-        result<HbmHandle>(
-            "n_found",
-            "branches that plm_hbm_get_found reads: of the last plm_hbm_find_..., or beside the "
-            "curve of plm_model_compute_response",
-            [](const HbmHandle &h) { return static_cast<std::int64_t>(h.found.size()); }),
-        result<HbmHandle>(
-            "larger_amplitude",
-            "of plm_model_compute_response: the highest stable motion known beside its curve at "
-            "the same force, on the first branch of plm_hbm_get_found; 0: none is known",
-            [](const HbmHandle &h) { return h.larger ? h.larger->amplitude : 0.0; }),
-        result<HbmHandle>(
-            "larger_frequency_hz", "where that motion stands (Hz); 0: none is known",
-            [](const HbmHandle &h) { return h.larger ? h.larger->frequency_hz : 0.0; }),
+        result<HbmHandle>("n_found",
+                          "curves found by the last search, or, of the solver that a response was computed "
+                          "with in one call, beside the curve of that",
+                          [](const HbmHandle &h) { return static_cast<std::int64_t>(h.found.size()); }),
+        result<HbmHandle>("larger_amplitude",
+                          "of a response computed in one call: the highest stable motion known beside its "
+                          "curve at the same "
+                          "force, on the first of the curves found; 0: none is known",
+                          [](const HbmHandle &h) { return h.larger ? h.larger->amplitude : 0.0; }),
+        result<HbmHandle>("larger_frequency_hz", "where that motion stands (Hz); 0: none is known",
+                          [](const HbmHandle &h) { return h.larger ? h.larger->frequency_hz : 0.0; }),
         result<HbmHandle>("warning", "what the last call warned of; empty: nothing",
                           [](const HbmHandle &h) { return h.warnings.text(); }),
         result<HbmHandle>("warning_reason", "PLM_REASON_... of the first part of \"warning\"; 0: none",

@@ -39,24 +39,24 @@ struct Crossing {
 
 class Search {
   public:
-    Search(const KnownResponse &known, Watch watch)
+    Search(const KnownResponse &known, Watch watch, std::optional<LargerMotion> &best)
         : known_(known), curve_(*known.curve), reduced_(curve_.reduced_model()), watch_(watch),
-          options_(options_on(*reduced_, known.options)), exact_(is_exact()) {
+          options_(options_on(*reduced_, known.options)), exact_(is_exact()), best_(best) {
         take_range();
         points_ = affordable_points();
         options_.max_points = points_;
     }
 
-    std::optional<LargerMotion> run() {
+    void run() {
         if (curve_.beside) take(curve_.beside, nullptr);
-        if (points_ < least_points || !is_held_apart()) return best_;
-        const PhaseResonance resonance(reduced_, backbone_options(), watch_.quiet());
-        std::vector<BranchPoint> starts = resonance.on_curve(curve_);
+        if (points_ < least_points || !is_held_apart()) return;
+        std::vector<BranchPoint> starts =
+            PhaseResonance(reduced_, backbone_options(points_), watch_.quiet()).on_curve(curve_);
         std::sort(starts.begin(), starts.end(),
                   [this](const BranchPoint &a, const BranchPoint &b) { return amplitude(a) > amplitude(b); });
-        for (std::size_t i = 0; i < std::min(starts.size(), most_resonances); ++i)
-            look_beyond(resonance, starts[i]);
-        return best_;
+        std::int64_t left = points_;
+        for (std::size_t i = 0; i < std::min(starts.size(), most_resonances) && left >= least_points; ++i)
+            left -= look_beyond(starts[i], left);
     }
 
   private:
@@ -88,9 +88,10 @@ class Search {
         return static_cast<std::int64_t>(std::min(allowed / point, static_cast<double>(options_.max_points)));
     }
 
-    BackboneOptions backbone_options() const {
+    BackboneOptions backbone_options(std::int64_t points) const {
         BackboneOptions o;
         o.hbm = exact_ ? options_ : with_first_harmonics(*reduced_, options_);
+        o.hbm.max_points = points;
         o.exact = exact_;
         return o;
     }
@@ -113,7 +114,9 @@ class Search {
         return amplitude > (1 + clearly) * std::max(known_.amplitude, best_ ? best_->amplitude : 0.0);
     }
 
-    void look_beyond(const PhaseResonance &resonance, const BranchPoint &start) {
+    // Returns the points that it took.
+    std::int64_t look_beyond(const BranchPoint &start, std::int64_t most_points) {
+        const PhaseResonance resonance(reduced_, backbone_options(most_points), watch_.quiet());
         const Backbone backbone = resonance.onward(start);
         std::vector<Crossing> found = crossings(resonance, start, backbone);
         std::sort(found.begin(), found.end(),
@@ -121,6 +124,7 @@ class Search {
         found.resize(std::min(found.size(), most_curves));
         for (const Crossing &crossing : found)
             if (is_larger(crossing.amplitude)) follow(crossing);
+        return static_cast<std::int64_t>(backbone.branch->points().size());
     }
 
     // All but the start. A loop lies between a maximum of the force, where it merges, and the minimum beyond.
@@ -191,17 +195,18 @@ class Search {
             point = peak.branch->points()[0];
         }
         m.frequency_hz = point.omega / (2 * M_PI);
-        if (!is_on_basis(std::move(point), m.amplitude)) return;
+        if (!is_on_basis(curve->reduced_model(), point, m.amplitude)) return;
         m.force_low = crossing ? force_at(crossing->lowest, ForceExtremum::centre) : unknown;
         m.force_high = crossing ? force_at(crossing->highest, ForceExtremum::saddle) : unknown;
         best_ = std::move(m);
     }
 
     // Whether the basis has a stable motion of a compressed model, too.
-    bool is_on_basis(BranchPoint point, double height) const {
-        if (!reduced_->from) return true;
-        const auto whole = uncompressed(reduced_);
-        BranchPoint there = uncompressed(*reduced_, point);
+    bool is_on_basis(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &point,
+                     double height) const {
+        if (!model->from) return true;
+        const auto whole = uncompressed(model);
+        BranchPoint there = uncompressed(*model, point);
         NewtonWork work;
         if (!make_exact_nearest(whole, options_, there, work) || stability_of(there) != 1) return false;
         Branch one(whole, curve_.force_scale(), curve_.period_multiple());
@@ -226,19 +231,20 @@ class Search {
     HbmOptions options_;
     bool exact_;
     std::int64_t points_ = 0;
-    std::optional<LargerMotion> best_;
+    std::optional<LargerMotion> &best_;
 };
 
 } // namespace
 
 std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch) {
+    std::optional<LargerMotion> best;
     try {
-        return Search(known, watch).run();
+        Search(known, watch, best).run();
     } catch (const Error &e) { // what there is already is an answer
         if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
-        watch.log(1, std::string("motions beside the curve were not looked for: ") + e.what());
-        return std::nullopt;
+        watch.log(1, std::string("the search beside the curve ended early: ") + e.what());
     }
+    return best;
 }
 
 std::string words_for(const LargerMotion &larger, const KnownResponse &known) {
@@ -247,10 +253,12 @@ std::string words_for(const LargerMotion &larger, const KnownResponse &known) {
     };
     const std::string range = end("from", larger.force_low) + end("to", larger.force_high);
     return format(
-        "beside the curve, at the same force, there is a stable motion of %.6g at %.6g Hz, %.3g times "
-        "the peak: not the one that a slow sweep comes to, but a disturbance, a start at large motion or "
-        "a force that was larger before may leave the structure there. Its own curve%s is the first of "
-        "plm_hbm_get_found of this call's hbm (also \"larger_amplitude\")",
+        "beside the curve, at the same force, there is a stable motion of %.6g at %.6g Hz, %.3g times the "
+        "peak: "
+        "a slow sweep does not come to it, but a disturbance, a start at large motion or a force that was "
+        "larger "
+        "before may leave the structure there. Its own curve%s is what the solver of this call has found "
+        "(\"n_found\", \"larger_amplitude\")",
         larger.amplitude, larger.frequency_hz, larger.amplitude / known.amplitude,
         range.empty() ? "" : (", for force scales" + range + ",").c_str());
 }

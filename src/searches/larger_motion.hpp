@@ -25,9 +25,9 @@ struct KnownResponse {
     Output output;
 };
 
-/// The highest one that is found for no more work than the curve took (at least a part of a second); none: no
-/// larger one, or none that is stable. Each was solved on the basis itself, and lies near a solution of the
-/// whole structure where that can be told.
+/// The highest one that is found for no more work than the curve took (at least a part of a second), and as
+/// much for its own curve; none: no larger one, or none that is stable. Each was solved on the basis itself,
+/// and lies near a solution of the whole structure where that can be told.
 std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch);
 
 /// What is said of it.
