@@ -69,6 +69,10 @@ void mass_and_stiffness_exchanged_are_refused(void **) {
     const Caught c = refused(in);
     assert_int_equal(c.status, PLM_ERR_MATRIX);
     assert_true(c.says("mass and stiffness are probably exchanged"));
+    // nor where the host has removed what is fixed
+    test::Dense held = test::free_chain(n, 10);
+    held[0][0] += 10;
+    assert_int_equal(refused(test::input(held, mass)).status, PLM_ERR_MATRIX);
     // a mass that two DOFs have between them alone is none of that, on springs that join them
     const ModelInput inerter = test::input({{1, -1}, {-1, 1}}, {{3, -1}, {-1, 3}});
     assert_int_equal(test::build(inerter)->n_free(), 2);
