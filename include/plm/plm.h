@@ -386,8 +386,11 @@ PLM_API plm_status plm_model_get_int_array(plm_model *model, const char *key, in
 PLM_API plm_status plm_model_estimate_memory(plm_model *model, double *bytes);
 
 /* Checks the whole, removes fixed DOFs and those that nothing moves, factors K. Then the model no longer changes.
- * PLM_WARNING when something is probably wrong ("warning"); what is only worth a look goes to the log (plm_model_audit).
- * PLM_ERR_STATE without M or K; PLM_ERR_NOT_POSITIVE_DEFINITE if K + sigma M is not. Rigid-body modes are allowed. */
+ * PLM_WARNING when something is probably wrong ("warning"); what is only worth a look goes to the log (plm_model_audit);
+ * with PLM_REASON_ROUNDED when gap rows or static loads miss rigid-body motion that nothing holds by what printed
+ * coordinates are rounded to: they are taken to mean it, and the text says by how much. PLM_ERR_STATE without M or K;
+ * PLM_ERR_MATRIX when they are exchanged; PLM_ERR_NOT_POSITIVE_DEFINITE if K + sigma M is not. Rigid-body modes are
+ * allowed. */
 PLM_API plm_status plm_model_build(plm_model *model);
 
 /* Static equilibrium under the pre-load with unilateral contact (the minimum of the potential energy). Read it by
