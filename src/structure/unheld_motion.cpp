@@ -8,7 +8,7 @@ namespace {
 
 // So little is a change of the gap on any reading.
 constexpr double rounded_to = 1e-6;
-// A lever of a thousandth may be meant; but not where much larger terms cancel in all rows.
+// A lever of a thousandth may be meant; but not where much larger terms cancel.
 constexpr double cancelled = 1e-2;
 
 // Of each row: its terms before they cancel, the largest over the columns.
@@ -35,7 +35,7 @@ bool is_held(const GapRows &rows, const Field &motion, vector<double> size) {
     for (std::size_t i = 0; i < size.size(); ++i)
         size[i] = std::min(size[i], farthest * lengths(static_cast<std::int64_t>(i), 0));
     const double miss = largest_ratio(answer, size);
-    return !(miss < rounded_to || (miss < meant_as_zero && largest_ratio(answer, sizes(terms)) < cancelled));
+    return !(miss < rounded_to || (miss < meant_as_zero && miss < cancelled * largest_ratio(terms, size)));
 }
 
 } // namespace

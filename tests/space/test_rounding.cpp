@@ -95,6 +95,24 @@ void a_moment_of_rounded_places_is_left_out(void **) {
     }
 }
 
+// Such bars pressed together at three places, -1, 0 and 1, on the other one beside them by parts of `offset`:
+// the common angle is not held by that. At the middle the bars hardly move with it, so that there is next to
+// nothing to cancel in that row: it is all rows that count.
+void places_beside_one_another_hold_no_common_angle(void **) {
+    for (double offset : {0.0, 1e-8, 1e-6, 1e-5, 1e-4}) {
+        plm::ModelInput in = test::input(test::diagonal(4, 1), test::diagonal(4, 0));
+        test::add_pair(in, {1, -1, -1, 1 + offset}, 10);
+        test::add_pair(in, {1, 0, -1, -0.7 * offset}, 10);
+        test::add_pair(in, {1, 1, -1, -1 + 0.4 * offset}, 10);
+        in.preload = {3, 0, -3, 0};
+        const Built b(in);
+        assert_int_equal(b.model->n_unheld(), 2);
+        assert_true(b.warnings.has(PLM_REASON_ROUNDED) == (offset > 0));
+        const plm::RestState rest = b.rest();
+        for (double force : rest.force) assert_true(close_to(force, 1, 1e-8 + 10 * offset));
+    }
+}
+
 // The motion of a body far heavier than the one that the rows join it to is not small because its share of a
 // row is.
 void masses_may_differ_much(void **) {
@@ -131,6 +149,7 @@ int main() {
         cmocka_unit_test(rounded_rows_and_loads_rest),
         cmocka_unit_test(a_small_lever_that_is_meant_holds),
         cmocka_unit_test(a_moment_of_rounded_places_is_left_out),
+        cmocka_unit_test(places_beside_one_another_hold_no_common_angle),
         cmocka_unit_test(masses_may_differ_much),
         cmocka_unit_test(a_load_that_does_not_balance_is_named),
         cmocka_unit_test(a_mean_excitation_is_balanced),
