@@ -132,7 +132,7 @@ PLM_API plm_status plm_status_text(plm_status status, int64_t capacity, char *bu
 
 PLM_API plm_status plm_version(int32_t *major, int32_t *minor, int32_t *patch);
 
-/* One line: version, factorization, eigensolver, Fourier transform, components built in. */
+/* One line: version, factorization, eigensolver, Fourier transform, components built in, licence of the whole. */
 PLM_API plm_status plm_build_info(int64_t capacity, char *buffer, int64_t *needed);
 
 /* ---- Options and results by key ------------------------------------------------------------------------------
@@ -174,12 +174,15 @@ PLM_API plm_status plm_key_text(int32_t kind, int32_t index, int32_t field, int6
 
 /* ---- Context -------------------------------------------------------------------------------------------------- */
 
-/* Callbacks run on the calling thread, inside a call of this library. They must return (no longjmp, no exception) and
- * must not call functions of the same context. */
+/* Callbacks run on the calling thread, inside a call of this library. They must return (no longjmp, no exception, no
+ * pthread_exit) and must not call functions of the same context. pthread_cancel waits until the call under way is over,
+ * callbacks included; it takes place at the thread's next cancellation point, at the latest at the beginning of its next
+ * call that is no destroy. */
 
 /* level: 0 detail, 1 information, 2 warning. The text lives during the call only. */
 typedef void (*plm_log_fn)(plm_context *ctx, int32_t level, const char *text, void *user);
-/* stage: a word such as "modes" or "sweep"; fraction in [0, 1]. Return non-zero to cancel. Between two calls passes less
+/* stage: a word such as "modes" or "sweep"; fraction in [0, 1], of the call as far as its length is known: it never runs
+ * backwards within one. Return non-zero to cancel. Between two calls passes less
  * than about half a second of the processor's time, but for what cannot be interrupted: one sparse factorization or one
  * dense eigenvalue problem of the libraries below, announced by its stage. On solids of 70,000 DOFs the factorization
  * of K takes 1.5 s (the count of the modes below the cutoff, "verify_counts", takes little more, and is interrupted
@@ -190,7 +193,8 @@ typedef int32_t (*plm_progress_fn)(plm_context *ctx, const char *stage, double f
 typedef void *(*plm_allocate_fn)(int64_t bytes, void *user);
 typedef void (*plm_release_fn)(void *block, void *user);
 /* The host's own sparse symmetric solver: lower triangle by columns, base 0, rows ascending. positive_definite 0 asks
- * for a factorization of an indefinite matrix. Return 0 for success. x (n x nrhs, leading dimension ldx) is
+ * for a factorization of an indefinite matrix. Return 0 for success; any other number is a failure: PLM_ERR_CALLBACK
+ * with it as library_code, but for the first factorization of a K that turns out to be singular. x (n x nrhs, leading dimension ldx) is
  * overwritten by the solution. */
 typedef int32_t (*plm_factor_fn)(plm_context *ctx, int64_t n, const int64_t *col_ptr, const int64_t *row,
                                  const double *value, int32_t positive_definite, void **factor, void *user);
