@@ -193,9 +193,9 @@ typedef int32_t (*plm_progress_fn)(plm_context *ctx, const char *stage, double f
 typedef void *(*plm_allocate_fn)(int64_t bytes, void *user);
 typedef void (*plm_release_fn)(void *block, void *user);
 /* The host's own sparse symmetric solver: lower triangle by columns, base 0, rows ascending. positive_definite 0 asks
- * for a factorization of an indefinite matrix. Return 0 for success; any other number is a failure: PLM_ERR_CALLBACK
- * with it as library_code, but for the first factorization of a K that turns out to be singular. x (n x nrhs, leading dimension ldx) is
- * overwritten by the solution. */
+ * for a factorization of an indefinite matrix. Return 0 for success; any other number is a failure, PLM_ERR_CALLBACK
+ * with that number as library_code, but for the first factorization of a K that turns out to be singular. x (n x nrhs,
+ * leading dimension ldx) is overwritten by the solution. */
 typedef int32_t (*plm_factor_fn)(plm_context *ctx, int64_t n, const int64_t *col_ptr, const int64_t *row,
                                  const double *value, int32_t positive_definite, void **factor, void *user);
 typedef int32_t (*plm_solve_fn)(plm_context *ctx, void *factor, int64_t nrhs, double *x, int64_t ldx, void *user);
