@@ -140,6 +140,11 @@ class Callbacks(unittest.TestCase):
         hook = sys.unraisablehook
         hbm = plm.Hbm(self.basis, n_harmonics=31, max_step=1e-3)  # seconds, if nothing ends it
         try:
+            kind = OfTheUser
+            for _ in range(3):
+                signal.setitimer(signal.ITIMER_REAL, 0.3)
+                with self.assertRaisesRegex(OfTheUser, "limit"):
+                    hbm.sweep()
             for kind in (OfTheUser, KeyboardInterrupt):
                 armed = []
 
