@@ -1,4 +1,4 @@
-"""Mutations of src, each met by the tests or not: mutate.py [--count N] [--seed S] [--room ROOM] [--named] [--work FOLDER] [--markdown FILE]
+"""Mutations of src, each met by the tests or not: mutate.py [--count N] [--seed S] [--room ROOM] [--named] [--minutes M] [--work FOLDER] [--markdown FILE]
 
 Each mutation changes one place of one line: a sign, a comparison, a constant, the larger for the smaller, a condition, a statement
 that is dropped. First come those of named.txt, then places drawn by the seed, the same number in each room. The line is changed in a
@@ -22,10 +22,15 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-ROOMS = ("linalg", "paths", "structure", "contact", "space", "sampling", "reduction", "orbits", "hbm", "searches", "study", "capi")
-OF_ALL = ("models", "run", "superelement", "response", "search", "transient")  # of the C API, for what a room's tests do not see
-QUICK, MOST_PROGRAMS = 6.0, 8  # seconds of the processor a program may take, and how many are run for one mutation
-PATIENCE = 30  # times as long as it takes without a mutation: no end
+# The quick tests of each room; those that include the header of the file come before them.
+ROOMS = {"linalg": "lapack general lu dft lanes", "paths": "continuation", "structure": "sparse rigid_modes gap_rows",
+         "contact": "contact contact_force contact_sweep piece_penetrations polynomial", "space": "model rest linear_contact",
+         "sampling": "window offset selection", "reduction": "conditioning basis pair_sampling", "orbits": "settling flow monodromy",
+         "hbm": "systems formulation", "searches": "response bifurcations point_harmonics", "study": "curve_distance plane_curve",
+         "capi": "handles scales arguments models"}
+OF_ALL = ("test_capi_models", "test_capi_superelement", "test_capi_scales")  # for what the tests of a room do not see
+QUICK, MOST_DIRECT = 10.0, 3  # seconds of the processor a program may take; how many that include the header
+PATIENCE = 20  # times as long as it takes without a mutation: no end
 
 OPERATORS = [(re.compile(old), new) for old, new in (
     (r" \+ ", " - "), (r" - ", " + "), (r" \* ", " / "), (r" / ", " * "), (r" \+= ", " -= "), (r" -= ", " += "),
@@ -59,18 +64,15 @@ def candidates(file):
 
 
 def drawn(seed, count, rooms):
-    """As many of each room, files and lines by chance."""
-    rng = random.Random(seed)
+    """As many of each room, room by room in turn; files and lines by chance."""
     chosen = []
     for room in rooms:
-        files = sorted(str(f.relative_to(ROOT)) for f in (ROOT / "src" / room).rglob("*.cpp"))
-        share = -(-count // len(rooms))
-        while share > 0:
-            of = list(candidates(rng.choice(files)))
-            if of:
-                chosen.append(rng.choice(of))
-                share -= 1
-    return chosen
+        rng = random.Random(f"{seed} {room}")
+        files = sorted(str(f.relative_to(ROOT)) for f in (ROOT / "src" / room).rglob("*.cpp")
+                       if f.parent.name != "carried")  # those are in no build of the preset
+        of = [list(candidates(rng.choice(files))) for _ in range(4 * -(-count // len(rooms)))]
+        chosen.append([rng.choice(places) for places in of if places][:-(-count // len(rooms))])
+    return [m for turn in zip(*chosen) for m in turn]
 
 
 def table_of(name, columns):
@@ -110,12 +112,10 @@ class Tree:
         subprocess.run(["cmake", "--preset", "dev", "-DPLM_UNITY=OFF"], cwd=self.top, check=True, stdout=subprocess.DEVNULL)
         targets = subprocess.run(["cmake", "--build", "--preset", "dev", "--target", "help"], cwd=self.top, capture_output=True,
                                  text=True, check=True).stdout
-        self.programs = {room: sorted(set(re.findall(rf"\b(test_{room}_\w+)(?::|$)", targets, re.M))) for room in ROOMS}
-        if not all(self.programs.values()):
-            sys.exit(f"a room without tests: {self.programs}")
+        self.programs = set(re.findall(r"\b(test_\w+)(?::|$)", targets, re.M))
 
     def build(self, targets):
-        done = subprocess.run(["nice", "cmake", "--build", "--preset", "dev", "--parallel", "2", "--target", *targets], cwd=self.top,
+        done = subprocess.run(["cmake", "--build", "--preset", "dev", "--parallel", "2", "--target", *targets], cwd=self.top,
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         return done.returncode == 0
 
@@ -124,27 +124,37 @@ class Tree:
         path = next(self.build_folder.glob(f"tests/*/{program}"))
         try:
             # in the folder of the build, as by ctest
-            done = subprocess.run(["nice", str(path)], cwd=path.parent, timeout=limit, stdout=subprocess.DEVNULL,
+            done = subprocess.run([str(path)], cwd=path.parent, timeout=limit, stdout=subprocess.DEVNULL,
                                   stderr=subprocess.DEVNULL)
         except subprocess.TimeoutExpired:
             return "no end"
         return None if done.returncode == 0 else "failed" if done.returncode > 0 else f"signal {-done.returncode}"
 
-    def quick(self, programs, remember):
-        """Those that pass without a mutation and take little, the quickest first."""
-        if not self.build(programs):
-            sys.exit(f"the tree does not build: {' '.join(programs)}")
-        for program in programs:
-            if program not in remember:
-                before, begin = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, time.time()
-                failed = self.run(program, 60)
-                spent = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
-                remember[program] = {"seconds": spent, "waited": time.time() - begin, "failed": failed}
-        good = [p for p in programs if not remember[p]["failed"] and remember[p]["seconds"] < QUICK]
-        return sorted(good, key=lambda p: remember[p]["seconds"])[:MOST_PROGRAMS]
+    def tests_of(self, file):
+        """Two rounds: those that include its header and the quick ones of its room, then some of the C API."""
+        room, header = file.split("/")[1], file[4:].replace(".cpp", ".hpp")
+        direct = [f"test_{path.parent.name}_{path.stem[5:]}" for path in sorted((ROOT / "tests").glob("*/test_*.cpp"))
+                  if f'"{header}"' in path.read_text(encoding="utf-8")]
+        direct.sort(key=lambda program: file.split("/")[-1][:-4] not in program)
+        room_tests = [f"test_{room}_{name}" for name in ROOMS[room].split()]
+        first = [p for p in dict.fromkeys(direct[:MOST_DIRECT] + room_tests) if p in self.programs]
+        return first, [p for p in OF_ALL if p in self.programs and p not in first]
 
-    def outcome(self, mutation, rounds, known):
+    def quick(self, programs, remember):
+        """Those that pass without a mutation and take little."""
+        new = [p for p in programs if p not in remember]
+        if new and not self.build(new):
+            sys.exit(f"the tree does not build: {' '.join(new)}")
+        for program in new:
+            before, begin = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime, time.time()
+            failed = self.run(program, 8 * QUICK)
+            spent = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before
+            remember[program] = {"seconds": spent, "waited": time.time() - begin, "failed": failed}
+        return [p for p in programs if not remember[p]["failed"] and remember[p]["seconds"] < QUICK]
+
+    def outcome(self, mutation, known):
         """(caught, survived or nothing built, by what)."""
+        rounds = [self.quick(programs, known) for programs in self.tests_of(mutation.file)]
         file = self.top / mutation.file
         whole = file.read_text(encoding="utf-8")
         lines = whole.split("\n")
@@ -174,7 +184,7 @@ def page(results, command):
     reason = lambda r: judged.get((r["file"], r["new"].strip()), "")
     text = ["# Mutations", "", f"    {command}", "", __doc__.split("\n\n")[1], "",
             "| room | mutations | caught | survived | of these judged |", "|---|---|---|---|---|"]
-    for room in ROOMS + ("all",):
+    for room in (*ROOMS, "all"):
         of = [r for r in results if room in (r["file"].split("/")[1], "all")]
         alive = [r for r in of if r["outcome"] == "survived"]
         text.append(f"| {room} | {len(of)} | {len(of) - len(alive)} | {len(alive)} | {sum(bool(reason(r)) for r in alive)} |")
@@ -191,31 +201,30 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--room", choices=ROOMS)
     parser.add_argument("--named", action="store_true", help="those of named.txt alone")
+    parser.add_argument("--minutes", type=float, default=float("inf"), help="begin no further one after so many; the table says what there is")
     parser.add_argument("--work", type=pathlib.Path, default=ROOT / "build" / "mutation")
     parser.add_argument("--markdown", default="", metavar="FILE")
     a = parser.parse_args()
-    rooms = (a.room,) if a.room else ROOMS
+    rooms = (a.room,) if a.room else tuple(ROOMS)
     mutations = [m for m in named() if m.file.split("/")[1] in rooms] + ([] if a.named else drawn(a.seed, a.count, rooms))
     mutations = list(dict.fromkeys(mutations))
     a.work.mkdir(parents=True, exist_ok=True)
     memory = a.work / "results.json"
     kept = json.loads(memory.read_text()) if memory.is_file() else {"times": {}, "outcomes": {}}
     tree = Tree(a.work.resolve())
-    results, rounds = [], {}
+    results, begin = [], time.time()
     for m in mutations:
-        room = m.file.split("/")[1]
         key = f"{m.file} | {m.old} | {m.new}"
         if key not in kept["outcomes"]:
-            if room not in rounds:
-                of_all = [p for p in tree.programs["capi"] if p in {f"test_capi_{name}" for name in OF_ALL}]
-                rounds[room] = [tree.quick(programs, kept["times"]) for programs in (tree.programs[room], of_all) if programs]
-            kept["outcomes"][key] = tree.outcome(m, rounds[room], kept["times"])
+            if time.time() - begin > 60 * a.minutes:
+                continue
+            kept["outcomes"][key] = tree.outcome(m, kept["times"])
             memory.write_text(json.dumps(kept, indent=1))
         outcome, by = kept["outcomes"][key]
         print(f"{outcome:16s} {m.file}:{m.line + 1}: {m.old.strip()}  ->  {m.new.strip()}  [{by}]", flush=True)
         if outcome != "does not compile":
             results.append(dict(file=m.file, old=m.old, new=m.new, outcome=outcome, by=by))
-    text = page(results, "python3 tests/mutation/mutate.py " + " ".join(sys.argv[1:]))
+    text = page(results, "nice python3 tests/mutation/mutate.py " + " ".join(sys.argv[1:]))
     print(text)
     if a.markdown:
         pathlib.Path(a.markdown).write_text(text, encoding="utf-8")
