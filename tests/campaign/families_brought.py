@@ -142,9 +142,9 @@ def twin_plates(rng):
 
 
 def held_softly(m, w):
-    """For the exact motion: what nothing holds is held by springs that are 1e-6 of what the motion is about (of 1e-8 rounding
-    makes 1e-3; of 1e-5 the peak is the same to 1e-5)."""
-    return dict(m, K_library=m["K"], K=m["K"] + (1e-3 * w) ** 2 * m["M"], exact_to=3e-5)
+    """For the exact motion: what nothing holds is held by springs that are 2e-5 of what the motion is about: of 1e-6 rounding makes
+    1e-3 of the amplitude, of 1e-5 to 1e-4 it is the same to 3e-5."""
+    return dict(m, K_library=m["K"], K=m["K"] + (5e-3 * w) ** 2 * m["M"], exact_to=1e-4)
 
 
 def pressed(rng, M, K, B, kn, load, drive, out):
@@ -165,28 +165,29 @@ def pressed(rng, M, K, B, kn, load, drive, out):
     return held_softly(m, w1)
 
 
+def free_strip(rng, n):
+    """Masses in a line that move across it, joined by springs against bending: free to move and to turn."""
+    bend = np.diff(np.eye(n), 2, axis=0)
+    return np.diag(10 ** rng.uniform(-0.2, 0.2, n)), bend.T @ (1e4 * 10 ** rng.uniform(-0.2, 0.2, (n - 2, 1)) * bend)
+
+
 def free_bodies(rng):
-    """Two free beams pressed on each other; the rows interpolate between nodes with the digits of a deck, so that they miss the
+    """Two free strips pressed on each other; the rows interpolate between masses with the digits of a deck, so that they miss the
     rigid motions by about 1e-7. The exact motion is that of rows without rounding."""
-    ne = int(rng.integers(3, 6))
-    M, K = (scipy.linalg.block_diag(a, b) for a, b in zip(beam_matrices(ne), beam_matrices(ne + 1)))
-    n, n1 = len(M), 2 * ne + 2
-    rows, given = [], []
-    for node in rng.choice(np.arange(ne + 1), int(rng.integers(2, 4)), replace=False):
-        at = node * (ne + 1) / ne
-        e = min(int(at), ne)
-        part = at - e
-        for s, to in ((part, rows), (round(part, 7) + 1e-7 * rng.uniform(-1, 1), given)):
-            w = np.array([1 - 3 * s**2 + 2 * s**3, (s - 2 * s**2 + s**3) / (ne + 1), 3 * s**2 - 2 * s**3, (s**3 - s**2) / (ne + 1)])
-            to.append(gap_row(n, (2 * int(node), 1.0), *((n1 + 2 * e + k, -w[k]) for k in range(4))))
+    n1, n2 = int(rng.integers(4, 7)), int(rng.integers(7, 9))
+    M, K = (scipy.linalg.block_diag(a, b) for a, b in zip(free_strip(rng, n1), free_strip(rng, n2)))
+    n, rows, given = n1 + n2, [], []
+    for mass in rng.choice(n1, int(rng.integers(2, 4)), replace=False):
+        at = mass * (n2 - 1) / (n1 - 1)
+        e = min(int(at), n2 - 2)
+        for to, digits in ((rows, 16), (given, 7)):
+            s = round(at - e, digits)
+            to.append(gap_row(n, (int(mass), 1.0), (n1 + e, s - 1), (n1 + e + 1, -s)))
     B, given = np.array(rows), np.array(given)
-    if len(given):  # what a deck prints: weights with seven digits do not sum up
-        given *= 1 + 1e-7 * rng.uniform(-1, 1, given.shape)
-    local = 175.0 * 3 * 8
-    kn = np.full(len(B), local * 10 ** rng.uniform(0, 1.5))
-    load = B.T @ rng.uniform(0.5, 1.5, len(B)) * local * 1e-5  # presses, and has no resultant
-    m = pressed(rng, M, K, B, kn, load, int(2 * rng.integers(ne + 1)), int(2 * rng.integers(ne + 1)))
-    return dict(m, B_library=given, says={ROUNDED})
+    given *= 1 + 1e-7 * rng.uniform(-1, 1, given.shape) * (given != 0)
+    kn = np.full(len(B), 1e4 * 10 ** rng.uniform(-0.5, 1.0))
+    load = B.T @ rng.uniform(0.5, 1.5, len(B))  # presses, and has no resultant
+    return dict(pressed(rng, M, K, B, kn, load, int(rng.integers(n1)), int(rng.integers(n1))), B_library=given, says={ROUNDED})
 
 
 def hanging_parts(rng):

@@ -73,7 +73,8 @@ def condensation_keeps_statics_and_low_modes():
 
 def contact_alone_may_hold_a_body():
     """A mass that lies on a spring and takes off: the motion found with a soft ground spring beside the contact comes back to itself
-    without that, by an integrator of its own. (1e-5: the soft spring, see held_softly.)"""
+    without that, by an integrator of its own. (It flies five times as far as it is pressed
+    in: 2e-4 of the motion, by the soft spring, see held_softly.)"""
     kn, load, force, damping, omega = 1e4, 10.0, 8.0, 20.0, 60.0
     m = families_brought.held_softly(dict(M=np.eye(1), K=np.zeros((1, 1))), np.sqrt(kn))
     s = Structure(m["M"], np.array([[damping]]), m["K"], np.eye(1), np.array([kn]), np.zeros(1), np.array([load]),
@@ -95,7 +96,7 @@ def contact_alone_may_hold_a_body():
             y[0], changes = 0.0, changes + 1
             t, y = t + 1e-12, y + [1e-12 * y[1], 0]  # off the switching point
     assert changes >= 2, changes
-    assert np.abs((y - x) / [load / kn, omega * load / kn]).max() < 1e-4, (y, x)
+    assert np.abs((y - x) / [load / kn, omega * load / kn]).max() < 2e-3, (y, x)
 
 
 def nearest_motion_and_all_peaks():

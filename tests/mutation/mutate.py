@@ -135,7 +135,7 @@ class Tree:
         room, header = file.split("/")[1], file[4:].replace(".cpp", ".hpp")
         direct = [f"test_{path.parent.name}_{path.stem[5:]}" for path in sorted((ROOT / "tests").glob("*/test_*.cpp"))
                   if f'"{header}"' in path.read_text(encoding="utf-8")]
-        direct.sort(key=lambda program: file.split("/")[-1][:-4] not in program)
+        direct.sort(key=lambda program: (file.split("/")[-1][:-4] not in program, f"_{room}_" not in program))
         room_tests = [f"test_{room}_{name}" for name in ROOMS[room].split()]
         first = [p for p in dict.fromkeys(direct[:MOST_DIRECT] + room_tests) if p in self.programs]
         return first, [p for p in OF_ALL if p in self.programs and p not in first]
