@@ -29,14 +29,20 @@ Matrix energy_orthonormal(Matrix columns, const vector<double> &root) {
     return thin_svd(columns).u;
 }
 
-// Fast modes have lost digits in their compliance; Rayleigh's quotient has the opposite strength.
+// Fast modes have lost digits in their compliance, by which their vectors were scaled; Rayleigh's quotient
+// has the opposite strength.
 void refine_fast_ones(const Space &space, Coordinates &c) {
     const std::int64_t massive = static_cast<std::int64_t>(c.lambda.size()) - c.n_massless;
     for (std::int64_t j = 0; j < massive; ++j) {
         if (!(c.lambda[j] > 1e8 * c.lambda[0]) || c.lambda[0] == 0) continue;
-        double stiffness = 0;
-        for (std::int64_t i = 0; i < c.y.rows(); ++i) stiffness += space.lambda[i] * c.y(i, j) * c.y(i, j);
-        c.lambda[j] = stiffness;
+        double stiffness = 0, mass = 0, *y = c.y.col(j);
+        for (std::int64_t i = 0; i < c.y.rows(); ++i) {
+            stiffness += space.lambda[i] * y[i] * y[i];
+            mass += space.mass(i) * y[i] * y[i];
+        }
+        if (!(mass > 0)) continue;
+        c.lambda[j] = stiffness / mass;
+        for (std::int64_t i = 0; i < c.y.rows(); ++i) y[i] /= std::sqrt(mass);
     }
 }
 
