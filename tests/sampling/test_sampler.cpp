@@ -239,6 +239,7 @@ void options_that_do_not_fit_one_another_or_the_model_are_refused(void **) {
     } cases[] = {
         {[](SamplerOptions &o) { o.mode = 2; }, "mode"}, // one DOF has one mode
         {[](SamplerOptions &o) { o.window_min_hz = 2, o.window_max_hz = 1; }, "window_max_hz"},
+        {[](SamplerOptions &o) { o.window_min_hz = 1, o.window_max_hz = 1; }, "window_max_hz"},
         {[](SamplerOptions &o) { o.window_max_hz = 1; }, "window_min_hz"},
         {[](SamplerOptions &o) { o.search_min_hz = 1; }, "search_max_hz"},
         {[](SamplerOptions &o) { o.search_min_hz = 70, o.search_max_hz = 80; }, "search_max_hz"},
