@@ -33,6 +33,15 @@ void without_loads_interference_alone_presses(void **) {
     assert_true(!c.has_interference());
 }
 
+// Of the closed pairs 1 of 11 in force, of the open one all; the worse of both counts.
+void states_agree_as_far_as_their_penetrations_do(void **) {
+    const Contact c = three_pairs();
+    const PairStates states = c.states({0.5, -1, 2});
+    assert_true(c.agreement(states, {0.5, -1, 2}) == 1);
+    assert_true(near(c.agreement(states, {0.5, -1, -2}), 1.0 / 11, 1e-15));
+    assert_true(c.agreement(states, {0.5, 1, 2}) == 0);
+}
+
 void a_linear_system_has_the_springs_of_its_closed_pairs(void **) {
     const Contact c = three_pairs();
     assert_true(c.springs(PairStates::all_open(3)) == (Reals{0, 0, 0}));
@@ -227,6 +236,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(penalty_law_of_every_pair),
         cmocka_unit_test(without_loads_interference_alone_presses),
+        cmocka_unit_test(states_agree_as_far_as_their_penetrations_do),
         cmocka_unit_test(a_linear_system_has_the_springs_of_its_closed_pairs),
         cmocka_unit_test(at_zero_a_small_motion_closes_a_pair_half_of_the_time),
         cmocka_unit_test(agreement_is_the_lesser_share),

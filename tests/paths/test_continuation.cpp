@@ -1,6 +1,7 @@
 // The continuation on curves that are known, with one unknown x: at corners, on the flank of a resonance, at
 // the end of its range, and what it does with test functions of the path's owner.
 #include "paths/continuation.hpp"
+#include "paths/metric.hpp"
 #include "support/test.hpp"
 #include <cmath>
 #include <functional>
@@ -298,6 +299,24 @@ void a_special_point_takes_few_looks(void **) {
     assert_true(smooth <= 8 && steep <= 40 && jump <= 20);
 }
 
+// Of a matrix that is singular but for 1e-6: inverse iteration has its direction to the sixth power of that.
+class NearlySingular final : public Circle {
+  public:
+    std::int64_t size() const override { return 2; }
+    void solve(double *b, std::int64_t n) override {
+        for (std::int64_t i = 0; i < n; ++i) { // [1 1; 1 1 + 1e-6]
+            double *x = b + 2 * i;
+            const double second = (x[1] - x[0]) / 1e-6;
+            x[0] -= second, x[1] = second;
+        }
+    }
+};
+void the_null_direction_is_that_of_the_smallest_value(void **) {
+    NearlySingular system;
+    const vector<double> v = plm::null_direction(system);
+    assert_true(near(std::abs(v[0]), std::sqrt(0.5), 1e-6) && near(v[0] + v[1], 0, 1e-6));
+}
+
 // One that may keep where it stands, and counts its tangents but for those of Newton's method.
 class Remembering final : public KnownCurve {
   public:
@@ -404,6 +423,7 @@ int main() {
         cmocka_unit_test(a_special_point_takes_few_looks),
         cmocka_unit_test(nothing_is_linearised_twice_beside_a_special_point),
         cmocka_unit_test(a_guessed_tangent_leads_no_longer_than_it_helps),
+        cmocka_unit_test(the_null_direction_is_that_of_the_smallest_value),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
