@@ -178,11 +178,12 @@ def judgements():
     return {(file, new): reason for file, new, reason in table_of("judged.txt", 3)}
 
 
-def page(results, command):
+def page(results, left, command):
     """Markdown: a row for each room and one for all, then what survived."""
     judged = judgements()
     reason = lambda r: judged.get((r["file"], r["new"].strip()), "")
     text = ["# Mutations", "", f"    {command}", "", __doc__.split("\n\n")[1], "",
+            *([f"{left} of those drawn have not been run yet: the same command goes on with them.", ""] if left else []),
             "| room | mutations | caught | survived | of these judged |", "|---|---|---|---|---|"]
     for room in (*ROOMS, "all"):
         of = [r for r in results if room in (r["file"].split("/")[1], "all")]
@@ -212,11 +213,12 @@ def main():
     memory = a.work / "results.json"
     kept = json.loads(memory.read_text()) if memory.is_file() else {"times": {}, "outcomes": {}}
     tree = Tree(a.work.resolve())
-    results, begin = [], time.time()
+    results, left, begin = [], 0, time.time()
     for m in mutations:
         key = f"{m.file} | {m.old} | {m.new}"
         if key not in kept["outcomes"]:
             if time.time() - begin > 60 * a.minutes:
+                left += 1
                 continue
             kept["outcomes"][key] = tree.outcome(m, kept["times"])
             memory.write_text(json.dumps(kept, indent=1))
@@ -224,7 +226,7 @@ def main():
         print(f"{outcome:16s} {m.file}:{m.line + 1}: {m.old.strip()}  ->  {m.new.strip()}  [{by}]", flush=True)
         if outcome != "does not compile":
             results.append(dict(file=m.file, old=m.old, new=m.new, outcome=outcome, by=by))
-    text = page(results, "nice python3 tests/mutation/mutate.py " + " ".join(sys.argv[1:]))
+    text = page(results, left, "nice python3 tests/mutation/mutate.py " + " ".join(sys.argv[1:]))
     print(text)
     if a.markdown:
         pathlib.Path(a.markdown).write_text(text, encoding="utf-8")
