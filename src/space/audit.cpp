@@ -95,7 +95,7 @@ class Audit {
         add(1, static_cast<double>(still.dof.size()),
             format("%lld DOFs (the first: DOF %lld) are coupled to nothing: alone in their rows of mass, "
                    "stiffness and damping, without contact and load. They are held at zero, and their own "
-                   "frequency, %s, is no mode. If they are supports, fix them (plm_model_fix_dofs); if not, "
+                   "frequency, %s, is no mode. If they are supports, fix them; if not, "
                    "entries are missing from the matrices",
                    Int(still.dof.size()), Int(still.dof.front()),
                    (alike ? format("%.6g Hz", still.low_hz)
