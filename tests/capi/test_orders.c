@@ -186,7 +186,8 @@ static answer same_however_counted(const char *name, structure *s) {
     int all = first.status >= 0;
     printf("    %s, %d DOFs: %.9g at %.9g Hz, error %.1e, status %d\n", name, (int)s->n, first.amplitude,
            first.hz, first.error, (int)first.status);
-    for (int variant = 0; variant < 3; ++variant) {
+    /* of large ones the last alone, which has all of it */
+    for (int variant = s->n < 100 ? 0 : 2; variant < 3; ++variant) {
         if (variant > 0) turn(s, 0.4 * variant);
         permute(s, 88172645463325252u + (uint64_t)variant);
         const answer next_one = ask(s);
