@@ -75,12 +75,28 @@ plm_status plm_transient_observe_i64(plm_transient *transient, std::int32_t inde
     return observe("plm_transient_observe_i64", transient, index_base, n, dof);
 }
 
+namespace {
+
+/// Supports left in the matrices do not move, whatever the state says.
+void require_held_at_rest(const plm::Model &model, const double *values, const char *name) {
+    for (std::int64_t dof : model.still_dofs().dof)
+        if (values && values[dof] != 0)
+            bad_argument(name, dof,
+                         plm::format("DOF %lld is coupled to nothing and loaded by nothing, and is held at "
+                                     "zero (the audit names all such DOFs): give it 0",
+                                     static_cast<long long>(dof)));
+}
+
+} // namespace
+
 plm_status plm_transient_set_state(plm_transient *transient, std::int64_t n, const double *q,
                                    const double *v) {
     return call<TransientHandle>("plm_transient_set_state", transient, [&](TransientHandle &t) {
         require_n_dof(t, n);
         if (q) require_finite_array(q, n, "q");
         if (v) require_finite_array(v, n, "v");
+        require_held_at_rest(*built(*t.model), q, "q");
+        require_held_at_rest(*built(*t.model), v, "v");
         core(t).set_state(q, v);
         t.periodic.reset();
         return PLM_OK;

@@ -147,6 +147,28 @@ static void modal_damping_of_a_full_model_is_refused(void **state) {
     BAD(plm_transient_run(t), "plm_transient_run", "modal_ratio", -1, "modal damping");
 }
 
+/* Supports left in the matrices as a number on the diagonal stay where they are, and no state moves them. */
+static void what_is_held_has_no_state(void **state) {
+    const int32_t i[] = {0, 1, 2}, row[] = {0, 1}, dof[] = {0};
+    const double m[] = {1, 1, 1}, k[] = {40, 666, 666}, one[] = {1}, k_n[] = {1e3}, gap[] = {0.1},
+                 force[] = {3, 0, 0}, q[] = {1, 0, 0.5}, v[] = {1, 0, 0};
+    plm_model *held = NULL;
+    plm_transient *t = NULL;
+    (void)state;
+    assert_true(done(ctx, plm_model_create(ctx, 3, &held)));
+    assert_true(done(
+        ctx, plm_model_set_matrix_i32(held, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 3, i, i, m)));
+    assert_true(done(ctx, plm_model_set_matrix_i32(held, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY,
+                                                   3, i, i, k)));
+    assert_true(done(ctx, plm_model_add_gap_rows_i32(held, 0, 1, row, dof, one, k_n, gap)));
+    assert_true(done(ctx, plm_model_set_excitation(held, 1, 3, force, NULL)));
+    assert_true(done(ctx, plm_model_build(held)));
+    assert_true(done(ctx, plm_transient_create(held, NULL, &t)));
+    BAD(plm_transient_set_state(t, 3, q, v), "plm_transient_set_state", "q", 2, "held at zero");
+    BAD(plm_transient_set_state(t, 3, NULL, q), "plm_transient_set_state", "v", 2, "held at zero");
+    assert_true(done(ctx, plm_transient_set_state(t, 3, v, v)));
+}
+
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
@@ -154,6 +176,7 @@ int main(void) {
         TEST(branches_of_others_are_refused),
         TEST(too_early),
         TEST(modal_damping_of_a_full_model_is_refused),
+        TEST(what_is_held_has_no_state),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
