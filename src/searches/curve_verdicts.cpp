@@ -214,7 +214,7 @@ bool spans(const Branch &curve) {
     return curve.end_reason == PLM_REASON_RANGE_END && !curve.warnings.has(PLM_REASON_TURNED_BACK);
 }
 
-void check_span(Watch watch, Branch &branch) {
+void check_span(bool upward, Watch watch, Branch &branch) {
     if (branch.end_reason == PLM_REASON_LOOP_CLOSED)
         watch.keeping(branch.warnings)
             .warn(PLM_REASON_LOOP_CLOSED,
@@ -224,13 +224,14 @@ void check_span(Watch watch, Branch &branch) {
                          "(frequency_min_hz, frequency_max_hz), whose ends lie beside the loop",
                          branch.points().front().omega / (2 * M_PI)));
     if (branch.end_reason != PLM_REASON_RANGE_END || branch.points().size() < 3) return;
-    constexpr double same = 1e-9; // of the frequency: the boundary of the range
+    // it may have begun a little inside the range
     const double begin = branch.points().front().omega, end = branch.points().back().omega;
-    if (std::abs(end - begin) > same * begin) return;
+    constexpr double same = 1e-9; // of the frequency: the boundary of the range
+    if ((upward ? end - begin : begin - end) > same * begin) return;
     double farthest = begin;
     for (const BranchPoint &p : branch.points())
         if (std::abs(p.omega - begin) > std::abs(farthest - begin)) farthest = p.omega;
-    const bool from_above = farthest < begin;
+    const bool from_above = !upward;
     watch.keeping(branch.warnings)
         .warn(
             PLM_REASON_TURNED_BACK,

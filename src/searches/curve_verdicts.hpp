@@ -37,8 +37,8 @@ constexpr double allowed_of_host = 0.5;
 void check_host_reduction(const Model &model, double accuracy, double error, Watch watch);
 
 /// A curve that folds and comes back to the end of the range where it began, or to its first point, says
-/// nothing of the rest.
-void check_span(Watch watch, Branch &branch);
+/// nothing of the rest. upward: how it was to be followed.
+void check_span(bool upward, Watch watch, Branch &branch);
 /// Whether a curve goes from one end of its range to the other, after check_span().
 bool spans(const Branch &curve);
 

@@ -324,7 +324,7 @@ void Hbm::judge(Branch &curve) const {
         return basis_error_at(made_as_, options_, curve, top, most_moving(curve, top), few_flops, watch_);
     };
     check_basis(window_, error, watch_, curve);
-    check_span(watch_, curve);
+    check_span(options_.upward, watch_, curve);
     check_switching(watch_, curve);
 }
 
