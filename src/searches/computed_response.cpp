@@ -226,7 +226,7 @@ class Chain {
         r.error = std::max(r.error, r.options.tolerance + r.basis->space()->error_estimate) +
                   model_->space_options().reduction_error;
         // what was not followed may be higher by any amount
-        if (!std::isfinite(r.error) || !spans(*r.curve) || r.peak.branch->warnings.has(PLM_REASON_NO_PEAK))
+        if (!std::isfinite(r.error) || !is_whole(*r.curve) || r.peak.branch->warnings.has(PLM_REASON_NO_PEAK))
             r.error = NAN;
         look_beside(r);
     }
