@@ -286,8 +286,10 @@ PLM_API plm_status plm_model_set_matrix_i64(plm_model *model, int32_t which, int
 
 /* C = alpha M + beta K; alpha in 1/s, beta in s, both >= 0. */
 PLM_API plm_status plm_model_set_rayleigh_damping(plm_model *model, double alpha, double beta);
-/* ratio[j] (fraction of critical, in [0, 1)) for the j-th mode of the open system; modes beyond n: the last ratio up to
- * the highest mode computed. C = sum 2 zeta omega (M phi)(M phi)^T. n = 0 removes it. */
+/* ratio[j] (fraction of critical, in [0, 1)) for the j-th mode of the open system, the last one for all modes beyond: one
+ * ratio damps every mode by it. C = sum 2 zeta omega (M phi)(M phi)^T over all modes of the structure; where only the lower
+ * ones are computed, the contact attachment vectors stand for the others, each with its own frequency. The same C for
+ * every basis; what follows without inertia is not damped. n = 0 removes it. */
 PLM_API plm_status plm_model_set_modal_damping(plm_model *model, int64_t n, const double *ratio);
 /* Structural (hysteretic) loss factor eta >= 0: K (1 + i eta) in every harmonic h >= 1. */
 PLM_API plm_status plm_model_set_structural_damping(plm_model *model, double eta);
@@ -436,9 +438,9 @@ PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_
  * the curve are looked for at the same force, for no more work than the curve took: PLM_WARNING with
  * PLM_REASON_LARGER_MOTION where a stable one is larger than the peak; "larger_amplitude" and "larger_frequency_hz" of hbm
  * are the highest one, and its curve with the force scales between which that exists is the first of plm_hbm_get_found.
- * error is NaN on a curve that ended early. PLM_WARNING says what of the accuracy
- * was not reached and what else should be looked at, with the reasons of plm_sampler_run, plm_basis_build, plm_hbm_sweep
- * and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a sweep, the former, where contact bounces and a
+ * error is an upper bound of the relative error of amplitude and frequency, and NaN on a curve that ended early or has no
+ * peak inside. PLM_WARNING says what of the accuracy was not reached and what else should be looked at, with the reasons of
+ * plm_sampler_run, plm_basis_build, plm_hbm_sweep and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a sweep, the former, where contact bounces and a
  * curve winds, after the points of some seconds (500 to 1,000). PLM_ERR_STATE before plm_model_build and without contact
  * pairs. */
 PLM_API plm_status plm_model_compute_response(plm_model *model, int64_t dof, int32_t measure, double accuracy,
@@ -602,14 +604,16 @@ PLM_API plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, int64_t 
  * lie on none of the known curves are traced. count: branches found, read by plm_hbm_get_found. */
 PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_branch *const *known,
                                             int64_t n_frequencies, int64_t n_states, int64_t *count);
-/* How wrong a point of `branch` is, without the unreduced solution: its contact forces are applied to the unreduced
- * structure, and one step with the tangent of the latter, across the curve, tells what the defect does. amplitude[3] (of a
- * DOF, as in plm_branch_get_amplitude) and frequency_hz[3] (shift of the curve), corrected less computed, by cause: basis,
- * contact sets, harmonics beyond those solved for; the sum is the estimate. It measures errors that are small against the
- * width of the resonance. Where the tangent does not hold as far as its step leads it is renewed; a part whose steps do
- * not contract even then is NaN, with PLM_WARNING (PLM_REASON_NO_CONTRACTION): the error may be large. Away from a peak,
- * amplitude and frequency belong together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the
- * model has no contact pairs. The first call of an hbm prepares the unreduced structure. */
+/* How wrong a point of `branch` is. An exact motion is compared with that of the unreduced structure beside it, across the
+ * curve, which is found from the point's own state, nothing cut off. Where that would take more than some seconds, and for
+ * harmonic balance, the contact forces are applied to the unreduced structure, and one step with the tangent of the latter,
+ * across the curve, tells what the defect does. amplitude[3] (of a DOF, as in plm_branch_get_amplitude) and frequency_hz[3]
+ * (shift of the curve), corrected less computed, by cause: basis, contact sets, harmonics beyond those solved for; the sum
+ * is the estimate. It measures errors that are small against the width of the resonance. Where the tangent does not hold as
+ * far as its step leads it is renewed; a part whose steps do not contract even then is NaN, with PLM_WARNING
+ * (PLM_REASON_NO_CONTRACTION): the error may be large. Away from a peak, amplitude and frequency belong together: one shift
+ * across the curve. Each output may be NULL. PLM_ERR_STATE when the model has no contact pairs. The first call of an hbm
+ * prepares the unreduced structure. */
 PLM_API plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, int64_t point, int64_t dof, int32_t measure,
                                           int32_t harmonic, double *amplitude, double *frequency_hz);
 /* A basis for one number, the tolerance. From the basis of this hbm, however poor, and its curve: the motions, corrected

@@ -13,8 +13,10 @@ class ModelMethods:
         self._work("set_rayleigh_damping", alpha, beta)
 
     def set_modal_damping(self, ratio):
-        """ratio[j] (fraction of critical, in [0, 1)) for the j-th mode of the open system; modes beyond n: the last
-        ratio up to the highest mode computed. C = sum 2 zeta omega (M phi)(M phi)^T. n = 0 removes it."""
+        """ratio[j] (fraction of critical, in [0, 1)) for the j-th mode of the open system, the last one for all modes
+        beyond: one ratio damps every mode by it. C = sum 2 zeta omega (M phi)(M phi)^T over all modes of the structure;
+        where only the lower ones are computed, the contact attachment vectors stand for the others, each with its own
+        frequency. The same C for every basis; what follows without inertia is not damped. n = 0 removes it."""
         ratio = list_of_reals(ratio, "ratio")
         self._work("set_modal_damping", ratio.size, address(ratio))
 
