@@ -3,6 +3,7 @@
 // 256 bit, for which the loop asks at run time.
 #pragma once
 #include <cstdint>
+#include <cstring>
 
 namespace plm {
 
@@ -27,12 +28,10 @@ constexpr std::int64_t n_lanes = 8;
 template <int width> struct VectorOf;
 template <> struct VectorOf<2> {
     using Real = double __attribute__((vector_size(16)));
-    using Stored = double __attribute__((vector_size(16), aligned(8), may_alias));
     using Bits = long long __attribute__((vector_size(16)));
 };
 template <> struct VectorOf<4> {
     using Real = double __attribute__((vector_size(32)));
-    using Stored = double __attribute__((vector_size(32), aligned(8), may_alias));
     using Bits = long long __attribute__((vector_size(32)));
 };
 
@@ -78,18 +77,15 @@ template <int width> struct LaneMask {
 template <int width> struct Lanes {
     static constexpr int n = n_lanes / width;
     using Vector = typename VectorOf<width>::Real;
-    using Stored = typename VectorOf<width>::Stored;
     using Mask = LaneMask<width>;
     Vector v[n];
 
     PLM_IN_LANES static Lanes load(const double *p) {
         Lanes r;
-        for (int i = 0; i < n; ++i) r.v[i] = *reinterpret_cast<const Stored *>(p + i * width);
+        std::memcpy(r.v, p, sizeof r.v); // not aligned; a type that says so loses it in a template of clang's
         return r;
     }
-    PLM_IN_LANES void store(double *p) const {
-        for (int i = 0; i < n; ++i) *reinterpret_cast<Stored *>(p + i * width) = v[i];
-    }
+    PLM_IN_LANES void store(double *p) const { std::memcpy(p, v, sizeof v); }
     PLM_IN_LANES static Lanes all(double value) {
         Lanes r;
         for (int i = 0; i < n; ++i) r.v[i] = value - Vector{};

@@ -1,5 +1,6 @@
 #include "linalg/panel_lanes.hpp"
 #include <algorithm>
+#include <cstring>
 
 namespace plm {
 namespace {
@@ -12,10 +13,7 @@ constexpr std::int64_t row_block = 256;
 
 template <class T, int bytes> struct VectorWith;
 #define PLM_VECTOR_WITH(T, bytes)                                                                            \
-    template <> struct VectorWith<T, bytes> {                                                                \
-        using Real = T __attribute__((vector_size(bytes)));                                                  \
-        using Stored = T __attribute__((vector_size(bytes), aligned(alignof(T)), may_alias));                \
-    };
+    template <> struct VectorWith<T, bytes> { using Real = T __attribute__((vector_size(bytes))); };
 PLM_VECTOR_WITH(float, 16)
 PLM_VECTOR_WITH(float, 32)
 PLM_VECTOR_WITH(double, 16)
@@ -25,17 +23,14 @@ PLM_VECTOR_WITH(double, 32)
 /// A row of right-hand sides, in vectors of so many bytes.
 template <class T, int bytes> struct SideBySide {
     static constexpr int n = 64 / bytes;
-    using Stored = typename VectorWith<T, bytes>::Stored;
     typename VectorWith<T, bytes>::Real v[n];
 
     PLM_IN_LANES static SideBySide load(const T *p) {
         SideBySide r;
-        for (int i = 0; i < n; ++i) r.v[i] = reinterpret_cast<const Stored *>(p)[i];
+        std::memcpy(r.v, p, sizeof r.v); // not aligned, see lanes.hpp
         return r;
     }
-    PLM_IN_LANES void store(T *p) const {
-        for (int i = 0; i < n; ++i) reinterpret_cast<Stored *>(p)[i] = v[i];
-    }
+    PLM_IN_LANES void store(T *p) const { std::memcpy(p, v, sizeof v); }
     PLM_IN_LANES void add(T factor, const SideBySide &x) {
         for (int i = 0; i < n; ++i) v[i] += factor * x.v[i];
     }
