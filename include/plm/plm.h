@@ -440,9 +440,9 @@ PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_
  * are the highest one, and its curve with the force scales between which that exists is the first of plm_hbm_get_found.
  * error is an upper bound of the relative error of amplitude and frequency, and NaN on a curve that ended early or has no
  * peak inside. PLM_WARNING says what of the accuracy was not reached and what else should be looked at, with the reasons of
- * plm_sampler_run, plm_basis_build, plm_hbm_sweep and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a sweep, the former, where contact bounces and a
- * curve winds, after the points of some seconds (500 to 1,000). PLM_ERR_STATE before plm_model_build and without contact
- * pairs. */
+ * plm_sampler_run, plm_basis_build, plm_hbm_sweep and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a
+ * sweep, the former, where contact bounces and a curve winds, after the points of some seconds (500 to 1,000).
+ * PLM_ERR_STATE before plm_model_build and without contact pairs. */
 PLM_API plm_status plm_model_compute_response(plm_model *model, int64_t dof, int32_t measure, double accuracy,
                                               double *frequency_hz, double *amplitude, double *error,
                                               plm_branch **curve, plm_hbm **hbm);
@@ -565,9 +565,10 @@ PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *
  * amplitude are those of that point, and the peak lies elsewhere; with PLM_REASON_BASIS_TOO_SMALL when the error that the
  * basis makes is estimated to be above "accuracy", or, where an estimate would cost more than some points of the curve,
  * as for a sweep; with PLM_REASON_NO_CONTRACTION when the steps of that estimate do not contract; with
- * PLM_REASON_UNVERIFIED when no solution was found around the highest point of `branch`, which is then the result, and the
- * peak may be higher by more than "accuracy"; with PLM_REASON_UNSTABLE_PEAK when the motion of the peak is known to be unstable ("stable" of the
- * branch) and no stable motion of the curve is as high within "accuracy". A closed curve has no ends. */
+ * PLM_REASON_UNVERIFIED when no solution was found around the highest point of `branch`, which is then the result, and
+ * the peak may be higher by more than "accuracy"; with PLM_REASON_UNSTABLE_PEAK when the motion of the peak is known to
+ * be unstable ("stable" of the branch) and no stable motion of the curve is as high within "accuracy". A closed curve
+ * has no ends. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
 

@@ -261,8 +261,11 @@ std::shared_ptr<const Basis> unreduced_basis(const std::shared_ptr<const Basis> 
         o.n_pairs_carried = 0;
         o.frequency_min_hz = basis->window_min_hz();
         o.frequency_max_hz = basis->window_max_hz();
-        return std::make_shared<const Basis>(basis->model(), basis->sampler(), basis, o, watch, nullptr,
+        auto whole = std::make_shared<Basis>(basis->model(), basis->sampler(), basis, o, watch, nullptr,
                                              std::move(known));
+        whole->estimated_min_ = basis->estimated_min_; // a sweep may go on beyond what was not asked for
+        whole->estimated_max_ = basis->estimated_max_;
+        return std::shared_ptr<const Basis>(std::move(whole));
     });
 }
 

@@ -23,8 +23,6 @@ constexpr int most_doublings = 2;
 constexpr double weakest_resonance = 0.05; // of the main branch, against its largest response
 constexpr double backbone_reach = 8;       // times the force: where it ends unless the caller says otherwise
 constexpr double met_there = 1e-3;         // relative distance of a crossing, before it is corrected
-constexpr double of_the_loop = 0.3;        // largest step on a loop, which must not be stepped over
-constexpr double at_first = 0.1;           // of the largest step: the top of a loop is where it bends most
 // What a model that a loop is followed on leaves out of its first motion, if it needs more than the curve's;
 // and how much smaller than the basis it has to be to save time.
 constexpr double left_out_of_loop[] = {3e-5, 1e-5}, smaller_enough = 0.9;
@@ -200,11 +198,7 @@ class Search {
     }
 
     void trace(const Seed &seed) {
-        HbmOptions options = options_;
-        if (seed.reach > 0)
-            options.max_step =
-                std::max(10 * options.min_step, std::min(options.max_step, of_the_loop * seed.reach));
-        options.initial_step = at_first * options.max_step;
+        const HbmOptions options = for_a_loop(options_, seed.reach);
         BranchPoint start = seed.point;
         if (!enter(options, start)) return;
         IsolatedBranch found;
@@ -347,6 +341,15 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
             if (w.reason != PLM_REASON_HARMONICS_TOO_FEW) whole->warnings.add(w.reason, w.text);
     warn_of_harmonics(options, *whole);
     return whole;
+}
+
+HbmOptions for_a_loop(HbmOptions options, double reach) {
+    constexpr double of_the_loop = 0.3, // largest step
+        at_first = 0.1;                 // of that: its top is where it bends most
+    if (reach > 0)
+        options.max_step = std::max(10 * options.min_step, std::min(options.max_step, of_the_loop * reach));
+    options.initial_step = at_first * options.max_step;
+    return options;
 }
 
 IsolatedSearch find_isolated(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,

@@ -31,6 +31,9 @@ IsolatedSearch find_isolated(std::shared_ptr<const ReducedModel> reduced, const 
                              const Branch &main, double force_max, Watch watch,
                              std::shared_ptr<const ReducedModel> smaller = nullptr);
 
+/// For a loop that reaches so far from its first point, 0: not known: it must not be stepped over.
+HbmOptions for_a_loop(HbmOptions options, double reach);
+
 /// The curve through a solution at options.force_scale: a loop, or both ways to the ends of the frequency
 /// range. Throws PLM_CANCELLED when the host wants to stop: half of the curve would be none.
 std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,

@@ -25,8 +25,6 @@ constexpr double steps_of_exact = 12, steps_of_harmonics = 5;
 constexpr std::int64_t least_points = 20; // fewer lead nowhere
 constexpr std::size_t most_resonances = 2, most_curves = 2;
 constexpr double same = 1e-4;         // relative distance of two phase-resonant motions
-constexpr double of_the_loop = 0.3;   // largest step on a loop, which must not be stepped over
-constexpr double at_first = 0.1;      // of that: its top is where it bends most
 constexpr double near_extremum = 0.3; // of the force: a stationary one farther away is another
 constexpr double same_motion = 0.1;   // of the amplitude, on a compressed model and on its basis
 
@@ -37,9 +35,9 @@ struct Crossing {
     const BranchPoint *lowest, *highest; // extrema of the force beside it; null: not known
 };
 
-class Search {
+class SearchBeside {
   public:
-    Search(const KnownResponse &known, Watch watch, std::optional<LargerMotion> &best)
+    SearchBeside(const KnownResponse &known, Watch watch, std::optional<LargerMotion> &best)
         : known_(known), curve_(*known.curve), reduced_(curve_.reduced_model()), watch_(watch),
           options_(options_on(*reduced_, known.options)), exact_(is_exact()), best_(best) {
         take_range();
@@ -166,9 +164,7 @@ class Search {
     }
 
     void follow(const Crossing &crossing) {
-        HbmOptions o = options_;
-        o.max_step = std::max(10 * o.min_step, std::min(o.max_step, of_the_loop * crossing.reach));
-        o.initial_step = at_first * o.max_step;
+        const HbmOptions o = for_a_loop(options_, crossing.reach);
         BranchPoint start = crossing.point;
         NewtonWork work;
         if (!exact_)
@@ -239,7 +235,7 @@ class Search {
 std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch) {
     std::optional<LargerMotion> best;
     try {
-        Search(known, watch, best).run();
+        SearchBeside(known, watch, best).run();
     } catch (const Error &e) { // what there is already is an answer
         if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
         watch.log(1, std::string("the search beside the curve ended early: ") + e.what());

@@ -16,7 +16,7 @@ static int close_context(void **state) {
     return plm_context_destroy(&ctx);
 }
 
-enum { ELEMENTS = 7, BEAM = 2 * ELEMENTS, SIDE = 6, MEMBRANE = SIDE * SIDE };
+enum { ELEMENTS = 7, BEAM = 2 * ELEMENTS, SIDE = 8, STOPS = 30, MEMBRANE = SIDE * SIDE };
 
 /* Clamped; two DOFs a node, deflection and rotation; length 1, bending stiffness 100, mass 1. */
 static void assemble_beam(double *k, double *m) {
@@ -70,24 +70,26 @@ static plm_model *beam_at_a_stop(double stiffness, double ratio) {
     return model;
 }
 
-/* Masses of 1 on a grid of springs of 1e4, clamped all around, each with a stop at a gap of its own. */
+/* Masses of 1 on a grid of springs of 1e4, clamped all around; half of them have a stop at a gap of their own. */
 static plm_model *membrane_with_stops(void) {
     double k[MEMBRANE * MEMBRANE] = {0}, m[MEMBRANE * MEMBRANE] = {0}, force[MEMBRANE] = {0};
-    double one[MEMBRANE], stiffness[MEMBRANE], gap[MEMBRANE];
-    int32_t row[MEMBRANE + 1], dof[MEMBRANE];
+    double one[STOPS], stiffness[STOPS], gap[STOPS];
+    int32_t row[STOPS + 1], dof[STOPS];
     for (int a = 0; a < MEMBRANE; ++a) {
         m[a * (MEMBRANE + 1)] = 1, k[a * (MEMBRANE + 1)] = 4e4;
         const int x = a % SIDE, y = a / SIDE;
         if (x + 1 < SIDE) k[a + MEMBRANE * (a + 1)] = k[a + 1 + MEMBRANE * a] = -1e4;
         if (y + 1 < SIDE) k[a + MEMBRANE * (a + SIDE)] = k[a + SIDE + MEMBRANE * a] = -1e4;
-        row[a] = dof[a] = a, one[a] = 1, stiffness[a] = 2e4;
-        gap[a] = 2e-4 * (1 + 0.5 * sin(1.0 + 7.0 * a)); /* all different */
     }
-    row[MEMBRANE] = MEMBRANE;
-    force[SIDE * (SIDE / 2) + SIDE / 2] = 0.4;
+    for (int i = 0; i < STOPS; ++i) {
+        row[i] = i, dof[i] = i, one[i] = 1, stiffness[i] = 2e4;
+        gap[i] = 2e-4 * (1 + 0.5 * sin(1.0 + 7.0 * i)); /* all different */
+    }
+    row[STOPS] = STOPS;
+    force[SIDE * (SIDE / 2) + SIDE / 2] = 0.1;
     plm_model *model = model_of(MEMBRANE, m, k);
-    DONE(plm_model_set_rayleigh_damping(model, 0.4, 4e-5));
-    DONE(plm_model_add_gap_rows_i32(model, 0, MEMBRANE, row, dof, one, stiffness, gap));
+    DONE(plm_model_set_rayleigh_damping(model, 0.4, 4e-4));
+    DONE(plm_model_add_gap_rows_i32(model, 0, STOPS, row, dof, one, stiffness, gap));
     DONE(plm_model_set_excitation(model, 1, MEMBRANE, force, NULL));
     DONE(plm_model_build(model));
     return model;
@@ -176,7 +178,7 @@ static void every_dof_of_a_curve_on_fewer_coordinates_is_judged(void **state) {
     DONE(plm_branch_get_int(fewer.curve, "basis_size", &size));
     assert_true(size < MEMBRANE); /* else nothing is shown */
     int quiet = 0;
-    for (int64_t dof = 0; dof < MEMBRANE; dof += 5) {
+    for (int64_t dof = 0; dof < MEMBRANE; dof += 9) {
         const found truth = peak_of(whole, dof), peak = peak_of(fewer, dof);
         const double wrong = larger(relative(peak.amplitude, truth.amplitude), relative(peak.hz, truth.hz));
         assert_true(wrong < 1e-3 || peak.status == PLM_WARNING);

@@ -330,7 +330,8 @@ static void a_structure_that_its_contacts_do_not_hold(void **state) {
         DONE(plm_model_set_rayleigh_damping(model, 0.02, 0));
         if (with_pair) DONE(plm_model_add_gap_rows_i64(model, 0, 1, ptr, zero, one, one, NULL));
         DONE(plm_model_set_excitation(model, 1, 2, force, NULL));
-        DONE(plm_model_build(model));
+        /* one mass of the two floats, as is meant here */
+        assert_true(done_but_for(ctx, plm_model_build(model), PLM_REASON_MODEL));
         DONE(plm_basis_create(model, &basis));
         DONE(plm_basis_set_string(basis, "kind", "full"));
         DONE(plm_basis_set_double(basis, "frequency_min_hz", 0.1));
