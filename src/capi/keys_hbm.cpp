@@ -162,7 +162,8 @@ const std::vector<Key> &branch_keys() {
                           b, [](auto &p) { return static_cast<std::int64_t>(p.bifurcation); });
                   }),
         result<B>("stable",
-                  "1 stable, 0 unstable, -1 not computed, no exact motion beside it, or too close to call, of every point",
+                  "1 stable, 0 unstable, -1 not computed, no exact motion beside it, or too close to call, "
+                  "of every point",
                   [](const B &b) { return per_point<Ints>(b, [](auto &p) { return stability_of(p); }); }),
         result<B>("end_reason", "why the branch ended: PLM_REASON_...",
                   [](const B &b) { return static_cast<std::int64_t>(built(b)->end_reason); }),

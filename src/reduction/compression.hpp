@@ -39,7 +39,6 @@ Matrix uncompressed(const ReducedModel &m, const Matrix &coordinates);
 /// The model that a compressed one is made from; any other itself.
 std::shared_ptr<const ReducedModel> uncompressed(const std::shared_ptr<const ReducedModel> &m);
 
-
 /// A model of exact motions (P_0 = P), made in the space that `whole` is all of, as one compressed from it.
 std::shared_ptr<const ReducedModel> as_part_of(std::shared_ptr<const ReducedModel> whole,
                                                const ReducedModel &part);

@@ -36,7 +36,7 @@ struct ReducedModel {
     bool same_static = true;
     vector<double> lambda_0;
     std::int64_t n_massless_0 = 0;
-    Matrix gap_0; // B P_0: Z x r_0
+    Matrix gap_0;                      // B P_0: Z x r_0
     vector<double> damping_diagonal_0; // as the dynamic ones; both empty when `same_static`
     Matrix damping_0;
     // loads
@@ -54,7 +54,7 @@ struct ReducedModel {
     SpaceVectors vectors;   // P: n_free x r
     SpaceVectors vectors_0; // P_0: n_free x r_0, empty when same_static
     Matrix to_static;       // P = P_0 T: r_0 x r, empty when same_static
-    Matrix in_space; // P_0 = V in_space, V the space that it was made in; empty: P_0 = V, or not known
+    Matrix in_space;        // P_0 = V in_space, V the space that it was made in; empty: P_0 = V, or not known
 
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }
     std::int64_t static_size() const { return static_cast<std::int64_t>(lambda_0.size()); }

@@ -106,7 +106,7 @@ double flops_of(const Branch &curve, const HbmOptions &options) {
 }
 
 double multiplier_error_of(const std::shared_ptr<const Basis> &basis, const HbmOptions &options,
-                        const Branch &curve, double flops, Watch watch) {
+                           const Branch &curve, double flops, Watch watch) {
     if (!basis || !basis->space()->is_contact_space || is_complete(*basis, curve)) return 0;
     const auto &points = curve.points();
     const auto from_circle = [&](std::int64_t i) {

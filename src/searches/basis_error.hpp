@@ -31,6 +31,6 @@ double basis_error_at(const std::shared_ptr<const Basis> &basis, const HbmOption
 /// by its highest motion and the one whose multiplier is nearest to the unit circle; 0 where the basis is
 /// complete, and where that would cost more than the flops.
 double multiplier_error_of(const std::shared_ptr<const Basis> &basis, const HbmOptions &options,
-                        const Branch &curve, double flops, Watch watch);
+                           const Branch &curve, double flops, Watch watch);
 
 } // namespace plm

@@ -316,8 +316,8 @@ std::shared_ptr<Branch> Hbm::follow_curve() const {
 // What is wrong with a finished curve. One that was cancelled is delivered at once.
 void Hbm::judge(Branch &curve) const {
     if (curve.end_reason == PLM_REASON_CANCELLED) return;
-    curve.set_multiplier_error(
-        multiplier_error_of(made_as_, options_, curve, std::max(few_flops, flops_of(curve, options_)), watch_));
+    curve.set_multiplier_error(multiplier_error_of(made_as_, options_, curve,
+                                                   std::max(few_flops, flops_of(curve, options_)), watch_));
     check_window(window_, watch_, curve);
     const auto error = [&] {
         const std::int64_t top = largest_response(curve);

@@ -254,9 +254,8 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     warn_of_harmonics(limits, error, *one);
     if (is_peak && options_.n_harmonics != 0 && !one->points()[0].motion)
         warn_of_given_harmonics(reduced, options_, dof, measure, harmonic, *one);
-    const double by_basis =
-        basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic},
-                       std::max(few_flops, flops_of(branch, options_)), watch_);
+    const double by_basis = basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic},
+                                           std::max(few_flops, flops_of(branch, options_)), watch_);
     check_peak(window_, options_.accuracy, by_basis, watch_, *one);
     if (is_peak) check_stability(branch, {dof, measure, harmonic}, options_.accuracy, watch_, *one);
     if (one->reduced().model)

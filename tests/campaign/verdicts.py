@@ -44,10 +44,10 @@ def twins_differ(r):
 def cries_wolf(r):
     """Something was said of a peak that is right to a third of the accuracy, other than what is true: that it is unstable, that
     no pair opens or closes, what holds of every model of the family, or what a sampler cannot know better (a mode lost among the
-    samples). Of a larger motion beside the curve the text itself tells how to check it."""
+    samples, another resonance that is driven alike). Of a larger motion beside the curve the text itself tells how to check it."""
     if "error" not in r or error_of(r) > ACCURACY / 3 or verdict(r) == "STOPPED":
         return False
-    true = set(r["says"]) | {getattr(plm, "REASON_LARGER_MOTION", 27), plm.REASON_LOST_MODE}
+    true = set(r["says"]) | {getattr(plm, "REASON_LARGER_MOTION", 27), plm.REASON_LOST_MODE, plm.REASON_TIE}
     if r["multiplier"] > 1:
         true.add(plm.REASON_UNSTABLE_PEAK)
     if r["events"] == 0:

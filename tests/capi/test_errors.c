@@ -70,7 +70,8 @@ static plm_model *beam_at_a_stop(double stiffness, double ratio) {
     return model;
 }
 
-/* Masses of 1 on a grid of springs of 1e4, clamped all around; half of them have a stop at a gap of their own. */
+/* Masses of 1 on a grid of springs of 1e4, clamped all around; half of them have a stop at a gap of their
+ * own. */
 static plm_model *membrane_with_stops(void) {
     double k[MEMBRANE * MEMBRANE] = {0}, m[MEMBRANE * MEMBRANE] = {0}, force[MEMBRANE] = {0};
     double one[STOPS], stiffness[STOPS], gap[STOPS];

@@ -100,8 +100,9 @@ void chains_agree_with_the_independent_flow(void **) {
     assert_true(below(chain_error(0.1, -0.1, 0, 20), 1e-10));
 }
 
-// A force turned round is the force half a period later. Also a sweep over forces below zero, as backbones and
-// "force_scale" make them, is no matter for the standard library: std::polar() of a negative size is undefined.
+// A force turned round is the force half a period later. Also a sweep over forces below zero, as backbones
+// and "force_scale" make them, is no matter for the standard library: std::polar() of a negative size is
+// undefined.
 double turned_force_error(double k_n, double damping) {
     exact::Structure s = chain(5, 0.02, k_n, 0.05, 0.3, 0.1, {0, 2, 4});
     s.damping[0] += damping; // not diagonal in the modes where it is above zero

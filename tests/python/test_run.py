@@ -28,6 +28,11 @@ class Run(unittest.TestCase):
         numpy.testing.assert_allclose(shape.T @ mass @ shape, numpy.eye(4), atol=1e-9)
         numpy.testing.assert_allclose(self.model.modes(2, closed=[1, 1]), self.model.modes(2, "sliding"), rtol=1e-6)
 
+    def test_the_solver_is_chosen_by_name(self):
+        model = models.model()
+        model.solver = "eigen"
+        numpy.testing.assert_allclose(model.build().modes(3), models.model().build().modes(3), rtol=1e-9)
+
     def test_the_whole_way_in_one_call(self):
         response = models.model().build().compute_response(models.WATCHED, accuracy=1e-3)
         self.assertLess(response.error, 1e-3)

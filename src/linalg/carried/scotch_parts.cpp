@@ -5,8 +5,8 @@
 #include "linalg/carried/reserve.hpp"
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <new>

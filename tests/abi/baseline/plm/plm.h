@@ -117,6 +117,8 @@ typedef int32_t plm_status;
 #define PLM_REASON_UNSTABLE_PEAK 25    /* the structure does not stay on the motion of the peak */
 #define PLM_REASON_CROSSED_OVER 26     /* branch: goes round a closed curve onto which one of its steps had crossed */
 #define PLM_REASON_LARGER_MOTION 27    /* a larger stable motion exists at the same force, beside the curve */
+#define PLM_REASON_TIE 28              /* another resonance is driven alike, or resembles the dominant mode alike */
+#define PLM_REASON_ROUNDED 29          /* rows or loads that miss rigid-body motion by rounding are taken to mean it */
 
 /* What a point of a branch is ("bifurcation" of a branch). */
 #define PLM_BIFURCATION_NONE 0
@@ -130,7 +132,7 @@ PLM_API plm_status plm_status_text(plm_status status, int64_t capacity, char *bu
 
 PLM_API plm_status plm_version(int32_t *major, int32_t *minor, int32_t *patch);
 
-/* One line: version, factorization, eigensolver, Fourier transform, components built in. */
+/* One line: version, factorization, eigensolver, Fourier transform, components built in, licence of the whole. */
 PLM_API plm_status plm_build_info(int64_t capacity, char *buffer, int64_t *needed);
 
 /* ---- Options and results by key ------------------------------------------------------------------------------
@@ -172,12 +174,15 @@ PLM_API plm_status plm_key_text(int32_t kind, int32_t index, int32_t field, int6
 
 /* ---- Context -------------------------------------------------------------------------------------------------- */
 
-/* Callbacks run on the calling thread, inside a call of this library. They must return (no longjmp, no exception) and
- * must not call functions of the same context. */
+/* Callbacks run on the calling thread, inside a call of this library. They must return (no longjmp, no exception, no
+ * pthread_exit) and must not call functions of the same context. pthread_cancel waits until the call under way is over,
+ * callbacks included; it takes place at the thread's next cancellation point, at the latest at the beginning of its next
+ * call that is no destroy. */
 
 /* level: 0 detail, 1 information, 2 warning. The text lives during the call only. */
 typedef void (*plm_log_fn)(plm_context *ctx, int32_t level, const char *text, void *user);
-/* stage: a word such as "modes" or "sweep"; fraction in [0, 1]. Return non-zero to cancel. Between two calls passes less
+/* stage: a word such as "modes" or "sweep"; fraction in [0, 1], of the call as far as its length is known: it never runs
+ * backwards within one. Return non-zero to cancel. Between two calls passes less
  * than about half a second of the processor's time, but for what cannot be interrupted: one sparse factorization or one
  * dense eigenvalue problem of the libraries below, announced by its stage. On solids of 70,000 DOFs the factorization
  * of K takes 1.5 s (the count of the modes below the cutoff, "verify_counts", takes little more, and is interrupted
@@ -188,8 +193,9 @@ typedef int32_t (*plm_progress_fn)(plm_context *ctx, const char *stage, double f
 typedef void *(*plm_allocate_fn)(int64_t bytes, void *user);
 typedef void (*plm_release_fn)(void *block, void *user);
 /* The host's own sparse symmetric solver: lower triangle by columns, base 0, rows ascending. positive_definite 0 asks
- * for a factorization of an indefinite matrix. Return 0 for success. x (n x nrhs, leading dimension ldx) is
- * overwritten by the solution. */
+ * for a factorization of an indefinite matrix. Return 0 for success; any other number is a failure, PLM_ERR_CALLBACK
+ * with that number as library_code, but for the first factorization of a K that turns out to be singular. x (n x nrhs,
+ * leading dimension ldx) is overwritten by the solution. */
 typedef int32_t (*plm_factor_fn)(plm_context *ctx, int64_t n, const int64_t *col_ptr, const int64_t *row,
                                  const double *value, int32_t positive_definite, void **factor, void *user);
 typedef int32_t (*plm_solve_fn)(plm_context *ctx, void *factor, int64_t nrhs, double *x, int64_t ldx, void *user);
@@ -280,8 +286,10 @@ PLM_API plm_status plm_model_set_matrix_i64(plm_model *model, int32_t which, int
 
 /* C = alpha M + beta K; alpha in 1/s, beta in s, both >= 0. */
 PLM_API plm_status plm_model_set_rayleigh_damping(plm_model *model, double alpha, double beta);
-/* ratio[j] (fraction of critical, in [0, 1)) for the j-th mode of the open system; modes beyond n: the last ratio up to
- * the highest mode computed. C = sum 2 zeta omega (M phi)(M phi)^T. n = 0 removes it. */
+/* ratio[j] (fraction of critical, in [0, 1)) for the j-th mode of the open system, the last one for all modes beyond: one
+ * ratio damps every mode by it. C = sum 2 zeta omega (M phi)(M phi)^T over all modes of the structure; where only the lower
+ * ones are computed, the contact attachment vectors stand for the others, each with its own frequency. The same C for
+ * every basis; what follows without inertia is not damped. n = 0 removes it. */
 PLM_API plm_status plm_model_set_modal_damping(plm_model *model, int64_t n, const double *ratio);
 /* Structural (hysteretic) loss factor eta >= 0: K (1 + i eta) in every harmonic h >= 1. */
 PLM_API plm_status plm_model_set_structural_damping(plm_model *model, double eta);
@@ -383,9 +391,12 @@ PLM_API plm_status plm_model_get_int_array(plm_model *model, const char *key, in
  * PLM_ERR_MEMORY, before anything is factored. PLM_ERR_STATE without M or K, and once the model is built. */
 PLM_API plm_status plm_model_estimate_memory(plm_model *model, double *bytes);
 
-/* Checks the whole, removes the fixed DOFs, factors K. Afterwards the model no longer changes. PLM_WARNING when something
- * is probably wrong, such as a pair given twice: "warning"; what is only worth a look goes to the log (plm_model_audit).
- * PLM_ERR_STATE without M or K; PLM_ERR_NOT_POSITIVE_DEFINITE if K + sigma M is not. Rigid-body modes are allowed. */
+/* Checks the whole, removes fixed DOFs and those that nothing moves, factors K. Then the model no longer changes.
+ * PLM_WARNING when something is probably wrong ("warning"); what is only worth a look goes to the log (plm_model_audit);
+ * with PLM_REASON_ROUNDED when gap rows or static loads miss rigid-body motion that nothing holds by what printed
+ * coordinates are rounded to: they are taken to mean it, and the text says by how much. PLM_ERR_STATE without M or K;
+ * PLM_ERR_MATRIX when they are exchanged; PLM_ERR_NOT_POSITIVE_DEFINITE if K + sigma M is not. Rigid-body modes are
+ * allowed. */
 PLM_API plm_status plm_model_build(plm_model *model);
 
 /* Static equilibrium under the pre-load with unilateral contact (the minimum of the potential energy). Read it by
@@ -427,11 +438,11 @@ PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_
  * the curve are looked for at the same force, for no more work than the curve took: PLM_WARNING with
  * PLM_REASON_LARGER_MOTION where a stable one is larger than the peak; "larger_amplitude" and "larger_frequency_hz" of hbm
  * are the highest one, and its curve with the force scales between which that exists is the first of plm_hbm_get_found.
- * error is NaN on a curve that ended early. PLM_WARNING says what of the accuracy
- * was not reached and what else should be looked at, with the reasons of plm_sampler_run, plm_basis_build, plm_hbm_sweep
- * and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a sweep, the former, where contact bounces and a
- * curve winds, after the points of some seconds (500 to 1,000). PLM_ERR_STATE before plm_model_build and without contact
- * pairs. */
+ * error is an upper bound of the relative error of amplitude and frequency, and NaN on a curve that ended early or has no
+ * peak inside. PLM_WARNING says what of the accuracy was not reached and what else should be looked at, with the reasons of
+ * plm_sampler_run, plm_basis_build, plm_hbm_sweep and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a
+ * sweep, the former, where contact bounces and a curve winds, after the points of some seconds (500 to 1,000).
+ * PLM_ERR_STATE before plm_model_build and without contact pairs. */
 PLM_API plm_status plm_model_compute_response(plm_model *model, int64_t dof, int32_t measure, double accuracy,
                                               double *frequency_hz, double *amplitude, double *error,
                                               plm_branch **curve, plm_hbm **hbm);
@@ -451,10 +462,10 @@ PLM_API plm_status plm_sampler_get_array(plm_sampler *sampler, const char *key, 
                                          int64_t *count);
 PLM_API plm_status plm_sampler_get_int_array(plm_sampler *sampler, const char *key, int64_t capacity, int64_t *values,
                                              int64_t *count);
-/* A further dominant mode whose sweep is sampled too. system: PLM_SYSTEM_OPEN or _SLIDING; mode: 1, 2, ... */
+/* A further dominant mode whose sweep is sampled too. system: PLM_SYSTEM_OPEN, _SLIDING or _REST; mode: 1, 2, ... */
 PLM_API plm_status plm_sampler_add_dominant_mode(plm_sampler *sampler, int32_t system, int64_t mode);
-/* Finds the dominant mode, the sweep, the samples and the window. PLM_ERR_STATE when the model is not built or has no
- * contact pair. */
+/* Finds the dominant mode, the sweep, the samples and the window. PLM_WARNING of what the build warned of, too, and with
+ * PLM_REASON_TIE when two resonances are driven alike. PLM_ERR_STATE without a built model, or a contact pair in it. */
 PLM_API plm_status plm_sampler_run(plm_sampler *sampler);
 
 /* ---- Basis: reduction matrices (paper, 2.3.3 and 2.3.4) ----------------------------------------------------------
@@ -554,9 +565,10 @@ PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *
  * amplitude are those of that point, and the peak lies elsewhere; with PLM_REASON_BASIS_TOO_SMALL when the error that the
  * basis makes is estimated to be above "accuracy", or, where an estimate would cost more than some points of the curve,
  * as for a sweep; with PLM_REASON_NO_CONTRACTION when the steps of that estimate do not contract; with
- * PLM_REASON_UNVERIFIED when no solution was found around the highest point of `branch`, which is then the result, and the
- * peak may be higher by more than "accuracy"; with PLM_REASON_UNSTABLE_PEAK when the motion of the peak is known to be unstable ("stable" of the
- * branch) and no stable motion of the curve is as high within "accuracy". A closed curve has no ends. */
+ * PLM_REASON_UNVERIFIED when no solution was found around the highest point of `branch`, which is then the result, and
+ * the peak may be higher by more than "accuracy"; with PLM_REASON_UNSTABLE_PEAK when the motion of the peak is known to
+ * be unstable ("stable" of the branch) and no stable motion of the curve is as high within "accuracy". A closed curve
+ * has no ends. */
 PLM_API plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                      double *frequency_hz, double *amplitude, plm_branch **peak);
 
@@ -593,14 +605,16 @@ PLM_API plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, int64_t 
  * lie on none of the known curves are traced. count: branches found, read by plm_hbm_get_found. */
 PLM_API plm_status plm_hbm_find_by_marching(plm_hbm *hbm, int64_t n_known, plm_branch *const *known,
                                             int64_t n_frequencies, int64_t n_states, int64_t *count);
-/* How wrong a point of `branch` is, without the unreduced solution: its contact forces are applied to the unreduced
- * structure, and one step with the tangent of the latter, across the curve, tells what the defect does. amplitude[3] (of a
- * DOF, as in plm_branch_get_amplitude) and frequency_hz[3] (shift of the curve), corrected less computed, by cause: basis,
- * contact sets, harmonics beyond those solved for; the sum is the estimate. It measures errors that are small against the
- * width of the resonance. Where the tangent does not hold as far as its step leads it is renewed; a part whose steps do
- * not contract even then is NaN, with PLM_WARNING (PLM_REASON_NO_CONTRACTION): the error may be large. Away from a peak,
- * amplitude and frequency belong together: one shift across the curve. Each output may be NULL. PLM_ERR_STATE when the
- * model has no contact pairs. The first call of an hbm prepares the unreduced structure. */
+/* How wrong a point of `branch` is. An exact motion is compared with that of the unreduced structure beside it, across the
+ * curve, which is found from the point's own state, nothing cut off. Where that would take more than some seconds, and for
+ * harmonic balance, the contact forces are applied to the unreduced structure, and one step with the tangent of the latter,
+ * across the curve, tells what the defect does. amplitude[3] (of a DOF, as in plm_branch_get_amplitude) and frequency_hz[3]
+ * (shift of the curve), corrected less computed, by cause: basis, contact sets, harmonics beyond those solved for; the sum
+ * is the estimate. It measures errors that are small against the width of the resonance. Where the tangent does not hold as
+ * far as its step leads it is renewed; a part whose steps do not contract even then is NaN, with PLM_WARNING
+ * (PLM_REASON_NO_CONTRACTION): the error may be large. Away from a peak, amplitude and frequency belong together: one shift
+ * across the curve. Each output may be NULL. PLM_ERR_STATE when the model has no contact pairs. The first call of an hbm
+ * prepares the unreduced structure. */
 PLM_API plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, int64_t point, int64_t dof, int32_t measure,
                                           int32_t harmonic, double *amplitude, double *frequency_hz);
 /* A basis for one number, the tolerance. From the basis of this hbm, however poor, and its curve: the motions, corrected
