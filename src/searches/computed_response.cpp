@@ -225,6 +225,8 @@ class Chain {
         tell(r);
         r.error = std::max(r.error, r.options.tolerance + r.basis->space()->error_estimate) +
                   model_->space_options().reduction_error;
+        const BranchPoint &top = r.peak.branch->points()[0];
+        if (!top.motion) r.error += top.harmonic_error < 0 ? NAN : top.harmonic_error;
         // what was not followed may be higher by any amount
         if (!std::isfinite(r.error) || !is_whole(*r.curve) || r.peak.branch->warnings.has(PLM_REASON_NO_PEAK))
             r.error = NAN;
