@@ -259,12 +259,11 @@ void Hbm::take_other_way(std::shared_ptr<Branch> &branch) const {
         if (branch && !is_better) return;
         if (branch && branch->end_reason == PLM_REASON_LOOP_CLOSED) other->beside = branch;
         branch = other;
-    } catch (const Error &e) {
-        if (branch && e.status() == PLM_CANCELLED) {
-            branch->end_reason = PLM_REASON_CANCELLED;
-        } else if (e.status() != PLM_ERR_CONVERGENCE) {
-            throw;
-        }
+    } catch (const Error &e) { // what the first way found, or why it found nothing, stays
+        if (e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK) throw;
+        if (e.status() != PLM_CANCELLED) return;
+        if (!branch) throw;
+        branch->end_reason = PLM_REASON_CANCELLED;
     }
 }
 
