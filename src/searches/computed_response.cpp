@@ -87,7 +87,7 @@ class Chain {
         std::shared_ptr<const Basis> basis = basis_for(0);
         if (basis->space()->is_contact_space) {
             const auto whole = unreduced_basis(basis, watch_);
-            if (prefers_exact(whole->reduced(), options_) &&
+            if (prefers_exact(whole->reduced(), options_) && !decays_hopelessly(*whole->reduced()) &&
                 exact_step_flops(*whole->reduced(), options_) <= cheap_whole)
                 return whole;
         }

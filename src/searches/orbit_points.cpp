@@ -220,22 +220,17 @@ double exact_step_flops(const ReducedModel &m, const HbmOptions &o) {
     return events * (per_event + pieces_per_event * per_piece);
 }
 
-namespace {
-
-// Of a period of the slowest mode where damping couples the modes: the flow goes by series then, whose pieces
-// are no longer than its fastest decay.
-double coupled_decay_flops(const ReducedModel &m) {
+bool decays_hopelessly(const ReducedModel &m) {
     constexpr double terms = 26, radians = 2;
     const auto slowest = std::find_if(m.lambda.begin(), m.lambda.end(), [](double l) { return l > 0; });
-    if (m.damping.cols() == 0 || slowest == m.lambda.end()) return 0;
+    if (slowest == m.lambda.end()) return false;
     double rate = 0;
-    for (std::int64_t j = 0; j < m.size() - m.n_massless; ++j) rate = std::max(rate, m.damping(j, j));
+    for (std::int64_t j = 0; j < m.size() - m.n_massless; ++j)
+        rate = std::max(rate, m.damping.empty() ? m.damping_diagonal[j] : m.damping(j, j));
     const double n = static_cast<double>(m.size()), z = static_cast<double>(m.n_pairs()),
                  pieces = rate * 2 * M_PI / std::sqrt(*slowest) / radians;
-    return pieces * terms * 2 * n * (n + z);
+    return pieces * terms * 2 * n * (n + z) > hopeless_period;
 }
-
-} // namespace
 
 bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &o) {
     if (o.motion == MotionKind::harmonics) return false;
@@ -255,7 +250,7 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
     if (o.n_harmonics != 0 || o.tail_correction || o.unknowns != NonlinearUnknowns::automatic ||
         o.formulation != FormulationKind::automatic || reduced->n_pairs() == 0)
         return false;
-    if (coupled_decay_flops(*reduced) > hopeless_period) return false;
+    if (!reduced->damping.empty() && decays_hopelessly(*reduced)) return false; // no modes to go by
     return exact_step_flops(*reduced, o) <
            std::max(cheap_step, harmonic_step_flops(*reduced, usual_harmonics));
 }

@@ -17,6 +17,10 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
 /// What a step of Newton's method for an exact motion costs, estimated.
 double exact_step_flops(const ReducedModel &model, const HbmOptions &options);
 
+/// Whether a period of the slowest mode takes minutes where the flow has to go by series, whose pieces are no
+/// longer than the fastest decay: where damping couples the modes, or leaves their eigenvectors no digits.
+bool decays_hopelessly(const ReducedModel &model);
+
 /// Unknowns are measured at `omega`, where the flow's model is made, too.
 OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                                double omega, FlowParameter parameter);
