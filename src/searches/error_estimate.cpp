@@ -191,7 +191,7 @@ bool ErrorEstimator::moves_whole(std::int64_t point) const {
     const HbmOptions o =
         options_at(branch_.points().at(static_cast<std::size_t>(point)), branch_.period_multiple(), options_);
     return branch_.points()[static_cast<std::size_t>(point)].motion && !branch_.reduced().all_pairs &&
-           steps_of_motion * exact_step_flops(*full_, o) <= affordable_;
+           !decays_hopelessly(*full_) && steps_of_motion * exact_step_flops(*full_, o) <= affordable_;
 }
 
 // The whole structure's own motion, across the curve from the point's own state. Nothing of it is cut off.
