@@ -57,6 +57,7 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_REASON_LARGER_MOTION = 27_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_TIE = 28_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_ROUNDED = 29_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_EFFORT = 30_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_NONE = 0_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_FOLD = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_BRANCH_POINT = 2_c_int32_t
@@ -293,6 +294,13 @@ module plm_c
             integer(c_int32_t), value :: n
             integer(plm_status) :: code
         end function plm_context_set_threads
+        function plm_context_set_effort(ctx, seconds) bind(c) result(code)
+            import :: c_double, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: ctx
+            real(c_double), value :: seconds
+            integer(plm_status) :: code
+        end function plm_context_set_effort
         function plm_context_set_solver(ctx, factor, solve, release, user) bind(c) result(code)
             import :: c_funptr, c_ptr, plm_status
             implicit none

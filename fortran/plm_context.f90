@@ -5,6 +5,7 @@ module plm_contexts
     use, intrinsic :: iso_fortran_env, only: real64
     use plm_constants
     use plm_c, only: plm_context_create, plm_context_destroy, plm_context_set_log, plm_context_set_progress, &
+        plm_context_set_effort, &
         plm_context_set_threads, &
         plm_context_get_error_info
     use plm_errors, only: finish
@@ -77,6 +78,7 @@ module plm_contexts
         procedure :: destroy
         procedure :: set_log
         procedure :: set_progress
+        procedure :: set_effort
         procedure :: set_threads
         procedure :: error_reason
     end type plm_context
@@ -133,6 +135,15 @@ contains
         end if
         call finish(self%handle, status, stat, errmsg)
     end subroutine set_progress
+
+    ! what a search may cost: seconds of one core, as operations are counted; 0: no limit
+    subroutine set_effort(self, seconds, stat, errmsg)
+        class(plm_context), intent(inout) :: self
+        real(real64), intent(in) :: seconds
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%handle, plm_context_set_effort(self%handle, seconds), stat, errmsg)
+    end subroutine set_effort
 
     ! that a call may use; results are the same for any number
     subroutine set_threads(self, n, stat, errmsg)

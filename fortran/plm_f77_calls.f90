@@ -217,6 +217,17 @@ subroutine plmcth(handle, n, ierr)
     ierr = int(plm_context_set_threads(as_pointer(handle), int(n, c_int32_t)))
 end subroutine plmcth
 
+subroutine plmcte(handle, secs, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_context_set_effort
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    real(real64), intent(in) :: secs
+    integer, intent(out) :: ierr
+    ierr = int(plm_context_set_effort(as_pointer(handle), secs))
+end subroutine plmcte
+
 subroutine plmmcr(parent, ndof, handle, ierr)
     use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
     use, intrinsic :: iso_fortran_env, only: int64

@@ -602,6 +602,10 @@ class Context {
         state()->progress = nullptr;
         state()->install();
     }
+    /// What a search may cost: seconds of one core, as operations are counted; 0: no limit.
+    void set_effort(double seconds) {
+        state()->check(plm_context_set_effort(c_handle(), seconds), "plm_context_set_effort");
+    }
     /// How many threads a call may use; results are the same for any number.
     void set_threads(std::int32_t n) {
         state()->check(plm_context_set_threads(c_handle(), n), "plm_context_set_threads");

@@ -92,8 +92,10 @@ plm_status plm_basis_set_responses(plm_basis *basis, std::int64_t n, plm_branch 
 plm_status plm_basis_build(plm_basis *basis) {
     return call<BasisHandle>("plm_basis_build", basis, [&](BasisHandle &b) {
         const std::shared_ptr<const plm::Model> &model = built(*b.model);
+        const std::int64_t before = plm::work_done();
         b.core = std::make_shared<const plm::Basis>(model, run_sampler(b), b.parent, b.basis_options,
                                                     b.owner->watch(), b.responses.get());
+        b.work = static_cast<double>(plm::work_done() - before) + (b.sampler ? b.sampler->work : 0);
         return Outcome(b.core->report().warnings);
     });
 }

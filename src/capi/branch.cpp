@@ -23,6 +23,7 @@ plm_status end_status(std::int32_t reason) {
     case PLM_REASON_LOOP_CLOSED:
         return PLM_OK;
     case PLM_REASON_POINT_LIMIT:
+    case PLM_REASON_EFFORT:
         return PLM_TRUNCATED;
     case PLM_REASON_CANCELLED:
         return PLM_CANCELLED;

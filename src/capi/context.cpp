@@ -1,6 +1,7 @@
 #include "capi/context.hpp"
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace plm::capi {
 namespace {
@@ -44,6 +45,11 @@ constexpr OwnStage own_stages[] = {{"plm_hbm_sweep", "sweep"},
 
 HostSolver SolverBinding::for_core() {
     return {host_factor, host_solve, host_free_factor, this, inertia ? host_inertia : nullptr};
+}
+
+double Context::effort_beside(double setup) const {
+    constexpr double of_a_second = 5e9; // flops as worked() is told of them
+    return effort > 0 ? std::max(effort * of_a_second, setup) : std::numeric_limits<double>::infinity();
 }
 
 std::shared_ptr<SolverBinding> Context::bind_solver() {

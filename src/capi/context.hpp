@@ -39,6 +39,8 @@ struct Context final : Object {
     Watch watch() { return Watch(log || progress ? &monitor : nullptr); }
     /// For a WorkScope around a call.
     WorkListener *listener() { return progress ? &monitor : nullptr; }
+    /// What a search may cost, flops, where its basis cost so many.
+    double effort_beside(double setup) const;
     /// A call begins: its progress starts anew.
     void begin(const char *function) { monitor.begin(function); }
     /// Null when the host brings no solver.
@@ -55,6 +57,7 @@ struct Context final : Object {
     void *log_user = nullptr, *progress_user = nullptr;
     SolverBinding solver;
     std::int64_t threads = 1; // that a call may use
+    double effort = 10;       // of a search, seconds of one core; 0: no limit
 
     ErrorDetails error;                      // of the last call that did not return PLM_OK
     std::atomic<bool> running{false};        // a call is under way

@@ -74,6 +74,16 @@ plm_status plm_context_set_threads(plm_context *ctx, std::int32_t n) {
     });
 }
 
+plm_status plm_context_set_effort(plm_context *ctx, double seconds) {
+    return call<Context>("plm_context_set_effort", ctx, [&](Context &c) {
+        require_finite(seconds, "seconds");
+        if (seconds < 0)
+            bad_argument("seconds", -1, plm::format("seconds is %g; it must be >= 0, 0: no limit", seconds));
+        c.effort = seconds;
+        return PLM_OK;
+    });
+}
+
 plm_status plm_context_set_log(plm_context *ctx, plm_log_fn fn, void *user) {
     return call<Context>("plm_context_set_log", ctx, [&](Context &c) {
         c.log = fn, c.log_user = user;

@@ -53,6 +53,7 @@ struct SamplerHandle final : HandleOf<plm_sampler, Kind::sampler> {
     std::shared_ptr<ModelHandle> model;
     SamplerOptions sampler_options;
     std::shared_ptr<const Sampler> core;
+    double work = 0; // that it took, flops
 };
 
 struct BasisHandle final : HandleOf<plm_basis, Kind::basis> {
@@ -65,6 +66,7 @@ struct BasisHandle final : HandleOf<plm_basis, Kind::basis> {
     std::shared_ptr<const Basis> parent;        // as it was when it was set
     std::shared_ptr<const Responses> responses; // for kind pod
     BasisOptions basis_options;
+    double work = 0; // that it and its sampler took, flops
     std::shared_ptr<const Basis> core;
 };
 

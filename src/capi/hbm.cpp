@@ -62,7 +62,7 @@ plm_status plm_hbm_destroy(plm_hbm **hbm) {
 }
 
 plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch) {
-    return call<HbmHandle>("plm_hbm_sweep", hbm, [&](HbmHandle &h) {
+    return search_call("plm_hbm_sweep", hbm, [&](HbmHandle &h) {
         require_pointer(branch, "branch");
         return deliver(h, solver(h).sweep(), branch);
     });
@@ -70,7 +70,7 @@ plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch) {
 
 plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, std::int64_t point,
                          plm_branch **branch) {
-    return call<HbmHandle>("plm_hbm_solve", hbm, [&](HbmHandle &h) {
+    return search_call("plm_hbm_solve", hbm, [&](HbmHandle &h) {
         require_finite(frequency_hz, "frequency_hz");
         if (!(frequency_hz > 0))
             bad_argument("frequency_hz", -1, plm::format("frequency_hz is %g; it must be > 0", frequency_hz));
@@ -87,7 +87,7 @@ plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, s
 plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, std::int64_t dof, std::int32_t measure,
                              std::int32_t harmonic, double *frequency_hz, double *amplitude,
                              plm_branch **peak) {
-    return call<HbmHandle>("plm_hbm_find_peak", hbm, [&](HbmHandle &h) {
+    return search_call("plm_hbm_find_peak", hbm, [&](HbmHandle &h) {
         const std::shared_ptr<BranchHandle> curve = own_branch(h, branch, "branch");
         require_measure(*curve->core, dof, measure, harmonic);
         require_pointer(frequency_hz, "frequency_hz");
@@ -106,7 +106,7 @@ plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, std::int64_t dof,
 plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, std::int64_t point, std::int64_t dof,
                                   std::int32_t measure, std::int32_t harmonic, double *amplitude,
                                   double *frequency_hz) {
-    return call<HbmHandle>("plm_hbm_estimate_error", hbm, [&](HbmHandle &h) {
+    return search_call("plm_hbm_estimate_error", hbm, [&](HbmHandle &h) {
         const std::shared_ptr<BranchHandle> curve = own_branch(h, branch, "branch");
         require_point(*curve->core, point);
         require_measure(*curve->core, dof, measure, harmonic);
@@ -138,7 +138,7 @@ plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, std::int64_t
 
 plm_status plm_hbm_refine_basis(plm_hbm *hbm, std::int64_t dof, std::int32_t measure, std::int32_t harmonic,
                                 double tolerance, plm_basis **refined, double *error) {
-    return call<HbmHandle>("plm_hbm_refine_basis", hbm, [&](HbmHandle &h) {
+    return search_call("plm_hbm_refine_basis", hbm, [&](HbmHandle &h) {
         const std::shared_ptr<const plm::Basis> &basis = built(*h.basis);
         require_range(dof, 0, basis->model()->n_dof() - 1, "dof");
         require_range(measure, PLM_PEAK, PLM_HARMONIC, "measure");

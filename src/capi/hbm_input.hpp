@@ -1,11 +1,30 @@
 // What the functions of an hbm share: the solver behind it, its branches in and out.
 #pragma once
+#include "capi/barrier.hpp"
 #include "capi/handles.hpp"
 #include "capi/outcome.hpp"
 
 namespace plm::capi {
 
 using BranchPtr = std::shared_ptr<const Branch>;
+
+/// A search within so many flops: the reason of one that has no result by then is PLM_REASON_EFFORT.
+template <class Search> auto within_effort(double flops, const Search &search) {
+    const Effort effort(flops);
+    try {
+        return search();
+    } catch (const Error &e) {
+        if (e.reason() != PLM_REASON_EFFORT) throw;
+        throw Error(PLM_ERR_CONVERGENCE, e.what()).reason(e.reason());
+    }
+}
+
+/// A call of an hbm that searches.
+template <class Body> plm_status search_call(const char *function, plm_hbm *hbm, const Body &body) {
+    return call<HbmHandle>(function, hbm, [&](HbmHandle &h) {
+        return within_effort(h.owner->effort_beside(h.basis->work), [&] { return body(h); });
+    });
+}
 
 /// A solver with the options as they are now.
 Hbm solver(const HbmHandle &h);

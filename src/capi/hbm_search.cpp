@@ -31,6 +31,10 @@ BranchPtr own_curve(const HbmHandle &h, const plm_branch *branch, const char *na
 plm_status keep_found(HbmHandle &h, std::vector<FoundBranch> found, std::int64_t *count) {
     plm::Warnings warnings;
     for (const FoundBranch &f : found) warnings.add(f.branch->warnings);
+    if (plm::effort_left() <= 0)
+        warnings.add(PLM_REASON_EFFORT,
+                     "the effort allowed was spent before all was looked at: there may be more than what "
+                     "was found. Raise the effort of the context");
     h.found = std::move(found);
     h.larger.reset(); // it was the first of those before
     *count = static_cast<std::int64_t>(h.found.size());
@@ -41,7 +45,7 @@ plm_status keep_found(HbmHandle &h, std::vector<FoundBranch> found, std::int64_t
 
 plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, std::int64_t point, std::int32_t mirrored,
                                  plm_branch **other) {
-    return call<HbmHandle>("plm_hbm_switch_branch", hbm, [&](HbmHandle &h) {
+    return search_call("plm_hbm_switch_branch", hbm, [&](HbmHandle &h) {
         const std::shared_ptr<BranchHandle> curve = own_branch(h, branch, "branch");
         require_point(*curve->core, point);
         require_range(mirrored, 0, 1, "mirrored");
@@ -52,7 +56,7 @@ plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, std::int64_t 
 
 plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double force_max,
                                  std::int64_t *count) {
-    return call<HbmHandle>("plm_hbm_find_isolated", hbm, [&](HbmHandle &h) {
+    return search_call("plm_hbm_find_isolated", hbm, [&](HbmHandle &h) {
         const std::shared_ptr<BranchHandle> curve = own_branch(h, main_branch, "main_branch");
         require_force(force_max, "force_max");
         require_pointer(count, "count");
@@ -65,7 +69,7 @@ plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double f
 }
 
 plm_status plm_hbm_find_backbones(plm_hbm *hbm, double force_max, std::int64_t *count) {
-    return call<HbmHandle>("plm_hbm_find_backbones", hbm, [&](HbmHandle &h) {
+    return search_call("plm_hbm_find_backbones", hbm, [&](HbmHandle &h) {
         require_force(force_max, "force_max");
         require_pointer(count, "count");
         const std::vector<plm::Backbone> backbones = solver(h).find_backbones(force_max);
@@ -92,7 +96,7 @@ plm_status plm_hbm_get_found(plm_hbm *hbm, std::int64_t index, double *force_ran
 
 plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, std::int64_t point, double force_min,
                               double force_max, plm_branch **folds) {
-    return call<HbmHandle>("plm_hbm_track_fold", hbm, [&](HbmHandle &h) {
+    return search_call("plm_hbm_track_fold", hbm, [&](HbmHandle &h) {
         const std::shared_ptr<BranchHandle> curve = own_branch(h, branch, "branch");
         require_point(*curve->core, point);
         require_force(force_min, "force_min");
@@ -107,7 +111,7 @@ plm_status plm_hbm_track_fold(plm_hbm *hbm, plm_branch *branch, std::int64_t poi
 
 plm_status plm_hbm_find_by_marching(plm_hbm *hbm, std::int64_t n_known, plm_branch *const *known,
                                     std::int64_t n_frequencies, std::int64_t n_states, std::int64_t *count) {
-    return call<HbmHandle>("plm_hbm_find_by_marching", hbm, [&](HbmHandle &h) {
+    return search_call("plm_hbm_find_by_marching", hbm, [&](HbmHandle &h) {
         require_range(n_known, 0, 1 << 20, "n_known");
         if (n_known > 0) require_pointer(known, "known");
         require_range(n_frequencies, 1, 1 << 20, "n_frequencies");
@@ -124,7 +128,7 @@ plm_status plm_hbm_find_by_marching(plm_hbm *hbm, std::int64_t n_known, plm_bran
 
 plm_status plm_hbm_find_nonlinear_mode(plm_hbm *hbm, std::int64_t mode, std::int64_t dof,
                                        double amplitude_max, plm_branch **branch) {
-    return call<HbmHandle>("plm_hbm_find_nonlinear_mode", hbm, [&](HbmHandle &h) {
+    return search_call("plm_hbm_find_nonlinear_mode", hbm, [&](HbmHandle &h) {
         const plm::ReducedModel &reduced = *built(*h.basis)->reduced();
         require_range(mode, 1, reduced.size(), "mode");
         require_range(dof, 0, reduced.model->n_dof() - 1, "dof");

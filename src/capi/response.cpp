@@ -2,6 +2,7 @@
 #include "capi/barrier.hpp"
 #include "capi/branch_end.hpp"
 #include "capi/handles.hpp"
+#include "capi/hbm_input.hpp"
 #include "capi/outcome.hpp"
 #include "searches/computed_response.hpp"
 #include <cmath>
@@ -67,8 +68,11 @@ plm_status plm_model_compute_response(plm_model *model, std::int64_t dof, std::i
             throw plm::Error(PLM_ERR_STATE, "the model has no contact pair: its response is linear, and a "
                                             "basis of kind full or craig_bampton gives it")
                 .argument("model");
-        const plm::ComputedResponse r = plm::compute_response(
-            core, m.space, {dof, static_cast<plm::Measure>(measure), 0}, accuracy, m.owner->watch());
+        const auto allowed = [&](double setup) { return m.owner->effort_beside(setup); };
+        const plm::ComputedResponse r = within_effort(INFINITY, [&] {
+            return plm::compute_response(core, m.space, {dof, static_cast<plm::Measure>(measure), 0},
+                                         accuracy, allowed, m.owner->watch());
+        });
         m.space = r.basis->sampler() ? r.basis->sampler()->space() : m.space; // the next one starts from it
         const double highest[] = {r.peak.frequency_hz, r.peak.amplitude};
         plm::require_finite_result(highest, 2, "frequency_hz, amplitude");

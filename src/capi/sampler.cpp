@@ -49,8 +49,10 @@ plm_status plm_sampler_run(plm_sampler *sampler) {
                              "the model has no contact pair, so there is no contact area to sample; use "
                              "a basis of kind full or craig_bampton")
                 .argument("sampler");
+        const std::int64_t before = plm::work_done();
         s.core =
             std::make_shared<const plm::Sampler>(model, s.sampler_options, s.owner->watch(), s.model->space);
+        s.work = static_cast<double>(plm::work_done() - before);
         s.model->space = s.core->space(); // the next sampler of this model starts from it
         if (!s.model->rest) s.model->rest = plm::rest_of(*s.core->space());
         return Outcome(warnings_of(s));

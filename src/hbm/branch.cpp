@@ -25,6 +25,8 @@ std::string end_text(std::int32_t reason, bool sampled) {
         return "max_points reached; raise it or max_step";
     case PLM_REASON_CANCELLED:
         return "cancelled by the progress callback";
+    case PLM_REASON_EFFORT:
+        return "the effort allowed is spent; raise the effort of the context";
     case PLM_REASON_STEP_MINIMUM:
         return "the step fell below min_step; try more harmonics or a softer contact";
     case PLM_REASON_CONTACT_CHATTER:
@@ -231,9 +233,13 @@ vector<double> Branch::closed_share(std::int64_t point) const {
     return closed_shares(whole_contact_motion(*reduced_, points_[point]).u);
 }
 
-void require_uncancelled(const Branch &branch) {
-    if (branch.end_reason == PLM_REASON_CANCELLED)
-        throw Error(PLM_CANCELLED, end_text(branch.end_reason)).reason(PLM_REASON_CANCELLED);
+bool was_stopped(const Branch &branch) {
+    return branch.end_reason == PLM_REASON_CANCELLED || branch.end_reason == PLM_REASON_EFFORT;
+}
+
+void require_unstopped(const Branch &branch) {
+    if (was_stopped(branch))
+        throw Error(PLM_CANCELLED, end_text(branch.end_reason)).reason(branch.end_reason);
 }
 
 } // namespace plm

@@ -101,8 +101,9 @@ class Branch {
     std::vector<BranchPoint> points_;
 };
 
-/// Throws PLM_CANCELLED for a curve that the host stopped: to be called where it is a part of a larger
-/// answer.
-void require_uncancelled(const Branch &branch);
+/// Whether the host or a spent effort stopped a curve, and PLM_CANCELLED with its reason for one: to be
+/// called where it is a part of a larger answer.
+bool was_stopped(const Branch &branch);
+void require_unstopped(const Branch &branch);
 
 } // namespace plm

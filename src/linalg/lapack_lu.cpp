@@ -46,9 +46,9 @@ bool factor_panels(Matrix &lu, vector<int> &pivots) {
             if (m > 0)
                 dgemm_("N", "N", &m, &n, &columns, &minus, panel + (below - j), &lda, upper, &lda, &plus,
                        upper + (below - j), &lda, 1, 1);
-            worked(2.0 * m * n * columns);
+            worked(in_products * 2.0 * m * n * columns);
         }
-        worked(static_cast<double>(rows) * columns * columns);
+        worked(in_products * rows * columns * columns);
     }
     return regular;
 }
@@ -159,7 +159,7 @@ void ComplexLu::factor(std::int64_t n, vector<complex_t> &a) {
     blas_int info = 0;
     zgetrf_(&size, &size, lu_.data(), &lda, pivots_.data(), &info);
     require_valid(info, "zgetrf");
-    worked(8.0 / 3 * static_cast<double>(n) * static_cast<double>(n) * static_cast<double>(n));
+    worked(in_products * 8 / 3 * static_cast<double>(n) * static_cast<double>(n) * static_cast<double>(n));
     if (info == 0) return;
     n_ = 0; // nothing may be solved
     throw Error(PLM_ERR_SINGULAR, format("zgetrf: matrix singular at %d", info - 1))

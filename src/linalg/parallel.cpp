@@ -1,6 +1,7 @@
 #include "linalg/parallel.hpp"
 #include "linalg/blas_host.hpp"
 #include "linalg/memory.hpp"
+#include "linalg/work.hpp"
 #include <algorithm>
 #include <atomic>
 #include <cfenv>
@@ -44,15 +45,17 @@ class Pieces {
 
     void work() {
         const ThreadsScope one(1);
+        const WorkCount mine;
         while (!failed_) {
             const std::int64_t i = next_++;
-            if (i >= count_) return;
+            if (i >= count_) break;
             try {
                 work_.call(work_.body, i);
             } catch (...) {
                 keep(i, std::current_exception());
             }
         }
+        done_ += mine.so_far();
     }
 
     /// On a thread of its own: no exception leaves it, and without a buffer for BLAS it does nothing.
@@ -65,8 +68,9 @@ class Pieces {
         }
     }
 
-    void rethrow() const {
+    void finish() const {
         if (error_) std::rethrow_exception(error_);
+        add_work(done_);
     }
 
   private:
@@ -81,7 +85,7 @@ class Pieces {
 
     const std::int64_t count_;
     const Piecework work_;
-    std::atomic<std::int64_t> next_{0};
+    std::atomic<std::int64_t> next_{0}, done_{0};
     std::atomic<bool> failed_{false};
     std::mutex mutex_;
     std::int64_t failed_piece_ = 0;
@@ -136,7 +140,7 @@ void share_out(std::int64_t count, Piecework work) {
         const Helpers helpers(pieces, threads - 1);
         pieces.work();
     }
-    pieces.rethrow();
+    pieces.finish();
 }
 
 } // namespace plm

@@ -164,7 +164,7 @@ template <class Real> void PieceExponential<Real>::square(double x, double dt) {
         gemm('N', size_, size_, size_, 1, turned_.data(), size_, turned_.data(), size_, 0, square_.data(),
              size_);
         std::swap(turned_, square_);
-        worked(16 * cube());
+        worked(in_products * 16 * cube());
     }
     join(block_, whole_);
     gemm('N', size_, size_, size_, 1, turned_.data(), size_, whole_.data(), size_, 0, square_.data(), size_);
@@ -188,7 +188,7 @@ void PieceExponential<Real>::sum_chebyshev(Block &block, double x, double dt, do
     const std::int64_t size = n_ * size_, n_terms = chebyshev_terms(x, tolerance);
     const double unit = dt / x;
     const Real into = static_cast<Real>(unit), back = static_cast<Real>(1 / unit);
-    worked(static_cast<double>(n_terms) * 4 * cube());
+    worked(in_products * static_cast<double>(n_terms) * 4 * cube());
     scale_by(unit);
     const vector<double> weight = bessel_functions(x, n_terms);
     std::copy_n(block.y.data(), size, older_.y.data());
@@ -229,7 +229,7 @@ void PieceExponential<Real>::add_acceleration(double factor, const Block &of, ve
 }
 
 template <class Real> void PieceExponential<Real>::sum_taylor(Block &block, double dt, std::int64_t n_terms) {
-    worked(static_cast<double>(n_terms) * 4 * cube());
+    worked(in_products * static_cast<double>(n_terms) * 4 * cube());
     const std::int64_t size = n_ * size_;
     const Real step = static_cast<Real>(dt);
     vector<Real> &older = older_.y, &newer = newer_.y, &next = newer_.v;

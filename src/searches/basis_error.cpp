@@ -1,4 +1,5 @@
 #include "searches/basis_error.hpp"
+#include "linalg/work.hpp"
 #include "searches/harmonic_choice.hpp"
 #include "searches/orbit_points.hpp"
 #include "searches/wider_range.hpp"
@@ -17,6 +18,9 @@ constexpr std::int64_t least_harmonics = 5;
 // A point that misses the equations of the whole structure by more of its size is too far from the better
 // solution for steps along tangents to tell how far.
 constexpr double too_far = 0.02;
+
+// Of the effort that is left: something has to be left for what comes after.
+constexpr double share_of_estimate = 0.8;
 
 constexpr double not_judged = std::numeric_limits<double>::quiet_NaN();
 
@@ -85,15 +89,19 @@ double basis_error_at(const std::shared_ptr<const Basis> &basis, const HbmOption
     const double amplitude = branch.amplitude(point, output.dof, output.measure, output.harmonic);
     if (amplitude == 0) return not_judged;
     if (is_complete(*basis, branch)) return 0;
+    double error = not_judged;
     try {
         HbmOptions o = options;
         o.max_harmonics = affordable_harmonics(branch, point, flops) / branch.period_multiple();
-        const ErrorEstimator estimator(unreduced_basis(basis, watch)->reduced(), branch, o, flops);
-        if (!estimator.moves_whole(point)) {
-            if (o.max_harmonics == 0) return not_judged;
-            if (branch.full_residual(point) > too_far) return std::numeric_limits<double>::infinity();
-        }
-        return basis_error(estimator, branch, point, output, amplitude);
+        within(share_of_estimate * effort_left(), [&] {
+            const ErrorEstimator estimator(unreduced_basis(basis, watch)->reduced(), branch, o, flops);
+            const bool by_harmonics = !estimator.moves_whole(point);
+            if (by_harmonics && o.max_harmonics == 0) return;
+            error = by_harmonics && branch.full_residual(point) > too_far
+                        ? std::numeric_limits<double>::infinity()
+                        : basis_error(estimator, branch, point, output, amplitude);
+        });
+        return error;
     } catch (const Error &e) { // a tangent that is singular, motions that nothing holds
         if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK)
             throw;
@@ -117,13 +125,16 @@ double multiplier_error_of(const std::shared_ptr<const Basis> &basis, const HbmO
     for (std::int64_t i = 1; i < static_cast<std::int64_t>(points.size()); ++i)
         if (from_circle(i) < from_circle(nearest)) nearest = i;
     double worst = 0;
-    try {
+    const auto compare = [&] {
         const ErrorEstimator estimator(unreduced_basis(basis, watch)->reduced(), curve, options, flops / 2);
         for (std::int64_t i : {largest_response(curve), nearest}) {
             if (!std::isfinite(from_circle(i)) || !estimator.moves_whole(i)) continue;
             const ErrorEstimate e = estimator.estimate(i, 0, Measure::peak, 0, false);
             if (std::isfinite(e.multiplier)) worst = std::max(worst, std::abs(e.multiplier));
         }
+    };
+    try {
+        within(share_of_estimate * effort_left(), compare);
     } catch (const Error &e) {
         if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
     }

@@ -35,8 +35,6 @@ constexpr double much_smaller = 0.7;
 constexpr double much_smaller_where_unstable = 0.6;
 constexpr std::int64_t motions_looked_at = 6; // of the first curve, besides its highest
 constexpr std::int64_t most_rounds = 6;
-// Of the first curve: some two hundred solutions that together take a second or two.
-constexpr double flops_of_look = 4e8;
 
 // Of multipliers near the unit circle, on curves of cracked plates; and of motions whose multipliers are
 // right to that.
@@ -91,12 +89,6 @@ CurveCompression::CurveCompression(std::shared_ptr<const ReducedModel> whole, co
                                    double highest, Watch watch)
     : whole_(std::move(whole)), options_(options), highest_(highest), left_out_(left_out_at_first),
       watch_(watch) {}
-
-std::int64_t CurveCompression::harmonics_of_look() const {
-    for (std::int64_t h : {5, 4, 3, 2})
-        if (harmonic_step_flops(*whole_, h) < flops_of_look) return h;
-    return 1;
-}
 
 double compression_tolerance(const ReducedModel &whole, const HbmOptions &options) {
     return (is_dear_step(whole, options) ? share_where_dear : share_of_accuracy) * options.accuracy;

@@ -32,8 +32,6 @@ class CurveCompression {
     CurveCompression(std::shared_ptr<const ReducedModel> whole, const HbmOptions &options, double highest,
                      Watch watch);
 
-    /// Harmonics of a curve to begin with.
-    std::int64_t harmonics_of_look() const;
     /// Takes motions of that curve, solved on the whole basis, and the exact ones beside some of them. False:
     /// these do not settle on a model that is much smaller.
     bool begin_with(const Branch &look);

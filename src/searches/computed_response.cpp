@@ -1,4 +1,5 @@
 #include "searches/computed_response.hpp"
+#include "linalg/work.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"
 #include "searches/curve_verdicts.hpp"
@@ -17,19 +18,18 @@ constexpr std::int64_t more_harmonics[] = {10, 20, 40, 80}, // when a whole curv
 // Points after which a curve is left for that on a larger basis: where one is too small its contact may
 // bounce as the structure's does not.
 constexpr std::int64_t few_points = 300;
-// Where contact of the structure itself bounces, a curve may wind without end: what a curve may cost in
-// flops, and the points that it has anyhow.
-constexpr double most_flops = 1.5e9;
-constexpr std::int64_t points_anyhow = 500;
-// Curves that have cost so many flops together: not another one on a larger basis, but on one that is made of
-// their motions.
-constexpr double much_work = 1.5e10;
 // Where exact motions cost so many flops a step, one of them, found by a curve of few harmonics that takes a
 // fraction of theirs, says first whether the basis is worth a curve.
 constexpr double worth_a_look = 1e7;
-constexpr std::int64_t harmonics_of_look = 5, points_of_look = 250;
+constexpr std::int64_t points_of_look = 250;
 // A step of exact motions on the whole structure: no basis saves anything.
 constexpr double cheap_whole = 3e6;
+// Of the effort: what curves may have, and what their peak and its error have at least.
+constexpr double share_of_curves = 0.75;
+// Some seconds.
+constexpr double flops_of_first_curve = 1e10;
+// Of what is left, for one exact motion: a curve takes some thirty times as much.
+constexpr double share_of_look = 0.2;
 // Columns beyond which a compressed basis is the better next step than a larger one.
 constexpr std::int64_t many_columns = 150;
 // For the estimate of an error: some seconds.
@@ -38,36 +38,61 @@ constexpr double much_flops = 4e10;
 class Chain {
   public:
     Chain(std::shared_ptr<const Model> model, std::shared_ptr<const Space> known, const Output &output,
-          double accuracy, Watch watch)
+          double accuracy, const Allowance &allowed, Watch watch)
         : model_(std::move(model)), space_(std::move(known)), output_(output), accuracy_(accuracy),
-          watch_(watch) {
+          allowed_(allowed), watch_(watch) {
         options_.accuracy = accuracy;
         const double of_host = model_->space_options().reduction_error;
         if (of_host <= allowed_of_host * accuracy) accuracy_ -= of_host; // else check_host_reduction() speaks
     }
 
     ComputedResponse run() {
-        const auto first = first_basis();
-        ComputedResponse best = on(first, is_complete(*first) ? Follow::to_the_end : Follow::few_points);
-        for (std::int64_t h : more_harmonics) {
-            if (h <= best.basis->sampler()->n_harmonics()) continue;
-            if (!can_improve(best) || is_complete(*best.basis) ||
-                best.basis->reduced()->size() >= many_columns || (work_ > much_work && !is_cut(best)))
-                break;
-            const auto basis = basis_for(h);
-            if (basis->reduced()->size() <= best.basis->reduced()->size()) continue; // it knows no more
-            // if that on the next basis has as many, the contact of the structure itself bounces
-            const Follow how = is_cut(best) ? Follow::to_the_end : Follow::few_points;
-            if (!take_better(best, [&] { return on(basis, how); })) break;
+        const std::int64_t before = work_done();
+        const auto smallest = basis_for(0);
+        const double allowed = allowed_(static_cast<double>(work_done() - before));
+        ComputedResponse best;
+        {
+            const Effort effort(allowed);
+            spent_ = !within(share_of_curves * effort_left(), [&] { search(smallest, best); });
+            if (best.curve && is_cut(best)) within(effort_left(), [&] { find_peak(best); });
+            if (!is_cut(best)) look_beside(best);
         }
-        if (is_cut(best)) best = on(best.basis, Follow::to_the_end);
-        if (can_improve(best) && std::isfinite(best.error)) take_better(best, [&] { return refined(best); });
+        if (is_cut(best) || was_stopped(*best.curve)) take_first_curve(smallest, best);
         finish(best);
         return best;
     }
 
   private:
     enum class Follow { to_the_end, few_points };
+
+    // best: what there is whenever the effort is spent.
+    void search(const std::shared_ptr<const Basis> &smallest, ComputedResponse &best) {
+        const auto first = first_basis(smallest, best);
+        follow(first, is_complete(*first) ? Follow::to_the_end : Follow::few_points, best);
+        for (std::int64_t h : more_harmonics) {
+            if (h <= best.basis->sampler()->n_harmonics()) continue;
+            if (!can_improve(best) || is_complete(*best.basis) ||
+                best.basis->reduced()->size() >= many_columns)
+                break;
+            const auto basis = basis_for(h);
+            if (basis->reduced()->size() <= best.basis->reduced()->size()) continue; // it knows no more
+            // if that on the next basis has as many, the contact of the structure itself bounces
+            const Follow how = is_cut(best) ? Follow::to_the_end : Follow::few_points;
+            if (!take_better(best, [&](ComputedResponse &next) { follow(basis, how, next); })) break;
+        }
+        if (is_cut(best)) follow(best.basis, Follow::to_the_end, best);
+        if (can_improve(best) && std::isfinite(best.error))
+            take_better(best, [&](ComputedResponse &next) { next = refined(best); });
+    }
+
+    // However little was allowed, there is an answer.
+    void take_first_curve(const std::shared_ptr<const Basis> &smallest, ComputedResponse &best) {
+        spent_ = true;
+        const Effort little(flops_of_first_curve);
+        const auto first = curve_of_few_harmonics(*smallest, widened(smallest->reduced()));
+        if (!best.curve || is_whole(*first)) best = with_curve(smallest, first);
+        if (is_cut(best)) find_peak(best);
+    }
 
     bool is_met(const ComputedResponse &r) const { return r.error <= accuracy_; }
     // Given up for its many points: there is no peak yet.
@@ -83,8 +108,7 @@ class Chain {
 
     // All of the structure where that is cheap; else the first basis that is not too small by what a curve of
     // few harmonics tells.
-    std::shared_ptr<const Basis> first_basis() {
-        std::shared_ptr<const Basis> basis = basis_for(0);
+    std::shared_ptr<const Basis> first_basis(std::shared_ptr<const Basis> basis, ComputedResponse &best) {
         if (basis->space()->is_contact_space) {
             const auto whole = unreduced_basis(basis, watch_);
             if (prefers_exact(whole->reduced(), options_) && !decays_hopelessly(*whole->reduced()) &&
@@ -93,19 +117,26 @@ class Chain {
         }
         for (std::int64_t h : looked_at) {
             if (h <= basis->sampler()->n_harmonics()) continue;
-            if (basis->reduced()->size() >= many_columns || !looks_too_small(basis)) break;
+            if (basis->reduced()->size() >= many_columns || !looks_too_small(basis, best)) break;
             basis = basis_for(h);
         }
         return basis;
     }
 
-    bool looks_too_small(const std::shared_ptr<const Basis> &basis) const {
+    // The curve looked at is the first answer.
+    bool looks_too_small(const std::shared_ptr<const Basis> &basis, ComputedResponse &best) {
         const auto reduced = widened(basis->reduced());
         if (!prefers_exact(reduced, options_) || exact_step_flops(*reduced, options_) < worth_a_look)
             return false;
         Branch one(reduced, options_.force_scale);
         try {
-            if (!find_motion_near_peak(*basis, one)) return false;
+            const auto curve = curve_of_few_harmonics(*basis, reduced);
+            if (!best.curve || is_whole(*curve)) best = with_curve(basis, curve);
+            if (!spans(*curve)) return false;
+            const bool in_time =
+                within(share_of_look * effort_left(), [&] { find_motion_near_peak(*curve, one); });
+            if (!in_time) options_.motion = MotionKind::harmonics; // a curve of such motions is out of reach
+            if (one.points().empty()) return false;
         } catch (const Error &e) {
             if (e.status() != PLM_ERR_CONVERGENCE) throw;
             return false;
@@ -113,24 +144,27 @@ class Chain {
         const double error = basis_error_at(basis, options_, one, 0, output_, much_flops, watch_);
         watch_.log(1, format("%lld coordinates: error by the basis %.2g near the peak",
                              static_cast<long long>(basis->reduced()->size()), error));
+        looked_at_ = basis, error_near_peak_ = error;
         return std::isfinite(error) && error > accuracy_;
     }
 
-    bool find_motion_near_peak(const Basis &basis, Branch &one) const {
+    std::shared_ptr<const Branch> curve_of_few_harmonics(const Basis &basis,
+                                                         std::shared_ptr<const ReducedModel> reduced) const {
         HbmOptions o = options_;
         o.motion = MotionKind::harmonics;
-        o.n_harmonics = harmonics_of_look;
+        o.n_harmonics = harmonics_of_look(*reduced);
         o.max_points = points_of_look;
         o.stability = StabilityKind::off;
-        const auto curve = Hbm(one.reduced_model(), basis.sweep_range(), o, watch_).sweep();
-        require_uncancelled(*curve);
-        if (!spans(*curve)) return false;
+        const auto curve = Hbm(std::move(reduced), basis.sweep_range(), o, watch_).sweep();
+        if (curve->end_reason == PLM_REASON_CANCELLED) require_unstopped(*curve);
+        return curve;
+    }
+
+    void find_motion_near_peak(const Branch &curve, Branch &one) const {
         BranchPoint point =
-            curve->points()[static_cast<std::size_t>(curve->highest_point(output_.dof, output_.measure, 0))];
+            curve.points()[static_cast<std::size_t>(curve.highest_point(output_.dof, output_.measure, 0))];
         NewtonWork work;
-        if (!make_exact(one.reduced_model(), options_, watch_, point, work)) return false;
-        one.append(std::move(point));
-        return true;
+        if (make_exact(one.reduced_model(), options_, watch_, point, work)) one.append(std::move(point));
     }
 
     // n = 0: as far as the modes reach that are known anyhow.
@@ -150,42 +184,41 @@ class Chain {
         o.tolerance = accuracy_;
         const Refinement found = refine(last.basis, o, watch_, last.curve);
         if (!found.basis) throw Error(PLM_ERR_CONVERGENCE, "no curve on a compressed basis");
-        ComputedResponse r;
-        r.basis = found.basis;
-        r.options = last.options;
-        r.curve = found.branch;
-        return with_peak(std::move(r));
+        ComputedResponse r = with_curve(found.basis, found.branch);
+        find_peak(r);
+        return r;
     }
 
-    std::int64_t most_points(const Basis &basis) const {
-        const double affordable = most_flops / exact_step_flops(*widened(basis.reduced()), options_);
-        return std::clamp(static_cast<std::int64_t>(std::min(affordable, 1e9)), points_anyhow,
-                          options_.max_points);
-    }
-
-    ComputedResponse on(std::shared_ptr<const Basis> basis, Follow how) {
-        ComputedResponse r;
-        r.basis = std::move(basis);
-        r.options = options_;
-        r.error = INFINITY;
+    // The curve is there before its peak is looked for.
+    void follow(std::shared_ptr<const Basis> basis, Follow how, ComputedResponse &r) {
         HbmOptions limited = options_;
-        limited.max_points = how == Follow::few_points ? few_points : most_points(*r.basis);
-        r.curve = Hbm(r.basis, limited, watch_).sweep(output_);
-        require_uncancelled(*r.curve);
-        work_ += static_cast<double>(r.curve->newton_work.iterations) *
-                 exact_step_flops(r.curve->reduced(), options_);
-        if (r.curve->end_reason == PLM_REASON_POINT_LIMIT && how == Follow::few_points) return r;
-        return with_peak(std::move(r));
+        if (how == Follow::few_points) limited.max_points = few_points;
+        const auto curve = Hbm(basis, limited, watch_).sweep(output_);
+        if (curve->end_reason == PLM_REASON_CANCELLED) require_unstopped(*curve);
+        if (r.curve && is_whole(*r.curve) && was_stopped(*curve)) return; // what there is goes on to the end
+        r = with_curve(std::move(basis), curve);
+        if (curve->end_reason != PLM_REASON_POINT_LIMIT || how == Follow::to_the_end) find_peak(r);
+    }
+
+    ComputedResponse with_curve(std::shared_ptr<const Basis> basis,
+                                std::shared_ptr<const Branch> curve) const {
+        ComputedResponse r;
+        r.basis = std::move(basis), r.options = options_, r.curve = std::move(curve), r.error = INFINITY;
+        return r;
     }
 
     // The peak of a curve and its error.
-    ComputedResponse with_peak(ComputedResponse r) {
-        r.peak = Hbm(r.basis, r.options, watch_).find_peak(*r.curve, output_.dof, output_.measure, 0);
-        r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_, much_flops, watch_);
+    void find_peak(ComputedResponse &r) {
+        Peak peak = Hbm(r.basis, r.options, watch_).find_peak(*r.curve, output_.dof, output_.measure, 0);
+        r.peak = std::move(peak);
+        r.error = r.peak.basis_error;
+        if (std::isnan(r.error))
+            r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_, much_flops, watch_);
+        if (std::isnan(r.error) && r.basis == looked_at_ && !r.curve->reduced().from)
+            r.error = error_near_peak_;
         watch_.log(1, format("%lld coordinates: peak %.6g at %.6g Hz, its error by the basis %.2g",
                              static_cast<long long>(r.basis->reduced()->size()), r.peak.amplitude,
                              r.peak.frequency_hz, r.error));
-        return r;
     }
 
     static bool is_whole(const Branch &curve) { return spans(curve) && !is_worthless(curve); }
@@ -206,7 +239,8 @@ class Chain {
     // False: the attempt failed, or a larger basis brought nothing, or no longer a whole curve of motions.
     template <class Attempt> bool take_better(ComputedResponse &best, Attempt attempt) const {
         try {
-            ComputedResponse next = attempt();
+            ComputedResponse next;
+            attempt(next);
             if (!std::isfinite(next.error)) next.error = change_if_settled(best, next);
             const bool larger = next.basis->reduced()->size() > best.basis->reduced()->size(),
                        better = (next.error < best.error || (larger && !std::isfinite(best.error))) &&
@@ -214,7 +248,7 @@ class Chain {
             if (better) best = std::move(next);
             return better;
         } catch (const Error &e) { // what is there already is an answer
-            if (e.status() != PLM_ERR_CONVERGENCE) throw;
+            if (e.status() != PLM_ERR_CONVERGENCE && e.reason() != PLM_REASON_EFFORT) throw;
             watch_.log(1, std::string("no curve on the next basis: ") + e.what());
             return false;
         }
@@ -230,13 +264,23 @@ class Chain {
         // what was not followed may be higher by any amount
         if (!std::isfinite(r.error) || !is_whole(*r.curve) || r.peak.branch->warnings.has(PLM_REASON_NO_PEAK))
             r.error = NAN;
-        look_beside(r);
+        if (r.larger)
+            watch_.keeping(r.warnings).warn(PLM_REASON_LARGER_MOTION, words_for(*r.larger, known(r)));
+        if (spent_ && !(r.error <= options_.accuracy))
+            r.warnings.add(
+                PLM_REASON_EFFORT,
+                format("the effort allowed was spent before the accuracy, %.2g, was met (estimated error: "
+                       "%.2g). This is the best found; raise the effort of the context",
+                       options_.accuracy, r.error));
+    }
+
+    KnownResponse known(const ComputedResponse &r) const {
+        return {r.basis, r.options, r.curve, r.peak.amplitude, output_};
     }
 
     void look_beside(ComputedResponse &r) const {
-        const KnownResponse known = {r.basis, r.options, r.curve, r.peak.amplitude, output_};
-        r.larger = find_larger_motion(known, watch_);
-        if (r.larger) watch_.keeping(r.warnings).warn(PLM_REASON_LARGER_MOTION, words_for(*r.larger, known));
+        if (!within(effort_left(), [&] { r.larger = find_larger_motion(known(r), watch_); }))
+            watch_.log(1, "the effort allowed was spent in the search for larger motions beside the curve");
     }
 
     void tell(ComputedResponse &r) const {
@@ -269,7 +313,10 @@ class Chain {
     std::shared_ptr<const Space> space_;
     Output output_;
     double accuracy_; // of the basis
-    double work_ = 0; // of the curves, flops
+    const Allowance &allowed_;
+    bool spent_ = false; // the effort, before all was done
+    std::shared_ptr<const Basis> looked_at_;
+    double error_near_peak_ = NAN; // by that basis
     Watch watch_;
     HbmOptions options_;
 };
@@ -277,8 +324,9 @@ class Chain {
 } // namespace
 
 ComputedResponse compute_response(std::shared_ptr<const Model> model, std::shared_ptr<const Space> known,
-                                  const Output &output, double accuracy, Watch watch) {
-    return Chain(std::move(model), std::move(known), output, accuracy, watch).run();
+                                  const Output &output, double accuracy, const Allowance &allowed,
+                                  Watch watch) {
+    return Chain(std::move(model), std::move(known), output, accuracy, allowed, watch).run();
 }
 
 } // namespace plm

@@ -3,6 +3,7 @@
 #pragma once
 #include "reduction/basis.hpp"
 #include "searches/larger_motion.hpp"
+#include <functional>
 
 namespace plm {
 
@@ -18,8 +19,12 @@ struct ComputedResponse {
     Warnings warnings; // of all steps, as far as the estimate does not know better
 };
 
+/// What the search may cost, flops, by what the first basis cost.
+using Allowance = std::function<double(double setup)>;
+
 /// known: an earlier contact space of the model, or null.
 ComputedResponse compute_response(std::shared_ptr<const Model> model, std::shared_ptr<const Space> known,
-                                  const Output &output, double accuracy, Watch watch);
+                                  const Output &output, double accuracy, const Allowance &allowed,
+                                  Watch watch);
 
 } // namespace plm

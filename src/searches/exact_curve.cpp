@@ -23,7 +23,7 @@ class ExactTracer final : public PathOwner {
             take_outcome(follow_path(equations_, limits, first(start), *this), branch_);
         } catch (const Error &e) { // stopped in the middle of a point: those found so far stay valid
             if (e.status() != PLM_CANCELLED || branch_.points().empty()) throw;
-            branch_.end_reason = PLM_REASON_CANCELLED;
+            branch_.end_reason = e.reason();
         }
         equations_.modes()->forget_transitions(); // the points of the branch keep the modes
     }

@@ -17,6 +17,9 @@ constexpr double tail_allowance = 20;
 // Of a step, in terms of HbmOptions::dearest_step: a curve takes some two hundred, all of them about alike.
 constexpr double dearest_with_harmonics = 12;
 
+// A step of a first curve, whose some two hundred solutions together take a second or two.
+constexpr double flops_of_look = 4e8;
+
 bool loaded(const HarmonicLoad &load) {
     const auto acts = [](double f) { return f != 0; };
     return std::any_of(load.real.begin(), load.real.end(), acts) ||
@@ -48,6 +51,13 @@ std::int64_t highest_excitation(const ReducedModel &m) {
 
 std::int64_t few_harmonics(const ReducedModel &reduced) {
     return std::max(first_harmonics, highest_excitation(reduced));
+}
+
+std::int64_t harmonics_of_look(const ReducedModel &reduced) {
+    const std::int64_t fewest = highest_excitation(reduced);
+    std::int64_t h = few_harmonics(reduced);
+    while (h > fewest && harmonic_step_flops(reduced, h) > flops_of_look) --h;
+    return h;
 }
 
 HbmOptions with_affordable_harmonics(const ReducedModel &reduced, HbmOptions options) {

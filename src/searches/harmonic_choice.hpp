@@ -12,6 +12,8 @@ std::int64_t highest_excitation(const ReducedModel &reduced);
 
 /// What a first solution is looked for with, unless more are asked for: few, but all of the excitation's.
 std::int64_t few_harmonics(const ReducedModel &reduced);
+/// What a first curve is followed with: those, or as many as cost a second or two.
+std::int64_t harmonics_of_look(const ReducedModel &reduced);
 
 /// Where harmonics are chosen: with max_harmonics no more than those with which a curve takes minutes, since
 /// a model of hundreds of coordinates and pairs takes one for a step with as many as there may be.

@@ -40,7 +40,7 @@ class CurveTracer final : public PathOwner {
             follow(limits, first(start));
         } catch (const Error &e) { // stopped in the middle of a point: those found so far stay valid
             if (e.status() != PLM_CANCELLED || n_points() == 0) throw;
-            branch_.end_reason = PLM_REASON_CANCELLED;
+            branch_.end_reason = e.reason();
         }
         warn_of_harmonics(asked_, branch_);
         warn_of_unverified();
@@ -55,18 +55,12 @@ class CurveTracer final : public PathOwner {
         branch_.append(std::move(point));
     }
 
-    bool cancelled(double fraction) override { return cancelled_ || watch_.cancelled("sweep", fraction); }
+    bool cancelled(double fraction) override { return watch_.cancelled("sweep", fraction); }
 
     bool rescue(double omega, vector<double> &x) override {
-        try {
-            const StartOutcome out = find_start(*system_, *reduced_, options_, omega, true, watch_, x);
-            branch_.newton_work += out;
-            return out.converged;
-        } catch (const Error &e) { // the branch found so far stays valid
-            if (e.status() != PLM_CANCELLED) throw;
-            cancelled_ = true;
-            return false;
-        }
+        const StartOutcome out = find_start(*system_, *reduced_, options_, omega, true, watch_, x);
+        branch_.newton_work += out;
+        return out.converged;
     }
 
     vector<std::int32_t> test_kinds() const override {
@@ -365,7 +359,7 @@ class CurveTracer final : public PathOwner {
     std::shared_ptr<const ReducedModel> reduced_;
     Stability stability_;
     std::unique_ptr<HbmSystem> system_;
-    bool compliant_ = false, modal_ = true, wants_modal_ = true, cancelled_ = false;
+    bool compliant_ = false, modal_ = true, wants_modal_ = true;
     bool rejects_ = false;  // the last step: its points have too few harmonics and are solved again with more
     bool has_side_ = false; // the curve leaves its first point to a side given
     std::int64_t n_kept_ = 1; // points up to the last step that was kept

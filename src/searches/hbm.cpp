@@ -3,6 +3,7 @@
 #include "hbm/free_motion.hpp"
 #include "hbm/make_system.hpp"
 #include "linalg/scale.hpp"
+#include "linalg/work.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"
 #include "searches/compressed_curve.hpp"
@@ -180,51 +181,55 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
     look.watch_ = watch_.quiet();
     look.exact_ = false;
     look.options_.motion = MotionKind::harmonics;
-    look.options_.n_harmonics = compression.harmonics_of_look();
+    look.options_.n_harmonics = harmonics_of_look(*reduced_);
     look.options_.tolerance = std::max(options_.tolerance, share_of_look * options_.accuracy);
     look.options_.max_points = points_of_look;
     look.options_.stability = StabilityKind::off;
     look.options_.bifurcations = false;
+    std::shared_ptr<Branch> branch, whole; // whole: the last one that came to its end
     try {
         const auto first = look.follow_curve();
-        require_uncancelled(*first);
+        require_unstopped(*first);
         if (!compression.begin_with(*first)) return nullptr;
         for (int k = 0; k < most_curves; ++k) {
             curve.reduced_ = compression.model();
             curve.options_ = options_on(*curve.reduced_, options_);
-            const auto branch = curve.follow_curve();
-            if (branch->end_reason == PLM_REASON_CANCELLED) return branch;
+            branch = curve.follow_curve();
+            if (was_stopped(*branch)) break;
             if (is_stuck(*branch)) return nullptr;
+            whole = branch;
             if (!compression.confirms(*branch) && !compression.is_spent()) {
                 if (compression.model() == curve.reduced_) return nullptr; // its highest motion is not exact
                 continue;
             }
             if (!compression.confirms_stability(*branch)) return nullptr;
-            curve.judge(*branch);
             compression.warn(*branch);
             return branch;
         }
     } catch (const Error &e) {
-        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK)
-            throw;
+        if (e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK) throw;
+        if (e.status() == PLM_CANCELLED && !(whole && e.reason() == PLM_REASON_EFFORT)) throw;
+        if (e.status() != PLM_CANCELLED) return nullptr;
+        branch = whole;
     }
-    return nullptr;
+    if (whole && branch->end_reason != PLM_REASON_CANCELLED) { // it is there, whatever a better one would be
+        compression.warn(*whole);
+        return whole;
+    }
+    return branch && was_stopped(*branch) ? branch : nullptr;
 }
 
 std::shared_ptr<Branch> Hbm::sweep_from_its_end() const {
     std::shared_ptr<Branch> branch;
     if (exact_ && options_.motion == MotionKind::automatic && worth_compressing(*reduced_, options_))
         branch = sweep_compressed();
-    if (!branch) {
-        branch = follow_curve();
-        judge(*branch);
-    }
+    if (!branch) branch = follow_curve();
+    check_span(options_.upward, watch_, *branch);
     return branch;
 }
 
 // What comes back, is stuck or finds no first motion from one end may be a whole curve from the other.
-std::shared_ptr<const Branch> Hbm::sweep() const {
-    const Clock::time_point begin = Clock::now();
+std::shared_ptr<Branch> Hbm::sweep_either_way() const {
     std::shared_ptr<Branch> branch;
     std::exception_ptr no_start;
     try {
@@ -233,10 +238,41 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
         if (e.reason() != PLM_REASON_START_FAILED) throw;
         no_start = std::current_exception();
     }
-    if (!branch || (!spans(*branch) && branch->end_reason != PLM_REASON_POINT_LIMIT &&
-                    branch->end_reason != PLM_REASON_CANCELLED))
+    if (!branch || (!spans(*branch) && branch->end_reason != PLM_REASON_POINT_LIMIT && !was_stopped(*branch)))
         take_other_way(branch);
     if (!branch) std::rethrow_exception(no_start);
+    return branch;
+}
+
+// As few harmonics as show the curve, then as many as its points need: the last one that there is effort for.
+void Hbm::take_harmonics(std::shared_ptr<Branch> &branch) const {
+    watch_.log(1, "exact motions would take more than the effort allowed: the curve by harmonic balance");
+    Hbm other(*this);
+    other.exact_ = false;
+    other.options_.motion = MotionKind::harmonics;
+    for (bool few : {true, false}) {
+        other.options_.max_harmonics =
+            few ? std::min(harmonics_of_look(*reduced_), options_.max_harmonics) : options_.max_harmonics;
+        other.options_.harmonics_by_cost = few;
+        within(effort_left(), [&] {
+            const auto next = other.sweep_either_way();
+            if (!branch || !was_stopped(*next)) branch = next;
+        });
+    }
+}
+
+std::shared_ptr<const Branch> Hbm::sweep() const {
+    constexpr double share_of_exact = 0.9; // of the effort, where harmonics can have the rest
+    const Clock::time_point begin = Clock::now();
+    std::shared_ptr<Branch> branch;
+    const bool has_other = exact_ && options_.motion == MotionKind::automatic;
+    within((has_other ? share_of_exact : 1) * effort_left(), [&] { branch = sweep_either_way(); });
+    if (has_other && (!branch || branch->end_reason == PLM_REASON_EFFORT)) take_harmonics(branch);
+    if (!branch)
+        throw Error(PLM_CANCELLED, "no periodic response was found with the effort allowed; raise the effort "
+                                   "of the context, or sweep over a smaller range")
+            .reason(PLM_REASON_EFFORT);
+    judge(*branch);
     branch->seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     return branch;
 }
@@ -255,7 +291,7 @@ void Hbm::take_other_way(std::shared_ptr<Branch> &branch) const {
     try {
         const auto other = back.sweep_from_its_end();
         const bool is_better = spans(*other) || other->end_reason == PLM_REASON_POINT_LIMIT;
-        if (branch && other->end_reason == PLM_REASON_CANCELLED) branch->end_reason = PLM_REASON_CANCELLED;
+        if (branch && was_stopped(*other)) branch->end_reason = other->end_reason;
         if (branch && !is_better) return;
         if (branch && branch->end_reason == PLM_REASON_LOOP_CLOSED) other->beside = branch;
         branch = other;
@@ -263,7 +299,7 @@ void Hbm::take_other_way(std::shared_ptr<Branch> &branch) const {
         if (e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK) throw;
         if (e.status() != PLM_CANCELLED) return;
         if (!branch) throw;
-        branch->end_reason = PLM_REASON_CANCELLED;
+        branch->end_reason = e.reason();
     }
 }
 
@@ -307,14 +343,21 @@ std::shared_ptr<Branch> Hbm::follow_curve() const {
             branch = other;
         }
     }
-    bring_peak_inside(options_, reach_, asked_, watch_, *branch);
+    if (!was_stopped(*branch)) bring_peak_inside(options_, reach_, asked_, watch_, *branch);
     finish(*branch, begin);
     return branch;
 }
 
-// What is wrong with a finished curve. One that was cancelled is delivered at once.
+// What is wrong with a finished curve. One that was stopped is delivered at once.
 void Hbm::judge(Branch &curve) const {
-    if (curve.end_reason == PLM_REASON_CANCELLED) return;
+    if (was_stopped(curve)) return;
+    if (!within(effort_left(), [&] { look_over(curve); }))
+        curve.warnings.add(PLM_REASON_EFFORT,
+                           "the effort allowed was spent before the curve was compared with the "
+                           "whole structure; raise the effort of the context");
+}
+
+void Hbm::look_over(Branch &curve) const {
     curve.set_multiplier_error(multiplier_error_of(made_as_, options_, curve,
                                                    std::max(few_flops, flops_of(curve, options_)), watch_));
     check_window(window_, watch_, curve);
@@ -323,7 +366,6 @@ void Hbm::judge(Branch &curve) const {
         return basis_error_at(made_as_, options_, curve, top, most_moving(curve, top), few_flops, watch_);
     };
     check_basis(window_, error, watch_, curve);
-    check_span(options_.upward, watch_, curve);
     check_switching(watch_, curve);
 }
 

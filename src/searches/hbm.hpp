@@ -13,6 +13,7 @@ namespace plm {
 struct Peak {
     double frequency_hz = 0, amplitude = 0;
     std::shared_ptr<const Branch> branch; // one point
+    double basis_error = 0;               // as basis_error_at() tells it
 };
 
 class Basis;           // reduction/basis.hpp
@@ -76,6 +77,10 @@ class Hbm {
     std::shared_ptr<Branch> by_harmonics(double omega) const;
     std::shared_ptr<Branch> follow_curve() const;
     void judge(Branch &curve) const;
+    void look_over(Branch &curve) const;
+    std::shared_ptr<Branch> sweep_either_way() const;
+    /// The curve by harmonic balance in the place of one of exact motions that was given up, or null.
+    void take_harmonics(std::shared_ptr<Branch> &branch) const;
     std::shared_ptr<Branch> sweep_compressed() const;
     std::shared_ptr<Branch> sweep_from_its_end() const;
     /// The curve from the other end in the place of `branch` (null: there is none) if it leads farther.

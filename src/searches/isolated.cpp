@@ -1,5 +1,6 @@
 #include "searches/isolated.hpp"
 #include "hbm/branch_path.hpp"
+#include "linalg/work.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/compressed_motion.hpp"
 #include "searches/curve.hpp"
@@ -56,7 +57,14 @@ class Search {
 
     IsolatedSearch run() {
         const auto begin = std::chrono::steady_clock::now();
-        if (!(options_.force_scale > 0)) return std::move(out_); // nothing moves
+        if (options_.force_scale > 0) // else nothing moves
+            within(effort_left(), [&] { search(); });
+        out_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        return std::move(out_);
+    }
+
+  private:
+    void search() {
         known_ = resonance_.on_curve(main_);
         out_.backbones = resonance_.backbones();
         add_backbones_of_main();
@@ -67,11 +75,8 @@ class Search {
                   [this](const Seed &a, const Seed &b) { return size_of(a.point) > size_of(b.point); });
         for (const Seed &seed : seeds)
             if (!is_known(seed.point)) trace(seed);
-        out_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        return std::move(out_);
     }
 
-  private:
     BackboneOptions backbone_options() const {
         BackboneOptions o;
         o.hbm = options_;
@@ -329,12 +334,12 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
     o.upward = true;
     const auto after = std::make_shared<Branch>(reduced, o.force_scale, o.period_multiple);
     trace_curve(o, {start, {}}, watch, *after);
-    require_uncancelled(*after);
+    require_unstopped(*after);
     if (after->end_reason == PLM_REASON_LOOP_CLOSED) return after;
     o.upward = false;
     Branch before(reduced, o.force_scale, o.period_multiple);
     trace_curve(o, {start, {}}, watch, before);
-    require_uncancelled(before);
+    require_unstopped(before);
     const auto whole = joined(before, *after);
     for (const Warnings *said : {&before.warnings, &after->warnings})
         for (const Warning &w : said->list()) // of harmonics the whole has its own

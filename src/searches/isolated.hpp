@@ -25,8 +25,8 @@ struct IsolatedSearch {
 
 /// Searches at options.force_scale, beside `main` (a sweep with the same options over the whole frequency
 /// range). force_max: the largest force scale of the backbones, 0: 8 force_scale; a branch that merges above
-/// it is missed. smaller: `reduced` compressed to the motions of the main branch, on which loops are traced
-/// that it has, too; null: none.
+/// it is missed; where the effort is spent, those found by then. smaller: `reduced` compressed to the motions
+/// of the main branch, on which loops are traced that it has, too; null: none.
 IsolatedSearch find_isolated(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                              const Branch &main, double force_max, Watch watch,
                              std::shared_ptr<const ReducedModel> smaller = nullptr);

@@ -1,6 +1,7 @@
 #include "searches/marching_search.hpp"
 #include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
+#include "linalg/work.hpp"
 #include "orbits/shooting.hpp"
 #include "reduction/reduced_rest.hpp"
 #include "searches/curve.hpp"
@@ -51,6 +52,12 @@ class Marching {
     }
 
     MarchingSearch run() {
+        within(effort_left(), [&] { search(); });
+        return std::move(out_);
+    }
+
+  private:
+    void search() {
         find_largest();
         const double low = 2 * M_PI * hbm_.frequency_min_hz, high = 2 * M_PI * hbm_.frequency_max_hz;
         for (std::int64_t i = 0; i < options_.n_frequencies; ++i) {
@@ -61,10 +68,8 @@ class Marching {
                 try_start(low + done * (high - low), scale);
             }
         }
-        return std::move(out_);
     }
 
-  private:
     void find_largest() {
         double most = 0;
         for (const auto &branch : known_)

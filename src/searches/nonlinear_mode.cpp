@@ -204,7 +204,7 @@ class ModePath final : public PathOwner {
             out = follow_path(*system_, range, from, *this);
         } catch (const Error &e) { // stopped in the middle of a point: those found so far stay valid
             if (e.status() != PLM_CANCELLED || result_.branch->points().empty()) throw;
-            out.end_reason = PLM_REASON_CANCELLED;
+            out.end_reason = e.reason();
         }
         Branch &branch = *result_.branch;
         take_outcome(out, branch);

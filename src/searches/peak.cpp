@@ -1,6 +1,7 @@
 // The highest point of a curve, found on the curve itself: points on hyperplanes across the chord through the
 // three highest ones, by successive parabolic interpolation.
 #include "hbm/branch_path.hpp"
+#include "linalg/work.hpp"
 #include "searches/basis_error.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
@@ -234,19 +235,27 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
             const MeasuredHarmonics next = measure_harmonics(reduced, options, point);
             return harmonic_error_at(*reduced, point, next.change, dof, measure, harmonic);
         };
-        if (automatic) error = error_here();
-        std::unique_ptr<PointEquations> equations;
-        do {
-            if (error > wanted)
-                options.n_harmonics =
-                    std::max(options.n_harmonics, std::min(limits.max_harmonics, 2 * options.n_harmonics));
-            equations = equations_of(reduced, options, point);
-            PeakSearch search(*equations, options, reduced, dof, measure, harmonic, watch_);
-            search.run(branch, around, point);
-            above = search.above();
+        const auto close_in = [&] {
             if (automatic) error = error_here();
-        } while (error > wanted && options.n_harmonics < limits.max_harmonics);
-        point.multipliers = equations->multipliers(point);
+            std::unique_ptr<PointEquations> equations;
+            do {
+                if (error > wanted)
+                    options.n_harmonics = std::max(options.n_harmonics,
+                                                   std::min(limits.max_harmonics, 2 * options.n_harmonics));
+                equations = equations_of(reduced, options, point);
+                PeakSearch search(*equations, options, reduced, dof, measure, harmonic, watch_);
+                search.run(branch, around, point);
+                above = search.above();
+                if (automatic) error = error_here();
+            } while (error > wanted && options.n_harmonics < limits.max_harmonics);
+            point.multipliers = equations->multipliers(point);
+        };
+        const double of_peak = 0.7; // of the effort: the rest is for the estimate of its error
+        if (!within(of_peak * effort_left(), close_in))
+            watch_.keeping(one->warnings)
+                .warn(PLM_REASON_EFFORT,
+                      "the effort allowed was spent before the peak was closed in upon; raise the "
+                      "effort of the context");
         point.multiplier_error = branch.points()[top].multiplier_error;
     }
     one->append(std::move(point));
@@ -261,6 +270,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     if (one->reduced().model)
         check_host_reduction(*one->reduced().model, options_.accuracy, by_basis,
                              watch_.keeping(one->warnings));
+    peak.basis_error = by_basis;
     one->unknowns_used = branch.unknowns_used;
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);

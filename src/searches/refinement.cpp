@@ -1,4 +1,5 @@
 #include "searches/refinement.hpp"
+#include "linalg/work.hpp"
 #include "reduction/basis_kind.hpp"
 #include "searches/basis_error.hpp"
 #include "searches/curve_verdicts.hpp"
@@ -21,8 +22,15 @@ class Refiner {
         : start_(std::move(start)), options_(options), watch_(watch), full_(unreduced_basis(start_, watch)),
           pod_tolerance_(compression * options.tolerance) {}
 
+    /// What there is when the effort is spent is the answer.
     Refinement run(std::shared_ptr<const Branch> known) {
         Refinement best;
+        within(effort_left(), [&] { refine(std::move(known), best); });
+        return best;
+    }
+
+  private:
+    void refine(std::shared_ptr<const Branch> known, Refinement &best) {
         std::shared_ptr<const Basis> basis = start_;
         std::int64_t without_number = 0;
         for (std::int64_t round = 1;; ++round) {
@@ -39,20 +47,19 @@ class Refiner {
                 best.met = true;
                 check_host_reduction(*start_->model(), options_.tolerance, error,
                                      watch_.keeping(best.warnings));
-                return best;
+                return;
             }
             best.rounds = round;
             without_number = std::isfinite(error) ? 0 : without_number + 1;
-            if (round >= options_.max_rounds || without_number >= most_without_number) return best;
+            if (round >= options_.max_rounds || without_number >= most_without_number) return;
             if (compressed) pod_tolerance_ *= next_compression;
             basis = compress(*branch);
         }
     }
 
-  private:
     std::shared_ptr<const Branch> sweep(const Basis &basis) const {
         auto branch = Hbm(basis.reduced(), start_->sweep_range(), options_.hbm, watch_).sweep();
-        require_uncancelled(*branch);
+        require_unstopped(*branch);
         return branch;
     }
 

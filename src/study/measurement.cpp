@@ -23,7 +23,7 @@ using BranchPtr = std::shared_ptr<const Branch>;
 BranchPtr sweep(const Basis &basis, const HbmOptions &options, Watch watch) {
     BranchPtr branch =
         Hbm(basis.reduced(), basis.window_min_hz(), basis.window_max_hz(), options, watch).sweep();
-    require_uncancelled(*branch);
+    require_unstopped(*branch);
     return branch;
 }
 

@@ -2,7 +2,7 @@
 """barrier.py PLM_H SRC_CAPI: every exported function does all its work inside the exception barrier.
 
 The body of an exported function may check arguments by `if (...) return <status>;` and must then be one `return` of
-call<>, call_free or destroy<> (or of a local function that is), or hold the environment and catch everything itself."""
+call<>, search_call, call_free or destroy<> (or of a local function that is), or hold the environment and catch everything itself."""
 import glob
 import os
 import pathlib
@@ -12,7 +12,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "src/capi/api"))
 import plm_header  # noqa: E402
 
-BARRIER = r"(?:capi::|plm::capi::)?(?:call<[\w:]+>|call_free|destroy<[\w:]+>)\("
+BARRIER = r"(?:capi::|plm::capi::)?(?:call<[\w:]+>|call_free|search_call|destroy<[\w:]+>)\("
 
 
 def cleaned(text):

@@ -226,7 +226,7 @@ static void a_context_may_use_threads(void **state) {
     assert_true(one.size >= COLUMNS && one.amplitude[0] > 0);
 }
 
-static void numbers_of_threads_are_checked(void **state) {
+static void threads_and_effort_are_checked(void **state) {
     plm_context *ctx = NULL;
     (void)state;
     assert_int_equal(plm_context_create(PLM_API_VERSION, &ctx), PLM_OK);
@@ -234,13 +234,18 @@ static void numbers_of_threads_are_checked(void **state) {
                         "n", -1, "n"));
     assert_true(refused(ctx, plm_context_set_threads(ctx, 5000), PLM_ERR_ARGUMENT, "plm_context_set_threads",
                         "n", -1, "n"));
+    assert_true(refused(ctx, plm_context_set_effort(ctx, -1), PLM_ERR_ARGUMENT, "plm_context_set_effort", "seconds",
+                        -1, "seconds"));
+    assert_true(refused(ctx, plm_context_set_effort(ctx, NAN), PLM_ERR_ARGUMENT, "plm_context_set_effort", "seconds",
+                        -1, "seconds"));
     plm_context_destroy(&ctx);
     assert_int_equal(plm_context_set_threads(ctx, 2), PLM_ERR_HANDLE);
+    assert_int_equal(plm_context_set_effort(ctx, 2), PLM_ERR_HANDLE);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contexts_run_at_once), cmocka_unit_test(a_busy_context_says_who_is_at_fault),
-        cmocka_unit_test(a_context_may_use_threads), cmocka_unit_test(numbers_of_threads_are_checked)};
+        cmocka_unit_test(a_context_may_use_threads), cmocka_unit_test(threads_and_effort_are_checked)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -354,6 +354,8 @@ void memory_of_the_host() {
 void superelements() {
     plm::Context context;
     context.set_threads(2);
+    context.set_effort(20);
+    CHECK(caught([&] { context.set_effort(-1); }).status() == PLM_ERR_ARGUMENT);
     CHECK(caught([&] { context.set_threads(0); }).status() == PLM_ERR_ARGUMENT);
     plm::Model model(context, 1);
     const std::vector<double> m{1.25}, k{5000}, row{1};

@@ -54,6 +54,7 @@ C     a superelement: one coordinate of two masses, T = (0.5, 1)
       EXTERNAL BACK
       CALL PLMCCR(LCTX, IERR)
       CALL PLMCTH(LCTX, 2, IERR)
+      CALL PLMCTE(LCTX, 20D0, IERR)
       CALL CHECK(IERR .EQ. PLMOK, 'threads')
       CALL PLMMCR(LCTX, 1, MODEL, IERR)
       X(1) = 1.25D0

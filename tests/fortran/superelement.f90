@@ -44,6 +44,7 @@ program superelement
 
     call context%create()
     call context%set_threads(2)
+    call context%set_effort(30.0d0)
     call context%set_threads(0, stat)
     call check(stat == PLM_ERR_ARGUMENT, 'no thread at all is refused')
     call model%create(context, 1)

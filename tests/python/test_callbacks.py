@@ -319,6 +319,7 @@ inside.wait()
                 raise raised[0]
             return t @ q
         self.context.set_threads(2)
+        self.context.set_effort(20)
         m = plm.Model(numpy.array([[1.25]]), numpy.array([[5000.0]]), reduction_error=1e-4, context=self.context)
         m.add_gap_rows(numpy.array([[1.0]]), 5000.0, 1e-5)
         m.set_rayleigh_damping(0, 5e-4)

@@ -173,6 +173,11 @@ class Context:
     def progress(self, progress):
         self._host.progress = progress
 
+    def set_effort(self, seconds):
+        """What a search (compute_response, sweep, ...) may cost, in seconds of one core as its operations are counted: 10 by
+        default, or what making the basis took if that is more; 0: no limit. Results depend on it, not on the clock."""
+        self.call("plm_context_set_effort", self._h, seconds)
+
     def set_threads(self, n):
         """How many threads a call may use, 1 by default; results are the same for any number."""
         self.call("plm_context_set_threads", self._h, n)

@@ -28,6 +28,7 @@ FUNCTIONS = {
     "plm_context_set_log": "ppp ctx fn user",
     "plm_context_set_progress": "ppp ctx fn user",
     "plm_context_set_threads": "pi ctx n",
+    "plm_context_set_effort": "pd ctx seconds",
     "plm_context_set_solver": "ppppp ctx factor solve release user",
     "plm_context_set_inertia": "pp ctx inertia",
     "plm_context_get_error_text": "pqpp ctx capacity buffer needed",
@@ -231,6 +232,7 @@ REASON_CROSSED_OVER = 26
 REASON_LARGER_MOTION = 27
 REASON_TIE = 28
 REASON_ROUNDED = 29
+REASON_EFFORT = 30
 BIFURCATION_NONE = 0
 BIFURCATION_FOLD = 1
 BIFURCATION_BRANCH_POINT = 2

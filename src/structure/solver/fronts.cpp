@@ -199,7 +199,7 @@ class Fronts {
             for (std::int64_t i = begin; i < begin + height; ++i)
                 size_[row_[i]] += column[i] * column[i] * scale;
         }
-        worked(static_cast<double>(height) * static_cast<double>(width * width));
+        worked(in_products * static_cast<double>(height) * static_cast<double>(width * width));
     }
 
     /// Column k is done with; columns up to `last` are those of its strip.
@@ -251,7 +251,7 @@ class Fronts {
         const double minus = -1, one = 1;
         dgemm_("N", "T", &m, &n, &inner, &minus, panel_ + rows.first, &ld, divided.data(), &ld_divided, &one,
                target, &ldc, 1, 1);
-        worked(2.0 * m * n * inner);
+        worked(in_products * 2.0 * m * n * inner);
     }
 
     const MatrixSum &a_;

@@ -119,6 +119,7 @@ typedef int32_t plm_status;
 #define PLM_REASON_LARGER_MOTION 27    /* a larger stable motion exists at the same force, beside the curve */
 #define PLM_REASON_TIE 28              /* another resonance is driven alike, or resembles the dominant mode alike */
 #define PLM_REASON_ROUNDED 29          /* rows or loads that miss rigid-body motion by rounding are taken to mean it */
+#define PLM_REASON_EFFORT 30           /* the work that the call may cost (plm_context_set_effort) is spent */
 
 /* What a point of a branch is ("bifurcation" of a branch). */
 #define PLM_BIFURCATION_NONE 0
@@ -229,6 +230,13 @@ PLM_API plm_status plm_context_set_progress(plm_context *ctx, plm_progress_fn fn
  * from this: that of a self-contained libplm.so works on the thread that calls it, one that is shared with the host as the
  * host has set it (OPENBLAS_NUM_THREADS; to 1 where this number is more). */
 PLM_API plm_status plm_context_set_threads(plm_context *ctx, int32_t n);
+/* What a call that searches may cost (plm_model_compute_response, plm_hbm_sweep, _solve, _find_..., _estimate_error,
+ * _refine_basis, _switch_branch, _track_fold), in seconds of one core as its operations are counted: 10, the default, or
+ * what making the model's basis took if that is more; 0: no limit. It is operations that count, not the clock, so that
+ * results depend neither on the load nor on the number of threads; the time is about that, a few times as much at worst.
+ * A call whose effort is spent returns the best it has, with PLM_REASON_EFFORT as reason or warning and what to do, or
+ * PLM_ERR_CONVERGENCE with that reason where it has nothing yet. PLM_ERR_ARGUMENT for negative numbers, NaN or Inf. */
+PLM_API plm_status plm_context_set_effort(plm_context *ctx, double seconds);
 /* All three or none (NULL, NULL, NULL: the built-in solver). Takes effect for models built afterwards. */
 PLM_API plm_status plm_context_set_solver(plm_context *ctx, plm_factor_fn factor, plm_solve_fn solve,
                                           plm_free_factor_fn release, void *user);
@@ -441,7 +449,8 @@ PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_
  * error is an upper bound of the relative error of amplitude and frequency, and NaN on a curve that ended early or has no
  * peak inside. PLM_WARNING says what of the accuracy was not reached and what else should be looked at, with the reasons of
  * plm_sampler_run, plm_basis_build, plm_hbm_sweep and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a
- * sweep, the former, where contact bounces and a curve winds, after the points of some seconds (500 to 1,000).
+ * sweep. Where more work than plm_context_set_effort allows would be needed, the answer is the best that it reached, with
+ * PLM_REASON_EFFORT among the warnings: at least the peak of a curve with few harmonics.
  * PLM_ERR_STATE before plm_model_build and without contact pairs. */
 PLM_API plm_status plm_model_compute_response(plm_model *model, int64_t dof, int32_t measure, double accuracy,
                                               double *frequency_hz, double *amplitude, double *error,
