@@ -68,7 +68,9 @@ class Chain {
     // best: what there is whenever the effort is spent.
     void search(const std::shared_ptr<const Basis> &smallest, ComputedResponse &best) {
         const auto first = first_basis(smallest, best);
-        follow(first, is_complete(*first) ? Follow::to_the_end : Follow::few_points, best);
+        unless_there_is(best, [&] {
+            follow(first, is_complete(*first) ? Follow::to_the_end : Follow::few_points, best);
+        });
         for (std::int64_t h : more_harmonics) {
             if (h <= best.basis->sampler()->n_harmonics()) continue;
             if (!can_improve(best) || is_complete(*best.basis) ||
@@ -88,10 +90,22 @@ class Chain {
     // However little was allowed, there is an answer.
     void take_first_curve(const std::shared_ptr<const Basis> &smallest, ComputedResponse &best) {
         spent_ = true;
+        unless_there_is(best, [&] {
+            const Effort little(flops_of_first_curve);
+            const auto first = curve_of_few_harmonics(*smallest, widened(smallest->reduced()));
+            if (!best.curve || is_whole(*first)) best = with_curve(smallest, first);
+        });
         const Effort little(flops_of_first_curve);
-        const auto first = curve_of_few_harmonics(*smallest, widened(smallest->reduced()));
-        if (!best.curve || is_whole(*first)) best = with_curve(smallest, first);
         if (is_cut(best)) find_peak(best);
+    }
+
+    // What finds nothing is no failure where there is an answer already.
+    template <class Attempt> static void unless_there_is(const ComputedResponse &best, Attempt attempt) {
+        try {
+            attempt();
+        } catch (const Error &e) {
+            if (!best.curve || (e.status() != PLM_ERR_CONVERGENCE && e.reason() != PLM_REASON_EFFORT)) throw;
+        }
     }
 
     bool is_met(const ComputedResponse &r) const { return r.error <= accuracy_; }
