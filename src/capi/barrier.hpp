@@ -104,6 +104,7 @@ template <class H, class Body> plm_status call(const char *function, typename H:
         const AllocatorScope scope(&context.allocator);
         const WorkScope work(context.listener());
         const ThreadsScope threads(context.threads);
+        const WorkCount own; // inside a callback, the effort of the call around it is not this one's
         try {
             const BlasBuffer buffer;
             return finished(function, context, body(*object));

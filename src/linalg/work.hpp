@@ -67,7 +67,8 @@ template <class F> bool within(double flops, const F &f) {
     }
 }
 
-/// Work on a thread that may be another one's helper: not held to any Effort, but counted.
+/// Work that is not held to the Effort scopes around it, nor counted there: of a helper of another thread, or of
+/// another call inside a callback.
 class WorkCount {
   public:
     WorkCount();

@@ -262,7 +262,7 @@ bool CurveCompression::begin_with(const Branch &look) {
 }
 
 bool CurveCompression::confirms(const Branch &curve) {
-    better_ = nullptr;
+    better_ = nullptr, change_ = INFINITY;
     top_ = largest_response(curve);
     const BranchPoint &exact = curve.points()[static_cast<std::size_t>(top_)];
     if (!exact.motion) return false;
@@ -314,7 +314,17 @@ void CurveCompression::warn(Branch &curve) const {
         "so many pairs open and close that a nearer curve takes many minutes. Set motion to "
         "exact for a curve on the whole basis, or n_harmonics for one by harmonic balance";
     const double hz = curve.points()[static_cast<std::size_t>(largest_response(curve))].omega / (2 * M_PI);
-    if (change_ > options_.accuracy)
+    if (!std::isfinite(change_))
+        keeping.warn(
+            PLM_REASON_UNVERIFIED,
+            format("this curve of exact motions was followed on %lld of the basis' %lld coordinates, and "
+                   "what more "
+                   "of them would change at its highest point, %.6g Hz, was not found with the effort "
+                   "allowed. Raise "
+                   "the effort of the context, or set motion to exact for a curve on the whole basis",
+                   static_cast<long long>(curve.reduced().size()), static_cast<long long>(whole_->size()),
+                   hz));
+    else if (change_ > options_.accuracy)
         keeping.warn(
             PLM_REASON_BASIS_TOO_SMALL,
             format("this curve of exact motions was followed on %lld of the basis' %lld coordinates, "

@@ -186,7 +186,8 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
     look.options_.max_points = points_of_look;
     look.options_.stability = StabilityKind::off;
     look.options_.bifurcations = false;
-    std::shared_ptr<Branch> branch, whole; // whole: the last one that came to its end
+    std::shared_ptr<Branch>
+        whole; // the last one that came to its end: there is none better where the effort ends
     try {
         const auto first = look.follow_curve();
         require_unstopped(*first);
@@ -194,8 +195,9 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
         for (int k = 0; k < most_curves; ++k) {
             curve.reduced_ = compression.model();
             curve.options_ = options_on(*curve.reduced_, options_);
-            branch = curve.follow_curve();
-            if (was_stopped(*branch)) break;
+            const auto branch = curve.follow_curve();
+            if (!whole && was_stopped(*branch)) return branch;
+            require_unstopped(*branch);
             if (is_stuck(*branch)) return nullptr;
             whole = branch;
             if (!compression.confirms(*branch) && !compression.is_spent()) {
@@ -208,15 +210,12 @@ std::shared_ptr<Branch> Hbm::sweep_compressed() const {
         }
     } catch (const Error &e) {
         if (e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK) throw;
-        if (e.status() == PLM_CANCELLED && !(whole && e.reason() == PLM_REASON_EFFORT)) throw;
         if (e.status() != PLM_CANCELLED) return nullptr;
-        branch = whole;
-    }
-    if (whole && branch->end_reason != PLM_REASON_CANCELLED) { // it is there, whatever a better one would be
+        if (!whole || e.reason() != PLM_REASON_EFFORT) throw;
         compression.warn(*whole);
         return whole;
     }
-    return branch && was_stopped(*branch) ? branch : nullptr;
+    return nullptr;
 }
 
 std::shared_ptr<Branch> Hbm::sweep_from_its_end() const {
