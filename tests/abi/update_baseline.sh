@@ -4,10 +4,11 @@
 set -eu
 . "$(dirname "$0")/stub.sh"
 folder=$(mktemp -d)
+"$1" >"$folder/keys.txt" # first: where it cannot be run nothing changes
 include=$here/../../include
 cp "$include/plm/plm.h" "$here/baseline/plm/plm.h"
 make_stub cc python3 "$include/plm/plm.h" "$folder/stub.so"
 abidw --headers-dir "$include" --drop-private-types --no-show-locs --no-corpus-path --no-comp-dir-path --no-elf-needed \
     --no-parameter-names "$folder/stub.so" >"$here/baseline/plm.abi"
-"$1" >"$here/baseline/keys.txt"
+mv "$folder/keys.txt" "$here/baseline/keys.txt"
 rm -r "$folder"
