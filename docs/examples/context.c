@@ -140,7 +140,8 @@ static int run(plm_context *ctx) {
     TRY(plm_context_set_threads(ctx, 2)); /* faster, with the same digits */
     /* [plm_context_set_threads] */
     /* [plm_context_set_effort] */
-    TRY(plm_context_set_effort(ctx, 60)); /* a minute of one core for each search; what it has by then is its answer */
+    TRY(plm_context_set_effort(
+        ctx, 60)); /* a minute of one core for each search; what it has by then is its answer */
     /* [plm_context_set_effort] */
     TRY(start_basis(ctx, &basis));
     return 0;

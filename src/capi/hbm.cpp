@@ -161,6 +161,7 @@ plm_status plm_hbm_refine_basis(plm_hbm *hbm, std::int64_t dof, std::int32_t mea
         const auto made = std::make_shared<BasisHandle>(h.owner, h.basis->model);
         made->basis_options = found.basis->options();
         made->core = found.basis;
+        made->work = h.basis->work;
         *refined = publish(made);
         if (error) *error = found.error + basis->model()->space_options().reduction_error;
         if (found.met) return Outcome(found.warnings);

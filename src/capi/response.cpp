@@ -18,6 +18,7 @@ std::shared_ptr<HbmHandle> handles_of(const plm::ComputedResponse &r, const plm:
     const auto basis = std::make_shared<BasisHandle>(owner, model);
     basis->basis_options = r.basis->options();
     basis->core = r.basis;
+    basis->work = r.setup;
     if (r.basis->sampler()) {
         basis->sampler = std::make_shared<SamplerHandle>(owner, std::move(model));
         basis->sampler->sampler_options = r.basis->sampler()->options();
@@ -68,10 +69,9 @@ plm_status plm_model_compute_response(plm_model *model, std::int64_t dof, std::i
             throw plm::Error(PLM_ERR_STATE, "the model has no contact pair: its response is linear, and a "
                                             "basis of kind full or craig_bampton gives it")
                 .argument("model");
-        const auto allowed = [&](double setup) { return m.owner->effort_beside(setup); };
         const plm::ComputedResponse r = within_effort(INFINITY, [&] {
             return plm::compute_response(core, m.space, {dof, static_cast<plm::Measure>(measure), 0},
-                                         accuracy, allowed, m.owner->watch());
+                                         accuracy, m.owner->effort_beside(0), m.owner->watch());
         });
         m.space = r.basis->sampler() ? r.basis->sampler()->space() : m.space; // the next one starts from it
         const double highest[] = {r.peak.frequency_hz, r.peak.amplitude};

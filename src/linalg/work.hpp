@@ -67,8 +67,8 @@ template <class F> bool within(double flops, const F &f) {
     }
 }
 
-/// Work that is not held to the Effort scopes around it, nor counted there: of a helper of another thread, or of
-/// another call inside a callback.
+/// Work that is not held to the Effort scopes around it, nor counted there: of a helper of another thread, or
+/// of another call inside a callback.
 class WorkCount {
   public:
     WorkCount();

@@ -38,9 +38,9 @@ constexpr double much_flops = 4e10;
 class Chain {
   public:
     Chain(std::shared_ptr<const Model> model, std::shared_ptr<const Space> known, const Output &output,
-          double accuracy, const Allowance &allowed, Watch watch)
+          double accuracy, double effort, Watch watch)
         : model_(std::move(model)), space_(std::move(known)), output_(output), accuracy_(accuracy),
-          allowed_(allowed), watch_(watch) {
+          effort_(effort), watch_(watch) {
         options_.accuracy = accuracy;
         const double of_host = model_->space_options().reduction_error;
         if (of_host <= allowed_of_host * accuracy) accuracy_ -= of_host; // else check_host_reduction() speaks
@@ -49,16 +49,18 @@ class Chain {
     ComputedResponse run() {
         const std::int64_t before = work_done();
         const auto smallest = basis_for(0);
-        const double allowed = allowed_(static_cast<double>(work_done() - before));
+        const double setup = static_cast<double>(work_done() - before);
         ComputedResponse best;
         {
-            const Effort effort(allowed);
-            spent_ = !within(share_of_curves * effort_left(), [&] { search(smallest, best); });
+            const Effort effort(std::max(effort_, setup));
+            const bool all = within(share_of_curves * effort_left(), [&] { search(smallest, best); });
+            spent_ = !all || beyond_reach_;
             if (best.curve && is_cut(best)) within(effort_left(), [&] { find_peak(best); });
             if (!is_cut(best)) look_beside(best);
         }
         if (is_cut(best) || was_stopped(*best.curve)) take_first_curve(smallest, best);
         finish(best);
+        best.setup = setup;
         return best;
     }
 
@@ -90,11 +92,16 @@ class Chain {
     // However little was allowed, there is an answer.
     void take_first_curve(const std::shared_ptr<const Basis> &smallest, ComputedResponse &best) {
         spent_ = true;
-        unless_there_is(best, [&] {
-            const Effort little(flops_of_first_curve);
+        const auto look = [&] {
             const auto first = curve_of_few_harmonics(*smallest, widened(smallest->reduced()));
             if (!best.curve || is_whole(*first)) best = with_curve(smallest, first);
-        });
+        };
+        unless_there_is(best, [&] { within(flops_of_first_curve, look); });
+        if (!best.curve)
+            throw Error(PLM_CANCELLED,
+                        "no periodic response was found with the effort allowed; raise the effort "
+                        "of the context")
+                .reason(PLM_REASON_EFFORT);
         const Effort little(flops_of_first_curve);
         if (is_cut(best)) find_peak(best);
     }
@@ -104,7 +111,7 @@ class Chain {
         try {
             attempt();
         } catch (const Error &e) {
-            if (!best.curve || (e.status() != PLM_ERR_CONVERGENCE && e.reason() != PLM_REASON_EFFORT)) throw;
+            if (!best.curve || e.status() != PLM_ERR_CONVERGENCE) throw;
         }
     }
 
@@ -149,7 +156,10 @@ class Chain {
             if (!spans(*curve)) return false;
             const bool in_time =
                 within(share_of_look * effort_left(), [&] { find_motion_near_peak(*curve, one); });
-            if (!in_time) options_.motion = MotionKind::harmonics; // a curve of such motions is out of reach
+            if (!in_time) { // a curve of such motions is out of reach
+                options_.motion = MotionKind::harmonics;
+                beyond_reach_ = true;
+            }
             if (one.points().empty()) return false;
         } catch (const Error &e) {
             if (e.status() != PLM_ERR_CONVERGENCE) throw;
@@ -262,7 +272,7 @@ class Chain {
             if (better) best = std::move(next);
             return better;
         } catch (const Error &e) { // what is there already is an answer
-            if (e.status() != PLM_ERR_CONVERGENCE && e.reason() != PLM_REASON_EFFORT) throw;
+            if (e.status() != PLM_ERR_CONVERGENCE) throw;
             watch_.log(1, std::string("no curve on the next basis: ") + e.what());
             return false;
         }
@@ -326,9 +336,10 @@ class Chain {
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const Space> space_;
     Output output_;
-    double accuracy_; // of the basis
-    const Allowance &allowed_;
-    bool spent_ = false; // the effort, before all was done
+    double accuracy_;           // of the basis
+    double effort_;             // flops
+    bool spent_ = false;        // the effort, before all was done
+    bool beyond_reach_ = false; // one exact motion takes more than its share
     std::shared_ptr<const Basis> looked_at_;
     double error_near_peak_ = NAN; // by that basis
     Watch watch_;
@@ -338,9 +349,8 @@ class Chain {
 } // namespace
 
 ComputedResponse compute_response(std::shared_ptr<const Model> model, std::shared_ptr<const Space> known,
-                                  const Output &output, double accuracy, const Allowance &allowed,
-                                  Watch watch) {
-    return Chain(std::move(model), std::move(known), output, accuracy, allowed, watch).run();
+                                  const Output &output, double accuracy, double effort, Watch watch) {
+    return Chain(std::move(model), std::move(known), output, accuracy, effort, watch).run();
 }
 
 } // namespace plm

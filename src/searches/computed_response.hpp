@@ -3,7 +3,6 @@
 #pragma once
 #include "reduction/basis.hpp"
 #include "searches/larger_motion.hpp"
-#include <functional>
 
 namespace plm {
 
@@ -16,15 +15,13 @@ struct ComputedResponse {
     /// Of the peak, relative: by the basis, as estimated, and what the host states of its own reduction; NaN:
     /// not known, or the curve ended early.
     double error = 0;
+    double setup = 0;  // what the first basis cost, flops
     Warnings warnings; // of all steps, as far as the estimate does not know better
 };
 
-/// What the search may cost, flops, by what the first basis cost.
-using Allowance = std::function<double(double setup)>;
-
-/// known: an earlier contact space of the model, or null.
+/// known: an earlier contact space of the model, or null. effort: what the search may cost, flops, unless the
+/// first basis cost more.
 ComputedResponse compute_response(std::shared_ptr<const Model> model, std::shared_ptr<const Space> known,
-                                  const Output &output, double accuracy, const Allowance &allowed,
-                                  Watch watch);
+                                  const Output &output, double accuracy, double effort, Watch watch);
 
 } // namespace plm

@@ -234,10 +234,10 @@ static void threads_and_effort_are_checked(void **state) {
                         "n", -1, "n"));
     assert_true(refused(ctx, plm_context_set_threads(ctx, 5000), PLM_ERR_ARGUMENT, "plm_context_set_threads",
                         "n", -1, "n"));
-    assert_true(refused(ctx, plm_context_set_effort(ctx, -1), PLM_ERR_ARGUMENT, "plm_context_set_effort", "seconds",
-                        -1, "seconds"));
-    assert_true(refused(ctx, plm_context_set_effort(ctx, NAN), PLM_ERR_ARGUMENT, "plm_context_set_effort", "seconds",
-                        -1, "seconds"));
+    assert_true(refused(ctx, plm_context_set_effort(ctx, -1), PLM_ERR_ARGUMENT, "plm_context_set_effort",
+                        "seconds", -1, "seconds"));
+    assert_true(refused(ctx, plm_context_set_effort(ctx, NAN), PLM_ERR_ARGUMENT, "plm_context_set_effort",
+                        "seconds", -1, "seconds"));
     plm_context_destroy(&ctx);
     assert_int_equal(plm_context_set_threads(ctx, 2), PLM_ERR_HANDLE);
     assert_int_equal(plm_context_set_effort(ctx, 2), PLM_ERR_HANDLE);
