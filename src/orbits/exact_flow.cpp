@@ -78,7 +78,6 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
     while (state.time < t_end) {
         if (n_steps_++ % watch_interval == 0)
             watch_.step("exact flow", (state.time - begin) / (t_end - begin));
-        worked(flops_of_piece());
         const double left = t_end - state.time;
         if (may_use_modes_ && (modal_->inside() || !(fresh_ && dense_)) && enter_modes(state) &&
             modal_piece(state, left, recorder))
@@ -141,6 +140,7 @@ bool ExactFlow::pass_on() {
 bool ExactFlow::modal_piece(FlowState &state, double left, FlowRecorder *recorder) {
     double longest = std::min(left, 0.125 * period());
     for (;;) {
+        worked(flops_of_piece());
         const double duration = modal_->expand(longest);
         if (events_.correct(modal_->penetrations(), modal_->rounding()) || !events_.leave_clearly()) {
             modal_->leave(state, change_);
@@ -254,6 +254,7 @@ double ExactFlow::step_length(double left) {
 
 // (k + 1)(k + 2) y_{k+2} = duration^2 (f_k - K y_k) - duration (k + 1) C y_{k+1}, powers of s = t / duration.
 void ExactFlow::expand(const FlowState &state, double duration, Series &series) {
+    worked(flops_of_piece());
     const std::int64_t n = model_->n_massive(), moving = model_->n_moving();
     expand_forces(state.time, duration, series);
     Matrix &y = series.coefficient;

@@ -74,9 +74,10 @@ vector<std::int64_t> spread_over(const Branch &branch, std::int64_t wanted) {
 }
 
 double basis_error(const ErrorEstimator &estimator, const Branch &branch, std::int64_t point,
-                   const Output &output, double peak) {
+                   const Output &output, double peak, vector<std::complex<double>> *multipliers) {
     const ErrorEstimate e = estimator.estimate(point, output.dof, output.measure, output.harmonic, false);
     if (!e.known) return std::numeric_limits<double>::infinity();
+    if (multipliers && !e.multipliers.empty()) *multipliers = e.multipliers;
     const double hz = branch.points()[static_cast<std::size_t>(point)].omega / (2 * M_PI);
     return std::max(std::abs(e.amplitude.basis + e.amplitude.contact) / std::abs(peak),
                     std::abs(e.frequency_hz.basis + e.frequency_hz.contact) / hz);
@@ -84,7 +85,7 @@ double basis_error(const ErrorEstimator &estimator, const Branch &branch, std::i
 
 double basis_error_at(const std::shared_ptr<const Basis> &basis, const HbmOptions &options,
                       const Branch &branch, std::int64_t point, const Output &output, double flops,
-                      Watch watch) {
+                      Watch watch, vector<std::complex<double>> *multipliers) {
     if (!basis || !can_be_judged(*basis, branch, flops)) return not_judged;
     const double amplitude = branch.amplitude(point, output.dof, output.measure, output.harmonic);
     if (amplitude == 0) return not_judged;
@@ -99,7 +100,7 @@ double basis_error_at(const std::shared_ptr<const Basis> &basis, const HbmOption
             if (by_harmonics && o.max_harmonics == 0) return;
             error = by_harmonics && branch.full_residual(point) > too_far
                         ? std::numeric_limits<double>::infinity()
-                        : basis_error(estimator, branch, point, output, amplitude);
+                        : basis_error(estimator, branch, point, output, amplitude, multipliers);
         });
         return error;
     } catch (const Error &e) { // a tangent that is singular, motions that nothing holds
@@ -130,7 +131,10 @@ double multiplier_error_of(const std::shared_ptr<const Basis> &basis, const HbmO
         for (std::int64_t i : {largest_response(curve), nearest}) {
             if (!std::isfinite(from_circle(i)) || !estimator.moves_whole(i)) continue;
             const ErrorEstimate e = estimator.estimate(i, 0, Measure::peak, 0, false);
-            if (std::isfinite(e.multiplier)) worst = std::max(worst, std::abs(e.multiplier));
+            if (!e.multipliers.empty())
+                worst =
+                    std::max(worst, std::abs(std::abs(points[static_cast<std::size_t>(i)].multipliers[0]) -
+                                             std::abs(e.multipliers[0])));
         }
     };
     try {

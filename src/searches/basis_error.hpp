@@ -12,9 +12,10 @@ Output most_moving(const Branch &branch, std::int64_t point);
 vector<std::int64_t> spread_over(const Branch &branch, std::int64_t wanted);
 
 /// Of one point: of the amplitude over `peak`, of the frequency over itself, the larger one; infinite where
-/// the steps to the better solution do not contract.
+/// the steps to the better solution do not contract. `multipliers`, where asked for and known, becomes those
+/// of the whole structure's motion.
 double basis_error(const ErrorEstimator &estimator, const Branch &branch, std::int64_t point,
-                   const Output &output, double peak);
+                   const Output &output, double peak, vector<std::complex<double>> *multipliers = nullptr);
 
 /// What an estimate may cost by itself, flops: some tenths of a second.
 constexpr double few_flops = 2e9;
@@ -25,7 +26,7 @@ double flops_of(const Branch &curve, const HbmOptions &options);
 /// far off for it, NaN where it would cost more, or a basis cannot be judged so.
 double basis_error_at(const std::shared_ptr<const Basis> &basis, const HbmOptions &options,
                       const Branch &branch, std::int64_t point, const Output &output, double flops,
-                      Watch watch);
+                      Watch watch, vector<std::complex<double>> *multipliers = nullptr);
 
 /// How far the largest Floquet multipliers of a curve of exact motions are from those of the whole structure,
 /// by its highest motion and the one whose multiplier is nearest to the unit circle; 0 where the basis is

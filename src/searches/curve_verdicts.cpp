@@ -180,23 +180,29 @@ std::int64_t highest_stable(const Branch &curve, const Output &of) {
 
 void check_stability(const Branch &curve, const Output &of, double accuracy, Watch watch, Branch &peak) {
     const BranchPoint &top = peak.points()[0];
-    if (stability_of(top) != 0) return;
+    const std::int64_t is_stable = stability_of(top);
+    if (is_stable == 1 || top.multipliers.empty()) return;
     const double height = peak.amplitude(0, of.dof, of.measure, of.harmonic);
     const std::int64_t stable = highest_stable(curve, of);
     const double known = stable < 0 ? 0 : curve.amplitude(stable, of.dof, of.measure, of.harmonic);
     if (known >= (1 - accuracy) * height) return;
     const std::string instead =
-        stable < 0 ? "No motion of the curve is stable"
+        stable < 0 ? "No motion of the curve is known to be stable"
                    : format("The highest stable motion of the curve is %.6g, at %.6g Hz", known,
                             curve.points()[static_cast<std::size_t>(stable)].omega / (2 * M_PI));
+    const double largest = std::abs(top.multipliers[0]);
+    const std::string verdict =
+        is_stable == 0
+            ? format("is not stable (largest multiplier %.4g): the structure leaves it for another one",
+                     largest)
+            : format("may not be stable: its largest multiplier is %.4g, but may be off by %.2g by the basis",
+                     largest, top.multiplier_error);
     watch.keeping(peak.warnings)
-        .warn(
-            PLM_REASON_UNSTABLE_PEAK,
-            format("the motion of the peak, %.6g at %.6g Hz, is not stable (largest multiplier %.4g): the "
-                   "structure leaves it for another one. %s. What it does instead, time marching tells, or, "
-                   "where it repeats after several periods of the excitation, a curve with "
-                   "\"period_multiple\" of 2 or more",
-                   height, top.omega / (2 * M_PI), std::abs(top.multipliers[0]), instead.c_str()));
+        .warn(PLM_REASON_UNSTABLE_PEAK,
+              format("the motion of the peak, %.6g at %.6g Hz, %s. %s. What it does instead, time marching "
+                     "tells, or, where it repeats after several periods of the excitation, a curve with "
+                     "\"period_multiple\" of 2 or more",
+                     height, top.omega / (2 * M_PI), verdict.c_str(), instead.c_str()));
 }
 
 void check_host_reduction(const Model &model, double accuracy, double error, Watch watch) {

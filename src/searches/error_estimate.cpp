@@ -217,8 +217,7 @@ ErrorEstimate ErrorEstimator::by_exact_motion(std::int64_t point, std::int64_t d
     e.amplitude.basis =
         alone.amplitude(0, dof, measure, harmonic) - branch_.amplitude(point, dof, measure, harmonic);
     e.frequency_hz.basis = (own.omega - p.omega) / (2 * M_PI);
-    if (!own.multipliers.empty() && !p.multipliers.empty())
-        e.multiplier = std::abs(own.multipliers[0]) - std::abs(p.multipliers[0]);
+    e.multipliers = std::move(own.multipliers);
     return e;
 }
 

@@ -8,7 +8,6 @@
 #include "hbm/options.hpp"
 #include "hbm/system.hpp"
 #include <cmath>
-#include <limits>
 
 namespace plm {
 
@@ -24,8 +23,8 @@ struct ErrorEstimate {
     ErrorParts frequency_hz; // shift of the curve along the frequency
     // Parts whose steps do not contract are NaN: that of the harmonics, or all of them
     bool known = true; // false: all of them
-    // Of the modulus of the largest Floquet multiplier, where exact motions are compared; NaN: not known
-    double multiplier = std::numeric_limits<double>::quiet_NaN();
+    // Of the whole structure's motion, where exact motions are compared; empty: not known
+    vector<std::complex<double>> multipliers;
     bool complete() const { return std::isfinite(amplitude.sum()); }
 };
 

@@ -258,13 +258,21 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
                       "effort of the context");
         point.multiplier_error = branch.points()[top].multiplier_error;
     }
-    one->append(std::move(point));
+    one->append(point);
+    vector<std::complex<double>> of_structure;
+    const double by_basis =
+        basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic},
+                       std::max(few_flops, flops_of(branch, options_)), watch_, &of_structure);
+    if (!of_structure.empty()) {
+        point.multipliers = std::move(of_structure);
+        point.multiplier_error = 0;
+        one->truncate(0);
+        one->append(std::move(point));
+    }
     check_top(options_.accuracy, above, watch_, *one);
     warn_of_harmonics(limits, error, *one);
     if (is_peak && options_.n_harmonics != 0 && !one->points()[0].motion)
         warn_of_given_harmonics(reduced, options_, dof, measure, harmonic, *one);
-    const double by_basis = basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic},
-                                           std::max(few_flops, flops_of(branch, options_)), watch_);
     check_peak(window_, options_.accuracy, by_basis, watch_, *one);
     if (is_peak) check_stability(branch, {dof, measure, harmonic}, options_.accuracy, watch_, *one);
     if (one->reduced().model)

@@ -77,6 +77,8 @@ def run_library(m, way, result):
             result["seconds"] = time.process_time() - begin
     heights = curve.amplitude(m["out"], "peak")
     reasons = [(w.message.reason, str(w.message)) for w in said if isinstance(w.message, plm.PlmWarning)]
+    if any(reason == plm.REASON_NO_PEAK for reason, _ in reasons):
+        stated = np.nan  # the error of a point at the end of a curve says nothing of a peak beyond it
     result.update(points=len(curve), status=int(curve.status), end=curve.end_text, reasons=reasons, stated=float(stated),
                   said="; ".join(dict.fromkeys(text for _, text in reasons)),
                   hz=peak.frequency_hz, amplitude=peak.amplitude, harmonics=int(peak.branch.n_harmonics), r=int(curve.basis_size),

@@ -302,6 +302,32 @@ void a_peak_that_does_not_last_is_said(void **) {
     }
 }
 
+// The chain of above with a softer stop on the modes of three harmonics, which make its peak unstable: as its
+// motion is compared with that of the whole structure, its stability is that motion's, too.
+void a_peak_is_as_stable_as_the_whole_structure(void **) {
+    const auto model = test::make_model(test::chain(8, 0.02, 3, 0, 0.1, 0, {7}), {{0.02}});
+    const auto sampler = std::make_shared<plm::Sampler>(model, plm::SamplerOptions(), plm::Watch());
+    const auto solver = [&](const plm::BasisKind &kind) {
+        plm::BasisOptions o;
+        o.n_harmonics = 3;
+        o.kind = &kind;
+        return plm::Hbm(std::make_shared<plm::Basis>(model, sampler, nullptr, o, plm::Watch()),
+                        plm::HbmOptions(), plm::Watch());
+    };
+    const plm::Hbm small = solver(plm::basis_kinds::plm), whole = solver(plm::basis_kinds::full);
+    const auto curve = small.sweep();
+    const plm::Peak peak = small.find_peak(*curve, 7, plm::Measure::peak, 0);
+    const plm::BranchPoint &found = peak.branch->points()[0];
+    const auto top = static_cast<std::size_t>(curve->highest_point(7, plm::Measure::peak, 0));
+    const plm::Peak true_peak = whole.find_peak(*whole.sweep(), 7, plm::Measure::peak, 0);
+    const auto largest = [](const plm::BranchPoint &p) { return std::abs(p.multipliers.front()); };
+    const double truth = largest(true_peak.branch->points()[0]);
+    assert_true(largest(curve->points()[top]) > 1.1 && truth < 0.9);
+    assert_int_equal(plm::stability_of(found), 1);
+    assert_true(std::abs(largest(found) - truth) < 0.01); // the peaks are 1.6 % apart
+    assert_true(!peak.branch->warnings.has(PLM_REASON_UNSTABLE_PEAK));
+}
+
 } // namespace
 
 int main() {
@@ -317,6 +343,7 @@ int main() {
         cmocka_unit_test(a_curve_that_comes_back_is_followed_from_the_other_end),
         cmocka_unit_test(a_sweep_that_does_not_lead_across_says_so),
         cmocka_unit_test(a_peak_that_does_not_last_is_said),
+        cmocka_unit_test(a_peak_is_as_stable_as_the_whole_structure),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
