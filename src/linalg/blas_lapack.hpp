@@ -69,6 +69,15 @@ void zgetrs_(const char *, const blas_int *, const blas_int *, const complex_t *
 void dgeev_(const char *, const char *, const blas_int *, double *, const blas_int *, double *, double *,
             double *, const blas_int *, double *, const blas_int *, double *, const blas_int *, blas_int *,
             strlen_t, strlen_t);
+void dgees_(const char *, const char *, const void *, const blas_int *, double *, const blas_int *,
+            blas_int *, double *, double *, double *, const blas_int *, double *, const blas_int *,
+            blas_int *, blas_int *, strlen_t, strlen_t);
+void dtrsen_(const char *, const char *, const blas_int *, const blas_int *, double *, const blas_int *,
+             double *, const blas_int *, double *, double *, blas_int *, double *, double *, double *,
+             const blas_int *, blas_int *, const blas_int *, blas_int *, strlen_t, strlen_t);
+void dtrsyl_(const char *, const char *, const blas_int *, const blas_int *, const blas_int *, const double *,
+             const blas_int *, const double *, const blas_int *, double *, const blas_int *, double *,
+             blas_int *, strlen_t, strlen_t);
 void dpotrf_(const char *, const blas_int *, double *, const blas_int *, blas_int *, strlen_t);
 void dpotrs_(const char *, const blas_int *, const blas_int *, const double *, const blas_int *, double *,
              const blas_int *, blas_int *, strlen_t);
@@ -97,6 +106,9 @@ void dpotrs_(const char *, const blas_int *, const blas_int *, const double *, c
 #define zgetrf_(...) (BlasTurn(), zgetrf_(__VA_ARGS__))
 #define zgetrs_(...) (BlasTurn(), zgetrs_(__VA_ARGS__))
 #define dgeev_(...) (BlasTurn(), dgeev_(__VA_ARGS__))
+#define dgees_(...) (BlasTurn(), dgees_(__VA_ARGS__))
+#define dtrsen_(...) (BlasTurn(), dtrsen_(__VA_ARGS__))
+#define dtrsyl_(...) (BlasTurn(), dtrsyl_(__VA_ARGS__))
 #define dpotrf_(...) (BlasTurn(), dpotrf_(__VA_ARGS__))
 #define dpotrs_(...) (BlasTurn(), dpotrs_(__VA_ARGS__))
 

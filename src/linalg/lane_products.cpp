@@ -25,12 +25,10 @@ PLM_IN_LANES void add_all_rows(const Matrix &a, double alpha, const double *x, d
                                double *y) {
     constexpr std::int64_t at_once = 4 * n_lanes;
     const std::int64_t n = a.rows();
-    if (n >= at_once) {
-        for (std::int64_t row = 0; row < n; row += at_once)
-            add_rows<L, 4>(a, std::min(row, n - at_once), alpha, x, beta, c, y);
-    } else if (n >= n_lanes) {
-        for (std::int64_t row = 0; row < n; row += n_lanes)
-            add_rows<L, 1>(a, std::min(row, n - n_lanes), alpha, x, beta, c, y);
+    if (n >= n_lanes) {
+        std::int64_t row = 0;
+        for (; row + at_once <= n; row += at_once) add_rows<L, 4>(a, row, alpha, x, beta, c, y);
+        for (; row < n; row += n_lanes) add_rows<L, 1>(a, std::min(row, n - n_lanes), alpha, x, beta, c, y);
     } else {
         for (std::int64_t row = 0; row < n; ++row) {
             double sum = 0;

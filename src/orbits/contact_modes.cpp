@@ -7,7 +7,9 @@ namespace plm {
 namespace {
 
 constexpr double worst_condition = 1e-8; // reciprocal, of the eigenvectors: digits lost on the way to and fro
-constexpr double free_rate = 1e-10;      // of the fastest: nothing brings such a motion back
+constexpr double no_rate = 1e-10;        // of the fastest: by which nothing can be divided
+// Of the fastest: free motions. Rounding makes so much of rates 0 whose eigenvectors coincide.
+constexpr double free_rate = 1e-6;
 // Pieces that are as much work as the eigenvectors, n^3 against n^2: some at least, and by the coordinate.
 constexpr std::int64_t worth_it = 40, worth_a_coordinate = 2;
 constexpr double most_bytes = 1.5e8, most_transition_bytes = 1e8, most_entries = 4096;
@@ -55,34 +57,53 @@ Matrix ContactModes::system_matrix(const FlowModel &model, const Matrix &k) {
 }
 
 void ContactModes::decompose(const Matrix &system) {
-    const std::int64_t size = system.rows();
-    worked(25.0 * static_cast<double>(size * size * size));
+    const auto size = static_cast<double>(system.rows());
+    worked(25.0 * size * size * size);
     const GeneralEigen eigen = general_eigen(system);
-    Matrix w(size, size), inverse(size, size);
-    double fastest = 0, slowest = INFINITY;
-    for (std::int64_t j = 0; j < size; ++j) {
-        const std::complex<double> rate = eigen.values[j], *v = eigen.vectors.data() + j * size;
-        fastest = std::max(fastest, std::abs(rate)), slowest = std::min(slowest, std::abs(rate));
+    if (take(eigen, nullptr)) return;
+    const double radius = free_rate * std::abs(eigen.values[0]);
+    for (const std::complex<double> &rate : eigen.values)
+        if (std::abs(rate) < radius) free_speed_ = std::max(free_speed_, std::abs(rate));
+    const SplitSpectrum split = split_spectrum(system, radius);
+    if (split.slow.cols() > 0) take(general_eigen(split.rest_block), &split);
+}
+
+// The eigenvectors, of all motions or of what the split leaves beside the free ones. False: no digits are
+// left to them.
+bool ContactModes::take(const GeneralEigen &eigen, const SplitSpectrum *split) {
+    const auto n = static_cast<std::int64_t>(eigen.values.size());
+    modes_.clear();
+    Matrix w(n, n);
+    for (std::int64_t j = 0; j < n; ++j) {
+        const std::complex<double> rate = eigen.values[j], *v = eigen.vectors.data() + j * n;
         const bool pair = rate.imag() != 0;
         modes_.push_back({rate, j, pair, std::abs(rate)});
-        for (std::int64_t i = 0; i < size; ++i) {
+        for (std::int64_t i = 0; i < n; ++i) {
             w(i, j) = v[i].real();
             if (pair) w(i, j + 1) = -v[i].imag();
         }
         if (pair) ++j;
     }
-    if (!(slowest > free_rate * fastest)) return;
+    if (n == 0 || !(modes_.back().speed > no_rate * modes_.front().speed)) return false;
+    if (split) {
+        const Matrix rest = product('N', 'N', split->rest, w);
+        free_ = split->slow_block;
+        w.reset(rest.rows(), rest.rows());
+        std::copy_n(rest.data(), rest.rows() * n, w.data());
+        std::copy_n(split->slow.data(), w.rows() * free_.rows(), w.col(n));
+    }
     RealLu lu;
-    Matrix copy = w;
+    Matrix copy = w, inverse(w.rows(), w.rows());
     lu.factor(copy);
-    if (lu.singular()) return;
+    if (lu.singular()) return false;
     condition_ = lu.reciprocal_condition();
-    if (!(condition_ > worst_condition)) return;
-    for (std::int64_t j = 0; j < size; ++j) inverse(j, j) = 1;
-    lu.solve(inverse.data(), size, size);
+    if (!(condition_ > worst_condition)) return false;
+    for (std::int64_t j = 0; j < w.rows(); ++j) inverse(j, j) = 1;
+    lu.solve(inverse.data(), w.rows(), w.rows());
     usable_ = true;
     to_state_ = std::move(w);
     from_state_ = std::move(inverse);
+    return true;
 }
 
 void ContactModes::find_displacements(const FlowModel &model) {
@@ -158,8 +179,28 @@ void ContactModes::enter(Matrix &m) const {
     worked(static_cast<double>(size() * size() * m.cols()));
 }
 
+namespace {
+
+// exp(S dt) of so little that its series ends after some powers.
+Matrix small_exponential(const Matrix &s, double dt) {
+    constexpr int most_powers = 60;
+    const std::int64_t k = s.rows();
+    Matrix sum(k, k), power(k, k), next(k, k);
+    for (std::int64_t i = 0; i < k; ++i) sum(i, i) = power(i, i) = 1;
+    for (int j = 1; j < most_powers && norm2(k * k, power.data()) > 1e-17 * norm2(k * k, sum.data()); ++j) {
+        gemm('N', 'N', dt / j, s, power, 0.0, next);
+        std::swap(power, next);
+        for (std::int64_t i = 0; i < k * k; ++i) sum.data()[i] += power.data()[i];
+    }
+    return sum;
+}
+
+} // namespace
+
 template <class Real> void ContactModes::turn(double dt, vector<Real> &coordinates) const {
     vector<std::complex<Real>> factors;
+    const Matrix free = small_exponential(free_, dt);
+    vector<Real> before(static_cast<std::size_t>(free_.rows()));
     for (const Mode &mode : modes_) factors.push_back(std::complex<Real>(std::exp(mode.rate * dt)));
     const auto n = static_cast<std::size_t>(size());
     for (std::size_t first = 0; first < coordinates.size(); first += n) {
@@ -173,6 +214,12 @@ template <class Real> void ContactModes::turn(double dt, vector<Real> &coordinat
                 ++c;
             }
             ++c;
+        }
+        std::copy_n(c, free_.rows(), before.data());
+        for (std::int64_t i = 0; i < free_.rows(); ++i) {
+            c[i] = 0;
+            for (std::int64_t j = 0; j < free_.rows(); ++j)
+                c[i] += static_cast<Real>(free(i, j)) * before[static_cast<std::size_t>(j)];
         }
     }
 }

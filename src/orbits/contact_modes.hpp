@@ -1,9 +1,11 @@
 // The free motions of one contact set: x' = A x of its linear system, x = (root k y, y'), by the
 // eigenvectors of A. They advance a motion over any time at once, however stiff the contact is. Real
 // coordinates c, x = W c: of a complex pair of eigenvalues the two of z = c_1 + i c_2, z' = lambda z.
-// What relaxes without mass has no y' in x; what follows at once is not in x at all, but where the contact
-// and the loads of the moment put it.
+// Motions that nothing brings back, as of a free body, have eigenvalues 0 whose eigenvectors coincide: they
+// are kept as the last coordinates, which a small matrix moves. What relaxes without mass has no y' in x;
+// what follows at once is not in x at all, but where the contact and the loads of the moment put it.
 #pragma once
+#include "linalg/lapack.hpp"
 #include "orbits/contact_set.hpp"
 #include <complex>
 #include <map>
@@ -16,7 +18,7 @@ class ContactModes {
     ContactModes(const FlowModel &model, const PairStates &states);
 
     const ContactSet &set() const { return set_; }
-    /// False: the eigenvectors are too near to each other, or a motion is free (eigenvalue 0).
+    /// False: the eigenvectors are too near to each other.
     bool usable() const { return usable_; }
     /// The eigenvectors are so far from each other that products in single precision keep five digits.
     bool usable_in_single() const { return usable_ && condition_ > well_conditioned; }
@@ -28,6 +30,10 @@ class ContactModes {
         double speed; // |rate|
     };
     const std::vector<Mode> &modes() const { return modes_; }
+    /// Of the free motions: their coordinates, the last of all, c' = S c.
+    const Matrix &free_block() const { return free_; }
+    std::int64_t first_free() const { return size() - free_.rows(); }
+    double free_speed() const { return free_speed_; }      // the largest modulus of their rates
     std::int64_t size() const { return to_state_.rows(); } // that of the model's state
 
     /// y of what moves and y' of what has mass, of coordinates, and back.
@@ -69,16 +75,17 @@ class ContactModes {
     static constexpr double well_conditioned = 1e-4; // reciprocal condition
     Matrix system_matrix(const FlowModel &model, const Matrix &stiffness);
     void decompose(const Matrix &system);
+    bool take(const GeneralEigen &eigen, const SplitSpectrum *split);
     void find_displacements(const FlowModel &model);
     Load load_of(const FlowModel &model, const vector<double> &force, const vector<double> &gap) const;
 
     ContactSet set_;
     std::int64_t moving_, massive_;
     bool usable_ = false;
-    double condition_ = 0; // reciprocal, of the eigenvectors
-    vector<double> root_;  // of what moves
+    double condition_ = 0, free_speed_ = 0; // reciprocal, of the eigenvectors
+    vector<double> root_;                   // of what moves
     std::vector<Mode> modes_;
-    Matrix to_state_, from_state_, displacement_, gap_by_pair_, reach_;
+    Matrix free_, to_state_, from_state_, displacement_, gap_by_pair_, reach_;
     vector<double> gap_size_;
     Load constant_;
     std::vector<Harmonic> loads_;

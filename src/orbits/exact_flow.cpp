@@ -4,6 +4,7 @@
 #include "linalg/lane_products.hpp"
 #include "linalg/scale.hpp"
 #include "linalg/work.hpp"
+#include "orbits/load_powers.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -348,45 +349,31 @@ void ExactFlow::expand_forces(double time, double duration, Series &series) {
     }
 }
 
-// Re(F_h exp(i h w t)) has F_h exp(i h w t_0) (i h w duration)^k / k!.
-void ExactFlow::expand_loads(double time, double duration, Matrix &force) const {
-    const std::int64_t n = model_->size(), count = n_force_terms();
-    for (std::int64_t j = 0; j < n; ++j) force(j, 0) = model_->preload()[j];
-    for (const auto &[harmonic, load] : model_->excitation()) {
-        const double step = static_cast<double>(harmonic) * omega_ * duration;
-        std::complex<double> z =
-            force_scale_ * std::polar(1.0, static_cast<double>(harmonic) * omega_ * time);
-        for (std::int64_t k = 0; k < count; ++k) {
-            double *f = force.col(k);
-            for (std::int64_t j = 0; j < n; ++j) f[j] += z.real() * load.real[j];
-            if (harmonic == 0) break;
-            for (std::int64_t j = 0; j < n; ++j) f[j] -= z.imag() * load.imag[j];
-            z *= std::complex<double>(0.0, step / static_cast<double>(k + 1));
-        }
+namespace {
+
+void add_load(const HarmonicLoad &load, const vector<std::complex<double>> &powers, Matrix &force) {
+    const std::int64_t n = force.rows();
+    for (std::size_t k = 0; k < powers.size(); ++k) {
+        double *f = force.col(static_cast<std::int64_t>(k));
+        for (std::int64_t j = 0; j < n; ++j) f[j] += powers[k].real() * load.real[j];
+        for (std::int64_t j = 0; j < n && !load.imag.empty(); ++j) f[j] -= powers[k].imag() * load.imag[j];
     }
 }
 
-// By the force scale: f / force_scale. By the frequency: with x = w - (t / omega) x', w' = A w + (t / omega)
-// df/dt, so t Re(i h F_h exp(i h w t)), whose powers of s are those of the exponential times t_0 and, one on,
-// the duration.
+} // namespace
+
+void ExactFlow::expand_loads(double time, double duration, Matrix &force) const {
+    std::copy_n(model_->preload().data(), model_->size(), force.col(0));
+    for (const auto &[harmonic, load] : model_->excitation())
+        add_load(load, load_powers(harmonic, omega_, force_scale_, time, duration, n_force_terms()), force);
+}
+
 void ExactFlow::expand_change_of_loads(double time, double duration, Matrix &force) const {
-    const std::int64_t n = model_->size(), count = n_force_terms();
-    const bool by_frequency = parameter_ == FlowParameter::frequency;
-    for (const auto &[harmonic, load] : model_->excitation()) {
-        if (by_frequency && harmonic == 0) continue;
-        const double h = static_cast<double>(harmonic), step = h * omega_ * duration;
-        std::complex<double> z = std::polar(1.0, h * omega_ * time), before = 0;
-        if (by_frequency) z *= std::complex<double>(0.0, force_scale_ * h);
-        for (std::int64_t k = 0; k < count; ++k) {
-            const std::complex<double> now = by_frequency ? time * z + duration * before : z;
-            double *f = force.col(k);
-            for (std::int64_t j = 0; j < n; ++j) f[j] += now.real() * load.real[j];
-            if (harmonic == 0) break;
-            for (std::int64_t j = 0; j < n; ++j) f[j] -= now.imag() * load.imag[j];
-            before = z;
-            z *= std::complex<double>(0.0, step / static_cast<double>(k + 1));
-        }
-    }
+    for (const auto &[harmonic, load] : model_->excitation())
+        add_load(
+            load,
+            changed_load_powers(parameter_, harmonic, omega_, force_scale_, time, duration, n_force_terms()),
+            force);
 }
 
 // Penetrations with the moving coordinates at zero, without contact forces.

@@ -1,6 +1,7 @@
 #include "orbits/modal_pieces.hpp"
 #include "contact/polynomial.hpp"
 #include "orbits/contact_set.hpp"
+#include "orbits/load_powers.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -66,6 +67,10 @@ bool ModalPieces::begin(const vector<double> &coordinates, const vector<double> 
     for (std::size_t i = 0; i < free_.size(); ++i) free_[i] -= steady[i];
     for (std::size_t i = 0; i < changed_free_.size(); ++i) changed_free_[i] -= changed_steady[i];
     present_ = free_;
+    changed_unheld_.clear();
+    if (!changed.empty())
+        changed_unheld_.assign(changed.begin() + static_cast<std::ptrdiff_t>(modes_->first_free()),
+                               changed.end());
     return true;
 }
 
@@ -213,6 +218,7 @@ double ModalPieces::expand(double longest) {
     double duration = longest;
     for (const ContactModes::Mode &m : modes_->modes())
         if (m.rate.real() > 0) duration = std::min(duration, most_growth / m.rate.real());
+    duration = std::min(duration, longest_turn / modes_->free_speed());
     while (!allows(duration)) duration *= 0.5; // at the end all modes are resolved
     duration_ = duration;
     fill_powers(duration);
@@ -247,6 +253,13 @@ void ModalPieces::bound_travel() {
         const double *row = reach.col(k);
         for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i] += row[i] * way;
     }
+    for (std::int64_t k = 0; k < unheld_powers_.rows(); ++k) {
+        double way = 0;
+        for (std::int64_t j = 1; j < n_terms_; ++j) way += std::abs(unheld_powers_(k, j));
+        for (std::size_t i = 0; i < travel_.size(); ++i)
+            travel_[i] +=
+                way * std::abs(modes_->gap_by_pair()(modes_->first_free() + k, static_cast<std::int64_t>(i)));
+    }
     for (const ContactModes::Harmonic &load : modes_->loads())
         for (std::size_t i = 0; puts_aside_ && i < travel_.size(); ++i)
             travel_[i] += std::abs(force_scale_) * turned(load.number * omega_) *
@@ -260,7 +273,10 @@ void ModalPieces::fill_powers(double duration) {
         if (m.speed * duration <= longest_turn) turn = std::max(turn, m.speed * duration);
     for (const ContactModes::Harmonic &load : modes_->loads())
         turn = std::max(turn, load.number * omega_ * duration);
-    n_terms_ = std::min(taylor_terms(turn, truncation) + 3, max_polynomial_degree + 1);
+    turn = std::max(turn, modes_->free_speed() * duration);
+    const std::int64_t more =
+        modes_->free_block().rows() > 0 ? 5 : 3; // by a load, a free motion is two powers on
+    n_terms_ = std::min(taylor_terms(turn, truncation) + more, max_polynomial_degree + 1);
     powers_.reset(modes_->size(), n_terms_);
     while (static_cast<std::int64_t>(inverse_.size()) < n_terms_)
         inverse_.push_back(1 / static_cast<double>(inverse_.size() + 1));
@@ -268,6 +284,33 @@ void ModalPieces::fill_powers(double duration) {
     add_free_powers(duration);
     for (std::size_t l = 0; l < steady_.size(); ++l)
         if (!steady_[l].empty()) add_steady_powers(l, duration);
+    expand_free(at_now_.data() + modes_->first_free(), false, duration, unheld_powers_);
+    for (std::int64_t k = 0; k < n_terms_; ++k)
+        std::copy_n(unheld_powers_.col(k), unheld_powers_.rows(), powers_.col(k) + modes_->first_free());
+}
+
+void ModalPieces::expand_free(const double *from, bool changed, double duration, Matrix &powers) const {
+    const Matrix &block = modes_->free_block();
+    const std::int64_t n = block.rows(), first = modes_->first_free();
+    Matrix load(n, n_terms_);
+    if (!changed) std::copy_n(modes_->constant_load().coordinates.data() + first, n, load.col(0));
+    for (const ContactModes::Harmonic &of : modes_->loads()) {
+        const vector<Complex> z =
+            changed
+                ? changed_load_powers(parameter_, of.number, omega_, force_scale_, now_, duration, n_terms_)
+                : load_powers(of.number, omega_, force_scale_, now_, duration, n_terms_);
+        for (std::size_t k = 0; k < z.size(); ++k)
+            for (std::int64_t i = 0; i < n; ++i)
+                load(i, static_cast<std::int64_t>(k)) += z[k].real() * of.real.coordinates[first + i] -
+                                                         z[k].imag() * of.imag.coordinates[first + i];
+    }
+    powers.reset(n, n_terms_);
+    std::copy_n(from, n, powers.col(0));
+    for (std::int64_t k = 0; k + 1 < n_terms_ && n > 0; ++k) {
+        const double part = duration / static_cast<double>(k + 1);
+        for (std::int64_t i = 0; i < n; ++i) powers(i, k + 1) = part * load(i, k);
+        gemv('N', part, block, powers.col(k), 1.0, powers.col(k + 1));
+    }
 }
 
 // z (rate duration)^k / k! of all modes that are resolved, power by power: what is done to one is done to its
@@ -359,7 +402,21 @@ void ModalPieces::keep_fast() {
     }
 }
 
+void ModalPieces::advance_free(double share) {
+    const std::int64_t n = unheld_powers_.rows();
+    if (!changed_unheld_.empty())
+        expand_free(changed_unheld_.data(), true, duration_, changed_unheld_powers_);
+    const auto sum = [&](const Matrix &powers, double *to) {
+        std::fill_n(to, n, 0.0);
+        for (std::int64_t k = n_terms_ - 1; k >= 0; --k)
+            for (std::int64_t i = 0; i < n; ++i) to[i] = to[i] * share + powers(i, k);
+    };
+    sum(unheld_powers_, present_.data() + modes_->first_free());
+    if (!changed_unheld_.empty()) sum(changed_unheld_powers_, changed_unheld_.data());
+}
+
 void ModalPieces::advance(double duration) {
+    if (unheld_powers_.rows() > 0) advance_free(duration / duration_);
     now_ += duration;
     steady_at(now_, at_now_, nullptr);
     turn_free(free_, present_);
@@ -382,6 +439,8 @@ vector<double> ModalPieces::changed_now() const {
     steady_at(now_, motion, &changed);
     turn_free(changed_free_, free);
     for (std::size_t j = 0; j < changed.size(); ++j) changed[j] += free[j];
+    std::copy(changed_unheld_.begin(), changed_unheld_.end(),
+              changed.begin() + static_cast<std::ptrdiff_t>(modes_->first_free()));
     return changed;
 }
 

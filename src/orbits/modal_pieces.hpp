@@ -66,6 +66,10 @@ class ModalPieces {
     void add_free_powers(double duration);
     void add_steady_powers(std::size_t load, double duration);
     void keep_fast();
+    /// The free motions, whose coordinates are the last ones: from the values given to powers of the share of
+    /// a piece, under the loads or under what the parameter changes of them.
+    void expand_free(const double *from, bool changed, double duration, Matrix &powers) const;
+    void advance_free(double share);
 
     const FlowModel &model_;
     double omega_, force_scale_;
@@ -76,10 +80,12 @@ class ModalPieces {
     std::vector<std::vector<Steady>> steady_;    // by load and mode
     vector<double> free_, changed_free_;         // free part of c at start_
     vector<double> present_, at_now_;            // free part at now_; c there
-    vector<double> both_, passed_;               // c and its change, before and after pass()
-    bool puts_aside_ = false;                    // the harmonic loads do, too
-    vector<double> veil_, tiny_;                 // of the pairs
-    vector<double> now_penetration_, travel_;    // of the pairs; how far each may go within the piece
+    vector<double> changed_unheld_;              // of the free motions at now_
+    Matrix unheld_powers_, changed_unheld_powers_;
+    vector<double> both_, passed_;            // c and its change, before and after pass()
+    bool puts_aside_ = false;                 // the harmonic loads do, too
+    vector<double> veil_, tiny_;              // of the pairs
+    vector<double> now_penetration_, travel_; // of the pairs; how far each may go within the piece
     PiecePenetrations penetrations_;
     vector<double> aside_;                       // of the pairs or of what follows
     vector<double> size_, inverse_;              // |z| of the modes; 1, 1/2, 1/3, ...

@@ -56,7 +56,7 @@ vector<double> work_gradient(const FlowModel &model, const std::vector<ContactIn
     for (auto interval = intervals.rbegin(); interval != intervals.rend(); ++interval) {
         t -= interval->duration;
         const auto here = modes.find(interval->states, make_them);
-        if (!here) return {};
+        if (!here || here->free_block().rows() > 0) return {};
         here->enter_row(row);
         pass_back(*here, load, omega, t, interval->duration, row);
         here->leave_row(row);

@@ -59,6 +59,39 @@ void vectors_belong_to_their_values(void **) {
     assert_true(c.ordered && c.conjugate && c.same_values);
 }
 
+// Two free bodies, each a defective pair of rates 0, and three oscillators, mixed by a random matrix: the
+// eigenvectors of the former coincide, the invariant subspaces do not.
+void what_is_slow_has_a_subspace_of_its_own(void **) {
+    constexpr std::int64_t n = 10;
+    Matrix block(n, n), mixed(n, n);
+    block(0, 1) = block(2, 3) = 1;
+    for (std::int64_t k = 2; k < 5; ++k) {
+        const auto w = static_cast<double>(10 * k);
+        block(2 * k, 2 * k + 1) = w, block(2 * k + 1, 2 * k) = -w, block(2 * k + 1, 2 * k + 1) = -0.1;
+    }
+    const Matrix mix = random_matrix(n, n, 9);
+    plm::RealLu lu;
+    Matrix factor = mix.transposed(), right = plm::product('N', 'N', mix, block).transposed();
+    lu.factor(factor);
+    lu.solve(right.data(), n, n); // (mix block mix^-1)^T
+    const Matrix a = right.transposed();
+    const plm::SplitSpectrum s = plm::split_spectrum(a, 1e-3);
+    assert_int_equal(s.slow.cols(), 4);
+    assert_int_equal(s.rest.cols(), 6);
+    const auto defect = [&](const Matrix &x, const Matrix &b) {
+        Matrix r = plm::product('N', 'N', x, b);
+        plm::gemm('N', 'N', 1.0, a, x, -1.0, r);
+        return plm::norm2(r.rows() * r.cols(), r.data());
+    };
+    // rounding of A, of norm some hundreds
+    assert_true(defect(s.slow, s.slow_block) < 1e-11 && defect(s.rest, s.rest_block) < 1e-10);
+    const Matrix twice = plm::product('N', 'N', s.slow_block, s.slow_block); // nilpotent
+    assert_true(plm::norm2(16, twice.data()) < 1e-10);
+    for (const Complex &v : plm::general_eigenvalues(s.rest_block)) assert_true(std::abs(v) > 19);
+    assert_int_equal(plm::split_spectrum(a, 1e-30).slow.cols(), 0);
+    assert_int_equal(plm::split_spectrum(a, 1e3).rest.cols(), 0);
+}
+
 void bad_input_never_reaches_lapack(void **) {
     const auto shape = outcome_of([] { plm::general_eigenvalues(Matrix(2, 3)); });
     const auto nan = outcome_of([] {
@@ -78,6 +111,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(eigenvalues_of_a_cyclic_shift_are_roots_of_unity),
         cmocka_unit_test(vectors_belong_to_their_values),
+        cmocka_unit_test(what_is_slow_has_a_subspace_of_its_own),
         cmocka_unit_test(bad_input_never_reaches_lapack),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

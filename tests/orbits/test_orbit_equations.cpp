@@ -232,11 +232,11 @@ class Shown final : public plm::FlowRecorder {
 
 // Means, displacements and velocities of all coordinates, and the parameter's effect on those in the state.
 struct Run {
-    std::vector<double> state, change;
+    std::vector<double> state, change, dofs;
     plm::Matrix monodromy;
     std::int64_t n_events = 0;
 };
-Run run_massless(const std::shared_ptr<const plm::FlowModel> &model, FlowParameter parameter, bool by_modes) {
+Run two_periods(const std::shared_ptr<const plm::FlowModel> &model, FlowParameter parameter, bool by_modes) {
     constexpr double omega = 0.7;
     const auto n = static_cast<std::size_t>(model->size());
     const FlowState start{plm::vector<double>(n, 0.0), plm::vector<double>(n, 0.0), 0};
@@ -262,6 +262,7 @@ Run run_massless(const std::shared_ptr<const plm::FlowModel> &model, FlowParamet
         to.insert(to.end(), x.begin(), x.begin() + count);
     };
     for (const plm::vector<double> &x : {shown.motion.mean(), end.y, end.v}) add(x, model->size(), out.state);
+    out.dofs = test::to_dofs(*model, end);
     add(flow.change().y, model->n_moving(), out.change);
     add(flow.change().v, model->n_massive(), out.change);
     out.monodromy = plm::monodromy(*model, shown.history.intervals(), 1e-15, plm::Watch(),
@@ -273,12 +274,36 @@ void modes_know_what_has_no_mass(void **) {
         for (double k_n : {3.0, 1e2})
             for (FlowParameter by : {FlowParameter::frequency, FlowParameter::force_scale}) {
                 const auto model = massless_model(kind, k_n);
-                const Run series = run_massless(model, by, false), modes = run_massless(model, by, true);
+                const Run series = two_periods(model, by, false), modes = two_periods(model, by, true);
                 assert_true(series.n_events > 10); // one that only just touches may be seen or not
                 assert_true(std::abs(series.n_events - modes.n_events) <= 1);
                 assert_true(below(max_difference(series.state, modes.state), 1e-9));
                 assert_true(below(max_difference(series.change, modes.change), 1e-8));
                 assert_true(below(max_difference(series.monodromy, modes.monodromy), 1e-8));
+            }
+}
+
+// A chain that nothing holds, pressed against a stop that throws it off: in flight its centre goes by
+// polynomials, with coinciding eigenvectors, beside what rings.
+void modes_know_what_is_free(void **) {
+    for (double k_n : {3.0, 1e3})
+        for (double drag : {0.0, 0.02})
+            for (FlowParameter by : {FlowParameter::frequency, FlowParameter::force_scale}) {
+                exact::Structure s = test::chain(4, 0.03, k_n, 0.05, 0.6, 0.2, {3});
+                s.stiffness[0] -= 1; // the spring to the ground, with its damping
+                s.damping[0] = -s.damping[1];
+                for (int i = 0; i < s.n; ++i) s.damping[i * (s.n + 1)] += drag * s.mass[i];
+                const auto model = test::flow_model(s);
+                const plm::ContactModes flight(*model, plm::PairStates::all_open(1));
+                assert_true(flight.usable() && flight.free_block().rows() == (drag > 0 ? 1 : 2));
+                const Run series = two_periods(model, by, false), modes = two_periods(model, by, true);
+                assert_true(series.n_events > 3 && series.n_events == modes.n_events);
+                assert_true(below(max_difference(series.state, modes.state), 1e-10));
+                assert_true(below(max_difference(series.change, modes.change), 1e-8));
+                assert_true(below(max_difference(series.monodromy, modes.monodromy), 1e-9));
+                std::vector<double> truth(2 * s.n, 0.0);
+                for (int k = 0; k < 2; ++k) truth = exact::period_map(s, 0.7, truth, nullptr);
+                assert_true(below(max_difference(modes.dofs, truth), 1e-9));
             }
 }
 
@@ -435,6 +460,7 @@ int main() {
         cmocka_unit_test(modes_give_the_motion_of_the_series),
         cmocka_unit_test(a_mode_that_hardly_moves_does_not_dictate_the_pieces),
         cmocka_unit_test(modes_know_what_has_no_mass),
+        cmocka_unit_test(modes_know_what_is_free),
         cmocka_unit_test(crests_of_fast_motion_are_found_at_once),
         cmocka_unit_test(readings_are_those_of_dense_samples),
     };
