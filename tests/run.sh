@@ -81,7 +81,8 @@ for preset; do
         [ "$preset" = asan ] && PLM_SCENARIO_SECONDS=30
         export PLM_FUZZ_SECONDS PLM_SCENARIO_SECONDS
     fi
-    stage "$preset: configure" cmake --preset "$preset" &&
+    # several files at once where all is built from nothing
+    stage "$preset: configure" cmake --preset "$preset" ${fuzz_longer:+-DPLM_UNITY=ON} &&
         stage "$preset: build" cmake --build --preset "$preset" --parallel $jobs ${programs:+--target $programs} &&
         stage "$preset: test" ctest --preset "$preset" --parallel $jobs --no-tests=error ${tests:+-R "$tests"}
 done
