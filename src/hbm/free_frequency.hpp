@@ -5,12 +5,6 @@
 
 namespace plm {
 
-/// The unit of a frequency among unknowns of this size: so small a change of it counts like the response.
-inline double frequency_unit(double size, double omega) {
-    constexpr double as_much = 0.05;
-    return size / (as_much * omega);
-}
-
 /// Base: WrappedSystem or what is derived from it.
 template <class Base> class FreeFrequency : public Base {
   public:

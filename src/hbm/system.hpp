@@ -3,8 +3,8 @@
 // structure (gap_system.cpp). Which is cheaper depends on the number of coordinates and of moving pairs.
 #pragma once
 #include "contact/contact_force.hpp"
-#include "hbm/branch_point.hpp"
 #include "linalg/error.hpp"
+#include "motions/branch_point.hpp"
 #include "paths/residual.hpp"
 
 namespace plm {

@@ -1,7 +1,7 @@
 #include "searches/basis_error.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
-#include "searches/harmonic_choice.hpp"
-#include "searches/orbit_points.hpp"
+#include "orbits/orbit_cost.hpp"
 #include "searches/wider_range.hpp"
 #include <algorithm>
 #include <cmath>

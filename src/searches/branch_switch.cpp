@@ -1,12 +1,12 @@
 // From a located branch point or period doubling to the curve that crosses or leaves there: the tangent has a
 // null vector that does not belong to the curve at hand; a small step along it, corrected across it, is a
 // first point of the other one.
-#include "hbm/branch_path.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "hbm/make_system.hpp"
 #include "linalg/scale.hpp"
+#include "motions/branch_path.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
-#include "searches/harmonic_choice.hpp"
 #include "searches/hbm.hpp"
 #include "searches/point_equations.hpp"
 #include <algorithm>
@@ -88,7 +88,7 @@ class Switch {
 
     HbmOptions options_;
     bool mirrored_;
-    std::unique_ptr<PointEquations> equations_;
+    std::unique_ptr<PeriodicEquations> equations_;
     Metric metric_;
     PathState at_, direction_;
     NewtonWork work_;

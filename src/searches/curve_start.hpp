@@ -1,6 +1,6 @@
 // Where a response curve begins.
 #pragma once
-#include "hbm/branch.hpp"
+#include "motions/branch.hpp"
 
 namespace plm {
 

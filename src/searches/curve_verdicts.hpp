@@ -1,7 +1,7 @@
 // What is said with a curve that was followed to its end: whether basis and contact were what it is about.
 #pragma once
-#include "hbm/branch.hpp"
 #include "linalg/monitor.hpp"
+#include "motions/branch.hpp"
 #include "reduction/sweep_range.hpp"
 #include <functional>
 

@@ -1,7 +1,8 @@
 #include "searches/exact_curve.hpp"
-#include "hbm/branch_path.hpp"
-#include "searches/orbit_points.hpp"
-#include "searches/stability.hpp"
+#include "motions/branch_path.hpp"
+#include "orbits/orbit_point.hpp"
+#include "orbits/orbit_points.hpp"
+#include "orbits/stability.hpp"
 
 namespace plm {
 namespace {

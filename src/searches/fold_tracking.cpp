@@ -1,14 +1,15 @@
 #include "searches/fold_tracking.hpp"
-#include "hbm/branch_path.hpp"
-#include "searches/harmonic_folds.hpp"
-#include "searches/orbit_folds.hpp"
+#include "hbm/harmonic_folds.hpp"
+#include "motions/branch_path.hpp"
+#include "motions/periodic_equations.hpp"
+#include "orbits/orbit_folds.hpp"
 
 namespace plm {
 namespace {
 
 // Of exact motions where `about` is one.
-std::unique_ptr<PointEquations> fold_equations(std::shared_ptr<const ReducedModel> reduced,
-                                               const HbmOptions &options, const BranchPoint &about) {
+std::unique_ptr<PeriodicEquations> fold_equations(std::shared_ptr<const ReducedModel> reduced,
+                                                  const HbmOptions &options, const BranchPoint &about) {
     if (about.motion) return std::make_unique<OrbitFolds>(std::move(reduced), options, about);
     return std::make_unique<HarmonicFolds>(std::move(reduced), options, about);
 }
@@ -66,7 +67,7 @@ class FoldPath final : public PathOwner {
     FoldOptions options_;
     Watch watch_;
     bool exact_;
-    std::unique_ptr<PointEquations> equations_;
+    std::unique_ptr<PeriodicEquations> equations_;
     std::shared_ptr<Branch> branch_;
     bool turned_ = false;
 };

@@ -1,9 +1,9 @@
 // The curve of folds of a response over (frequency, force). Where it turns back in the force, an isolated
 // branch is born or joins another one: these are the ends of the range of forces in which the branch exists.
 #pragma once
-#include "hbm/branch.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
+#include "motions/branch.hpp"
 
 namespace plm {
 

@@ -1,10 +1,12 @@
 #include "searches/harmonic_curve.hpp"
-#include "hbm/branch_path.hpp"
 #include "hbm/formulation.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "hbm/make_system.hpp"
-#include "searches/harmonic_choice.hpp"
-#include "searches/stability.hpp"
-#include "searches/start.hpp"
+#include "hbm/solved_point.hpp"
+#include "hbm/start.hpp"
+#include "motions/branch_path.hpp"
+#include "motions/first_harmonics.hpp"
+#include "orbits/stability.hpp"
 #include <algorithm>
 #include <cmath>
 

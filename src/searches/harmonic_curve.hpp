@@ -1,11 +1,11 @@
 // A response curve by harmonic balance: the continuation with the number of harmonics and the unknowns chosen
 // again wherever the response asks for it, and with the stability of its points.
 #pragma once
+#include "hbm/harmonic_choice.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
 #include "paths/continuation.hpp"
 #include "searches/curve_start.hpp"
-#include "searches/harmonic_choice.hpp"
 
 namespace plm {
 

@@ -1,10 +1,10 @@
 // The harmonic-balance solver over a reduced model: single solutions, response curves, peaks.
 #pragma once
-#include "hbm/branch.hpp"
 #include "hbm/options.hpp"
+#include "hbm/start.hpp"
 #include "linalg/monitor.hpp"
+#include "motions/branch.hpp"
 #include "reduction/sweep_range.hpp"
-#include "searches/start.hpp"
 #include <chrono>
 
 namespace plm {

@@ -1,11 +1,12 @@
 // The searches of Hbm: checks, and the options they run with.
+#include "hbm/harmonic_choice.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/fold_tracking.hpp"
-#include "searches/harmonic_choice.hpp"
 #include "searches/hbm.hpp"
 #include "searches/isolated.hpp"
 #include "searches/marching_search.hpp"
+#include "searches/motion_choice.hpp"
 #include "searches/nonlinear_mode.hpp"
 #include <algorithm>
 #include <cmath>

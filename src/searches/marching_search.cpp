@@ -1,12 +1,12 @@
 #include "searches/marching_search.hpp"
-#include "hbm/branch_path.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "hbm/make_system.hpp"
+#include "hbm/solved_point.hpp"
 #include "linalg/work.hpp"
+#include "motions/branch_path.hpp"
 #include "orbits/shooting.hpp"
 #include "reduction/reduced_rest.hpp"
 #include "searches/curve.hpp"
-#include "searches/harmonic_choice.hpp"
-#include "searches/start.hpp"
 #include <algorithm>
 #include <cmath>
 

@@ -1,10 +1,11 @@
 #include "searches/nonlinear_mode.hpp"
 #include "contact/contact_measures.hpp"
-#include "hbm/branch_path.hpp"
 #include "hbm/harmonic_tail.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/modes_at_rest.hpp"
-#include "searches/start.hpp"
+#include "hbm/solved_point.hpp"
+#include "motions/branch_path.hpp"
+#include "reduction/reduced_rest.hpp"
 #include "space/rest.hpp"
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 // dissipates: xi is the mode's damping ratio. Frequency and damping over the amplitude; the pre-load stays.
 #pragma once
 #include "hbm/augmented_system.hpp"
-#include "hbm/branch.hpp"
-#include "hbm/motion_measures.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
+#include "motions/branch.hpp"
+#include "motions/motion_measures.hpp"
 
 namespace plm {
 

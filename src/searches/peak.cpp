@@ -1,12 +1,12 @@
 // The highest point of a curve, found on the curve itself: points on hyperplanes across the chord through the
 // three highest ones, by successive parabolic interpolation.
-#include "hbm/branch_path.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
+#include "motions/branch_path.hpp"
 #include "searches/basis_error.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/curve_verdicts.hpp"
-#include "searches/harmonic_choice.hpp"
 #include "searches/hbm.hpp"
 #include "searches/point_equations.hpp"
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Sample {
 
 class PeakSearch {
   public:
-    PeakSearch(PointEquations &equations, const HbmOptions &options,
+    PeakSearch(PeriodicEquations &equations, const HbmOptions &options,
                std::shared_ptr<const ReducedModel> reduced, std::int64_t dof, Measure measure,
                std::int64_t harmonic, Watch watch)
         : equations_(equations), options_(options), reduced_(std::move(reduced)), dof_(dof),
@@ -164,7 +164,7 @@ class PeakSearch {
         return true;
     }
 
-    PointEquations &equations_;
+    PeriodicEquations &equations_;
     const HbmOptions &options_;
     std::shared_ptr<const ReducedModel> reduced_;
     std::int64_t dof_;
@@ -237,7 +237,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         };
         const auto close_in = [&] {
             if (automatic) error = error_here();
-            std::unique_ptr<PointEquations> equations;
+            std::unique_ptr<PeriodicEquations> equations;
             do {
                 if (error > wanted)
                     options.n_harmonics = std::max(options.n_harmonics,

@@ -1,10 +1,12 @@
 #include "searches/phase_resonance.hpp"
-#include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/modes_at_rest.hpp"
-#include "searches/orbit_phase.hpp"
-#include "searches/response_at_force.hpp"
-#include "searches/start.hpp"
+#include "hbm/solved_point.hpp"
+#include "motions/branch_path.hpp"
+#include "motions/periodic_equations.hpp"
+#include "motions/response_at_force.hpp"
+#include "orbits/orbit_phase.hpp"
+#include "reduction/reduced_rest.hpp"
 #include "structure/driven_harmonic.hpp"
 #include <algorithm>
 #include <cmath>
@@ -87,7 +89,7 @@ void PhaseResonantSystem::fill(Border &border) {
 namespace {
 
 // Those of harmonic balance.
-class HarmonicPhase final : public PointEquations {
+class HarmonicPhase final : public PeriodicEquations {
   public:
     HarmonicPhase(const std::shared_ptr<const ReducedModel> &reduced, const HbmOptions &options,
                   const BranchPoint &about)
@@ -151,7 +153,7 @@ struct PhaseResonance::Followed final : public PathOwner {
     HbmOptions options;
     Watch watch;
     double low, high, scale = 0, omega = 0;
-    std::unique_ptr<PointEquations> equations;
+    std::unique_ptr<PeriodicEquations> equations;
     Backbone result;
 };
 

@@ -5,10 +5,10 @@
 // branch exists.
 #pragma once
 #include "hbm/augmented_system.hpp"
-#include "hbm/branch.hpp"
 #include "hbm/free_frequency.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
+#include "motions/branch.hpp"
 
 namespace plm {
 

@@ -1,13 +1,14 @@
 #include "searches/point_equations.hpp"
-#include "hbm/branch_path.hpp"
 #include "hbm/make_system.hpp"
-#include "searches/orbit_points.hpp"
-#include "searches/stability.hpp"
+#include "hbm/solved_point.hpp"
+#include "orbits/orbit_point.hpp"
+#include "orbits/orbit_points.hpp"
+#include "orbits/stability.hpp"
 
 namespace plm {
 namespace {
 
-class HarmonicEquations final : public PointEquations {
+class HarmonicEquations final : public PeriodicEquations {
   public:
     HarmonicEquations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
         : system_(make_system(reduced, options)), stability_(reduced, options) {}
@@ -25,7 +26,7 @@ class HarmonicEquations final : public PointEquations {
     Stability stability_;
 };
 
-class ExactEquations final : public PointEquations {
+class ExactEquations final : public PeriodicEquations {
   public:
     ExactEquations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, double omega)
         : options_(options),
@@ -53,8 +54,8 @@ class ExactEquations final : public PointEquations {
 
 } // namespace
 
-std::unique_ptr<PointEquations> equations_of(std::shared_ptr<const ReducedModel> reduced,
-                                             const HbmOptions &options, const BranchPoint &point) {
+std::unique_ptr<PeriodicEquations> equations_of(std::shared_ptr<const ReducedModel> reduced,
+                                                const HbmOptions &options, const BranchPoint &point) {
     if (point.motion) return std::make_unique<ExactEquations>(std::move(reduced), options, point.omega);
     return std::make_unique<HarmonicEquations>(std::move(reduced), options);
 }

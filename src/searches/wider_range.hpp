@@ -1,8 +1,8 @@
 // A sweep whose range is an estimate goes on past its ends until the peak is inside.
 #pragma once
-#include "hbm/branch.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
+#include "motions/branch.hpp"
 #include "reduction/sweep_range.hpp"
 
 namespace plm {

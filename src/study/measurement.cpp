@@ -1,8 +1,8 @@
 #include "study/measurement.hpp"
+#include "motions/responses.hpp"
 #include "orbits/make_transient.hpp"
 #include "sampling/dominant_mode.hpp"
 #include "searches/refinement.hpp"
-#include "searches/responses.hpp"
 #include <algorithm>
 #include <chrono>
 

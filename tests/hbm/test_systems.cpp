@@ -2,10 +2,11 @@
 #include "hbm/make_system.hpp"
 #include "hbm/modal_factor.hpp"
 #include "hbm/options.hpp"
+#include "hbm/start.hpp"
 #include "hbm/system.hpp"
+#include "reduction/reduced_rest.hpp"
 #include "searches/nonlinear_mode.hpp"
 #include "searches/phase_resonance.hpp"
-#include "searches/start.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"
 #include <algorithm>
