@@ -13,7 +13,7 @@ void put_solution(HbmSystem &system, const PathState &at, double residual, std::
                   BranchPoint &point) {
     system.to_point(at.x.data(), at.parameter, point);
     point.motion.reset();
-    put_record(residual, iterations, system.indicator().n_switching, point);
+    put_record(residual, iterations, system.piece(), point);
 }
 
 BranchPoint solved_point(HbmSystem &system, const PathState &at, double residual, std::int64_t iterations) {

@@ -127,8 +127,8 @@ class Starter {
     // Without pre-load the force changes nothing but the size; from the linear response with contact out of
     // reach the gap is closed instead.
     bool gap_path() {
-        const vector<double> open(coupling_.size(), 0.0);
-        if (!from_linear_guess(open)) return false;
+        const vector<double> apart(coupling_.size(), 0.0);
+        if (!from_linear_guess(apart)) return false;
         BranchPoint point;
         system_.to_point(x_.data(), omega_,
                          point); // what the unknowns are differs; the gaps follow from the point
@@ -141,7 +141,7 @@ class Starter {
         }
         reach *= 1.01; // clear of it
         system_.set_extra_gap(reach);
-        system_.linear_response(open, omega_, x_.data());
+        system_.linear_response(apart, omega_, x_.data());
         StartPath path(system_, StartPath::Kind::gap, omega_, reach);
         const bool found = follow(path);
         system_.set_extra_gap(0);

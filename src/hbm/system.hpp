@@ -9,7 +9,7 @@
 
 namespace plm {
 
-struct Border; // modal_factor.hpp
+struct Border; // motions/periodic_equations.hpp
 class ModalFactor;
 
 class HbmSystem : public Residual {

@@ -1,5 +1,6 @@
 #include "motions/branch_point.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace plm {
 
@@ -9,6 +10,21 @@ std::int64_t stability_of(const BranchPoint &point) {
     for (const std::complex<double> &m : point.multipliers) largest = std::max(largest, std::abs(m));
     if (std::abs(largest - 1) < point.multiplier_error) return -1;
     return largest > 1 + 1e-9 ? 0 : 1;
+}
+
+vector<double> bifurcation_tests(const vector<std::complex<double>> &multipliers) {
+    if (multipliers.empty()) return {NAN, NAN};
+    double doubling = 1, largest = 0;
+    for (const std::complex<double> &m : multipliers) {
+        const double modulus = std::abs(m), size = 1 + modulus; // no product of hundreds overflows
+        if (m.imag() == 0) {
+            doubling *= (m.real() + 1) / size;
+            continue;
+        }
+        doubling *= std::abs(m + 1.0) / size; // its conjugate gives the other half
+        largest = std::max(largest, modulus);
+    }
+    return {doubling, largest - 1};
 }
 
 void set_harmonics(Matrix &eta, std::int64_t n) {

@@ -39,6 +39,10 @@ struct BranchPoint {
 /// than the multipliers are certain.
 std::int64_t stability_of(const BranchPoint &point);
 
+/// Two functions that change sign at a period doubling (a multiplier at -1) and at a Neimark-Sacker point:
+/// the first complex pair crosses the unit circle (not a further one beside it). NaN without multipliers.
+vector<double> bifurcation_tests(const vector<std::complex<double>> &multipliers);
+
 /// The same coefficients with n harmonics: padded with zeros or cut.
 void set_harmonics(Matrix &eta, std::int64_t n);
 

@@ -25,10 +25,7 @@ OrbitConditions orbit_conditions(const MotionOptions &options, double omega) {
 
 // Rigid-body motion that no pair ever holds has no place of its own: harmonic balance keeps its mean.
 bool moves_freely(const OrbitEquations &equations, const ReducedModel &reduced) {
-    vector<char> acting(static_cast<std::size_t>(reduced.n_pairs()), 0);
-    for (const ContactInterval &interval : equations.intervals())
-        for (std::int64_t pair : interval.states.closed_pairs()) acting[static_cast<std::size_t>(pair)] = 1;
-    return free_motion(reduced, acting).cols() > 0;
+    return free_motion(reduced, acting_pairs(equations.intervals(), reduced.n_pairs())).cols() > 0;
 }
 
 constexpr double near_enough = 0.3; // of its size: farther away it is another one

@@ -82,19 +82,4 @@ std::string Stability::unknown_text(std::int64_t n_unknown, std::int64_t n_point
                   static_cast<long long>(n_points), why.c_str());
 }
 
-vector<double> bifurcation_tests(const vector<std::complex<double>> &multipliers) {
-    if (multipliers.empty()) return {NAN, NAN};
-    double doubling = 1, largest = 0;
-    for (const std::complex<double> &m : multipliers) {
-        const double modulus = std::abs(m), size = 1 + modulus; // no product of hundreds overflows
-        if (m.imag() == 0) {
-            doubling *= (m.real() + 1) / size;
-            continue;
-        }
-        doubling *= std::abs(m + 1.0) / size; // its conjugate gives the other half
-        largest = std::max(largest, modulus);
-    }
-    return {doubling, largest - 1};
-}
-
 } // namespace plm

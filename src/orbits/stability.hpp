@@ -27,8 +27,4 @@ class Stability {
     std::shared_ptr<const FlowModel> flow_; // null when it depends on the frequency
 };
 
-/// Two functions that change sign at a period doubling (a multiplier at -1) and at a Neimark-Sacker point:
-/// the first complex pair crosses the unit circle (not a further one beside it). NaN without multipliers.
-vector<double> bifurcation_tests(const vector<std::complex<double>> &multipliers);
-
 } // namespace plm

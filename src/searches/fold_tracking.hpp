@@ -21,7 +21,7 @@ struct FoldOptions {
 
 /// Follows the folds from `fold` (a located one: PLM_BIFURCATION_FOLD), by the equations that it solves.
 /// Points carry force scale and omega; those with PLM_BIFURCATION_FOLD are extrema of the force. Null when
-/// the start cannot be corrected.
+/// the start cannot be corrected. Where it is stopped, the folds found by then.
 std::shared_ptr<Branch> follow_folds(std::shared_ptr<const ReducedModel> reduced, const FoldOptions &options,
                                      const BranchPoint &fold, Watch watch);
 

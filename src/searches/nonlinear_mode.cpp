@@ -2,9 +2,10 @@
 #include "contact/contact_measures.hpp"
 #include "hbm/harmonic_tail.hpp"
 #include "hbm/make_system.hpp"
+#include "hbm/mode_system.hpp"
 #include "hbm/modes_at_rest.hpp"
 #include "hbm/solved_point.hpp"
-#include "motions/branch_path.hpp"
+#include "motions/tracer.hpp"
 #include "reduction/reduced_rest.hpp"
 #include "space/rest.hpp"
 #include <algorithm>
@@ -12,107 +13,13 @@
 
 namespace plm {
 
-NonlinearModeSystem::NonlinearModeSystem(HbmSystem &inner, const ReducedModel &m, vector<double> shape,
-                                         double omega_reference, double largest_amplitude)
-    : AugmentedSystem(inner, 2), r_(m.size()), n_with_mass_(m.size() - m.n_massless),
-      shape_(std::move(shape)), omega_reference_(omega_reference), largest_(largest_amplitude),
-      y_(inner.size() + 2), x_(inner.size()) {
-    for (std::int64_t j = 0; j < r_; ++j) shape_[j] *= m.mass(j);
-}
-
-void NonlinearModeSystem::unscale(const double *y, double amplitude, double *x) const {
-    for (std::int64_t i = 0; i < inner_.size(); ++i) x[i] = (i < static_size() ? largest_ : amplitude) * y[i];
-}
-
-// r += -2 xi omega M q' with factor = 2 xi omega^2.
-void NonlinearModeSystem::add_self_excitation(const double *x, double factor, double *r) const {
-    const std::int64_t s = static_size(), harmonics = (inner_.size() - s) / (2 * r_);
-    for (std::int64_t h = 1; h <= harmonics; ++h) {
-        const std::int64_t a = s + 2 * (h - 1) * r_, b = a + r_;
-        for (std::int64_t j = 0; j < n_with_mass_; ++j) {
-            r[a + j] -= factor * static_cast<double>(h) * x[b + j];
-            r[b + j] += factor * static_cast<double>(h) * x[a + j];
-        }
-    }
-}
-
-void NonlinearModeSystem::residual(const double *y, double log_amplitude, double *r) {
-    const std::int64_t n = inner_.size(), s = static_size();
-    y_.assign(y, y + n + 2);
-    amplitude_ = std::exp(log_amplitude);
-    unscale(y, amplitude_, x_.data());
-    inner_.set_force_scale(0);
-    inner_.set_self_excitation(y[n + 1]);
-    inner_.residual(x_.data(), omega(), r);
-    for (std::int64_t i = 0; i < n; ++i) r[i] /= i < s ? largest_ : amplitude_;
-    const double scale = omega_reference_ * omega_reference_; // like the other equations
-    r[n] = scale * dot(r_, shape_.data(), y + s + r_);
-    r[n + 1] = scale * (dot(r_, shape_.data(), y + s) - 1);
-}
-
-double NonlinearModeSystem::residual_scale() const {
-    return omega_reference_ * omega_reference_;
-}
-
-// The equations of the unknowns not scaled; solve() scales.
-void NonlinearModeSystem::fill(Border &border) {
-    const std::int64_t n = inner_.size(), s = static_size();
-    double *by_omega = border.columns.col(0);
-    inner_.parameter_derivative(by_omega);
-    for (std::int64_t i = 0; i < n; ++i) by_omega[i] *= omega_reference_;
-    add_self_excitation(x_.data(), 2 * omega() * omega(), border.columns.col(1));
-    const double scale = omega_reference_ * omega_reference_ / amplitude_;
-    for (std::int64_t j = 0; j < r_; ++j) {
-        border.rows(s + r_ + j, 0) = scale * shape_[j];
-        border.rows(s + j, 1) = scale * shape_[j];
-    }
-    factored_amplitude_ = amplitude_;
-}
-
-void NonlinearModeSystem::solve(double *b, std::int64_t columns) {
-    const std::int64_t n = inner_.size(), s = static_size();
-    for (std::int64_t k = 0; k < columns; ++k)
-        for (std::int64_t i = 0; i < n; ++i) b[i + k * size()] *= i < s ? largest_ : factored_amplitude_;
-    AugmentedSystem::solve(b, columns);
-    for (std::int64_t k = 0; k < columns; ++k)
-        for (std::int64_t i = 0; i < n; ++i) b[i + k * size()] /= i < s ? largest_ : factored_amplitude_;
-}
-
-// At a solution: the unknowns scaled by the amplitude change with it, x' = x_dynamic.
-void NonlinearModeSystem::parameter_derivative(double *r) {
-    const std::int64_t n = inner_.size(), s = static_size();
-    vector<double> x(x_);
-    std::fill(x.begin(), x.begin() + s, 0.0);
-    inner_.jacobian_product(x.data(), r);
-    for (std::int64_t i = 0; i < n; ++i) r[i] /= i < s ? largest_ : amplitude_;
-    r[n] = r[n + 1] = 0; // the normalisation is that of the scaled unknowns
-}
-
-void NonlinearModeSystem::to_point(const double *y, double log_amplitude, BranchPoint &point) {
-    vector<double> x(inner_.size());
-    unscale(y, std::exp(log_amplitude), x.data());
-    inner_.to_point(x.data(), omega_reference_ * (1 + y[inner_.size()]), point);
-    point.force_scale = 0;
-    point.damping_ratio = y[inner_.size() + 1];
-}
-
-void NonlinearModeSystem::from_point(const BranchPoint &point, double *y) {
-    const std::int64_t n = inner_.size(), s = static_size();
-    inner_.from_point(point, y);
-    const double amplitude = dot(r_, shape_.data(), y + s);
-    for (std::int64_t i = 0; i < n; ++i) y[i] /= i < s ? largest_ : amplitude;
-    y[n] = point.omega / omega_reference_ - 1;
-    y[n + 1] = point.damping_ratio;
-}
-
-// --- the path over the amplitude
-
 namespace {
 
-class ModePath final : public PathOwner {
+class ModePath final : public Tracer {
   public:
-    ModePath(std::shared_ptr<const ReducedModel> reduced, const NonlinearModeOptions &options, Watch watch)
-        : m_(std::move(reduced)), options_(options), watch_(watch), coupling_(coupling_at_rest(*m_)) {
+    ModePath(const std::shared_ptr<Branch> &found, const NonlinearModeOptions &options, Watch watch)
+        : Tracer("nonlinear mode", watch, *found), m_(found->reduced_model()), options_(options),
+          found_(found), coupling_(coupling_at_rest(*m_)) {
         HbmOptions &o = options_.hbm;
         o.unknowns = NonlinearUnknowns::modal;
         o.period_multiple = 1;
@@ -142,10 +49,8 @@ class ModePath final : public PathOwner {
         largest_tail_ = std::max(largest_tail_, point.harmonic_tail);
         result_.amplitude.push_back(std::exp(p.parameter));
         result_.measures.push_back(measure_motion(*m_, point));
-        result_.branch->append(std::move(point));
+        branch_.append(std::move(point));
     }
-    bool cancelled(double fraction) override { return watch_.cancelled("nonlinear mode", fraction); }
-    bool rescue(double, vector<double> &) override { return false; }
     // The path ends at the located point at which the DOF moves as asked.
     vector<std::int32_t> test_kinds() const override {
         return ends_by_dof() ? vector<std::int32_t>{reached} : vector<std::int32_t>();
@@ -187,30 +92,23 @@ class ModePath final : public PathOwner {
         options_.hbm.n_harmonics = n_harmonics;
         inner_ = make_system(m_, options_.hbm);
         result_ = NonlinearMode();
+        result_.branch = found_;
+        branch_ = Branch(m_, 0.0);
+        branch_.is_mode = true;
         largest_tail_ = 0;
         reached_ = false;
         find_amplitudes();
         system_ = std::make_unique<NonlinearModeSystem>(*inner_, *m_, shape_, omega_, options_.amplitude_max);
         const PathStart from = start();
-        result_.branch = std::make_shared<Branch>(m_, 0.0);
-        result_.branch->is_mode = true;
         PathOptions range =
             path_options(options_.hbm, std::log(options_.amplitude_min), std::log(options_.amplitude_max));
         range.upward = true;
         constexpr double longest_of_mode = 0.05; // internal resonances take up little of the range
         range.max_step = std::min(longest_of_mode, options_.hbm.max_step);
         range.locate = true;
-        PathOutcome out;
-        try {
-            out = follow_path(*system_, range, from, *this);
-        } catch (const Error &e) { // stopped in the middle of a point: those found so far stay valid
-            if (e.status() != PLM_CANCELLED || result_.branch->points().empty()) throw;
-            out.end_reason = e.reason();
-        }
-        Branch &branch = *result_.branch;
-        take_outcome(out, branch);
-        if (branch.end_reason == PLM_REASON_NONE) branch.end_reason = PLM_REASON_RANGE_END;
-        branch.unknowns_used = "modal";
+        Tracer::follow(*system_, range, from);
+        if (branch_.end_reason == PLM_REASON_NONE) branch_.end_reason = PLM_REASON_RANGE_END;
+        branch_.unknowns_used = "modal";
         return std::move(result_);
     }
 
@@ -312,7 +210,7 @@ class ModePath final : public PathOwner {
 
     std::shared_ptr<const ReducedModel> m_;
     NonlinearModeOptions options_;
-    Watch watch_;
+    std::shared_ptr<Branch> found_;
     vector<double> coupling_, shape_;
     double omega_ = 0;
     std::unique_ptr<HbmSystem> inner_;
@@ -326,7 +224,7 @@ class ModePath final : public PathOwner {
 
 NonlinearMode follow_nonlinear_mode(std::shared_ptr<const ReducedModel> reduced,
                                     const NonlinearModeOptions &options, Watch watch) {
-    return ModePath(std::move(reduced), options, watch).run();
+    return ModePath(std::make_shared<Branch>(std::move(reduced), 0.0), options, watch).run();
 }
 
 } // namespace plm

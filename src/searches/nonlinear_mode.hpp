@@ -2,42 +2,12 @@
 // M q'' + C q' + K q + B^T N = P + 2 xi omega M q', where the negative damping makes up for what C
 // dissipates: xi is the mode's damping ratio. Frequency and damping over the amplitude; the pre-load stays.
 #pragma once
-#include "hbm/augmented_system.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
 #include "motions/branch.hpp"
 #include "motions/motion_measures.hpp"
 
 namespace plm {
-
-/// y = (static part / largest amplitude, dynamic part / amplitude, omega / omega_reference - 1, xi),
-/// parameter: the logarithm of the amplitude. The shape psi normalises: psi . M a_1 = amplitude, psi . M b_1
-/// = 0.
-class NonlinearModeSystem final : public AugmentedSystem {
-  public:
-    NonlinearModeSystem(HbmSystem &inner, const ReducedModel &reduced, vector<double> shape,
-                        double omega_reference, double largest_amplitude);
-    void residual(const double *y, double log_amplitude, double *r) override;
-    void parameter_derivative(double *r) override;
-    double residual_scale() const override;
-    void solve(double *b, std::int64_t n) override;
-    void to_point(const double *y, double log_amplitude, BranchPoint &point) override;
-    void from_point(const BranchPoint &point, double *y) override;
-
-  protected:
-    void fill(Border &border) override;
-
-  private:
-    double omega() const { return omega_reference_ * (1 + y_[inner_.size()]); }
-    void unscale(const double *y, double amplitude, double *x) const;
-    void add_self_excitation(const double *x, double factor, double *r) const;
-
-    std::int64_t r_, n_with_mass_; // those without mass come last
-    vector<double> shape_;         // M psi: nothing without mass has a share in the amplitude
-    double omega_reference_, largest_;
-    vector<double> y_, x_; // at the last residual()
-    double amplitude_ = 1, factored_amplitude_ = 1;
-};
 
 struct NonlinearModeOptions {
     HbmOptions hbm; // harmonics (0: as many as the largest motion needs), tolerance, steps; its frequency

@@ -1,12 +1,12 @@
 #include "searches/phase_resonance.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/modes_at_rest.hpp"
-#include "hbm/solved_point.hpp"
 #include "motions/branch_path.hpp"
-#include "motions/periodic_equations.hpp"
 #include "motions/response_at_force.hpp"
-#include "orbits/orbit_phase.hpp"
+#include "motions/tracer.hpp"
 #include "reduction/reduced_rest.hpp"
+#include "searches/phase_system.hpp"
+#include "searches/point_equations.hpp"
 #include "structure/driven_harmonic.hpp"
 #include <algorithm>
 #include <cmath>
@@ -47,103 +47,28 @@ double solution_distance(const BranchPoint &a, const BranchPoint &b) {
     return std::hypot(scale > 0 ? change / scale : 0.0, a.omega / b.omega - 1);
 }
 
-// --- the system
-
-PhaseResonantSystem::PhaseResonantSystem(HbmSystem &inner, const ReducedModel &m,
-                                         std::int64_t period_multiple, double omega_reference, double unit)
-    : FreeFrequency(omega_reference, unit, inner, 1), phase_(inner.size(), 0.0) {
-    const auto *driven = driven_harmonic(m.excitation);
-    if (!driven) return;
-    const std::int64_t r = m.size(), at = m.static_size() + 2 * (driven->first * period_multiple - 1) * r;
-    if (at + 2 * r > inner.size())
-        throw Error(
-            PLM_ERR_ARGUMENT,
-            format("phase resonance is that of harmonic %d of the excitation, which n_harmonics leaves "
-                   "out; set n_harmonics to %d or more",
-                   driven->first, driven->first))
-            .argument("n_harmonics");
-    const double force =
-        std::hypot(norm2(r, driven->second.real.data()), norm2(r, driven->second.imag.data()));
-    const double scale =
-        omega_reference * omega_reference / (force > 0 ? force : 1); // like the other equations
-    for (std::int64_t j = 0; j < r; ++j) {
-        phase_[at + j] = scale * driven->second.real[j];
-        phase_[at + r + j] = -scale * driven->second.imag[j];
-    }
-}
-
-void PhaseResonantSystem::residual(const double *y, double force, double *r) {
-    inner_.set_force_scale(force);
-    inner_.residual(y, omega_of(y), r);
-    r[inner_.size()] = dot(inner_.size(), phase_.data(), y);
-}
-
-void PhaseResonantSystem::fill(Border &border) {
-    inner_.parameter_derivative(border.columns.data());
-    for (std::int64_t i = 0; i < inner_.size(); ++i) border.columns(i, 0) /= unit();
-    std::copy(phase_.begin(), phase_.end(), border.rows.data());
-}
-
 // --- a path of phase-resonant points
 
-namespace {
+struct PhaseResonance::Followed final : public Tracer {
+    Followed(const PhaseResonance &of, const BranchPoint &about, Branch &branch)
+        : Tracer("isolated branches", of.watch_, branch), options(of.options_.hbm),
+          low(2 * M_PI * options.frequency_min_hz), high(2 * M_PI * options.frequency_max_hz),
+          equations(make_equations(of.reduced_, options,
+                                   of.options_.exact ? MotionsAre::exact : MotionsAre::harmonic,
+                                   about.omega)),
+          scale(response_at_force(plm::size_of(*equations, equations->unknowns(about)), about, options)),
+          resonant(*equations, about.omega, scale / (high - low)) {}
 
-// Those of harmonic balance.
-class HarmonicPhase final : public PeriodicEquations {
-  public:
-    HarmonicPhase(const std::shared_ptr<const ReducedModel> &reduced, const HbmOptions &options,
-                  const BranchPoint &about)
-        : inner_(make_system(reduced, options)) {
-        const vector<double> x = unknowns_of(*inner_, about);
-        const std::int64_t statics = reduced->static_size();
-        const double response = norm2(inner_->size() - statics, x.data() + statics),
-                     range = 2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz);
-        scale_ = response_at_force(response, about, options);
-        system_ = std::make_unique<PhaseResonantSystem>(*inner_, *reduced, options.period_multiple,
-                                                        about.omega, scale_ / range);
-    }
-    double scale() const { return scale_; }
-    Residual &residual() override { return *system_; }
-    vector<double> unknowns(const BranchPoint &point) const override { return unknowns_of(*system_, point); }
-    BranchPoint solved_point(const PathState &at, double residual, std::int64_t iterations) override {
-        return plm::solved_point(*system_, at, residual, iterations);
-    }
-    vector<std::complex<double>> multipliers(const BranchPoint &) override { return {}; }
-
-  private:
-    std::unique_ptr<HbmSystem> inner_;
-    std::unique_ptr<PhaseResonantSystem> system_;
-    double scale_ = 0;
-};
-
-} // namespace
-
-struct PhaseResonance::Followed final : public PathOwner {
-    Followed(const PhaseResonance &of, const BranchPoint &about)
-        : options(of.options_.hbm), watch(of.watch_) {
-        low = 2 * M_PI * options.frequency_min_hz, high = 2 * M_PI * options.frequency_max_hz;
-        take(of.options_.exact ? std::make_unique<OrbitPhase>(of.reduced_, options, about) : nullptr);
-        if (!equations) take(std::make_unique<HarmonicPhase>(of.reduced_, options, about));
-    }
-    template <class Equations> void take(std::unique_ptr<Equations> of) {
-        if (of) scale = of->scale();
-        equations = std::move(of);
-    }
-
+    void run(const PathOptions &range, const PathStart &from) { follow(resonant, range, from); }
     void record(const PathPoint &p) override {
-        if (p.bifurcation == crossing) result.crossings.push_back(result.branch->points().size());
-        BranchPoint point = equations->solved_point({p.x, p.parameter}, p.residual, p.iterations);
+        if (p.bifurcation == crossing) crossings.push_back(branch_.points().size());
+        BranchPoint point = resonant.solved_point({p.x, p.parameter}, p.residual, p.iterations);
         put_place(p, point);
         if (p.bifurcation == crossing) point.bifurcation = PLM_BIFURCATION_NONE;
-        point.multipliers = equations->multipliers(point);
+        point.multipliers = multipliers_at(*equations, point);
         omega = point.omega;
-        result.branch->append(std::move(point));
+        branch_.append(std::move(point));
     }
-    bool cancelled(double fraction) override {
-        watch.step("isolated branches", fraction);
-        return false;
-    }
-    bool rescue(double, vector<double> &) override { return false; }
     void test(const vector<double> &, double force, vector<double> &values) override {
         values = {force - options.force_scale};
     }
@@ -151,10 +76,11 @@ struct PhaseResonance::Followed final : public PathOwner {
     bool interrupt() override { return omega < low || omega > high; }
 
     HbmOptions options;
-    Watch watch;
-    double low, high, scale = 0, omega = 0;
+    double low, high, omega = 0;
     std::unique_ptr<PeriodicEquations> equations;
-    Backbone result;
+    double scale;
+    PhaseSystem resonant;
+    vector<std::size_t> crossings;
 };
 
 PhaseResonance::PhaseResonance(std::shared_ptr<const ReducedModel> reduced, const BackboneOptions &options,
@@ -166,32 +92,35 @@ PhaseResonance::PhaseResonance(std::shared_ptr<const ReducedModel> reduced, cons
 }
 
 bool PhaseResonance::correct(double force, BranchPoint &point) const {
-    const Followed path(*this, point);
-    vector<double> y = path.equations->unknowns(point);
-    const NewtonOutcome out = newton_at(path.equations->residual(), newton_limits(options_.hbm), y, force);
+    const auto none = new_branch();
+    Followed path(*this, point, *none);
+    vector<double> y = path.resonant.unknowns(point);
+    const NewtonOutcome out = newton_at(path.resonant, newton_limits(options_.hbm), y, force);
     if (!out.converged) return false;
-    BranchPoint found = path.equations->solved_point({y, force}, out.residual, out.iterations);
+    BranchPoint found = path.resonant.solved_point({y, force}, out.residual, out.iterations);
     if (!(found.omega > 0)) return false;
     point = std::move(found);
     return true;
 }
 
+std::shared_ptr<Branch> PhaseResonance::new_branch() const {
+    return std::make_shared<Branch>(reduced_, options_.hbm.force_scale, options_.hbm.period_multiple);
+}
+
 Backbone PhaseResonance::follow(const BranchPoint &start, bool upward, double low) const {
-    Followed path(*this, start);
-    path.result.branch =
-        std::make_shared<Branch>(reduced_, options_.hbm.force_scale, options_.hbm.period_multiple);
+    const auto branch = new_branch();
+    Followed path(*this, start, *branch);
     PathOptions range = path_options(options_.hbm, low, options_.force_max);
     range.upward = upward;
     range.max_step = std::min(longest_step, options_.hbm.max_step);
     range.locate = true;
     PathStart from;
-    from.at = {path.equations->unknowns(start), start.force_scale};
+    from.at = {path.resonant.unknowns(start), start.force_scale};
     from.scale = path.scale;
-    Branch &branch = *path.result.branch;
-    take_outcome(follow_path(path.equations->residual(), range, from, path), branch);
-    if (branch.end_reason == PLM_REASON_NONE) branch.end_reason = PLM_REASON_RANGE_END;
-    branch.unknowns_used = options_.exact ? "state" : "modal";
-    return path.result;
+    path.run(range, from);
+    if (branch->end_reason == PLM_REASON_NONE) branch->end_reason = PLM_REASON_RANGE_END;
+    branch->unknowns_used = options_.exact ? "state" : "modal";
+    return {branch, std::move(path.crossings)};
 }
 
 Backbone PhaseResonance::upward_from(const BranchPoint &start) const {

@@ -4,8 +4,6 @@
 // (Peeters, Kerschen and Golinval 2011); where the force they need is not monotonic in amplitude, an isolated
 // branch exists.
 #pragma once
-#include "hbm/augmented_system.hpp"
-#include "hbm/free_frequency.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
 #include "motions/branch.hpp"
@@ -18,20 +16,6 @@ double phase_of(const ReducedModel &reduced, const BranchPoint &point, std::int6
 
 /// |x - x'| over the dynamic part and |omega - omega'|, both relative; small for the same solution.
 double solution_distance(const BranchPoint &a, const BranchPoint &b);
-
-/// `inner` has modal unknowns.
-class PhaseResonantSystem final : public FreeFrequency<AugmentedSystem> {
-  public:
-    PhaseResonantSystem(HbmSystem &inner, const ReducedModel &reduced, std::int64_t period_multiple,
-                        double omega_reference, double unit);
-    void residual(const double *y, double force, double *r) override;
-
-  protected:
-    void fill(Border &border) override;
-
-  private:
-    vector<double> phase_; // the last equation is phase_ . x = 0
-};
 
 struct BackboneOptions {
     HbmOptions hbm;       // n_harmonics > 0; its force_scale is the force whose crossings are wanted
@@ -65,6 +49,7 @@ class PhaseResonance {
 
   private:
     struct Followed;
+    std::shared_ptr<Branch> new_branch() const;
     std::vector<BranchPoint> linear_resonances() const;
     bool linear_range(const vector<double> &coupling, const BranchPoint &point, double &force) const;
     Backbone follow(const BranchPoint &start, bool upward, double low) const;

@@ -56,7 +56,7 @@ class Step {
     }
 
   private:
-    Residual &system() { return equations_->residual(); }
+    Residual &system() { return *equations_; }
     PathState state_of(const BranchPoint &point) const { return {equations_->unknowns(point), point.omega}; }
 
     static HbmOptions options_of(const BranchPoint &a, const BranchPoint &b, const HbmOptions &options) {

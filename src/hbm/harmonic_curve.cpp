@@ -1,12 +1,8 @@
-#include "searches/harmonic_curve.hpp"
+#include "hbm/harmonic_curve.hpp"
 #include "hbm/formulation.hpp"
 #include "hbm/harmonic_choice.hpp"
 #include "hbm/make_system.hpp"
-#include "hbm/solved_point.hpp"
-#include "hbm/start.hpp"
-#include "motions/branch_path.hpp"
 #include "motions/first_harmonics.hpp"
-#include "orbits/stability.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -16,14 +12,15 @@ namespace {
 constexpr std::int64_t patience = 5;            // points between changes to something cheaper
 constexpr std::int64_t most_failed_growths = 3; // in a row, from points that say nothing
 
-class CurveTracer final : public PathOwner {
+class HarmonicTracer final : public CurveTracer {
   public:
-    CurveTracer(const HbmOptions &options, Watch watch, Branch &branch)
-        : asked_(with_affordable_harmonics(*branch.reduced_model(), options)), options_(asked_),
-          watch_(watch), branch_(branch), reduced_(branch.reduced_model()), stability_(reduced_, options),
+    HarmonicTracer(const HbmOptions &options, const MultipliersOf &multipliers, Watch watch, Branch &branch)
+        : CurveTracer(nullptr, options, watch, branch),
+          asked_(with_affordable_harmonics(*branch.reduced_model(), options)), options_(asked_),
+          reduced_(branch.reduced_model()), multipliers_(multipliers),
           fewest_(std::max<std::int64_t>(3, highest_excitation(*reduced_))) {}
 
-    void run(const CurveStart &start) {
+    void trace(const CurveStart &start) {
         has_side_ = !start.towards.empty();
         options_.n_harmonics = start.point.n_harmonics / options_.period_multiple;
         limit_harmonics(start.point);
@@ -32,46 +29,19 @@ class CurveTracer final : public PathOwner {
         compliant_ = make_formulation(*reduced_, options_).compliant;
         branch_.unknowns_used = modal_ ? "modal" : "gaps";
         branch_.sampled = options_.aft == AftKind::sampled;
-        system_ = make_system(reduced_, options_);
-        try {
-            PathOptions limits = path_options(options_, 2 * M_PI * options_.frequency_min_hz,
-                                              2 * M_PI * options_.frequency_max_hz);
-            limits.upward = options_.upward;
-            limits.initial_step = options_.initial_step;
-            limits.locate = options_.bifurcations;
-            follow(limits, first(start));
-        } catch (const Error &e) { // stopped in the middle of a point: those found so far stay valid
-            if (e.status() != PLM_CANCELLED || n_points() == 0) throw;
-            branch_.end_reason = e.reason();
-        }
+        omega_ = start.point.omega;
+        system_ = make(options_);
+        equations_ = system_.get();
+        run(start);
         warn_of_harmonics(asked_, branch_);
-        warn_of_unverified();
     }
 
     void record(const PathPoint &p) override {
-        BranchPoint point = solved_point(*system_, p);
+        BranchPoint point = point_of(p);
         point.arclength += base_arclength_;
-        if (stability_.wanted()) point.multipliers = multipliers(p.x, p.parameter);
         look_at_harmonics(p.x, point);
         moved_most_ = std::max(moved_most_, point.n_switching);
         branch_.append(std::move(point));
-    }
-
-    bool cancelled(double fraction) override { return watch_.cancelled("sweep", fraction); }
-
-    bool rescue(double omega, vector<double> &x) override {
-        const StartOutcome out = find_start(*system_, *reduced_, options_, omega, true, watch_, x);
-        branch_.newton_work += out;
-        return out.converged;
-    }
-
-    vector<std::int32_t> test_kinds() const override {
-        if (!stability_.wanted()) return {};
-        return {PLM_BIFURCATION_PERIOD_DOUBLING, PLM_BIFURCATION_NEIMARK_SACKER};
-    }
-
-    void test(const vector<double> &x, double omega, vector<double> &values) override {
-        if (stability_.wanted()) values = bifurcation_tests(multipliers(x, omega));
     }
 
     bool interrupt() override {
@@ -84,8 +54,10 @@ class CurveTracer final : public PathOwner {
         return grow || wanted_harmonics_ < options_.n_harmonics || wants_modal_ != modal_;
     }
 
-  private:
-    void follow(PathOptions limits, PathStart path) {
+  protected:
+    void follow_on(const PathOptions &range, const PathStart &start) override {
+        PathOptions limits = range;
+        PathStart path = start;
         for (;;) {
             const PathOutcome out = follow_path(*system_, limits, path, *this);
             count(out);
@@ -104,6 +76,11 @@ class CurveTracer final : public PathOwner {
         }
     }
 
+  private:
+    std::unique_ptr<HarmonicEquations> make(const HbmOptions &options) const {
+        return std::make_unique<HarmonicEquations>(reduced_, options, omega_, multipliers_);
+    }
+
     // Where the first point could not be had to the tolerance, more harmonics did not help there: the curve
     // is not made worse, nor slow, by trying them at every point.
     void limit_harmonics(const BranchPoint &first) {
@@ -115,15 +92,6 @@ class CurveTracer final : public PathOwner {
     bool may_grow() const { return wanted_harmonics_ > options_.n_harmonics && since_change_ > blocked_; }
     // Back to the last point with enough harmonics; from the first one the side is known by the range only.
     bool can_reject() const { return n_kept_ > (has_side_ ? 1 : 0); }
-    // A few beside folds, where the exact curve has turned already, are no reason to worry.
-    void warn_of_unverified() {
-        if (!stability_.wanted()) return;
-        std::int64_t unverified = 0;
-        for (const BranchPoint &p : branch_.points()) unverified += p.multipliers.empty();
-        if (10 * unverified > n_points())
-            branch_.warnings.add(PLM_REASON_UNVERIFIED, stability_.unknown_text(unverified, n_points()));
-    }
-
     double window_width() const { return 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz); }
 
     std::int64_t n_points() const { return static_cast<std::int64_t>(branch_.points().size()); }
@@ -133,26 +101,6 @@ class CurveTracer final : public PathOwner {
         base_arclength_ += out.arclength;
     }
 
-    PathStart first(const CurveStart &start) {
-        PathStart path = leaving(start.point, start.towards.empty() ? start.point : start.towards[0]);
-        if (start.towards.empty()) path.direction.x.clear();
-        if (start.away) scale_by(-1, path.direction);
-        path.residual = start.point.residual;
-        return path;
-    }
-
-    // The multipliers of the last point asked for are kept: tests and records come in turn.
-    const vector<std::complex<double>> &multipliers(const vector<double> &x, double omega) {
-        if (omega != known_omega_ || x != known_x_) {
-            BranchPoint point;
-            system_->to_point(x.data(), omega, point);
-            known_multipliers_ = stability_.multipliers(point);
-            known_x_ = x;
-            known_omega_ = omega;
-        }
-        return known_multipliers_;
-    }
-
     void look_at_harmonics(const vector<double> &x, BranchPoint &point) {
         wanted_harmonics_ = options_.n_harmonics;
         const bool needed = asked_.n_harmonics == 0 || asked_.tail_correction;
@@ -160,9 +108,9 @@ class CurveTracer final : public PathOwner {
         const HarmonicContent content = harmonic_content(*reduced_, point, options_.period_multiple);
         point.harmonic_tail = content.tail;
         if (asked_.n_harmonics == 0) {
-            point.harmonic_error = harmonic_error(
-                *reduced_, point,
-                harmonic_change(*reduced_, point, options_.period_multiple, content, *system_, x.data()));
+            point.harmonic_error = harmonic_error(*reduced_, point,
+                                                  harmonic_change(*reduced_, point, options_.period_multiple,
+                                                                  content, system_->system(), x.data()));
             wanted_harmonics_ =
                 next_harmonics(limits_, fewest_, options_.n_harmonics, content, point.harmonic_error);
         }
@@ -199,12 +147,12 @@ class CurveTracer final : public PathOwner {
     }
 
     bool change_to(const HbmOptions &changed, double orientation, PathStart &path) {
-        auto next = make_system(reduced_, changed);
-        next.swap(system_);
+        auto next = make(changed);
+        take(next);
         std::int64_t n = rejects_ ? n_kept_ : n_points();
         PathStart other;
         if (!go_on_from(n, changed.n_harmonics, orientation, other)) {
-            next.swap(system_);
+            take(next);
             return false;
         }
         blocked_ = 0;
@@ -218,6 +166,11 @@ class CurveTracer final : public PathOwner {
         set_end(other);
         path = other;
         return true;
+    }
+
+    void take(std::unique_ptr<HarmonicEquations> &next) {
+        next.swap(system_);
+        equations_ = system_.get();
     }
 
     // On with what there is, for a while; not for ever where its points say nothing.
@@ -304,9 +257,9 @@ class CurveTracer final : public PathOwner {
     bool same_stability(std::int64_t n, const PathStart &path) {
         const vector<std::complex<double>> &before =
             branch_.points()[static_cast<std::size_t>(n - 1)].multipliers;
-        if (!stability_.wanted() || before.empty()) return true;
+        if (!multipliers_ || before.empty()) return true;
         const vector<double> a = bifurcation_tests(before),
-                             b = bifurcation_tests(multipliers(path.at.x, path.at.parameter));
+                             b = bifurcation_tests(system_->multipliers(path.at.x, path.at.parameter));
         for (std::size_t k = 0; k < a.size(); ++k)
             if (a[k] * b[k] < 0) return false;
         return true;
@@ -319,14 +272,6 @@ class CurveTracer final : public PathOwner {
         if (!correct(origin)) origin = leaving(branch_.points()[0], branch_.points()[1]);
         path.end = origin.at;
         path.end_direction = origin.direction;
-    }
-
-    // At `point`, in the direction of `next`.
-    PathStart leaving(const BranchPoint &point, const BranchPoint &next) {
-        PathStart path;
-        path.at = {unknowns_of(*system_, point), point.omega};
-        path.direction = difference({unknowns_of(*system_, next), next.omega}, path.at);
-        return path;
     }
 
     PathStart resume(const PathOutcome &out) const {
@@ -356,11 +301,10 @@ class CurveTracer final : public PathOwner {
     const HbmOptions asked_;
     HbmOptions options_; // with the harmonics and the unknowns of now
     HbmOptions limits_;  // as asked, with the most harmonics that help
-    Watch watch_;
-    Branch &branch_;
     std::shared_ptr<const ReducedModel> reduced_;
-    Stability stability_;
-    std::unique_ptr<HbmSystem> system_;
+    MultipliersOf multipliers_;
+    double omega_ = 0; // where the curve begins
+    std::unique_ptr<HarmonicEquations> system_;
     bool compliant_ = false, modal_ = true, wants_modal_ = true;
     bool rejects_ = false;  // the last step: its points have too few harmonics and are solved again with more
     bool has_side_ = false; // the curve leaves its first point to a side given
@@ -368,15 +312,13 @@ class CurveTracer final : public PathOwner {
     std::int64_t fewest_, wanted_harmonics_ = 0, since_change_ = 0, blocked_ = 0, moved_most_ = 0,
                           failed_growths_ = 0;
     double base_arclength_ = 0;
-    vector<double> known_x_;
-    double known_omega_ = -1;
-    vector<std::complex<double>> known_multipliers_;
 };
 
 } // namespace
 
-void trace_harmonic_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch) {
-    CurveTracer(options, watch, branch).run(start);
+void trace_harmonic_curve(const HbmOptions &options, const CurveStart &start,
+                          const MultipliersOf &multipliers, Watch watch, Branch &branch) {
+    HarmonicTracer(options, multipliers, watch, branch).trace(start);
 }
 
 } // namespace plm
