@@ -286,4 +286,22 @@ void warn_of_given_harmonics(std::shared_ptr<const ReducedModel> reduced, const 
                error < 1 ? format("about %.2g of itself", error).c_str() : "more than itself"));
 }
 
+void warn_of_backbone(const HbmOptions &options, Watch watch, Branch &backbone) {
+    double worst = 0, hz = 0;
+    for (BranchPoint point : backbone.points()) {
+        measure_harmonics(backbone.reduced_model(), options, point);
+        if (!(point.harmonic_error > worst)) continue;
+        worst = point.harmonic_error;
+        hz = point.omega / (2 * M_PI);
+    }
+    if (worst <= options.allowed_harmonic_error() || backbone.points().empty()) return;
+    watch.keeping(backbone.warnings)
+        .warn(
+            PLM_REASON_HARMONICS_TOO_FEW,
+            format(
+                "this backbone has %lld harmonics at every point, and the next ones would change it by about "
+                "%.2g of itself at %.6g Hz. Set n_harmonics to as many as it needs, or motion to exact",
+                static_cast<long long>(backbone.n_harmonics()), worst, hz));
+}
+
 } // namespace plm

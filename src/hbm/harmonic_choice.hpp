@@ -65,4 +65,7 @@ void warn_of_harmonics(const HbmOptions &options, double error, Branch &branch);
 void warn_of_given_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                              std::int64_t dof, Measure measure, std::int64_t harmonic, Branch &one);
 
+/// The same for a backbone, all points of which have one number of harmonics.
+void warn_of_backbone(const HbmOptions &options, Watch watch, Branch &backbone);
+
 } // namespace plm

@@ -25,4 +25,7 @@ struct HbmOptions : MotionOptions {
     bool harmonics_by_cost = false;
 };
 
+/// What the options ask of one another; the bounds of each stand in the table of the keys.
+void require_consistent(const HbmOptions &options);
+
 } // namespace plm

@@ -35,6 +35,17 @@ void set_harmonics(Matrix &eta, std::int64_t n) {
     eta = std::move(changed);
 }
 
+double solution_distance(const BranchPoint &a, const BranchPoint &b) {
+    Matrix x = a.eta, y = b.eta;
+    const std::int64_t n = std::max(x.cols(), y.cols()) / 2, size = x.rows() * 2 * n;
+    set_harmonics(x, n);
+    set_harmonics(y, n);
+    const double scale = std::max(norm2(size, x.data()), norm2(size, y.data()));
+    double change = 0;
+    for (std::int64_t i = 0; i < size; ++i) change = std::hypot(change, x.data()[i] - y.data()[i]);
+    return std::hypot(scale > 0 ? change / scale : 0.0, a.omega / b.omega - 1);
+}
+
 BranchPoint between(const BranchPoint &a, const BranchPoint &b, double t) {
     BranchPoint p = a;
     p.motion.reset();

@@ -46,6 +46,9 @@ vector<double> bifurcation_tests(const vector<std::complex<double>> &multipliers
 /// The same coefficients with n harmonics: padded with zeros or cut.
 void set_harmonics(Matrix &eta, std::int64_t n);
 
+/// |x - x'| over the dynamic part and |omega - omega'|, both relative; small for the same solution.
+double solution_distance(const BranchPoint &a, const BranchPoint &b);
+
 /// The motion a + t (b - a), at that frequency; all else is a's.
 BranchPoint between(const BranchPoint &a, const BranchPoint &b, double t);
 

@@ -12,4 +12,13 @@ struct MotionMeasures {
 MotionMeasures measure_motion(const ReducedModel &reduced, const BranchPoint &point,
                               std::int64_t period_multiple = 1);
 
+/// The amplitude of the motion that contact or stiffness holds (a point's dynamic part in the norm of M):
+/// what a curve's highest point is judged by where no DOF is named.
+double response_size(const Branch &branch, std::int64_t point);
+std::int64_t largest_response(const Branch &branch);
+
+/// Re(F^H q) in the excitation's lowest dynamic harmonic; zero at phase resonance, positive below and
+/// negative above a resonance. Does not depend on the force scale.
+double phase_of(const ReducedModel &reduced, const BranchPoint &point, std::int64_t period_multiple);
+
 } // namespace plm

@@ -127,7 +127,7 @@ std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &given, std::int64
     auto found = std::make_shared<Branch>(reduced, options.force_scale, options.period_multiple);
     found->newton_work = other.work();
     trace_curve(options, start, watch_, *found);
-    finish(*found, begin);
+    finish(watch_, begin, *found);
     return found;
 }
 

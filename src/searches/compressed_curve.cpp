@@ -3,11 +3,11 @@
 #include "hbm/make_system.hpp"
 #include "motions/branch_path.hpp"
 #include "motions/compressed_motion.hpp"
+#include "motions/motion_measures.hpp"
 #include "orbits/orbit_cost.hpp"
 #include "orbits/orbit_point.hpp"
 #include "orbits/orbit_points.hpp"
 #include "reduction/compression.hpp"
-#include "searches/wider_range.hpp"
 #include <algorithm>
 #include <cmath>
 

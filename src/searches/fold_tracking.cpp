@@ -108,7 +108,7 @@ std::shared_ptr<Branch> follow_folds_both_ways(std::shared_ptr<const ReducedMode
     const auto above = follow_folds(std::move(reduced), options, fold, watch);
     if (!above) return below;
     const auto whole = joined(*below, *above);
-    if (!ends_well(*below)) whole->end_reason = below->end_reason;
+    if (!ends_well(*below) && !was_stopped(*above)) whole->end_reason = below->end_reason;
     return whole;
 }
 

@@ -286,7 +286,9 @@ class Search {
         BranchPoint from = fold;
         for (int leaps = 0; leaps < most_leaps; ++leaps) {
             const auto folds = follow_folds(reduced_, o, from, watch_);
-            if (!folds || folds->end_reason == PLM_REASON_RANGE_END) break;
+            if (!folds) break;
+            require_unstopped(*folds);
+            if (folds->end_reason == PLM_REASON_RANGE_END) break;
             const auto &points = folds->points();
             std::size_t last = 0;
             while (last + 1 < points.size() && points[last].bifurcation != PLM_BIFURCATION_FOLD) ++last;

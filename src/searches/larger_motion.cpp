@@ -2,13 +2,13 @@
 #include "hbm/harmonic_choice.hpp"
 #include "hbm/make_system.hpp"
 #include "motions/compressed_motion.hpp"
+#include "motions/curve_verdicts.hpp"
 #include "orbits/orbit_cost.hpp"
 #include "orbits/orbit_points.hpp"
 #include "orbits/stationary_force.hpp"
 #include "reduction/compression.hpp"
 #include "reduction/reduced_rest.hpp"
 #include "searches/compressed_curve.hpp"
-#include "searches/curve_verdicts.hpp"
 #include "searches/isolated.hpp"
 #include <algorithm>
 #include <cmath>

@@ -3,10 +3,10 @@
 #include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
 #include "motions/branch_path.hpp"
+#include "motions/curve_verdicts.hpp"
 #include "searches/basis_error.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
-#include "searches/curve_verdicts.hpp"
 #include "searches/hbm.hpp"
 #include "searches/point_equations.hpp"
 #include <algorithm>

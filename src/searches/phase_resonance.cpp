@@ -1,13 +1,11 @@
 #include "searches/phase_resonance.hpp"
-#include "hbm/make_system.hpp"
 #include "hbm/modes_at_rest.hpp"
-#include "motions/branch_path.hpp"
+#include "linalg/work.hpp"
+#include "motions/motion_measures.hpp"
 #include "motions/response_at_force.hpp"
 #include "motions/tracer.hpp"
-#include "reduction/reduced_rest.hpp"
 #include "searches/phase_system.hpp"
 #include "searches/point_equations.hpp"
-#include "structure/driven_harmonic.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -19,33 +17,9 @@ constexpr double longest_step = 0.05; // of a backbone: extrema of the force com
 // Where a backbone ends below: upwards what is of interest begins beside the force asked for; downwards it
 // comes to nothing, or turns.
 constexpr double below_the_force = 0.5, next_to_nothing = 1e-3; // of the force asked for, of the start's
-// The start of a backbone, at rest: of the force at which the first pair switches, of the force asked for;
-// and what is so much smaller than that that the pair switches at any force.
-constexpr double before_switching = 0.5, small_force = 0.1, no_force = 1e-9;
 constexpr double about_resonance = 0.02; // relative: a corrected start farther off is another resonance
 
 } // namespace
-
-double phase_of(const ReducedModel &m, const BranchPoint &point, std::int64_t period_multiple) {
-    const auto *driven = driven_harmonic(m.excitation);
-    if (!driven) return 0;
-    const std::int64_t h = driven->first * period_multiple;
-    if (2 * h > point.eta.cols()) return 0;
-    // q = a - i b and F = F_r + i F_i: Re(F^H q) = F_r . a - F_i . b
-    return dot(m.size(), driven->second.real.data(), point.eta.col(2 * h - 2)) -
-           dot(m.size(), driven->second.imag.data(), point.eta.col(2 * h - 1));
-}
-
-double solution_distance(const BranchPoint &a, const BranchPoint &b) {
-    Matrix x = a.eta, y = b.eta;
-    const std::int64_t n = std::max(x.cols(), y.cols()) / 2, size = x.rows() * 2 * n;
-    set_harmonics(x, n);
-    set_harmonics(y, n);
-    const double scale = std::max(norm2(size, x.data()), norm2(size, y.data()));
-    double change = 0;
-    for (std::int64_t i = 0; i < size; ++i) change = std::hypot(change, x.data()[i] - y.data()[i]);
-    return std::hypot(scale > 0 ? change / scale : 0.0, a.omega / b.omega - 1);
-}
 
 // --- a path of phase-resonant points
 
@@ -118,6 +92,7 @@ Backbone PhaseResonance::follow(const BranchPoint &start, bool upward, double lo
     from.at = {path.resonant.unknowns(start), start.force_scale};
     from.scale = path.scale;
     path.run(range, from);
+    if (branch->end_reason == PLM_REASON_CANCELLED) require_unstopped(*branch);
     if (branch->end_reason == PLM_REASON_NONE) branch->end_reason = PLM_REASON_RANGE_END;
     branch->unknowns_used = options_.exact ? "state" : "modal";
     return {branch, std::move(path.crossings)};
@@ -145,64 +120,16 @@ Backbone PhaseResonance::through(const BranchPoint &point) const {
 
 // --- where backbones begin
 
-// Linear responses about rest at the undamped frequencies inside the range, strongest first.
-std::vector<BranchPoint> PhaseResonance::linear_resonances() const {
-    const ReducedModel &m = *reduced_;
-    const vector<double> coupling = coupling_at_rest(m);
-    const auto *driven = driven_harmonic(m.excitation);
-    if (!driven || driven->first > options_.hbm.n_harmonics) return {};
-    const vector<double> lambda = modes_at_rest(m, coupling).values;
-    const auto system = make_system(reduced_, options_.hbm);
-    std::vector<BranchPoint> points;
-    vector<double> x(system->size());
-    for (double l : lambda) {
-        const double omega = std::sqrt(std::max(0.0, l)) / driven->first;
-        if (omega < 2 * M_PI * options_.hbm.frequency_min_hz ||
-            omega > 2 * M_PI * options_.hbm.frequency_max_hz)
-            continue;
-        system->linear_response(coupling, omega, x.data());
-        BranchPoint point;
-        system->to_point(x.data(), omega, point);
-        double force = 0;
-        if (!linear_range(coupling, point, force)) continue;
-        for (std::int64_t i = 0; i < point.eta.cols() * m.size(); ++i)
-            point.eta.data()[i] *= force / point.force_scale;
-        point.force_scale = force;
-        points.push_back(std::move(point));
-    }
-    return points;
-}
-
-// A force at which no pair changes its state yet. False when there is none: pairs that touch without
-// pressure.
-bool PhaseResonance::linear_range(const vector<double> &coupling, const BranchPoint &point,
-                                  double &force) const {
-    const ReducedModel &m = *reduced_;
-    const double asked = options_.hbm.force_scale;
-    double largest = 1e300;
-    vector<double> mean = m.contact.unloaded_penetration();
-    if (m.n_pairs() > 0) gemv('N', 1.0, m.gap_0, point.eta_0.data(), 1.0, mean.data());
-    const Matrix u = product('N', 'N', m.gap, point.eta);
-    double most = 0;
-    for (std::int64_t i = 0; i < m.n_pairs(); ++i) {
-        double swing = 0;
-        for (std::int64_t c = 0; c < u.cols(); ++c) swing = std::hypot(swing, u(i, c));
-        if (swing > 0)
-            largest = std::min(largest, coupling[i] == 0.5 ? 0.0 : asked * std::abs(mean[i]) / swing);
-        most = std::max(most, swing);
-    }
-    force = std::min(before_switching * largest, small_force * asked);
-    return force > no_force * asked;
-}
-
 std::vector<Backbone> PhaseResonance::backbones() const {
     std::vector<Backbone> all;
-    for (BranchPoint start : linear_resonances()) {
-        const double omega = start.omega;
-        if (!correct(start.force_scale, start) || std::abs(start.omega / omega - 1) > about_resonance)
-            continue;
-        all.push_back(upward_from(start));
-    }
+    within(effort_left(), [&] {
+        for (BranchPoint start : linear_resonances(reduced_, options_.hbm)) {
+            const double omega = start.omega;
+            if (!correct(start.force_scale, start) || std::abs(start.omega / omega - 1) > about_resonance)
+                continue;
+            all.push_back(upward_from(start));
+        }
+    });
     return all;
 }
 

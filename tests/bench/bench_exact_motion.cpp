@@ -4,12 +4,12 @@
 #include "capi/handles.hpp"
 #include "hbm/make_system.hpp"
 #include "median.hpp"
+#include "motions/motion_measures.hpp"
 #include "orbits/orbit_cost.hpp"
 #include "orbits/orbit_point.hpp"
 #include "orbits/orbit_points.hpp"
 #include "searches/hbm.hpp"
 #include "searches/motion_choice.hpp"
-#include "searches/wider_range.hpp"
 extern "C" {
 #include "scene.h"
 #include "scene_model.h"

@@ -1,7 +1,7 @@
 // Nonlinear modes against closed forms of the bilinear oscillator: frequency, energy, contact time, damping.
 #include "contact/trig_polynomial.hpp"
+#include "hbm/nonlinear_mode.hpp"
 #include "hbm/options.hpp"
-#include "searches/nonlinear_mode.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"
 #include <algorithm>

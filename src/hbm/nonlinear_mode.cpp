@@ -1,4 +1,4 @@
-#include "searches/nonlinear_mode.hpp"
+#include "hbm/nonlinear_mode.hpp"
 #include "contact/contact_measures.hpp"
 #include "hbm/harmonic_tail.hpp"
 #include "hbm/make_system.hpp"

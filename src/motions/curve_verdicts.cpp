@@ -1,7 +1,7 @@
-#include "searches/curve_verdicts.hpp"
+#include "motions/curve_verdicts.hpp"
 #include "contact/contact_measures.hpp"
+#include "motions/motion_measures.hpp"
 #include "reduction/compression.hpp"
-#include "searches/wider_range.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
