@@ -6,9 +6,8 @@ namespace plm {
 
 NonlinearModeSystem::NonlinearModeSystem(HbmSystem &inner, const ReducedModel &m, vector<double> shape,
                                          double omega_reference, double largest_amplitude)
-    : AugmentedSystem(inner, 2), r_(m.size()), n_with_mass_(m.size() - m.n_massless),
-      shape_(std::move(shape)), omega_reference_(omega_reference), largest_(largest_amplitude),
-      y_(inner.size() + 2), x_(inner.size()) {
+    : WrappedSystem(inner), r_(m.size()), n_with_mass_(m.size() - m.n_massless), shape_(std::move(shape)),
+      omega_reference_(omega_reference), largest_(largest_amplitude), y_(inner.size() + 2), x_(inner.size()) {
     for (std::int64_t j = 0; j < r_; ++j) shape_[j] *= m.mass(j);
 }
 
@@ -47,25 +46,27 @@ double NonlinearModeSystem::residual_scale() const {
 }
 
 // The equations of the unknowns not scaled; solve() scales.
-void NonlinearModeSystem::fill(Border &border) {
+void NonlinearModeSystem::linearize() {
     const std::int64_t n = inner_.size(), s = static_size();
-    double *by_omega = border.columns.col(0);
+    border_.reset(n, 2);
+    double *by_omega = border_.columns.col(0);
     inner_.parameter_derivative(by_omega);
     for (std::int64_t i = 0; i < n; ++i) by_omega[i] *= omega_reference_;
-    add_self_excitation(x_.data(), 2 * omega() * omega(), border.columns.col(1));
+    add_self_excitation(x_.data(), 2 * omega() * omega(), border_.columns.col(1));
     const double scale = omega_reference_ * omega_reference_ / amplitude_;
     for (std::int64_t j = 0; j < r_; ++j) {
-        border.rows(s + r_ + j, 0) = scale * shape_[j];
-        border.rows(s + j, 1) = scale * shape_[j];
+        border_.rows(s + r_ + j, 0) = scale * shape_[j];
+        border_.rows(s + j, 1) = scale * shape_[j];
     }
     factored_amplitude_ = amplitude_;
+    inner_.factor_bordered(border_, factor_);
 }
 
 void NonlinearModeSystem::solve(double *b, std::int64_t columns) {
     const std::int64_t n = inner_.size(), s = static_size();
     for (std::int64_t k = 0; k < columns; ++k)
         for (std::int64_t i = 0; i < n; ++i) b[i + k * size()] *= i < s ? largest_ : factored_amplitude_;
-    AugmentedSystem::solve(b, columns);
+    factor_.solve(b, columns);
     for (std::int64_t k = 0; k < columns; ++k)
         for (std::int64_t i = 0; i < n; ++i) b[i + k * size()] /= i < s ? largest_ : factored_amplitude_;
 }
