@@ -2,9 +2,9 @@
 #include "capi/barrier.hpp"
 #include "capi/handles.hpp"
 #include "linalg/scale.hpp"
+#include "motions/responses.hpp"
 #include "reduction/basis_kind.hpp"
 #include "reduction/compression.hpp"
-#include "searches/responses.hpp"
 
 namespace plm::capi {
 

@@ -3,11 +3,11 @@
 #include "capi/branch_end.hpp"
 #include "capi/branch_input.hpp"
 #include "contact/trig_polynomial.hpp"
-#include "hbm/formulation.hpp"
-#include "hbm/motion_measures.hpp"
 #include "linalg/scale.hpp"
 #include "linalg/work.hpp"
-#include "searches/periodicity.hpp"
+#include "motions/motion_measures.hpp"
+#include "motions/penetration.hpp"
+#include "orbits/periodicity.hpp"
 #include <algorithm>
 
 namespace plm::capi {

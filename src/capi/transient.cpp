@@ -5,7 +5,7 @@
 #include "capi/transient_results.hpp"
 #include "linalg/scale.hpp"
 #include "orbits/make_transient.hpp"
-#include "searches/orbit_points.hpp"
+#include "orbits/orbit_point.hpp"
 #include <algorithm>
 
 namespace plm::capi {

@@ -1,7 +1,7 @@
 #include "hbm/harmonic_tail.hpp"
 #include "contact/contact_force.hpp"
-#include "hbm/formulation.hpp"
 #include "hbm/receptance.hpp"
+#include "motions/penetration.hpp"
 #include "paths/metric.hpp"
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // what they would change in the harmonics solved for. The penetration's harmonics tell; those of the output
 // mislead.
 #pragma once
-#include "hbm/branch.hpp"
 #include "hbm/system.hpp"
+#include "motions/branch.hpp"
 #include "reduction/reduced_model.hpp"
 
 namespace plm {

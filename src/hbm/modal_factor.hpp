@@ -3,33 +3,23 @@
 #pragma once
 #include "hbm/modal_jacobian.hpp"
 #include "hbm/receptance.hpp"
+#include "motions/periodic_equations.hpp"
 
 namespace plm {
-
-/// [J columns; rows' corner] with k >= 0 columns, rows (as columns of `rows`) and k x k corner.
-struct Border {
-    /// Zeros beside n equations.
-    void reset(std::int64_t n, std::int64_t k) {
-        columns.reset(n, k);
-        rows.reset(n, k);
-        corner.reset(k, k);
-    }
-    Matrix columns, rows, corner;
-};
 
 /// With few pairs the contact forces y = T G x are the unknowns (Woodbury): of order n_acting (2H + 1) + k
 /// instead of r (2H + 1) + k,
 ///     [I + T R, T G D^-1 B; -C D^-1 G', E - C D^-1 B] [y; s],    R = G D^-1 G',
 /// and each solution is refined by its residual. Otherwise, and where D is singular, J is factored itself.
-class ModalFactor {
+class ModalFactor final : public BorderedTangent {
   public:
     void factor(ModalJacobian &jacobian, const Border &border, bool may_condense = true);
     /// Overwrites n right-hand sides (leading dimension size()).
-    void solve(double *b, std::int64_t n) { solve(false, b, n); }
-    void solve_transposed(double *b, std::int64_t n) { solve(true, b, n); }
+    void solve(double *b, std::int64_t n) override { solve(false, b, n); }
+    void solve_transposed(double *b, std::int64_t n) override { solve(true, b, n); }
     std::int64_t size() const { return inner_size() + n_borders(); }
     /// The true sign, whichever way the matrix was factored.
-    int determinant_sign() const {
+    int determinant_sign() const override {
         return condensed_ ? sign_ * lu_.determinant_sign() : lu_.determinant_sign();
     }
 

@@ -3,7 +3,7 @@
 // gap rows of every harmonic, T couples the harmonics of one pair.
 #pragma once
 #include "contact/contact_force.hpp"
-#include "hbm/free_motion.hpp"
+#include "motions/free_motion.hpp"
 #include "reduction/reduced_model.hpp"
 #include <complex>
 

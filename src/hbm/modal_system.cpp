@@ -1,9 +1,9 @@
 // Harmonic balance in reduced coordinates (paper, eq. (10)): x = [eta_0 (r_0); a_1; b_1; ...; a_H; b_H (r
 // each)].
-#include "hbm/free_motion.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/modal_factor.hpp"
 #include "hbm/system.hpp"
+#include "motions/free_motion.hpp"
 #include <algorithm>
 #include <cmath>
 

@@ -3,8 +3,8 @@
 // law into it, which is exact, and free motion (free_motion.hpp) is held.
 #pragma once
 #include "contact/law_form.hpp"
-#include "hbm/free_motion.hpp"
 #include "linalg/lapack.hpp"
+#include "motions/free_motion.hpp"
 
 namespace plm {
 

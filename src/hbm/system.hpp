@@ -3,13 +3,13 @@
 // structure (gap_system.cpp). Which is cheaper depends on the number of coordinates and of moving pairs.
 #pragma once
 #include "contact/contact_force.hpp"
-#include "hbm/branch_point.hpp"
 #include "linalg/error.hpp"
+#include "motions/branch_point.hpp"
 #include "paths/residual.hpp"
 
 namespace plm {
 
-struct Border; // modal_factor.hpp
+struct Border; // motions/periodic_equations.hpp
 class ModalFactor;
 
 class HbmSystem : public Residual {

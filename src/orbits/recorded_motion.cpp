@@ -294,6 +294,13 @@ std::int64_t RecordedMotion::n_switching() const {
     return n;
 }
 
+vector<char> acting_pairs(const std::vector<ContactInterval> &intervals, std::int64_t n_pairs) {
+    vector<char> acting(static_cast<std::size_t>(n_pairs), 0);
+    for (const ContactInterval &interval : intervals)
+        for (std::int64_t pair : interval.states.closed_pairs()) acting[static_cast<std::size_t>(pair)] = 1;
+    return acting;
+}
+
 vector<double> orbit_peaks(ExactFlow &flow, const FlowState &start, std::int64_t period_multiple,
                            const Matrix &rows) {
     if (rows.cols() != flow.model().size())

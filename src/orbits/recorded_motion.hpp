@@ -41,6 +41,9 @@ class RecordedMotion final : public FlowRecorder {
     double duration_ = 0;
 };
 
+/// Z flags of the pairs that act at some time.
+vector<char> acting_pairs(const std::vector<ContactInterval> &intervals, std::int64_t n_pairs);
+
 /// max |row . y| over one period of the response for each row of `rows` (k x n; see FlowModel::dof_row).
 vector<double> orbit_peaks(ExactFlow &flow, const FlowState &start, std::int64_t period_multiple,
                            const Matrix &rows);

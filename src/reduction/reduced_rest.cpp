@@ -15,4 +15,8 @@ std::shared_ptr<const StaticState> rest_of(const ReducedModel &m) {
     });
 }
 
+vector<double> coupling_at_rest(const ReducedModel &m) {
+    return m.contact.closed_shares(rest_of(m)->penetration);
+}
+
 } // namespace plm

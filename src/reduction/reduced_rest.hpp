@@ -10,4 +10,7 @@ bool is_loaded_at_rest(const ReducedModel &reduced);
 /// Under the pre-load, zero without load; solved when first asked for and kept with the model.
 std::shared_ptr<const StaticState> rest_of(const ReducedModel &reduced);
 
+/// Share of the period each pair is closed at rest: 1, 0, or 1/2 for pairs that neither touch nor gap.
+vector<double> coupling_at_rest(const ReducedModel &reduced);
+
 } // namespace plm

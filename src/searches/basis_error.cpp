@@ -1,8 +1,8 @@
 #include "searches/basis_error.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
-#include "searches/harmonic_choice.hpp"
-#include "searches/orbit_points.hpp"
-#include "searches/wider_range.hpp"
+#include "motions/motion_measures.hpp"
+#include "orbits/orbit_cost.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -1,12 +1,12 @@
 // From a located branch point or period doubling to the curve that crosses or leaves there: the tangent has a
 // null vector that does not belong to the curve at hand; a small step along it, corrected across it, is a
 // first point of the other one.
-#include "hbm/branch_path.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "hbm/make_system.hpp"
 #include "linalg/scale.hpp"
+#include "motions/branch_path.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
-#include "searches/harmonic_choice.hpp"
 #include "searches/hbm.hpp"
 #include "searches/point_equations.hpp"
 #include <algorithm>
@@ -43,7 +43,7 @@ class Switch {
             prefers_modal(*reduced, options) ? NonlinearUnknowns::modal : NonlinearUnknowns::gaps;
         equations_ = equations_of(std::move(reduced), options_, origin);
         at_ = {equations_->unknowns(origin), origin.omega};
-        const double size = size_of(equations_->residual(), at_.x);
+        const double size = size_of(*equations_, at_.x);
         metric_ = {size > 0 ? size : 1, 2 * M_PI * (options.frequency_max_hz - options.frequency_min_hz)};
         set_direction(along);
     }
@@ -65,7 +65,7 @@ class Switch {
   private:
     // The null vector less its share of the curve at hand, of length 1.
     void set_direction(const BranchPoint &along) {
-        direction_ = {null_vector(equations_->residual(), at_.x, at_.parameter), 0};
+        direction_ = {null_vector(*equations_, at_.x, at_.parameter), 0};
         const PathState tangent = difference({equations_->unknowns(along), along.omega}, at_);
         const double square = metric_.product(tangent, tangent);
         if (square > 0) add(-metric_.product(tangent, direction_) / square, tangent, direction_);
@@ -77,7 +77,7 @@ class Switch {
         add(step, direction_, to);
         NewtonLimits limits = newton_limits(options_);
         limits.min_damping = 1e-2; // a guess that needs more is none: the next step is tried
-        const NewtonOutcome out = newton_across(equations_->residual(), metric_, direction_, limits, to);
+        const NewtonOutcome out = newton_across(*equations_, metric_, direction_, limits, to);
         work_ += out;
         const PathState moved = difference(to, at_);
         if (!out.converged || std::abs(moved.parameter) > far_in_frequency * metric_.width) return false;
@@ -88,7 +88,7 @@ class Switch {
 
     HbmOptions options_;
     bool mirrored_;
-    std::unique_ptr<PointEquations> equations_;
+    std::unique_ptr<PeriodicEquations> equations_;
     Metric metric_;
     PathState at_, direction_;
     NewtonWork work_;
@@ -127,7 +127,7 @@ std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &given, std::int64
     auto found = std::make_shared<Branch>(reduced, options.force_scale, options.period_multiple);
     found->newton_work = other.work();
     trace_curve(options, start, watch_, *found);
-    finish(*found, begin);
+    finish(watch_, begin, *found);
     return found;
 }
 

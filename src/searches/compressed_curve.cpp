@@ -1,11 +1,13 @@
 #include "searches/compressed_curve.hpp"
-#include "hbm/branch_path.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "hbm/make_system.hpp"
+#include "motions/branch_path.hpp"
+#include "motions/compressed_motion.hpp"
+#include "motions/motion_measures.hpp"
+#include "orbits/orbit_cost.hpp"
+#include "orbits/orbit_point.hpp"
+#include "orbits/orbit_points.hpp"
 #include "reduction/compression.hpp"
-#include "searches/compressed_motion.hpp"
-#include "searches/harmonic_choice.hpp"
-#include "searches/orbit_points.hpp"
-#include "searches/wider_range.hpp"
 #include <algorithm>
 #include <cmath>
 

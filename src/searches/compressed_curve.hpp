@@ -3,11 +3,11 @@
 // enriched by what the whole basis answers to the contact forces of the exact motions beside it, until that
 // changes these no more.
 #pragma once
-#include "hbm/branch.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
+#include "motions/branch.hpp"
+#include "orbits/orbit_points.hpp"
 #include "searches/basis_error.hpp"
-#include "searches/orbit_points.hpp"
 
 namespace plm {
 

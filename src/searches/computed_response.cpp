@@ -1,10 +1,12 @@
 #include "searches/computed_response.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
+#include "motions/curve_verdicts.hpp"
+#include "orbits/orbit_cost.hpp"
+#include "orbits/orbit_points.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"
-#include "searches/curve_verdicts.hpp"
-#include "searches/harmonic_choice.hpp"
-#include "searches/orbit_points.hpp"
+#include "searches/motion_choice.hpp"
 #include "searches/refinement.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,43 @@
 #include "searches/curve.hpp"
-#include "searches/exact_curve.hpp"
-#include "searches/harmonic_curve.hpp"
+#include "hbm/harmonic_curve.hpp"
+#include "orbits/exact_equations.hpp"
+#include "orbits/stability.hpp"
+#include "searches/point_equations.hpp"
+#include <algorithm>
 
 namespace plm {
+namespace {
+
+void trace_exact_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch) {
+    ExactEquations equations(branch.reduced_model(), options, start.point.omega);
+    branch.unknowns_used = "state";
+    CurveTracer(&equations, options, watch, branch).run(start);
+    equations.orbits().modes()->forget_transitions(); // the points of the branch keep the modes
+}
+
+// A few beside folds, where the exact curve has turned already, are no reason to worry.
+void warn_of_unverified(const HbmOptions &options, Branch &branch) {
+    const auto &points = branch.points();
+    const auto n = static_cast<std::int64_t>(points.size());
+    const auto unverified = std::count_if(points.begin(), points.end(),
+                                          [](const BranchPoint &p) { return p.multipliers.empty(); });
+    if (10 * unverified > n)
+        branch.warnings.add(PLM_REASON_UNVERIFIED,
+                            Stability(branch.reduced_model(), options).unknown_text(unverified, n));
+}
+
+void trace_with_harmonics(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch) {
+    const MultipliersOf multipliers = multipliers_of(branch.reduced_model(), options);
+    trace_harmonic_curve(options, start, multipliers, watch, branch);
+    if (multipliers) warn_of_unverified(options, branch);
+}
+
+} // namespace
 
 void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch) {
     constexpr double shorter = 1.0 / 3; // steps
     constexpr int times_shorter = 2;
-    const auto trace = start.point.motion ? trace_exact_curve : trace_harmonic_curve;
+    const auto trace = start.point.motion ? trace_exact_curve : trace_with_harmonics;
     const auto known = static_cast<std::int64_t>(branch.points().size());
     const Warnings said = branch.warnings;
     trace(options, start, watch, branch);

@@ -1,9 +1,9 @@
-// One response curve from a first point on: of exact motions from an exact motion (exact_curve.hpp),
-// otherwise by harmonic balance (harmonic_curve.hpp).
+// One response curve from a first point on: of exact motions from an exact motion, otherwise by harmonic
+// balance (hbm/harmonic_curve.hpp).
 #pragma once
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
-#include "searches/curve_start.hpp"
+#include "motions/tracer.hpp"
 
 namespace plm {
 

@@ -4,9 +4,9 @@
 // across the curve; a second one shows whether that tangent holds so far, and further ones renew it where
 // not.
 #pragma once
-#include "hbm/branch.hpp"
 #include "hbm/options.hpp"
 #include "hbm/system.hpp"
+#include "motions/branch.hpp"
 #include <cmath>
 
 namespace plm {

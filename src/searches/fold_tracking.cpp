@@ -1,75 +1,74 @@
 #include "searches/fold_tracking.hpp"
-#include "hbm/branch_path.hpp"
-#include "searches/harmonic_folds.hpp"
-#include "searches/orbit_folds.hpp"
+#include "hbm/harmonic_choice.hpp"
+#include "motions/tracer.hpp"
+#include "searches/fold_system.hpp"
+#include "searches/point_equations.hpp"
 
 namespace plm {
 namespace {
 
-// Of exact motions where `about` is one.
-std::unique_ptr<PointEquations> fold_equations(std::shared_ptr<const ReducedModel> reduced,
-                                               const HbmOptions &options, const BranchPoint &about) {
-    if (about.motion) return std::make_unique<OrbitFolds>(std::move(reduced), options, about);
-    return std::make_unique<HarmonicFolds>(std::move(reduced), options, about);
+// What stands beside the tangent of harmonic balance needs reduced coordinates and events.
+std::unique_ptr<PeriodicEquations> equations_beside(std::shared_ptr<const ReducedModel> reduced,
+                                                    HbmOptions options, const BranchPoint &about) {
+    options.unknowns = NonlinearUnknowns::modal;
+    options.aft = AftKind::event;
+    options.n_harmonics = harmonics_of(about, options.period_multiple);
+    return make_equations(std::move(reduced), options, kind_of(about), about.omega);
 }
 
 constexpr double not_near = 0.1; // damping of a correction
 
-class FoldPath final : public PathOwner {
+class FoldPath final : public Tracer {
   public:
-    FoldPath(std::shared_ptr<const ReducedModel> reduced, const FoldOptions &options,
-             const BranchPoint &about, Watch watch)
-        : options_(options), watch_(watch), exact_(about.motion != nullptr),
-          equations_(fold_equations(reduced, options.hbm, about)),
-          branch_(std::make_shared<Branch>(reduced, options.hbm.force_scale, options.hbm.period_multiple)) {}
+    FoldPath(const FoldOptions &options, const BranchPoint &about, Watch watch, Branch &branch)
+        : Tracer("folds", watch, branch), options_(options),
+          equations_(equations_beside(branch.reduced_model(), options.hbm, about)),
+          folds_(*equations_, about) {
+        branch.unknowns_used = about.motion ? "state" : "modal";
+    }
 
     bool correct(double force, BranchPoint &point) {
-        PathState at = {equations_->unknowns(point), force};
+        PathState at = {folds_.unknowns(point), force};
         NewtonLimits limits = newton_limits(options_.hbm);
         limits.min_damping = not_near; // a guess is good, or leads elsewhere
-        const NewtonOutcome out = newton_at(equations_->residual(), limits, at.x, force);
+        const NewtonOutcome out = newton_at(folds_, limits, at.x, force);
         if (!out.converged) return false;
-        BranchPoint found = equations_->solved_point(at, out.residual, out.iterations);
+        BranchPoint found = folds_.solved_point(at, out.residual, out.iterations);
         if (!(found.omega > 0)) return false;
         point = std::move(found);
         return true;
     }
 
-    std::shared_ptr<Branch> follow(const BranchPoint &start) {
+    void follow_from(const BranchPoint &start) {
         PathOptions range = path_options(options_.hbm, options_.force_min, options_.force_max);
         range.upward = options_.upward;
         constexpr double first = 0.05; // an extremum may be close
         range.initial_step = first * range.max_step;
         range.locate = true;
         PathStart from;
-        from.at = {equations_->unknowns(start), start.force_scale};
+        from.at = {folds_.unknowns(start), start.force_scale};
         from.residual = start.residual;
-        take_outcome(follow_path(equations_->residual(), range, from, *this), *branch_);
-        branch_->unknowns_used = exact_ ? "state" : "modal";
-        return branch_;
+        follow(folds_, range, from);
     }
 
     void record(const PathPoint &p) override {
         turned_ = turned_ || p.bifurcation == PLM_BIFURCATION_FOLD;
-        BranchPoint point = equations_->solved_point({p.x, p.parameter}, p.residual, p.iterations);
+        BranchPoint point = folds_.solved_point({p.x, p.parameter}, p.residual, p.iterations);
         put_place(p, point);
-        branch_->append(std::move(point));
+        branch_.append(std::move(point));
     }
-    bool cancelled(double fraction) override {
-        watch_.step("folds", fraction);
-        return false;
-    }
-    bool rescue(double, vector<double> &) override { return false; }
     bool interrupt() override { return options_.stop_at_turn && turned_; }
 
   private:
     FoldOptions options_;
-    Watch watch_;
-    bool exact_;
-    std::unique_ptr<PointEquations> equations_;
-    std::shared_ptr<Branch> branch_;
+    std::unique_ptr<PeriodicEquations> equations_;
+    FoldSystem folds_;
     bool turned_ = false;
 };
+
+std::shared_ptr<Branch> new_branch(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options) {
+    return std::make_shared<Branch>(std::move(reduced), options.force_scale, options.period_multiple);
+}
 
 } // namespace
 
@@ -77,15 +76,17 @@ bool correct_fold(std::shared_ptr<const ReducedModel> reduced, const HbmOptions 
                   const BranchPoint &near, BranchPoint &point) {
     FoldOptions o;
     o.hbm = options;
-    return FoldPath(std::move(reduced), o, near, Watch()).correct(force, point);
+    return FoldPath(o, near, Watch(), *new_branch(std::move(reduced), options)).correct(force, point);
 }
 
 std::shared_ptr<Branch> follow_folds(std::shared_ptr<const ReducedModel> reduced, const FoldOptions &options,
                                      const BranchPoint &fold, Watch watch) {
-    FoldPath path(std::move(reduced), options, fold, watch);
+    const auto branch = new_branch(std::move(reduced), options.hbm);
+    FoldPath path(options, fold, watch, *branch);
     BranchPoint start = fold;
     if (!path.correct(fold.force_scale, start)) return nullptr;
-    return path.follow(start);
+    path.follow_from(start);
+    return branch;
 }
 
 namespace {
@@ -100,14 +101,14 @@ std::shared_ptr<Branch> follow_folds_both_ways(std::shared_ptr<const ReducedMode
                                                FoldOptions options, const BranchPoint &fold, Watch watch) {
     options.upward = false;
     const auto below = follow_folds(reduced, options, fold, watch);
-    if (!below || below->end_reason == PLM_REASON_LOOP_CLOSED) return below;
+    if (!below || below->end_reason == PLM_REASON_LOOP_CLOSED || was_stopped(*below)) return below;
     const std::int64_t used = static_cast<std::int64_t>(below->points().size());
     options.upward = true;
     options.hbm.max_points = std::max<std::int64_t>(1, options.hbm.max_points - used + 1);
     const auto above = follow_folds(std::move(reduced), options, fold, watch);
     if (!above) return below;
     const auto whole = joined(*below, *above);
-    if (!ends_well(*below)) whole->end_reason = below->end_reason;
+    if (!ends_well(*below) && !was_stopped(*above)) whole->end_reason = below->end_reason;
     return whole;
 }
 

@@ -1,9 +1,9 @@
 // The curve of folds of a response over (frequency, force). Where it turns back in the force, an isolated
 // branch is born or joins another one: these are the ends of the range of forces in which the branch exists.
 #pragma once
-#include "hbm/branch.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
+#include "motions/branch.hpp"
 
 namespace plm {
 
@@ -21,7 +21,7 @@ struct FoldOptions {
 
 /// Follows the folds from `fold` (a located one: PLM_BIFURCATION_FOLD), by the equations that it solves.
 /// Points carry force scale and omega; those with PLM_BIFURCATION_FOLD are extrema of the force. Null when
-/// the start cannot be corrected.
+/// the start cannot be corrected. Where it is stopped, the folds found by then.
 std::shared_ptr<Branch> follow_folds(std::shared_ptr<const ReducedModel> reduced, const FoldOptions &options,
                                      const BranchPoint &fold, Watch watch);
 

@@ -1,11 +1,9 @@
 // The harmonic-balance solver over a reduced model: single solutions, response curves, peaks.
 #pragma once
-#include "hbm/branch.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
-#include "reduction/sweep_range.hpp"
-#include "searches/start.hpp"
-#include <chrono>
+#include "motions/branch.hpp"
+#include "searches/sweep.hpp"
 
 namespace plm {
 
@@ -62,29 +60,11 @@ class Hbm {
                                                       double amplitude_max) const;
 
   private:
-    void warn_of_few_harmonics(Branch &backbone) const;
     using Clock = std::chrono::steady_clock;
-    std::shared_ptr<Branch> new_branch() const;
-    void finish(Branch &branch, Clock::time_point begin) const;
-    bool solve_with(const HbmOptions &options, double omega, const BranchPoint *guess, StartPaths paths,
-                    Branch &branch, BranchPoint &point) const;
-    bool solve_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const;
-    bool solve_exactly_at(double omega, const BranchPoint *guess, Branch &branch, BranchPoint &point) const;
-    bool solve_from_few(const HbmOptions &wanted, double omega, const BranchPoint *guess, Branch &branch,
-                        BranchPoint &point) const;
-    bool solve_by_harmonics_at(double omega, const BranchPoint *guess, Branch &branch,
-                               BranchPoint &point) const;
-    std::shared_ptr<Branch> by_harmonics(double omega) const;
-    std::shared_ptr<Branch> follow_curve() const;
+    SweepTask task() const;
+    std::shared_ptr<const Branch> judged(const SweepTask &task) const;
     void judge(Branch &curve) const;
     void look_over(Branch &curve) const;
-    std::shared_ptr<Branch> sweep_either_way() const;
-    /// The curve by harmonic balance in the place of one of exact motions that was given up, or null.
-    void take_harmonics(std::shared_ptr<Branch> &branch) const;
-    std::shared_ptr<Branch> sweep_compressed() const;
-    std::shared_ptr<Branch> sweep_from_its_end() const;
-    /// The curve from the other end in the place of `branch` (null: there is none) if it leads farther.
-    void take_other_way(std::shared_ptr<Branch> &branch) const;
     BranchPoint first_guess(const Branch &start, std::int64_t point) const;
 
     /// The model that a branch of this basis was computed on. PLM_ERR_ARGUMENT for one of another basis.
@@ -93,10 +73,8 @@ class Hbm {
     std::shared_ptr<const Basis> made_as_;                // null: not known
     std::shared_ptr<const ReducedModel> basis_, reduced_; // as handed over; widened for exact motions
     HbmOptions options_;
-    const Output *asked_ = nullptr; // of the sweep of now
-    bool exact_ = false;            // curves of exact motions, where their first point is one
-    bool only_looks_ = false;       // what the next harmonics would change is not measured
-    SweepRange window_, reach_;     // of the basis; of a sweep with these options
+    bool exact_ = false;        // curves of exact motions, where their first point is one
+    SweepRange window_, reach_; // of the basis; of a sweep with these options
     Watch watch_;
 };
 

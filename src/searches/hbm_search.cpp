@@ -1,12 +1,13 @@
 // The searches of Hbm: checks, and the options they run with.
+#include "hbm/harmonic_choice.hpp"
+#include "hbm/nonlinear_mode.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/fold_tracking.hpp"
-#include "searches/harmonic_choice.hpp"
 #include "searches/hbm.hpp"
 #include "searches/isolated.hpp"
 #include "searches/marching_search.hpp"
-#include "searches/nonlinear_mode.hpp"
+#include "searches/motion_choice.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -45,26 +46,8 @@ std::vector<Backbone> Hbm::find_backbones(double force_max) const {
     options.exact = reduced_->same_static && prefers_exact(reduced_, options_);
     std::vector<Backbone> found = PhaseResonance(reduced_, options, watch_).backbones();
     if (!options.exact && options_.n_harmonics == 0)
-        for (const Backbone &backbone : found) warn_of_few_harmonics(*backbone.branch);
+        for (const Backbone &backbone : found) warn_of_backbone(options_, watch_, *backbone.branch);
     return found;
-}
-
-void Hbm::warn_of_few_harmonics(Branch &backbone) const {
-    double worst = 0, hz = 0;
-    for (BranchPoint point : backbone.points()) {
-        measure_harmonics(reduced_, options_, point);
-        if (!(point.harmonic_error > worst)) continue;
-        worst = point.harmonic_error;
-        hz = point.omega / (2 * M_PI);
-    }
-    if (worst <= options_.allowed_harmonic_error() || backbone.points().empty()) return;
-    watch_.keeping(backbone.warnings)
-        .warn(
-            PLM_REASON_HARMONICS_TOO_FEW,
-            format(
-                "this backbone has %lld harmonics at every point, and the next ones would change it by about "
-                "%.2g of itself at %.6g Hz. Set n_harmonics to as many as it needs, or motion to exact",
-                static_cast<long long>(backbone.n_harmonics()), worst, hz));
 }
 
 std::shared_ptr<const Branch> Hbm::track_fold(const Branch &given, std::int64_t point, double force_min,

@@ -1,13 +1,14 @@
 #include "searches/isolated.hpp"
-#include "hbm/branch_path.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
+#include "motions/branch_path.hpp"
+#include "motions/compressed_motion.hpp"
+#include "orbits/orbit_points.hpp"
+#include "orbits/stationary_force.hpp"
 #include "searches/compressed_curve.hpp"
-#include "searches/compressed_motion.hpp"
 #include "searches/curve.hpp"
 #include "searches/fold_tracking.hpp"
-#include "searches/harmonic_choice.hpp"
-#include "searches/orbit_points.hpp"
-#include "searches/stationary_force.hpp"
+#include "searches/motion_choice.hpp"
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -285,7 +286,9 @@ class Search {
         BranchPoint from = fold;
         for (int leaps = 0; leaps < most_leaps; ++leaps) {
             const auto folds = follow_folds(reduced_, o, from, watch_);
-            if (!folds || folds->end_reason == PLM_REASON_RANGE_END) break;
+            if (!folds) break;
+            require_unstopped(*folds);
+            if (folds->end_reason == PLM_REASON_RANGE_END) break;
             const auto &points = folds->points();
             std::size_t last = 0;
             while (last + 1 < points.size() && points[last].bifurcation != PLM_BIFURCATION_FOLD) ++last;

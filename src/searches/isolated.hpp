@@ -2,8 +2,8 @@
 // not monotonic in amplitude, entered there and traced as closed curves; the range of forces in which each
 // exists from the stationary forces beside it, or from the folds tracked over the force.
 #pragma once
-#include "hbm/branch.hpp"
 #include "hbm/options.hpp"
+#include "motions/branch.hpp"
 #include "searches/phase_resonance.hpp"
 
 namespace plm {

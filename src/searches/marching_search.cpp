@@ -1,12 +1,13 @@
 #include "searches/marching_search.hpp"
-#include "hbm/branch_path.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "hbm/make_system.hpp"
+#include "hbm/solved_point.hpp"
 #include "linalg/work.hpp"
+#include "motions/branch_path.hpp"
+#include "orbits/recorded_motion.hpp"
 #include "orbits/shooting.hpp"
 #include "reduction/reduced_rest.hpp"
 #include "searches/curve.hpp"
-#include "searches/harmonic_choice.hpp"
-#include "searches/start.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -14,31 +15,6 @@ namespace plm {
 namespace {
 
 constexpr double same_solution = 1e-4; // relative distance at one frequency
-
-// The motion at equidistant instants of one run.
-class Samples final : public FlowRecorder {
-  public:
-    Samples(double begin, double duration, std::int64_t count, std::int64_t n)
-        : begin_(begin), step_(duration / static_cast<double>(count)), values_(n, count) {}
-    void record(const FlowPiece &piece) override {
-        const double noise = 1e-12 * step_; // an instant on the border of two pieces belongs to either
-        for (; next_ < values_.cols(); ++next_) {
-            const double t = begin_ + step_ * static_cast<double>(next_) - piece.start;
-            if (t > piece.duration + noise) return;
-            const double s = std::min(1.0, std::max(0.0, t / piece.duration));
-            double *out = values_.col(next_);
-            for (std::int64_t k = piece.coefficient.cols(); k-- > 0;)
-                for (std::int64_t j = 0; j < values_.rows(); ++j)
-                    out[j] = out[j] * s + piece.coefficient(j, k);
-        }
-    }
-    const Matrix &values() const { return values_; }
-
-  private:
-    double begin_, step_;
-    Matrix values_;
-    std::int64_t next_ = 0;
-};
 
 class Marching {
   public:
@@ -124,30 +100,16 @@ class Marching {
 
     // Fourier coefficients of the orbit, dynamic part in the coordinates of h >= 1.
     BranchPoint in_harmonics(ExactFlow &flow, const PeriodicOrbit &orbit) {
-        const std::int64_t h = hbm_.n_harmonics, count = std::max<std::int64_t>(128, 8 * h),
-                           n = flow.model().size(), r = reduced_->size();
-        Samples samples(orbit.state.time, flow.period(), count, n);
+        RecordedMotion motion;
         FlowState state = orbit.state;
-        flow.advance(state, state.time + flow.period(), &samples);
-        Matrix weights(count, 2 * h + 1);
-        for (std::int64_t t = 0; t < count; ++t) {
-            const double angle = flow.omega() * orbit.state.time +
-                                 2 * M_PI * static_cast<double>(t) / static_cast<double>(count);
-            weights(t, 0) = 1.0 / static_cast<double>(count);
-            for (std::int64_t k = 1; k <= h; ++k) {
-                weights(t, 2 * k - 1) =
-                    2 * std::cos(static_cast<double>(k) * angle) / static_cast<double>(count);
-                weights(t, 2 * k) = 2 * std::sin(static_cast<double>(k) * angle) / static_cast<double>(count);
-            }
-        }
-        const Matrix coefficient = product('N', 'N', samples.values(), weights); // n x (2h + 1)
+        flow.advance(state, state.time + flow.period(), &motion);
         BranchPoint point;
         point.omega = flow.omega();
         point.force_scale = hbm_.force_scale;
-        point.n_harmonics = h;
-        point.eta_0 =
-            flow.model().in_static_coordinates(vector<double>(coefficient.col(0), coefficient.col(0) + n));
-        point.eta = least_squares(to_flow(flow.model(), r), coefficient.columns(1, 2 * h));
+        point.n_harmonics = hbm_.n_harmonics;
+        point.eta_0 = flow.model().in_static_coordinates(motion.mean());
+        point.eta =
+            least_squares(to_flow(flow.model(), reduced_->size()), motion.harmonics(1, hbm_.n_harmonics));
         return point;
     }
 

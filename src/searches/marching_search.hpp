@@ -2,8 +2,8 @@
 // motions at a grid of frequencies, shooting makes what is reached periodic, and what lies on no known branch
 // is traced. A last resort: an isolated branch is reached only from states near it.
 #pragma once
-#include "hbm/branch.hpp"
 #include "hbm/options.hpp"
+#include "motions/branch.hpp"
 #include "searches/isolated.hpp"
 
 namespace plm {

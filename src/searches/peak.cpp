@@ -1,12 +1,12 @@
 // The highest point of a curve, found on the curve itself: points on hyperplanes across the chord through the
 // three highest ones, by successive parabolic interpolation.
-#include "hbm/branch_path.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
+#include "motions/branch_path.hpp"
+#include "motions/curve_verdicts.hpp"
 #include "searches/basis_error.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
-#include "searches/curve_verdicts.hpp"
-#include "searches/harmonic_choice.hpp"
 #include "searches/hbm.hpp"
 #include "searches/point_equations.hpp"
 #include <algorithm>
@@ -27,7 +27,7 @@ struct Sample {
 
 class PeakSearch {
   public:
-    PeakSearch(PointEquations &equations, const HbmOptions &options,
+    PeakSearch(PeriodicEquations &equations, const HbmOptions &options,
                std::shared_ptr<const ReducedModel> reduced, std::int64_t dof, Measure measure,
                std::int64_t harmonic, Watch watch)
         : equations_(equations), options_(options), reduced_(std::move(reduced)), dof_(dof),
@@ -117,7 +117,7 @@ class PeakSearch {
     }
 
     void set_chord() {
-        const double size = norm2(equations_.residual().size(), three_[1].at.x.data());
+        const double size = norm2(equations_.size(), three_[1].at.x.data());
         metric_ = {size > 0 ? size : 1, 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz)};
         chord_ = difference(three_[2].at, three_[0].at);
         scale_by(1 / metric_.length(chord_), chord_);
@@ -154,7 +154,7 @@ class PeakSearch {
         add(lc, c.at, out.at);
         NewtonLimits limits = newton_limits(options_);
         limits.tolerance = std::max(1e-3 * limits.tolerance, least_tolerance); // for small differences
-        const NewtonOutcome found = newton_across(equations_.residual(), metric_, chord_, limits, out.at);
+        const NewtonOutcome found = newton_across(equations_, metric_, chord_, limits, out.at);
         if (!found.converged) return false;
         out.s = s;
         out.point = equations_.solved_point(out.at, found.residual, found.iterations);
@@ -164,7 +164,7 @@ class PeakSearch {
         return true;
     }
 
-    PointEquations &equations_;
+    PeriodicEquations &equations_;
     const HbmOptions &options_;
     std::shared_ptr<const ReducedModel> reduced_;
     std::int64_t dof_;
@@ -237,7 +237,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         };
         const auto close_in = [&] {
             if (automatic) error = error_here();
-            std::unique_ptr<PointEquations> equations;
+            std::unique_ptr<PeriodicEquations> equations;
             do {
                 if (error > wanted)
                     options.n_harmonics = std::max(options.n_harmonics,
@@ -248,7 +248,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
                 above = search.above();
                 if (automatic) error = error_here();
             } while (error > wanted && options.n_harmonics < limits.max_harmonics);
-            point.multipliers = equations->multipliers(point);
+            point.multipliers = multipliers_at(*equations, point);
         };
         const double of_peak = 0.7; // of the effort: the rest is for the estimate of its error
         if (!within(of_peak * effort_left(), close_in))

@@ -4,34 +4,11 @@
 // (Peeters, Kerschen and Golinval 2011); where the force they need is not monotonic in amplitude, an isolated
 // branch exists.
 #pragma once
-#include "hbm/augmented_system.hpp"
-#include "hbm/branch.hpp"
-#include "hbm/free_frequency.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
+#include "motions/branch.hpp"
 
 namespace plm {
-
-/// Re(F^H q) in the excitation's lowest dynamic harmonic; zero at phase resonance, positive below and
-/// negative above a resonance. Does not depend on the force scale.
-double phase_of(const ReducedModel &reduced, const BranchPoint &point, std::int64_t period_multiple);
-
-/// |x - x'| over the dynamic part and |omega - omega'|, both relative; small for the same solution.
-double solution_distance(const BranchPoint &a, const BranchPoint &b);
-
-/// `inner` has modal unknowns.
-class PhaseResonantSystem final : public FreeFrequency<AugmentedSystem> {
-  public:
-    PhaseResonantSystem(HbmSystem &inner, const ReducedModel &reduced, std::int64_t period_multiple,
-                        double omega_reference, double unit);
-    void residual(const double *y, double force, double *r) override;
-
-  protected:
-    void fill(Border &border) override;
-
-  private:
-    vector<double> phase_; // the last equation is phase_ . x = 0
-};
 
 struct BackboneOptions {
     HbmOptions hbm;       // n_harmonics > 0; its force_scale is the force whose crossings are wanted
@@ -53,7 +30,8 @@ class PhaseResonance {
     /// Newton's method for (x, omega) at a given force scale. False: `point` is unchanged.
     bool correct(double force, BranchPoint &point) const;
     /// The backbones that begin at the resonances about rest inside the frequency range. None for a structure
-    /// that touches without pre-load: the force changes nothing but the size there.
+    /// that touches without pre-load: the force changes nothing but the size there. Where the effort is
+    /// spent, those found by then.
     std::vector<Backbone> backbones() const;
     /// The backbone through a phase-resonant point, to both sides.
     Backbone through(const BranchPoint &point) const;
@@ -65,8 +43,7 @@ class PhaseResonance {
 
   private:
     struct Followed;
-    std::vector<BranchPoint> linear_resonances() const;
-    bool linear_range(const vector<double> &coupling, const BranchPoint &point, double &force) const;
+    std::shared_ptr<Branch> new_branch() const;
     Backbone follow(const BranchPoint &start, bool upward, double low) const;
     Backbone upward_from(const BranchPoint &start) const;
 

@@ -1,25 +1,26 @@
-// The equations that the points of a curve solve, whichever they are: of harmonic balance, or of exact
-// motions.
+// The equations that the points of a curve solve, whichever they are.
 #pragma once
-#include "hbm/branch.hpp"
-#include "hbm/options.hpp"
-#include "paths/metric.hpp"
+#include "hbm/harmonic_equations.hpp"
 
 namespace plm {
 
-class PointEquations {
-  public:
-    virtual ~PointEquations() = default;
-    virtual Residual &residual() = 0;
-    virtual vector<double> unknowns(const BranchPoint &point) const = 0;
-    /// Of a solution just found.
-    virtual BranchPoint solved_point(const PathState &at, double residual, std::int64_t iterations) = 0;
-    /// Floquet multipliers of a solution just made a point; empty: not known.
-    virtual vector<std::complex<double>> multipliers(const BranchPoint &point) = 0;
-};
+enum class MotionsAre { exact, harmonic };
 
+/// Near the frequency omega. multipliers: of harmonic motions; exact ones have their own.
+std::unique_ptr<PeriodicEquations> make_equations(std::shared_ptr<const ReducedModel> reduced,
+                                                  const HbmOptions &options, MotionsAre kind, double omega,
+                                                  MultipliersOf multipliers = nullptr);
 /// Those that `point` solves; options: with the force, the period and the harmonics that it has.
-std::unique_ptr<PointEquations> equations_of(std::shared_ptr<const ReducedModel> reduced,
-                                             const HbmOptions &options, const BranchPoint &point);
+std::unique_ptr<PeriodicEquations> equations_of(std::shared_ptr<const ReducedModel> reduced,
+                                                const HbmOptions &options, const BranchPoint &point);
+inline MotionsAre kind_of(const BranchPoint &point) {
+    return point.motion ? MotionsAre::exact : MotionsAre::harmonic;
+}
+
+/// Floquet multipliers of points of harmonic balance, from the exact motion beside them; null where the
+/// options or the size of the model do not ask for them.
+MultipliersOf multipliers_of(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
+/// Those of a solution.
+vector<std::complex<double>> multipliers_at(PeriodicEquations &equations, const BranchPoint &point);
 
 } // namespace plm

@@ -1,9 +1,9 @@
 #include "searches/refinement.hpp"
 #include "linalg/work.hpp"
+#include "motions/curve_verdicts.hpp"
+#include "motions/responses.hpp"
 #include "reduction/basis_kind.hpp"
 #include "searches/basis_error.hpp"
-#include "searches/curve_verdicts.hpp"
-#include "searches/responses.hpp"
 #include <algorithm>
 #include <cmath>
 

@@ -1,27 +1,11 @@
 #include "searches/wider_range.hpp"
+#include "motions/motion_measures.hpp"
 #include "searches/curve.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace plm {
 namespace {
-
-// Rigid-body motion beside the contact falls with the square of the frequency, and would draw the search
-// down.
-vector<char> held_coordinates(const ReducedModel &m, double omega) {
-    constexpr double rigid = 1e-6,
-                     unmoved = 1e-9; // what rounding leaves of a rigid-body mode, of a row of gaps
-    double largest = 0;
-    for (std::int64_t k = 0; k < m.gap.rows() * m.gap.cols(); ++k)
-        largest = std::max(largest, std::abs(m.gap.data()[k]));
-    vector<char> held(m.size());
-    for (std::int64_t j = 0; j < m.size(); ++j) {
-        double moved = 0;
-        for (std::int64_t i = 0; i < m.n_pairs(); ++i) moved = std::max(moved, std::abs(m.gap(i, j)));
-        held[j] = m.lambda[j] > rigid * omega * omega || moved > unmoved * largest;
-    }
-    return held;
-}
 
 enum class End { none, first, last };
 
@@ -158,26 +142,6 @@ class Widening {
 };
 
 } // namespace
-
-double response_size(const Branch &branch, std::int64_t point) {
-    const BranchPoint &p = branch.points()[static_cast<std::size_t>(point)];
-    const vector<char> held = held_coordinates(branch.reduced(), p.omega);
-    double sum = 0;
-    for (std::int64_t c = 0; c < p.eta.cols(); ++c)
-        for (std::int64_t j = 0; j < p.eta.rows(); ++j)
-            if (held[j]) sum += p.eta(j, c) * p.eta(j, c);
-    return std::sqrt(sum);
-}
-
-std::int64_t largest_response(const Branch &branch) {
-    std::int64_t best = 0;
-    double most = -1;
-    for (std::size_t i = 0; i < branch.points().size(); ++i) {
-        const double size = response_size(branch, static_cast<std::int64_t>(i));
-        if (size > most) most = size, best = static_cast<std::int64_t>(i);
-    }
-    return best;
-}
 
 void bring_peak_inside(const HbmOptions &options, const SweepRange &range, const Output *asked, Watch watch,
                        Branch &branch) {

@@ -1,16 +1,11 @@
 // A sweep whose range is an estimate goes on past its ends until the peak is inside.
 #pragma once
-#include "hbm/branch.hpp"
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
+#include "motions/branch.hpp"
 #include "reduction/sweep_range.hpp"
 
 namespace plm {
-
-/// The amplitude of the motion that contact or stiffness holds (a point's dynamic part in the norm of M):
-/// what a curve's highest point is judged by where no DOF is named.
-double response_size(const Branch &branch, std::int64_t point);
-std::int64_t largest_response(const Branch &branch);
 
 /// Goes on past the end of a finished sweep where its largest response stands, half the width of the range at
 /// a time, until it stands inside or `range` ends; says so in branch.warnings when it could not be brought

@@ -1,5 +1,6 @@
 #include "study/curve_point.hpp"
-#include "hbm/branch_path.hpp"
+#include "hbm/solved_point.hpp"
+#include "motions/branch_path.hpp"
 #include <cmath>
 
 namespace plm {

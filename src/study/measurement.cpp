@@ -1,8 +1,8 @@
 #include "study/measurement.hpp"
+#include "motions/responses.hpp"
 #include "orbits/make_transient.hpp"
 #include "sampling/dominant_mode.hpp"
 #include "searches/refinement.hpp"
-#include "searches/responses.hpp"
 #include <algorithm>
 #include <chrono>
 
@@ -153,6 +153,42 @@ std::vector<double> outermost_levels(const MeasurementCase &where) {
 
 Measurement measure(const MethodPlan &method, const MeasurementCase &where, Watch watch) {
     return Run(method, where, watch).result();
+}
+
+namespace {
+
+std::string end_of(const Measurement &m) {
+    std::string text;
+    for (std::size_t level = 0; level < m.curves.size(); ++level) {
+        const std::string end = end_text(m.curves[level]->end_reason);
+        if (m.curves[level]->end_reason == PLM_REASON_RANGE_END) continue;
+        text += (text.empty() ? "" : "; ") + format("level %zu: ", level) + end;
+    }
+    if (!m.note.empty()) text += (text.empty() ? "" : "; ") + m.note;
+    return text.empty() ? end_text(PLM_REASON_RANGE_END) : text;
+}
+
+bool reached_the_end(const Measurement &m) {
+    return m.note.empty() && std::all_of(m.curves.begin(), m.curves.end(),
+                                         [](const auto &b) { return b->end_reason == PLM_REASON_RANGE_END; });
+}
+
+} // namespace
+
+void describe(const Measurement &m, MethodResult &r) {
+    r.basis_size = m.size;
+    r.curves = m.curves;
+    for (const auto &branch : m.curves) {
+        r.n_points += static_cast<std::int64_t>(branch->points().size());
+        r.newton_iterations += branch->newton_work.iterations;
+        r.failed_steps += branch->failed_steps;
+    }
+    for (const MarchedCurve &curve : m.marched) {
+        r.n_points += static_cast<std::int64_t>(curve.samples.hz.size());
+        r.failed_steps += curve.unsettled;
+    }
+    r.outcome = end_of(m);
+    r.complete = reached_the_end(m);
 }
 
 } // namespace plm

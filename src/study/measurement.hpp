@@ -40,4 +40,7 @@ std::vector<double> outermost_levels(const MeasurementCase &where);
 /// Throws what the method throws; PLM_CANCELLED, too.
 Measurement measure(const MethodPlan &method, const MeasurementCase &where, Watch watch);
 
+/// What a row says of how the run went.
+void describe(const Measurement &measurement, MethodResult &row);
+
 } // namespace plm

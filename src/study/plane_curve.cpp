@@ -1,6 +1,6 @@
 #include "study/plane_curve.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "hbm/harmonic_tail.hpp"
-#include "searches/harmonic_choice.hpp"
 #include "searches/point_equations.hpp"
 #include "study/curve_point.hpp"
 #include <algorithm>
@@ -56,7 +56,7 @@ class Step {
     }
 
   private:
-    Residual &system() { return equations_->residual(); }
+    Residual &system() { return *equations_; }
     PathState state_of(const BranchPoint &point) const { return {equations_->unknowns(point), point.omega}; }
 
     static HbmOptions options_of(const BranchPoint &a, const BranchPoint &b, const HbmOptions &options) {
@@ -169,7 +169,7 @@ class Step {
     const Output &output_;
     const PlaneScale &scale_;
     HbmOptions options_;
-    std::unique_ptr<PointEquations> equations_;
+    std::unique_ptr<PeriodicEquations> equations_;
     PathState ends_[2];
     Metric metric_;
     PathState chord_;

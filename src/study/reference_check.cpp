@@ -1,7 +1,7 @@
 #include "study/reference_check.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "hbm/make_system.hpp"
 #include "searches/curve.hpp"
-#include "searches/harmonic_choice.hpp"
 #include "study/curve_point.hpp"
 #include <algorithm>
 #include <cmath>

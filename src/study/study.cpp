@@ -23,22 +23,6 @@ double median(std::vector<double> values) {
     return n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
 }
 
-std::string end_of(const Measurement &m) {
-    std::string text;
-    for (std::size_t level = 0; level < m.curves.size(); ++level) {
-        const std::string end = end_text(m.curves[level]->end_reason);
-        if (m.curves[level]->end_reason == PLM_REASON_RANGE_END) continue;
-        text += (text.empty() ? "" : "; ") + format("level %zu: ", level) + end;
-    }
-    if (!m.note.empty()) text += (text.empty() ? "" : "; ") + m.note;
-    return text.empty() ? end_text(PLM_REASON_RANGE_END) : text;
-}
-
-bool reached_the_end(const Measurement &m) {
-    return m.note.empty() && std::all_of(m.curves.begin(), m.curves.end(),
-                                         [](const auto &b) { return b->end_reason == PLM_REASON_RANGE_END; });
-}
-
 /// A level of the reference: all methods are compared with it.
 struct Truth {
     Peak peak;
@@ -230,22 +214,6 @@ class Study {
         r.space_seconds = m.space ? m.space->seconds : 0;
         keep(m.space);
         return m;
-    }
-
-    static void describe(const Measurement &m, MethodResult &r) {
-        r.basis_size = m.size;
-        r.curves = m.curves;
-        for (const auto &branch : m.curves) {
-            r.n_points += static_cast<std::int64_t>(branch->points().size());
-            r.newton_iterations += branch->newton_work.iterations;
-            r.failed_steps += branch->failed_steps;
-        }
-        for (const MarchedCurve &curve : m.marched) {
-            r.n_points += static_cast<std::int64_t>(curve.samples.hz.size());
-            r.failed_steps += curve.unsettled;
-        }
-        r.outcome = end_of(m);
-        r.complete = reached_the_end(m);
     }
 
     static MethodResult named(const MethodPlan &method) {

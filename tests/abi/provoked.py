@@ -93,7 +93,7 @@ refused("capi.every_function", "a function no test calls", "plm_model_forget", p
 layered = folder / "layered"  # the layers beside a header or a description in which something is wrong
 for part in ("src/capi/api", "fortran", "include", "bindings/python/plm"):
     shutil.copytree(source / part, layered / part)
-for part in ("tests/abi/symbols.txt", "CMakeLists.txt"):
+for part in ("tests/abi/symbols.txt", "CMakeLists.txt", "docs/keys.md"):
     (layered / part).parent.mkdir(parents=True, exist_ok=True)
     shutil.copy(source / part, layered / part)
 
@@ -146,6 +146,9 @@ refused_by_generator("a method of Python that is not by rule", r"plm_branch_get_
                      header, "^(plm_branch_get_field: .*\n    by rule in )module plm", r"\1Python")
 refused_by_generator("a method of what is no handle", "plm_version is no function of a handle with letters", header,
                      "^plm_version: .*", r"\g<0>\n    by rule in Python")
+changed(source / "docs/keys.md", r"^\| `n_free` \|", "| `estimate_memory` |", "layered/docs/keys.md")
+refused_by_generator("a method named like a key", 'plm_model_estimate_memory: model has the key "estimate_memory" already', header)
+shutil.copy(source / "docs/keys.md", layered / "docs/keys.md")
 lay(header)
 changed(source / "fortran/plm_model.f90", r"plm_model_fix_dofs\(", "plm_model_fix_dofs_i32(", "layered/fortran/plm_model.f90")
 refused("abi.generated", "twins that lag behind", "not what plm.h and api.txt ask for: fortran/plm_model_int64.inc", python,

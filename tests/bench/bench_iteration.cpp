@@ -8,7 +8,7 @@
 #include "hbm/system.hpp"
 #include "linalg/lapack.hpp"
 #include "median.hpp"
-#include "searches/start.hpp"
+#include "reduction/reduced_rest.hpp"
 #include "support/count_allocations.hpp"
 #include <algorithm>
 #include <cmath>

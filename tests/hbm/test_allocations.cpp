@@ -2,7 +2,7 @@
 // seen as many pairs switch: nor does an iteration more of the same solution.
 #include "hbm/make_system.hpp"
 #include "paths/newton.hpp"
-#include "searches/start.hpp"
+#include "reduction/reduced_rest.hpp"
 #include "support/count_allocations.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"

@@ -1,11 +1,13 @@
 // The two forms of the harmonic-balance equations: derivatives, agreement with each other, linear limits.
+#include "hbm/harmonic_equations.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/modal_factor.hpp"
+#include "hbm/mode_system.hpp"
 #include "hbm/options.hpp"
+#include "hbm/start.hpp"
 #include "hbm/system.hpp"
-#include "searches/nonlinear_mode.hpp"
-#include "searches/phase_resonance.hpp"
-#include "searches/start.hpp"
+#include "reduction/reduced_rest.hpp"
+#include "searches/phase_system.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"
 #include <algorithm>
@@ -54,7 +56,7 @@ struct DerivativeErrors {
 };
 
 // J^-1 (R(x + e d) - R(x - e d)) / 2e = d
-double solution_error(HbmSystem &system, const plm::vector<double> &x, double omega, double step = 1e-6) {
+double solution_error(plm::Residual &system, const plm::vector<double> &x, double omega, double step = 1e-6) {
     const std::int64_t n = system.size();
     plm::vector<double> up(n), down(n), r(n), d(n);
     std::mt19937 random(2);
@@ -74,13 +76,14 @@ double solution_error(HbmSystem &system, const plm::vector<double> &x, double om
     return worst;
 }
 
-double omega_derivative_error(HbmSystem &system, const plm::vector<double> &x, double omega) {
+double parameter_derivative_error(plm::Residual &system, const plm::vector<double> &x, double omega) {
     const std::int64_t n = system.size();
     plm::vector<double> up(n), down(n), r(n), derivative(n);
     const double step = 1e-6;
     system.residual(x.data(), omega + step, up.data());
     system.residual(x.data(), omega - step, down.data());
     system.residual(x.data(), omega, r.data());
+    system.linearize();
     system.parameter_derivative(derivative.data());
     double size = 0, worst = 0;
     for (std::int64_t i = 0; i < n; ++i) size = std::max(size, std::abs(derivative[i]));
@@ -95,7 +98,7 @@ DerivativeErrors derivative_errors(std::shared_ptr<ReducedModel> m, NonlinearUnk
     if (self_excitation != 0) system->set_self_excitation(self_excitation);
     const double omega = 0.7;
     const plm::vector<double> x = random_point(*system, *m, omega);
-    return {solution_error(*system, x, omega), omega_derivative_error(*system, x, omega)};
+    return {solution_error(*system, x, omega), parameter_derivative_error(*system, x, omega)};
 }
 
 std::shared_ptr<ReducedModel> with_full_damping() {
@@ -182,10 +185,11 @@ void jacobians_with_more_equations_match_differences(void **) {
         const auto inner = system_of(m, 4, NonlinearUnknowns::modal);
         plm::vector<double> x = random_point(*inner, *m, 0.7);
         x.push_back(0.1);
-        plm::PhaseResonantSystem resonance(*inner, *m, 1, 0.65, 1.7);
+        plm::HarmonicEquations equations(m, options_with(4, NonlinearUnknowns::modal), 0.65);
+        plm::PhaseSystem resonance(equations, 0.65, 1.7);
         // a pair nearly grazes here: the difference quotient needs a small step
         assert_true(below(solution_error(resonance, x, 0.9, 1e-7), 1e-5));
-        assert_true(below(omega_derivative_error(resonance, x, 0.9), 1e-7));
+        assert_true(below(parameter_derivative_error(resonance, x, 0.9), 1e-7));
         x.push_back(0.03);
         plm::vector<double> shape(m->size(), 0.3);
         plm::NonlinearModeSystem mode(*inner, *m, shape, 0.65, 2.5);

@@ -10,7 +10,7 @@ import sys
 # Each room may include those named, and what those may.
 MAY_INCLUDE = {"linalg": [], "paths": ["linalg"], "structure": ["linalg"], "contact": ["linalg"],
                "space": ["structure", "contact"], "sampling": ["space"], "reduction": ["sampling"],
-               "orbits": ["paths", "reduction"], "hbm": ["reduction", "paths"], "searches": ["hbm", "orbits"], "study": ["searches"],
+               "motions": ["paths", "reduction"], "orbits": ["motions"], "hbm": ["motions"], "searches": ["hbm", "orbits"], "study": ["searches"],
                "capi": ["study"]}
 
 

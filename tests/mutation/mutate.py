@@ -25,8 +25,8 @@ ROOT = HERE.parents[1]
 # The quick tests of each room; those that include the header of the file come before them.
 ROOMS = {"linalg": "lapack general lu dft lanes", "paths": "continuation", "structure": "sparse rigid_modes gap_rows",
          "contact": "contact contact_force contact_sweep piece_penetrations polynomial", "space": "model rest linear_contact",
-         "sampling": "window offset selection", "reduction": "conditioning basis pair_sampling", "orbits": "settling flow monodromy",
-         "hbm": "systems formulation", "searches": "response bifurcations point_harmonics", "study": "curve_distance plane_curve",
+         "sampling": "window offset selection", "reduction": "conditioning basis pair_sampling", "motions": "free_motion",
+         "orbits": "settling flow monodromy", "hbm": "systems formulation", "searches": "response bifurcations point_harmonics", "study": "curve_distance plane_curve",
          "capi": "handles scales arguments models"}
 OF_ALL = ("test_capi_models", "test_capi_superelement", "test_capi_scales")  # for what the tests of a room do not see
 QUICK, MOST_DIRECT = 10.0, 3  # seconds of the processor a program may take; how many that include the header

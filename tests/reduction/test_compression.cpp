@@ -2,12 +2,12 @@
 // their size, and how good eight columns are for the cracked plate.
 #include "capi/handles.hpp"
 #include "linalg/lapack.hpp"
+#include "motions/responses.hpp"
+#include "orbits/periodicity.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/small_models.hpp"
 #include "searches/error_estimate.hpp"
 #include "searches/hbm.hpp"
-#include "searches/periodicity.hpp"
-#include "searches/responses.hpp"
 #include "support/test.hpp"
 extern "C" {
 #include "cracked_plate.h"

@@ -2,12 +2,12 @@
 // what the papers state of them.
 #include "capi/handles.hpp"
 #include "linalg/lapack.hpp"
+#include "motions/responses.hpp"
 #include "reduction/basis.hpp"
 #include "reduction/bilinear_modes.hpp"
 #include "reduction/discontinuity.hpp"
 #include "rival_cases.hpp"
 #include "searches/hbm.hpp"
-#include "searches/responses.hpp"
 extern "C" {
 #include "cracked_plate.h"
 #include "scene_model.h"

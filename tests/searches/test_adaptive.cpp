@@ -1,8 +1,8 @@
 // What the solver leaves out by itself: harmonics by point, pairs that do not move (unknowns by cost). Each
 // can be switched off, and the answer then agrees.
 #include "contact/trig_polynomial.hpp"
+#include "hbm/harmonic_choice.hpp"
 #include "searches/curve.hpp"
-#include "searches/harmonic_choice.hpp"
 #include "support/small_solver.hpp"
 #include "support/test.hpp"
 #include <algorithm>

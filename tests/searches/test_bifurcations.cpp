@@ -3,10 +3,10 @@
 // close.
 #include "contact/trig_polynomial.hpp"
 #include "linalg/work.hpp"
+#include "orbits/exact_motion.hpp"
+#include "orbits/stability.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/small_models.hpp"
-#include "searches/exact_motion.hpp"
-#include "searches/stability.hpp"
 #include "support/small_solver.hpp"
 #include "support/test.hpp"
 #include <algorithm>

@@ -1,14 +1,14 @@
 // Curves of exact motions on a compressed basis: the same curve as on the whole one, and what starts from it
 // goes on on the whole one.
 #include "host_case.hpp"
+#include "motions/compressed_motion.hpp"
+#include "motions/motion_measures.hpp"
+#include "motions/responses.hpp"
+#include "orbits/orbit_point.hpp"
 #include "reduction/compression.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/compressed_curve.hpp"
-#include "searches/compressed_motion.hpp"
-#include "searches/orbit_points.hpp"
 #include "searches/phase_resonance.hpp"
-#include "searches/responses.hpp"
-#include "searches/wider_range.hpp"
 #include "space/linear_contact.hpp"
 #include "support/test.hpp"
 #include <algorithm>

@@ -1,8 +1,8 @@
 // Curves of exact motions, with nothing set: every point, its stability, its peak and its bifurcations
 // against the tests' own orbits; harmonic balance comes to them as its harmonics grow.
 #include "linalg/lapack.hpp"
-#include "searches/orbit_points.hpp"
-#include "searches/stability.hpp"
+#include "orbits/orbit_point.hpp"
+#include "orbits/stability.hpp"
 #include "support/caught.hpp"
 #include "support/small_solver.hpp"
 #include "support/test.hpp"

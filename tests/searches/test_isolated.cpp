@@ -1,6 +1,7 @@
 // Isolated branches of a small pre-loaded structure: found without a hint, closed, the range of forces
 // against plain sweeps, stable points against the exact flow, folds tracked against folds located.
 #include "contact/trig_polynomial.hpp"
+#include "motions/motion_measures.hpp"
 #include "reduction/compression.hpp"
 #include "sampling/small_models.hpp"
 #include "searches/fold_tracking.hpp"

@@ -1,14 +1,14 @@
 // DOFs without mass: the structure condensed by hand must answer as the one with them, in harmonic balance
 // and in exact motion, and a mass that goes to zero must lead there.
+#include "orbits/exact_motion.hpp"
+#include "orbits/hill.hpp"
 #include "orbits/recorded_motion.hpp"
 #include "orbits/shooting.hpp"
+#include "orbits/stability.hpp"
 #include "reduction/basis.hpp"
 #include "reduction/basis_kind.hpp"
 #include "sampling/small_models.hpp"
-#include "searches/exact_motion.hpp"
 #include "searches/hbm.hpp"
-#include "searches/hill.hpp"
-#include "searches/stability.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 #include <complex>

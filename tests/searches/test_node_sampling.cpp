@@ -1,11 +1,11 @@
 // Contact at some of the pairs: what the peak of the cracked plate loses, and that every pair is still
 // reported.
-#include "hbm/motion_measures.hpp"
 #include "hbm/options.hpp"
 #include "host_case.hpp"
+#include "motions/motion_measures.hpp"
+#include "orbits/periodicity.hpp"
 #include "reduction/basis.hpp"
 #include "searches/error_estimate.hpp"
-#include "searches/periodicity.hpp"
 #include "support/test.hpp"
 #include <algorithm>
 

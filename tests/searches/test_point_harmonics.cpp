@@ -1,10 +1,11 @@
 // A point keeps the number of harmonics it was solved with, whatever the options say when it is used again.
+#include "hbm/harmonic_choice.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/system.hpp"
+#include "motions/penetration.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/small_models.hpp"
 #include "searches/curve.hpp"
-#include "searches/harmonic_choice.hpp"
 #include "searches/hbm.hpp"
 #include "searches/isolated.hpp"
 #include "support/small_reduced.hpp"

@@ -1,10 +1,10 @@
 // Verdicts on a curve: a sweep over an estimated range goes on until its peak is inside, a highest point at
 // an end is not called a peak, and what lies outside the basis is said. Truths: the bilinear frequency, and
 // the same curve over a range that is wide from the start.
+#include "motions/curve_verdicts.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/sampler.hpp"
 #include "sampling/small_models.hpp"
-#include "searches/curve_verdicts.hpp"
 #include "searches/hbm.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"

@@ -1,0 +1,151 @@
+#include "hbm/harmonic_equations.hpp"
+#include "contact/penetration_zeros.hpp"
+#include "hbm/make_system.hpp"
+#include "hbm/modal_factor.hpp"
+#include "hbm/solved_point.hpp"
+#include "hbm/start.hpp"
+#include "structure/driven_harmonic.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+
+HarmonicEquations::HarmonicEquations(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                                     double omega, MultipliersOf multipliers)
+    : reduced_(std::move(reduced)), options_(options), reference_(omega),
+      system_(make_system(reduced_, options)), multipliers_(std::move(multipliers)) {}
+
+void HarmonicEquations::residual(const double *x, double omega, double *r) {
+    x_.assign(x, x + size());
+    omega_ = omega;
+    system_->residual(x, omega, r);
+}
+
+vector<double> HarmonicEquations::unknowns(const BranchPoint &point) const {
+    return unknowns_of(*system_, point);
+}
+
+BranchPoint HarmonicEquations::solved_point(const PathState &at, double residual, std::int64_t iterations) {
+    return plm::solved_point(*system_, at, residual, iterations);
+}
+
+bool HarmonicEquations::find(double omega, Watch watch, vector<double> &x, NewtonWork &work) {
+    const StartOutcome out = find_start(*system_, *reduced_, options_, omega, true, watch, x);
+    work += out;
+    return out.converged;
+}
+
+vector<std::complex<double>> HarmonicEquations::multipliers(const vector<double> &x, double omega) {
+    if (!multipliers_) return {};
+    if (omega != known_omega_ || x != known_x_) {
+        BranchPoint point;
+        system_->to_point(x.data(), omega, point);
+        known_multipliers_ = multipliers_(point);
+        known_x_ = x;
+        known_omega_ = omega;
+    }
+    return known_multipliers_;
+}
+
+void HarmonicEquations::factor_bordered(const Border &border, std::unique_ptr<BorderedTangent> &out) {
+    if (!out) out = std::make_unique<ModalFactor>();
+    system_->factor_bordered(border, static_cast<ModalFactor &>(*out));
+}
+
+// --- folds
+
+MotionGradient HarmonicEquations::tangent_change(const vector<double> &w, const vector<double> &v) {
+    return {contact_gradient(w, v), -dot(size(), w.data(), frequency_derivative(v).data()), 0};
+}
+
+// (dJ/domega) v: dR/domega is linear in x and the same matrix.
+vector<double> HarmonicEquations::frequency_derivative(const vector<double> &v) {
+    vector<double> change(size()), scratch(size());
+    system_->residual(v.data(), omega_, scratch.data());
+    system_->parameter_derivative(change.data());
+    system_->residual(x_.data(), omega_, scratch.data());
+    return change;
+}
+
+// Z x (2H + 1) coefficients of the gaps for unknowns x, without the initial gap; the harmonics times
+// `factor`.
+Matrix HarmonicEquations::gap_motion(const double *x, double factor) const {
+    const ReducedModel &m = *reduced_;
+    const std::int64_t z = m.n_pairs(), r = m.size(), columns = (size() - m.static_size()) / r;
+    Matrix eta(r, columns), u(z, columns + 1), dynamic(z, columns);
+    std::copy(x + m.static_size(), x + size(), eta.data());
+    gemv('N', 1.0, m.gap_0, x, 0.0, u.col(0));
+    gemm('N', 'N', factor, m.gap, eta, 0.0, dynamic);
+    std::copy(dynamic.data(), dynamic.data() + z * columns, u.col(1));
+    return u;
+}
+
+// -d(w^T J v), the mean over the period of k_n ds W V with ds = du / |u'| at each switching instant; the
+// residual of a harmonic is twice a mean, so that w's harmonics count twice in W(t).
+vector<double> HarmonicEquations::contact_gradient(const vector<double> &w, const vector<double> &v) const {
+    const ReducedModel &m = *reduced_;
+    const std::int64_t z = m.n_pairs(), r = m.size();
+    vector<double> gradient(size(), 0.0);
+    if (z == 0) return gradient;
+    Matrix u = gap_motion(x_.data(), 1);
+    for (std::int64_t i = 0; i < z; ++i) u(i, 0) -= m.contact.initial_gap[i];
+    const SwitchingInstants switching = switching_instants(u);
+    const Matrix ut = u.transposed(), vt = gap_motion(v.data(), 1).transposed(),
+                 wt = gap_motion(w.data(), 2).transposed();
+    const std::int64_t columns = u.cols() - 1, h = columns / 2;
+    Matrix change(z, columns + 1);
+    for (std::int64_t i = 0; i < z; ++i)
+        for (double t : switching.instants[i]) {
+            const double speed = std::abs(evaluate_trig(ut.col(i), h, t).slope);
+            if (speed == 0) continue;
+            const double weight = m.contact.stiffness[i] * evaluate_trig(vt.col(i), h, t).value *
+                                  evaluate_trig(wt.col(i), h, t).value / (2 * M_PI * speed);
+            change(i, 0) += weight;
+            for (std::int64_t k = 1; k <= h; ++k) {
+                change(i, 2 * k - 1) += weight * std::cos(static_cast<double>(k) * t);
+                change(i, 2 * k) += weight * std::sin(static_cast<double>(k) * t);
+            }
+        }
+    gemv('T', -1.0, m.gap_0, change.col(0), 0.0, gradient.data());
+    for (std::int64_t c = 0; c < columns; ++c)
+        gemv('T', -1.0, m.gap, change.col(c + 1), 0.0, gradient.data() + m.static_size() + c * r);
+    return gradient;
+}
+
+// --- phase resonance
+
+// phase = row . x, Re(F^H q) of the lowest harmonic of the excitation.
+const vector<double> &HarmonicEquations::phase_row() {
+    const auto *driven = driven_harmonic(reduced_->excitation);
+    if (!phase_row_.empty()) return phase_row_;
+    phase_row_.assign(static_cast<std::size_t>(size()), 0.0);
+    if (!driven) return phase_row_;
+    const std::int64_t r = reduced_->size(),
+                       at = static_size() + 2 * (driven->first * options_.period_multiple - 1) * r;
+    if (at + 2 * r > size())
+        throw Error(
+            PLM_ERR_ARGUMENT,
+            format("phase resonance is that of harmonic %d of the excitation, which n_harmonics leaves "
+                   "out; set n_harmonics to %d or more",
+                   driven->first, driven->first))
+            .argument("n_harmonics");
+    const double force =
+        std::hypot(norm2(r, driven->second.real.data()), norm2(r, driven->second.imag.data()));
+    const double scale = row_size(reference_) / (force > 0 ? force : 1);
+    for (std::int64_t j = 0; j < r; ++j) {
+        phase_row_[at + j] = scale * driven->second.real[j];
+        phase_row_[at + r + j] = -scale * driven->second.imag[j];
+    }
+    return phase_row_;
+}
+
+double HarmonicEquations::phase() {
+    return dot(size(), phase_row().data(), x_.data());
+}
+
+bool HarmonicEquations::phase_gradient(MotionGradient &gradient) {
+    gradient = {phase_row(), 0, 0};
+    return true;
+}
+
+} // namespace plm

@@ -1,0 +1,245 @@
+#include "motions/branch.hpp"
+#include "contact/contact_measures.hpp"
+#include "contact/trig_polynomial.hpp"
+#include "linalg/blas_lapack.hpp"
+#include "linalg/scale.hpp"
+#include "motions/penetration.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+
+std::string end_text(std::int32_t reason, bool sampled) {
+    if (sampled && (reason == PLM_REASON_STEP_MINIMUM || reason == PLM_REASON_CONTACT_CHATTER ||
+                    reason == PLM_REASON_TURNED_BACK))
+        return "sampled contact forces have a corner at every sample that switches, and the curve could not "
+               "be followed round one; raise time_samples or set aft to event";
+    switch (reason) {
+    case PLM_REASON_NONE:
+        return "complete";
+    case PLM_REASON_RANGE_END:
+        return "reached the end of its range";
+    case PLM_REASON_LOOP_CLOSED:
+        return "came back to its first point";
+    case PLM_REASON_POINT_LIMIT:
+        return "max_points reached; raise it or max_step";
+    case PLM_REASON_CANCELLED:
+        return "cancelled by the progress callback";
+    case PLM_REASON_EFFORT:
+        return "the effort allowed is spent; raise the effort of the context";
+    case PLM_REASON_STEP_MINIMUM:
+        return "the step fell below min_step; try more harmonics or a softer contact";
+    case PLM_REASON_CONTACT_CHATTER:
+        return "Newton cycled between contact sets";
+    case PLM_REASON_SINGULAR_TANGENT:
+        return "the tangent is singular";
+    case PLM_REASON_START_FAILED:
+        return "no solution was found at the first frequency; start elsewhere or with less force";
+    case PLM_REASON_BASIS_TOO_SMALL:
+        return "the basis is too small for this response";
+    case PLM_REASON_HARMONICS_TOO_FEW:
+        return "its points have far too few harmonics, and no solution with more was found beside them; make "
+               "the "
+               "basis for more harmonics, the contact softer or the damping larger";
+    case PLM_REASON_TURNED_BACK:
+        return "ran back to where it began without having passed a fold; give the sweep the other direction, "
+               "a smaller "
+               "max_step or more harmonics";
+    case PLM_REASON_CROSSED_OVER:
+        return "goes round a closed curve onto which one of its steps had crossed; give the sweep a smaller "
+               "max_step";
+    case PLM_REASON_NOT_FINITE:
+        return "the response overflowed; check the units of matrices, loads and frequencies";
+    default:
+        return format("ended for reason %d", reason);
+    }
+}
+
+namespace {
+
+bool is_motion(const BranchPoint &p) {
+    return std::isfinite(p.omega) && std::isfinite(p.arclength) && std::isfinite(p.residual) &&
+           std::isfinite(p.force_scale) &&
+           all_finite(p.eta_0.data(), static_cast<std::int64_t>(p.eta_0.size())) &&
+           all_finite(p.eta.data(), p.eta.rows() * p.eta.cols());
+}
+
+// Throws for a motion that is not finite; what is not finite beside it becomes unknown, with a warning.
+void drop_what_is_not_finite(BranchPoint &p, Warnings &warnings) {
+    if (!is_motion(p))
+        throw Error(PLM_ERR_CONVERGENCE, "a point of the branch is not finite: its equations overflow; " +
+                                             std::string(sizes_apart))
+            .reason(PLM_REASON_NOT_FINITE);
+    const bool stability = std::all_of(p.multipliers.begin(), p.multipliers.end(), [](const auto &m) {
+        return std::isfinite(m.real()) && std::isfinite(m.imag());
+    });
+    if (!stability) p.multipliers.clear();
+    bool harmonics = true;
+    for (double *indicator : {&p.harmonic_tail, &p.harmonic_error})
+        if (!std::isfinite(*indicator)) *indicator = -1, harmonics = false;
+    if (!stability || !harmonics)
+        warnings.add(PLM_REASON_NOT_FINITE, std::string(stability ? "harmonic_error" : "stability") +
+                                                " is unknown at some points, since it overflows there; " +
+                                                sizes_apart);
+}
+
+} // namespace
+
+void Branch::prepend(const Branch &piece) {
+    if (piece.points_.empty()) return;
+    const double length = piece.points_.back().arclength;
+    std::vector<BranchPoint> old;
+    old.swap(points_);
+    for (std::size_t i = piece.points_.size(); i-- > 1;) {
+        append(piece.points_[i]);
+        points_.back().arclength = length - piece.points_[i].arclength;
+    }
+    for (BranchPoint &point : old) {
+        point.arclength += length;
+        append(std::move(point));
+    }
+}
+
+void Branch::continue_with(const Branch &piece) {
+    const double length = points_.empty() ? 0 : points_.back().arclength;
+    for (std::size_t i = 1; i < piece.points_.size(); ++i) {
+        append(piece.points_[i]);
+        points_.back().arclength += length;
+    }
+}
+
+void Branch::append(BranchPoint point) {
+    require(point.eta.rows() == reduced_->size() || point.eta.cols() == 0,
+            "append: coordinates of the branch");
+    drop_what_is_not_finite(point, warnings);
+    const std::int64_t n = point.eta.cols() / 2;
+    if (n > n_harmonics_) {
+        n_harmonics_ = n;
+        for (BranchPoint &p : points_) set_harmonics(p.eta, n);
+    } else {
+        set_harmonics(point.eta, n_harmonics_);
+    }
+    points_.push_back(std::move(point));
+}
+
+vector<double> Branch::coefficients(std::int64_t point, std::int64_t dof) const {
+    const std::int64_t row = reduced_->model->free_index(dof);
+    if (row < 0) return vector<double>(2 * n_harmonics_ + 1, 0.0);
+    return coefficients(point, {reduced_->vectors.row(row), reduced_->static_vectors().row(row)});
+}
+
+vector<double> Branch::coefficients(std::int64_t point, const DofInBasis &dof) const {
+    const BranchPoint &p = points_[point];
+    const vector<double> &v = dof.of_dynamic, &v0 = dof.of_static;
+    vector<double> c(2 * n_harmonics_ + 1, 0.0);
+    for (std::size_t j = 0; j < v0.size(); ++j) c[0] += v0[j] * p.eta_0[j];
+    for (std::int64_t k = 0; k < 2 * n_harmonics_; ++k)
+        for (std::int64_t j = 0; j < reduced_->size(); ++j) c[k + 1] += v[j] * p.eta(j, k);
+    return c;
+}
+
+namespace {
+
+double amplitude_of(const ValueRange &range, Measure measure) {
+    if (measure == Measure::half_peak_to_peak) return 0.5 * (range.maximum - range.minimum);
+    return std::max(std::abs(range.maximum), std::abs(range.minimum));
+}
+
+// Beyond what its harmonics say.
+bool has_own_extrema(const BranchPoint &p, Measure measure) {
+    return p.motion && (measure == Measure::peak || measure == Measure::half_peak_to_peak);
+}
+
+} // namespace
+
+double amplitude_of(const vector<double> &c, Measure measure, std::int64_t harmonic) {
+    const std::int64_t n = static_cast<std::int64_t>(c.size()) / 2;
+    if (measure == Measure::harmonic) {
+        if (harmonic > n) return 0;
+        return harmonic == 0 ? c[0] : std::hypot(c[2 * harmonic - 1], c[2 * harmonic]);
+    }
+    if (measure == Measure::rms) {
+        double s = c[0] * c[0];
+        for (std::size_t k = 1; k < c.size(); ++k) s += 0.5 * c[k] * c[k];
+        return std::sqrt(s);
+    }
+    return amplitude_of(trig_range(c.data(), n), measure);
+}
+
+double Branch::amplitude(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic) const {
+    const BranchPoint &p = points_[static_cast<std::size_t>(point)];
+    if (has_own_extrema(p, measure)) return amplitude_of(p.motion->range(dof), measure);
+    return amplitude_of(coefficients(point, dof), measure, harmonic);
+}
+
+double Branch::amplitude(std::int64_t point, const DofInBasis &dof, Measure measure,
+                         std::int64_t harmonic) const {
+    const BranchPoint &p = points_[static_cast<std::size_t>(point)];
+    if (has_own_extrema(p, measure)) return amplitude_of(p.motion->range_of(dof.of_static), measure);
+    return amplitude_of(coefficients(point, dof), measure, harmonic);
+}
+
+// Extrema of an exact motion take a run through its period. Its harmonics spare that where they tell that it
+// is far from the top: by a tenth, and by what the upper half of them adds.
+std::int64_t Branch::highest_point(std::int64_t dof, Measure measure, std::int64_t harmonic) const {
+    constexpr double far_below = 0.9;
+    vector<double> height, reach;
+    double most = 0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        const vector<double> c = coefficients(static_cast<std::int64_t>(i), dof);
+        height.push_back(std::abs(amplitude_of(c, measure, harmonic)));
+        most = std::max(most, height[i]);
+        reach.push_back(height[i]);
+        for (std::int64_t h = points_[i].n_harmonics / 2 + 1; h <= n_harmonics_; ++h)
+            reach[i] += std::hypot(c[2 * h - 1], c[2 * h]);
+    }
+    std::size_t top = 0;
+    double highest = -1;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        if (reach[i] < far_below * most) continue;
+        if (has_own_extrema(points_[i], measure))
+            height[i] = std::abs(amplitude(static_cast<std::int64_t>(i), dof, measure, harmonic));
+        if (height[i] > highest) highest = height[i], top = i;
+    }
+    return static_cast<std::int64_t>(top);
+}
+
+Field Branch::field(std::int64_t point, double fraction) const {
+    const BranchPoint &p = points_[point];
+    if (p.motion) return combine(reduced_->static_vectors(), p.motion->displacement(fraction));
+    vector<double> eta(reduced_->size(), 0.0);
+    for (std::int64_t h = 1; h <= n_harmonics_; ++h) {
+        const double angle = 2 * M_PI * fraction * static_cast<double>(h), c = std::cos(angle),
+                     s = std::sin(angle);
+        for (std::int64_t j = 0; j < reduced_->size(); ++j)
+            eta[j] += c * p.eta(j, 2 * h - 2) + s * p.eta(j, 2 * h - 1);
+    }
+    if (reduced_->same_static) {
+        for (std::int64_t j = 0; j < reduced_->size(); ++j) eta[j] += p.eta_0[j];
+        return combine(reduced_->vectors, eta);
+    }
+    Field q = combine(reduced_->static_vectors(), p.eta_0);
+    add_combination(1.0, reduced_->vectors, eta, q);
+    return q;
+}
+
+Matrix Branch::penetration_coefficients(std::int64_t point) const {
+    return whole_penetration_of(*reduced_, points_[point], n_harmonics_).transposed();
+}
+
+vector<double> Branch::closed_share(std::int64_t point) const {
+    const BranchPoint &p = points_[static_cast<std::size_t>(point)];
+    if (p.motion && !reduced_->all_pairs) return p.motion->closed_shares();
+    return closed_shares(whole_contact_motion(*reduced_, points_[point]).u);
+}
+
+bool was_stopped(const Branch &branch) {
+    return branch.end_reason == PLM_REASON_CANCELLED || branch.end_reason == PLM_REASON_EFFORT;
+}
+
+void require_unstopped(const Branch &branch) {
+    if (was_stopped(branch))
+        throw Error(PLM_CANCELLED, end_text(branch.end_reason)).reason(branch.end_reason);
+}
+
+} // namespace plm

@@ -1,0 +1,18 @@
+// Motions of a compressed model and of the basis that it was made from, one as the other has it.
+#pragma once
+#include "motions/branch.hpp"
+
+namespace plm {
+
+/// A point of the compressed model in the coordinates of the whole basis, without the motion itself.
+BranchPoint uncompressed(const ReducedModel &model, const BranchPoint &point);
+/// The other way: the harmonics that come nearest, by their energy. False: the model has directions alike.
+bool compress(const ReducedModel &model, const BranchPoint &point, BranchPoint &compressed);
+/// The pairs' springs, weighted by the share of the period in which they act.
+vector<double> mean_springs(const ReducedModel &model, const BranchPoint &exact);
+/// What the whole basis misses of equilibrium in an exact motion of the compressed model, harmonic by
+/// harmonic (the mean first), answered with the contact's springs at their mean over the period. In the whole
+/// basis' coordinates.
+BranchPoint corrected_on_whole(const ReducedModel &model, const BranchPoint &exact);
+
+} // namespace plm

@@ -1,0 +1,49 @@
+// What is said with a curve that was followed to its end: whether basis and contact were what it is about.
+#pragma once
+#include "linalg/monitor.hpp"
+#include "motions/branch.hpp"
+#include "reduction/sweep_range.hpp"
+#include <functional>
+
+namespace plm {
+
+/// A basis is made for its window. Beyond it many bases still serve: the largest response there is put into
+/// the equations of the whole structure, once, and what they miss decides.
+void check_window(const SweepRange &window, Watch watch, Branch &branch);
+
+/// A basis may be too small inside its window, too, where the contact is much stiffer than what it touches or
+/// many harmonics are needed: the largest response there is judged in the same way, unless `error`, which is
+/// then asked for, knows better: the estimated error (basis_error.hpp), infinite or NaN where there is none.
+void check_basis(const SweepRange &window, const std::function<double()> &error, Watch watch, Branch &branch);
+
+/// The same of a peak and its estimated error, which is to be within the accuracy; infinite: its steps do not
+/// contract.
+void check_peak(const SweepRange &window, double accuracy, double error, Watch watch, Branch &peak);
+
+/// A peak around which no solutions were found is the highest point of its curve, and may be higher by
+/// `above` of itself.
+void check_top(double accuracy, double above, Watch watch, Branch &peak);
+
+/// The highest point of a curve that is stable, or where stable motions end; -1: none.
+std::int64_t highest_stable(const Branch &curve, const Output &of);
+
+/// A peak whose motion is not stable is not what the structure does, unless a motion of the curve is stable
+/// and as high within the accuracy (that beside a fold, for one).
+void check_stability(const Branch &curve, const Output &of, double accuracy, Watch watch, Branch &peak);
+
+/// What a host's own reduction (a superelement) may take of the accuracy; the rest is the basis'.
+constexpr double allowed_of_host = 0.5;
+/// Where it takes more, no basis can mend it. error: of the basis, as estimated.
+void check_host_reduction(const Model &model, double accuracy, double error, Watch watch);
+
+/// A curve that folds and comes back to the end of the range where it began, or to its first point, says
+/// nothing of the rest. upward: how it was to be followed.
+void check_span(bool upward, Watch watch, Branch &branch);
+/// Whether a curve goes from one end of its range to the other, after check_span().
+bool spans(const Branch &curve);
+
+/// A curve on which no pair comes near to opening or closing is a linear response, most often of a gap or a
+/// pre-load in other units than the force.
+void check_switching(Watch watch, Branch &branch);
+
+} // namespace plm

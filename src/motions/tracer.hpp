@@ -1,0 +1,68 @@
+// From paths of periodic motions to the points of a branch: whoever follows one keeps its points here.
+#pragma once
+#include "motions/branch_path.hpp"
+#include "motions/periodic_equations.hpp"
+#include <functional>
+
+namespace plm {
+
+class Tracer : public PathOwner {
+  public:
+    /// stage: what the host is told of.
+    Tracer(const char *stage, Watch watch, Branch &branch) : watch_(watch), branch_(branch), stage_(stage) {}
+    bool cancelled(double fraction) override { return watch_.cancelled(stage_, fraction); }
+    bool rescue(double, vector<double> &) override { return false; }
+
+  protected:
+    /// The path's outcome is the branch's.
+    void follow(Residual &system, const PathOptions &options, const PathStart &start);
+    /// Where it is stopped in the middle of a point, by the host or by a spent effort, those found so far
+    /// stay.
+    void keep_points(const std::function<void()> &follow);
+
+    Watch watch_;
+    Branch &branch_;
+
+  private:
+    const char *stage_;
+};
+
+/// Where a response curve begins.
+struct CurveStart {
+    BranchPoint point;
+    /// Not empty: a second point beside the first, on the side to which the curve is followed; otherwise
+    /// options.upward decides.
+    std::vector<BranchPoint> towards;
+    bool away = false; // the curve leaves on the other side: on past `point`, as one comes from towards[0]
+};
+
+/// Of a response curve over the frequency, with its folds and bifurcations.
+class CurveTracer : public Tracer {
+  public:
+    CurveTracer(PeriodicEquations *equations, const MotionOptions &options, Watch watch, Branch &branch)
+        : Tracer("sweep", watch, branch), equations_(equations), limits_(options) {}
+    /// Appends the curve's points to the branch and sets its ending and its cost.
+    void run(const CurveStart &start);
+
+    void record(const PathPoint &point) override;
+    bool rescue(double omega, vector<double> &x) override;
+    vector<std::int32_t> test_kinds() const override;
+    void test(const vector<double> &x, double omega, vector<double> &values) override;
+
+  protected:
+    virtual void follow_on(const PathOptions &range, const PathStart &start) {
+        follow(*equations_, range, start);
+    }
+    /// At `point`, in the direction of `next`.
+    PathStart leaving(const BranchPoint &point, const BranchPoint &next) const;
+    BranchPoint point_of(const PathPoint &at);
+
+    PeriodicEquations *equations_; // of now
+
+  private:
+    PathState state_of(const BranchPoint &point) const { return {equations_->unknowns(point), point.omega}; }
+
+    const MotionOptions limits_;
+};
+
+} // namespace plm

@@ -1,0 +1,134 @@
+#include "orbits/exact_motion.hpp"
+#include "linalg/scale.hpp"
+#include "motions/penetration.hpp"
+#include "orbits/period_map.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+constexpr int max_steps = 10, event_steps = 5;
+constexpr int may_wander = 3; // steps that may wander; later ones have to contract
+constexpr double contraction = 0.7;
+constexpr double same_motion = 0.3; // of the motion's size: farther away it is another one
+// How exact a motion has to be for its multipliers: near grazing they change with the root of the
+// penetration, a small part of the motion. Shares of their distance from the unit circle, and what is enough
+// wherever they are; in the state, as a share of the motion, and in the instants of the events, as angles.
+constexpr double safe_state = 2e-5, exact_state = 1e-9;
+constexpr double safe_shift = 5e-4, exact_shift = 1e-7;
+// Of one run of the flow, which finds events by itself: below, it costs no more than the point did; above, a
+// curve would take minutes.
+constexpr double cheap = 3e6, affordable = 3e7; // flops
+
+// The fastest motion of the stiffest contact set bounds the length of the flow's pieces from above; every
+// event ends one.
+double flops_of_run(const ExactFlow &flow, std::int64_t periods, std::size_t n_events) {
+    const FlowModel &model = flow.model();
+    ContactSet stiffest(model);
+    stiffest.assign_stiffest();
+    const double n = static_cast<double>(model.size()), z = static_cast<double>(model.n_pairs()),
+                 pieces = 16 + 0.5 * stiffest.rate() * flow.period() * static_cast<double>(periods) +
+                          static_cast<double>(n_events);
+    return pieces * 26 * 2 * n * (n + z); // 26 terms of the series
+}
+
+// The flag is safe when the multipliers are farther from the unit circle than they are uncertain.
+struct Verdict {
+    double margin = 1;
+    std::int64_t n_outside = 0;
+};
+Verdict verdict_of(const Matrix &monodromy) {
+    Verdict v;
+    for (const std::complex<double> &m : multipliers(monodromy)) {
+        v.margin = std::min(v.margin, std::abs(std::abs(m) - 1));
+        v.n_outside += std::abs(m) > 1;
+    }
+    return v;
+}
+
+// Chatter, overflow, a mode too fast for the exponential, a singular system: no answer.
+template <class Search> Matrix found_by(const Search &search) {
+    try {
+        Matrix found = search();
+        return all_finite(found.data(), found.rows() * found.cols()) ? std::move(found) : Matrix();
+    } catch (const Error &e) {
+        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
+        return {};
+    }
+}
+
+} // namespace
+
+EventSequence contact_events(const ReducedModel &m, const BranchPoint &point, std::int64_t period_multiple) {
+    const double period = 2 * M_PI / point.omega * static_cast<double>(period_multiple);
+    return event_sequence(contact_motion(m, point).u, period);
+}
+
+// Where no pair switches the solution is exact. Elsewhere the instants of harmonic balance are those of a
+// nearby motion, to whose shifts a stiff contact's multipliers answer with a factor of ten.
+Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
+                               const EventSequence &sequence, const Matrix &within) {
+    ExactFlow flow(model, point.omega, point.force_scale);
+    if (sequence.events.empty())
+        return found_by([&] {
+            return plm::monodromy(*model, {{flow.period() * static_cast<double>(periods_), sequence.first}});
+        });
+    const double omega = point.omega / static_cast<double>(periods_);
+    const FlowState start = model->state(point.eta_0, point.eta, omega, 0.0);
+    const double flops = flops_of_run(flow, periods_, sequence.events.size());
+    Matrix found;
+    if (flops > cheap) found = found_by([&] { return by_events(flow, start, sequence, within); });
+    if (found.rows() > 0 || flops > (patient_ ? INFINITY : affordable)) return found;
+    if (!correction_.empty())
+        found = found_by([&] { return newton(flow, start, moved(*model, start, correction_, 1), within); });
+    return found.rows() > 0 ? found : found_by([&] { return newton(flow, start, start, within); });
+}
+
+// With the events of the solution, as long as no other ones come in. On a surface with many pairs some barely
+// touch, and their events find no rest; what does not change from step to step does not hang on them.
+Matrix MotionBeside::by_events(const ExactFlow &flow, const FlowState &start, EventSequence sequence,
+                               const Matrix &within) {
+    EventMotion motion(flow.model(), flow.omega(), flow.force_scale(), periods_, within);
+    const EnergyNorm norm(flow);
+    Verdict verdict;
+    for (int k = 0; k < event_steps; ++k) {
+        if (!motion.solve(sequence)) return {};
+        if (norm.distance(motion.start(), start) > same_motion * motion.size()) return {};
+        const Verdict now = verdict_of(motion.monodromy());
+        if (motion.is_consistent() && motion.shift() <= std::max(exact_shift, safe_shift * now.margin))
+            return motion.monodromy();
+        if (k > 0 && now.n_outside != verdict.n_outside) return {};
+        verdict = now;
+        sequence = motion.moved(sequence);
+    }
+    return motion.monodromy();
+}
+
+Matrix MotionBeside::newton(ExactFlow &flow, const FlowState &start, FlowState now, const Matrix &within) {
+    const FlowModel &model = flow.model();
+    const EnergyNorm norm(flow);
+    double before = INFINITY;
+    for (int k = 0; k < max_steps; ++k) {
+        const PeriodRun run = run_periods(flow, now, periods_);
+        Matrix matrix = plm::monodromy(model, run.intervals);
+        FlowState next = moved(model, now, period_step(model, now, run, matrix, within), 1);
+        const double step = run.size > 0 ? norm.distance(next, now) / run.size : 0;
+        if (!std::isfinite(step) || norm.distance(next, start) > same_motion * run.size) return {};
+        if (k >= may_wander && step > contraction * before) return {};
+        before = step;
+        now = std::move(next);
+        if (step > exact_state && step > safe_state * verdict_of(matrix).margin) continue;
+        keep_correction(model, start, now);
+        return matrix;
+    }
+    return {};
+}
+
+void MotionBeside::keep_correction(const FlowModel &model, const FlowState &start, const FlowState &found) {
+    correction_.clear();
+    for (std::int64_t j = 0; j < model.n_moving(); ++j) correction_.push_back(found.y[j] - start.y[j]);
+    for (std::int64_t j = 0; j < model.n_massive(); ++j) correction_.push_back(found.v[j] - start.v[j]);
+}
+
+} // namespace plm

@@ -1,0 +1,36 @@
+// The exact piecewise-linear motion beside a point of harmonic balance: a few steps of Newton's method on the
+// map over one period. What is said of stability is said of that motion.
+#pragma once
+#include "motions/branch.hpp"
+#include "orbits/event_motion.hpp"
+#include "orbits/exact_flow.hpp"
+
+namespace plm {
+
+/// The contact events of a point over its period, from the zeros of its penetrations.
+EventSequence contact_events(const ReducedModel &reduced, const BranchPoint &point,
+                             std::int64_t period_multiple);
+
+class MotionBeside {
+  public:
+    /// patient: the flow is run whatever it costs.
+    MotionBeside(std::int64_t period_multiple, bool patient) : periods_(period_multiple), patient_(patient) {}
+    /// The monodromy matrix of the exact motion beside `point`; empty when a few steps of Newton's method do
+    /// not lead to a motion that the point describes, or when the flow would take longer than allowed.
+    /// sequence: contact_events() of the point; within: see period_step(). What lay between the last point
+    /// and its motion is the first guess for the next one.
+    Matrix monodromy(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
+                     const EventSequence &sequence, const Matrix &within);
+
+  private:
+    Matrix by_events(const ExactFlow &flow, const FlowState &start, EventSequence sequence,
+                     const Matrix &within);
+    Matrix newton(ExactFlow &flow, const FlowState &start, FlowState now, const Matrix &within);
+    void keep_correction(const FlowModel &model, const FlowState &start, const FlowState &found);
+
+    std::int64_t periods_;
+    bool patient_;
+    vector<double> correction_; // FlowModel::state_size(); empty: none is known
+};
+
+} // namespace plm

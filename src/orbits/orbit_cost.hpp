@@ -1,0 +1,15 @@
+// What exact motions cost.
+#pragma once
+#include "motions/options.hpp"
+#include "reduction/reduced_model.hpp"
+
+namespace plm {
+
+/// What a step of Newton's method for an exact motion costs, estimated.
+double exact_step_flops(const ReducedModel &model, const MotionOptions &options);
+
+/// Whether a period of the slowest mode takes minutes where the flow has to go by series, whose pieces are no
+/// longer than the fastest decay: where damping couples the modes, or leaves their eigenvectors no digits.
+bool decays_hopelessly(const ReducedModel &model);
+
+} // namespace plm

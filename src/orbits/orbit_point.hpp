@@ -1,0 +1,24 @@
+// An orbit of the flow as a point of a curve, with the Fourier coefficients of its first harmonics, and the
+// state that a point begins its period with.
+#pragma once
+#include "motions/branch.hpp"
+#include "motions/options.hpp"
+#include "orbits/orbit_equations.hpp"
+#include "orbits/transient.hpp"
+#include "paths/metric.hpp"
+
+namespace plm {
+
+/// The state at the beginning of the period, of an exact motion or of harmonic balance.
+FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_t period_multiple);
+PointStart start_of(const Branch &branch, std::int64_t point);
+/// The unknowns of a point, of an exact motion or of harmonic balance.
+vector<double> orbit_unknowns(const OrbitEquations &equations, const BranchPoint &point,
+                              std::int64_t period_multiple);
+
+/// A solution as a point: as many harmonics as describe its motion to a tenth of harmonic_tolerance, no more
+/// than max_harmonics. Multipliers are not set.
+BranchPoint orbit_point(const OrbitEquations &equations, const MotionOptions &options, const PathState &at,
+                        double residual, std::int64_t iterations);
+
+} // namespace plm

@@ -1,0 +1,37 @@
+#include "searches/motion_choice.hpp"
+#include "hbm/make_system.hpp"
+#include "orbits/orbit_cost.hpp"
+#include <algorithm>
+
+namespace plm {
+namespace {
+
+constexpr std::int64_t usual_harmonics = 20; // of points near a resonance
+constexpr double cheap_step = 5e7;           // flops: a curve takes seconds
+
+} // namespace
+
+bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &o) {
+    if (o.motion == MotionKind::harmonics) return false;
+    const bool asked = o.motion == MotionKind::exact;
+    const auto refuse = [&](const char *argument, const std::string &why) {
+        if (asked) throw Error(PLM_ERR_ARGUMENT, why).argument(argument);
+        return false;
+    };
+    if (reduced->structural != 0)
+        return refuse("motion",
+                      "structural damping has no exact motion in time; set motion to auto or harmonics");
+    if (o.aft == AftKind::sampled)
+        return refuse("aft", "an exact motion has no time samples; set aft to event, or motion to harmonics");
+    if (o.stability == StabilityKind::hill)
+        return refuse("stability", "Hill's method is one of harmonics; set stability to floquet");
+    if (asked) return true;
+    if (o.n_harmonics != 0 || o.tail_correction || o.unknowns != NonlinearUnknowns::automatic ||
+        o.formulation != FormulationKind::automatic || reduced->n_pairs() == 0)
+        return false;
+    if (!reduced->damping.empty() && decays_hopelessly(*reduced)) return false; // no modes to go by
+    return exact_step_flops(*reduced, o) <
+           std::max(cheap_step, harmonic_step_flops(*reduced, usual_harmonics));
+}
+
+} // namespace plm

@@ -1,0 +1,12 @@
+// Exact motions or harmonic balance.
+#pragma once
+#include "hbm/options.hpp"
+#include "reduction/reduced_model.hpp"
+
+namespace plm {
+
+/// Whether curves of this model are made of exact motions. Throws for motion = exact where other options, or
+/// the model, speak against it.
+bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
+
+} // namespace plm

@@ -1,0 +1,224 @@
+#include "searches/sweep.hpp"
+#include "hbm/harmonic_choice.hpp"
+#include "hbm/harmonic_point.hpp"
+#include "linalg/work.hpp"
+#include "motions/curve_verdicts.hpp"
+#include "motions/free_motion.hpp"
+#include "searches/compressed_curve.hpp"
+#include "searches/curve.hpp"
+#include "searches/wider_range.hpp"
+#include <algorithm>
+#include <cmath>
+#include <exception>
+
+namespace plm {
+namespace {
+
+// A curve that could not be followed, not one that is long or was stopped.
+bool is_stuck(const Branch &branch) {
+    return branch.end_reason == PLM_REASON_STEP_MINIMUM || branch.end_reason == PLM_REASON_CONTACT_CHATTER ||
+           branch.end_reason == PLM_REASON_SINGULAR_TANGENT;
+}
+
+std::shared_ptr<Branch> new_branch(const ResponseTask &task) {
+    return std::make_shared<Branch>(task.reduced, task.options.force_scale, task.options.period_multiple);
+}
+
+// The curve of harmonic balance where that of exact motions could not be followed to its end; null: none
+// begins at omega, or most of its points need not be near any motion.
+std::shared_ptr<Branch> by_harmonics(const SweepTask &task, double omega) {
+    auto branch = new_branch(task);
+    CurveStart start;
+    if (!solve_by_harmonics(task.reduced, task.options, omega, nullptr, task.watch, task.only_looks, *branch,
+                            start.point))
+        return nullptr;
+    trace_curve(task.options, start, task.watch, *branch);
+    return is_worthless(*branch) ? nullptr : branch;
+}
+
+std::shared_ptr<Branch> follow_curve(const SweepTask &task) {
+    const auto begin = std::chrono::steady_clock::now();
+    auto branch = new_branch(task);
+    const double low = 2 * M_PI * task.options.frequency_min_hz,
+                 high = 2 * M_PI * task.options.frequency_max_hz;
+    const double from = task.options.upward ? low : high,
+                 into = task.options.upward ? high - low : low - high;
+    // A start inside a super-harmonic region may fail, or find no exact motion, or no solution that more
+    // harmonics confirm: the range is entered a little further on then, if that is better.
+    CurveStart start;
+    bool found = false;
+    const bool dear = !affords_paths(*task.reduced, with_first_harmonics(*task.reduced, task.options));
+    constexpr int most_attempts = 5;
+    constexpr double further_in = 0.02; // of the range: what is left out of the curve is to be small
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+        task.watch.step("sweep", 0.0);
+        BranchPoint point;
+        if (!solve_at(task, from + further_in * attempt * into, nullptr, *branch, point)) continue;
+        if (!found || point.harmonic_error < start.point.harmonic_error) start.point = point;
+        found = true;
+        // an exact motion has all harmonics, whatever its coefficients leave out
+        const double enough = task.exact ? task.options.allowed_harmonic_error() : worthless_error;
+        if (task.options.n_harmonics != 0 || start.point.motion || start.point.harmonic_error < enough ||
+            dear)
+            break;
+    }
+    if (!found)
+        throw Error(
+            PLM_ERR_CONVERGENCE,
+            format("no periodic response was found at the start of the sweep (%.6g Hz and four neighbours), "
+                   "nor at its other end; sweep over another range (frequency_min_hz, frequency_max_hz) or "
+                   "with a smaller force_scale%s",
+                   from / (2 * M_PI), drift_hint(*task.reduced).c_str()))
+            .reason(PLM_REASON_START_FAILED);
+    trace_curve(task.options, start, task.watch, *branch);
+    if (task.exact && task.options.motion == MotionKind::automatic && is_stuck(*branch)) {
+        const auto other = by_harmonics(task, start.point.omega);
+        if (other && !is_stuck(*other)) {
+            other->newton_work += branch->newton_work;
+            other->failed_steps += branch->failed_steps;
+            branch = other;
+        }
+    }
+    if (!was_stopped(*branch)) bring_peak_inside(task.options, task.reach, task.asked, task.watch, *branch);
+    finish(task.watch, begin, *branch);
+    return branch;
+}
+
+// The curve on a model that has what its motions need of the basis; null: such a model would not be much
+// smaller, or a curve on it is not what the whole basis says.
+std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
+    constexpr std::int64_t points_of_look = 250;
+    constexpr double share_of_look = 1e-2; // of the accuracy: what a few harmonics leave out is much more
+    constexpr int most_curves = 3;
+    CurveCompression compression(task.reduced, task.options, 2 * M_PI * task.options.frequency_max_hz,
+                                 task.watch);
+    SweepTask look = task, curve = task;
+    look.only_looks = true;
+    look.watch = task.watch.quiet();
+    look.exact = false;
+    look.options.motion = MotionKind::harmonics;
+    look.options.n_harmonics = harmonics_of_look(*task.reduced);
+    look.options.tolerance = std::max(task.options.tolerance, share_of_look * task.options.accuracy);
+    look.options.max_points = points_of_look;
+    look.options.stability = StabilityKind::off;
+    look.options.bifurcations = false;
+    std::shared_ptr<Branch>
+        whole; // the last one that came to its end: there is none better where the effort ends
+    try {
+        const auto first = follow_curve(look);
+        require_unstopped(*first);
+        if (!compression.begin_with(*first)) return nullptr;
+        for (int k = 0; k < most_curves; ++k) {
+            curve.reduced = compression.model();
+            curve.options = options_on(*curve.reduced, task.options);
+            const auto branch = follow_curve(curve);
+            if (!whole && was_stopped(*branch)) return branch;
+            require_unstopped(*branch);
+            if (is_stuck(*branch)) return nullptr;
+            whole = branch;
+            if (!compression.confirms(*branch) && !compression.is_spent()) {
+                if (compression.model() == curve.reduced) return nullptr; // its highest motion is not exact
+                continue;
+            }
+            if (!compression.confirms_stability(*branch)) return nullptr;
+            compression.warn(*branch);
+            return branch;
+        }
+    } catch (const Error &e) {
+        if (e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK) throw;
+        if (e.status() != PLM_CANCELLED) return nullptr;
+        if (!whole || e.reason() != PLM_REASON_EFFORT) throw;
+        compression.warn(*whole);
+        return whole;
+    }
+    return nullptr;
+}
+
+std::shared_ptr<Branch> sweep_from_its_end(const SweepTask &task) {
+    std::shared_ptr<Branch> branch;
+    if (task.exact && task.options.motion == MotionKind::automatic &&
+        worth_compressing(*task.reduced, task.options))
+        branch = sweep_compressed(task);
+    if (!branch) branch = follow_curve(task);
+    check_span(task.options.upward, task.watch, *branch);
+    return branch;
+}
+
+void take_other_way(const SweepTask &task, std::shared_ptr<Branch> &branch) {
+    SweepTask back = task;
+    back.options.upward = !task.options.upward;
+    task.watch.log(1, format("no whole curve from the %s end; from the other one",
+                             task.options.upward ? "lower" : "upper"));
+    try {
+        const auto other = sweep_from_its_end(back);
+        const bool is_better = spans(*other) || other->end_reason == PLM_REASON_POINT_LIMIT;
+        if (branch && was_stopped(*other)) branch->end_reason = other->end_reason;
+        if (branch && !is_better) return;
+        if (branch && branch->end_reason == PLM_REASON_LOOP_CLOSED) other->beside = branch;
+        branch = other;
+    } catch (const Error &e) { // what the first way found, or why it found nothing, stays
+        if (e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK) throw;
+        if (e.status() != PLM_CANCELLED) return;
+        if (!branch) throw;
+        branch->end_reason = e.reason();
+    }
+}
+
+// What comes back, is stuck or finds no first motion from one end may be a whole curve from the other.
+std::shared_ptr<Branch> sweep_either_way(const SweepTask &task) {
+    std::shared_ptr<Branch> branch;
+    std::exception_ptr no_start;
+    try {
+        branch = sweep_from_its_end(task);
+    } catch (const Error &e) {
+        if (e.reason() != PLM_REASON_START_FAILED) throw;
+        no_start = std::current_exception();
+    }
+    if (!branch || (!spans(*branch) && branch->end_reason != PLM_REASON_POINT_LIMIT && !was_stopped(*branch)))
+        take_other_way(task, branch);
+    if (!branch) std::rethrow_exception(no_start);
+    return branch;
+}
+
+// As few harmonics as show the curve, then as many as its points need: the last one that there is effort for.
+void take_harmonics(const SweepTask &task, std::shared_ptr<Branch> &branch) {
+    task.watch.log(1, "exact motions would take more than the effort allowed: the curve by harmonic balance");
+    SweepTask other = task;
+    other.exact = false;
+    other.options.motion = MotionKind::harmonics;
+    for (bool few : {true, false}) {
+        other.options.max_harmonics =
+            few ? std::min(harmonics_of_look(*task.reduced), task.options.max_harmonics)
+                : task.options.max_harmonics;
+        other.options.harmonics_by_cost = few;
+        within(effort_left(), [&] {
+            const auto next = sweep_either_way(other);
+            if (!branch || !was_stopped(*next)) branch = next;
+        });
+    }
+}
+
+} // namespace
+
+std::shared_ptr<Branch> sweep_whole(const SweepTask &task) {
+    constexpr double share_of_exact = 0.9; // of the effort, where harmonics can have the rest
+    std::shared_ptr<Branch> branch;
+    const bool has_other = task.exact && task.options.motion == MotionKind::automatic;
+    within((has_other ? share_of_exact : 1) * effort_left(), [&] { branch = sweep_either_way(task); });
+    if (has_other && (!branch || branch->end_reason == PLM_REASON_EFFORT)) take_harmonics(task, branch);
+    if (!branch)
+        throw Error(PLM_CANCELLED, "no periodic response was found with the effort allowed; raise the effort "
+                                   "of the context, or sweep over a smaller range")
+            .reason(PLM_REASON_EFFORT);
+    return branch;
+}
+
+void finish(Watch watch, std::chrono::steady_clock::time_point begin, Branch &branch) {
+    branch.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    watch.log(1, format("%zu points, %lld Newton iterations, %lld factorizations, %lld failed steps, %.3g s",
+                        branch.points().size(), static_cast<long long>(branch.newton_work.iterations),
+                        static_cast<long long>(branch.newton_work.factorizations),
+                        static_cast<long long>(branch.failed_steps), branch.seconds));
+}
+
+} // namespace plm

@@ -1,0 +1,21 @@
+// A whole response curve, from either end of its range, by exact motions or harmonics.
+#pragma once
+#include "reduction/sweep_range.hpp"
+#include "searches/single_response.hpp"
+#include <chrono>
+
+namespace plm {
+
+struct SweepTask : ResponseTask {
+    SweepRange reach = {};         // how far the curve may go on to have its peak inside
+    const Output *asked = nullptr; // whose peak that is to be, too
+};
+
+/// At least one point, within the effort that is left. PLM_ERR_CONVERGENCE where no motion is found,
+/// PLM_CANCELLED where that takes more than the effort.
+std::shared_ptr<Branch> sweep_whole(const SweepTask &task);
+
+/// The time that a branch has taken, which is said.
+void finish(Watch watch, std::chrono::steady_clock::time_point begin, Branch &branch);
+
+} // namespace plm
