@@ -114,17 +114,27 @@ class ModalSystem final : public HbmSystem {
         }
     }
 
+    // Each harmonic answers to its own load alone, as the first one at its frequency would.
     void linear_response(const vector<double> &coupling, double omega, double *x) override {
         set_omega(omega);
-        x_.assign(size(), 0.0);
-        constant_indicator(coupling, h_, indicator_);
-        hold_mean();
-        linearize();
-        std::copy(load_.begin(), load_.end(), x);
-        vector<double> gap_force(z_); // -B' k s (-g)
-        for (std::int64_t i = 0; i < z_; ++i) gap_force[i] = stiffness_[i] * coupling[i] * gap_[i];
-        if (z_ > 0) gemv('T', 1.0, m_->gap_0, gap_force.data(), 1.0, x);
-        solve(x, 1);
+        std::fill(x, x + size(), 0.0);
+        ModalJacobian linear(m_, 1);
+        constant_indicator(coupling, 1, indicator_);
+        linear.set_hold(indicator_, load_.data());
+        linear.set_tangent(indicator_, stiffness_);
+        for (std::int64_t h = 1; h <= h_; ++h) {
+            const double *load = load_.data() + cosine_at(h);
+            if (h > 1 && std::all_of(load, load + 2 * r_, [](double f) { return f == 0; })) continue;
+            linear.set_omega(static_cast<double>(h) * omega);
+            linear.set_self_excitation(jacobian_.self_excitation() / static_cast<double>(h));
+            factor_.factor(linear, no_border_);
+            vector<double> b(static_cast<std::size_t>(linear.size()));
+            if (h == 1) put_mean_load(coupling, b.data());
+            std::copy_n(load, 2 * r_, b.data() + r0_);
+            factor_.solve(b.data(), 1);
+            if (h == 1) std::copy_n(b.data(), r0_, x);
+            std::copy_n(b.data() + r0_, 2 * r_, x + cosine_at(h));
+        }
     }
 
     void to_point(const double *x, double omega, BranchPoint &point) override {
@@ -149,6 +159,12 @@ class ModalSystem final : public HbmSystem {
     void set_omega(double omega) {
         omega_ = omega;
         jacobian_.set_omega(omega);
+    }
+    void put_mean_load(const vector<double> &coupling, double *b) const {
+        vector<double> gap_force(z_); // -B' k s (-g)
+        for (std::int64_t i = 0; i < z_; ++i) gap_force[i] = stiffness_[i] * coupling[i] * gap_[i];
+        std::copy_n(load_.data(), r0_, b);
+        if (z_ > 0) gemv('T', 1.0, m_->gap_0, gap_force.data(), 1.0, b);
     }
     void hold_mean() { jacobian_.set_hold(indicator_, load_.data()); }
     std::int64_t cosine_at(std::int64_t h) const { return jacobian_.cosine_at(h); }
