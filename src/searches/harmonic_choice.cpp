@@ -225,10 +225,10 @@ std::string remedy(const HbmOptions &o, const BranchPoint &p) {
         "make the basis for more harmonics (n_harmonics of sampler and basis) or the contact "
         "softer, and compare with the exact periodic motion that a transient finds";
     if (o.harmonics_by_cost && harmonics_of(p, o.period_multiple) >= o.max_harmonics)
-        return format("so many coordinates and pairs move that with more than %lld harmonics the curve takes "
-                      "many minutes. Set n_harmonics for more or, if that is accurate enough, "
-                      "harmonic_tolerance; otherwise ",
-                      static_cast<long long>(o.max_harmonics)) +
+        return format(
+                   "a curve of more than %lld harmonics takes longer than is allowed here. Set n_harmonics "
+                   "for more or, if that is accurate enough, harmonic_tolerance; otherwise ",
+                   static_cast<long long>(o.max_harmonics)) +
                others;
     if (harmonics_of(p, o.period_multiple) >= o.max_harmonics)
         return format("raise max_harmonics (%lld) or, if that is accurate enough, harmonic_tolerance; "

@@ -244,6 +244,7 @@ std::shared_ptr<Branch> Hbm::sweep_either_way() const {
 }
 
 // As few harmonics as show the curve, then as many as its points need: the last one that there is effort for.
+// Part of a curve of exact motions is worth more than a whole one that need not be near any motion.
 void Hbm::take_harmonics(std::shared_ptr<Branch> &branch) const {
     watch_.log(1, "exact motions would take more than the effort allowed: the curve by harmonic balance");
     Hbm other(*this);
@@ -255,7 +256,7 @@ void Hbm::take_harmonics(std::shared_ptr<Branch> &branch) const {
         other.options_.harmonics_by_cost = few;
         within(effort_left(), [&] {
             const auto next = other.sweep_either_way();
-            if (!branch || !was_stopped(*next)) branch = next;
+            if (!branch || !(was_stopped(*next) || is_worthless(*next))) branch = next;
         });
     }
 }
@@ -271,6 +272,7 @@ std::shared_ptr<const Branch> Hbm::sweep() const {
         throw Error(PLM_CANCELLED, "no periodic response was found with the effort allowed; raise the effort "
                                    "of the context, or sweep over a smaller range")
             .reason(PLM_REASON_EFFORT);
+    check_damping(watch_, *branch);
     judge(*branch);
     branch->seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     return branch;

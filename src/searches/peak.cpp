@@ -187,10 +187,19 @@ bool neighbours(const Branch &branch, std::int64_t top, std::array<std::int64_t,
     return inner || (branch.end_reason == PLM_REASON_LOOP_CLOSED && n > 3);
 }
 
-std::string why_no_peak(const Branch &branch, std::int64_t top, double amplitude) {
+// What rounding leaves of a DOF that does not move, of the largest one: its amplitude says nothing.
+bool moves(const Branch &branch, std::int64_t top, double amplitude) {
+    constexpr double rounding = 1e-12;
+    const ReducedModel &m = branch.reduced();
+    const BranchPoint &p = branch.points()[static_cast<std::size_t>(top)];
+    if (amplitude == 0 || !m.model || p.eta.cols() < 2) return amplitude != 0;
+    return amplitude > rounding * largest_entry(combine(m.vectors, p.eta.columns(0, 2))).size;
+}
+
+std::string why_no_peak(const Branch &branch, std::int64_t top, bool of_motion) {
     const std::int64_t n = static_cast<std::int64_t>(branch.points().size());
     const double hz = branch.points()[static_cast<std::size_t>(top)].omega / (2 * M_PI);
-    if (amplitude == 0)
+    if (!of_motion)
         return "this DOF does not move on the curve (in this measure), as one that is fixed, or at a node of "
                "the motion: it has no peak. Ask for a DOF that moves";
     if (n == 1) return format("the curve is a single point, %.6g Hz: its amplitude is no peak", hz);
@@ -212,7 +221,8 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     const std::int64_t top = branch.highest_point(dof, measure, harmonic);
     const double highest = branch.amplitude(top, dof, measure, harmonic);
     std::array<std::int64_t, 3> around;
-    const bool is_peak = neighbours(branch, top, around) && highest != 0;
+    const bool of_motion = moves(branch, top, highest),
+               is_peak = neighbours(branch, top, around) && of_motion;
     Peak peak;
     auto one = std::make_shared<Branch>(reduced, branch.force_scale(), branch.period_multiple());
     one->end_reason = PLM_REASON_RANGE_END;
@@ -221,7 +231,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     // in what is asked for, where harmonics are chosen; an exact motion lacks none
     double error = point.motion ? 0 : point.harmonic_error, above = 0;
     if (!is_peak) // it stays where it is
-        watch_.keeping(one->warnings).warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, highest));
+        watch_.keeping(one->warnings).warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, of_motion));
     if (is_peak) {
         HbmOptions options = options_on(*reduced, options_);
         options.force_scale = point.force_scale;
@@ -263,8 +273,10 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     warn_of_harmonics(limits, error, *one);
     if (is_peak && options_.n_harmonics != 0 && !one->points()[0].motion)
         warn_of_given_harmonics(reduced, options_, dof, measure, harmonic, *one);
-    const double by_basis = basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic},
-                                           std::max(few_flops, flops_of(branch, options_)), watch_);
+    const double by_basis = of_motion
+                                ? basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic},
+                                                 std::max(few_flops, flops_of(branch, options_)), watch_)
+                                : NAN;
     check_peak(window_, options_.accuracy, by_basis, watch_, *one);
     if (is_peak) check_stability(branch, {dof, measure, harmonic}, options_.accuracy, watch_, *one);
     if (one->reduced().model)
