@@ -1,6 +1,7 @@
 #include "searches/curve_verdicts.hpp"
 #include "contact/contact_measures.hpp"
 #include "reduction/compression.hpp"
+#include "searches/harmonic_choice.hpp"
 #include "searches/wider_range.hpp"
 #include "space/audit.hpp"
 #include <algorithm>
@@ -241,6 +242,15 @@ void check_span(bool upward, Watch watch, Branch &branch) {
                    "%s. Sweep from the other end, too (\"direction\"), and over a wider range, and look for "
                    "motions of other periods (\"period_multiple\") where it is not stable",
                    begin / (2 * M_PI), farthest / (2 * M_PI), from_above ? "below" : "above"));
+}
+
+bool says_more(const Branch &exact, const Branch &by_harmonics) {
+    if (exact.points().empty() || !exact.points().front().motion) return false;
+    if (is_worthless(by_harmonics)) return true;
+    const std::int64_t top = largest_response(exact);
+    const bool has_top = top > 0 && top + 1 < static_cast<std::int64_t>(exact.points().size());
+    const auto highest = static_cast<std::size_t>(largest_response(by_harmonics));
+    return has_top && by_harmonics.points()[highest].harmonic_error >= worthless_error;
 }
 
 void check_damping(Watch watch, Branch &branch) {

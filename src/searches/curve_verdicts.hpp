@@ -42,6 +42,10 @@ void check_span(bool upward, Watch watch, Branch &branch);
 /// Whether a curve goes from one end of its range to the other, after check_span().
 bool spans(const Branch &curve);
 
+/// Part of a curve of exact motions says more than a whole one by harmonics that need not be near any motion,
+/// or not at its highest point while the part has a top already.
+bool says_more(const Branch &exact, const Branch &by_harmonics);
+
 /// Through a resonance that nothing damps no curve comes, and what it shows there is no height.
 void check_damping(Watch watch, Branch &branch);
 

@@ -256,7 +256,7 @@ void Hbm::take_harmonics(std::shared_ptr<Branch> &branch) const {
         other.options_.harmonics_by_cost = few;
         within(effort_left(), [&] {
             const auto next = other.sweep_either_way();
-            if (!branch || !(was_stopped(*next) || is_worthless(*next))) branch = next;
+            if (!branch || !(was_stopped(*next) || says_more(*branch, *next))) branch = next;
         });
     }
 }
