@@ -3,6 +3,7 @@
 #include "hbm/solved_point.hpp"
 #include "hbm/start.hpp"
 #include "motions/first_harmonics.hpp"
+#include "motions/motion_measures.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -207,10 +208,10 @@ std::string remedy(const HbmOptions &o, const BranchPoint &p) {
         "make the basis for more harmonics (n_harmonics of sampler and basis) or the contact "
         "softer, and compare with the exact periodic motion that a transient finds";
     if (o.harmonics_by_cost && harmonics_of(p, o.period_multiple) >= o.max_harmonics)
-        return format("so many coordinates and pairs move that with more than %lld harmonics the curve takes "
-                      "many minutes. Set n_harmonics for more or, if that is accurate enough, "
-                      "harmonic_tolerance; otherwise ",
-                      static_cast<long long>(o.max_harmonics)) +
+        return format(
+                   "a curve of more than %lld harmonics takes longer than is allowed here. Set n_harmonics "
+                   "for more or, if that is accurate enough, harmonic_tolerance; otherwise ",
+                   static_cast<long long>(o.max_harmonics)) +
                others;
     if (harmonics_of(p, o.period_multiple) >= o.max_harmonics)
         return format("raise max_harmonics (%lld) or, if that is accurate enough, harmonic_tolerance; "
@@ -250,6 +251,15 @@ bool is_worthless(const Branch &curve) {
     const auto over = std::count_if(points.begin(), points.end(),
                                     [](const BranchPoint &p) { return balance_error(p) >= worthless_error; });
     return 2 * over > static_cast<std::ptrdiff_t>(points.size());
+}
+
+bool says_more(const Branch &exact, const Branch &by_harmonics) {
+    if (exact.points().empty() || !exact.points().front().motion) return false;
+    if (is_worthless(by_harmonics)) return true;
+    const std::int64_t top = largest_response(exact);
+    const bool has_top = top > 0 && top + 1 < static_cast<std::int64_t>(exact.points().size());
+    const auto highest = static_cast<std::size_t>(largest_response(by_harmonics));
+    return has_top && by_harmonics.points()[highest].harmonic_error >= worthless_error;
 }
 
 void warn_of_harmonics(const HbmOptions &options, Branch &branch) {

@@ -2,6 +2,7 @@
 #include "contact/contact_measures.hpp"
 #include "motions/motion_measures.hpp"
 #include "reduction/compression.hpp"
+#include "space/audit.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -126,7 +127,8 @@ void check_peak(const SweepRange &window, double accuracy, double error, Watch w
     if (!std::isfinite(error))
         check_basis(
             window, [=] { return error; }, watch, peak);
-    if (std::isinf(error) && !peak.warnings.has(PLM_REASON_BASIS_TOO_SMALL))
+    if (std::isinf(error) && peak.warnings.has(PLM_REASON_BASIS_TOO_SMALL)) return; // that is said
+    if (std::isinf(error))
         watch.keeping(peak.warnings)
             .warn(PLM_REASON_NO_CONTRACTION,
                   format("how much the basis (%lld coordinates) changes this peak, at %.6g Hz, is not known: "
@@ -245,6 +247,17 @@ void check_span(bool upward, Watch watch, Branch &branch) {
                    "%s. Sweep from the other end, too (\"direction\"), and over a wider range, and look for "
                    "motions of other periods (\"period_multiple\") where it is not stable",
                    begin / (2 * M_PI), farthest / (2 * M_PI), from_above ? "below" : "above"));
+}
+
+void check_damping(Watch watch, Branch &branch) {
+    if (!branch.reduced().model || branch.points().empty() || !is_undamped(*branch.reduced().model)) return;
+    const std::int64_t top = largest_response(branch),
+                       last = static_cast<std::int64_t>(branch.points().size()) - 1;
+    if (spans(branch) && (top == 0 || top == last)) return; // beside all resonances
+    watch.keeping(branch.warnings)
+        .warn(PLM_REASON_MODEL,
+              "the model has no damping: at a resonance the response is unbounded, and a curve ends there or "
+              "bounces without end. Give the model modal, Rayleigh or structural damping");
 }
 
 void check_switching(Watch watch, Branch &branch) {

@@ -42,6 +42,9 @@ void check_span(bool upward, Watch watch, Branch &branch);
 /// Whether a curve goes from one end of its range to the other, after check_span().
 bool spans(const Branch &curve);
 
+/// Through a resonance that nothing damps no curve comes, and what it shows there is no height.
+void check_damping(Watch watch, Branch &branch);
+
 /// A curve on which no pair comes near to opening or closing is a linear response, most often of a gap or a
 /// pre-load in other units than the force.
 void check_switching(Watch watch, Branch &branch);

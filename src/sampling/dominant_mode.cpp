@@ -58,12 +58,15 @@ struct Candidates {
     vector<std::complex<double>> force; // phi . F
     vector<double> response;            // |phi . F| / omega^2: of a resonance at equal Q; 0 of rigid modes
     vector<double> contact_share;       // 0 of rigid modes, and where there is no more than rounding
+    bool excited = false;               // there is an excitation at all
 };
 
 Candidates candidates(const Space &space, const vector<double> &spring, SpaceModes modes) {
     const Matrix loads = driving_loads(space);
     align_clusters({&loads, &space.gap}, modes);
     Candidates c{std::move(modes), {}, {}, {}};
+    c.excited = std::any_of(loads.data(), loads.data() + loads.rows() * loads.cols(),
+                            [](double f) { return f != 0; });
     const Matrix force = product('N', 'N', loads, c.modes.vectors),
                  gap = product('N', 'N', space.gap, c.modes.vectors);
     for (std::int64_t j = 0; j < c.modes.vectors.cols(); ++j) {
@@ -213,8 +216,12 @@ std::int64_t by_response(const Candidates &c, const vector<std::int64_t> &among,
     }
     watch.warn(
         PLM_REASON_LOST_MODE,
-        "the excitation moves no mode searched: the lowest flexible one is taken as the dominant mode; name "
-        "the mode if another is meant");
+        c.excited
+            ? "the excitation moves no mode searched: the lowest flexible one is taken as the dominant mode; "
+              "name the mode if another is meant"
+            : "no harmonic excitation acts on the free DOFs: the forced response is zero, and the lowest "
+              "flexible mode is taken as the dominant one. Give the model an excitation of harmonic 1 or "
+              "above, on DOFs that are not fixed");
     return moving(c, among, among).front();
 }
 

@@ -91,14 +91,16 @@ class Chain {
             take_better(best, [&](ComputedResponse &next) { next = refined(best); });
     }
 
-    // However little was allowed, there is an answer.
+    // However little was allowed, there is an answer. Part of a curve of exact motions is one: a curve by
+    // harmonics was then tried beside it, and on fewer coordinates it would only look better.
     void take_first_curve(const std::shared_ptr<const Basis> &smallest, ComputedResponse &best) {
         spent_ = true;
         const auto look = [&] {
             const auto first = curve_of_few_harmonics(*smallest, widened(smallest->reduced()));
             if (!best.curve || is_whole(*first)) best = with_curve(smallest, first);
         };
-        unless_there_is(best, [&] { within(flops_of_first_curve, look); });
+        if (!best.curve || !best.curve->points().front().motion)
+            unless_there_is(best, [&] { within(flops_of_first_curve, look); });
         if (!best.curve)
             throw Error(PLM_CANCELLED,
                         "no periodic response was found with the effort allowed; raise the effort "
@@ -311,6 +313,8 @@ class Chain {
 
     void tell(ComputedResponse &r) const {
         Warnings all;
+        for (const Warning &w : r.curve->warnings.list())
+            if (w.reason == PLM_REASON_MODEL) all.add(w.reason, w.text); // what explains the rest comes first
         if (r.basis->sampler()) all.add(r.basis->sampler()->warnings());
         all.add(r.basis->report().warnings);
         all.add(r.curve->warnings);

@@ -60,6 +60,7 @@ std::shared_ptr<const Branch> Hbm::sweep(const Output &asked) const {
 std::shared_ptr<const Branch> Hbm::judged(const SweepTask &task) const {
     const Clock::time_point begin = Clock::now();
     const auto branch = sweep_whole(task);
+    check_damping(watch_, *branch);
     judge(*branch);
     branch->seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     return branch;

@@ -187,10 +187,42 @@ bool neighbours(const Branch &branch, std::int64_t top, std::array<std::int64_t,
     return inner || (branch.end_reason == PLM_REASON_LOOP_CLOSED && n > 3);
 }
 
-std::string why_no_peak(const Branch &branch, std::int64_t top, double amplitude) {
+// What rounding leaves of a DOF that does not move, of the largest one: its amplitude says nothing.
+bool moves(const Branch &branch, std::int64_t top, double amplitude) {
+    constexpr double rounding = 1e-12;
+    const ReducedModel &m = branch.reduced();
+    const BranchPoint &p = branch.points()[static_cast<std::size_t>(top)];
+    if (amplitude == 0 || !m.model || p.eta.cols() < 2) return amplitude != 0;
+    return amplitude > rounding * largest_entry(combine(m.vectors, p.eta.columns(0, 2))).size;
+}
+
+// ", ...": what a curve that is highest at its end has of peaks inside.
+std::string highest_inside(const Branch &branch, const Output &of) {
+    const auto height = [&](std::size_t i) {
+        return branch.amplitude(static_cast<std::int64_t>(i), of.dof, of.measure, of.harmonic);
+    };
+    std::size_t best = 0;
+    for (std::size_t i = 1; i + 1 < branch.points().size(); ++i)
+        if (height(i) > height(i - 1) && height(i) >= height(i + 1) &&
+            (best == 0 || height(i) > height(best)))
+            best = i;
+    if (best == 0) return "";
+    return format(". Inside the curve the highest peak is about %.4g, at %.6g Hz", height(best),
+                  branch.points()[best].omega / (2 * M_PI));
+}
+
+// Towards 0 Hz what nothing holds moves as a whole, by more and more.
+bool is_motion_as_a_whole(const Branch &branch, std::int64_t top) {
+    const auto &points = branch.points();
+    const Model *model = branch.reduced().model.get();
+    const double omega = points[static_cast<std::size_t>(top)].omega;
+    return model && model->n_unheld() > 0 && omega < std::max(points.front().omega, points.back().omega);
+}
+
+std::string why_no_peak(const Branch &branch, std::int64_t top, bool of_motion, const Output &of) {
     const std::int64_t n = static_cast<std::int64_t>(branch.points().size());
     const double hz = branch.points()[static_cast<std::size_t>(top)].omega / (2 * M_PI);
-    if (amplitude == 0)
+    if (!of_motion)
         return "this DOF does not move on the curve (in this measure), as one that is fixed, or at a node of "
                "the motion: it has no peak. Ask for a DOF that moves";
     if (n == 1) return format("the curve is a single point, %.6g Hz: its amplitude is no peak", hz);
@@ -199,10 +231,19 @@ std::string why_no_peak(const Branch &branch, std::int64_t top, double amplitude
             "the highest point, %.6g Hz, is where the curve ended early (%s): no peak is known to be "
             "there",
             hz, end_text(branch.end_reason).c_str());
-    return format(
-        "the highest point stands at an end of the curve, %.6g Hz: the peak lies beyond it. Follow the "
-        "curve over a wider range (frequency_min_hz, frequency_max_hz)",
-        hz);
+    if (is_motion_as_a_whole(branch, top))
+        return format(
+                   "the highest point stands at the lower end of the curve, %.6g Hz, where the structure, "
+                   "which nothing holds, moves as a whole: by more the lower the frequency, without a peak. "
+                   "Follow the curve over the resonance that is meant (frequency_min_hz, "
+                   "frequency_max_hz), or ask for a DOF that moves less as a whole",
+                   hz) +
+               highest_inside(branch, of);
+    return format("the highest point stands at an end of the curve, %.6g Hz: the peak lies beyond it. Follow "
+                  "the "
+                  "curve over a wider range (frequency_min_hz, frequency_max_hz)",
+                  hz) +
+           highest_inside(branch, of);
 }
 
 } // namespace
@@ -212,7 +253,8 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     const std::int64_t top = branch.highest_point(dof, measure, harmonic);
     const double highest = branch.amplitude(top, dof, measure, harmonic);
     std::array<std::int64_t, 3> around;
-    const bool is_peak = neighbours(branch, top, around) && highest != 0;
+    const bool of_motion = moves(branch, top, highest),
+               is_peak = neighbours(branch, top, around) && of_motion;
     Peak peak;
     auto one = std::make_shared<Branch>(reduced, branch.force_scale(), branch.period_multiple());
     one->end_reason = PLM_REASON_RANGE_END;
@@ -221,7 +263,8 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     // in what is asked for, where harmonics are chosen; an exact motion lacks none
     double error = point.motion ? 0 : point.harmonic_error, above = 0;
     if (!is_peak) // it stays where it is
-        watch_.keeping(one->warnings).warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, highest));
+        watch_.keeping(one->warnings)
+            .warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, of_motion, {dof, measure, harmonic}));
     if (is_peak) {
         HbmOptions options = options_on(*reduced, options_);
         options.force_scale = point.force_scale;
@@ -261,8 +304,9 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     one->append(point);
     vector<std::complex<double>> of_structure;
     const double by_basis =
-        basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic},
-                       std::max(few_flops, flops_of(branch, options_)), watch_, &of_structure);
+        of_motion ? basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic},
+                                   std::max(few_flops, flops_of(branch, options_)), watch_, &of_structure)
+                  : NAN;
     if (!of_structure.empty()) {
         point.multipliers = std::move(of_structure);
         point.multiplier_error = 0;

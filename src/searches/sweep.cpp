@@ -181,6 +181,7 @@ std::shared_ptr<Branch> sweep_either_way(const SweepTask &task) {
 }
 
 // As few harmonics as show the curve, then as many as its points need: the last one that there is effort for.
+// Part of a curve of exact motions is worth more than a whole one that need not be near any motion.
 void take_harmonics(const SweepTask &task, std::shared_ptr<Branch> &branch) {
     task.watch.log(1, "exact motions would take more than the effort allowed: the curve by harmonic balance");
     SweepTask other = task;
@@ -193,7 +194,7 @@ void take_harmonics(const SweepTask &task, std::shared_ptr<Branch> &branch) {
         other.options.harmonics_by_cost = few;
         within(effort_left(), [&] {
             const auto next = sweep_either_way(other);
-            if (!branch || !was_stopped(*next)) branch = next;
+            if (!branch || !(was_stopped(*next) || says_more(*branch, *next))) branch = next;
         });
     }
 }

@@ -156,10 +156,7 @@ class Audit {
     }
 
     void damping() {
-        const Damping &d = m_.damping();
-        const bool modal =
-            std::any_of(d.modal_ratio.begin(), d.modal_ratio.end(), [](double z) { return z > 0; });
-        if (d.alpha == 0 && d.beta == 0 && d.structural == 0 && !modal && !d.has_matrix)
+        if (is_undamped(m_))
             add(1, 0,
                 "no damping: the response at resonance is unbounded, and a curve may end there; give the "
                 "model modal, Rayleigh or structural damping");
@@ -261,6 +258,13 @@ class Audit {
 };
 
 } // namespace
+
+bool is_undamped(const Model &model) {
+    const Damping &d = model.damping();
+    const bool modal =
+        std::any_of(d.modal_ratio.begin(), d.modal_ratio.end(), [](double z) { return z > 0; });
+    return d.alpha == 0 && d.beta == 0 && d.structural == 0 && !modal && !d.has_matrix;
+}
 
 std::vector<Finding> audit(const Model &model) {
     return Audit(model).run(false);

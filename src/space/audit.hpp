@@ -7,6 +7,9 @@
 
 namespace plm {
 
+/// Nothing damps the structure, so that a resonance has no height.
+bool is_undamped(const Model &model);
+
 std::vector<Finding> audit(const Model &model);
 /// What costs next to nothing: without the lowest modes.
 std::vector<Finding> quick_audit(const Model &model);

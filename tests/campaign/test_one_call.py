@@ -5,7 +5,9 @@ import numpy as np
 import plm
 
 import campaign
+import exact
 import families
+from families_brought import modal_matrix
 
 
 def two_bases_that_agree_tell_what_no_estimate_does():
@@ -55,7 +57,31 @@ def a_refinement_under_stiff_contact_meets_its_tolerance():
     assert abs(amplitude[0] / amplitude[1] - 1) < 1e-3, amplitude
 
 
+def a_tangle_of_bounces_is_not_answered_by_few_harmonics():
+    """A beam driven where it strikes a stop of 1e4 times its stiffness, all its modes damped by 1 %: a curve of tens of folds, which
+    more work would follow further. What there is of it is exact; a whole curve of 5 harmonics is five times too high."""
+    M, K = (a[2:, 2:] for a in families.beam_matrices(10))
+    n, tip = len(M), len(M) - 2
+    B, F = families.gap_row(n, (tip, 1.0))[None], families.gap_row(n, (tip, 1.0))
+    kn = np.array([1e4 / np.linalg.inv(K)[tip, tip]])
+    m = dict(M=M, K=K, C=modal_matrix(M, K, [0.01]), damping=("modal", [0.01]), B=B, kn=kn, g=np.zeros(1), P=np.zeros(n), F=F, out=tip)
+    model = campaign.build(m)
+    model.context.set_effort(3)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", plm.PlmWarning)
+        response = model.compute_response(tip, measure="peak")
+    assert "ended early" in str(said[-1].message) and "effort" in str(said[-1].message), str(said[-1].message)
+    assert np.isnan(response.error), response.error
+    s = exact.Structure(M, m["C"], K, B, kn, m["g"], m["P"], F.astype(complex), tip)
+    top = int(np.argmax(response.curve.amplitude(tip, "peak")))
+    q = response.curve.coefficients(top)
+    omega, h = 2 * np.pi * response.frequency_hz, np.arange(1, (len(q) - 1) // 2 + 1)[:, None]
+    x, _ = s.periodic(np.concatenate([q[0] + q[1::2].sum(0), omega * (h * q[2::2]).sum(0)]), omega)
+    assert abs(response.amplitude / s.amplitude(x, omega) - 1) < 1e-3, (response.amplitude, s.amplitude(x, omega))
+
+
 for test in (two_bases_that_agree_tell_what_no_estimate_does, a_step_that_crosses_to_a_closed_curve_is_found_out,
-             a_sweep_begins_where_an_exact_motion_is_found, a_refinement_under_stiff_contact_meets_its_tolerance):
+             a_sweep_begins_where_an_exact_motion_is_found, a_refinement_under_stiff_contact_meets_its_tolerance,
+             a_tangle_of_bounces_is_not_answered_by_few_harmonics):
     test()
     print(test.__name__, "ok")

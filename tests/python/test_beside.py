@@ -202,6 +202,23 @@ class TopOfACurve(unittest.TestCase):
         hbm.accuracy = 1e-2  # to which it is right
         self.assertEqual(quiet(lambda: hbm.find_peak(curve, models.WATCHED))[1], [])
 
+    def test_where_a_free_structure_moves_as_a_whole_its_resonance_is_named(self):
+        """Two free masses that strike each other: far below their resonance each moves by force over mass and frequency squared."""
+        m = plm.Model(numpy.eye(2), 1e4 * numpy.array([[1.0, -1.0], [-1.0, 1.0]]))
+        m.set_rayleigh_damping(0, 2e-4)
+        m.add_gap_rows([[1.0, -1.0]], stiffness=1e4, gap=0.0)
+        m.set_excitation([1.0, 0.0])
+        basis = plm.Basis(quiet(m.build)[0], plm.Sampler(m).run()).build()
+        hbm = plm.Hbm(basis, frequency_min_hz=1.0, frequency_max_hz=40.0)
+        curve, _ = quiet(hbm.sweep)
+        heights, hz = curve.amplitude(0), curve.frequency_hz
+        peaks = 1 + numpy.flatnonzero((heights[1:-1] > heights[:-2]) & (heights[1:-1] >= heights[2:]))
+        top = peaks[numpy.argmax(heights[peaks])]
+        end, said = quiet(lambda: hbm.find_peak(curve, 0))
+        self.assertAlmostEqual(end.frequency_hz, 1.0)
+        self.assertAlmostEqual(end.amplitude * 2 * (2 * numpy.pi)**2, 1, delta=0.02)  # half the force for each mass
+        self.assertRegex(" ".join(said), "moves as a whole.*Inside the curve the highest peak is about %.4g, at %.6g Hz" % (heights[top], hz[top]))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -148,6 +148,8 @@ MISTAKES = [
     ("the basis' build forgotten", lambda: without_build("basis"), "the basis is not built", "build it first"),
     ("a sampler of another model", other_model, "the sampler is of another model", "make both from one"),
     ("no excitation", lambda: model(force=None), "no harmonic excitation.*the response is zero", "give the model one, of harmonic 1"),
+    ("no excitation, and the whole way gone", lambda: run(force=None), "no harmonic excitation acts on the free DOFs",
+     "Give the model an excitation of harmonic 1"),
     ("an excitation of zeros", lambda: model(force=unit(TIP, 0.0)), "no harmonic excitation", "give the model one, of harmonic 1"),
     ("an excitation on a support", lambda: model(force=unit(0)), "acts on fixed DOFs only", "move it to DOFs that are free"),
     ("a range upside down", lambda: run(options={"frequency_min_hz": 30.0, "frequency_max_hz": 20.0}), r"range \[30, 20\] Hz is empty",
@@ -156,11 +158,14 @@ MISTAKES = [
     ("a gap that never closes", lambda: run(gap=1.0), "no contact pair opens or closes", "Check the units of gaps, pre-load and excitation"),
     ("a force beside the clamp", lambda: run(force=unit(2, 1e-9)), "no contact pair opens or closes", "pre-load and excitation"),
     ("a force on a part that the contact does not hold", two_beams, "does not move the contact", "name the mode of the resonance"),
+    ("the peak of a part that the force does not move", two_beams, "this DOF does not move on the curve", "Ask for a DOF that moves"),
     ("a range without a resonance", lambda: run(options={"frequency_min_hz": 20.0, "frequency_max_hz": 30.0}),
      "stands at an end of the curve, 20 Hz", "Follow the curve over a wider range"),
     ("rad/s for Hz", lambda: run(options={"frequency_min_hz": 45.0, "frequency_max_hz": 75.0}), "the whole curve lies outside the 7.9.* Hz",
      r"Are the limits in Hz \(rad/s over 2 pi\)"),
     ("no damping", lambda: model(damping=None), "no damping: .* unbounded", "give the model modal, Rayleigh"),
+    ("no damping, and the whole way gone", lambda: run(damping=None), "the model has no damping: at a resonance the response is unbounded",
+     "Give the model modal, Rayleigh"),
     ("a pre-load that opens every pair", lambda: model(gap=0, preload=unit(TIP, -5.0)), "under the pre-load all 1 pairs are open", "are wrong"),
     ("contact 1e12 times too stiff", lambda: model(contact=5e14), "9.52e.11 of the local stiffness", "1 to 50 is a good choice"),
     ("an option misspelt", lambda: plm.Hbm(plm.Basis(model()), n_harmonic=5), 'has no key "n_harmonic"', 'did you mean "n_harmonics"'),
@@ -212,6 +217,7 @@ class Mistakes(unittest.TestCase):
             with self.subTest(name):
                 told = " ".join(answer(attempt))
                 self.assertRegex(told, f"(?s){cause}.*{remedy}|{remedy}.*{cause}")
+                self.assertNotRegex(told, r"\b(inf|nan) (of itself|times)")
 
 
 if __name__ == "__main__":

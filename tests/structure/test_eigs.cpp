@@ -108,6 +108,29 @@ void a_vector_that_is_off_is_mended_beside_penalties(void **) {
     assert_true(std::fabs(e.values[3] / whole.values[3] - 1) < 1e-9);
 }
 
+// A chain held at both ends whose middle mass is two halves, tied by a spring 2^28 times as stiff as the
+// others, so that no entry is rounded: its eigenvalues are those of the chain with one mass there to 1e-11.
+// Rounding of the factor and of K x changes them by 1e-6.
+void eigenvalues_beside_penalties_keep_their_digits(void **) {
+    constexpr std::int64_t n = 401, middle = n / 2;
+    const double penalty = std::ldexp(1.0, 28);
+    vector<std::int64_t> i, j;
+    vector<double> v, mass(n + 1, 1.0);
+    const auto spring = [&](std::int64_t a, std::int64_t b, double k) {
+        i.insert(i.end(), {a, b, a, b}), j.insert(j.end(), {a, b, b, a}), v.insert(v.end(), {k, k, -k, -k});
+    };
+    for (std::int64_t a = 0; a < n; ++a)
+        if (a != middle) spring(a, a + 1, 1);
+    spring(middle, middle + 1, penalty);
+    mass[middle] = mass[middle + 1] = 0.5;
+    for (std::int64_t end : {std::int64_t{0}, n}) i.push_back(end), j.push_back(end), v.push_back(1);
+    const auto e = lowest(plm::from_triplets(n + 1, n + 1, i, j, v), diagonal(mass), 0, 8);
+    for (int mode = 0; mode < 8; ++mode) {
+        const double exact = 2 - 2 * std::cos(pi * (mode + 1) / (n + 1));
+        assert_true(std::fabs(e.values[mode] / exact - 1) < 1e-9);
+    }
+}
+
 void double_eigenvalues_of_a_square_membrane_come_in_pairs(void **) {
     for (std::int64_t n : {12, 40}) {
         const SparseMatrix k = membrane(n, n), m = unit_mass(n * n);
@@ -243,6 +266,7 @@ int main() {
         cmocka_unit_test(lanczos_agrees_with_lapack_on_random_pencils),
         cmocka_unit_test(arpack_and_lanczos_agree),
         cmocka_unit_test(a_vector_that_is_off_is_mended_beside_penalties),
+        cmocka_unit_test(eigenvalues_beside_penalties_keep_their_digits),
         cmocka_unit_test(double_eigenvalues_of_a_square_membrane_come_in_pairs),
         cmocka_unit_test(a_copy_that_lanczos_misses_is_put_in),
         cmocka_unit_test(many_equal_copies_are_all_found),
