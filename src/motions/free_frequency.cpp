@@ -1,4 +1,4 @@
-#include "searches/free_frequency.hpp"
+#include "motions/free_frequency.hpp"
 #include "linalg/scale.hpp"
 #include <algorithm>
 #include <cmath>
