@@ -21,6 +21,16 @@ void HarmonicEquations::residual(const double *x, double omega, double *r) {
     system_->residual(x, omega, r);
 }
 
+void HarmonicEquations::set(PathParameter parameter, double value) {
+    if (parameter == PathParameter::stiffness) return system_->set_stiffness_factor(std::exp(value));
+    system_->set_force_scale(value);
+}
+
+void HarmonicEquations::derivative(PathParameter parameter, double *r) {
+    if (parameter == PathParameter::stiffness) return system_->stiffness_derivative(r);
+    system_->force_derivative(r);
+}
+
 vector<double> HarmonicEquations::unknowns(const BranchPoint &point) const {
     return unknowns_of(*system_, point);
 }

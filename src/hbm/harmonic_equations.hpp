@@ -30,8 +30,8 @@ class HarmonicEquations final : public PeriodicEquations {
     bool in_balance() const override { return system_->in_balance(); }
     std::int64_t piece() const override { return system_->piece(); }
 
-    void set_force(double scale) override { system_->set_force_scale(scale); }
-    void force_derivative(double *r) override { system_->force_derivative(r); }
+    void set(PathParameter parameter, double value) override;
+    void derivative(PathParameter parameter, double *r) override;
     vector<double> unknowns(const BranchPoint &point) const override;
     BranchPoint solved_point(const PathState &at, double residual, std::int64_t iterations) override;
     bool find(double omega, Watch watch, vector<double> &x, NewtonWork &work) override;

@@ -35,13 +35,17 @@ struct MotionGradient {
     double by_frequency = 0, by_force = 0;
 };
 
+/// What else a path may be followed in: the force scale, or the logarithm of a factor on the stiffness of
+/// every pair.
+enum class PathParameter { force, stiffness };
+
 /// Their parameter is the frequency (rad/s, of the excitation).
 class PeriodicEquations : public Residual {
   public:
-    /// The force scale from the next residual() on, in the place of that of the options.
-    virtual void set_force(double scale) = 0;
-    /// dR/d(force scale) at the last residual().
-    virtual void force_derivative(double *r) = 0;
+    /// From the next residual() on. PLM_ERR_ARGUMENT for what they cannot change.
+    virtual void set(PathParameter parameter, double value) = 0;
+    /// dR/d(parameter) at the last residual().
+    virtual void derivative(PathParameter parameter, double *r) = 0;
 
     virtual vector<double> unknowns(const BranchPoint &point) const = 0;
     /// Of a solution just found.

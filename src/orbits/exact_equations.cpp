@@ -62,12 +62,16 @@ void ExactEquations::residual(const double *x, double omega, double *r) {
     orbits_.residual(x, omega, r);
 }
 
-void ExactEquations::set_force(double scale) {
-    options_.force_scale = scale;
-    orbits_.set_other(scale);
+void ExactEquations::set(PathParameter parameter, double value) {
+    if (parameter != PathParameter::force)
+        throw Error(PLM_ERR_ARGUMENT,
+                    "exact motions are not followed over the contact stiffness; set motion to harmonics")
+            .argument("motion");
+    options_.force_scale = value;
+    orbits_.set_other(value);
 }
 
-void ExactEquations::force_derivative(double *r) {
+void ExactEquations::derivative(PathParameter, double *r) {
     by_force_.set_other(omega_);
     by_force_.residual(x_.data(), options_.force_scale, r);
     by_force_.parameter_derivative(r);
@@ -97,7 +101,7 @@ void ExactEquations::factor_bordered(const Border &border, std::unique_ptr<Borde
 ExactEquations::Derivatives ExactEquations::derivatives() {
     Derivatives d{orbits_.tangent(), vector<double>(x_.size()), vector<double>(x_.size())};
     orbits_.parameter_derivative(d.by_frequency.data());
-    force_derivative(d.by_force.data());
+    derivative(PathParameter::force, d.by_force.data());
     return d;
 }
 

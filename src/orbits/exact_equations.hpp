@@ -26,9 +26,10 @@ class ExactEquations final : public PeriodicEquations {
     bool recall() override { return orbits_.recall(); }
     std::int64_t piece() const override { return orbits_.piece(); }
 
-    void set_force(double scale) override;
+    /// The force alone: a flow has the stiffness of its model.
+    void set(PathParameter parameter, double value) override;
     /// One more run of the flow.
-    void force_derivative(double *r) override;
+    void derivative(PathParameter parameter, double *r) override;
     vector<double> unknowns(const BranchPoint &point) const override;
     BranchPoint solved_point(const PathState &at, double residual, std::int64_t iterations) override;
     /// By marching: to a stable motion, where there is one.

@@ -13,7 +13,7 @@ void FoldSystem::choose_borders(const BranchPoint &about) {
     constexpr int inverse_steps = 4;
     const vector<double> x = inner_.unknowns(about);
     vector<double> r(x.size());
-    inner_.set_force(about.force_scale);
+    inner_.set(PathParameter::force, about.force_scale);
     inner_.residual(x.data(), about.omega, r.data());
     inner_.factor_bordered(Border(), linear_);
     border_.reset(n_, 1);

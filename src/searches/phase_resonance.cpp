@@ -24,14 +24,15 @@ constexpr double about_resonance = 0.02; // relative: a corrected start farther 
 // --- a path of phase-resonant points
 
 struct PhaseResonance::Followed final : public Tracer {
-    Followed(const PhaseResonance &of, const BranchPoint &about, Branch &branch)
+    Followed(const PhaseResonance &of, const BranchPoint &about, Branch &branch,
+             PathParameter over = PathParameter::force)
         : Tracer("isolated branches", of.watch_, branch), options(of.options_.hbm),
           low(2 * M_PI * options.frequency_min_hz), high(2 * M_PI * options.frequency_max_hz),
           equations(make_equations(of.reduced_, options,
                                    of.options_.exact ? MotionsAre::exact : MotionsAre::harmonic,
                                    about.omega)),
           scale(response_at_force(plm::size_of(*equations, equations->unknowns(about)), about, options)),
-          resonant(*equations, about.omega, scale / (high - low)) {}
+          resonant(*equations, about.omega, scale / (high - low), over), parameter(over) {}
 
     void run(const PathOptions &range, const PathStart &from) { follow(resonant, range, from); }
     void record(const PathPoint &p) override {
@@ -41,12 +42,15 @@ struct PhaseResonance::Followed final : public Tracer {
         if (p.bifurcation == crossing) point.bifurcation = PLM_BIFURCATION_NONE;
         point.multipliers = multipliers_at(*equations, point);
         omega = point.omega;
+        passed.push_back(p.parameter);
         branch_.append(std::move(point));
     }
     void test(const vector<double> &, double force, vector<double> &values) override {
-        values = {force - options.force_scale};
+        if (parameter == PathParameter::force) values = {force - options.force_scale};
     }
-    vector<std::int32_t> test_kinds() const override { return {crossing}; }
+    vector<std::int32_t> test_kinds() const override {
+        return vector<std::int32_t>(parameter == PathParameter::force ? 1 : 0, crossing);
+    }
     bool interrupt() override { return omega < low || omega > high; }
 
     HbmOptions options;
@@ -54,7 +58,9 @@ struct PhaseResonance::Followed final : public Tracer {
     std::unique_ptr<PeriodicEquations> equations;
     double scale;
     PhaseSystem resonant;
+    PathParameter parameter;
     vector<std::size_t> crossings;
+    vector<double> passed; // the parameter at each point
 };
 
 PhaseResonance::PhaseResonance(std::shared_ptr<const ReducedModel> reduced, const BackboneOptions &options,
@@ -96,6 +102,19 @@ Backbone PhaseResonance::follow(const BranchPoint &start, bool upward, double lo
     if (branch->end_reason == PLM_REASON_NONE) branch->end_reason = PLM_REASON_RANGE_END;
     branch->unknowns_used = options_.exact ? "state" : "modal";
     return {branch, std::move(path.crossings)};
+}
+
+StiffnessPath PhaseResonance::over_stiffness(const BranchPoint &peak, double factor) const {
+    StiffnessPath found{new_branch(), {}};
+    Followed path(*this, peak, *found.branch, PathParameter::stiffness);
+    const double end = std::log(factor);
+    PathOptions range = path_options(options_.hbm, std::min(0.0, end), std::max(0.0, end));
+    range.upward = end > 0;
+    PathStart from;
+    from.at = {path.resonant.unknowns(peak), 0};
+    path.run(range, from);
+    for (double p : path.passed) found.factor.push_back(std::exp(p));
+    return found;
 }
 
 Backbone PhaseResonance::upward_from(const BranchPoint &start) const {

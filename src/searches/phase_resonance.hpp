@@ -22,6 +22,12 @@ struct Backbone {
     vector<std::size_t> crossings;  // points of `branch` at the force scale asked for
 };
 
+/// A resonance's peak over the stiffness of the contact.
+struct StiffnessPath {
+    std::shared_ptr<Branch> branch;
+    vector<double> factor; // on the stiffness of every pair, of each point
+};
+
 /// Finds and follows phase-resonant solutions.
 class PhaseResonance {
   public:
@@ -38,6 +44,9 @@ class PhaseResonance {
     /// On from a phase-resonant point at the force asked for, to the side where the force grows, down to no
     /// force.
     Backbone onward(const BranchPoint &point) const;
+    /// From a phase-resonant motion of harmonic balance at the force asked for, to `factor` times the
+    /// stiffness.
+    StiffnessPath over_stiffness(const BranchPoint &peak, double factor) const;
     /// The phase-resonant points of a response curve at its force, in the order of the curve.
     std::vector<BranchPoint> on_curve(const Branch &curve) const;
 

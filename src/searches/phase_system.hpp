@@ -1,6 +1,6 @@
 // Phase-resonant motions as equations of a path over the force.
 #pragma once
-#include "searches/free_frequency.hpp"
+#include "motions/free_frequency.hpp"
 
 namespace plm {
 

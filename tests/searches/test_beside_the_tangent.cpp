@@ -2,6 +2,7 @@
 #include "hbm/make_system.hpp"
 #include "reduction/reduced_rest.hpp"
 #include "searches/fold_system.hpp"
+#include "searches/phase_resonance.hpp"
 #include "searches/phase_system.hpp"
 #include "searches/point_equations.hpp"
 #include "support/small_reduced.hpp"
@@ -15,8 +16,9 @@ namespace {
 
 constexpr double omega = 0.7;
 
-std::shared_ptr<plm::ReducedModel> chain_model() {
-    return test::reduce_exactly(exact::Structure(test::chain(6, 0.02, 30, 0.05, 0.4, 0.3, {1, 3, 5})));
+std::shared_ptr<plm::ReducedModel> chain_model(double contact_stiffness = 30) {
+    return test::reduce_exactly(
+        exact::Structure(test::chain(6, 0.02, contact_stiffness, 0.05, 0.4, 0.3, {1, 3, 5})));
 }
 
 plm::HbmOptions chain_options() {
@@ -99,12 +101,34 @@ void phase_matches_differences(void **) {
     }
 }
 
+// Followed over the stiffness, a resonance is that of the model that has it.
+void peaks_are_followed_over_the_stiffness(void **) {
+    plm::BackboneOptions options;
+    options.hbm = chain_options();
+    options.hbm.frequency_min_hz = 0.02;
+    options.hbm.frequency_max_hz = 1;
+    const plm::PhaseResonance resonance(chain_model(), options, plm::Watch());
+    const auto backbones = resonance.backbones();
+    assert_false(backbones.empty() || backbones[0].crossings.empty());
+    plm::BranchPoint peak = backbones[0].branch->points()[backbones[0].crossings[0]];
+    assert_true(resonance.correct(1, peak));
+    const plm::StiffnessPath path = resonance.over_stiffness(peak, 4);
+    const auto &points = path.branch->points();
+    assert_true(points.size() == path.factor.size() && path.branch->end_reason == PLM_REASON_RANGE_END);
+    assert_true(near(path.factor.back(), 4, 1e-12));
+    plm::BranchPoint other = points.back();
+    assert_true(plm::PhaseResonance(chain_model(120), options, plm::Watch()).correct(1, other));
+    assert_true(below(plm::solution_distance(points.back(), other), 1e-8)); // tolerance of the points
+    assert_true(below(1e-3, plm::solution_distance(points.front(), points.back())));
+}
+
 } // namespace
 
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(folds_match_differences),
         cmocka_unit_test(phase_matches_differences),
+        cmocka_unit_test(peaks_are_followed_over_the_stiffness),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

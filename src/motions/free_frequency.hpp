@@ -1,4 +1,4 @@
-// Periodic equations with the frequency as their last unknown, one equation more, and the force as the
+// Periodic equations with the frequency as their last unknown, one equation more, and another
 // parameter: y = (x, (omega - omega_reference) unit).
 #pragma once
 #include "motions/periodic_equations.hpp"
@@ -7,7 +7,8 @@ namespace plm {
 
 class FreeFrequency : public Residual {
   public:
-    FreeFrequency(PeriodicEquations &inner, double omega_reference, double unit);
+    FreeFrequency(PeriodicEquations &inner, double omega_reference, double unit,
+                  PathParameter parameter = PathParameter::force);
 
     std::int64_t size() const final { return n_ + 1; }
     std::int64_t static_size() const final { return inner_.static_size(); }
@@ -15,7 +16,7 @@ class FreeFrequency : public Residual {
     double residual_scale() const final { return inner_.residual_scale(); }
     bool in_balance() const final { return inner_.in_balance(); }
     std::int64_t piece() const final { return inner_.piece(); }
-    void residual(const double *y, double force, double *r) final;
+    void residual(const double *y, double p, double *r) final;
     void linearize() final;
     void solve(double *b, std::int64_t n) final;
     /// At the last linearize().
@@ -41,6 +42,7 @@ class FreeFrequency : public Residual {
 
   private:
     const double reference_;
+    const PathParameter parameter_;
     vector<double> weights_, by_force_;
     bool failed_ = false, stands_ = false; // the equations are where they were evaluated last
 };

@@ -1,25 +1,26 @@
-#include "searches/free_frequency.hpp"
+#include "motions/free_frequency.hpp"
 #include "linalg/scale.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace plm {
 
-FreeFrequency::FreeFrequency(PeriodicEquations &inner, double omega_reference, double unit)
-    : inner_(inner), n_(inner.size()), unit_(unit), reference_(omega_reference) {
+FreeFrequency::FreeFrequency(PeriodicEquations &inner, double omega_reference, double unit,
+                             PathParameter parameter)
+    : inner_(inner), n_(inner.size()), unit_(unit), reference_(omega_reference), parameter_(parameter) {
     if (!inner.weights()) return;
     weights_ = *inner.weights();
     weights_.push_back(1);
 }
 
-void FreeFrequency::residual(const double *y, double force, double *r) {
+void FreeFrequency::residual(const double *y, double p, double *r) {
     x_.assign(y, y + n_);
     omega_ = omega_of(y);
     stands_ = true;
     std::fill(r, r + n_ + 1, NAN);
     failed_ = !(omega_ > 0);
     if (failed_) return;
-    inner_.set_force(force);
+    inner_.set(parameter_, p);
     inner_.residual(x_.data(), omega_, r);
     failed_ = !std::isfinite(r[0]);
     if (!failed_) r[n_] = last_equation();
@@ -34,8 +35,9 @@ void FreeFrequency::linearize() {
         last_equation();
     }
     stands_ = false;
-    inner_.force_derivative(by_force_.data());
+    inner_.derivative(parameter_, by_force_.data());
     failed_ = !linearize_all(by_force_[n_]);
+    if (parameter_ != PathParameter::force) by_force_[n_] = 0; // phase knows the motion and the force alone
 }
 
 void FreeFrequency::solve(double *b, std::int64_t n) {
@@ -54,7 +56,7 @@ vector<double> FreeFrequency::unknowns(const BranchPoint &point) const {
 }
 
 BranchPoint FreeFrequency::solved_point(const PathState &at, double residual, std::int64_t iterations) {
-    inner_.set_force(at.parameter);
+    inner_.set(parameter_, at.parameter);
     return inner_.solved_point({{at.x.begin(), at.x.end() - 1}, omega_of(at.x.data())}, residual, iterations);
 }
 
