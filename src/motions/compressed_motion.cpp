@@ -158,4 +158,11 @@ BranchPoint corrected_on_whole(const ReducedModel &model, const BranchPoint &exa
     return p;
 }
 
+Matrix motions_of(const BranchPoint &point) {
+    Matrix columns(static_cast<std::int64_t>(point.eta_0.size()), 1);
+    std::copy(point.eta_0.begin(), point.eta_0.end(), columns.data());
+    columns.append(point.eta);
+    return columns;
+}
+
 } // namespace plm

@@ -8,6 +8,8 @@ namespace plm {
 BranchPoint uncompressed(const ReducedModel &model, const BranchPoint &point);
 /// The other way: the harmonics that come nearest, by their energy. False: the model has directions alike.
 bool compress(const ReducedModel &model, const BranchPoint &point, BranchPoint &compressed);
+/// Its mean and harmonics, side by side.
+Matrix motions_of(const BranchPoint &point);
 /// The pairs' springs, weighted by the share of the period in which they act.
 vector<double> mean_springs(const ReducedModel &model, const BranchPoint &exact);
 /// What the whole basis misses of equilibrium in an exact motion of the compressed model, harmonic by

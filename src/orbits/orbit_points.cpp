@@ -1,5 +1,6 @@
 #include "orbits/orbit_points.hpp"
 #include "motions/branch_path.hpp"
+#include "motions/compressed_motion.hpp"
 #include "motions/free_motion.hpp"
 #include "orbits/exact_motion.hpp"
 #include "orbits/orbit_point.hpp"
@@ -186,6 +187,31 @@ bool follow_exactly_to(std::shared_ptr<const ReducedModel> reduced, const Motion
     if (!out.converged || !holds(equations)) return false;
     point = whole_point(equations, options, {at.x, omega}, out);
     return true;
+}
+
+std::shared_ptr<const Branch> on_whole_basis(const Branch &branch, const MotionOptions &options,
+                                             std::int64_t first, std::int64_t last) {
+    const ReducedModel &m = branch.reduced();
+    if (!m.from) return {std::shared_ptr<const Branch>(), &branch};
+    auto whole = std::make_shared<Branch>(m.from->model, branch.force_scale(), branch.period_multiple());
+    whole->end_reason = branch.end_reason;
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(branch.points().size()); ++i) {
+        const BranchPoint &p = branch.points()[static_cast<std::size_t>(i)];
+        BranchPoint q = uncompressed(m, p);
+        if (p.motion && i >= first && i <= last) {
+            MotionOptions o = options;
+            o.period_multiple = branch.period_multiple();
+            o.force_scale = p.force_scale;
+            const OrbitEquations equations =
+                orbit_equations(m.from->model, o, p.omega, FlowParameter::frequency);
+            const BranchPoint exact =
+                orbit_point(equations, o, {equations.unknowns(start_of(branch, i).state), p.omega},
+                            p.residual, p.iterations);
+            q.eta_0 = exact.eta_0, q.eta = exact.eta, q.motion = exact.motion;
+        }
+        whole->append(std::move(q));
+    }
+    return whole;
 }
 
 } // namespace plm

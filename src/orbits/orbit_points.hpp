@@ -41,4 +41,10 @@ bool follow_exactly_to(std::shared_ptr<const ReducedModel> reduced, const Motion
                        const BranchPoint &from, double omega, Watch watch, BranchPoint &point,
                        NewtonWork &work);
 
+/// A curve on a compressed model as one of the whole basis, where what goes beyond the curve belongs: exact
+/// motions at its points [first, last], Fourier coefficients at the others. Any other branch as it is; it has
+/// to live as long then.
+std::shared_ptr<const Branch> on_whole_basis(const Branch &branch, const MotionOptions &options,
+                                             std::int64_t first, std::int64_t last);
+
 } // namespace plm

@@ -1,21 +1,15 @@
 #include "paths/continuation.hpp"
 #include "paths/passed_points.hpp"
 #include "paths/special_points.hpp"
+#include "paths/step_length.hpp"
 #include <algorithm>
 #include <cmath>
 
 namespace plm {
 namespace {
 
-// The length of a step. It decides how many points a path takes; what may not be stepped over is asked for by
-// accept().
-constexpr double target_angle = 0.25; // rad between neighbouring tangents
-constexpr double straight = 1e-6;     // rad: hardly turned, the angle itself is rounding
-constexpr double most_growth = 1.6,
-                 least_growth = 0.35;       // from one step to the next: the curvature varies, too
-constexpr std::int64_t many_iterations = 6; // with more than one tangent: the prediction was poor
-constexpr double slow_growth = 0.6;         // then, however straight the path is
-constexpr double after_failure = 0.4;       // of the step that failed
+// The length of a step: step_length.hpp.
+constexpr double after_failure = 0.4; // of the step that failed
 constexpr double first_step = 0.2,
                  step_after_rescue = 0.05; // of the largest: nothing is known of the path ahead
 
@@ -24,11 +18,6 @@ constexpr double first_step = 0.2,
 constexpr double shortest_move = 0.3, longest_move = 2; // of the step
 constexpr double longest_last_move = 4;                 // of the largest step, to the boundary of the range
 constexpr double across_damping = 0.2; // a step that Newton's method must damp more than this is too long
-
-// Where a test function of the owner comes nearer to zero, the next step goes just beyond the zero as it is
-// to be expected from the last step, so that a function that dips below zero for a short while is not stepped
-// over; but no less than a part of the largest step, since many a function comes near and turns.
-constexpr double just_beyond = 1.2, least_beside_change = 0.1;
 
 // A factorization has the tangent and the tests of a point (PathWalker::at_the_point) if it is also so near,
 // beside the step that led there.
@@ -142,23 +131,9 @@ class Continuation {
         if (!accept(out, moved, old_tangent, before)) return retry(PLM_REASON_STEP_MINIMUM);
         if (angle > PathWalker::sharp_angle) last_step_ = 0; // a corner is no bend
         orientation_ = walker_.orientation();
-        double factor =
-            std::min(most_growth, std::max(least_growth, target_angle / std::max(angle, straight)));
-        if (out.iterations > many_iterations && out.factorizations > 1)
-            factor = std::min(factor, slow_growth);
-        step_ = std::min(way_to_change(old_tests, moved), step_ * factor);
+        step_ = std::min(way_to_change(old_tests, tests_, moved, options_.max_step),
+                         step_ * step_growth(angle, out));
         step_ = std::min(options_.max_step, std::max(options_.min_step, step_));
-    }
-
-    // How far the next step may go for the owner's test functions, those behind fold and branch point.
-    double way_to_change(const vector<double> &old_tests, double moved) const {
-        double way = options_.max_step;
-        for (std::size_t k = PathWalker::own_tests; k < std::min(tests_.size(), old_tests.size()); ++k) {
-            const double before = std::abs(old_tests[k]), now = std::abs(tests_[k]);
-            if (!(tests_[k] * old_tests[k] > 0 && now < before)) continue;
-            way = std::min(way, just_beyond * moved * now / (before - now));
-        }
-        return std::max(way, least_beside_change * options_.max_step);
     }
 
     // False: the step crossed to another curve, see find_special_points(); the path is back before it.

@@ -5,6 +5,7 @@
 #include "hbm/make_system.hpp"
 #include "linalg/scale.hpp"
 #include "motions/branch_path.hpp"
+#include "orbits/orbit_points.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/hbm.hpp"

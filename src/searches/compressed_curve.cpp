@@ -1,12 +1,9 @@
 #include "searches/compressed_curve.hpp"
-#include "hbm/harmonic_choice.hpp"
-#include "hbm/make_system.hpp"
 #include "motions/branch_path.hpp"
 #include "motions/compressed_motion.hpp"
 #include "motions/motion_measures.hpp"
 #include "orbits/orbit_cost.hpp"
 #include "orbits/orbit_point.hpp"
-#include "orbits/orbit_points.hpp"
 #include "reduction/compression.hpp"
 #include <algorithm>
 #include <cmath>
@@ -47,26 +44,15 @@ bool is_dear_step(const ReducedModel &model, const HbmOptions &options) {
     return exact_step_flops(model, options) > options.dearest_step;
 }
 
-bool changes_stability(const BranchPoint &p) {
-    return p.bifurcation != PLM_BIFURCATION_NONE && p.bifurcation != PLM_BIFURCATION_FOLD;
-}
-
-// Mean and harmonics, side by side.
-Matrix motions_of(const BranchPoint &point) {
-    Matrix columns(static_cast<std::int64_t>(point.eta_0.size()), 1);
-    std::copy(point.eta_0.begin(), point.eta_0.end(), columns.data());
-    columns.append(point.eta);
-    return columns;
-}
-
 // Half-way between special points, of which one is no fold.
 vector<std::size_t> beside_changes(const std::vector<BranchPoint> &points) {
     vector<std::size_t> at;
     std::size_t before = 0;
     bool changed = false;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (points[i].bifurcation == PLM_BIFURCATION_NONE && i + 1 < points.size()) continue;
-        const bool change = changes_stability(points[i]);
+        const std::int32_t kind = points[i].bifurcation;
+        if (kind == PLM_BIFURCATION_NONE && i + 1 < points.size()) continue;
+        const bool change = kind != PLM_BIFURCATION_NONE && kind != PLM_BIFURCATION_FOLD;
         if ((changed || change) && i > before + 1) at.push_back((before + i) / 2);
         before = i, changed = change;
     }
@@ -409,29 +395,6 @@ bool CurveCompression::confirms_stability(const Branch &curve) {
         return is_dear(*whole_); // nothing else is at hand: warn()
     }
     return true;
-}
-
-std::shared_ptr<const Branch> on_whole_basis(const Branch &branch, const HbmOptions &options,
-                                             std::int64_t first, std::int64_t last) {
-    const ReducedModel &m = branch.reduced();
-    if (!m.from) return {std::shared_ptr<const Branch>(), &branch};
-    auto whole = std::make_shared<Branch>(m.from->model, branch.force_scale(), branch.period_multiple());
-    whole->end_reason = branch.end_reason;
-    for (std::int64_t i = 0; i < static_cast<std::int64_t>(branch.points().size()); ++i) {
-        const BranchPoint &p = branch.points()[static_cast<std::size_t>(i)];
-        BranchPoint q = uncompressed(m, p);
-        if (p.motion && i >= first && i <= last) {
-            const HbmOptions o = options_at(p, branch.period_multiple(), options);
-            const OrbitEquations equations =
-                orbit_equations(m.from->model, o, p.omega, FlowParameter::frequency);
-            const BranchPoint exact =
-                orbit_point(equations, o, {equations.unknowns(start_of(branch, i).state), p.omega},
-                            p.residual, p.iterations);
-            q.eta_0 = exact.eta_0, q.eta = exact.eta, q.motion = exact.motion;
-        }
-        whole->append(std::move(q));
-    }
-    return whole;
 }
 
 } // namespace plm

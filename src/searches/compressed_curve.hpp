@@ -99,10 +99,4 @@ class CurveCompression {
     std::string doubtful_; // where stability is not as on the curve
 };
 
-/// A curve on a compressed model as one of the whole basis, where what goes beyond the curve belongs: exact
-/// motions at its points [first, last], Fourier coefficients at the others. Any other branch as it is; it has
-/// to live as long then.
-std::shared_ptr<const Branch> on_whole_basis(const Branch &branch, const HbmOptions &options,
-                                             std::int64_t first, std::int64_t last);
-
 } // namespace plm

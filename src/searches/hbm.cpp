@@ -6,6 +6,7 @@
 #include "motions/curve_verdicts.hpp"
 #include "motions/free_motion.hpp"
 #include "motions/motion_measures.hpp"
+#include "orbits/orbit_points.hpp"
 #include "orbits/stability.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"

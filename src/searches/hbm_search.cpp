@@ -1,6 +1,7 @@
 // The searches of Hbm: checks, and the options they run with.
 #include "hbm/harmonic_choice.hpp"
 #include "hbm/nonlinear_mode.hpp"
+#include "orbits/orbit_points.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/fold_tracking.hpp"
