@@ -22,12 +22,14 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-# The quick tests of each room; those that include the header of the file come before them.
-ROOMS = {"linalg": "lapack general lu dft lanes", "paths": "continuation", "structure": "sparse rigid_modes gap_rows",
-         "contact": "contact contact_force contact_sweep piece_penetrations polynomial", "space": "model rest linear_contact",
-         "sampling": "window offset selection", "reduction": "conditioning basis pair_sampling", "motions": "free_motion",
-         "orbits": "settling flow monodromy", "hbm": "systems formulation", "searches": "response bifurcations point_harmonics", "study": "curve_distance plane_curve",
-         "capi": "handles scales arguments models"}
+# The quick tests of each room, another's with its name; those that include the header of the file come before them.
+ROOMS = {"linalg": "lapack general lu dft lanes parallel", "paths": "continuation passed_points", "structure": "sparse rigid_modes gap_rows",
+         "contact": "contact contact_force contact_sweep pair_states piece_penetrations polynomial",
+         "space": "model rest linear_contact space_vectors ritz_vectors memory_estimate", "sampling": "window offset selection clusters",
+         "reduction": "conditioning basis pair_sampling projection", "motions": "branch free_motion",
+         "orbits": "settling flow monodromy orbit_equations", "hbm": "systems formulation harmonic_choice longer_period",
+         "searches": "response bifurcations point_harmonics capi.search", "study": "curve_distance plane_curve recipe capi.study",
+         "capi": "handles scales arguments models keys branch search search_calls"}
 OF_ALL = ("test_capi_models", "test_capi_superelement", "test_capi_scales")  # for what the tests of a room do not see
 QUICK, MOST_DIRECT = 10.0, 3  # seconds of the processor a program may take; how many that include the header
 PATIENCE = 20  # times as long as it takes without a mutation: no end
@@ -136,7 +138,7 @@ class Tree:
         direct = [f"test_{path.parent.name}_{path.stem[5:]}" for path in sorted((ROOT / "tests").glob("*/test_*.cpp"))
                   if f'"{header}"' in path.read_text(encoding="utf-8")]
         direct.sort(key=lambda program: (file.split("/")[-1][:-4] not in program, f"_{room}_" not in program))
-        room_tests = [f"test_{room}_{name}" for name in ROOMS[room].split()]
+        room_tests = [f"test_{name.replace('.', '_')}" if "." in name else f"test_{room}_{name}" for name in ROOMS[room].split()]
         first = [p for p in dict.fromkeys(direct[:MOST_DIRECT] + room_tests) if p in self.programs]
         return first, [p for p in OF_ALL if p in self.programs and p not in first]
 

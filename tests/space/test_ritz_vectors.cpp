@@ -1,6 +1,7 @@
 // Coordinates of a basis from the eigenpairs of the mass in it, one by one: shifted structures, directions
 // without mass.
 #include "space/massless.hpp"
+#include "support/spring_models.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -39,12 +40,28 @@ void what_is_too_fast_has_no_mass(void **) {
     assert_true(r.vectors(2, 2) == reach);
 }
 
+// Of two masses on springs of their own, of which the second counts for nothing: its momentum says nothing of
+// where it is, its elastic force does.
+plm::Matrix recovered(const plm::Matrix &motions) {
+    const auto model = test::build(test::input({{1, 0}, {0, 1e-9}}, {{4, 0}, {0, 9}}));
+    return plm::coordinates_of(
+        *model, plm::Field(motions), [](const plm::Field &forces) { return forces.in_core(); }, {4, 9}, 1);
+}
+void a_motion_without_mass_is_known_by_its_force(void **) {
+    plm::Matrix motions(2, 3);
+    for (std::int64_t k = 0; k < 6; ++k) motions.data()[k] = std::cos(1.0 + static_cast<double>(k));
+    const plm::Matrix c = recovered(motions);
+    assert_true(c.rows() == 2 && c.cols() == 3);
+    for (std::int64_t k = 0; k < 6; ++k) assert_true(near(c.data()[k], motions.data()[k], 1e-14));
+}
+
 } // namespace
 
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(the_shift_is_taken_off_again),
         cmocka_unit_test(what_is_too_fast_has_no_mass),
+        cmocka_unit_test(a_motion_without_mass_is_known_by_its_force),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
