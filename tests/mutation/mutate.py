@@ -2,8 +2,8 @@
 
 Each mutation changes one place of one line: a sign, a comparison, a constant, the larger for the smaller, a condition, a statement
 that is dropped. First come those of named.txt, then places drawn by the seed, the same number in each room. The line is changed in a
-copy of the tree (--work), never here; the tests of its room that are quick are built and run, those of the C API after them where
-they see nothing. What comes of each is kept in results.json of that folder, so that a run goes on where it was stopped. A mutation
+copy of the tree (--work) with checked indices, never here; the tests of its room that are quick are built and run, those of the C API
+after them where they see nothing. What comes of each is kept in results.json of that folder, so that a run goes on where it was stopped. A mutation
 that survives is a test that is missing, or changes nothing that may be relied on: which of the two, and why, is written in
 judged.txt. Ends with 1 where one survived that is not judged.
 """
@@ -111,7 +111,7 @@ class Tree:
             if source.is_file() and not (copy.is_file() and copy.read_bytes() == source.read_bytes()):
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(source, copy)
-        subprocess.run(["cmake", "--preset", "dev", "-DPLM_UNITY=OFF"], cwd=self.top, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["cmake", "--preset", "dev", "-DPLM_UNITY=OFF", "-DPLM_CHECKED=ON"], cwd=self.top, check=True, stdout=subprocess.DEVNULL)
         targets = subprocess.run(["cmake", "--build", "--preset", "dev", "--target", "help"], cwd=self.top, capture_output=True,
                                  text=True, check=True).stdout
         self.programs = set(re.findall(r"\b(test_\w+)(?::|$)", targets, re.M))
