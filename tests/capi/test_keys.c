@@ -188,6 +188,37 @@ static void nearest_key_is_proposed(void **state) {
     assert_int_equal(v, 3);
 }
 
+/* with one letter wrong, the first or one in the middle, that one is the nearest of all keys */
+static int proposes(int32_t kind, char *name, size_t at) {
+    char wanted[80], text[500] = "", letter = name[at];
+    int64_t v = 0;
+    int ok;
+    sprintf(wanted, "did you mean \"%s\"?", name);
+    name[at] = '#';
+    ok = get_int(kind, name, &v) == PLM_ERR_KEY &&
+         !plm_context_get_error_text(ctx, sizeof text, text, NULL) && strstr(text, wanted);
+    if (!ok) printf("    %s: %s\n", name, text);
+    name[at] = letter;
+    return ok;
+}
+static void every_key_is_proposed_for_one_wrong_letter(void **state) {
+    char name[64];
+    int32_t kind, index, n = 0;
+    int ok = 1;
+    (void)state;
+    for (kind = PLM_KIND_MODEL; kind <= PLM_KIND_STUDY; ++kind) {
+        if (kind == PLM_KIND_BRANCH || (kind == PLM_KIND_TRANSIENT && !motion) ||
+            (kind == PLM_KIND_STUDY && !study))
+            continue;
+        assert_int_equal(plm_key_count(kind, &n), PLM_OK);
+        for (index = 0; index < n; ++index) {
+            assert_int_equal(plm_key_text(kind, index, PLM_KEY_NAME, 64, name, NULL), PLM_OK);
+            ok &= proposes(kind, name, 0) && proposes(kind, name, strlen(name) / 2);
+        }
+    }
+    assert_true(ok);
+}
+
 static void refusals_say_why(void **state) {
     int64_t n = 0;
     (void)state;
@@ -226,6 +257,7 @@ int main(void) {
         TEST(nearest_key_is_proposed),
         TEST(refusals_say_why),
         TEST(an_int_is_taken_for_a_double),
+        TEST(every_key_is_proposed_for_one_wrong_letter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -474,17 +474,18 @@ static void the_report_is_written_and_nothing_else(void **state) {
 
 typedef struct watcher {
     int calls, stop_at, in_study;
+    double begun[3]; /* told as the reference and the first two methods begin */
 } watcher;
 
 static int32_t watch(plm_context *context, const char *stage, double fraction, void *user) {
     watcher *w = (watcher *)user;
-    (void)context, (void)fraction;
-    w->in_study += strcmp(stage, "study") == 0;
+    (void)context;
+    if (strcmp(stage, "study") == 0 && w->in_study++ < 3) w->begun[w->in_study - 1] = fraction;
     return ++w->calls == w->stop_at;
 }
 
 static void cancelled_anywhere_it_keeps_what_is_done(void **state) {
-    watcher w = {0, -1, 0};
+    watcher w = {0, -1, 0, {-1, -1, -1}};
     int64_t n = 0;
     int whole, step, before = 0, after = 0;
     (void)state;
@@ -494,6 +495,8 @@ static void cancelled_anywhere_it_keeps_what_is_done(void **state) {
     DONE(plm_context_set_progress(ctx, watch, &w));
     DONE(plm_study_run(c.study));
     assert_true(w.in_study >= 3);
+    printf("    %g, %g, %g\n", w.begun[0], w.begun[1], w.begun[2]);
+    assert_true(w.begun[0] < 0.3 && w.begun[1] >= w.begun[0] && w.begun[1] < 0.5 && w.begun[2] < 0.8);
     whole = w.calls;
     DONE(plm_study_destroy(&c.study));
     for (step = 1; step <= whole; step += 1 + whole / 40) {

@@ -230,6 +230,11 @@ void a_pair_leaves_zero_clearly(void **) {
     assert_true(!events.correct(piece, exact) && !events.leave_clearly());
 }
 
+void nothing_that_moves_agrees_with_any_state(void **) {
+    assert_true(three_pairs().agreement(PairStates::all_closed(3), {0, 0, 0}) == 1);
+    assert_true(three_pairs().agreement(PairStates::all_open(3), {0, 0, 0}) == 1);
+}
+
 } // namespace
 
 int main() {
@@ -250,6 +255,7 @@ int main() {
         cmocka_unit_test(the_first_event_of_a_piece),
         cmocka_unit_test(pairs_that_switch_at_once),
         cmocka_unit_test(a_pair_leaves_zero_clearly),
+        cmocka_unit_test(nothing_that_moves_agrees_with_any_state),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

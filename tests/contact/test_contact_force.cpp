@@ -241,6 +241,20 @@ void a_gap_that_stays_closed_costs_nothing(void **) {
     assert_in_range(ear.heard, 0, 2);           // 1e9 flops otherwise, told of every 0.1 s
 }
 
+// Closed, open, and twice to and fro.
+std::int64_t n_switching(plm::ContactForce &law) {
+    Matrix u(4, 3);
+    u(0, 0) = 2, u(1, 0) = -2;
+    for (std::int64_t i = 0; i < 4; ++i) u(i, 1) = 1;
+    plm::ContactIndicator s;
+    law.indicator(u, s);
+    return s.n_switching;
+}
+void pairs_that_switch_are_counted_sampled_or_not(void **) {
+    assert_int_equal(n_switching(*plm::make_event_force(1, 4)), 2);
+    assert_int_equal(n_switching(*plm::make_sampled_force(1, 64, 4)), 2);
+}
+
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(event_exact_coefficients_equal_quadrature),
@@ -250,6 +264,7 @@ int main() {
         cmocka_unit_test(sampled_force_converges_to_the_exact_one),
         cmocka_unit_test(extrema_of_trigonometric_polynomials_are_exact),
         cmocka_unit_test(a_gap_that_stays_closed_costs_nothing),
+        cmocka_unit_test(pairs_that_switch_are_counted_sampled_or_not),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

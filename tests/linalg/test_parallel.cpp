@@ -111,6 +111,24 @@ void a_host_with_an_allocator_has_one_thread(void **) {
     assert_int_equal(elsewhere.load(), 0);
 }
 
+// Also where a piece further on has failed before it.
+void the_first_piece_that_fails_is_told_whichever_was_the_faster(void **) {
+    const plm::ThreadsScope scope(2);
+    std::atomic<bool> begun{false}, fails{false};
+    const auto o = outcome_of([&] {
+        plm::parallel_for(2, [&](std::int64_t i) {
+            const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+            (i == 0 ? begun : fails) = true;
+            while (!(i == 0 ? fails : begun) && std::chrono::steady_clock::now() < until)
+                std::this_thread::yield();
+            if (i == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50)); // the other is through
+            throw plm::Error(PLM_ERR_SINGULAR, "piece").index(i);
+        });
+    });
+    assert_int_equal(o.status, PLM_ERR_SINGULAR);
+    assert_int_equal(o.index, 0);
+}
+
 } // namespace
 
 int main() {
@@ -120,6 +138,7 @@ int main() {
         cmocka_unit_test(the_exception_is_that_of_a_loop),
         cmocka_unit_test(the_listener_is_called_on_its_thread),
         cmocka_unit_test(a_host_with_an_allocator_has_one_thread),
+        cmocka_unit_test(the_first_piece_that_fails_is_told_whichever_was_the_faster),
     };
     return cmocka_run_group_tests_name("parallel", tests, nullptr, nullptr);
 }

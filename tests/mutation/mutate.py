@@ -2,8 +2,8 @@
 
 Each mutation changes one place of one line: a sign, a comparison, a constant, the larger for the smaller, a condition, a statement
 that is dropped. First come those of named.txt, then places drawn by the seed, the same number in each room. The line is changed in a
-copy of the tree (--work), never here; the tests of its room that are quick are built and run, those of the C API after them where
-they see nothing. What comes of each is kept in results.json of that folder, so that a run goes on where it was stopped. A mutation
+copy of the tree (--work) with checked indices, never here; the tests of its room that are quick are built and run, those of the C API
+after them where they see nothing. What comes of each is kept in results.json of that folder, so that a run goes on where it was stopped. A mutation
 that survives is a test that is missing, or changes nothing that may be relied on: which of the two, and why, is written in
 judged.txt. Ends with 1 where one survived that is not judged.
 """
@@ -22,12 +22,14 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-# The quick tests of each room; those that include the header of the file come before them.
-ROOMS = {"linalg": "lapack general lu dft lanes", "paths": "continuation", "structure": "sparse rigid_modes gap_rows",
-         "contact": "contact contact_force contact_sweep piece_penetrations polynomial", "space": "model rest linear_contact",
-         "sampling": "window offset selection", "reduction": "conditioning basis pair_sampling", "motions": "free_motion",
-         "orbits": "settling flow monodromy", "hbm": "systems formulation", "searches": "response bifurcations point_harmonics", "study": "curve_distance plane_curve",
-         "capi": "handles scales arguments models"}
+# The quick tests of each room, another's with its name; those that include the header of the file come before them.
+ROOMS = {"linalg": "lapack general lu dft lanes parallel", "paths": "continuation passed_points", "structure": "sparse rigid_modes gap_rows",
+         "contact": "contact contact_force contact_sweep pair_states piece_penetrations polynomial",
+         "space": "model rest linear_contact space_vectors ritz_vectors memory_estimate", "sampling": "window offset selection clusters",
+         "reduction": "conditioning basis pair_sampling projection", "motions": "branch free_motion",
+         "orbits": "settling flow monodromy orbit_equations", "hbm": "systems formulation harmonic_choice longer_period",
+         "searches": "response bifurcations point_harmonics capi.search", "study": "curve_distance plane_curve recipe capi.study",
+         "capi": "handles scales arguments models keys branch search search_calls"}
 OF_ALL = ("test_capi_models", "test_capi_superelement", "test_capi_scales")  # for what the tests of a room do not see
 QUICK, MOST_DIRECT = 10.0, 3  # seconds of the processor a program may take; how many that include the header
 PATIENCE = 20  # times as long as it takes without a mutation: no end
@@ -109,7 +111,7 @@ class Tree:
             if source.is_file() and not (copy.is_file() and copy.read_bytes() == source.read_bytes()):
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copy(source, copy)
-        subprocess.run(["cmake", "--preset", "dev", "-DPLM_UNITY=OFF"], cwd=self.top, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["cmake", "--preset", "dev", "-DPLM_UNITY=OFF", "-DPLM_CHECKED=ON"], cwd=self.top, check=True, stdout=subprocess.DEVNULL)
         targets = subprocess.run(["cmake", "--build", "--preset", "dev", "--target", "help"], cwd=self.top, capture_output=True,
                                  text=True, check=True).stdout
         self.programs = set(re.findall(r"\b(test_\w+)(?::|$)", targets, re.M))
@@ -136,7 +138,7 @@ class Tree:
         direct = [f"test_{path.parent.name}_{path.stem[5:]}" for path in sorted((ROOT / "tests").glob("*/test_*.cpp"))
                   if f'"{header}"' in path.read_text(encoding="utf-8")]
         direct.sort(key=lambda program: (file.split("/")[-1][:-4] not in program, f"_{room}_" not in program))
-        room_tests = [f"test_{room}_{name}" for name in ROOMS[room].split()]
+        room_tests = [f"test_{name.replace('.', '_')}" if "." in name else f"test_{room}_{name}" for name in ROOMS[room].split()]
         first = [p for p in dict.fromkeys(direct[:MOST_DIRECT] + room_tests) if p in self.programs]
         return first, [p for p in OF_ALL if p in self.programs and p not in first]
 

@@ -1,6 +1,7 @@
 // Periodic motions as equations: their derivatives against differences, their solutions against the tests'
 // own orbits, with and without the modes of contact sets that come back.
 #include "flows.hpp"
+#include "orbits/contact_set.hpp"
 #include "orbits/orbit_equations.hpp"
 #include "orbits/recorded_motion.hpp"
 #include "orbits/shooting.hpp"
@@ -448,6 +449,17 @@ void crests_of_fast_motion_are_found_at_once(void **) {
     assert_true(below(std::abs(range.maximum + 3 * 0.9899), 1e-5));
 }
 
+// What relaxes, k / c of each coordinate alone, is no faster than the bound.
+void the_rate_bounds_what_relaxes(void **) {
+    for (Massless kind : {Massless::relax, Massless::dashpot}) {
+        const auto model = massless_model(kind, 2);
+        plm::ContactSet set(*model);
+        set.assign_stiffest();
+        for (std::int64_t j = model->n_massive(); j < model->n_moving(); ++j)
+            assert_true(set.rate() >= set.stiffness()(j, j) / model->own_damping(j));
+    }
+}
+
 } // namespace
 
 int main() {
@@ -463,6 +475,7 @@ int main() {
         cmocka_unit_test(modes_know_what_is_free),
         cmocka_unit_test(crests_of_fast_motion_are_found_at_once),
         cmocka_unit_test(readings_are_those_of_dense_samples),
+        cmocka_unit_test(the_rate_bounds_what_relaxes),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

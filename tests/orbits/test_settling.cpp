@@ -1,5 +1,7 @@
-// A motion has settled when it is back where it was after as many periods as it may have, and not before.
+// A motion has settled when it is back where it was after as many periods as it may have, and not before; the
+// phase of what is marched.
 #include "orbits/settling.hpp"
+#include "orbits/transient.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -38,12 +40,38 @@ void the_change_is_relative_to_the_motion(void **) {
     assert_int_equal(quarters_until_settled(2, 8, 1e-3), -1);
 }
 
+struct Clock final : plm::Transient {
+    bool is_reduced() const override { return true; }
+    std::int64_t size() const override { return 0; }
+    void set_state(const double *, const double *) override {}
+    void start_at(const plm::PointStart &) override {}
+    void get_state(double *, double *) override {}
+    plm::TransientRun run(const plm::TransientOptions &, const plm::vector<std::int64_t> &,
+                          plm::Watch) override {
+        return {};
+    }
+    plm::PeriodicMotion find_periodic(const plm::TransientOptions &, plm::Watch) override { return {}; }
+    using Transient::advance_clock;
+    using Transient::phase;
+};
+
+// A part that falls short of the begin of a period by less than the last bit is at it: no phase is 1.
+void the_phase_is_below_one(void **) {
+    Clock clock;
+    clock.advance_clock(3, 0.25 * 2, 2);
+    assert_true(clock.phase() == 0.25 && clock.time() == 6.5);
+    clock.advance_clock(0, -0.25 * 2, 2);
+    clock.advance_clock(0, -1e-18, 2);
+    assert_true(clock.phase() == 0);
+}
+
 } // namespace
 
 int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(a_motion_of_several_periods_is_compared_over_all_of_them),
         cmocka_unit_test(the_change_is_relative_to_the_motion),
+        cmocka_unit_test(the_phase_is_below_one),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

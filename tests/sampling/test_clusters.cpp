@@ -167,6 +167,23 @@ void the_window_is_that_of_the_harmonic_that_drives(void **) {
     assert_int_equal(two->n_harmonics(), 2 * one->n_harmonics());
 }
 
+// Of a fixed-free chain of three, 2 % off each of its frequencies.
+void a_frequency_names_the_nearest_mode(void **) {
+    test::Dense k = test::free_chain(3, 1e4);
+    k[0][0] += 1e4;
+    plm::ModelInput in = test::input(test::diagonal(3, 1), k);
+    in.damping.modal_ratio = {0.01};
+    test::add_pair(in, {0, 0, 1}, 5e4, 1e-3);
+    load(in, {0, 0, 1});
+    for (int mode : {1, 2, 3})
+        for (double off : {0.98, 1.02}) {
+            SamplerOptions o;
+            o.system = LinearSystem::open;
+            o.mode_frequency_hz = off * 2 * 100 * std::sin((2 * mode - 1) * M_PI / 14) / (2 * M_PI);
+            assert_int_equal(run(in, o)->dominant()[0].mode, mode);
+        }
+}
+
 } // namespace
 
 int main() {
@@ -178,6 +195,7 @@ int main() {
         cmocka_unit_test(soft_supports_are_not_proposed),
         cmocka_unit_test(backlash_under_torque_vibrates_on_the_flank_that_carries),
         cmocka_unit_test(the_window_is_that_of_the_harmonic_that_drives),
+        cmocka_unit_test(a_frequency_names_the_nearest_mode),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

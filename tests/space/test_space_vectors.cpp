@@ -102,6 +102,28 @@ void given_vectors_are_there(void **) {
         below(largest_difference(given.times(y).formed().in_core(), plm::product('N', 'N', v, y)), 1e-14));
 }
 
+// V^T C V of a damping matrix that no mode knows of.
+double damping_error() {
+    constexpr int n = 12;
+    test::Dense k = test::free_chain(n, 1), c = test::diagonal(n, 0.01);
+    k[0][0] += 1;
+    for (int i = 0; i < n; ++i) c[i][i] *= i + 1;
+    plm::ModelInput in = test::input(test::diagonal(n, 1), k);
+    in.damping_matrix = test::matrix(c);
+    std::vector<double> row(n);
+    row[n - 1] = 1;
+    test::add_pair(in, row, 3);
+    const auto space = plm::make_contact_space(test::build(in), 0.3, 10, plm::Watch());
+    const Matrix v = space->vectors.whole().formed().in_core();
+    Matrix cv = v;
+    for (std::int64_t j = 0; j < v.cols(); ++j)
+        for (std::int64_t i = 0; i < v.rows(); ++i) cv(i, j) *= 0.01 * static_cast<double>(i + 1);
+    return largest_difference(space->damping, product('T', 'N', v, cv));
+}
+void a_damping_matrix_is_projected(void **) {
+    assert_true(below(damping_error(), 1e-12));
+}
+
 } // namespace
 
 int main() {
@@ -110,6 +132,7 @@ int main() {
         cmocka_unit_test(they_are_formed_once_where_that_is_less_work),
         cmocka_unit_test(a_basis_in_a_basis_is_the_product),
         cmocka_unit_test(given_vectors_are_there),
+        cmocka_unit_test(a_damping_matrix_is_projected),
     };
     return cmocka_run_group_tests_name("space_vectors", tests, nullptr, nullptr);
 }
