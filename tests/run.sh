@@ -56,7 +56,7 @@ choose() {
     programs= tests=
     [ -n "$fuzz_longer" ] || return 0
     case $1 in
-    asan) # hosts and the whole C API, which reaches every room; the tests of rooms have checked indices in dev
+    asan) # hosts and the whole C API, which reaches every room
         programs='plm plm_static tests/capi/all tests/host/all'
         tests='^(host[.]|capi[.])' ;;
     permissive) # its own factorization and transforms

@@ -2,10 +2,10 @@
 
 Each mutation changes one place of one line: a sign, a comparison, a constant, the larger for the smaller, a condition, a statement
 that is dropped. First come those of named.txt, then places drawn by the seed, the same number in each room. The line is changed in a
-copy of the tree (--work) with checked indices, never here; the tests of its room that are quick are built and run, those of the C API
-after them where they see nothing. What comes of each is kept in results.json of that folder, so that a run goes on where it was stopped. A mutation
-that survives is a test that is missing, or changes nothing that may be relied on: which of the two, and why, is written in
-judged.txt. Ends with 1 where one survived that is not judged.
+copy of the tree (--work) with checked indices, never here; the tests of its room that are quick are built and run, those of the C
+API after them where they see nothing. What comes of each is kept in results.json of that folder, so that a run goes on where it was
+stopped. A mutation that survives is a test that is missing, or changes nothing that may be relied on: which of the two, and why, is
+written in judged.txt. Ends with 1 where one survived that is not judged.
 """
 import argparse
 import collections
@@ -23,11 +23,11 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 # The quick tests of each room, another's with its name; those that include the header of the file come before them.
-ROOMS = {"linalg": "lapack general lu dft lanes parallel", "paths": "continuation passed_points", "structure": "sparse rigid_modes gap_rows",
+ROOMS = {"linalg": "lapack general lu dft lanes parallel", "paths": "continuation passed_points", "structure": "sparse combination rigid_modes gap_rows",
          "contact": "contact contact_force contact_sweep pair_states piece_penetrations polynomial",
          "space": "model rest linear_contact space_vectors ritz_vectors memory_estimate", "sampling": "window offset selection clusters",
          "reduction": "conditioning basis pair_sampling projection", "motions": "branch free_motion",
-         "orbits": "settling flow monodromy orbit_equations", "hbm": "systems formulation harmonic_choice longer_period",
+         "orbits": "settling flow monodromy orbit_equations exact_equations", "hbm": "systems formulation harmonic_choice longer_period",
          "searches": "response bifurcations point_harmonics capi.search", "study": "curve_distance plane_curve recipe capi.study",
          "capi": "handles scales arguments models keys branch search search_calls"}
 OF_ALL = ("test_capi_models", "test_capi_superelement", "test_capi_scales")  # for what the tests of a room do not see
