@@ -4,6 +4,7 @@
 #include "motions/branch_path.hpp"
 #include "motions/motion_measures.hpp"
 #include "paths/continuation.hpp"
+#include "support/line.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"
 
@@ -51,16 +52,6 @@ void a_curve_goes_on_with_a_piece(void **) {
 }
 
 // The path x = p as a curve with these options.
-class Line final : public plm::Residual {
-  public:
-    std::int64_t size() const override { return 1; }
-    void residual(const double *x, double p, double *r) override { r[0] = x[0] - p; }
-    void linearize() override {}
-    void solve(double *, std::int64_t) override {}
-    int determinant_sign() const override { return 1; }
-    void parameter_derivative(double *r) override { r[0] = -1; }
-    double residual_scale() const override { return 1; }
-};
 struct Counting final : plm::PathOwner {
     void record(const plm::PathPoint &) override { ++n; }
     bool cancelled(double) override { return false; }
@@ -73,7 +64,7 @@ void a_curve_has_no_more_points_than_it_may(void **) {
     plm::MotionOptions options;
     for (std::int64_t most : {2, 5}) {
         options.max_points = most;
-        Line line;
+        test::Line line;
         Counting owner;
         plm::PathOptions path = plm::path_options(options, 1, 2);
         path.upward = true;

@@ -27,7 +27,7 @@ Seen seen(const plm::vector<double> &x, const plm::vector<double> &w, const plm:
     Seen s;
     e.parameter_derivative(r.data());
     s.by_frequency = -plm::dot(n, w.data(), r.data());
-    e.force_derivative(r.data());
+    e.derivative(plm::PathParameter::force, r.data());
     s.by_force = -plm::dot(n, w.data(), r.data());
     return s;
 }

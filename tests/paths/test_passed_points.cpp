@@ -1,6 +1,7 @@
 // What a path tells of where it stands: the points it came by, the end of its range, how far it is.
 #include "paths/continuation.hpp"
 #include "paths/passed_points.hpp"
+#include "support/line.hpp"
 #include "support/test.hpp"
 
 namespace {
@@ -23,17 +24,6 @@ void a_point_on_the_step_is_passed(void **) {
     assert_int_equal(passed({{0.5}, 0.5}, along), -1);
 }
 
-// x = p
-class Line final : public plm::Residual {
-  public:
-    std::int64_t size() const override { return 1; }
-    void residual(const double *x, double p, double *r) override { r[0] = x[0] - p; }
-    void linearize() override {}
-    void solve(double *, std::int64_t) override {}
-    int determinant_sign() const override { return 1; }
-    void parameter_derivative(double *r) override { r[0] = -1; }
-    double residual_scale() const override { return 1; }
-};
 class Watching final : public plm::PathOwner {
   public:
     void record(const plm::PathPoint &p) override { last = p.parameter; }
@@ -50,7 +40,7 @@ class Watching final : public plm::PathOwner {
 };
 // Of a range of 20 both ways, by steps of no more than a tenth of it.
 Watching watched(bool upward) {
-    Line line;
+    test::Line line;
     plm::PathOptions options;
     options.low = 30, options.high = 50;
     options.upward = upward;
