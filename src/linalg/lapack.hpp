@@ -26,9 +26,9 @@ vector<std::complex<double>> general_eigenvalues(const Matrix &a);
 /// The same with right eigenvectors, column j belonging to value j.
 GeneralEigen general_eigen(const Matrix &a);
 
-/// A (slow rest) = (slow rest) diag(slow_block, rest_block): the eigenvalues of modulus below `radius` and the
-/// others, each in an invariant subspace of its own, where eigenvectors of the former may coincide (dgees,
-/// dtrsen, dtrsyl). The columns of slow are orthonormal.
+/// A (slow rest) = (slow rest) diag(slow_block, rest_block): the eigenvalues of modulus below `radius` and
+/// the others, each in an invariant subspace of its own, where eigenvectors of the former may coincide
+/// (dgees, dtrsen, dtrsyl). The columns of slow are orthonormal.
 struct SplitSpectrum {
     Matrix slow, slow_block, rest, rest_block;
 };

@@ -32,7 +32,8 @@ static void points_are_those_of_the_closed_form(void **state) {
     assert_int_equal(plm_branch_get_array(curve, "frequency_hz", MOST, hz, &n), PLM_OK);
     assert_true(n > 5 && close_to(hz[0], 0.3, 1e-12) && close_to(hz[n - 1], 0.1, 1e-9));
     for (k = 0; k < n; ++k) {
-        const double w = 2 * 3.141592653589793 * hz[k], re = o.k - w * w, im = w * o.c, square = re * re + im * im;
+        const double w = 2 * 3.141592653589793 * hz[k], re = o.k - w * w, im = w * o.c,
+                     square = re * re + im * im;
         for (i = 0; i < 2 * H + 2; ++i) c[i] = 777;
         assert_int_equal(plm_branch_get_coefficients(curve, k, 0, 1, c), PLM_OK);
         assert_true(fabs(c[1] - o.force * re / square) < 1e-6 * hypot(c[1], c[2]));
