@@ -3,7 +3,6 @@
 #include "hbm/solved_point.hpp"
 #include "hbm/start.hpp"
 #include "motions/first_harmonics.hpp"
-#include "motions/motion_measures.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -251,15 +250,6 @@ bool is_worthless(const Branch &curve) {
     const auto over = std::count_if(points.begin(), points.end(),
                                     [](const BranchPoint &p) { return balance_error(p) >= worthless_error; });
     return 2 * over > static_cast<std::ptrdiff_t>(points.size());
-}
-
-bool says_more(const Branch &exact, const Branch &by_harmonics) {
-    if (exact.points().empty() || !exact.points().front().motion) return false;
-    if (is_worthless(by_harmonics)) return true;
-    const std::int64_t top = largest_response(exact);
-    const bool has_top = top > 0 && top + 1 < static_cast<std::int64_t>(exact.points().size());
-    const auto highest = static_cast<std::size_t>(largest_response(by_harmonics));
-    return has_top && by_harmonics.points()[highest].harmonic_error >= worthless_error;
 }
 
 void warn_of_harmonics(const HbmOptions &options, Branch &branch) {

@@ -44,10 +44,6 @@ constexpr double worthless_error = 0.1;
 /// So at most of its points.
 bool is_worthless(const Branch &curve);
 
-/// Part of a curve of exact motions says more than a whole one by harmonics that need not be near any motion,
-/// or not at its highest point while the part has a top already.
-bool says_more(const Branch &exact, const Branch &by_harmonics);
-
 /// The point with up to `wanted` harmonics, from few to many by warm starts at its frequency: a cold start
 /// with many is slow, and finds less. True: all of them; otherwise as many as were reached.
 bool climb_harmonics(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,

@@ -8,6 +8,7 @@
 #include "searches/basis_error.hpp"
 #include "searches/motion_choice.hpp"
 #include "searches/refinement.hpp"
+#include "searches/sweep.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -60,7 +61,7 @@ class Chain {
             if (best.curve && is_cut(best)) within(effort_left(), [&] { find_peak(best); });
             if (!is_cut(best)) look_beside(best);
         }
-        if (is_cut(best) || was_stopped(*best.curve)) take_first_curve(smallest, best);
+        if (is_cut(best) || !spans(*best.curve)) take_first_curve(smallest, best);
         finish(best);
         best.setup = setup;
         return best;
@@ -91,16 +92,16 @@ class Chain {
             take_better(best, [&](ComputedResponse &next) { next = refined(best); });
     }
 
-    // However little was allowed, there is an answer. Part of a curve of exact motions is one: a curve by
-    // harmonics was then tried beside it, and on fewer coordinates it would only look better.
+    // However little was allowed, there is an answer: a whole curve by few harmonics, where that tells of a
+    // larger motion than part of a better one.
     void take_first_curve(const std::shared_ptr<const Basis> &smallest, ComputedResponse &best) {
-        spent_ = true;
+        if (!best.curve || was_stopped(*best.curve)) spent_ = true;
         const auto look = [&] {
             const auto first = curve_of_few_harmonics(*smallest, widened(smallest->reduced()));
-            if (!best.curve || is_whole(*first)) best = with_curve(smallest, first);
+            if (!best.curve || (is_whole(*first) && says_more(*first, *best.curve, watch_)))
+                best = with_curve(smallest, first);
         };
-        if (!best.curve || !best.curve->points().front().motion)
-            unless_there_is(best, [&] { within(flops_of_first_curve, look); });
+        unless_there_is(best, [&] { within(flops_of_first_curve, look); });
         if (!best.curve)
             throw Error(PLM_CANCELLED,
                         "no periodic response was found with the effort allowed; raise the effort "

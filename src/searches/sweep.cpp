@@ -4,6 +4,9 @@
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
 #include "motions/free_motion.hpp"
+#include "motions/motion_measures.hpp"
+#include "orbits/exact_flow.hpp"
+#include "orbits/orbit_point.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/wider_range.hpp"
@@ -181,8 +184,8 @@ std::shared_ptr<Branch> sweep_either_way(const SweepTask &task) {
 }
 
 // As few harmonics as show the curve, then as many as its points need: the last one that there is effort for.
-// Part of a curve of exact motions is worth more than a whole one that need not be near any motion.
 void take_harmonics(const SweepTask &task, std::shared_ptr<Branch> &branch) {
+    const std::shared_ptr<const Branch> part = branch;
     task.watch.log(1, "exact motions would take more than the effort allowed: the curve by harmonic balance");
     SweepTask other = task;
     other.exact = false;
@@ -194,12 +197,50 @@ void take_harmonics(const SweepTask &task, std::shared_ptr<Branch> &branch) {
         other.options.harmonics_by_cost = few;
         within(effort_left(), [&] {
             const auto next = sweep_either_way(other);
-            if (!branch || !(was_stopped(*next) || says_more(*branch, *next))) branch = next;
+            if (!branch || (!was_stopped(*next) && (!part || says_more(*next, *part, task.watch))))
+                branch = next;
         });
     }
 }
 
 } // namespace
+
+namespace {
+
+// Mean square of what the coordinates do beside their mean.
+double square_of(const BranchPoint &p) {
+    return 0.5 * dot(p.eta.rows() * p.eta.cols(), p.eta.data(), p.eta.data());
+}
+
+// The same of the exact flow, after the periods that damping takes to forget where it began.
+double square_after(const Branch &curve, const BranchPoint &begin, Watch watch) {
+    constexpr int periods = 40, watched = 4, instants = 16, count = watched * instants;
+    const auto model = std::make_shared<FlowModel>(curve.reduced_model(), begin.omega);
+    ExactFlow flow(model, begin.omega, begin.force_scale, watch, std::make_shared<ContactModesKept>(model));
+    FlowState state = start_of(*model, begin, curve.period_multiple());
+    const std::int64_t n = model->size();
+    const double period = static_cast<double>(curve.period_multiple()) * flow.period();
+    vector<double> mean(static_cast<std::size_t>(n), 0.0);
+    double square = 0;
+    for (int k = 0; k < count; ++k) {
+        flow.advance(state, period * (periods + static_cast<double>(k) / instants));
+        square += dot(n, state.y.data(), state.y.data()) / count;
+        for (std::int64_t j = 0; j < n; ++j) mean[j] += state.y[j] / count;
+    }
+    return square - dot(n, mean.data(), mean.data());
+}
+
+} // namespace
+
+bool says_more(const Branch &curve, const Branch &part, Watch watch) {
+    constexpr double lasting = 0.25, larger = 1.2; // of squares: half the size, a tenth more
+    const BranchPoint &top = curve.points()[static_cast<std::size_t>(largest_response(curve))];
+    double known = 0;
+    for (const BranchPoint &p : part.points()) known = std::max(known, square_of(p));
+    if (square_of(top) < larger * known) return false;
+    const double after = square_after(curve, top, watch);
+    return after > lasting * square_of(top) && after > larger * known;
+}
 
 std::shared_ptr<Branch> sweep_whole(const SweepTask &task) {
     constexpr double share_of_exact = 0.9; // of the effort, where harmonics can have the rest

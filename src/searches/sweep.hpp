@@ -15,6 +15,11 @@ struct SweepTask : ResponseTask {
 /// PLM_CANCELLED where that takes more than the effort.
 std::shared_ptr<Branch> sweep_whole(const SweepTask &task);
 
+/// Whether a whole curve by harmonics tells of a larger motion than a part of one by exact motions: its
+/// highest one is larger, and the structure goes on so in time, if not exactly. Where no motion is near, as
+/// in a tangle of bounces, it falls to what there is.
+bool says_more(const Branch &curve, const Branch &part, Watch watch);
+
 /// The time that a branch has taken, which is said.
 void finish(Watch watch, std::chrono::steady_clock::time_point begin, Branch &branch);
 
