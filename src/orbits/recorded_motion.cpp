@@ -28,7 +28,7 @@ vector<double> polynomial_between(const vector<double> &c, double a, double b) {
 constexpr double resolved_turn = 3.0; // rad of a fast motion that the added powers describe
 constexpr std::size_t resolved_terms = 32;
 
-constexpr double not_worth_finding = 1e-8; // of the motion: what a crest of fast motion may be higher
+constexpr double not_worth_finding = 1e-10; // of the motion: what a crest of fast motion may be higher
 
 // Raises `highest` to the largest value between a and b. Where what is fast turns often, the half in which
 // the slow part is higher comes first: its crests leave next to nothing to look for in all other turns.

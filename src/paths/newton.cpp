@@ -86,6 +86,7 @@ class Newton {
                 size = correction(r_, step_, step_parameter_);
                 continue;
             }
+            if (size <= limits_.tolerance) return finish(size); // more is lost in rounding
             damping = smaller_damping(damping, size, next_parameter);
             if (damping < limits_.min_damping)
                 return fail(pieces_repeat() ? PLM_REASON_CONTACT_CHATTER : PLM_REASON_STEP_MINIMUM);
@@ -96,9 +97,9 @@ class Newton {
   private:
     // The correction by a tangent of some point before leaves a part of itself.
     bool is_last(double size, double contraction) const {
-        return size <= allowed() && contraction * size <= left_at_last() * limits_.tolerance + smallest();
+        return size <= allowed() && contraction * size <= left_at_last() * goal() + smallest();
     }
-    double left_at_last() const { return limits_.tolerance < loose ? remainder : loose_remainder; }
+    double left_at_last() const { return goal() < loose ? remainder : loose_remainder; }
     // Whether the factorization serves for the correction after that, too. One that costs less than a
     // residual is made anew, since it gains as many digits as there are, unless the old one suffices for the
     // last.
@@ -144,10 +145,11 @@ class Newton {
     }
 
     // Rounding of the static part bounds what can be reached.
-    double allowed() const { return limits_.tolerance + smallest(); }
+    double allowed() const { return goal() + smallest(); }
+    double goal() const { return std::min(limits_.tolerance, limits_.aim); }
     double smallest() const { return rounding * norm2(n_, x_.data()) / scale(); }
     // A correction not worth making.
-    double nothing() const { return negligible * limits_.tolerance + smallest(); }
+    double nothing() const { return negligible * goal() + smallest(); }
 
     double propose(double damping) {
         for (std::int64_t i = 0; i < n_; ++i) trial_[i] = x_[i] + damping * step_[i];

@@ -17,6 +17,7 @@ struct SideCondition {
 
 struct NewtonLimits {
     double tolerance = 1e-9; // of the last correction, relative to the dynamic part of x
+    double aim = INFINITY;   // below the tolerance: to be corrected to that, as far as rounding lets it
     std::int64_t max_iterations = 30;
     double min_damping = 1e-4;  // smaller: give up
     double parameter_scale = 1; // what a change of p is measured by

@@ -153,7 +153,7 @@ class PeakSearch {
         add(lb, b.at, out.at);
         add(lc, c.at, out.at);
         NewtonLimits limits = newton_limits(options_);
-        limits.tolerance = std::max(1e-3 * limits.tolerance, least_tolerance); // for small differences
+        limits.aim = std::max(1e-3 * limits.tolerance, least_tolerance); // for small differences
         const NewtonOutcome found = newton_across(equations_, metric_, chord_, limits, out.at);
         if (!found.converged) return false;
         out.s = s;
