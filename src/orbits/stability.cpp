@@ -44,12 +44,14 @@ Matrix states_beside(const Matrix &free, const FlowModel &flow, bool velocities)
 
 } // namespace
 
-Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const MotionOptions &options)
+Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const MotionOptions &options,
+                     StabilityOf of)
     : reduced_(std::move(reduced)),
       beside_(options.period_multiple, options.stability != StabilityKind::automatic),
       period_multiple_(options.period_multiple),
       wanted_(options.stability == StabilityKind::floquet || options.stability == StabilityKind::hill ||
-              (options.stability == StabilityKind::automatic && reduced_->size() <= automatic_size)),
+              (options.stability == StabilityKind::automatic &&
+               (of == StabilityOf::point || reduced_->size() <= automatic_size))),
       hill_(options.stability == StabilityKind::hill) {
     if (wanted_ && reduced_->structural == 0) flow_ = std::make_shared<FlowModel>(reduced_);
 }

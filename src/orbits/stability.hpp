@@ -7,9 +7,14 @@
 
 namespace plm {
 
+/// What multipliers are found for: left to the library, they are on a curve of a small model, and at one
+/// point of any.
+enum class StabilityOf { curve, point };
+
 class Stability {
   public:
-    Stability(std::shared_ptr<const ReducedModel> reduced, const MotionOptions &options);
+    Stability(std::shared_ptr<const ReducedModel> reduced, const MotionOptions &options,
+              StabilityOf of = StabilityOf::curve);
     /// Whether the options and the size of the model ask for multipliers.
     bool wanted() const { return wanted_; }
     /// Of the perturbations over one period of the response, largest first: 2 n, n the coordinates of the

@@ -39,8 +39,8 @@ std::int64_t turn(const Matrix &seen, std::int64_t first, std::int64_t end, Matr
 } // namespace
 
 std::int64_t cluster_end(const vector<double> &values, std::int64_t first) {
-    const auto start = values.begin() + first;
-    return std::upper_bound(start, values.end(), *start * (1 + equal)) - values.begin();
+    const auto start = values.begin() + first; // what is free may have come out below zero
+    return std::upper_bound(start + 1, values.end(), *start + equal * std::abs(*start)) - values.begin();
 }
 
 void align_clusters(const std::vector<const Matrix *> &seen, SpaceModes &modes) {

@@ -278,20 +278,19 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
             const MeasuredHarmonics next = measure_harmonics(reduced, options, point);
             return harmonic_error_at(*reduced, point, next.change, dof, measure, harmonic);
         };
+        std::unique_ptr<PeriodicEquations> equations;
         const auto close_in = [&] {
             if (automatic) error = error_here();
-            std::unique_ptr<PeriodicEquations> equations;
             do {
                 if (error > wanted)
                     options.n_harmonics = std::max(options.n_harmonics,
                                                    std::min(limits.max_harmonics, 2 * options.n_harmonics));
-                equations = equations_of(reduced, options, point);
+                equations = equations_of(reduced, options, point, StabilityOf::point);
                 PeakSearch search(*equations, options, reduced, dof, measure, harmonic, watch_);
                 search.run(branch, around, point);
                 above = search.above();
                 if (automatic) error = error_here();
             } while (error > wanted && options.n_harmonics < limits.max_harmonics);
-            point.multipliers = multipliers_at(*equations, point);
         };
         const double of_peak = 0.7; // of the effort: the rest is for the estimate of its error
         if (!within(of_peak * effort_left(), close_in))
@@ -299,7 +298,15 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
                 .warn(PLM_REASON_EFFORT,
                       "the effort allowed was spent before the peak was closed in upon; raise the "
                       "effort of the context");
+        const bool known = within(of_peak * effort_left(), [&] {
+            if (equations) point.multipliers = multipliers_at(*equations, point);
+        });
         point.multiplier_error = branch.points()[top].multiplier_error;
+        if (options_.stability != StabilityKind::off && point.multipliers.empty())
+            one->warnings.add(PLM_REASON_UNVERIFIED,
+                              known ? Stability(reduced, options, StabilityOf::point).unknown_text(1, 1)
+                                    : "the stability of the peak is not known: the effort allowed was spent "
+                                      "before; raise the effort of the context");
     }
     one->append(point);
     vector<std::complex<double>> of_structure;

@@ -1,6 +1,5 @@
 #include "searches/point_equations.hpp"
 #include "orbits/exact_equations.hpp"
-#include "orbits/stability.hpp"
 
 namespace plm {
 
@@ -13,14 +12,16 @@ std::unique_ptr<PeriodicEquations> make_equations(std::shared_ptr<const ReducedM
 }
 
 std::unique_ptr<PeriodicEquations> equations_of(std::shared_ptr<const ReducedModel> reduced,
-                                                const HbmOptions &options, const BranchPoint &point) {
+                                                const HbmOptions &options, const BranchPoint &point,
+                                                StabilityOf of) {
     const MotionsAre kind = kind_of(point);
     return make_equations(reduced, options, kind, point.omega,
-                          kind == MotionsAre::harmonic ? multipliers_of(reduced, options) : nullptr);
+                          kind == MotionsAre::harmonic ? multipliers_of(reduced, options, of) : nullptr);
 }
 
-MultipliersOf multipliers_of(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options) {
-    const auto stability = std::make_shared<Stability>(std::move(reduced), options);
+MultipliersOf multipliers_of(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
+                             StabilityOf of) {
+    const auto stability = std::make_shared<Stability>(std::move(reduced), options, of);
     if (!stability->wanted()) return nullptr;
     return [stability](const BranchPoint &point) { return stability->multipliers(point); };
 }

@@ -2,8 +2,10 @@
 #include "linalg/blas_lapack.hpp"
 #include "linalg/lapack.hpp"
 #include "structure/eigs_internal.hpp"
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace plm {
 
@@ -127,9 +129,29 @@ Matrix chosen(const Matrix &a, const vector<std::int64_t> &columns) {
     return some;
 }
 
+/// Inverse iteration of some of the pairs (m_x: M times the vectors, which are orthonormal), and the Ritz
+/// vectors among them: beside an eigenvalue far nearer to the shift they may have come mixed with one
+/// another. K x, whose rounding beside penalties exceeds a small residual, has no part in it.
+void iterate(const Pencil &pencil, const vector<std::int64_t> &some, const Matrix &m_x, EigenPairs &pairs) {
+    const Matrix images = chosen(m_x, some);
+    Matrix solved = images;
+    pencil.factor.solve(solved);
+    const SymmetricEigen ritz = symmetric_eigen(product('T', 'N', images, solved));
+    const Matrix next = product('N', 'N', solved, ritz.vectors);
+    const auto value = [&](std::int64_t c) { return pencil.shift + 1 / ritz.values[c]; };
+    vector<std::int64_t> order(some.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return value(a) < value(b); });
+    for (std::size_t c = 0; c < some.size(); ++c) {
+        double *x = pairs.vectors.col(some[c]);
+        const double *y = next.col(order[c]), theta = ritz.values[order[c]];
+        for (std::int64_t i = 0; i < pencil.size(); ++i) x[i] = y[i] / theta;
+        pairs.values[some[c]] = value(order[c]);
+    }
+}
+
 } // namespace
 
-// Inverse iteration: K x, whose rounding beside penalties exceeds a small residual, has no part in it.
 void improve(const Pencil &pencil, EigenPairs &pairs, Matrix mx) {
     constexpr int rounds = 5;
     if (pairs.values.empty()) return;
@@ -145,16 +167,7 @@ void improve(const Pencil &pencil, EigenPairs &pairs, Matrix mx) {
                                static_cast<long long>(large[0]), pairs.values[large[0]], relative[large[0]]))
                 .index(large[0]);
         pairs.rest = SearchRest();
-        Matrix next = chosen(mx, large);
-        pencil.factor.solve(next);
-        for (std::size_t c = 0; c < large.size(); ++c) {
-            const std::int64_t j = large[c], n = pencil.size();
-            double *x = pairs.vectors.col(j);
-            const double *y = next.col(static_cast<std::int64_t>(c));
-            const double theta = dot(n, mx.col(j), y) / dot(n, mx.col(j), x);
-            pairs.values[j] = pencil.shift + 1 / theta;
-            for (std::int64_t i = 0; i < n; ++i) x[i] = y[i] / theta;
-        }
+        iterate(pencil, large, mx, pairs);
         mx = orthonormalize(pencil.m, pairs.vectors);
     }
 }

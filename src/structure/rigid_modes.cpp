@@ -63,22 +63,30 @@ struct LowModes {
         const Matrix mass = product('T', 'N', pairs.vectors, multiply_transposed(m, pairs.vectors));
         SymmetricEigen ritz = symmetric_eigen_general(stiffness, mass);
         pairs.vectors = product('N', 'N', pairs.vectors, ritz.vectors);
-        pairs.values = std::move(ritz.values);
         rounding.assign(pairs.values.size(), 0.0);
-        for (std::size_t j = 0; j < rounding.size(); ++j)
-            rounding[j] = 0.5 * std::numeric_limits<double>::epsilon() *
-                          absolute_energy(k, pairs.vectors.col(static_cast<std::int64_t>(j)));
+        // beside large ones a small Ritz value has no digits
+        for (std::size_t j = 0; j < rounding.size(); ++j) {
+            const Energy of = energy(k, pairs.vectors.col(static_cast<std::int64_t>(j)));
+            pairs.values[j] = of.sum;
+            rounding[j] = 0.5 * std::numeric_limits<double>::epsilon() * of.terms;
+        }
     }
     std::int64_t size() const { return static_cast<std::int64_t>(pairs.values.size()); }
     double largest_rounding() const { return *std::max_element(rounding.begin(), rounding.end()); }
 
   private:
-    static double absolute_energy(const SparseMatrix &k, const double *x) {
-        double sum = 0;
+    struct Energy {
+        double sum = 0, terms = 0; // x' K x, |x|' |K| |x|
+    };
+    static Energy energy(const SparseMatrix &k, const double *x) {
+        Energy e;
         for (std::int64_t j = 0; j < k.cols; ++j)
-            for (std::int64_t p = k.ptr[j]; p < k.ptr[j + 1]; ++p)
-                sum += std::abs(x[k.idx[p]] * k.val[p] * x[j]);
-        return sum;
+            for (std::int64_t p = k.ptr[j]; p < k.ptr[j + 1]; ++p) {
+                const double term = x[k.idx[p]] * k.val[p] * x[j];
+                e.sum += term;
+                e.terms += std::abs(term);
+            }
+        return e;
     }
 };
 

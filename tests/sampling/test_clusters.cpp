@@ -38,6 +38,10 @@ void the_first_of_a_cluster_has_all_that_is_seen(void **) {
         assert_true(near(std::abs(then(0, j)), left[j], 1e-14));
     }
     assert_int_equal(plm::cluster_end(modes.values, 1), 4);
+    const plm::vector<double> free = {-6e-13, -1e-38, 0, 800}; // rounding leaves them on either side of zero
+    std::int64_t clusters = 0;
+    for (std::int64_t first = 0; first < 4; first = plm::cluster_end(free, first))
+        assert_true(++clusters <= 4);
 }
 
 // Two planes of one chain of three masses, axes turned by `axes`; the force at 45 degrees to the stop.

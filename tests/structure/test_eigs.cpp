@@ -52,6 +52,16 @@ vector<double> membrane_values(std::int64_t nx, std::int64_t ny, bool fixed = tr
     return values;
 }
 
+// A free chain, all its pairs from a shift just below zero: their compliances differ by 1e13, and the high
+// ones come mixed with one another.
+void pairs_far_from_a_shift_beside_zero_are_told_apart(void **) {
+    const std::int64_t n = 9;
+    const SparseMatrix k = membrane(n, 1, false), m = unit_mass(n);
+    const plm::EigenPairs all = lowest(k, m, -3e-13, n);
+    assert_true(worst_error(k, m, all, membrane_values(n, 1, false)) <
+                1e-6); // the residual that is asked for
+}
+
 void lanczos_agrees_with_lapack_on_random_pencils(void **) {
     for (std::uint64_t seed : {1, 2, 3}) {
         const std::int64_t n = 300;
@@ -263,6 +273,7 @@ void two_runs_give_the_same_bits(void **) {
 
 int main() {
     const CMUnitTest tests[] = {
+        cmocka_unit_test(pairs_far_from_a_shift_beside_zero_are_told_apart),
         cmocka_unit_test(lanczos_agrees_with_lapack_on_random_pencils),
         cmocka_unit_test(arpack_and_lanczos_agree),
         cmocka_unit_test(a_vector_that_is_off_is_mended_beside_penalties),

@@ -69,6 +69,31 @@ void a_free_mass_beside_a_structure_is_rigid(void **) {
     }
 }
 
+// Two bodies that nothing holds, one of them a single mass, and so few DOFs that all modes are looked at at
+// once: beside the highest, a Ritz value of the mass has no digits, though its own energy is 0.
+void a_free_mass_beside_a_small_free_body_is_rigid(void **) {
+    const double spring[7] = {17670, 6559, 5798, 13695, 0, 14665, 18433};
+    test::Dense k = test::diagonal(9, 0);
+    const auto tie = [&](int a, int b, double s) { k[a][a] += s, k[b][b] += s, k[a][b] -= s, k[b][a] -= s; };
+    for (int i = 0; i < 4; ++i) tie(i, i + 1, spring[i]);
+    tie(6, 7, spring[5]), tie(7, 8, spring[6]);
+    k[0][0] += 7352;
+    const auto model = test::build(test::input(test::diagonal(9, 1), k));
+    assert_int_equal(model->n_rigid(), 2);
+    assert_true(below(model->uncertainty(), 1e-9));
+    const plm::StructureModes modes = model->lowest_modes(9);
+    // of the body 6, 7, 8: 0 and the roots of x^2 - 2 (s + t) x + 3 s t
+    const double s = spring[5], t = spring[6], root = std::sqrt((s + t) * (s + t) - 3 * s * t);
+    int found = 0;
+    double trace = 0;
+    for (double v : modes.values)
+        for (double of_body : {s + t - root, s + t + root}) found += close_to(v, of_body, 1e-9);
+    for (int i = 0; i < 9; ++i) trace += k[i][i];
+    for (double v : modes.values) trace -= v;
+    assert_int_equal(found, 2);
+    assert_true(std::abs(trace) < 1e-9 * s);
+}
+
 // A free chain with masses of 20 on springs so soft that their frequency is down to 1e-5 of the next one: the
 // modes of the chain are not worse for it.
 void soft_suspensions_leave_the_elastic_modes_their_digits(void **) {
@@ -334,6 +359,7 @@ int main() {
     const CMUnitTest tests[] = {
         cmocka_unit_test(every_loose_body_has_its_mode),
         cmocka_unit_test(a_free_mass_beside_a_structure_is_rigid),
+        cmocka_unit_test(a_free_mass_beside_a_small_free_body_is_rigid),
         cmocka_unit_test(soft_suspensions_leave_the_elastic_modes_their_digits),
         cmocka_unit_test(rigid_motion_does_not_soften_the_contact),
         cmocka_unit_test(bodies_without_stiffness_need_a_given_one),
