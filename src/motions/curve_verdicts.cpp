@@ -152,9 +152,9 @@ void check_top(double accuracy, double above, Watch watch, Branch &peak) {
     watch.keeping(peak.warnings)
         .warn(PLM_REASON_UNVERIFIED,
               format("the peak, at %.6g Hz, is only the highest point of the curve: no solutions were found "
-                     "close around it, and by its neighbours the peak may be higher by about %.2g of itself, "
-                     "where \"accuracy\" allows %.2g. Sweep with a smaller max_step, or allow more "
-                     "max_iterations",
+                     "close around it, or the effort allowed was spent before, and by its neighbours the "
+                     "peak may be higher by about %.2g of itself, where \"accuracy\" allows %.2g. Sweep with "
+                     "a smaller max_step, allow more max_iterations, or raise the effort of the context",
                      peak.points()[0].omega / (2 * M_PI), of_parabola * above, accuracy));
 }
 

@@ -290,6 +290,7 @@ class Chain {
                   model_->space_options().reduction_error;
         const BranchPoint &top = r.peak.branch->points()[0];
         if (!top.motion) r.error += top.harmonic_error < 0 ? NAN : top.harmonic_error;
+        r.error += r.peak.above;
         // what was not followed may be higher by any amount
         if (!std::isfinite(r.error) || !is_whole(*r.curve) || r.peak.branch->warnings.has(PLM_REASON_NO_PEAK))
             r.error = NAN;

@@ -187,6 +187,12 @@ bool neighbours(const Branch &branch, std::int64_t top, std::array<std::int64_t,
     return inner || (branch.end_reason == PLM_REASON_LOOP_CLOSED && n > 3);
 }
 
+// By how much the lower neighbour of the highest point is lower, of that: a parabola rises above it by less.
+double fall_beside(const Branch &branch, const std::array<std::int64_t, 3> &around, const Output &of) {
+    const auto height = [&](std::int64_t i) { return branch.amplitude(i, of.dof, of.measure, of.harmonic); };
+    return 1 - std::min(height(around[0]), height(around[2])) / height(around[1]);
+}
+
 // What rounding leaves of a DOF that does not move, of the largest one: its amplitude says nothing.
 bool moves(const Branch &branch, std::int64_t top, double amplitude) {
     constexpr double rounding = 1e-12;
@@ -279,6 +285,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
             return harmonic_error_at(*reduced, point, next.change, dof, measure, harmonic);
         };
         std::unique_ptr<PeriodicEquations> equations;
+        std::unique_ptr<PeakSearch> search;
         const auto close_in = [&] {
             if (automatic) error = error_here();
             do {
@@ -286,18 +293,15 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
                     options.n_harmonics = std::max(options.n_harmonics,
                                                    std::min(limits.max_harmonics, 2 * options.n_harmonics));
                 equations = equations_of(reduced, options, point, StabilityOf::point);
-                PeakSearch search(*equations, options, reduced, dof, measure, harmonic, watch_);
-                search.run(branch, around, point);
-                above = search.above();
+                search = std::make_unique<PeakSearch>(*equations, options, reduced, dof, measure, harmonic,
+                                                      watch_);
+                search->run(branch, around, point);
                 if (automatic) error = error_here();
             } while (error > wanted && options.n_harmonics < limits.max_harmonics);
         };
         const double of_peak = 0.7; // of the effort: the rest is for the estimate of its error
-        if (!within(of_peak * effort_left(), close_in))
-            watch_.keeping(one->warnings)
-                .warn(PLM_REASON_EFFORT,
-                      "the effort allowed was spent before the peak was closed in upon; raise the "
-                      "effort of the context");
+        within(of_peak * effort_left(), close_in);
+        above = search ? search->above() : fall_beside(branch, around, {dof, measure, harmonic});
         const bool known = within(of_peak * effort_left(), [&] {
             if (equations) point.multipliers = multipliers_at(*equations, point);
         });
@@ -330,6 +334,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         check_host_reduction(*one->reduced().model, options_.accuracy, by_basis,
                              watch_.keeping(one->warnings));
     peak.basis_error = by_basis;
+    peak.above = above;
     one->unknowns_used = branch.unknowns_used;
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);
