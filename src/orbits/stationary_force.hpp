@@ -5,6 +5,7 @@
 #include "linalg/monitor.hpp"
 #include "motions/branch.hpp"
 #include "motions/options.hpp"
+#include <cmath>
 
 namespace plm {
 
@@ -15,5 +16,12 @@ enum class ForceExtremum { centre, saddle };
 /// counts from its own force scale; NaN where Newton's method does not lead to one of that kind.
 double stationary_force(std::shared_ptr<const ReducedModel> reduced, const MotionOptions &options,
                         const BranchPoint &near, ForceExtremum kind, Watch watch);
+
+/// Whether a force of that kind belongs to an extremum known roughly; one farther away belongs to another
+/// loop.
+inline bool is_of(double force, const BranchPoint &extremum) {
+    constexpr double same_extremum = 0.3; // relative: a backbone of few harmonics is so far off
+    return std::abs(force / extremum.force_scale - 1) < same_extremum;
+}
 
 } // namespace plm

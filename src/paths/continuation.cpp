@@ -1,5 +1,5 @@
 #include "paths/continuation.hpp"
-#include "paths/passed_points.hpp"
+#include "paths/path_return.hpp"
 #include "paths/special_points.hpp"
 #include "paths/step_length.hpp"
 #include <algorithm>
@@ -27,9 +27,6 @@ constexpr double share_of_step = 1e-3;
 // longer than so many of the smallest: three failures away from it.
 constexpr double shortenable = 20;
 
-constexpr std::int64_t least_points_of_loop = 6; // before: the path is still on its way from the start
-constexpr double passing_distance = 0.2;         // of the step, from its chord to the start it passes
-
 // Lengths tried to get round a corner: from a few of the smallest steps, which cannot resolve it, to what is
 // still a corner seen from steps of the usual length.
 constexpr double corner_from = 10, corner_growth = 10; // of the smallest step
@@ -44,7 +41,7 @@ constexpr int most_rescues = 5; // more lead in circles: back to where the path 
 class Continuation {
   public:
     Continuation(Residual &system, const PathOptions &options, PathOwner &owner)
-        : walker_(system, options, owner), options_(options), owner_(owner), passed_(system.size()) {}
+        : walker_(system, options, owner), options_(options), owner_(owner), back_(walker_, system.size()) {}
 
     PathOutcome run(const PathStart &start) {
         begin(start);
@@ -71,12 +68,12 @@ class Continuation {
   private:
     void begin(const PathStart &start) {
         walker_.move(start.at);
-        from_start_ = start.end.x.empty();
-        target_ = from_start_ ? start.at : start.end;
         walker_.take_scale(start.scale);
         walker_.linearize_here();
         walker_.make_tangent(start.direction.x.empty() ? nullptr : &start.direction);
-        target_tangent_ = from_start_ ? walker_.tangent() : start.end_direction;
+        const bool closes_here = start.end.x.empty();
+        back_.begin(closes_here ? start.at : start.end, closes_here ? walker_.tangent() : start.end_direction,
+                    closes_here);
         orientation_ = walker_.orientation();
         tests_ = walker_.tests();
         if (start.record) record(start.residual, 0, PLM_BIFURCATION_NONE);
@@ -151,21 +148,17 @@ class Continuation {
             if (std::isnan(tests_[k])) tests_[k] = old_tests[k]; // its sign is that of the last known value
         if (!locate(before, old_tangent, moved, old_tests)) return false;
         arclength_ += moved;
-        if (passes_start(before, moved)) {
-            if (walker_.cosine_with_tangent(target_tangent_) > 0) {
-                close_loop();
-                return true;
-            }
-            if (is_start(before)) {
-                end(PLM_REASON_TURNED_BACK);
-                return true;
-            }
-        } else if (goes_round(before)) {
-            end(PLM_REASON_CROSSED_OVER);
+        const std::int32_t came_back = back_.by_step(before, moved, n_recorded_);
+        if (came_back == PLM_REASON_LOOP_CLOSED) {
+            close_loop();
+            return true;
+        }
+        if (came_back != PLM_REASON_NONE) {
+            end(came_back);
             return true;
         }
         record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
-        passed_.add(walker_.metric(), walker_.now(), walker_.tangent());
+        back_.pass();
         if (walker_.take_scale()) { // how the path bent, in the new metric
             last_step_ = walker_.metric().distance(walker_.now(), before);
             scale_by(1 / walker_.metric().length(last_tangent_), last_tangent_);
@@ -174,46 +167,8 @@ class Continuation {
         return true;
     }
 
-    // The step from `before` passed the point where the path began.
-    bool passes_start(const PathState &before, double moved) const {
-        if (from_start_ && n_recorded_ < least_points_of_loop) return false;
-        const PathState chord = difference(walker_.now(), before), back = difference(target_, before);
-        const double along = walker_.metric().product(chord, back) / (moved * moved);
-        if (!(along > 0 && along <= 1)) return false;
-        const double distance = walker_.metric().length(back);
-        return std::sqrt(std::max(0.0, distance * distance - along * along * moved * moved)) <
-               passing_distance * moved;
-    }
-
-    // The solution on the present step at a parameter.
-    bool solve_on_step(const PathState &before, double parameter, PathState &at) {
-        const PathState chord = difference(walker_.now(), before);
-        const double part = chord.parameter != 0 ? (parameter - before.parameter) / chord.parameter : 1;
-        at = before;
-        add(part, chord, at);
-        at.parameter = parameter;
-        const bool found = walker_.correct_at_parameter(at).converged;
-        walker_.linearize_here();
-        return found;
-    }
-
-    // Whether the solution on the present step at the parameter of the start is the start itself.
-    bool is_start(const PathState &before) {
-        PathState at;
-        return solve_on_step(before, target_.parameter, at) &&
-               walker_.metric().distance(at, target_) < same_solution;
-    }
-
-    // The step from `before` came by a point of the path.
-    bool goes_round(const PathState &before) {
-        const std::int64_t k = passed_.on_step(walker_.metric(), before, walker_.now(), walker_.tangent());
-        PathState at;
-        return k >= 0 && solve_on_step(before, passed_.parameter(k), at) &&
-               passed_.is(k, walker_.metric(), at);
-    }
-
     void close_loop() {
-        walker_.move(target_);
+        walker_.move(back_.target());
         walker_.linearize_here();
         record(0.0, 0, PLM_BIFURCATION_NONE);
         end(PLM_REASON_LOOP_CLOSED);
@@ -270,8 +225,8 @@ class Continuation {
         walker_.move(std::move(last));
         // a path that begins on the boundary and leaves at once has its last point already
         const bool is_new = moved >= options_.min_step,
-                   is_start = is_new && target_.parameter == edge && n_recorded_ > 1 &&
-                              walker_.metric().distance(walker_.now(), target_) < same_solution;
+                   is_start = is_new && back_.target().parameter == edge && n_recorded_ > 1 &&
+                              back_.is_target(walker_.now());
         if (is_new && !record_last(out, before, old_tangent, moved)) return false;
         end(is_start ? PLM_REASON_TURNED_BACK : PLM_REASON_RANGE_END);
         return true;
@@ -395,11 +350,11 @@ class Continuation {
     PathWalker walker_;
     const PathOptions &options_;
     PathOwner &owner_;
-    PathState target_, target_tangent_, last_tangent_;
+    PathState last_tangent_;
     double arclength_ = 0, last_step_ = 0, step_ = 0, orientation_ = 1;
-    bool plain_predictor_ = false, rescued_ = false, interrupted_ = false, from_start_ = true;
+    bool plain_predictor_ = false, rescued_ = false, interrupted_ = false;
     vector<double> tests_; // at the present point
-    PassedPoints passed_;
+    PathReturn back_;
     std::int64_t n_recorded_ = 0;
     int n_rescues_ = 0;
     PathOutcome out_;

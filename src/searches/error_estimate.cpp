@@ -13,7 +13,6 @@
 #include "searches/curve.hpp"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace plm {
 namespace {
@@ -35,7 +34,6 @@ Matrix gaps_of(const BranchPoint &p, const ReducedModel &from, const ReducedMode
     return x;
 }
 
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double contracts = 0.5;    // second step over first with one tangent: else it does not hold so far
 constexpr double settled = 0.05;     // last step over first, with tangents renewed
 constexpr double negligible = 1e-10; // relative step that asks for no more
@@ -185,9 +183,9 @@ ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Mea
         Correction more(full_, o, c.point(), *full_);
         const double further = more.step(true);
         settle(more, &ErrorParts::harmonics);
-        if (!more.settle(further)) e.amplitude.harmonics = e.frequency_hz.harmonics = unknown;
+        if (!more.settle(further)) e.amplitude.harmonics = e.frequency_hz.harmonics = NAN;
     }
-    if (!e.known) e.amplitude = e.frequency_hz = {unknown, unknown, unknown};
+    if (!e.known) e.amplitude = e.frequency_hz = {NAN, NAN, NAN};
     return e;
 }
 
@@ -213,7 +211,7 @@ ErrorEstimate ErrorEstimator::by_exact_motion(std::int64_t point, std::int64_t d
     ErrorEstimate e;
     e.known = make_exact_beside(full_, o, start_of(in_part, 0), own, work);
     if (!e.known) {
-        e.amplitude = e.frequency_hz = {unknown, unknown, unknown};
+        e.amplitude = e.frequency_hz = {NAN, NAN, NAN};
         return e;
     }
     Branch alone(full_, branch_.force_scale(), branch_.period_multiple());

@@ -28,9 +28,8 @@ constexpr double met_there = 1e-3;         // relative distance of a crossing, b
 // What a model that a loop is followed on leaves out of its first motion, if it needs more than the curve's;
 // and how much smaller than the basis it has to be to save time.
 constexpr double left_out_of_loop[] = {3e-5, 1e-5}, smaller_enough = 0.9;
-// The fold's extremum of the force lies near that of the backbone, or two folds of the loop meet there; one
-// farther away belongs to another loop.
-constexpr double same_extremum = 0.3, same_turn = 1e-4;
+// Two folds of the loop meet at an extremum of the force.
+constexpr double same_turn = 1e-4;
 // Where the folds are followed: from half the force on one side to twice the force on the other.
 constexpr double less_force = 0.5, more_force = 2;
 // Beyond a swallowtail: few leaps, each a small part of the force, as long as the folds go on as they went.
@@ -237,16 +236,12 @@ class Search {
         if (found.branch->points().front().motion) {
             force = stationary_force(reduced_, options_, extremum,
                                      upward ? ForceExtremum::saddle : ForceExtremum::centre, watch_);
-            if (is_near(force, extremum) && (force > options_.force_scale) == upward) return true;
+            if (is_of(force, extremum) && (force > options_.force_scale) == upward) return true;
             force = NAN;
         } else { // with the few harmonics of its backbone it says nothing of exact motions
             force = extremum.force_scale;
         }
         return follow_to_end(extremum, upward, *found.branch, force);
-    }
-
-    static bool is_near(double force, const BranchPoint &extremum) {
-        return std::abs(force / extremum.force_scale - 1) < same_extremum;
     }
 
     // From the fold nearest to the backbone's extremum; the others when that leads elsewhere.
@@ -264,7 +259,7 @@ class Search {
         for (const BranchPoint &fold : folds) {
             const double turn = first_turn(fold, upward, extremum.force_scale);
             const auto is_this = [turn](double t) { return std::abs(t / turn - 1) < same_turn; };
-            if (is_near(turn, extremum) || std::any_of(turns.begin(), turns.end(), is_this)) {
+            if (is_of(turn, extremum) || std::any_of(turns.begin(), turns.end(), is_this)) {
                 force = turn;
                 return true;
             }

@@ -12,7 +12,6 @@
 #include "searches/isolated.hpp"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace plm {
 namespace {
@@ -26,9 +25,8 @@ constexpr double work_anyhow = 1e9;
 constexpr double steps_of_exact = 12, steps_of_harmonics = 5;
 constexpr std::int64_t least_points = 20; // fewer lead nowhere
 constexpr std::size_t most_resonances = 2, most_curves = 2;
-constexpr double same = 1e-4;         // relative distance of two phase-resonant motions
-constexpr double near_extremum = 0.3; // of the force: a stationary one farther away is another
-constexpr double same_motion = 0.1;   // of the amplitude, on a compressed model and on its basis
+constexpr double same = 1e-4;       // relative distance of two phase-resonant motions
+constexpr double same_motion = 0.1; // of the amplitude, on a compressed model and on its basis
 
 // A crossing of a backbone with the force of the curve.
 struct Crossing {
@@ -194,8 +192,8 @@ class SearchBeside {
         }
         m.frequency_hz = point.omega / (2 * M_PI);
         if (!is_on_basis(curve->reduced_model(), point, m.amplitude)) return;
-        m.force_low = crossing ? force_at(crossing->lowest, ForceExtremum::centre) : unknown;
-        m.force_high = crossing ? force_at(crossing->highest, ForceExtremum::saddle) : unknown;
+        m.force_low = crossing ? force_at(crossing->lowest, ForceExtremum::centre) : NAN;
+        m.force_high = crossing ? force_at(crossing->highest, ForceExtremum::saddle) : NAN;
         best_ = std::move(m);
     }
 
@@ -213,14 +211,12 @@ class SearchBeside {
     }
 
     double force_at(const BranchPoint *extremum, ForceExtremum kind) const {
-        if (!extremum) return unknown;
+        if (!extremum) return NAN;
         const double near = extremum->force_scale,
                      exact = exact_ ? stationary_force(reduced_, options_, *extremum, kind, watch_.quiet())
                                     : near;
-        return std::abs(exact / near - 1) < near_extremum ? exact : near;
+        return is_of(exact, *extremum) ? exact : near;
     }
-
-    static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
     const KnownResponse &known_;
     const Branch &curve_;
