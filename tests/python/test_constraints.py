@@ -132,9 +132,11 @@ class Constraints(unittest.TestCase):
         by_hand = by_hand[:, 12:]
         want = scipy.linalg.eigh(by_hand.T @ stiffness @ by_hand, by_hand.T @ mass @ by_hand, eigvals_only=True)
         turned = scipy.linalg.qr(random.normal(size=(12, 12)))[0] @ rows  # the same, said otherwise
-        for given in (rows, turned):
+        wide = scipy.sparse.csr_matrix(turned)
+        wide.indptr, wide.indices = wide.indptr.astype(numpy.int64), wide.indices.astype(numpy.int64)
+        for given in (rows, wide):
             model = plm.Model(mass, stiffness)
-            model.add_constraints(scipy.sparse.csr_matrix(given))
+            model.add_constraints(given)
             model.build()
             self.assertEqual(model.n_free, 24)
             hz, shapes = model.modes(24, shapes=True)
@@ -159,8 +161,11 @@ class Constraints(unittest.TestCase):
             model.build()
         self.assertEqual(model.warning_reasons[0], plm.REASON_ROUNDED)
 
+        zeros = scipy.sparse.csr_matrix(tie + 2)
+        zeros.data -= 2
         model = plm.Model(mass, stiffness)
-        model.add_constraints(tie)
+        model.add_constraints(zeros)
+        self.assertEqual(zeros.nnz, len(mass))  # the caller's own
         model.add_gap_rows(tie)
         with self.assertRaisesRegex(plm.PlmError, "pair 0 .*tied to one another"):
             model.build()

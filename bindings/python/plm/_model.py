@@ -148,11 +148,13 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
                    address(gap))
 
     def _rows(self, rows, when_zero):
-        rows = scipy.sparse.csr_matrix(rows, copy=True)
+        rows = scipy.sparse.csr_matrix(rows)
+        if not numpy.all(rows.data):  # and not in the caller's own arrays
+            rows = rows.copy()
+            rows.eliminate_zeros()
         coefficient = numpy.ascontiguousarray(real_parts(rows.data, "rows"))
         if rows.shape[1] != self.n_dof:
             raise ValueError(f"rows has {rows.shape[1]} columns; needed is n_dof = {self.n_dof}")
-        rows.eliminate_zeros()
         empty = numpy.flatnonzero(numpy.diff(rows.indptr) == 0)
         if empty.size:
             raise ValueError(f"row {empty[0]} of rows is all zeros: it touches no DOF, and {when_zero}; leave it out, "
