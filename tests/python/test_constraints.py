@@ -194,6 +194,19 @@ class Constraints(unittest.TestCase):
         lever = by_hand.T @ mass @ by_hand
         self.near(model.modes(2, "sliding")[1], numpy.sqrt(1e3 * numpy.linalg.inv(lever)[0, 0]) / (2 * numpy.pi), 1e-9)
 
+    def test_multipliers_of_the_host(self):
+        """Refused as they are; with their DOFs fixed and their rows as constraints, the model that was meant."""
+        mass, stiffness, turn, tie, merge = cut()
+        n = len(mass)
+        bordered = numpy.block([[stiffness, tie.T], [tie, numpy.zeros((1, 1))]])
+        model = plm.Model(scipy.sparse.csc_matrix(scipy.linalg.block_diag(mass, 0)), scipy.sparse.csc_matrix(bordered))
+        with self.assertRaisesRegex(plm.PlmError, "Lagrange multipliers.*plm_model_add_constraints"):
+            model.build()
+        model.fix_dofs([n])
+        model.add_constraints(numpy.append(tie, [[0.0]], axis=1))
+        merged = plm.Model(merge.T @ mass @ merge, merge.T @ stiffness @ merge).build()
+        self.near(model.build().modes(5), merged.modes(5), 1e-10)
+
     def test_recovery_of_a_tied_superelement(self):
         mass, stiffness, turn, tie, merge = cut()
         n, force = len(mass), numpy.zeros(len(mass))
