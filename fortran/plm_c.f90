@@ -442,6 +442,28 @@ module plm_c
             integer(c_int64_t), intent(in) :: dof(*)
             integer(plm_status) :: code
         end function plm_model_fix_dofs_i64
+        function plm_model_add_constraints_i32(model, index_base, n, row_ptr, dof, coefficient) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), intent(in) :: row_ptr(*)
+            integer(c_int32_t), intent(in) :: dof(*)
+            real(c_double), intent(in) :: coefficient(*)
+            integer(plm_status) :: code
+        end function plm_model_add_constraints_i32
+        function plm_model_add_constraints_i64(model, index_base, n, row_ptr, dof, coefficient) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int64_t), intent(in) :: row_ptr(*)
+            integer(c_int64_t), intent(in) :: dof(*)
+            real(c_double), intent(in) :: coefficient(*)
+            integer(plm_status) :: code
+        end function plm_model_add_constraints_i64
         function plm_model_set_elimination_order_i32(model, index_base, n, dof) bind(c) result(code)
             import :: c_int32_t, c_int64_t, c_ptr, plm_status
             implicit none
@@ -1684,6 +1706,9 @@ module plm_c
     end interface
     interface plm_model_fix_dofs
         procedure :: plm_model_fix_dofs_i32, plm_model_fix_dofs_i64
+    end interface
+    interface plm_model_add_constraints
+        procedure :: plm_model_add_constraints_i32, plm_model_add_constraints_i64
     end interface
     interface plm_model_set_elimination_order
         procedure :: plm_model_set_elimination_order_i32, plm_model_set_elimination_order_i64

@@ -327,6 +327,21 @@ subroutine plmmfx(handle, n, idof, ierr)
     ierr = int(plm_model_fix_dofs(as_pointer(handle), int(1, c_int32_t), int(n, int64), idof))
 end subroutine plmmfx
 
+subroutine plmmcn(handle, n, irow, idof, coeff, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_add_constraints
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    integer, intent(in) :: irow(*)
+    integer, intent(in) :: idof(*)
+    real(real64), intent(in) :: coeff(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_add_constraints(as_pointer(handle), int(1, c_int32_t), int(n, int64), irow, idof, coeff))
+end subroutine plmmcn
+
 subroutine plmmeo(handle, n, idof, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t
     use, intrinsic :: iso_fortran_env, only: int64

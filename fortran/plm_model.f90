@@ -24,6 +24,7 @@ module plm_models
         procedure, private :: set_elimination_order_int32, set_elimination_order_int64
         procedure, private :: add_ground_contacts_int32, add_ground_contacts_int64
         procedure, private :: add_gap_rows_int32, add_gap_rows_int64
+        procedure, private :: add_constraints_int32, add_constraints_int64
         procedure, private :: set_excitation_real, set_excitation_complex
         generic :: set_csc => set_csc_int32, set_csc_int64
         generic :: set_csr => set_csr_int32, set_csr_int64
@@ -33,6 +34,7 @@ module plm_models
         generic :: add_node_pairs => add_node_pairs_int32, add_node_pairs_int64
         generic :: add_ground_contacts => add_ground_contacts_int32, add_ground_contacts_int64
         generic :: add_gap_rows => add_gap_rows_int32, add_gap_rows_int64
+        generic :: add_constraints => add_constraints_int32, add_constraints_int64
         procedure :: set_dense_matrix
         procedure :: add_dense_gap_rows
         procedure :: set_recovery
@@ -133,6 +135,25 @@ contains
         call finish(self%context, plm_model_fix_dofs(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), &
             stat, errmsg)
     end subroutine fix_dofs_int32
+
+    ! Constraints: sum of coefficient x q(dof) = 0 in every row.
+    subroutine add_constraints_int32(self, row_ptr, dof, coefficient, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: row_ptr(:), dof(:)
+        real(real64), intent(in), contiguous :: coefficient(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(row_ptr) < 1 .or. size(dof) /= size(coefficient)) then
+            call refuse('add_constraints: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
+            call refuse('add_constraints: row_ptr ends behind the end of dof', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_add_constraints(self%handle, 1_c_int32_t, size(row_ptr, kind=int64) - 1, &
+            row_ptr, dof, coefficient), stat, errmsg)
+    end subroutine add_constraints_int32
 
     ! all DOFs as the sparse factorization eliminates them, in place of the library's order
     subroutine set_elimination_order_int32(self, dof, stat, errmsg)

@@ -85,6 +85,17 @@ static int contacts(plm_context *ctx) {
     TRY(plm_model_add_ground_contacts_i64(model, 0, 1, node_64, normal, k_n, gap));
     /* [plm_model_add_ground_contacts_i64] */
 
+    /* [plm_model_add_constraints_i32] */
+    /* q_4 = (q_3 + q_5) / 2: a node in the middle of an edge */
+    const int32_t tie_ptr[] = {0, 3}, tie_dof[] = {4, 3, 5};
+    const double tie[] = {1, -0.5, -0.5};
+    TRY(plm_model_add_constraints_i32(model, 0, 1, tie_ptr, tie_dof, tie));
+    /* [plm_model_add_constraints_i32] */
+    /* [plm_model_add_constraints_i64] */
+    const int64_t wide_tie_ptr[] = {0, 3}, wide_tie_dof[] = {4, 3, 5}; /* the same once more: left out */
+    TRY(plm_model_add_constraints_i64(model, 0, 1, wide_tie_ptr, wide_tie_dof, tie));
+    /* [plm_model_add_constraints_i64] */
+
     /* [plm_model_add_gap_rows_i32] */
     /* u = q_0 - (q_3 + q_4) / 2: a node against the middle of an edge */
     const int32_t row_ptr[] = {0, 3}, dof[] = {0, 3, 4};

@@ -694,6 +694,22 @@ class Model : public detail::WithOptions<Model, plm_model> {
                             : plm_model_fix_dofs_i32(handle_, index_base, dof.size(), dof.narrow()),
               dof.is_wide() ? "fix_dofs_i64" : "fix_dofs_i32");
     }
+    /// Rows sum c_j q_j = 0: row_ptr (n + 1), dof and coefficient.
+    void add_constraints(Indices row_ptr, Indices dof, Reals coefficient, std::int32_t index_base = 0) {
+        const bool wide = row_ptr.is_wide();
+        const char *verb = wide ? "add_constraints_i64" : "add_constraints_i32";
+        if (row_ptr.size() < 1) require_size(row_ptr.size(), 1, verb, "row_ptr");
+        const std::int64_t n = row_ptr.size() - 1;
+        const std::int64_t nnz = (wide ? row_ptr.wide()[n] : std::int64_t(row_ptr.narrow()[n])) - index_base;
+        require_size(dof.size(), nnz, verb, "dof");
+        require_width(dof, wide, verb, "dof");
+        require_size(coefficient.size(), nnz, verb, "coefficient");
+        check(wide ? plm_model_add_constraints_i64(handle_, index_base, n, row_ptr.wide(), dof.wide(),
+                                                   coefficient.data())
+                   : plm_model_add_constraints_i32(handle_, index_base, n, row_ptr.narrow(), dof.narrow(),
+                                                   coefficient.data()),
+              verb);
+    }
     /// A permutation of all DOFs: how the sparse factorization eliminates them, in place of the library's
     /// order.
     void set_elimination_order(Indices dof, std::int32_t index_base = 0) {

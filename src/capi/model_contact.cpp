@@ -1,6 +1,6 @@
 // The contact pairs of the model: node pairs, ground contacts and raw rows all become rows of the gap matrix.
 #include "capi/barrier.hpp"
-#include "capi/model_input.hpp"
+#include "capi/sparse_rows.hpp"
 #include "linalg/scale.hpp"
 #include <algorithm>
 
@@ -135,45 +135,6 @@ plm_status add_nodes(const char *function, plm_model *model, const NodePairs<Ind
     });
 }
 
-template <class Index> void check_row_pointers(const Index *row_ptr, std::int64_t n, std::int64_t base) {
-    require_pointer(row_ptr, "row_ptr");
-    if (row_ptr[0] != base)
-        bad_argument("row_ptr", 0,
-                     format("row_ptr[0] = %lld must be the index base %lld", Int(row_ptr[0]), Int(base)));
-    for (std::int64_t i = 0; i < n; ++i)
-        if (row_ptr[i + 1] <= row_ptr[i])
-            bad_argument("row_ptr", i + 1,
-                         format("row_ptr[%lld] = %lld: every gap row needs at least one entry, so "
-                                "the pointers must increase",
-                                Int(i + 1), Int(row_ptr[i + 1])));
-}
-
-template <class Index>
-void take_rows(NewPairs &pairs, std::int64_t n, std::int64_t base, std::int64_t n_dof, const Index *row_ptr,
-               const Index *dof, const double *coefficient) {
-    const std::int64_t nnz = row_ptr[n] - base;
-    if (nnz > 0) require_pointer(dof, "dof");
-    require_finite_array(coefficient, nnz, "coefficient");
-    for (std::int64_t i = 0; i < n; ++i) {
-        const std::int64_t begin = row_ptr[i] - base, end = row_ptr[i + 1] - base;
-        double largest = 0;
-        for (std::int64_t p = begin; p < end; ++p) {
-            require_dof(dof[p], base, n_dof, "dof", p);
-            if (std::find(dof + begin, dof + p, dof[p]) != dof + p)
-                bad_argument("dof", p,
-                             format("dof[%lld] = %lld stands twice in gap row %lld; sum its coefficients",
-                                    Int(p), Int(dof[p]), Int(i)));
-            pairs.row.push_back(plm::Contact::normal_row(i));
-            pairs.dof.push_back(dof[p] - base);
-            pairs.coefficient.push_back(coefficient[p]);
-            largest = std::max(largest, std::abs(coefficient[p]));
-        }
-        if (!(largest > 0))
-            bad_argument("coefficient", begin,
-                         format("gap row %lld is zero; its penetration can never change", Int(i)));
-    }
-}
-
 void take_dense_rows(NewPairs &pairs, std::int64_t n, std::int64_t n_dof, const double *row,
                      std::int64_t ld) {
     for (std::int64_t i = 0; i < n; ++i) {
@@ -203,9 +164,15 @@ plm_status add_rows(const char *function, plm_model *model, std::int32_t index_b
         require_open(m);
         require_index_base(index_base);
         require_range(n, 0, INT64_MAX / 64, "n");
-        check_row_pointers(row_ptr, n, index_base);
+        const SparseRows<Index> rows{
+            "gap row", "its penetration can never change", n, index_base, row_ptr, dof, coefficient};
+        check_row_pointers(rows);
         NewPairs pairs;
-        take_rows(pairs, n, index_base, m.input.n_dof, row_ptr, dof, coefficient);
+        for_entries(rows, m.input.n_dof, [&](std::int64_t i, std::int64_t j, double c) {
+            pairs.row.push_back(plm::Contact::normal_row(i));
+            pairs.dof.push_back(j);
+            pairs.coefficient.push_back(c);
+        });
         take_stiffness_and_gap(pairs, n, stiffness, gap);
         add_to(m.input, pairs);
         return PLM_OK;

@@ -154,8 +154,8 @@ double harmonic_error(const ReducedModel &m, const BranchPoint &point, const Har
 
 double harmonic_error_at(const ReducedModel &m, const BranchPoint &point, const HarmonicChange &change,
                          std::int64_t dof, Measure measure, std::int64_t harmonic) {
-    const std::int64_t row = m.model->free_index(dof);
-    if (row < 0) return 0;
+    const DofTerms row = m.model->terms(dof);
+    if (row.empty()) return 0;
     const bool one = measure == Measure::harmonic && harmonic > 0;
     const vector<double> p = m.vectors.row(row);
     const auto size = [&](const Matrix &eta, std::int64_t n) {

@@ -176,9 +176,8 @@ class ModePath final : public Tracer {
     // The amplitude of the mode that moves the DOF as asked; 0: not asked.
     double asked_amplitude() const {
         if (options_.dof < 0 || !(options_.dof_amplitude_max > 0)) return 0;
-        const std::int64_t row = m_->model->free_index(options_.dof);
         const Field mode = combine(m_->vectors, shape_);
-        const double swing = row < 0 ? 0 : mode.at(row, 0), most = largest_entry(mode).size;
+        const double swing = mode.at(m_->model->terms(options_.dof)), most = largest_entry(mode).size;
         constexpr double moves = 1e-6; // of the largest displacement: below, it is rounding of the mode
         if (!(std::abs(swing) > moves * most))
             throw Error(PLM_ERR_ARGUMENT, "this mode does not move the DOF; name one that it moves")

@@ -123,8 +123,7 @@ void Branch::append(BranchPoint point) {
 }
 
 vector<double> Branch::coefficients(std::int64_t point, std::int64_t dof) const {
-    const std::int64_t row = reduced_->model->free_index(dof);
-    if (row < 0) return vector<double>(2 * n_harmonics_ + 1, 0.0);
+    const DofTerms row = reduced_->model->terms(dof);
     return coefficients(point, {reduced_->vectors.row(row), reduced_->static_vectors().row(row)});
 }
 

@@ -171,8 +171,7 @@ vector<double> FlowModel::dof_row(std::int64_t dof) const {
                                              static_cast<long long>(n_dof - 1)))
             .argument("dof")
             .index(dof);
-    const std::int64_t row = reduced_->model ? reduced_->model->free_index(dof) : dof;
-    if (row < 0) return vector<double>(size(), 0.0);
+    const DofTerms row = reduced_->model ? reduced_->model->terms(dof) : DofTerms{{dof, 1.0}};
     return from_static_coordinates(vectors.row(row));
 }
 

@@ -11,7 +11,7 @@ class RunObserver final : public NewmarkObserver {
   public:
     RunObserver(const Model &model, const FullState &start, const vector<std::int64_t> &observed)
         : contact_(model.contact()) {
-        for (std::int64_t dof : observed) rows_.push_back(model.free_index(dof));
+        for (std::int64_t dof : observed) rows_.push_back(model.terms(dof));
         vector<double> u(model.n_pairs());
         model.gap_rows().of(start.q, u);
         for (std::size_t i = 0; i < u.size(); ++i) u[i] -= model.initial_gap()[i];
@@ -22,14 +22,14 @@ class RunObserver final : public NewmarkObserver {
         const PairStates states = contact_.states_of_forces(step.force);
         n_events_ += states.n_different(before_);
         before_ = states;
-        for (std::int64_t row : rows_) values_.push_back(row < 0 ? 0.0 : step.q.at(row));
+        for (const DofTerms &row : rows_) values_.push_back(step.q.at(row));
     }
     std::int64_t n_events() const { return n_events_; }
     std::int64_t n_steps() const { return n_steps_; }
     vector<double> &values() { return values_; }
 
   private:
-    vector<std::int64_t> rows_;
+    std::vector<DofTerms> rows_;
     const Contact &contact_;
     PairStates before_;
     vector<double> values_;

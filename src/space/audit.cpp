@@ -199,11 +199,11 @@ class Audit {
 
     // A reversed sign shows here at a glance.
     std::string closing_motion() const {
-        const auto row = m_.gap_rows().rows()[Contact::normal_row(0)];
-        GapRows::Term strongest = row.front();
-        for (const GapRows::Term &t : row)
+        const auto row = m_.given_gap_rows()[Contact::normal_row(0)];
+        DofTerm strongest = row.front();
+        for (const DofTerm &t : row)
             if (std::abs(t.coefficient) > std::abs(strongest.coefficient)) strongest = t;
-        return format("motion of DOF %lld in its %s direction closes pair 0", Int(m_.dof(strongest.dof)),
+        return format("motion of DOF %lld in its %s direction closes pair 0", Int(strongest.dof),
                       strongest.coefficient > 0 ? "positive" : "negative");
     }
 

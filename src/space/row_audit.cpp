@@ -31,13 +31,13 @@ class RowAudit {
     void rotations() {
         const vector<Translation> &known = m_.translations();
         if (known.empty() || known.front().step < 2) return;
-        const auto rows = m_.gap_rows().rows();
+        const auto rows = m_.given_gap_rows();
         std::int64_t turned = 0, one = -1;
         for (std::int64_t i = 0; i < m_.n_pairs(); ++i) {
             const auto &row = rows[Contact::normal_row(i)];
-            const bool moves = std::any_of(row.begin(), row.end(), [&](const GapRows::Term &g) {
+            const bool moves = std::any_of(row.begin(), row.end(), [&](const DofTerm &g) {
                 return std::any_of(known.begin(), known.end(),
-                                   [&](const Translation &t) { return t.holds(m_.dof(g.dof)); });
+                                   [&](const Translation &t) { return t.holds(g.dof); });
             });
             if (!moves && turned++ == 0) one = i;
         }
@@ -47,7 +47,7 @@ class RowAudit {
                        "use a "
                        "rotation, or numbers that are off by one? Translations are DOFs %lld, %lld, ... "
                        "counted from 0",
-                       Int(turned), Int(one), Int(m_.dof(rows[static_cast<std::size_t>(one)].front().dof)),
+                       Int(turned), Int(one), Int(rows[static_cast<std::size_t>(one)].front().dof),
                        Int(known.front().first), Int(known.front().first + known.front().step)));
     }
 
@@ -57,20 +57,20 @@ class RowAudit {
         const vector<Translation> &known = m_.translations();
         if (known.empty() || known.front().step < 2) return;
         const std::int64_t step = known.front().step;
-        const auto is_mixed = [&](const vector<GapRows::Term> &row) {
+        const auto is_mixed = [&](const DofTerms &row) {
             if (row.size() != 2) return false;
-            const std::int64_t a = m_.dof(row[0].dof), b = m_.dof(row[1].dof);
+            const std::int64_t a = row[0].dof, b = row[1].dof;
             const bool opposed =
                 std::abs(row[0].coefficient + row[1].coefficient) < 1e-6 * std::abs(row[0].coefficient);
             return opposed && a / step != b / step && a % step != b % step;
         };
-        const auto rows = m_.gap_rows().rows();
+        const auto rows = m_.given_gap_rows();
         std::int64_t mixed = 0, one = -1;
         for (std::int64_t i = 0; i < m_.n_pairs(); ++i)
             if (is_mixed(rows[Contact::normal_row(i)]) && mixed++ == 0) one = i;
         if (mixed == 0) return;
         const auto &row = rows[Contact::normal_row(one)];
-        const std::int64_t a = m_.dof(row[0].dof), b = m_.dof(row[1].dof);
+        const std::int64_t a = row[0].dof, b = row[1].dof;
         add(1, static_cast<double>(mixed),
             format("%lld pairs of two DOFs (the first: pair %lld, DOFs %lld and %lld) join component %lld of "
                    "one node to component %lld of another: the stiffness matrix has %lld DOFs per node; were "
@@ -80,13 +80,12 @@ class RowAudit {
 
     // Rows as (DOF, coefficient) lists; equal ones share a key.
     void repeated_rows() {
-        const auto rows = m_.gap_rows().rows();
+        const auto rows = m_.given_gap_rows();
         std::map<std::vector<std::pair<std::int64_t, double>>, std::int64_t> first;
         std::int64_t repeated = 0, one = 0, other = 0;
         for (std::int64_t i = 0; i < m_.n_pairs(); ++i) {
             std::vector<std::pair<std::int64_t, double>> row;
-            for (const GapRows::Term &t : rows[Contact::normal_row(i)])
-                row.emplace_back(t.dof, t.coefficient);
+            for (const DofTerm &t : rows[Contact::normal_row(i)]) row.emplace_back(t.dof, t.coefficient);
             const auto [place, fresh] = first.emplace(std::move(row), i);
             if (fresh) continue;
             if (repeated++ == 0) one = place->second, other = i;
@@ -102,9 +101,9 @@ class RowAudit {
     // or fixed.
     void row_balance() {
         std::int64_t unbalanced = 0, scaled = 0;
-        for (const auto &row : m_.gap_rows().rows()) {
+        for (const auto &row : m_.given_gap_rows()) {
             double sum = 0, positive = 0, negative = 0;
-            for (const GapRows::Term &t : row) {
+            for (const DofTerm &t : row) {
                 sum += t.coefficient;
                 (t.coefficient > 0 ? positive : negative) += t.coefficient * t.coefficient;
             }
@@ -129,10 +128,10 @@ class RowAudit {
 
     // Against the ground along an oblique normal. Where nothing tells which DOFs a node has, two coefficients
     // that make a direction are taken for one.
-    bool is_of_one_node(const vector<GapRows::Term> &row) const {
+    bool is_of_one_node(const DofTerms &row) const {
         if (!m_.translations().empty()) {
             const std::int64_t step = m_.translations().front().step;
-            return m_.dof(row[0].dof) / step == m_.dof(row[1].dof) / step;
+            return row[0].dof / step == row[1].dof / step;
         }
         return std::abs(std::hypot(row[0].coefficient, row[1].coefficient) - 1) < balanced;
     }
@@ -148,14 +147,14 @@ std::vector<Finding> row_audit(const Model &model) {
 }
 
 bool touches_ground(const Model &model) {
-    const auto rows = model.gap_rows().rows();
+    const auto rows = model.given_gap_rows();
     for (std::int64_t i = 0; i < model.n_pairs(); ++i) {
         const auto &row = rows[Contact::normal_row(i)];
         if (model.translations().empty() && row.size() == 1) return true;
         for (const Translation &t : model.translations()) {
             double moved = 0, size = 0;
-            for (const GapRows::Term &g : row)
-                if (t.holds(model.dof(g.dof))) moved += g.coefficient, size += std::abs(g.coefficient);
+            for (const DofTerm &g : row)
+                if (t.holds(g.dof)) moved += g.coefficient, size += std::abs(g.coefficient);
             if (std::abs(moved) > balanced * size) return true;
         }
     }

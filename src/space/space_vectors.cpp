@@ -119,14 +119,18 @@ bool SpaceVectors::worth_forming(std::int64_t more) const {
     return true;
 }
 
-vector<double> SpaceVectors::row(std::int64_t row) const {
+vector<double> SpaceVectors::row(const DofTerms &sum) const {
+    if (sum.empty()) return vector<double>(cols(), 0.0);
     if (recovered_) {
-        const auto known = recovered_->rows.find(row);
+        const auto known = recovered_->rows.find(sum);
         if (known != recovered_->rows.end()) return known->second;
     }
-    const Matrix found = rows_at({row});
-    vector<double> entries(found.data(), found.data() + found.cols());
-    if (recovered_ && !recovered_->all) recovered_->rows[row] = entries;
+    if (worth_forming(1)) return formed().row(sum);
+    Matrix unit(rows(), 1);
+    for (const DofTerm &t : sum) unit(t.dof, 0) += t.coefficient;
+    const Matrix found = products_with(parts_, Field(std::move(unit)));
+    vector<double> entries(found.data(), found.data() + found.rows());
+    if (recovered_ && !recovered_->all) recovered_->rows[sum] = entries;
     return entries;
 }
 

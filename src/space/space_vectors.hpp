@@ -39,8 +39,9 @@ class SpaceVectors {
     /// Whether they are there, or are made now since with `more` of them more vectors were asked for than
     /// there are. Never of a space.
     bool worth_forming(std::int64_t more) const;
-    /// Entries of one DOF (free index) in all columns, and of some, k x cols().
-    vector<double> row(std::int64_t row) const;
+    /// A sum of DOFs in all columns, zeros of an empty one; and entries of some DOFs (free indices), k x
+    /// cols().
+    vector<double> row(const DofTerms &sum) const;
     Matrix rows_at(const vector<std::int64_t> &rows) const;
 
     const Parts &parts() const { return parts_; }
@@ -49,7 +50,7 @@ class SpaceVectors {
     // Of a basis.
     struct Recovered {
         std::shared_ptr<const Field> all;
-        std::map<std::int64_t, vector<double>> rows; // before there were all
+        std::map<DofTerms, vector<double>> rows; // before there were all
         std::int64_t asked = 0;
     };
 

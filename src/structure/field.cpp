@@ -31,10 +31,16 @@ void Field::put(std::int64_t first, const Field &other) {
     std::copy_n(other.columns_.data(), rows() * other.cols(), columns_.col(first));
 }
 
-vector<double> Field::row(std::int64_t row) const {
+vector<double> Field::row(const DofTerms &sum) const {
     vector<double> entries(cols());
-    for (std::int64_t j = 0; j < cols(); ++j) entries[j] = columns_(row, j);
+    for (std::int64_t j = 0; j < cols(); ++j) entries[j] = at(sum, j);
     return entries;
+}
+
+double Field::at(const DofTerms &sum, std::int64_t column) const {
+    double value = 0;
+    for (const DofTerm &t : sum) value += t.coefficient * columns_(t.dof, column);
+    return value;
 }
 
 void Field::scale(const vector<double> &factor) {

@@ -7,6 +7,16 @@
 
 namespace plm {
 
+/// A DOF with its factor in a sum of them: a constraint, a gap row, a DOF of the caller by free ones.
+struct DofTerm {
+    std::int64_t dof; // free index, where nothing else is said
+    double coefficient;
+    bool operator<(const DofTerm &o) const {
+        return dof != o.dof ? dof < o.dof : coefficient < o.coefficient;
+    }
+};
+using DofTerms = vector<DofTerm>;
+
 class Field {
   public:
     Field() = default;
@@ -29,8 +39,9 @@ class Field {
     void put(std::int64_t first, const Field &other);
     /// Entry of one DOF (free index) in a column.
     double at(std::int64_t row, std::int64_t column = 0) const { return columns_(row, column); }
-    /// Entries of one DOF in all columns.
-    vector<double> row(std::int64_t row) const;
+    /// A sum of DOFs in all columns, and in one.
+    vector<double> row(const DofTerms &sum) const;
+    double at(const DofTerms &sum, std::int64_t column = 0) const;
     /// Entries of some DOFs in all columns, k x cols().
     Matrix rows_at(const vector<std::int64_t> &rows) const { return select_rows(columns_, rows); }
     /// Column j times factor[j].

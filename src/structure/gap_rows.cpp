@@ -42,8 +42,8 @@ Field GapRows::columns() const {
     return all;
 }
 
-std::vector<vector<GapRows::Term>> GapRows::rows() const {
-    std::vector<vector<Term>> rows(static_cast<std::size_t>(n_rows()));
+std::vector<DofTerms> GapRows::rows() const {
+    std::vector<DofTerms> rows(static_cast<std::size_t>(n_rows()));
     for (std::int64_t j = 0; j < matrix_.cols; ++j)
         for (std::int64_t p = matrix_.ptr[j]; p < matrix_.ptr[j + 1]; ++p)
             rows[static_cast<std::size_t>(matrix_.idx[p])].push_back({j, matrix_.val[p]});

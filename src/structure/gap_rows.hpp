@@ -36,12 +36,8 @@ class GapRows {
     /// B^T.
     Field columns() const;
 
-    struct Term {
-        std::int64_t dof; // free index
-        double coefficient;
-    };
     /// Rows as lists of their terms, by ascending DOF.
-    std::vector<vector<Term>> rows() const;
+    std::vector<DofTerms> rows() const;
     /// Free indices of the DOFs that some of these pairs hold, ascending.
     vector<std::int64_t> dofs_of(const vector<std::int64_t> &pairs) const;
     vector<std::int64_t> dofs() const;

@@ -278,13 +278,13 @@ class RigidModeSearch {
             if (multipliers++ == 0) first = i;
         }
         if (multipliers > 0)
-            throw unfit(first,
-                        format("%lld rows of the stiffness matrix (the first: DOF %lld, counted from 0) are "
-                               "coupled to others, but have zero on the diagonal and no mass: they look like "
-                               "Lagrange multipliers of constraints, which leave K indefinite. Eliminate "
-                               "the constraints instead, K and M by T^T K T and T^T M T with u = T q, or "
-                               "tie the DOFs by a penalty",
-                               multipliers, Int(free_dof_[first])));
+            throw unfit(
+                first,
+                format("%lld rows of the stiffness matrix (the first: DOF %lld, counted from 0) are "
+                       "coupled to others, but have zero on the diagonal and no mass: they look like "
+                       "Lagrange multipliers of constraints, which leave K indefinite. Fix these DOFs and "
+                       "hand over what their rows say by plm_model_add_constraints",
+                       multipliers, Int(free_dof_[first])));
     }
 
     Error unfit(std::int64_t column, const std::string &text) const {

@@ -10,12 +10,12 @@ SprungStructure::SprungStructure(const Structure &structure) : structure_(struct
 // One pattern for all springs, zeros among them: its order is found once.
 SparseMatrix SprungStructure::with(const vector<double> &springs) const {
     const SparseMatrix &k = structure_.matrices().stiffness;
-    const std::vector<vector<GapRows::Term>> rows = structure_.gap_rows().rows();
+    const std::vector<DofTerms> rows = structure_.gap_rows().rows();
     vector<std::int64_t> row, column;
     vector<double> value;
     for (std::size_t i = 0; i < rows.size(); ++i)
-        for (const GapRows::Term &a : rows[i])
-            for (const GapRows::Term &b : rows[i]) {
+        for (const DofTerm &a : rows[i])
+            for (const DofTerm &b : rows[i]) {
                 row.push_back(a.dof), column.push_back(b.dof);
                 value.push_back(springs[i] * a.coefficient * b.coefficient);
             }
@@ -24,10 +24,10 @@ SparseMatrix SprungStructure::with(const vector<double> &springs) const {
 
 double SprungStructure::digits_lost(const vector<double> &springs) const {
     const vector<double> k = diagonal(structure_.matrices().stiffness);
-    const std::vector<vector<GapRows::Term>> rows = structure_.gap_rows().rows();
+    const std::vector<DofTerms> rows = structure_.gap_rows().rows();
     double digits = 0;
     for (std::size_t i = 0; i < rows.size(); ++i)
-        for (const GapRows::Term &t : rows[i])
+        for (const DofTerm &t : rows[i])
             digits = std::max(digits, std::log10(springs[i] * t.coefficient * t.coefficient / k[t.dof]));
     return digits;
 }

@@ -1,5 +1,6 @@
 #include "structure/structure.hpp"
 #include "linalg/scale.hpp"
+#include "structure/exchanged.hpp"
 #include "structure/matrix_input.hpp"
 #include "structure/rigid_modes.hpp"
 #include "structure/solver/make_factor.hpp"
@@ -28,61 +29,17 @@ SparseMatrix over_all_dofs(const char *name, const MatrixInput &input, std::int6
     return input.to_sparse();
 }
 
-void require_nonnegative_diagonal(const char *name, const SparseMatrix &a,
-                                  const vector<std::int64_t> &free_dof) {
+// Of all that moves: where constraints add up entries, rounding decides about the sign of a zero.
+void require_nonnegative_diagonal(const char *name, const SparseMatrix &a, const DofMap &dofs) {
     for (std::int64_t j = 0; j < a.cols; ++j)
         for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p)
-            if (a.idx[p] == j && a.val[p] < 0)
+            if (a.idx[p] == j && a.val[p] < 0 && !dofs.is_held(j))
                 throw Error(PLM_ERR_MATRIX,
                             format("the %s matrix has the negative diagonal entry %g at DOF %lld "
                                    "(counted from 0); it must be positive semi-definite",
-                                   name, a.val[p], Int(free_dof[j])))
+                                   name, a.val[p], Int(j)))
                     .argument("value")
-                    .index(free_dof[j]);
-}
-
-// Two nodes that are joined have a negative entry of stiffness between them, and only mass can be without.
-bool has_negative_entry(const SparseMatrix &a, const Translation &t) {
-    for (std::int64_t j = t.first; j < a.cols; j += t.step)
-        for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p)
-            if (t.holds(a.idx[p]) && a.val[p] < 0) return true;
-    return false;
-}
-
-// The translations in which K looks like a mass.
-vector<Translation> without_negative_entries(const SparseMatrix &k) {
-    vector<Translation> found;
-    for (std::int64_t step : {1, 2, 3, 6})
-        for (std::int64_t first = 0; first < std::min(step, k.cols); ++first)
-            if (!has_negative_entry(k, {first, step})) found.push_back({first, step});
-    return found;
-}
-
-// Most columns cancel where the DOFs of a translation move alike: all but those beside a support.
-bool looks_like_stiffness(const SparseMatrix &m, const Translation &t) {
-    std::int64_t cancelled = 0, columns = 0;
-    for (std::int64_t j = t.first; j < m.cols; j += t.step) {
-        double sum = 0, terms = 0;
-        for (std::int64_t p = m.ptr[j]; p < m.ptr[j + 1]; ++p)
-            if (t.holds(m.idx[p])) sum += m.val[p], terms += std::abs(m.val[p]);
-        columns += terms > 0;
-        cancelled += terms > 0 && std::abs(sum) < 1e-6 * terms;
-    }
-    return 2 * cancelled > columns;
-}
-
-// M over all DOFs.
-void refuse_exchanged(const vector<Translation> &mass_like, const SparseMatrix &m) {
-    for (const Translation &t : mass_like)
-        if (looks_like_stiffness(m, t))
-            throw Error(
-                PLM_ERR_MATRIX,
-                format("mass and stiffness are probably exchanged: the entries of the mass matrix "
-                       "cancel where DOFs %lld, %lld, ... (%lld per node, counted from 0) move alike, "
-                       "as those of a stiffness do, and those of the stiffness matrix are all "
-                       "positive there; hand them over the other way round (PLM_MASS, PLM_STIFFNESS)",
-                       Int(t.first), Int(t.first + t.step), Int(t.step)))
-                .argument("which");
+                    .index(j);
 }
 
 // What the parts of a model are made of: the largest entry of each counts.
@@ -105,12 +62,13 @@ Structure::Structure(const StructureInput &input, GapSize gap, const Solver &sol
     : n_dof_(input.n_dof), solver_(solver) {
     assemble(input, gap);
     for (std::int64_t dof : input.elimination_order)
-        if (free_of_[dof] >= 0) solver_.order.push_back(free_of_[dof]);
+        if (dofs_.free_index(dof) >= 0) solver_.order.push_back(dofs_.free_index(dof));
 }
 
 Structure::Structure(const StructureInput &input, GapSize gap, double largest_contact, const Solver &solver,
                      Watch watch)
     : Structure(input, gap, solver) {
+    warn_of_printed_constraints(watch);
     factor_stiffness(largest_contact, watch);
     leave_out_rounding(watch);
 }
@@ -123,6 +81,7 @@ StructureEstimate Structure::estimate(const StructureInput &input, GapSize gap, 
     for (const SparseMatrix *a :
          {&structure.mass_, &structure.stiffness_, &structure.damping_, &structure.gap_rows_.matrix()})
         e.bytes += bytes_of(*a);
+    e.bytes += structure.dofs_.bytes() + bytes_of(structure.given_gap_rows_);
     if (!keeps_pattern({structure.stiffness_, 1, structure.mass_})) e.counted = bytes_of(sum);
     e.factor = estimate_factor(sum, structure.solver_); // with the host's order
     return e;
@@ -133,20 +92,18 @@ void Structure::assemble(const StructureInput &input, GapSize gap) {
         throw Error(PLM_ERR_STATE, input.mass
                                        ? "the stiffness matrix is missing; hand it over with PLM_STIFFNESS"
                                        : "the mass matrix is missing; hand it over with PLM_MASS");
-    number_free_dofs(input.fixed);
+    map_dofs(input.fixed, input.constraints);
     assemble_parts(input, gap);
     still_dofs_ = find_still_dofs();
     if (still_dofs_.dof.empty()) return;
     vector<std::int64_t> held = input.fixed;
     held.insert(held.end(), still_dofs_.dof.begin(), still_dofs_.dof.end());
-    number_free_dofs(held);
+    map_dofs(held, input.constraints);
     assemble_parts(input, gap);
 }
 
 void Structure::assemble_parts(const StructureInput &input, GapSize gap) {
     assemble_matrices(input);
-    require_nonnegative_diagonal("mass", mass_, free_dof_);
-    require_nonnegative_diagonal("stiffness", stiffness_, free_dof_);
     require_scale("mass matrix", mass_);
     require_scale("stiffness matrix", stiffness_);
     if (!(trace(mass_) > 0))
@@ -170,21 +127,28 @@ StillDofs Structure::find_still_dofs() const {
     mark_loaded(preload_);
     for (const auto &entry : excitation_) mark_loaded(entry.second.real), mark_loaded(entry.second.imag);
     const bool others_move = std::count(moves.begin(), moves.end(), 1) > 0;
-    return others_move ? plm::still_dofs(stiffness_, mass_, moves, free_dof_) : StillDofs();
+    return others_move ? plm::still_dofs(stiffness_, mass_, moves, dofs_.free_dofs()) : StillDofs();
 }
 
-void Structure::number_free_dofs(const vector<std::int64_t> &fixed_dofs) {
-    constexpr std::int64_t fixed = -1;
-    free_dof_.clear();
-    free_of_.assign(n_dof_, 0);
-    for (std::int64_t dof : fixed_dofs) free_of_[dof] = fixed;
-    for (std::int64_t i = 0; i < n_dof_; ++i)
-        if (free_of_[i] != fixed) {
-            free_of_[i] = n_free();
-            free_dof_.push_back(i);
-        }
-    if (free_dof_.empty())
-        throw Error(PLM_ERR_ARGUMENT, "all DOFs are fixed; nothing is left to move").argument("dof");
+void Structure::map_dofs(const vector<std::int64_t> &fixed, const ConstraintRows &constraints) {
+    dofs_ = DofMap(n_dof_, fixed, constraints);
+    if (n_free() == 0)
+        throw Error(PLM_ERR_ARGUMENT,
+                    constraints.n_rows() > 0
+                        ? "the constraints and the fixed DOFs leave nothing to move; take away some of them"
+                        : "all DOFs are fixed; nothing is left to move")
+            .argument("dof");
+}
+
+void Structure::warn_of_printed_constraints(Watch watch) const {
+    const EliminatedConstraints &e = dofs_.elimination();
+    if (e.largest_miss > cancelled_exactly)
+        watch.warn(
+            PLM_REASON_ROUNDED,
+            format("constraint row %lld (counted from 0, in the order they were added) repeats what the "
+                   "others say but for %.1e of its terms: it is taken to repeat them, as with "
+                   "coefficients of more digits",
+                   Int(e.missing_row), e.largest_miss));
 }
 
 void Structure::assemble_matrices(const StructureInput &input) {
@@ -194,38 +158,42 @@ void Structure::assemble_matrices(const StructureInput &input) {
     const vector<Translation> mass_like =
         translations_.empty() ? without_negative_entries(all) : vector<Translation>();
     diagonal_twice_ = translations_.empty() && is_diagonal_twice(all);
-    stiffness_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
+    require_nonnegative_diagonal("stiffness", all, dofs_);
+    stiffness_ = dofs_.reduced("stiffness", all);
     // as many codes hand it over: with the pattern of the stiffness, two thirds zero
     all = without_zeros(over_all_dofs("mass", *input.mass, n_dof_));
     if (!mass_like.empty()) refuse_exchanged(mass_like, all);
     weigh(translations_, all);
-    mass_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
+    require_nonnegative_diagonal("mass", all, dofs_);
+    mass_ = dofs_.reduced("mass", all);
     damping_options_ = input.damping;
     damping_options_.has_matrix = input.damping_matrix != nullptr;
     if (!damping_options_.has_matrix) return;
     all = over_all_dofs("damping", *input.damping_matrix, n_dof_);
-    damping_ = submatrix(all, free_of_, n_free(), free_of_, n_free());
+    damping_ = dofs_.reduced("damping", all);
 }
 
 void Structure::assemble_gap(const StructureInput &input, GapSize size) {
     const std::int64_t n_rows = size.n_rows();
-    vector<std::int64_t> all_rows(n_rows);
-    for (std::int64_t i = 0; i < n_rows; ++i) all_rows[i] = i;
-    SparseMatrix gap =
-        submatrix(from_triplets(n_rows, n_dof_, input.gap_row, input.gap_dof, input.gap_coefficient),
-                  all_rows, n_rows, free_of_, n_free());
-    vector<double> weight(n_rows, 0.0);
+    SparseMatrix gap = dofs_.reduced_rows(n_rows, input.gap_row, input.gap_dof, input.gap_coefficient);
+    vector<double> weight(n_rows, 0.0), given(n_rows, 0.0);
+    for (std::size_t k = 0; k < input.gap_row.size(); ++k)
+        given[input.gap_row[k]] += std::abs(input.gap_coefficient[k]);
     for (std::int64_t p = 0; p < gap.nnz(); ++p) weight[gap.idx[p]] += std::abs(gap.val[p]);
     for (std::int64_t i = 0; i < n_rows; ++i)
-        if (!(weight[i] > 0))
+        if (!(weight[i] > 0 && weight[i] > cancelled_exactly * given[i]))
             throw Error(PLM_ERR_ARGUMENT,
                         format("contact pair %lld (counted from 0, in the order they were added) "
-                               "touches fixed DOFs only: its penetration can never change; leave it "
+                               "touches %s: its penetration can never change; leave it "
                                "out or release a DOF",
-                               Int(size.pair_of(i))))
+                               Int(size.pair_of(i)),
+                               dofs_.has_dependent() ? "only DOFs that are fixed or tied to one another"
+                                                     : "fixed DOFs only"))
                 .argument("pair")
                 .index(size.pair_of(i));
     gap_rows_ = GapRows(std::move(gap), size);
+    if (dofs_.has_dependent())
+        given_gap_rows_ = from_triplets(n_rows, n_dof_, input.gap_row, input.gap_dof, input.gap_coefficient);
 }
 
 void Structure::assemble_loads(const StructureInput &input) {
@@ -233,7 +201,7 @@ void Structure::assemble_loads(const StructureInput &input) {
         Field free(n_free(), 1);
         if (!all.empty()) {
             require_size(what, static_cast<std::int64_t>(all.size()), n_dof_);
-            free = restricted(all.data());
+            free = Field(dofs_.forces(all.data()));
         }
         require_scale(name, free.in_core().data(), n_free(), PLM_ERR_ARGUMENT, "force");
         return free;
@@ -246,9 +214,9 @@ void Structure::assemble_loads(const StructureInput &input) {
         mine.real = on_free_dofs("excitation", "excitation", load.real);
         if (harmonic == 0) continue;
         mine.imag = on_free_dofs("excitation", "excitation", load.imag);
-        for (std::int64_t dof : input.fixed)
+        for (std::int64_t dof = 0; dof < n_dof_; ++dof)
             for (const vector<double> *part : {&load.real, &load.imag})
-                if (!part->empty())
+                if (!part->empty() && dofs_.is_held(dof))
                     excitation_on_supports_ = std::hypot(excitation_on_supports_, (*part)[dof]);
     }
 }
@@ -256,7 +224,7 @@ void Structure::assemble_loads(const StructureInput &input) {
 void Structure::factor_stiffness(double largest_contact, Watch watch) {
     watch.step("factorization", 0.1);
     FactoredStiffness result =
-        factor_with_rigid_modes(stiffness_, mass_, largest_contact, free_dof_, solver_, watch);
+        factor_with_rigid_modes(stiffness_, mass_, largest_contact, dofs_.free_dofs(), solver_, watch);
     factor_ = std::move(result.factor);
     shift_ = result.shift;
     if (shift_ > 0) shifted_ = add(1.0, stiffness_, shift_, mass_);
@@ -289,7 +257,7 @@ std::string Structure::balance(Field &load, const char *name, const RowMiss &mis
     const Resultant r = resultant(load, unheld_);
     std::string fact = format("its resultant is %.3g, %.1e of its forces, along the one in which DOF %lld "
                               "(counted from 0) moves most",
-                              r.force, r.relative, Int(free_dof_[r.dof]));
+                              r.force, r.relative, Int(dof(r.dof)));
     if (r.relative > meant_as_zero) {
         if (miss.size > exactly_zero)
             fact += format("; the row nearest to holding it is that of pair %lld, by %.1e of its terms",
@@ -376,8 +344,7 @@ std::int64_t Structure::n_massless_dofs() const {
 }
 
 void Structure::expand(const Field &x, std::int64_t j, double *all) const {
-    const double *free = x.in_core().col(j);
-    for (std::int64_t i = 0; i < n_dof_; ++i) all[i] = free_of_[i] < 0 ? 0.0 : free[free_of_[i]];
+    dofs_.expand(x.in_core().col(j), all);
 }
 
 vector<double> Structure::expanded(const Field &x) const {
@@ -387,9 +354,22 @@ vector<double> Structure::expanded(const Field &x) const {
 }
 
 Field Structure::restricted(const double *all) const {
-    Field x(n_free(), 1);
-    for (std::int64_t k = 0; k < n_free(); ++k) x.in_core()(k, 0) = all[free_dof_[k]];
-    return x;
+    return Field(dofs_.free_part(all));
+}
+
+std::vector<DofTerms> Structure::given_gap_rows() const {
+    const bool as_given = dofs_.has_dependent();
+    std::vector<DofTerms> rows =
+        as_given ? GapRows(given_gap_rows_, gap_rows_.size()).rows() : gap_rows_.rows();
+    for (DofTerms &row : rows) {
+        if (as_given)
+            row.erase(std::remove_if(row.begin(), row.end(),
+                                     [&](const DofTerm &t) { return dofs_.is_held(t.dof); }),
+                      row.end());
+        else
+            for (DofTerm &t : row) t.dof = dof(t.dof);
+    }
+    return rows;
 }
 
 } // namespace plm

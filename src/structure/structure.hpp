@@ -3,6 +3,7 @@
 // is; what the pairs do is not.
 #pragma once
 #include "linalg/monitor.hpp"
+#include "structure/dof_map.hpp"
 #include "structure/eigs.hpp"
 #include "structure/gap_rows.hpp"
 #include "structure/loads.hpp"
@@ -31,6 +32,7 @@ struct StructureInput {
     std::shared_ptr<const MatrixInput> mass, stiffness, damping_matrix;
     Damping damping;
     vector<std::int64_t> fixed; // DOFs held at zero, in any order, some perhaps twice
+    ConstraintRows constraints;
     vector<std::int64_t>
         elimination_order; // all DOFs, as the host wants them eliminated; empty: the library's order
     // gap matrix by rows: B = [row; dof; coefficient] triplets
@@ -73,19 +75,21 @@ class Structure {
     /// Checks the input as a whole, but factors nothing.
     static StructureEstimate estimate(const StructureInput &input, GapSize gap, const Solver &solver);
 
-    /// Checks the input as a whole, removes fixed DOFs, factors K (or K + sigma M when K is singular), finds
-    /// rigid-body modes. Throws plm::Error with the argument and index at fault.
+    /// Checks the input as a whole, removes fixed and dependent DOFs, factors K (or K + sigma M when K is
+    /// singular), finds rigid-body modes. Throws plm::Error with the argument and index at fault.
     /// largest_contact: the largest k_n given by the caller, 0 if unknown; the scale where K has none.
     Structure(const StructureInput &input, GapSize gap, double largest_contact, const Solver &solver,
               Watch watch);
     Structure(const Structure &) = delete;
 
     std::int64_t n_dof() const { return n_dof_; }
-    std::int64_t n_free() const { return static_cast<std::int64_t>(free_dof_.size()); }
+    std::int64_t n_free() const { return dofs_.n_free(); }
     /// DOF of a free index.
-    std::int64_t dof(std::int64_t free_index) const { return free_dof_[free_index]; }
-    /// Free index of a DOF, or -1 when it is fixed.
-    std::int64_t free_index(std::int64_t dof) const { return free_of_[dof]; }
+    std::int64_t dof(std::int64_t free_index) const { return dofs_.free_dofs()[free_index]; }
+    /// A DOF of the caller by the free ones; empty where it is held at zero.
+    DofTerms terms(std::int64_t dof) const { return dofs_.terms(dof); }
+    /// Constraints that the others and the fixed DOFs say already.
+    std::int64_t n_redundant_constraints() const { return dofs_.elimination().n_redundant; }
 
     /// M X, K X, C X (the explicit part of the damping only) and (K + shift() M) X.
     Field mass_times(const Field &x) const { return times(mass_, x); }
@@ -131,6 +135,8 @@ class Structure {
     double uncertainty() const { return uncertainty_; }
 
     const GapRows &gap_rows() const { return gap_rows_; }
+    /// The gap rows as they were handed over, in DOFs of the caller, less those that are held at zero.
+    std::vector<DofTerms> given_gap_rows() const;
     /// B (K + shift() M)^-1 f of one load: how the gaps of the open structure answer it statically.
     vector<double> static_gaps(Field load) const {
         solve(load);
@@ -154,7 +160,8 @@ class Structure {
     double trace_of_mass() const { return trace(mass_); }
     std::int64_t n_massless_dofs() const;
 
-    /// Column j over all DOFs (n_dof numbers), fixed ones zero; and one column from all DOFs.
+    /// Column j over all DOFs (n_dof numbers), fixed ones zero; and a motion of all DOFs, one column, by its
+    /// free ones.
     void expand(const Field &x, std::int64_t j, double *all) const;
     vector<double> expanded(const Field &x) const; // column 0
     Field restricted(const double *all) const;
@@ -175,7 +182,8 @@ class Structure {
     void assemble(const StructureInput &input, GapSize gap);
     void assemble_parts(const StructureInput &input, GapSize gap);
     StillDofs find_still_dofs() const;
-    void number_free_dofs(const vector<std::int64_t> &fixed);
+    void map_dofs(const vector<std::int64_t> &fixed, const ConstraintRows &constraints);
+    void warn_of_printed_constraints(Watch watch) const;
     void assemble_matrices(const StructureInput &input);
     void assemble_gap(const StructureInput &input, GapSize size);
     void assemble_loads(const StructureInput &input);
@@ -184,10 +192,11 @@ class Structure {
     std::string balance(Field &load, const char *name, const RowMiss &miss, Watch watch) const;
 
     std::int64_t n_dof_ = 0;
-    vector<std::int64_t> free_dof_, free_of_;
+    DofMap dofs_;
     SparseMatrix mass_, stiffness_, damping_;
     SparseMatrix shifted_; // K + sigma M when sigma > 0
     GapRows gap_rows_;
+    SparseMatrix given_gap_rows_; // over all DOFs, where some are dependent
     Damping damping_options_;
     Field preload_;
     std::map<int, HarmonicForce> excitation_;

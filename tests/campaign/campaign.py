@@ -29,17 +29,25 @@ from verdicts import EVERY, failed, line, odd, summary, table
 
 
 def build(m):
+    m = dict(m, **m.get("host", {}))
     of = (lambda a: a) if m.get("dense") else sp.csc_matrix
     model = plm.Model(of(m.get("M_library", m["M"])), of(m.get("K_library", m["K"])), of(m["C"]) if m["damping"][0] == "matrix" else None)
     if m["damping"][0] == "rayleigh":
         model.set_rayleigh_damping(*m["damping"][1:])
     elif m["damping"][0] == "modal":
         model.set_modal_damping(m["damping"][1])
+    if "rows" in m:
+        model.add_constraints(m["rows"])
     model.add_gap_rows(sp.csr_matrix(m.get("B_library", m["B"])), stiffness=m["kn"], gap=m["g"])
     if np.any(m["P"]):
         model.set_preload(m["P"])
     model.set_excitation(m["F"])
     return model.build()
+
+
+def looked_at(m):
+    """The DOF of the library's model."""
+    return m.get("host", m)["out"]
 
 
 def in_steps(m):
@@ -49,8 +57,8 @@ def in_steps(m):
     basis = plm.Basis(model, sampler).build()
     hbm = plm.Hbm(basis)
     curve = hbm.sweep()
-    peak = hbm.find_peak(curve, m["out"], "peak")
-    return curve, peak, stated_at(hbm, peak, m["out"]), hbm
+    peak = hbm.find_peak(curve, looked_at(m), "peak")
+    return curve, peak, stated_at(hbm, peak, looked_at(m)), hbm
 
 
 def stated_at(hbm, peak, dof):
@@ -60,10 +68,10 @@ def stated_at(hbm, peak, dof):
 
 
 def in_one_call(m):
-    response = build(m).compute_response(m["out"], measure="peak")
+    response = build(m).compute_response(looked_at(m), measure="peak")
     with warnings.catch_warnings():  # what the call said is known; this is to have the point
         warnings.simplefilter("ignore")
-        peak = response.hbm.find_peak(response.curve, m["out"], "peak")
+        peak = response.hbm.find_peak(response.curve, looked_at(m), "peak")
     return response.curve, peak, response.error, response.hbm
 
 
@@ -75,7 +83,7 @@ def run_library(m, way, result):
             curve, peak, stated, hbm = way(m)
         finally:
             result["seconds"] = time.process_time() - begin
-    heights = curve.amplitude(m["out"], "peak")
+    heights = curve.amplitude(looked_at(m), "peak")
     reasons = [(w.message.reason, str(w.message)) for w in said if isinstance(w.message, plm.PlmWarning)]
     if any(reason == plm.REASON_NO_PEAK for reason, _ in reasons):
         stated = np.nan  # the error of a point at the end of a curve says nothing of a peak beyond it
@@ -176,6 +184,8 @@ def one(family, seed, way, keep=lambda result: None):
         compare_twin(m, way, result)
         keep(result)
     x, omega = state_of(peak)
+    if "host" in m:
+        x = np.linalg.lstsq(m["to_host"], x.reshape(2, -1).T, rcond=None)[0].T.ravel()
     try:
         with np.errstate(all="ignore"):
             compare_everywhere(m, peak, hbm, x, omega, result) if m.get("all_dofs") else compare(m, x, omega, result)

@@ -6,6 +6,8 @@ families.py, with more of what the judge should know:
     twin       (T, out): the same model in other coordinates, q = T q_twin; its answer must be the same
     K_library  what the library is given where the exact motion needs more (B_library likewise)
     exact_to   how exact the exact motion is, where not 1e-6
+    host       what the library is given in place of all this: DOFs q of which `rows` @ q = 0, the motions of the model by
+               q = `to_host` times those here
 """
 import numpy as np
 import scipy.linalg
@@ -237,5 +239,47 @@ def superelements(rng):
     return small
 
 
+def constrained(rng):
+    """A model of the first families with some of its DOFs cut, masses and stiffness shared out to both sides, and constraints that
+    tie them again: ties, sums of two DOFs, chains of them, some said twice. What is exact lives on a null space of all of them."""
+    m = (families.chains, families.beam_with_stops, families.plate, families.cracked_beam)[int(rng.integers(4))](rng)
+    n = len(m["M"])
+    more = int(rng.integers(2, max(3, n // 2) + 1))
+    T = np.vstack([np.eye(n), np.zeros((more, n))])  # the DOFs that are added, by those of the model
+    rows = np.zeros((more, n + more))
+    for k in range(more):
+        row = rows[k]
+        others = rng.choice(n + k, int(rng.integers(1, min(3, n + k) + 1)), replace=False)
+        row[others] = rng.choice([1.0, -0.5, 2.0], len(others)) if len(others) > 1 else 1.0
+        T[n + k] = row[:n + k] @ T[:n + k]
+        row[n + k] = -1.0
+    share = rng.uniform(0.1, 0.9, more)
+    host = {}
+    for name in "MK":  # bits of diagonal of their own, taken as part of the model
+        host[name] = scipy.linalg.block_diag(m[name], np.diag(share * 0.3 * np.median(np.diag(m[name]))))
+    C = scipy.linalg.block_diag(m["C"], np.zeros((more, more)))
+    mixed = rng.normal(size=(2, more)) @ rows  # says nothing new
+    rows = np.vstack([rows, mixed])[rng.permutation(more + 2)]
+    null = scipy.linalg.null_space(rows)
+    out, at = int(rng.integers(n + more)), 0
+    while np.linalg.norm(null[out]) < 1e-3:
+        out = int(rng.integers(n + more))
+    turn, _ = np.linalg.qr(np.column_stack([null[out], rng.normal(size=(n, n - 1))]))
+    N = null @ turn
+    N[:, 0] /= N[out, 0]  # so that the first coordinate is the DOF that is looked at
+    B, F, P = (np.hstack([np.atleast_2d(m[name]), np.zeros((len(np.atleast_2d(m[name])), more))]) for name in "BFP")
+    moved = rng.random(len(B)) < 0.5
+    for i in np.flatnonzero(moved):  # a pair that looks at a DOF by the one tied to it
+        for k in range(more):
+            if np.count_nonzero(T[n + k]) == 1 and B[i, np.argmax(np.abs(T[n + k]))] != 0 and np.abs(T[n + k]).max() == 1:
+                d = int(np.argmax(np.abs(T[n + k])))
+                B[i, n + k], B[i, d] = B[i, d] * T[n + k, d], 0
+                break
+    host.update(C=C, B=B, F=F[0], P=P[0], rows=rows, out=out, damping=("matrix",))
+    small = {name: N.T @ host[name] @ N for name in "MCK"}
+    small = {name: (a + a.T) / 2 for name, a in small.items()}
+    return dict(m, **small, B=B @ N, F=N.T @ F[0], P=N.T @ P[0], out=at, damping=("matrix",), host=host, to_host=N)
+
+
 FAMILIES = (hard_stops, hard_stops_one_ratio, many_gaps, permuted, turned_mesh, round_shaft, twin_plates, free_bodies, hanging_parts,
-            dashpots, superelements)
+            dashpots, superelements, constrained)

@@ -163,6 +163,31 @@ static void gap_rows(void **state) {
     assert_int_equal(count("n_pairs"), 2);
 }
 
+static void constraints(void **state) {
+    const char *f = "plm_model_add_constraints_i32";
+    const int32_t ptr[] = {0, 2, 3}, empty_row[] = {0, 2, 2}, from_one[] = {1, 2, 3}, dof[] = {0, 3, 5},
+                  twice[] = {3, 3, 5}, outside[] = {0, 3, 6};
+    const int64_t ptr64[] = {1, 2}, dof64[] = {0};
+    const double c[] = {1, -1, 1}, nan[] = {1, NAN, 1}, zero[] = {1, -1, 0};
+    (void)state;
+    BAD(plm_model_add_constraints_i32(model, 0, 2, empty_row, dof, c), f, "row_ptr", 2,
+        "every constraint row");
+    BAD(plm_model_add_constraints_i32(model, 0, 2, from_one, dof, c), f, "row_ptr", 0, "index base 0");
+    BAD(plm_model_add_constraints_i32(model, 0, 2, NULL, dof, c), f, "row_ptr", -1, "NULL");
+    BAD(plm_model_add_constraints_i32(model, 0, -1, ptr, dof, c), f, "n", -1, "n is -1");
+    BAD(plm_model_add_constraints_i32(model, 2, 2, ptr, dof, c), f, "index_base", -1, "0 (C)");
+    BAD(plm_model_add_constraints_i32(model, 0, 2, ptr, twice, c), f, "dof", 1, "twice");
+    BAD(plm_model_add_constraints_i32(model, 0, 2, ptr, outside, c), f, "dof", 2, "dof[2] = 6");
+    BAD(plm_model_add_constraints_i32(model, 0, 2, ptr, NULL, c), f, "dof", -1, "NULL");
+    BAD(plm_model_add_constraints_i32(model, 0, 2, ptr, dof, NULL), f, "coefficient", -1, "NULL");
+    BAD(plm_model_add_constraints_i32(model, 0, 2, ptr, dof, nan), f, "coefficient", 1, "NaN");
+    BAD(plm_model_add_constraints_i32(model, 0, 2, ptr, dof, zero), f, "coefficient", 2,
+        "constraint row 1 is zero");
+    BAD(plm_model_add_constraints_i64(model, 1, 1, ptr64, dof64, c), "plm_model_add_constraints_i64", "dof",
+        0, "1..6");
+    assert_int_equal(plm_model_add_constraints_i32(model, 0, 2, ptr, dof, c), PLM_OK);
+}
+
 static void loads(void **state) {
     const double f[] = {1, 2, 3, 4, 5, 6}, bad[] = {1, 2, 3, 4, INFINITY, 6};
     (void)state;
@@ -257,6 +282,8 @@ static void too_late(void **state) {
     chain_fill(&c);
     assert_true(done(ctx, chain_built(ctx, 0, &built)));
     REFUSED(plm_model_build(built), PLM_ERR_STATE, "plm_model_build", "", -1, "no longer changes");
+    REFUSED(plm_model_add_constraints_i32(built, 0, 1, dof, dof, hz), PLM_ERR_STATE,
+            "plm_model_add_constraints_i32", "", -1, "make a new one");
     REFUSED(plm_model_fix_dofs_i32(built, 0, 1, dof), PLM_ERR_STATE, "plm_model_fix_dofs_i32", "", -1,
             "make a new one");
     REFUSED(plm_model_set_preload(built, CHAIN_DOFS, c.preload), PLM_ERR_STATE, "plm_model_set_preload", "",
@@ -286,9 +313,9 @@ static void too_late(void **state) {
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(creation),  TEST(matrices), TEST(damping_and_supports), TEST(node_pairs),
-        TEST(gap_rows),  TEST(loads),    TEST(text_outputs),         TEST(version),
-        TEST(too_early), TEST(too_late),
+        TEST(creation),    TEST(matrices), TEST(damping_and_supports), TEST(node_pairs), TEST(gap_rows),
+        TEST(constraints), TEST(loads),    TEST(text_outputs),         TEST(version),    TEST(too_early),
+        TEST(too_late),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -58,6 +58,8 @@ CASE(model, plm_model_set_modal_damping, 1, one + 1)
 CASE(model, plm_model_set_structural_damping, 0)
 CASE(model, plm_model_fix_dofs_i32, 0, 1, i32)
 CASE(model, plm_model_fix_dofs_i64, 0, 1, i64)
+CASE(model, plm_model_add_constraints_i32, 0, 1, i32, i32, one)
+CASE(model, plm_model_add_constraints_i64, 0, 1, i64, i64, one)
 CASE(model, plm_model_set_elimination_order_i32, 0, 3, other32)
 CASE(model, plm_model_set_elimination_order_i64, 0, 3, other64)
 CASE(model, plm_model_add_node_pairs_i32, 0, 1, i32, other32, one, one, NULL)
@@ -161,6 +163,8 @@ static const struct {
                  ENTRY(MODEL, plm_model_set_structural_damping),
                  ENTRY(MODEL, plm_model_fix_dofs_i32),
                  ENTRY(MODEL, plm_model_fix_dofs_i64),
+                 ENTRY(MODEL, plm_model_add_constraints_i32),
+                 ENTRY(MODEL, plm_model_add_constraints_i64),
                  ENTRY(MODEL, plm_model_set_elimination_order_i32),
                  ENTRY(MODEL, plm_model_set_elimination_order_i64),
                  ENTRY(MODEL, plm_model_add_node_pairs_i32),

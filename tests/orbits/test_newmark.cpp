@@ -18,18 +18,18 @@ namespace {
 class DofRecorder final : public plm::NewmarkObserver {
   public:
     DofRecorder(const std::shared_ptr<const plm::Model> &model, std::initializer_list<std::int64_t> dofs) {
-        for (std::int64_t dof : dofs) rows_.push_back(model->free_index(dof));
+        for (std::int64_t dof : dofs) rows_.push_back(model->terms(dof));
     }
     void step(const plm::NewmarkStep &step) override {
         times_.push_back(step.time);
-        for (std::int64_t row : rows_) values_.push_back(row < 0 ? 0.0 : step.q.at(row));
+        for (const plm::DofTerms &row : rows_) values_.push_back(step.q.at(row));
     }
     const std::vector<double> &times() const { return times_; }
     /// One step after the other.
     const std::vector<double> &values() const { return values_; }
 
   private:
-    std::vector<std::int64_t> rows_;
+    std::vector<plm::DofTerms> rows_;
     std::vector<double> times_, values_;
 };
 

@@ -43,6 +43,9 @@ static plm_model *make_model(void) {
     const int32_t row_start[] = {0, 2, 3}, dof[] = {2, 5, 8};
     const double coefficient[] = {1, -1, 1}, contact_stiffness[] = {PLM_AUTO_STIFFNESS, 20000},
                  gap[] = {0, 0.001};
+    /* q_6 = (q_5 + q_7) / 2 */
+    const int32_t middle_row[] = {0, 3}, middle_dof[] = {6, 5, 7};
+    const double middle[] = {1, -0.5, -0.5};
     int32_t k = 0;
     plm_model *model = NULL;
     for (int32_t i = 0; i < N; i++) {
@@ -58,6 +61,7 @@ static plm_model *make_model(void) {
     must(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, k, row, column,
                                   stiffness));
     must(plm_model_set_rayleigh_damping(model, 0.5, 0.0002));
+    must(plm_model_add_constraints_i32(model, 0, 1, middle_row, middle_dof, middle));
     must(plm_model_add_gap_rows_i32(model, 0, PAIRS, row_start, dof, coefficient, contact_stiffness, gap));
     must(plm_model_set_preload(model, N, preload));
     must(plm_model_set_excitation(model, 1, N, force, NULL));

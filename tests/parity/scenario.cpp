@@ -34,6 +34,7 @@ plm::Model make_model(const plm::Context &context) {
     model.set_mass(plm::triplets(diagonal, diagonal, std::vector<double>(n_masses, 1.0)).lower());
     model.set_stiffness(plm::triplets(row, column, stiffness).lower());
     model.set_rayleigh_damping(0.5, 0.0002);
+    model.add_constraints({0, 3}, {6, 5, 7}, {1, -0.5, -0.5});
     model.add_gap_rows({0, 2, 3}, {2, 5, 8}, {1, -1, 1}, {PLM_AUTO_STIFFNESS, 20000}, {0, 0.001});
     model.set_preload(preload);
     model.set_excitation(1, force);

@@ -43,6 +43,7 @@ contains
             [(i, i=1, n_masses), (i - 1, i=2, n_masses)], &
             [(2e4_real64, i=1, n_masses - 1), 1e4_real64, (-1e4_real64, i=2, n_masses)])
         call model%set_rayleigh_damping(0.5_real64, 0.0002_real64)
+        call model%add_constraints([1, 4], [7, 6, 8], [1.0_real64, -0.5_real64, -0.5_real64])
         call model%add_gap_rows([1, 3, 4], [3, 6, 9], [1.0_real64, -1.0_real64, 1.0_real64], &
             [PLM_AUTO_STIFFNESS, 2e4_real64], [0.0_real64, 0.001_real64])
         force = 0

@@ -18,6 +18,9 @@ def make_model():
     stiffness = scipy.sparse.diags([[20000.0] * (N - 1) + [10000.0], [-10000.0] * (N - 1)], [0, -1], format="coo")
     model = plm.Model(scipy.sparse.identity(N, format="coo"), stiffness, part="lower")
     model.set_rayleigh_damping(0.5, 0.0002)
+    middle = numpy.zeros((1, N))
+    middle[0, [6, 5, 7]] = 1, -0.5, -0.5
+    model.add_constraints(middle)
     rows = numpy.zeros((2, N))
     rows[0, [2, 5]] = 1, -1
     rows[1, 8] = 1

@@ -127,7 +127,7 @@ void a_singular_interior_is_handled(void **) {
 
 // K^-1 of the space: V diag(1 / lambda) V^T, in DOF i under a unit force on it.
 double flexibility(const SpacePtr &space, std::int64_t i) {
-    const plm::vector<double> v = all_columns(space->vectors).row(i);
+    const plm::vector<double> v = all_columns(space->vectors).row({{i, 1.0}});
     double sum = 0;
     for (std::int64_t j = 0; j < space->size(); ++j) sum += v[j] * v[j] / space->lambda[j];
     return sum;

@@ -117,7 +117,7 @@ void a_dof_that_rests_is_refused(void **) {
     o.hbm.frequency_min_hz = start->window_min_hz();
     o.hbm.frequency_max_hz = start->window_max_hz();
     for (std::int64_t dof = 0; dof < start->model()->n_dof(); ++dof)
-        if (start->model()->free_index(dof) < 0) o.output.dof = dof; // fixed
+        if (start->model()->terms(dof).empty()) o.output.dof = dof; // fixed
     bool refused = false;
     try {
         plm::refine(start, o, plm::Watch());

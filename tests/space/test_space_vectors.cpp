@@ -64,7 +64,7 @@ void recovered_vectors_equal_formed_ones(void **) {
     add_combination(-0.5, basis(), some, sum);
     add_combination(-0.5, formed, some, want);
     assert_true(below(largest_difference(sum.in_core(), want.in_core()), tolerance));
-    const plm::vector<double> row = basis().row(11), expected = formed.row(11);
+    const plm::vector<double> row = basis().row({{11, 1.0}}), expected = formed.row({{11, 1.0}});
     for (std::size_t j = 0; j < row.size(); ++j) assert_true(std::abs(row[j] - expected[j]) < tolerance);
 }
 
@@ -73,7 +73,7 @@ void recovered_vectors_equal_formed_ones(void **) {
 void they_are_formed_once_where_that_is_less_work(void **) {
     const auto space = space_of_chain();
     const SpaceVectors basis = space->vectors.times(patternless(space->size(), n_columns)), copy = basis;
-    for (int again = 0; again < 50; ++again) basis.row(11);
+    for (int again = 0; again < 50; ++again) basis.row({{11, 1.0}});
     assert_false(basis.worth_forming(n_columns - 1));
     assert_true(copy.worth_forming(1));
     assert_ptr_equal(&basis.formed(), &copy.formed());

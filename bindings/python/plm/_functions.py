@@ -44,6 +44,8 @@ FUNCTIONS = {
     "plm_model_set_structural_damping": "pd model eta",
     "plm_model_fix_dofs_i32": "piqp model index_base n dof",
     "plm_model_fix_dofs_i64": "piqp model index_base n dof",
+    "plm_model_add_constraints_i32": "piqppp model index_base n row_ptr dof coefficient",
+    "plm_model_add_constraints_i64": "piqppp model index_base n row_ptr dof coefficient",
     "plm_model_set_elimination_order_i32": "piqp model index_base n dof",
     "plm_model_set_elimination_order_i64": "piqp model index_base n dof",
     "plm_model_add_node_pairs_i32": "piqppppp model index_base n dof_a dof_b normal stiffness gap",

@@ -108,6 +108,12 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         (dof,), width = alike(integers(dof, "dof").ravel())
         self._call("fix_dofs" + width, 0, dof.size, address(dof))
 
+    def add_constraints(self, rows):
+        """Constraints rows @ q = 0 (n x n_dof, sparse or dense): ties, multi-point constraints, rigid links. Results stay in
+        all DOFs of the model."""
+        start, dof, coefficient, width = self._rows(rows, "it says nothing")
+        self._call("add_constraints" + width, 0, start.size - 1, address(start), address(dof), address(coefficient))
+
     def set_elimination_order(self, dof):
         """A permutation of all DOFs: how the sparse factorization eliminates them, in place of the library's order."""
         (dof,), width = alike(integers(dof, "dof").ravel())
@@ -135,20 +141,26 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
 
     def add_gap_rows(self, rows, stiffness=None, gap=None):
         """Rows of the gap matrix B (n x n_dof, sparse or dense): u = B q - gap."""
-        rows = scipy.sparse.csr_matrix(rows)
-        coefficient = numpy.ascontiguousarray(real_parts(rows.data, "rows"))
-        n = rows.shape[0]
-        if rows.shape[1] != self.n_dof:
-            raise ValueError(f"rows has {rows.shape[1]} columns; needed is n_dof = {self.n_dof}")
-        rows.eliminate_zeros()
-        empty = numpy.flatnonzero(numpy.diff(rows.indptr) == 0)
-        if empty.size:
-            raise ValueError(f"row {empty[0]} of rows is all zeros: it touches no DOF, and its gap can never change; leave it out, "
-                             "or check the numbers of its DOFs")
-        (start, dof), width = alike(rows.indptr, rows.indices)
+        start, dof, coefficient, width = self._rows(rows, "its gap can never change")
+        n = start.size - 1
         _, stiffness, gap = self._pairs(n, None, stiffness, gap)
         self._call("add_gap_rows" + width, 0, n, address(start), address(dof), address(coefficient), address(stiffness),
                    address(gap))
+
+    def _rows(self, rows, when_zero):
+        rows = scipy.sparse.csr_matrix(rows)
+        if not numpy.all(rows.data):  # and not in the caller's own arrays
+            rows = rows.copy()
+            rows.eliminate_zeros()
+        coefficient = numpy.ascontiguousarray(real_parts(rows.data, "rows"))
+        if rows.shape[1] != self.n_dof:
+            raise ValueError(f"rows has {rows.shape[1]} columns; needed is n_dof = {self.n_dof}")
+        empty = numpy.flatnonzero(numpy.diff(rows.indptr) == 0)
+        if empty.size:
+            raise ValueError(f"row {empty[0]} of rows is all zeros: it touches no DOF, and {when_zero}; leave it out, "
+                             "or check the numbers of its DOFs")
+        (start, dof), width = alike(rows.indptr, rows.indices)
+        return start, dof, coefficient, width
 
     @staticmethod
     def _pairs(n, normal, stiffness, gap):

@@ -306,8 +306,24 @@ PLM_API plm_status plm_model_set_structural_damping(plm_model *model, double eta
 PLM_API plm_status plm_model_fix_dofs_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *dof);
 PLM_API plm_status plm_model_fix_dofs_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *dof);
 
+/* Constraints sum c_j q_j = 0 among DOFs (n rows, compressed: row_ptr[n + 1], dof[nnz], coefficient[nnz]): ties,
+ * multi-point constraints, rigid links at small rotations, distributing couplings. Repeated calls add up; rows may use DOFs
+ * that other rows give. The build eliminates one DOF by each row; motions, loads, gap rows and results stay in all DOFs of
+ * the model, dependent ones among them, which may be loaded, looked at and in contact. Terms of fixed DOFs drop out; a row
+ * that leaves one DOF alone holds it at zero. Rows that repeat others, to 1e-6 of their terms, are left out and counted
+ * ("n_redundant_constraints"), with PLM_WARNING and PLM_REASON_ROUNDED beyond 1e-10. Where a state is set
+ * (plm_transient_set_state) the free DOFs of it count, and the others follow from them. A row over thousands of DOFs
+ * couples all of them with what stands at its dependent DOF: PLM_ERR_MEMORY of the build names the row where that would
+ * fill the matrices. */
+PLM_API plm_status plm_model_add_constraints_i32(plm_model *model, int32_t index_base, int64_t n,
+                                                 const int32_t *row_ptr, const int32_t *dof,
+                                                 const double *coefficient);
+PLM_API plm_status plm_model_add_constraints_i64(plm_model *model, int32_t index_base, int64_t n,
+                                                 const int64_t *row_ptr, const int64_t *dof,
+                                                 const double *coefficient);
+
 /* The order in which the sparse factorization by cholmod eliminates the DOFs, in place of the library's: a permutation of
- * all of them, n = n_dof, for hosts that know their mesh; fixed ones are passed over. It changes time and memory, no
+ * all of them, n = n_dof, for hosts that know their mesh; fixed and dependent ones are passed over. It changes time and memory, no
  * result. n = 0 removes it. Repeated and missing DOFs are PLM_ERR_ARGUMENT with the position as index. */
 PLM_API plm_status plm_model_set_elimination_order_i32(plm_model *model, int32_t index_base, int64_t n,
                                                        const int32_t *dof);

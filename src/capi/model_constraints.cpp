@@ -1,0 +1,50 @@
+// Linear constraints among the DOFs of the model.
+#include "capi/barrier.hpp"
+#include "capi/sparse_rows.hpp"
+
+namespace plm::capi {
+namespace {
+
+template <class Index>
+plm_status add_constraints(const char *function, plm_model *model, std::int32_t index_base, std::int64_t n,
+                           const Index *row_ptr, const Index *dof, const double *coefficient) {
+    return call<ModelHandle>(function, model, [&](ModelHandle &m) {
+        require_open(m);
+        require_index_base(index_base);
+        require_range(n, 0, INT64_MAX / 64, "n");
+        const SparseRows<Index> rows{"constraint row",
+                                     "it says nothing; leave it out, or check its coefficients",
+                                     n,
+                                     index_base,
+                                     row_ptr,
+                                     dof,
+                                     coefficient};
+        check_row_pointers(rows);
+        ConstraintRows all = m.input.constraints; // what is there stays as it is if anything fails
+        const std::int64_t before = all.ptr.back();
+        for_entries(rows, m.input.n_dof, [&](std::int64_t, std::int64_t j, double c) {
+            all.dof.push_back(j);
+            all.coefficient.push_back(c);
+        });
+        for (std::int64_t i = 0; i < n; ++i) all.ptr.push_back(before + row_ptr[i + 1] - index_base);
+        m.input.constraints = std::move(all);
+        return PLM_OK;
+    });
+}
+
+} // namespace
+} // namespace plm::capi
+
+using namespace plm::capi;
+
+plm_status plm_model_add_constraints_i32(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                         const std::int32_t *row_ptr, const std::int32_t *dof,
+                                         const double *coefficient) {
+    return add_constraints("plm_model_add_constraints_i32", model, index_base, n, row_ptr, dof, coefficient);
+}
+
+plm_status plm_model_add_constraints_i64(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                         const std::int64_t *row_ptr, const std::int64_t *dof,
+                                         const double *coefficient) {
+    return add_constraints("plm_model_add_constraints_i64", model, index_base, n, row_ptr, dof, coefficient);
+}

@@ -1,0 +1,51 @@
+// How the DOFs of the caller follow from those that are free: q = T q_r. A free DOF is itself, a fixed one
+// zero, a dependent one a sum of free ones by the constraints.
+#pragma once
+#include "structure/constraints.hpp"
+#include "structure/sparse.hpp"
+
+namespace plm {
+
+class DofMap {
+  public:
+    DofMap() = default;
+    /// Fixed DOFs, in any order, some perhaps twice.
+    DofMap(std::int64_t n_dof, const vector<std::int64_t> &fixed, const ConstraintRows &constraints);
+
+    std::int64_t n_dof() const { return static_cast<std::int64_t>(place_.size()); }
+    std::int64_t n_free() const { return static_cast<std::int64_t>(free_dof_.size()); }
+    /// The free ones, ascending.
+    const vector<std::int64_t> &free_dofs() const { return free_dof_; }
+    /// Place among them, or -1.
+    std::int64_t free_index(std::int64_t dof) const { return place_[dof] >= 0 ? place_[dof] : -1; }
+    /// Its row of T over free indices, empty where it is held at zero.
+    DofTerms terms(std::int64_t dof) const;
+    bool is_held(std::int64_t dof) const;
+    bool has_dependent() const { return dependent_.cols > 0; }
+    /// What became of the constraints; the terms of the dependent DOFs are here, no longer there.
+    const EliminatedConstraints &elimination() const { return elimination_; }
+    double bytes() const;
+
+    /// q = T q_r; T^T F; and the free DOFs of a motion, by which the others are given.
+    void expand(const double *free, double *all) const;
+    vector<double> forces(const double *all) const;
+    vector<double> free_part(const double *all) const;
+    /// T^T A T of a symmetric matrix over all DOFs, symmetric to the last bit. PLM_ERR_MEMORY where
+    /// constraints would fill it.
+    SparseMatrix reduced(const char *name, const SparseMatrix &a) const;
+    /// B T of the rows in these triplets.
+    SparseMatrix reduced_rows(std::int64_t n_rows, const vector<std::int64_t> &row,
+                              const vector<std::int64_t> &dof, const vector<double> &coefficient) const;
+
+  private:
+    template <class F> void for_terms(std::int64_t dof, F f) const;
+    template <class F> void for_upper(const SparseMatrix &a, const SparseMatrix &dependents, F column) const;
+    void require_sparse(const char *name, const SparseMatrix &a, std::int64_t entries) const;
+
+    static constexpr std::int64_t held = -1; // below: column -2 - place of dependent_
+    vector<std::int64_t> free_dof_, place_;
+    SparseMatrix dependent_; // n_free x dependent DOFs, T^T of them
+    EliminatedConstraints elimination_;
+};
+
+} // namespace plm
