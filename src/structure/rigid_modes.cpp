@@ -283,7 +283,7 @@ class RigidModeSearch {
                 format("%lld rows of the stiffness matrix (the first: DOF %lld, counted from 0) are "
                        "coupled to others, but have zero on the diagonal and no mass: they look like "
                        "Lagrange multipliers of constraints, which leave K indefinite. Fix these DOFs and "
-                       "hand over what their rows say by plm_model_add_constraints",
+                       "hand over what their rows say as constraints of the model",
                        multipliers, Int(free_dof_[first])));
     }
 

@@ -200,7 +200,7 @@ class Constraints(unittest.TestCase):
         n = len(mass)
         bordered = numpy.block([[stiffness, tie.T], [tie, numpy.zeros((1, 1))]])
         model = plm.Model(scipy.sparse.csc_matrix(scipy.linalg.block_diag(mass, 0)), scipy.sparse.csc_matrix(bordered))
-        with self.assertRaisesRegex(plm.PlmError, "Lagrange multipliers.*plm_model_add_constraints"):
+        with self.assertRaisesRegex(plm.PlmError, "Lagrange multipliers.*as constraints of the model"):
             model.build()
         model.fix_dofs([n])
         model.add_constraints(numpy.append(tie, [[0.0]], axis=1))
