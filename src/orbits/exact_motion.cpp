@@ -4,7 +4,6 @@
 #include "orbits/period_map.hpp"
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace plm {
 namespace {
@@ -13,13 +12,14 @@ constexpr int max_steps = 10, event_steps = 5;
 constexpr int may_wander = 3; // steps that may wander; later ones have to contract
 constexpr double contraction = 0.7;
 constexpr double same_motion = 0.3; // of the motion's size: farther away it is another one
-// How exact a motion has to be for its multipliers. What they still change by, as a share of their distance
-// from the unit circle; a motion, as a share of its size, that is exact enough wherever they are.
-constexpr double settled = 1e-3, exact_state = 1e-9;
-// The same by the instants of the events, as angles.
+// How exact a motion has to be for its multipliers: near grazing they change with the root of the
+// penetration, a small part of the motion. Shares of their distance from the unit circle, and what is enough
+// wherever they are; in the state, as a share of the motion, and in the instants of the events, as angles.
+constexpr double safe_state = 2e-5, exact_state = 1e-9;
 constexpr double safe_shift = 5e-4, exact_shift = 1e-7;
-// Of one run of the flow, which finds events by itself: above, a curve would take minutes.
-constexpr double affordable = 3e7; // flops
+// Of one run of the flow, which finds events by itself: below, it costs no more than the point did; above, a
+// curve would take minutes.
+constexpr double cheap = 3e6, affordable = 3e7; // flops
 
 // The fastest motion of the stiffest contact set bounds the length of the flow's pieces from above; every
 // event ends one.
@@ -37,26 +37,14 @@ double flops_of_run(const ExactFlow &flow, std::int64_t periods, std::size_t n_e
 struct Verdict {
     double margin = 1;
     std::int64_t n_outside = 0;
-    vector<double> moduli; // the largest first
 };
 Verdict verdict_of(const Matrix &monodromy) {
     Verdict v;
     for (const std::complex<double> &m : multipliers(monodromy)) {
         v.margin = std::min(v.margin, std::abs(std::abs(m) - 1));
         v.n_outside += std::abs(m) > 1;
-        v.moduli.push_back(std::abs(m));
     }
     return v;
-}
-
-// Whether a step that is `shorter` times the last one changes nothing any more. Near grazing multipliers
-// change with the root of the penetration, elsewhere less.
-bool is_settled(const Verdict &before, const Verdict &now, double shorter) {
-    if (before.n_outside != now.n_outside || before.moduli.size() != now.moduli.size()) return false;
-    double change = 0;
-    for (std::size_t i = 0; i < now.moduli.size(); ++i)
-        change = std::max(change, std::abs(now.moduli[i] - before.moduli[i]));
-    return change * std::sqrt(shorter) <= settled * now.margin;
 }
 
 // Chatter, overflow, a mode too fast for the exponential, a singular system: no answer.
@@ -81,21 +69,17 @@ EventSequence contact_events(const ReducedModel &m, const BranchPoint &point, st
 // nearby motion, to whose shifts a stiff contact's multipliers answer with a factor of ten.
 Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
                                const EventSequence &sequence, const Matrix &within) {
-    if (model != model_) {
-        model_ = model;
-        modes_ = std::make_shared<ContactModesKept>(model);
-    }
-    ExactFlow flow(model, point.omega, point.force_scale, Watch(), modes_);
+    ExactFlow flow(model, point.omega, point.force_scale);
     if (sequence.events.empty())
         return found_by([&] {
             return plm::monodromy(*model, {{flow.period() * static_cast<double>(periods_), sequence.first}});
         });
     const double omega = point.omega / static_cast<double>(periods_);
     const FlowState start = model->state(point.eta_0, point.eta, omega, 0.0);
-    const bool dear = flops_of_run(flow, periods_, sequence.events.size()) > affordable;
+    const double flops = flops_of_run(flow, periods_, sequence.events.size());
     Matrix found;
-    if (dear) found = found_by([&] { return by_events(flow, start, sequence, within); });
-    if (found.rows() > 0 || (dear && !patient_)) return found;
+    if (flops > cheap) found = found_by([&] { return by_events(flow, start, sequence, within); });
+    if (found.rows() > 0 || flops > (patient_ ? INFINITY : affordable)) return found;
     if (!correction_.empty())
         found = found_by([&] { return newton(flow, start, moved(*model, start, correction_, 1), within); });
     return found.rows() > 0 ? found : found_by([&] { return newton(flow, start, start, within); });
@@ -125,18 +109,16 @@ Matrix MotionBeside::newton(ExactFlow &flow, const FlowState &start, FlowState n
     const FlowModel &model = flow.model();
     const EnergyNorm norm(flow);
     double before = INFINITY;
-    Verdict verdict;
     for (int k = 0; k < max_steps; ++k) {
         const PeriodRun run = run_periods(flow, now, periods_);
-        Matrix matrix = plm::monodromy(model, run.intervals, 1e-15, Watch(), modes_.get());
+        Matrix matrix = plm::monodromy(model, run.intervals);
         FlowState next = moved(model, now, period_step(model, now, run, matrix, within), 1);
         const double step = run.size > 0 ? norm.distance(next, now) / run.size : 0;
         if (!std::isfinite(step) || norm.distance(next, start) > same_motion * run.size) return {};
         if (k >= may_wander && step > contraction * before) return {};
+        before = step;
         now = std::move(next);
-        const Verdict last = std::exchange(verdict, step > exact_state ? verdict_of(matrix) : Verdict());
-        const double shorter = step / std::exchange(before, step);
-        if (step > exact_state && !is_settled(last, verdict, shorter)) continue;
+        if (step > exact_state && step > safe_state * verdict_of(matrix).margin) continue;
         keep_correction(model, start, now);
         return matrix;
     }
