@@ -306,7 +306,9 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
             if (equations) point.multipliers = multipliers_at(*equations, point);
         });
         point.multiplier_error = branch.points()[top].multiplier_error;
-        if (options_.stability != StabilityKind::off && point.multipliers.empty())
+        // who sets the harmonics hears it as of a curve: where it is of many points
+        if (options_.n_harmonics == 0 && options_.stability != StabilityKind::off &&
+            point.multipliers.empty())
             one->warnings.add(PLM_REASON_UNVERIFIED,
                               known ? Stability(reduced, options, StabilityOf::point).unknown_text(1, 1)
                                     : "the stability of the peak is not known: the effort allowed was spent "
