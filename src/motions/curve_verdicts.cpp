@@ -147,15 +147,14 @@ void check_peak(const SweepRange &window, double accuracy, double error, Watch w
 }
 
 void check_top(double accuracy, double above, Watch watch, Branch &peak) {
-    constexpr double of_parabola = 2; // it may miss a sharp top by as much as it rises
-    if (of_parabola * above <= accuracy) return;
+    if (above <= accuracy) return;
     watch.keeping(peak.warnings)
         .warn(PLM_REASON_UNVERIFIED,
               format("the peak, at %.6g Hz, is only the highest point of the curve: no solutions were found "
                      "close around it, or the effort allowed was spent before, and by its neighbours the "
                      "peak may be higher by about %.2g of itself, where \"accuracy\" allows %.2g. Sweep with "
                      "a smaller max_step, allow more max_iterations, or raise the effort of the context",
-                     peak.points()[0].omega / (2 * M_PI), of_parabola * above, accuracy));
+                     peak.points()[0].omega / (2 * M_PI), above, accuracy));
 }
 
 namespace {

@@ -91,6 +91,7 @@ class Newton {
             if (damping < limits_.min_damping)
                 return fail(pieces_repeat() ? PLM_REASON_CONTACT_CHATTER : PLM_REASON_STEP_MINIMUM);
         }
+        if (size <= limits_.tolerance) return finish(size);
         return fail(pieces_repeat() ? PLM_REASON_CONTACT_CHATTER : PLM_REASON_STEP_MINIMUM);
     }
 

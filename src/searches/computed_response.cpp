@@ -97,9 +97,10 @@ class Chain {
     void take_first_curve(const std::shared_ptr<const Basis> &smallest, ComputedResponse &best) {
         if (!best.curve || was_stopped(*best.curve)) spent_ = true;
         const auto look = [&] {
-            const auto first = curve_of_few_harmonics(*smallest, widened(smallest->reduced()));
+            const auto basis = few_harmonics_.basis ? few_harmonics_.basis : smallest;
+            const auto first = curve_of_few_harmonics(basis);
             if (!best.curve || (is_whole(*first) && says_more(*first, *best.curve, watch_)))
-                best = with_curve(smallest, first);
+                best = with_curve(basis, first);
         };
         unless_there_is(best, [&] { within(flops_of_first_curve, look); });
         if (!best.curve)
@@ -156,7 +157,7 @@ class Chain {
             return false;
         Branch one(reduced, options_.force_scale);
         try {
-            const auto curve = curve_of_few_harmonics(*basis, reduced);
+            const auto curve = curve_of_few_harmonics(basis);
             if (!best.curve || is_whole(*curve)) best = with_curve(basis, curve);
             if (!spans(*curve)) return false;
             const bool in_time =
@@ -177,15 +178,18 @@ class Chain {
         return std::isfinite(error) && error > accuracy_;
     }
 
-    std::shared_ptr<const Branch> curve_of_few_harmonics(const Basis &basis,
-                                                         std::shared_ptr<const ReducedModel> reduced) const {
+    // Kept: the last one is the first answer where no other comes.
+    std::shared_ptr<const Branch> curve_of_few_harmonics(const std::shared_ptr<const Basis> &basis) {
+        if (few_harmonics_.basis == basis) return few_harmonics_.curve;
+        const auto reduced = widened(basis->reduced());
         HbmOptions o = options_;
         o.motion = MotionKind::harmonics;
         o.n_harmonics = harmonics_of_look(*reduced);
         o.max_points = points_of_look;
         o.stability = StabilityKind::off;
-        const auto curve = Hbm(std::move(reduced), basis.sweep_range(), o, watch_).sweep();
+        const auto curve = Hbm(reduced, basis->sweep_range(), o, watch_).sweep();
         if (curve->end_reason == PLM_REASON_CANCELLED) require_unstopped(*curve);
+        if (!was_stopped(*curve)) few_harmonics_ = {basis, curve};
         return curve;
     }
 
@@ -348,6 +352,10 @@ class Chain {
     double effort_;             // flops
     bool spent_ = false;        // the effort, before all was done
     bool beyond_reach_ = false; // one exact motion takes more than its share
+    struct {
+        std::shared_ptr<const Basis> basis;
+        std::shared_ptr<const Branch> curve;
+    } few_harmonics_;
     std::shared_ptr<const Basis> looked_at_;
     double error_near_peak_ = NAN; // by that basis
     Watch watch_;

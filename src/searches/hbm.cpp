@@ -126,7 +126,7 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
                            frequency_hz, drift_hint(*task.reduced).c_str()))
             .argument("frequency_hz")
             .reason(PLM_REASON_START_FAILED);
-    Stability stability(task.reduced, options_);
+    Stability stability(task.reduced, options_, StabilityOf::point);
     if (stability.wanted() && !result.motion) result.multipliers = stability.multipliers(result);
     if (stability.wanted() && result.multipliers.empty())
         branch->warnings.add(PLM_REASON_UNVERIFIED, stability.unknown_text(1, 1));

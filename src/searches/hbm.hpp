@@ -12,8 +12,8 @@ struct Peak {
     double frequency_hz = 0, amplitude = 0;
     std::shared_ptr<const Branch> branch; // one point
     double basis_error = 0;               // as basis_error_at() tells it
-    double above =
-        0; // by how much it may be higher than the point found, of that: 0 where it was closed in upon
+    /// By how much it may be higher than the point found, of that: 0 where it was closed in upon.
+    double above = 0;
 };
 
 class Basis;           // reduction/basis.hpp

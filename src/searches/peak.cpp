@@ -52,8 +52,9 @@ class PeakSearch {
         return true;
     }
 
-    /// By how much the peak may be higher than the point found, of that: 0 where it was closed in upon.
-    double above() const { return above_; }
+    /// By how much the peak may be higher than the point found, of that: 0 where it was closed in upon. The
+    /// parabola may miss a sharp top by as much as it rises.
+    double above() const { return 2 * above_; }
 
   private:
     bool is_exact() const {
@@ -177,6 +178,74 @@ class PeakSearch {
     double first_ = 0, last_ = 1, span_ = 1, above_ = 0;
 };
 
+// The peak beside the highest point of a curve, as near as its harmonics and the effort allow.
+class CloserLook {
+  public:
+    CloserLook(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &of_curve, const Branch &branch,
+               const std::array<std::int64_t, 3> &around, const Output &of, Watch watch)
+        : reduced_(std::move(reduced)), options_(options_on(*reduced_, of_curve)), branch_(branch),
+          around_(around), of_(of), watch_(watch), point_(branch.points()[around[1]]),
+          most_harmonics_(with_affordable_harmonics(*reduced_, of_curve).max_harmonics),
+          automatic_(of_curve.n_harmonics == 0 && !point_.motion) {
+        options_.force_scale = point_.force_scale;
+        options_.period_multiple = branch.period_multiple();
+        options_.n_harmonics = harmonics_of(point_, options_.period_multiple);
+        error_ = point_.motion ? 0 : point_.harmonic_error;
+    }
+
+    // Where harmonics are chosen, an order better than on the curve: one point is cheap, and its amplitude is
+    // what people quote.
+    void close_in() {
+        const double wanted = 0.1 * options_.allowed_harmonic_error();
+        if (automatic_) error_ = error_here();
+        do {
+            if (error_ > wanted)
+                options_.n_harmonics =
+                    std::max(options_.n_harmonics, std::min(most_harmonics_, 2 * options_.n_harmonics));
+            equations_ = equations_of(reduced_, options_, point_, StabilityOf::point);
+            search_ = std::make_unique<PeakSearch>(*equations_, options_, reduced_, of_.dof, of_.measure,
+                                                   of_.harmonic, watch_);
+            search_->run(branch_, around_, point_);
+            if (automatic_) error_ = error_here();
+        } while (error_ > wanted && options_.n_harmonics < most_harmonics_);
+    }
+
+    void find_multipliers() {
+        if (equations_) point_.multipliers = multipliers_at(*equations_, point_);
+    }
+
+    const BranchPoint &point() const { return point_; }
+    double harmonic_error() const { return error_; }
+    /// As PeakSearch; where none was begun, by how much the lower neighbour is lower: a parabola rises less.
+    double above() const {
+        if (search_) return search_->above();
+        const auto height = [&](int k) {
+            return branch_.amplitude(around_[k], of_.dof, of_.measure, of_.harmonic);
+        };
+        return 1 - std::min(height(0), height(2)) / height(1);
+    }
+
+  private:
+    // At the DOF, which need not be that of the motion as a whole.
+    double error_here() {
+        const MeasuredHarmonics next = measure_harmonics(reduced_, options_, point_);
+        return harmonic_error_at(*reduced_, point_, next.change, of_.dof, of_.measure, of_.harmonic);
+    }
+
+    std::shared_ptr<const ReducedModel> reduced_;
+    HbmOptions options_;
+    const Branch &branch_;
+    std::array<std::int64_t, 3> around_;
+    Output of_;
+    Watch watch_;
+    BranchPoint point_;
+    std::int64_t most_harmonics_;
+    bool automatic_; // harmonics are chosen
+    double error_ = 0;
+    std::unique_ptr<PeriodicEquations> equations_;
+    std::unique_ptr<PeakSearch> search_;
+};
+
 // The highest point and its neighbours; a closed curve, whose last point is its first, has no ends. False:
 // the highest point stands at an end.
 bool neighbours(const Branch &branch, std::int64_t top, std::array<std::int64_t, 3> &around) {
@@ -185,12 +254,6 @@ bool neighbours(const Branch &branch, std::int64_t top, std::array<std::int64_t,
     around =
         inner ? std::array<std::int64_t, 3>{top - 1, top, top + 1} : std::array<std::int64_t, 3>{n - 2, 0, 1};
     return inner || (branch.end_reason == PLM_REASON_LOOP_CLOSED && n > 3);
-}
-
-// By how much the lower neighbour of the highest point is lower, of that: a parabola rises above it by less.
-double fall_beside(const Branch &branch, const std::array<std::int64_t, 3> &around, const Output &of) {
-    const auto height = [&](std::int64_t i) { return branch.amplitude(i, of.dof, of.measure, of.harmonic); };
-    return 1 - std::min(height(around[0]), height(around[2])) / height(around[1]);
 }
 
 // What rounding leaves of a DOF that does not move, of the largest one: its amplitude says nothing.
@@ -266,58 +329,30 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     one->end_reason = PLM_REASON_RANGE_END;
     BranchPoint point = branch.points()[top];
     const HbmOptions limits = with_affordable_harmonics(*reduced, options_);
-    // in what is asked for, where harmonics are chosen; an exact motion lacks none
-    double error = point.motion ? 0 : point.harmonic_error, above = 0;
-    if (!is_peak) // it stays where it is
-        watch_.keeping(one->warnings)
-            .warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, of_motion, {dof, measure, harmonic}));
+    const Output of{dof, measure, harmonic};
+    double error = point.motion ? 0 : point.harmonic_error; // an exact motion lacks no harmonics
     if (is_peak) {
-        HbmOptions options = options_on(*reduced, options_);
-        options.force_scale = point.force_scale;
-        options.period_multiple = branch.period_multiple();
-        options.n_harmonics = harmonics_of(point, options.period_multiple);
-        // Where harmonics are chosen, an order better than on the curve: one point is cheap, and its
-        // amplitude is what people quote.
-        const bool automatic = options_.n_harmonics == 0 && !point.motion;
-        const double wanted = 0.1 * options_.allowed_harmonic_error();
-        const auto error_here = [&] { // at the DOF, which need not be that of the motion as a whole
-            const MeasuredHarmonics next = measure_harmonics(reduced, options, point);
-            return harmonic_error_at(*reduced, point, next.change, dof, measure, harmonic);
-        };
-        std::unique_ptr<PeriodicEquations> equations;
-        std::unique_ptr<PeakSearch> search;
-        const auto close_in = [&] {
-            if (automatic) error = error_here();
-            do {
-                if (error > wanted)
-                    options.n_harmonics = std::max(options.n_harmonics,
-                                                   std::min(limits.max_harmonics, 2 * options.n_harmonics));
-                equations = equations_of(reduced, options, point, StabilityOf::point);
-                search = std::make_unique<PeakSearch>(*equations, options, reduced, dof, measure, harmonic,
-                                                      watch_);
-                search->run(branch, around, point);
-                if (automatic) error = error_here();
-            } while (error > wanted && options.n_harmonics < limits.max_harmonics);
-        };
         const double of_peak = 0.7; // of the effort: the rest is for the estimate of its error
-        within(of_peak * effort_left(), close_in);
-        above = search ? search->above() : fall_beside(branch, around, {dof, measure, harmonic});
-        const bool known = within(of_peak * effort_left(), [&] {
-            if (equations) point.multipliers = multipliers_at(*equations, point);
-        });
-        point.multiplier_error = branch.points()[top].multiplier_error;
-        // who sets the harmonics hears it as of a curve: where it is of many points
-        if (options_.n_harmonics == 0 && options_.stability != StabilityKind::off &&
-            point.multipliers.empty())
+        CloserLook look(reduced, options_, branch, around, of, watch_);
+        within(of_peak * effort_left(), [&] { look.close_in(); });
+        const bool in_time = within(of_peak * effort_left(), [&] { look.find_multipliers(); });
+        const double multiplier_error = point.multiplier_error;
+        point = look.point();
+        point.multiplier_error = multiplier_error;
+        error = look.harmonic_error();
+        peak.above = look.above();
+        if (options_.stability != StabilityKind::off && point.multipliers.empty())
             one->warnings.add(PLM_REASON_UNVERIFIED,
-                              known ? Stability(reduced, options, StabilityOf::point).unknown_text(1, 1)
-                                    : "the stability of the peak is not known: the effort allowed was spent "
-                                      "before; raise the effort of the context");
+                              in_time ? Stability(reduced, options_, StabilityOf::point).unknown_text(1, 1)
+                                      : "the stability of the peak is not known: the effort allowed was "
+                                        "spent before; raise the effort of the context");
+    } else { // it stays where it is
+        watch_.keeping(one->warnings).warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, of_motion, of));
     }
     one->append(point);
     vector<std::complex<double>> of_structure;
     const double by_basis =
-        of_motion ? basis_error_at(made_as_, options_, *one, 0, {dof, measure, harmonic},
+        of_motion ? basis_error_at(made_as_, options_, *one, 0, of,
                                    std::max(few_flops, flops_of(branch, options_)), watch_, &of_structure)
                   : NAN;
     if (!of_structure.empty()) {
@@ -326,17 +361,18 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         one->truncate(0);
         one->append(std::move(point));
     }
-    check_top(options_.accuracy, above, watch_, *one);
+    check_top(options_.accuracy, peak.above, watch_, *one);
     warn_of_harmonics(limits, error, *one);
     if (is_peak && options_.n_harmonics != 0 && !one->points()[0].motion)
-        warn_of_given_harmonics(reduced, options_, dof, measure, harmonic, *one);
+        within(effort_left(),
+               [&] { warn_of_given_harmonics(reduced, options_, dof, measure, harmonic, *one); });
+    const WorkCount told; // what is known is told, whatever is left of the effort
     check_peak(window_, options_.accuracy, by_basis, watch_, *one);
-    if (is_peak) check_stability(branch, {dof, measure, harmonic}, options_.accuracy, watch_, *one);
+    if (is_peak) check_stability(branch, of, options_.accuracy, watch_, *one);
     if (one->reduced().model)
         check_host_reduction(*one->reduced().model, options_.accuracy, by_basis,
                              watch_.keeping(one->warnings));
     peak.basis_error = by_basis;
-    peak.above = above;
     one->unknowns_used = branch.unknowns_used;
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);

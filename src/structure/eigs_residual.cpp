@@ -65,34 +65,6 @@ double absolute_energy(const EigenPairs &pairs, const Products &p, std::int64_t 
     return energy;
 }
 
-/// A sum in twice the digits (Ogita, Rump and Oishi, Accurate sum and dot product, 2005).
-class LongSum {
-  public:
-    void add(double a, double b) {
-        const double product = a * b, sum = sum_ + product, was = sum - sum_;
-        rest_ += ((sum_ - (sum - was)) + (product - was)) + std::fma(a, b, -product);
-        sum_ = sum;
-    }
-    double high() const { return sum_; }
-    double low() const { return rest_; }
-
-  private:
-    double sum_ = 0, rest_ = 0;
-};
-
-/// x' K x: the large terms of penalties cancel, and what is left has all its digits.
-double energy(const SparseMatrix &k, const double *x) {
-    LongSum all;
-    double rest = 0;
-    for (std::int64_t j = 0; j < k.cols; ++j) {
-        LongSum force;
-        for (std::int64_t p = k.ptr[j]; p < k.ptr[j + 1]; ++p) force.add(k.val[p], x[k.idx[p]]);
-        all.add(force.high(), x[j]);
-        rest += force.low() * x[j];
-    }
-    return all.high() + (all.low() + rest);
-}
-
 /// Beside a far smaller eigenvalue theta = 1 / (lambda - shift) leaves a value few digits: then its Rayleigh
 /// quotient has more. Beside penalties rounding of the factor and of K x leaves few to both: then it is
 /// summed with more.
@@ -103,7 +75,7 @@ void take_better_values(const Pencil &pencil, EigenPairs &pairs, const Products 
         const double apart = std::fabs(pairs.values[j] - pencil.shift);
         const double terms = absolute_energy(pairs, p, j);
         if (eps * terms > certain * std::fabs(pairs.values[j]))
-            pairs.values[j] = energy(pencil.k, pairs.vectors.col(j));
+            pairs.values[j] = energy(pencil.k, pairs.vectors.col(j)).sum;
         else if (apart * (apart / first) > terms)
             pairs.values[j] = dot(pencil.size(), pairs.vectors.col(j), p.kx.col(j));
     }

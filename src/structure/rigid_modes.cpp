@@ -73,21 +73,6 @@ struct LowModes {
     }
     std::int64_t size() const { return static_cast<std::int64_t>(pairs.values.size()); }
     double largest_rounding() const { return *std::max_element(rounding.begin(), rounding.end()); }
-
-  private:
-    struct Energy {
-        double sum = 0, terms = 0; // x' K x, |x|' |K| |x|
-    };
-    static Energy energy(const SparseMatrix &k, const double *x) {
-        Energy e;
-        for (std::int64_t j = 0; j < k.cols; ++j)
-            for (std::int64_t p = k.ptr[j]; p < k.ptr[j + 1]; ++p) {
-                const double term = x[k.idx[p]] * k.val[p] * x[j];
-                e.sum += term;
-                e.terms += std::abs(term);
-            }
-        return e;
-    }
 };
 
 // Matrices of codes that sum element matrices carry more than the rounding of their entries; measured on

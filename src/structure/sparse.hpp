@@ -31,6 +31,13 @@ void multiply_transposed(const SparseMatrix &a, const double *x, double *y);
 /// A X for a block of columns; one pass over A for several columns at a time.
 Matrix multiply(const SparseMatrix &a, const Matrix &x);
 Matrix multiply_transposed(const SparseMatrix &a, const Matrix &x);
+
+/// x' A x of a symmetric A, summed in twice the digits: the large terms of penalties cancel, and what is left
+/// has all its digits. terms: |x|' |A| |x|, of which rounding of A and of x leaves a share.
+struct Energy {
+    double sum = 0, terms = 0;
+};
+Energy energy(const SparseMatrix &a, const double *x);
 Matrix to_dense(const SparseMatrix &a);
 /// Every entry is stored, and there are so many of them that BLAS and LAPACK are the faster ones: the values
 /// are a dense matrix, column-major.

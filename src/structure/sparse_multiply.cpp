@@ -3,6 +3,7 @@
 #include "linalg/parallel.hpp"
 #include "structure/sparse.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace plm {
 namespace {
@@ -50,6 +51,21 @@ Matrix dense_times(char op, const SparseMatrix &a, const Matrix &x) {
     dgemm_(&op, "N", &m, &n, &k, &one, a.val.data(), &lda, x.data(), &k, &zero, y.data(), &m, 1, 1);
     return y;
 }
+
+/// A sum in twice the digits (Ogita, Rump and Oishi, Accurate sum and dot product, 2005).
+class LongSum {
+  public:
+    void add(double a, double b) {
+        const double product = a * b, sum = sum_ + product, was = sum - sum_;
+        rest_ += ((sum_ - (sum - was)) + (product - was)) + std::fma(a, b, -product);
+        sum_ = sum;
+    }
+    double high() const { return sum_; }
+    double low() const { return rest_; }
+
+  private:
+    double sum_ = 0, rest_ = 0;
+};
 
 } // namespace
 
@@ -125,6 +141,23 @@ Matrix multiply_transposed(const SparseMatrix &a, const Matrix &x) {
         });
     }
     return y;
+}
+
+Energy energy(const SparseMatrix &a, const double *x) {
+    Energy e;
+    LongSum all;
+    double rest = 0;
+    for (std::int64_t j = 0; j < a.cols; ++j) {
+        LongSum force;
+        for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p) {
+            force.add(a.val[p], x[a.idx[p]]);
+            e.terms += std::abs(a.val[p] * x[a.idx[p]] * x[j]);
+        }
+        all.add(force.high(), x[j]);
+        rest += force.low() * x[j];
+    }
+    e.sum = all.high() + (all.low() + rest);
+    return e;
 }
 
 } // namespace plm

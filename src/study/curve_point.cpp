@@ -13,7 +13,7 @@ Metric curve_metric(const PathState &at, const HbmOptions &o) {
 bool correct_across(Residual &system, const Metric &metric, const HbmOptions &options,
                     const PathState &direction, PathState &point, bool factored) {
     NewtonLimits limits = newton_limits(options);
-    limits.tolerance *= 1e-3; // the distances looked for are small differences
+    limits.aim = 1e-3 * limits.tolerance; // the distances looked for are small differences
     limits.factored = factored;
     PathState moved = point;
     if (!newton_across(system, metric, direction, limits, moved).converged) return false;

@@ -1,4 +1,5 @@
 """Random models with nothing set whose curves were not right at first."""
+import re
 import warnings
 
 import numpy as np
@@ -112,9 +113,46 @@ def a_motion_far_below_its_pre_load_has_its_own_peak():
     assert abs(response.frequency_hz / 12.43269 - 1) < 3e-4, response.frequency_hz  # of exact.py; rounding leaves 1e-4
 
 
+def beam_against_a_stop(**options):
+    """30 DOFs, one damping ratio; the curve by harmonic balance on all of them."""
+    M, K = (a[2:, 2:] for a in families.beam_matrices(15))
+    n, tip = len(M), len(M) - 2
+    row, local = families.gap_row(n, (tip, 1.0)), 1 / np.linalg.inv(K)[tip, tip]
+    m = dict(M=M, K=K, C=modal_matrix(M, K, [0.01]), damping=("modal", [0.01]), B=row[None], kn=np.array([10 * local]), g=np.array([0.3 / local]),
+             P=np.zeros(n), F=row, out=tip)
+    model = campaign.build(m)
+    hbm = plm.Hbm(plm.Basis(model, plm.Sampler(model).run(), kind="full").build(), motion="harmonics", **options)
+    return m, model, hbm, hbm.sweep()
+
+
+def a_single_motion_by_harmonics_has_its_multipliers_on_any_model():
+    """Along the curve of so many coordinates they are left out unless asked for; at its peak, and of one solution, they are not."""
+    m, _, hbm, curve = beam_against_a_stop()
+    peak = hbm.find_peak(curve, m["out"], measure="peak")
+    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], m["F"].astype(complex), m["out"])
+    x, omega = campaign.state_of(peak)
+    truth = np.abs(np.linalg.eigvals(s.periodic(x, omega)[1])).max()
+    for branch in (peak.branch, hbm.solve(peak.frequency_hz)):
+        assert abs(np.abs(branch.multipliers(0)).max() - truth) < 1e-3, (branch.multipliers(0)[:2], truth)  # a solution of 1e-3
+
+
+def a_peak_without_effort_says_by_how_much_it_may_be_higher():
+    m, model, hbm, curve = beam_against_a_stop(n_harmonics=9, max_step=1)
+    peak = hbm.find_peak(curve, m["out"], measure="peak").amplitude
+    model.context.set_effort(1e-3)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", plm.PlmWarning)
+        highest = hbm.find_peak(curve, m["out"], measure="peak").amplitude
+    above = [float(t) for w in said for t in re.findall(r"higher by about (\S+) of itself", str(w.message))]
+    assert highest == curve.amplitude(m["out"], "peak").max() < peak, (highest, peak)
+    assert len(above) == 1 and peak / highest - 1 < above[0] < 0.01, (above, peak / highest - 1)
+
+
 for test in (two_bases_that_agree_tell_what_no_estimate_does, a_step_that_crosses_to_a_closed_curve_is_found_out,
              a_sweep_begins_where_an_exact_motion_is_found, a_refinement_under_stiff_contact_meets_its_tolerance,
              a_tangle_of_bounces_is_not_answered_by_few_harmonics, a_whole_curve_by_harmonics_is_not_given_up_for_a_part,
-             a_motion_far_below_its_pre_load_has_its_own_peak):
+             a_motion_far_below_its_pre_load_has_its_own_peak,
+             a_single_motion_by_harmonics_has_its_multipliers_on_any_model,
+             a_peak_without_effort_says_by_how_much_it_may_be_higher):
     test()
     print(test.__name__, "ok")

@@ -350,6 +350,7 @@ static void a_small_basis_has_the_error_computed_by_hand(void **state) {
     DONE(plm_basis_set_sampler(basis, sampler));
     DONE(plm_hbm_create(basis, &hbm));
     DONE(plm_hbm_set_int(hbm, "n_harmonics", 5));
+    DONE(plm_hbm_set_string(hbm, "stability", "off")); /* five harmonics do not tell it, and peaks say so */
     DONE(plm_study_create(model, &study));
     DONE(plm_study_set_int(study, "repeats", 1));
     DONE(plm_study_set_output(study, host->output_dof, PLM_HALF_PEAK_TO_PEAK, 0));
