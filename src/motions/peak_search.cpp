@@ -1,0 +1,136 @@
+#include "motions/peak_search.hpp"
+#include "motions/branch_path.hpp"
+#include <algorithm>
+#include <cmath>
+
+namespace plm {
+namespace {
+
+constexpr double least_tolerance = 1e-12; // rounding of a period of the flow
+
+} // namespace
+
+bool PeakSearch::run(const Branch &branch, const std::array<std::int64_t, 3> &around, BranchPoint &highest) {
+    for (int k = 0; k < 3; ++k) load(branch, around[k], three_[k]);
+    set_chord();
+    above_ = rise(); // until it is looked for more closely
+    if (!is_exact() && !solve_triple()) return false;
+    const bool settled = close_in();
+    const Sample &top = *std::max_element(
+        three_.begin(), three_.end(), [](const auto &a, const auto &b) { return a.amplitude < b.amplitude; });
+    constexpr double same_height = 1e-9; // rounding decides between them
+    Sample best;
+    above_ = settled ? 0 : rise();
+    if (!corrected(vertex(), best) || best.amplitude < top.amplitude * (1 - same_height)) best = top;
+    above_ = std::max(0.0, above_ - (best.amplitude / top.amplitude - 1));
+    highest = std::move(best.point);
+    return true;
+}
+
+bool PeakSearch::is_exact() const {
+    return std::all_of(three_.begin(), three_.end(), [](const Sample &s) { return s.point.motion; });
+}
+
+// The curve's points may have other numbers of harmonics; a parabola through both kinds has no meaning.
+bool PeakSearch::solve_triple() {
+    Sample solved, left, right;
+    if (!corrected(three_[1].s, solved)) return false;
+    const bool all = corrected(three_[0].s, left) && corrected(three_[2].s, right);
+    three_[1] = solved;
+    if (all) three_[0] = left, three_[2] = right;
+    return true;
+}
+
+// New triples around the vertex, ten times closer as long as the top is inside: the error of a parabola
+// falls with its square. One that misses the top (far from it the curve is no parabola) goes to its
+// higher side with wider steps.
+bool PeakSearch::close_in() {
+    // Closer, differences of amplitudes drown in the error of their solutions, which corrected() keeps
+    // small; and where contact forces come from samples, in the jumps as a pair switches past one.
+    constexpr double usual = 1e-9, close = 2e-3; // the height of a parabola goes with the square
+    const double closest = (jumps_ ? 5e-2
+                                   : std::clamp(close * std::sqrt(options_.tolerance / usual), close, 5e-2)) *
+                           span_,
+                 widest = 0.25 * span_;
+    constexpr int most_rounds = 20; // three when the top is inside from the beginning
+    double reach = 0.05 * span_;
+    for (int round = 0; round < most_rounds; ++round) {
+        Sample left, middle, right;
+        if (!corrected(vertex(), middle) || !corrected(middle.s - reach, left) ||
+            !corrected(middle.s + reach, right))
+            return false;
+        three_ = {left, middle, right};
+        const bool inside = left.amplitude < middle.amplitude && right.amplitude < middle.amplitude;
+        if (inside && reach <= closest) return true;
+        reach = inside ? std::max(0.1 * reach, closest) : std::min(2 * reach, widest);
+    }
+    return false;
+}
+
+// Of the parabola above the highest of the three, relative.
+double PeakSearch::rise() const {
+    const double s = vertex();
+    double height = 0, top = 0;
+    for (int k = 0; k < 3; ++k) {
+        const Sample &a = three_[k], &b = three_[(k + 1) % 3], &c = three_[(k + 2) % 3];
+        height += a.amplitude * (s - b.s) * (s - c.s) / ((a.s - b.s) * (a.s - c.s));
+        top = std::max(top, a.amplitude);
+    }
+    return top > 0 ? std::max(0.0, height / top - 1) : 0;
+}
+
+void PeakSearch::load(const Branch &branch, std::int64_t i, Sample &s) {
+    s.point = branch.points()[i];
+    s.at = {equations_.unknowns(s.point), s.point.omega};
+    s.amplitude = branch.amplitude(i, of_.dof, of_.measure, of_.harmonic);
+}
+
+void PeakSearch::set_chord() {
+    const double size = norm2(equations_.size(), three_[1].at.x.data());
+    metric_ = {size > 0 ? size : 1, 2 * M_PI * (options_.frequency_max_hz - options_.frequency_min_hz)};
+    chord_ = difference(three_[2].at, three_[0].at);
+    scale_by(1 / metric_.length(chord_), chord_);
+    origin_ = three_[1].at;
+    for (Sample &s : three_) s.s = metric_.product(chord_, difference(s.at, origin_));
+    first_ = three_[0].s, last_ = three_[2].s;
+    span_ = last_ - first_;
+}
+
+// Vertex of the parabola through the triple, kept inside it and inside the first one.
+double PeakSearch::vertex() const {
+    const Sample &a = three_[0], &b = three_[1], &c = three_[2];
+    const double left = (b.amplitude - a.amplitude) / (b.s - a.s),
+                 right = (c.amplitude - b.amplitude) / (c.s - b.s);
+    const double bend = (right - left) / (c.s - a.s);
+    double s = 0.5 * (a.s + b.s) - 0.5 * left / bend;
+    if (!(bend < 0))
+        s = std::max({a.amplitude, b.amplitude, c.amplitude}) == b.amplitude ? b.s
+            : a.amplitude > c.amplitude                                      ? a.s
+                                                                             : c.s;
+    return std::clamp(s, std::max(a.s, first_), std::min(c.s, last_));
+}
+
+// The curve's point in the hyperplane at s, from the parabola through the triple as first guess.
+bool PeakSearch::corrected(double s, Sample &out) {
+    watch_.step("peak", 0.5);
+    const Sample &a = three_[0], &b = three_[1], &c = three_[2];
+    const double la = (s - b.s) * (s - c.s) / ((a.s - b.s) * (a.s - c.s)),
+                 lb = (s - a.s) * (s - c.s) / ((b.s - a.s) * (b.s - c.s)),
+                 lc = (s - a.s) * (s - b.s) / ((c.s - a.s) * (c.s - b.s));
+    out.at = a.at;
+    scale_by(la, out.at);
+    add(lb, b.at, out.at);
+    add(lc, c.at, out.at);
+    NewtonLimits limits = newton_limits(options_);
+    limits.aim = std::max(1e-3 * limits.tolerance, least_tolerance); // for small differences
+    const NewtonOutcome found = newton_across(equations_, metric_, chord_, limits, out.at);
+    if (!found.converged) return false;
+    out.s = s;
+    out.point = equations_.solved_point(out.at, found.residual, found.iterations);
+    Branch one(reduced_, options_.force_scale, options_.period_multiple);
+    one.append(out.point);
+    out.amplitude = one.amplitude(0, of_.dof, of_.measure, of_.harmonic);
+    return true;
+}
+
+} // namespace plm
