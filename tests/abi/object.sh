@@ -27,7 +27,7 @@ fi
 needed=$(printf '%s\n' "$dynamic" | sed -n 's/.*NEEDED.*\[\(.*\)\]/\1/p')
 echo "NEEDED:" $needed
 [ "$required" != - ] || exit 0
-runtimes='^(libstdc\+\+|libm|libmvec|libgcc_s|libc|libpthread|ld-linux[-a-z0-9_]*|libgfortran|libquadmath)\.so'
+runtimes='^(libstdc\+\+|libc\+\+|libc\+\+abi|libunwind|libm|libmvec|libgcc_s|libc|libpthread|ld-linux[-a-z0-9_]*|libgfortran|libquadmath)\.so'
 for pattern in $required; do
     printf '%s\n' "$needed" | grep -qE "^lib$pattern\.so" || fail "does not need lib$pattern"
 done

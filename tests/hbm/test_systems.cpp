@@ -6,6 +6,7 @@
 #include "hbm/options.hpp"
 #include "hbm/start.hpp"
 #include "hbm/system.hpp"
+#include "linalg/support.hpp"
 #include "reduction/reduced_rest.hpp"
 #include "searches/phase_system.hpp"
 #include "support/small_reduced.hpp"
@@ -41,13 +42,12 @@ std::shared_ptr<ReducedModel> chain_model(double preload = 0.3, double gap = 0.0
 }
 
 plm::vector<double> random_point(HbmSystem &system, const ReducedModel &m, double omega) {
-    std::mt19937 random(1);
-    std::normal_distribution<double> normal;
+    test::Random random(1);
     plm::vector<double> x(system.size());
     system.linear_response(plm::coupling_at_rest(m), omega, x.data());
     double size = 0;
     for (double v : x) size = std::max(size, std::abs(v));
-    for (double &v : x) v += 0.3 * size * normal(random);
+    for (double &v : x) v += 0.5 * size * random();
     return x;
 }
 
@@ -59,9 +59,8 @@ struct DerivativeErrors {
 double solution_error(plm::Residual &system, const plm::vector<double> &x, double omega, double step = 1e-6) {
     const std::int64_t n = system.size();
     plm::vector<double> up(n), down(n), r(n), d(n);
-    std::mt19937 random(2);
-    std::normal_distribution<double> normal;
-    for (double &v : d) v = normal(random);
+    test::Random random(2);
+    for (double &v : d) v = random();
     plm::vector<double> shifted(x);
     for (std::int64_t i = 0; i < n; ++i) shifted[i] = x[i] + step * d[i];
     system.residual(shifted.data(), omega, up.data());

@@ -301,7 +301,9 @@ void modes_know_what_is_free(void **) {
                 assert_true(series.n_events > 3 && series.n_events == modes.n_events);
                 assert_true(below(max_difference(series.state, modes.state), 1e-10));
                 assert_true(below(max_difference(series.change, modes.change), 1e-8));
-                assert_true(below(max_difference(series.monodromy, modes.monodromy), 1e-9));
+                // two ways to sum up two periods of growth by 1e3: their rounding, 1.3e-9 with another
+                // compiler
+                assert_true(below(max_difference(series.monodromy, modes.monodromy), 1e-8));
                 std::vector<double> truth(2 * s.n, 0.0);
                 for (int k = 0; k < 2; ++k) truth = exact::period_map(s, 0.7, truth, nullptr);
                 assert_true(below(max_difference(modes.dofs, truth), 1e-9));
