@@ -3,6 +3,7 @@
 #include "linalg/error.hpp"
 #include "linalg/memory.hpp"
 #include "linalg/scale.hpp"
+#include "plm/plm.h"
 #include <cmath>
 
 namespace plm::capi {

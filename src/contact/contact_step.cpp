@@ -41,10 +41,10 @@ void ContactStep::solve(const vector<double> &u_free, vector<double> &force) {
         }
         if (found) return;
     }
-    throw Error(PLM_ERR_CONVERGENCE,
+    throw Error(status::convergence,
                 "the contact forces of a time step were not found; the contact set changes "
                 "back and forth: take smaller steps")
-        .reason(PLM_REASON_CONTACT_CHATTER);
+        .reason(reason::contact_chatter);
 }
 
 void ContactStep::factor_closed() {
@@ -60,8 +60,8 @@ void ContactStep::factor_closed() {
     ++factorizations_;
     if (cholesky_.factor(matrix_)) return;
     factored_ = PairStates();
-    throw Error(PLM_ERR_SINGULAR, "the contact flexibility of the time step is not positive definite")
-        .reason(PLM_REASON_SINGULAR);
+    throw Error(status::singular, "the contact flexibility of the time step is not positive definite")
+        .reason(reason::singular);
 }
 
 // After the whole step the pairs it was computed for are those that are closed; a pair at zero may be either.

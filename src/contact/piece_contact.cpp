@@ -98,10 +98,10 @@ void PieceContact::find_stiffness(Matrix &stiffness) {
         for (std::int64_t i = 0; i < n; ++i)
             t(i, j) = flexibility_(active_[i], active_[j]) + (i == j ? 1 / k[active_[i]] : 0.0);
     if (!cholesky_.factor(t))
-        throw Error(PLM_ERR_SINGULAR,
+        throw Error(status::singular,
                     "the flexibility of the closed pairs is not positive definite; look for "
                     "gap rows of very different size")
-            .reason(PLM_REASON_SINGULAR);
+            .reason(reason::singular);
     Matrix force = rows_;
     cholesky_.solve(force.data(), moving_, n);
     gemm('T', 'N', 1.0, rows_, force, 0.0, stiffness);

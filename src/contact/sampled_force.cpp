@@ -49,7 +49,7 @@ class SampledForce final : public ContactForce {
 std::unique_ptr<ContactForce> make_sampled_force(std::int64_t n_harmonics, std::int64_t time_samples,
                                                  std::int64_t n_pairs) {
     if (time_samples < 4 * n_harmonics + 1)
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     format("time_samples = %lld is too few for %lld harmonics; take at least %lld",
                            static_cast<long long>(time_samples), static_cast<long long>(n_harmonics),
                            static_cast<long long>(4 * n_harmonics + 1)))

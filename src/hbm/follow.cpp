@@ -65,7 +65,7 @@ class Follower {
         QuietOwner quiet(watch_);
         const PathOutcome out = follow_path(system_, path, {{x, from_}}, quiet);
         out_ += out.work;
-        if (out.end_reason != PLM_REASON_RANGE_END || out.at.parameter != to_) return false;
+        if (out.end_reason != reason::range_end || out.at.parameter != to_) return false;
         x = out.at.x;
         return correct(to_, x);
     }
@@ -91,7 +91,7 @@ void warn_of_other_branch(const HbmSystem &system, const vector<double> &guessed
                  size = std::max(size_of(system, x), size_of(system, guessed));
     if (!(far > (omega == start.omega ? much_the_same : beside_the_start) * size)) return;
     branch.warnings.add(
-        PLM_REASON_OTHER_BRANCH,
+        reason::other_branch,
         format("the branch of the start was not followed to %.6g Hz, where it may have turned back before; "
                "the solution found there differs from the start by %.2g of the motion and may be on another "
                "branch; use a sweep to follow the branch round its folds",

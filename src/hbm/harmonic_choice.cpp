@@ -25,7 +25,7 @@ void require_excitation(const ReducedModel &m, const HbmOptions &o) {
     if (needed <= most) return;
     const char *name = automatic ? "max_harmonics" : "n_harmonics";
     throw Error(
-        PLM_ERR_ARGUMENT,
+        status::argument,
         format("the excitation has a harmonic %lld, which %s = %lld would leave out; set %s to %lld or "
                "more, or take that load out of the excitation",
                static_cast<long long>(needed), name, static_cast<long long>(most), name,
@@ -224,7 +224,7 @@ void warn(const HbmOptions &o, std::int64_t over, std::int64_t worst, double err
     const auto &points = branch.points();
     const BranchPoint &p = points[static_cast<std::size_t>(worst)];
     branch.warnings.add(
-        PLM_REASON_HARMONICS_TOO_FEW,
+        reason::harmonics_too_few,
         format("harmonic_tolerance (%.2g) was not reached at %lld of %lld points; the largest error is "
                "estimated as %.2g at point %lld (%.6g Hz, %lld harmonics%s)%s: %s",
                o.allowed_harmonic_error(), static_cast<long long>(over),
@@ -279,7 +279,7 @@ void warn_of_given_harmonics(std::shared_ptr<const ReducedModel> reduced, const 
     const double error = harmonic_error_at(*reduced, point, next.change, dof, measure, harmonic);
     if (error < far_off) return;
     one.warnings.add(
-        PLM_REASON_HARMONICS_TOO_FEW,
+        reason::harmonics_too_few,
         format("n_harmonics = %lld is too few for this peak: the next harmonics would change it by %s. Raise "
                "n_harmonics, or set it to 0, and each point gets as many as it needs",
                static_cast<long long>(harmonics_of(point, one.period_multiple())),
@@ -297,7 +297,7 @@ void warn_of_backbone(const HbmOptions &options, Watch watch, Branch &backbone) 
     if (worst <= options.allowed_harmonic_error() || backbone.points().empty()) return;
     watch.keeping(backbone.warnings)
         .warn(
-            PLM_REASON_HARMONICS_TOO_FEW,
+            reason::harmonics_too_few,
             format(
                 "this backbone has %lld harmonics at every point, and the next ones would change it by about "
                 "%.2g of itself at %.6g Hz. Set n_harmonics to as many as it needs, or motion to exact",

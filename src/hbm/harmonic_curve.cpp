@@ -61,14 +61,14 @@ class HarmonicTracer final : public CurveTracer {
         for (;;) {
             const PathOutcome out = follow_path(*system_, limits, path, *this);
             count(out);
-            const bool ended = out.end_reason != PLM_REASON_NONE;
+            const bool ended = out.end_reason != reason::none;
             // its owner is not asked after the point at the range's end
-            if (out.end_reason == PLM_REASON_RANGE_END) rejects_ = may_grow() && can_reject();
-            if (ended && !(out.end_reason == PLM_REASON_RANGE_END && rejects_)) break;
+            if (out.end_reason == reason::range_end) rejects_ = may_grow() && can_reject();
+            if (ended && !(out.end_reason == reason::range_end && rejects_)) break;
             path = resume(out);
             if (!change_system(out.orientation, path) && ended) break;
             if (failed_growths_ >= most_failed_growths) {
-                branch_.end_reason = PLM_REASON_HARMONICS_TOO_FEW;
+                branch_.end_reason = reason::harmonics_too_few;
                 break;
             }
             limits.max_points = asked_.max_points - n_points();
@@ -198,7 +198,7 @@ class HarmonicTracer final : public CurveTracer {
         bool passed = false;
         for (; n > 2 && n > last - patience; --n) {
             const BranchPoint &at = branch_.points()[static_cast<std::size_t>(n - 1)];
-            if (at.bifurcation != PLM_BIFURCATION_NONE) {
+            if (at.bifurcation != bifurcation::none) {
                 if (behind > 0 && at.n_harmonics < harmonics * options_.period_multiple) passed = true;
                 continue;
             }
@@ -217,7 +217,7 @@ class HarmonicTracer final : public CurveTracer {
     bool located_with_fewer(std::int64_t first, std::int64_t n, std::int64_t harmonics) const {
         for (std::int64_t i = std::max<std::int64_t>(first, 0); i < n; ++i) {
             const BranchPoint &p = branch_.points()[static_cast<std::size_t>(i)];
-            if (p.bifurcation != PLM_BIFURCATION_NONE && p.n_harmonics < harmonics * options_.period_multiple)
+            if (p.bifurcation != bifurcation::none && p.n_harmonics < harmonics * options_.period_multiple)
                 return true;
         }
         return false;

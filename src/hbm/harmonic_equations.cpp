@@ -134,7 +134,7 @@ const vector<double> &HarmonicEquations::phase_row() {
                        at = static_size() + 2 * (driven->first * options_.period_multiple - 1) * r;
     if (at + 2 * r > size())
         throw Error(
-            PLM_ERR_ARGUMENT,
+            status::argument,
             format("phase resonance is that of harmonic %d of the excitation, which n_harmonics leaves "
                    "out; set n_harmonics to %d or more",
                    driven->first, driven->first))

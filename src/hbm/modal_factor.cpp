@@ -79,7 +79,7 @@ bool ModalFactor::invert_linear_part() {
         try {
             receptance_[h].update(m, h, jacobian_.omega(), jacobian_.self_excitation());
         } catch (const Error &error) {
-            if (error.status() == PLM_ERR_SINGULAR) return false;
+            if (error.status() == status::singular) return false;
             throw;
         }
     }

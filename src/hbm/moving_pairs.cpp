@@ -86,7 +86,7 @@ bool MovingPairs::factor_blocks() {
             above_[h - low_ - 1].factor(s, block_);
         }
     } catch (const Error &error) {
-        if (error.status() == PLM_ERR_SINGULAR) return false;
+        if (error.status() == status::singular) return false;
         throw;
     }
     return true;

@@ -44,7 +44,7 @@ class ModePath final : public Tracer {
         if (reached_) return; // the step that passed the end
         reached_ = p.bifurcation == reached;
         BranchPoint point = solved_point(*system_, p);
-        point.bifurcation = PLM_BIFURCATION_NONE;
+        point.bifurcation = bifurcation::none;
         point.harmonic_tail = harmonic_content(*m_, point, 1).tail;
         largest_tail_ = std::max(largest_tail_, point.harmonic_tail);
         result_.amplitude.push_back(std::exp(p.parameter));
@@ -76,7 +76,7 @@ class ModePath final : public Tracer {
             over += points[i].harmonic_tail > options_.hbm.allowed_harmonic_error();
         }
         watch_.keeping(branch.warnings)
-            .warn(PLM_REASON_HARMONICS_TOO_FEW,
+            .warn(reason::harmonics_too_few,
                   format("harmonic_tolerance (%.2g) was not reached at %zu of %zu points of the nonlinear "
                          "mode: at point %zu (%.6g Hz) the next harmonics have a share of %.2g in the "
                          "motion of the gaps. Raise max_harmonics (%lld) or, if that is accurate enough, "
@@ -107,7 +107,7 @@ class ModePath final : public Tracer {
         range.max_step = std::min(longest_of_mode, options_.hbm.max_step);
         range.locate = true;
         Tracer::follow(*system_, range, from);
-        if (branch_.end_reason == PLM_REASON_NONE) branch_.end_reason = PLM_REASON_RANGE_END;
+        if (branch_.end_reason == reason::none) branch_.end_reason = reason::range_end;
         branch_.unknowns_used = "modal";
         return std::move(result_);
     }
@@ -132,7 +132,7 @@ class ModePath final : public Tracer {
             if (options_.mode == 0 && (best < 0 || away(column) < away(best))) best = column;
         }
         if (best < 0)
-            throw Error(PLM_ERR_ARGUMENT,
+            throw Error(status::argument,
                         format("the basis has %lld elastic modes about the structure at rest",
                                static_cast<long long>(elastic)))
                 .argument("mode");
@@ -162,7 +162,7 @@ class ModePath final : public Tracer {
         const double first = first_change(), asked = asked_amplitude();
         if (first == 0 && asked == 0)
             throw Error(
-                PLM_ERR_ARGUMENT,
+                status::argument,
                 "no pair changes its state at a certain amplitude (neither pre-load nor gap): say up to "
                 "which amplitude to go")
                 .argument("amplitude_max");
@@ -180,7 +180,7 @@ class ModePath final : public Tracer {
         const double swing = mode.at(m_->model->terms(options_.dof)), most = largest_entry(mode).size;
         constexpr double moves = 1e-6; // of the largest displacement: below, it is rounding of the mode
         if (!(std::abs(swing) > moves * most))
-            throw Error(PLM_ERR_ARGUMENT, "this mode does not move the DOF; name one that it moves")
+            throw Error(status::argument, "this mode does not move the DOF; name one that it moves")
                 .argument("dof");
         return options_.dof_amplitude_max / std::abs(swing);
     }
@@ -200,9 +200,9 @@ class ModePath final : public Tracer {
         const NewtonOutcome out = newton_at(*system_, limits, from.at.x, from.at.parameter);
         if (!out.converged)
             throw Error(
-                PLM_ERR_CONVERGENCE,
+                status::convergence,
                 format("no periodic motion was found at the smallest amplitude, %g", options_.amplitude_min))
-                .reason(PLM_REASON_START_FAILED);
+                .reason(reason::start_failed);
         from.residual = out.residual;
         return from;
     }

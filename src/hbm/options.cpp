@@ -5,7 +5,7 @@ namespace plm {
 
 void require_consistent(const HbmOptions &o) {
     const auto refuse = [](const char *name, const std::string &text) {
-        throw Error(PLM_ERR_ARGUMENT, text).argument(name);
+        throw Error(status::argument, text).argument(name);
     };
     if (o.unknowns == NonlinearUnknowns::modal && o.formulation == FormulationKind::compliance)
         refuse("formulation",

@@ -23,12 +23,12 @@ void Receptance::update(const ReducedModel &m, std::int64_t h, double omega, dou
         for (Complex &d : diagonal_) {
             if (d == 0.0)
                 throw Error(
-                    PLM_ERR_SINGULAR,
+                    status::singular,
                     format(
                         "an undamped mode of the open structure is driven exactly at its frequency, %.9g Hz "
                         "(harmonic %lld); give it damping or another frequency",
                         w / (2 * M_PI), static_cast<long long>(h)))
-                    .reason(PLM_REASON_SINGULAR);
+                    .reason(reason::singular);
             d = 1.0 / d;
         }
         return;

@@ -98,7 +98,7 @@ class Starter {
             system_.linear_response(coupling, omega_, x_.data());
         } catch (
             const Error &e) { // a coupling without a static solution, e.g. open contact and rigid-body modes
-            if (e.status() != PLM_ERR_SINGULAR) throw;
+            if (e.status() != status::singular) throw;
             return false;
         }
         return true;
@@ -215,7 +215,7 @@ class Starter {
 
     bool arrived(const PathOutcome &out, double parameter) {
         out_ += out.work;
-        if (out.end_reason != PLM_REASON_RANGE_END || out.at.parameter != parameter) return false;
+        if (out.end_reason != reason::range_end || out.at.parameter != parameter) return false;
         x_ = out.at.x;
         return true;
     }

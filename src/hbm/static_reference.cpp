@@ -32,9 +32,9 @@ void StaticReference::factor() {
     for (std::int64_t j = 0; j < r0; ++j) k(j, j) += m_->lambda_0[j];
     gemm('N', 'T', 1.0, hold_.columns(), hold_.columns(), 1.0, k);
     if (!cholesky_.factor(k))
-        throw Error(PLM_ERR_SINGULAR, "the structure has rigid-body modes that closed contacts hardly hold; "
+        throw Error(status::singular, "the structure has rigid-body modes that closed contacts hardly hold; "
                                       "fix DOFs or solve in reduced coordinates (unknowns = modal)")
-            .reason(PLM_REASON_SINGULAR);
+            .reason(reason::singular);
 }
 
 void StaticReference::hold(const ContactIndicator &indicator, const double *mean_load) {

@@ -55,7 +55,7 @@ class HbmSystem : public Residual {
 
   protected:
     [[noreturn]] static void throw_not_modal() {
-        throw Error(PLM_ERR_INTERNAL, "only equations in reduced coordinates can do this");
+        throw Error(status::internal, "only equations in reduced coordinates can do this");
     }
     ContactIndicator indicator_;
 };

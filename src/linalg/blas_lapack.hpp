@@ -115,7 +115,7 @@ void dpotrs_(const char *, const blas_int *, const blas_int *, const double *, c
 /// A dimension as BLAS takes it.
 inline blas_int to_blas(std::int64_t n) {
     if (n < 0 || n > INT_MAX)
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     format("dimension %lld does not fit the 32-bit integers of BLAS and LAPACK",
                            static_cast<long long>(n)));
     return static_cast<blas_int>(n);
@@ -127,11 +127,11 @@ inline blas_int leading(std::int64_t n) {
 
 /// Defects of libplm's own calls.
 inline void require(bool condition, const char *what) {
-    if (!condition) throw Error(PLM_ERR_INTERNAL, what);
+    if (!condition) throw Error(status::internal, what);
 }
 /// A negative info of LAPACK is a wrong argument, which is a defect of ours.
 inline void require_valid(blas_int info, const char *routine) {
-    if (info < 0) throw Error(PLM_ERR_INTERNAL, format("%s: argument %d", routine, -info)).library_code(info);
+    if (info < 0) throw Error(status::internal, format("%s: argument %d", routine, -info)).library_code(info);
 }
 
 inline bool finite(const double *x, std::int64_t n) {
@@ -141,7 +141,7 @@ inline bool finite(const double *x, std::int64_t n) {
     return sum == 0;
 }
 inline void require_finite(const double *x, std::int64_t n, const char *routine) {
-    if (!finite(x, n)) throw Error(PLM_ERR_MATRIX, format("%s: NaN or Inf in the matrix", routine));
+    if (!finite(x, n)) throw Error(status::matrix, format("%s: NaN or Inf in the matrix", routine));
 }
 
 } // namespace plm

@@ -8,7 +8,7 @@
 namespace plm {
 
 void Matrix::outside(std::int64_t i, std::int64_t j) const {
-    throw Error(PLM_ERR_INTERNAL, format("index (%lld, %lld) of a matrix of %lld x %lld",
+    throw Error(status::internal, format("index (%lld, %lld) of a matrix of %lld x %lld",
                                          static_cast<long long>(i), static_cast<long long>(j),
                                          static_cast<long long>(rows_), static_cast<long long>(cols_)));
 }

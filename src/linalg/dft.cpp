@@ -80,9 +80,9 @@ struct Dft::Impl {
 };
 
 Dft::Dft(std::int64_t n_harmonics, std::int64_t n_samples) {
-    if (n_harmonics < 0) throw Error(PLM_ERR_ARGUMENT, "Dft: number of harmonics is negative");
+    if (n_harmonics < 0) throw Error(status::argument, "Dft: number of harmonics is negative");
     if (n_samples > INT_MAX || n_samples / 2 < n_harmonics || n_samples < 2 * n_harmonics + 1)
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     format("Dft: %lld harmonics need at least 2 * %lld + 1 time samples, not %lld",
                            static_cast<long long>(n_harmonics), static_cast<long long>(n_harmonics),
                            static_cast<long long>(n_samples)));

@@ -13,7 +13,7 @@ void require_symmetric_input(const Matrix &a, const char *routine) {
 }
 
 [[noreturn]] void not_converged(const char *routine, blas_int info) {
-    throw Error(PLM_ERR_EIGENSOLVER, format("%s did not converge (info = %d)", routine, info))
+    throw Error(status::eigensolver, format("%s did not converge (info = %d)", routine, info))
         .library_code(info);
 }
 
@@ -112,9 +112,9 @@ SymmetricEigen symmetric_eigen_general(const Matrix &a, const Matrix &b) {
             w.work.data(), &w.lwork, w.iwork.data(), &w.liwork, &info, 1, 1);
     require_valid(info, "dsygvd");
     if (info > n)
-        throw Error(PLM_ERR_NOT_POSITIVE_DEFINITE,
+        throw Error(status::not_positive_definite,
                     format("dsygvd: second matrix not positive definite at %d", info - n - 1))
-            .reason(PLM_REASON_NOT_POSITIVE_DEFINITE)
+            .reason(reason::not_positive_definite)
             .index(info - n - 1)
             .library_code(info);
     if (info > 0) not_converged("dsygvd", info);

@@ -35,7 +35,7 @@ RawEigen run_dgeev(Matrix a, bool with_vectors) {
            work.data(), &lwork, &info, 1, 1);
     require_valid(info, "dgeev");
     if (info > 0)
-        throw Error(PLM_ERR_EIGENSOLVER, format("dgeev did not converge (info = %d)", info))
+        throw Error(status::eigensolver, format("dgeev did not converge (info = %d)", info))
             .library_code(info);
     return e;
 }
@@ -86,7 +86,7 @@ namespace {
 void require_converged(blas_int info, const char *routine) {
     require_valid(info, routine);
     if (info > 0)
-        throw Error(PLM_ERR_EIGENSOLVER, format("%s did not converge (info = %d)", routine, info))
+        throw Error(status::eigensolver, format("%s did not converge (info = %d)", routine, info))
             .library_code(info);
 }
 

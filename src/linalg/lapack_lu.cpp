@@ -100,7 +100,7 @@ void RealLu::factor(Matrix &a) {
         norm1 = std::max(norm1, c.sum);
         largest = std::max(largest, c.largest);
     }
-    if (!ok) throw Error(PLM_ERR_MATRIX, "dgetrf: NaN or Inf in the matrix");
+    if (!ok) throw Error(status::matrix, "dgetrf: NaN or Inf in the matrix");
 
     std::swap(lu_, a);
     pivots_.resize(size);
@@ -162,8 +162,8 @@ void ComplexLu::factor(std::int64_t n, vector<complex_t> &a) {
     worked(in_products * 8 / 3 * static_cast<double>(n) * static_cast<double>(n) * static_cast<double>(n));
     if (info == 0) return;
     n_ = 0; // nothing may be solved
-    throw Error(PLM_ERR_SINGULAR, format("zgetrf: matrix singular at %d", info - 1))
-        .reason(PLM_REASON_SINGULAR)
+    throw Error(status::singular, format("zgetrf: matrix singular at %d", info - 1))
+        .reason(reason::singular)
         .index(info - 1)
         .library_code(info);
 }

@@ -9,7 +9,7 @@ namespace {
 /// LAPACK's answer to a workspace query.
 blas_int work_size(double answer) {
     if (!(answer < INT_MAX))
-        throw Error(PLM_ERR_ARGUMENT, "matrix too large for the 32-bit workspace of LAPACK");
+        throw Error(status::argument, "matrix too large for the 32-bit workspace of LAPACK");
     return std::max(1, static_cast<blas_int>(answer));
 }
 
@@ -58,7 +58,7 @@ Svd thin_svd(const Matrix &a) {
         info = svd_qr_iteration(scratch, s);
     }
     if (info > 0)
-        throw Error(PLM_ERR_EIGENSOLVER, format("singular values did not converge (dgesvd, info = %d)", info))
+        throw Error(status::eigensolver, format("singular values did not converge (dgesvd, info = %d)", info))
             .library_code(info);
     return s;
 }
@@ -80,8 +80,8 @@ Matrix least_squares(const Matrix &a, const Matrix &b) {
     dgels_("N", &m, &n, &nrhs, factor.data(), &m, rhs.data(), &m, work.data(), &lwork, &info, 1);
     require_valid(info, "dgels");
     if (info > 0)
-        throw Error(PLM_ERR_SINGULAR, format("least squares: column %d depends on the others", info - 1))
-            .reason(PLM_REASON_SINGULAR)
+        throw Error(status::singular, format("least squares: column %d depends on the others", info - 1))
+            .reason(reason::singular)
             .index(info - 1)
             .library_code(info);
     for (std::int64_t j = 0; j < x.cols(); ++j) std::copy_n(rhs.col(j), x.rows(), x.col(j));

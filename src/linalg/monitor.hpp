@@ -44,7 +44,7 @@ class Watch {
     /// Throws PLM_CANCELLED when the host wants to stop.
     void step(const char *stage, double fraction) const {
         if (cancelled(stage, fraction))
-            throw Error(PLM_CANCELLED, "cancelled by the progress callback").reason(PLM_REASON_CANCELLED);
+            throw Error(status::cancelled, "cancelled by the progress callback").reason(reason::cancelled);
     }
 
   private:

@@ -56,8 +56,8 @@ std::int64_t WorkCount::so_far() const {
 void add_work(std::int64_t flops) {
     done += flops;
     if (done > limit)
-        throw Error(PLM_CANCELLED, "the effort allowed was spent before there was a result; raise effort")
-            .reason(PLM_REASON_EFFORT);
+        throw Error(status::cancelled, "the effort allowed was spent before there was a result; raise effort")
+            .reason(reason::effort);
 }
 
 void worked(double flops) {
@@ -67,7 +67,7 @@ void worked(double flops) {
     if (flops_since < piece_of_work) return;
     flops_since = 0;
     if (listening->goes_on())
-        throw Error(PLM_CANCELLED, "cancelled by the progress callback").reason(PLM_REASON_CANCELLED);
+        throw Error(status::cancelled, "cancelled by the progress callback").reason(reason::cancelled);
 }
 
 } // namespace plm

@@ -62,7 +62,7 @@ template <class F> bool within(double flops, const F &f) {
         f();
         return true;
     } catch (const Error &e) {
-        if (e.reason() != PLM_REASON_EFFORT) throw;
+        if (e.reason() != reason::effort) throw;
         return false;
     }
 }

@@ -10,45 +10,45 @@
 namespace plm {
 
 std::string end_text(std::int32_t reason, bool sampled) {
-    if (sampled && (reason == PLM_REASON_STEP_MINIMUM || reason == PLM_REASON_CONTACT_CHATTER ||
-                    reason == PLM_REASON_TURNED_BACK))
+    if (sampled && (reason == reason::step_minimum || reason == reason::contact_chatter ||
+                    reason == reason::turned_back))
         return "sampled contact forces have a corner at every sample that switches, and the curve could not "
                "be followed round one; raise time_samples or set aft to event";
     switch (reason) {
-    case PLM_REASON_NONE:
+    case reason::none:
         return "complete";
-    case PLM_REASON_RANGE_END:
+    case reason::range_end:
         return "reached the end of its range";
-    case PLM_REASON_LOOP_CLOSED:
+    case reason::loop_closed:
         return "came back to its first point";
-    case PLM_REASON_POINT_LIMIT:
+    case reason::point_limit:
         return "max_points reached; raise it or max_step";
-    case PLM_REASON_CANCELLED:
+    case reason::cancelled:
         return "cancelled by the progress callback";
-    case PLM_REASON_EFFORT:
+    case reason::effort:
         return "the effort allowed is spent; raise the effort of the context";
-    case PLM_REASON_STEP_MINIMUM:
+    case reason::step_minimum:
         return "the step fell below min_step; try more harmonics or a softer contact";
-    case PLM_REASON_CONTACT_CHATTER:
+    case reason::contact_chatter:
         return "Newton cycled between contact sets";
-    case PLM_REASON_SINGULAR_TANGENT:
+    case reason::singular_tangent:
         return "the tangent is singular";
-    case PLM_REASON_START_FAILED:
+    case reason::start_failed:
         return "no solution was found at the first frequency; start elsewhere or with less force";
-    case PLM_REASON_BASIS_TOO_SMALL:
+    case reason::basis_too_small:
         return "the basis is too small for this response";
-    case PLM_REASON_HARMONICS_TOO_FEW:
+    case reason::harmonics_too_few:
         return "its points have far too few harmonics, and no solution with more was found beside them; make "
                "the "
                "basis for more harmonics, the contact softer or the damping larger";
-    case PLM_REASON_TURNED_BACK:
+    case reason::turned_back:
         return "ran back to where it began without having passed a fold; give the sweep the other direction, "
                "a smaller "
                "max_step or more harmonics";
-    case PLM_REASON_CROSSED_OVER:
+    case reason::crossed_over:
         return "goes round a closed curve onto which one of its steps had crossed; give the sweep a smaller "
                "max_step";
-    case PLM_REASON_NOT_FINITE:
+    case reason::not_finite:
         return "the response overflowed; check the units of matrices, loads and frequencies";
     default:
         return format("ended for reason %d", reason);
@@ -67,9 +67,9 @@ bool is_motion(const BranchPoint &p) {
 // Throws for a motion that is not finite; what is not finite beside it becomes unknown, with a warning.
 void drop_what_is_not_finite(BranchPoint &p, Warnings &warnings) {
     if (!is_motion(p))
-        throw Error(PLM_ERR_CONVERGENCE, "a point of the branch is not finite: its equations overflow; " +
+        throw Error(status::convergence, "a point of the branch is not finite: its equations overflow; " +
                                              std::string(sizes_apart))
-            .reason(PLM_REASON_NOT_FINITE);
+            .reason(reason::not_finite);
     const bool stability = std::all_of(p.multipliers.begin(), p.multipliers.end(), [](const auto &m) {
         return std::isfinite(m.real()) && std::isfinite(m.imag());
     });
@@ -78,9 +78,9 @@ void drop_what_is_not_finite(BranchPoint &p, Warnings &warnings) {
     for (double *indicator : {&p.harmonic_tail, &p.harmonic_error})
         if (!std::isfinite(*indicator)) *indicator = -1, harmonics = false;
     if (!stability || !harmonics)
-        warnings.add(PLM_REASON_NOT_FINITE, std::string(stability ? "harmonic_error" : "stability") +
-                                                " is unknown at some points, since it overflows there; " +
-                                                sizes_apart);
+        warnings.add(reason::not_finite, std::string(stability ? "harmonic_error" : "stability") +
+                                             " is unknown at some points, since it overflows there; " +
+                                             sizes_apart);
 }
 
 } // namespace
@@ -233,12 +233,12 @@ vector<double> Branch::closed_share(std::int64_t point) const {
 }
 
 bool was_stopped(const Branch &branch) {
-    return branch.end_reason == PLM_REASON_CANCELLED || branch.end_reason == PLM_REASON_EFFORT;
+    return branch.end_reason == reason::cancelled || branch.end_reason == reason::effort;
 }
 
 void require_unstopped(const Branch &branch) {
     if (was_stopped(branch))
-        throw Error(PLM_CANCELLED, end_text(branch.end_reason)).reason(branch.end_reason);
+        throw Error(status::cancelled, end_text(branch.end_reason)).reason(branch.end_reason);
 }
 
 } // namespace plm

@@ -9,12 +9,7 @@
 
 namespace plm {
 
-enum class Measure {
-    peak = PLM_PEAK,
-    half_peak_to_peak = PLM_HALF_PEAK_TO_PEAK,
-    rms = PLM_RMS,
-    harmonic = PLM_HARMONIC
-};
+enum class Measure { peak = 1, half_peak_to_peak = 2, rms = 3, harmonic = 4 }; // as in plm.h
 
 /// Whose amplitude is asked for.
 struct Output {
@@ -62,7 +57,7 @@ class Branch {
     std::int64_t period_multiple() const { return period_multiple_; }
 
     // how it ended and what it cost
-    std::int32_t end_reason = PLM_REASON_NONE; // PLM_REASON_...
+    std::int32_t end_reason = reason::none; // PLM_REASON_...
     NewtonWork newton_work;
     std::int64_t failed_steps = 0;
     double seconds = 0; // of the whole run

@@ -1,8 +1,8 @@
 // One point of a response curve: Fourier coefficients in reduced coordinates.
 #pragma once
 #include "linalg/dense.hpp"
+#include "linalg/status.hpp"
 #include "motions/point_motion.hpp"
-#include "plm/plm.h"
 #include <complex>
 #include <memory>
 
@@ -20,7 +20,7 @@ struct BranchPoint {
                                   // motion: what its coefficients leave out
     double force_scale = 1;       // factor on the excitation
     double damping_ratio = 0;     // of a nonlinear mode, see Branch::is_mode
-    std::int32_t bifurcation = PLM_BIFURCATION_NONE;
+    std::int32_t bifurcation = bifurcation::none;
     vector<std::complex<double>> multipliers; // Floquet multipliers; empty: not computed
     double multiplier_error = 0;              // of the largest one's modulus, by the basis
     // Compliance formulation only (formulation.hpp): Z x (2H + 1) polynomials and their stiffness, whose

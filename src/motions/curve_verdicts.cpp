@@ -70,7 +70,7 @@ void check_window(const SweepRange &window, Watch watch, Branch &branch) {
     if (residual <= missed && is_beside_the_point(window, branch))
         watch.keeping(branch.warnings)
             .warn(
-                PLM_REASON_OUTSIDE_BASIS,
+                reason::outside_basis,
                 format("the whole curve lies outside the %.6g to %.6g Hz that the basis is made for, and no "
                        "contact pair opens or closes on it. Are the limits in Hz (rad/s over 2 pi)? Sweep "
                        "over the window, or name the mode that is meant (\"mode\" of the sampler)",
@@ -78,7 +78,7 @@ void check_window(const SweepRange &window, Watch watch, Branch &branch) {
     if (residual <= missed) return;
     watch.keeping(branch.warnings)
         .warn(
-            PLM_REASON_OUTSIDE_BASIS,
+            reason::outside_basis,
             format(
                 "the basis is made for %.6g to %.6g Hz; at %.6g Hz the response misses the equations of the "
                 "whole structure by %.2g of its size (full residual). Build a basis for these frequencies: "
@@ -94,7 +94,7 @@ namespace {
 
 void warn_of_basis(const BranchPoint &p, const std::string &how_wrong, Watch watch, Branch &branch) {
     watch.keeping(branch.warnings)
-        .warn(PLM_REASON_BASIS_TOO_SMALL,
+        .warn(reason::basis_too_small,
               format("the basis (%lld coordinates) is too small: at %.6g Hz %s. %s",
                      static_cast<long long>(uncompressed(branch.reduced_model())->size()),
                      p.omega / (2 * M_PI), how_wrong.c_str(),
@@ -127,10 +127,10 @@ void check_peak(const SweepRange &window, double accuracy, double error, Watch w
     if (!std::isfinite(error))
         check_basis(
             window, [=] { return error; }, watch, peak);
-    if (std::isinf(error) && peak.warnings.has(PLM_REASON_BASIS_TOO_SMALL)) return; // that is said
+    if (std::isinf(error) && peak.warnings.has(reason::basis_too_small)) return; // that is said
     if (std::isinf(error))
         watch.keeping(peak.warnings)
-            .warn(PLM_REASON_NO_CONTRACTION,
+            .warn(reason::no_contraction,
                   format("how much the basis (%lld coordinates) changes this peak, at %.6g Hz, is not known: "
                          "the steps from it to the motion of the whole structure do not contract, so that it "
                          "may be off by more than \"accuracy\" allows. Compare with a larger basis (more "
@@ -149,7 +149,7 @@ void check_peak(const SweepRange &window, double accuracy, double error, Watch w
 void check_top(double accuracy, double above, Watch watch, Branch &peak) {
     if (above <= accuracy) return;
     watch.keeping(peak.warnings)
-        .warn(PLM_REASON_UNVERIFIED,
+        .warn(reason::unverified,
               format("the peak, at %.6g Hz, is only the highest point of the curve: no solutions were found "
                      "close around it, or the effort allowed was spent before, and by its neighbours the "
                      "peak may be higher by about %.2g of itself, where \"accuracy\" allows %.2g. Sweep with "
@@ -162,7 +162,7 @@ namespace {
 // A bifurcation ends the stable motions on one side of it.
 bool ends_stable_motions(const std::vector<BranchPoint> &points, std::size_t i) {
     const auto stable = [&](std::size_t k) { return k < points.size() && stability_of(points[k]) == 1; };
-    return points[i].bifurcation != PLM_BIFURCATION_NONE && (stable(i + 1) || (i > 0 && stable(i - 1)));
+    return points[i].bifurcation != bifurcation::none && (stable(i + 1) || (i > 0 && stable(i - 1)));
 }
 
 } // namespace
@@ -199,7 +199,7 @@ void check_stability(const Branch &curve, const Output &of, double accuracy, Wat
             : format("may not be stable: its largest multiplier is %.4g, but may be off by %.2g by the basis",
                      largest, top.multiplier_error);
     watch.keeping(peak.warnings)
-        .warn(PLM_REASON_UNSTABLE_PEAK,
+        .warn(reason::unstable_peak,
               format("the motion of the peak, %.6g at %.6g Hz, %s. %s. What it does instead, time marching "
                      "tells, or, where it repeats after several periods of the excitation, a curve with "
                      "\"period_multiple\" of 2 or more",
@@ -210,7 +210,7 @@ void check_host_reduction(const Model &model, double accuracy, double error, Wat
     const double of_host = model.space_options().reduction_error;
     if (of_host <= allowed_of_host * accuracy || error + of_host <= accuracy) return;
     watch.warn(
-        PLM_REASON_HOST_REDUCTION,
+        reason::host_reduction,
         format("the model is a superelement whose own error is stated to be %.2g (\"reduction_error\"): "
                "of the accuracy %.2g that takes more than half, whatever the basis. Reduce the structure "
                "with more modes or contact attachment vectors, or ask for less accuracy",
@@ -218,19 +218,19 @@ void check_host_reduction(const Model &model, double accuracy, double error, Wat
 }
 
 bool spans(const Branch &curve) {
-    return curve.end_reason == PLM_REASON_RANGE_END && !curve.warnings.has(PLM_REASON_TURNED_BACK);
+    return curve.end_reason == reason::range_end && !curve.warnings.has(reason::turned_back);
 }
 
 void check_span(bool upward, Watch watch, Branch &branch) {
-    if (branch.end_reason == PLM_REASON_LOOP_CLOSED)
+    if (branch.end_reason == reason::loop_closed)
         watch.keeping(branch.warnings)
-            .warn(PLM_REASON_LOOP_CLOSED,
+            .warn(reason::loop_closed,
                   format("the sweep began, at %.6g Hz, on a closed curve and came back to its first point: "
                          "it says nothing of the response outside that loop, whose peak may be much higher, "
                          "and no curve was found from the other end. Sweep over a wider range "
                          "(frequency_min_hz, frequency_max_hz), whose ends lie beside the loop",
                          branch.points().front().omega / (2 * M_PI)));
-    if (branch.end_reason != PLM_REASON_RANGE_END || branch.points().size() < 3) return;
+    if (branch.end_reason != reason::range_end || branch.points().size() < 3) return;
     // it may have begun a little inside the range
     const double begin = branch.points().front().omega, end = branch.points().back().omega;
     constexpr double same = 1e-9; // of the frequency: the boundary of the range
@@ -241,7 +241,7 @@ void check_span(bool upward, Watch watch, Branch &branch) {
     const bool from_above = !upward;
     watch.keeping(branch.warnings)
         .warn(
-            PLM_REASON_TURNED_BACK,
+            reason::turned_back,
             format("the curve began at %.6g Hz, folded at %.6g Hz and came back: it says nothing of what is "
                    "%s. Sweep from the other end, too (\"direction\"), and over a wider range, and look for "
                    "motions of other periods (\"period_multiple\") where it is not stable",
@@ -254,7 +254,7 @@ void check_damping(Watch watch, Branch &branch) {
                        last = static_cast<std::int64_t>(branch.points().size()) - 1;
     if (spans(branch) && (top == 0 || top == last)) return; // beside all resonances
     watch.keeping(branch.warnings)
-        .warn(PLM_REASON_MODEL,
+        .warn(reason::model,
               "the model has no damping: at a resonance the response is unbounded, and a curve ends there or "
               "bounces without end. Give the model modal, Rayleigh or structural damping");
 }
@@ -268,7 +268,7 @@ void check_switching(Watch watch, Branch &branch) {
     const double factor = factor_to_switching(branch.penetration_coefficients(top).transposed());
     if (factor < far_from_switching) return;
     watch.keeping(branch.warnings)
-        .warn(PLM_REASON_NO_SWITCHING,
+        .warn(reason::no_switching,
               std::isfinite(factor)
                   ? format("no contact pair opens or closes on this curve, nor would one unless the motion "
                            "were %.2g times as large: this is a linear response. Check the units of gaps, "

@@ -11,7 +11,7 @@ void Tracer::keep_points(const std::function<void()> &follow) {
     try {
         follow();
     } catch (const Error &e) {
-        if (e.status() != PLM_CANCELLED || branch_.points().empty()) throw;
+        if (e.status() != status::cancelled || branch_.points().empty()) throw;
         branch_.end_reason = e.reason();
     }
 }
@@ -53,7 +53,7 @@ bool CurveTracer::rescue(double omega, vector<double> &x) {
 
 vector<std::int32_t> CurveTracer::test_kinds() const {
     if (!equations_->has_multipliers()) return {};
-    return {PLM_BIFURCATION_PERIOD_DOUBLING, PLM_BIFURCATION_NEIMARK_SACKER};
+    return {bifurcation::period_doubling, bifurcation::neimark_sacker};
 }
 
 void CurveTracer::test(const vector<double> &x, double omega, vector<double> &values) {

@@ -64,7 +64,7 @@ void ExactEquations::residual(const double *x, double omega, double *r) {
 
 void ExactEquations::set(PathParameter parameter, double value) {
     if (parameter != PathParameter::force)
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     "exact motions are not followed over the contact stiffness; set motion to harmonics")
             .argument("motion");
     options_.force_scale = value;

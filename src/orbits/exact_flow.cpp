@@ -35,7 +35,7 @@ ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, doubl
     : model_(std::move(model)), omega_(omega), force_scale_(force_scale), watch_(watch), own_set_(*model_),
       events_(model_->contact(), model_->gap()), modes_(std::move(modes)), following_(model_->size()) {
     if (!(omega > 0 && std::isfinite(omega) && std::isfinite(force_scale)))
-        throw Error(PLM_ERR_ARGUMENT, "the flow needs a positive, finite frequency and a finite force scale")
+        throw Error(status::argument, "the flow needs a positive, finite frequency and a finite force scale")
             .argument("omega");
     for (const auto &entry : model_->excitation())
         fastest_force_ = std::max(fastest_force_, static_cast<double>(entry.first) * omega);
@@ -48,15 +48,15 @@ ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, doubl
 void ExactFlow::check(const FlowState &state, double t_end) const {
     const std::size_t n = static_cast<std::size_t>(model_->size());
     if (state.y.size() != n || state.v.size() != n)
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     format("the state has %zu displacements and %zu velocities where the model has %zu",
                            state.y.size(), state.v.size(), n))
             .argument("state");
     double sum = state.time - state.time + (t_end - t_end);
     for (std::size_t j = 0; j < n; ++j) sum += (state.y[j] - state.y[j]) + (state.v[j] - state.v[j]);
-    if (sum != 0) throw Error(PLM_ERR_ARGUMENT, "NaN or Inf in the state or its times").argument("state");
+    if (sum != 0) throw Error(status::argument, "NaN or Inf in the state or its times").argument("state");
     if (t_end < state.time)
-        throw Error(PLM_ERR_ARGUMENT, "the flow runs forward in time only").argument("t_end");
+        throw Error(status::argument, "the flow runs forward in time only").argument("t_end");
 }
 
 void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) {
@@ -192,11 +192,11 @@ void ExactFlow::switch_pair(std::int64_t pair, double fraction, double time) {
     stalled_ = fraction > no_progress ? 0 : stalled_ + 1;
     events_left_ -= static_cast<double>(count);
     if (events_left_ >= 0 && stalled_ <= 100 + 20 * model_->n_pairs()) return;
-    throw Error(PLM_ERR_CONVERGENCE,
+    throw Error(status::convergence,
                 stalled_ > 0 ? format("contact events follow each other without end at t = %g s", time)
                              : format("more than %lld contact events per period; the last one at t = %g s",
                                       static_cast<long long>(event_limit_), time))
-        .reason(PLM_REASON_CONTACT_CHATTER)
+        .reason(reason::contact_chatter)
         .index(pair);
 }
 

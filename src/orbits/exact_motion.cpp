@@ -53,7 +53,7 @@ template <class Search> Matrix found_by(const Search &search) {
         Matrix found = search();
         return all_finite(found.data(), found.rows() * found.cols()) ? std::move(found) : Matrix();
     } catch (const Error &e) {
-        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
+        if (e.status() == status::cancelled || e.status() == status::memory) throw;
         return {};
     }
 }

@@ -35,7 +35,7 @@ FlowModel::FlowModel(std::shared_ptr<const ReducedModel> reduced, double omega) 
 
 void FlowModel::add_structural_damping(double omega) {
     if (!(omega > 0 && std::isfinite(omega)))
-        throw Error(PLM_ERR_ARGUMENT, "structural damping in the time domain needs the response frequency at "
+        throw Error(status::argument, "structural damping in the time domain needs the response frequency at "
                                       "which its viscous equivalent loses the same energy")
             .argument("omega");
     for (std::int64_t j = 0; j < size(); ++j) {
@@ -60,7 +60,7 @@ void FlowModel::sort_massless() {
     const double least = least_damping();
     const SymmetricEigen e = symmetric_eigen(own);
     if (-e.values.back() < -least)
-        throw Error(PLM_ERR_ARGUMENT, "the damping matrix has a negative eigenvalue where there is no mass: "
+        throw Error(status::argument, "the damping matrix has a negative eigenvalue where there is no mass: "
                                       "motion in time has no meaning then; check the damping matrix")
             .argument("C");
     n_relaxing_ = std::count_if(e.values.begin(), e.values.end(), [&](double v) { return -v > least; });
@@ -132,7 +132,7 @@ FlowState FlowModel::state(const vector<double> &eta_0, const Matrix &eta, doubl
                            double fraction) const {
     if (static_cast<std::int64_t>(eta_0.size()) != size() ||
         eta.rows() != (to_flow_.empty() ? size() : to_flow_.cols()) || eta.cols() % 2 != 0)
-        throw Error(PLM_ERR_ARGUMENT, "the harmonic coordinates do not belong to this reduced model")
+        throw Error(status::argument, "the harmonic coordinates do not belong to this reduced model")
             .argument("eta");
     vector<double> y(eta.rows(), 0.0), v(eta.rows(), 0.0);
     for (std::int64_t h = 1; 2 * h <= eta.cols(); ++h) {
@@ -167,7 +167,7 @@ vector<double> FlowModel::dof_row(std::int64_t dof) const {
     const SpaceVectors &vectors = reduced_->vectors;
     const std::int64_t n_dof = reduced_->model ? reduced_->model->n_dof() : vectors.rows();
     if (dof < 0 || dof >= n_dof)
-        throw Error(PLM_ERR_ARGUMENT, format("DOF %lld is not one of 0 .. %lld", static_cast<long long>(dof),
+        throw Error(status::argument, format("DOF %lld is not one of 0 .. %lld", static_cast<long long>(dof),
                                              static_cast<long long>(n_dof - 1)))
             .argument("dof")
             .index(dof);

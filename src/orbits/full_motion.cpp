@@ -54,7 +54,7 @@ NewmarkResult FullMotion::march(const NewmarkOptions &options, double omega, con
     try {
         return Newmark(model_, omega, options, watch).run(start, &observer);
     } catch (const Error &e) { // stopped before the first step
-        if (e.status() != PLM_CANCELLED) throw;
+        if (e.status() != status::cancelled) throw;
         NewmarkResult nothing;
         nothing.state = start;
         nothing.cancelled = true;
@@ -76,7 +76,7 @@ void FullMotion::set_state(const double *q, const double *v) {
 
 void FullMotion::start_at(const PointStart &start) {
     if (start.reduced->model != model_)
-        throw Error(PLM_ERR_ARGUMENT, "the branch is of another model; take one of this model")
+        throw Error(status::argument, "the branch is of another model; take one of this model")
             .argument("branch");
     const FlowModel recovery(start.reduced, 1.0); // coordinates do not depend on the frequency
     state_ = {recovery.field(start.state.y), recovery.field(start.state.v), 0};
@@ -114,7 +114,7 @@ TransientRun FullMotion::run(const TransientOptions &options, const vector<std::
 }
 
 PeriodicMotion FullMotion::find_periodic(const TransientOptions &, Watch) {
-    throw Error(PLM_ERR_ARGUMENT,
+    throw Error(status::argument,
                 "the periodic motion is found for reduced models only; create the transient "
                 "with a basis, of kind full for the unreduced structure")
         .argument("transient");

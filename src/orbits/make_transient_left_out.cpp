@@ -4,7 +4,7 @@
 namespace plm {
 
 std::unique_ptr<Transient> make_transient(std::shared_ptr<const Model>, std::shared_ptr<const ReducedModel>) {
-    throw Error(PLM_ERR_NOT_BUILT, "motion in time was left out of this build; configure libplm with "
+    throw Error(status::not_built, "motion in time was left out of this build; configure libplm with "
                                    "-DPLM_WITH_TRANSIENT=ON");
 }
 

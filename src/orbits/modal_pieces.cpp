@@ -140,7 +140,7 @@ double ModalPieces::expand(double longest) {
         size_.push_back(std::sqrt(re * re + im * im));
     }
     if (!std::isfinite(size)) // no duration would do
-        throw Error(PLM_ERR_CONVERGENCE, "the motion grows beyond all numbers").reason(PLM_REASON_NOT_FINITE);
+        throw Error(status::convergence, "the motion grows beyond all numbers").reason(reason::not_finite);
     double duration = longest;
     for (const ContactModes::Mode &m : modes_->modes())
         if (m.rate.real() > 0) duration = std::min(duration, most_growth / m.rate.real());

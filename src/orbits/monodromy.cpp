@@ -19,14 +19,14 @@ constexpr double single_in_modes = 1e-6;
 
 void check(const FlowModel &model, const ContactInterval &interval, std::int64_t index) {
     if (interval.states.size() != model.n_pairs())
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     format("contact interval %lld has states of %lld pairs where the model has %lld",
                            static_cast<long long>(index), static_cast<long long>(interval.states.size()),
                            static_cast<long long>(model.n_pairs())))
             .argument("intervals")
             .index(index);
     if (!(interval.duration >= 0 && std::isfinite(interval.duration)))
-        throw Error(PLM_ERR_ARGUMENT, format("contact interval %lld has the duration %g",
+        throw Error(status::argument, format("contact interval %lld has the duration %g",
                                              static_cast<long long>(index), interval.duration))
             .argument("intervals")
             .index(index);

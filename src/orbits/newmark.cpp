@@ -11,7 +11,7 @@ namespace {
 constexpr double massless_share = 1e-3; // of a step: how long mass-less DOFs take to their first equilibrium
 
 void refuse(const char *name, const std::string &text) {
-    throw Error(PLM_ERR_ARGUMENT, text).argument(name);
+    throw Error(status::argument, text).argument(name);
 }
 
 std::shared_ptr<const Model> checked(std::shared_ptr<const Model> given, double omega) {
@@ -37,7 +37,7 @@ Combination mass_factor(const Model &model, double time) {
             mass.factor();
             return mass;
         } catch (const Error &e) { // singular all the same
-            if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE) throw;
+            if (e.status() != status::not_positive_definite) throw;
         }
     }
     Combination stiffened(model, {1, time * time, 0});

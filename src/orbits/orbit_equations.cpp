@@ -117,7 +117,7 @@ void OrbitEquations::run(const double *x, double p) {
             run_.change[moving + j] = flow.change().v[j] - back * acceleration[j];
         run_.size = norm2(size(), run_.end.data());
     } catch (const Error &e) { // chatter, overflow: no motion from here
-        if (e.status() != PLM_ERR_CONVERGENCE && e.status() != PLM_ERR_ARGUMENT) throw;
+        if (e.status() != status::convergence && e.status() != status::argument) throw;
         run_.failed = true;
     }
 }

@@ -59,7 +59,7 @@ bool march_to_orbit(OrbitEquations &equations, const MotionOptions &options, dou
         if (!orbit.converged) return false;
         x = equations.unknowns(orbit.state);
     } catch (const Error &e) { // chatter
-        if (e.status() != PLM_ERR_CONVERGENCE) throw;
+        if (e.status() != status::convergence) throw;
         return false;
     }
     out = newton_at(equations, newton_limits(options), x, omega);
@@ -179,7 +179,7 @@ bool follow_exactly_to(std::shared_ptr<const ReducedModel> reduced, const Motion
         QuietOwner quiet(watch);
         const PathOutcome out = follow_path(equations, path, {at}, quiet);
         work += out.work;
-        if (out.end_reason != PLM_REASON_RANGE_END || out.at.parameter != omega) return false;
+        if (out.end_reason != reason::range_end || out.at.parameter != omega) return false;
         at = out.at;
     }
     const NewtonOutcome out = newton_at(equations, newton_limits(options), at.x, omega);

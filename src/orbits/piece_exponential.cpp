@@ -62,11 +62,11 @@ vector<double> bessel_functions(double x, std::int64_t n) {
 // Of a phase beyond 1 / eps no digit is left; what overflowed has none either.
 void require_resolved(double x) {
     if (x < 1 / std::numeric_limits<double>::epsilon()) return;
-    throw Error(PLM_ERR_CONVERGENCE,
+    throw Error(status::convergence,
                 format("the structure's fastest motion turns by %.3g radian between two contact events, too "
                        "far for double precision; leave out what is so fast (a DOF nearly without mass?)",
                        x))
-        .reason(PLM_REASON_NOT_FINITE);
+        .reason(reason::not_finite);
 }
 
 } // namespace

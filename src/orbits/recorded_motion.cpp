@@ -304,7 +304,7 @@ vector<char> acting_pairs(const std::vector<ContactInterval> &intervals, std::in
 vector<double> orbit_peaks(ExactFlow &flow, const FlowState &start, std::int64_t period_multiple,
                            const Matrix &rows) {
     if (rows.cols() != flow.model().size())
-        throw Error(PLM_ERR_ARGUMENT, "the rows do not fit the coordinates of the flow").argument("rows");
+        throw Error(status::argument, "the rows do not fit the coordinates of the flow").argument("rows");
     RecordedMotion motion;
     FlowState state = start;
     flow.advance(state, state.time + static_cast<double>(period_multiple) * flow.period(), &motion);

@@ -61,7 +61,7 @@ class ReducedMotion::March {
         try {
             while (periods_ < options_.periods && !settling_.settled()) period();
         } catch (const Error &e) {
-            if (e.status() != PLM_CANCELLED) throw;
+            if (e.status() != status::cancelled) throw;
             cancelled_ = true;
         }
     }
@@ -142,7 +142,7 @@ void ReducedMotion::set_state(const double *q, const double *v) {
 
 void ReducedMotion::start_at(const PointStart &start) {
     if (!of_one_basis(start.reduced, reduced_))
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     "the branch was computed on another basis, or before the basis was built "
                     "anew; take one of this basis, or make a transient without a basis")
             .argument("branch");

@@ -12,7 +12,7 @@ void Transient::advance_clock(std::int64_t periods, double part, double period) 
 
 double excitation_omega(const TransientOptions &options) {
     if (!(options.frequency_hz > 0))
-        throw Error(PLM_ERR_STATE, "\"frequency_hz\" of the excitation is not set; set it, or start at a "
+        throw Error(status::state, "\"frequency_hz\" of the excitation is not set; set it, or start at a "
                                    "point of a branch")
             .argument("frequency_hz");
     return 2 * M_PI * options.frequency_hz;

@@ -46,11 +46,11 @@ class Continuation {
     PathOutcome run(const PathStart &start) {
         begin(start);
         step_ = options_.initial_step > 0 ? options_.initial_step : first_step * options_.max_step;
-        while (out_.end_reason == PLM_REASON_NONE && !interrupted_) {
+        while (out_.end_reason == reason::none && !interrupted_) {
             if (n_recorded_ >= options_.max_points) {
-                end(PLM_REASON_POINT_LIMIT);
+                end(reason::point_limit);
             } else if (owner_.cancelled(progress())) {
-                end(PLM_REASON_CANCELLED);
+                end(reason::cancelled);
             } else {
                 advance();
             }
@@ -76,7 +76,7 @@ class Continuation {
                     closes_here);
         orientation_ = walker_.orientation();
         tests_ = walker_.tests();
-        if (start.record) record(start.residual, 0, PLM_BIFURCATION_NONE);
+        if (start.record) record(start.residual, 0, bifurcation::none);
     }
 
     void end(std::int32_t reason) { out_.end_reason = reason; }
@@ -120,12 +120,12 @@ class Continuation {
             step_ > shortenable * options_.min_step) { // a corner: closer first
             walker_.move(before);
             walker_.set_tangent(old_tangent);
-            return retry(PLM_REASON_STEP_MINIMUM);
+            return retry(reason::step_minimum);
         }
         // The steps cannot resolve this corner (contact that begins with a grazing touch bends the path like
         // the square root of the way): beyond a right angle the nearer of the two directions leads back.
         if (angle > PathWalker::sharp_angle) walker_.orient(orientation_);
-        if (!accept(out, moved, old_tangent, before)) return retry(PLM_REASON_STEP_MINIMUM);
+        if (!accept(out, moved, old_tangent, before)) return retry(reason::step_minimum);
         if (angle > PathWalker::sharp_angle) last_step_ = 0; // a corner is no bend
         orientation_ = walker_.orientation();
         step_ = std::min(way_to_change(old_tests, tests_, moved, options_.max_step),
@@ -149,15 +149,15 @@ class Continuation {
         if (!locate(before, old_tangent, moved, old_tests)) return false;
         arclength_ += moved;
         const std::int32_t came_back = back_.by_step(before, moved, n_recorded_);
-        if (came_back == PLM_REASON_LOOP_CLOSED) {
+        if (came_back == reason::loop_closed) {
             close_loop();
             return true;
         }
-        if (came_back != PLM_REASON_NONE) {
+        if (came_back != reason::none) {
             end(came_back);
             return true;
         }
-        record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
+        record(out.residual, out.iterations, bifurcation::none);
         back_.pass();
         if (walker_.take_scale()) { // how the path bent, in the new metric
             last_step_ = walker_.metric().distance(walker_.now(), before);
@@ -170,8 +170,8 @@ class Continuation {
     void close_loop() {
         walker_.move(back_.target());
         walker_.linearize_here();
-        record(0.0, 0, PLM_BIFURCATION_NONE);
-        end(PLM_REASON_LOOP_CLOSED);
+        record(0.0, 0, bifurcation::none);
+        end(reason::loop_closed);
     }
 
     // Records what lies between `before` and the present point, in order, and comes back to the latter.
@@ -228,7 +228,7 @@ class Continuation {
                    is_start = is_new && back_.target().parameter == edge && n_recorded_ > 1 &&
                               back_.is_target(walker_.now());
         if (is_new && !record_last(out, before, old_tangent, moved)) return false;
-        end(is_start ? PLM_REASON_TURNED_BACK : PLM_REASON_RANGE_END);
+        end(is_start ? reason::turned_back : reason::range_end);
         return true;
     }
 
@@ -240,7 +240,7 @@ class Continuation {
         tests_ = walker_.tests();
         if (!locate(before, old_tangent, moved, old_tests)) return false;
         arclength_ += moved;
-        record(out.residual, out.iterations, PLM_BIFURCATION_NONE);
+        record(out.residual, out.iterations, bifurcation::none);
         return true;
     }
 
@@ -257,7 +257,7 @@ class Continuation {
             step_ = step_after_rescue * options_.max_step;
             return;
         }
-        end(reason == PLM_REASON_NONE ? PLM_REASON_STEP_MINIMUM : reason);
+        end(reason == reason::none ? reason::step_minimum : reason);
     }
 
     // Contact that begins with a grazing touch adds stiffness like the square root of the way: the path turns
@@ -335,7 +335,7 @@ class Continuation {
             orientation_ = walker_.orientation();
             last_step_ = 0;
             tests_ = walker_.tests();
-            record(0.0, 0, PLM_BIFURCATION_NONE);
+            record(0.0, 0, bifurcation::none);
             return true;
         }
         return false;

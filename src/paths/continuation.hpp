@@ -20,10 +20,10 @@ struct PathStart {
 };
 
 struct PathOutcome {
-    std::int32_t end_reason = PLM_REASON_NONE; // PLM_REASON_NONE: interrupted by its owner
-    PathState at;                              // the last point
-    PathState direction;                       // unit tangent there, in the direction travelled
-    double orientation = 1;                    // sign of det(dR/dx) times that of direction.parameter
+    std::int32_t end_reason = reason::none; // PLM_REASON_NONE: interrupted by its owner
+    PathState at;                           // the last point
+    PathState direction;                    // unit tangent there, in the direction travelled
+    double orientation = 1;                 // sign of det(dR/dx) times that of direction.parameter
     double scale = 0, arclength = 0, step = 0;
     std::int64_t failed_steps = 0;
     NewtonWork work;

@@ -45,7 +45,7 @@ class Newton {
         while (out_.iterations < limits_.max_iterations) {
             ++out_.iterations;
             worked(1e5); // what the smallest system takes for an iteration, in time
-            if (!std::isfinite(size)) return fail(PLM_REASON_SINGULAR_TANGENT);
+            if (!std::isfinite(size)) return fail(reason::singular_tangent);
             if (size <= allowed() && (fresh_ || !cheap_)) {
                 apply(1.0, step_, step_parameter_);
                 return cheap_ ? finish_here(size) : finish(size);
@@ -89,10 +89,10 @@ class Newton {
             if (size <= limits_.tolerance) return finish(size); // more is lost in rounding
             damping = smaller_damping(damping, size, next_parameter);
             if (damping < limits_.min_damping)
-                return fail(pieces_repeat() ? PLM_REASON_CONTACT_CHATTER : PLM_REASON_STEP_MINIMUM);
+                return fail(pieces_repeat() ? reason::contact_chatter : reason::step_minimum);
         }
         if (size <= limits_.tolerance) return finish(size);
-        return fail(pieces_repeat() ? PLM_REASON_CONTACT_CHATTER : PLM_REASON_STEP_MINIMUM);
+        return fail(pieces_repeat() ? reason::contact_chatter : reason::step_minimum);
     }
 
   private:

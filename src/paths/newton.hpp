@@ -3,8 +3,8 @@
 // norm is never the merit, since in modal coordinates it misleads. A factorization is kept as long as it
 // contracts fast.
 #pragma once
+#include "linalg/status.hpp"
 #include "paths/metric.hpp"
-#include "plm/plm.h"
 #include <cmath>
 
 namespace plm {
@@ -34,9 +34,9 @@ struct NewtonWork {
 
 struct NewtonOutcome : NewtonWork {
     bool converged = false;
-    std::int32_t reason = PLM_REASON_NONE; // why not
-    double residual = 0;                   // |R| over residual_scale()
-    double factored_away = INFINITY; // how far from the solution the system was factored, as steps count
+    std::int32_t reason = reason::none; // why not
+    double residual = 0;                // |R| over residual_scale()
+    double factored_away = INFINITY;    // how far from the solution the system was factored, as steps count
 };
 
 NewtonOutcome newton(Residual &system, const SideCondition &side, const NewtonLimits &limits,

@@ -22,11 +22,11 @@ bool PathReturn::is_target(const PathState &at) const {
 
 std::int32_t PathReturn::by_step(const PathState &before, double moved, std::int64_t n_recorded) {
     if (!passes_target(before, moved, n_recorded))
-        return goes_round(before) ? PLM_REASON_CROSSED_OVER : PLM_REASON_NONE;
-    if (walker_.cosine_with_tangent(target_tangent_) > 0) return PLM_REASON_LOOP_CLOSED;
+        return goes_round(before) ? reason::crossed_over : reason::none;
+    if (walker_.cosine_with_tangent(target_tangent_) > 0) return reason::loop_closed;
     PathState at;
     const bool turned = solve_on_step(before, target_.parameter, at) && is_target(at);
-    return turned ? PLM_REASON_TURNED_BACK : PLM_REASON_NONE;
+    return turned ? reason::turned_back : reason::none;
 }
 
 // The step from `before` passed the point where the path is closed.

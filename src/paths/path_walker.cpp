@@ -13,7 +13,7 @@ constexpr std::int64_t most_iterations_across = 12; // a shorter step is cheaper
 PathWalker::PathWalker(Residual &system, const PathOptions &options, PathOwner &owner)
     : system_(system), options_(options), owner_(owner),
       n_(system.size()), metric_{0, options.high - options.low, system.weights()}, scratch_(n_) {
-    kinds_ = {PLM_BIFURCATION_FOLD, PLM_BIFURCATION_BRANCH_POINT};
+    kinds_ = {bifurcation::fold, bifurcation::branch_point};
     for (std::int32_t kind : owner.test_kinds()) kinds_.push_back(kind);
 }
 

@@ -105,7 +105,7 @@ class Finder {
     // then may have crossed to another curve.
     bool find_zero(std::size_t k, double left, double right, SpecialPoint &point) {
         const double size = std::min(std::abs(left), std::abs(right));
-        const bool is_fold = walker_.kind(k) == PLM_BIFURCATION_FOLD;
+        const bool is_fold = walker_.kind(k) == bifurcation::fold;
         Enclosure zero(left, right);
         const double settled = std::max(same_place, options_.tolerance);
         double best = INFINITY;
@@ -134,7 +134,7 @@ class Finder {
         }
         if (std::isfinite(best) && best <= nearly_vanishes * size) return true;
         if (is_fold && is_corner_fold(below, above, point)) return true;
-        jumped_ = jumped_ || walker_.kind(k) == PLM_BIFURCATION_BRANCH_POINT;
+        jumped_ = jumped_ || walker_.kind(k) == bifurcation::branch_point;
         return false;
     }
 

@@ -21,7 +21,7 @@ constexpr std::int64_t least_open_modes = 10;
 // Kinds about contact need a pair, and no more vectors than pairs.
 void check_pairs(const BasisOptions &o, std::int64_t n_pairs) {
     if (o.kind->needs_pairs && n_pairs == 0)
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     format("a basis of kind %s is about contact, and the model has no contact pair; "
                            "\"full\" does without",
                            o.kind->name))
@@ -31,16 +31,16 @@ void check_pairs(const BasisOptions &o, std::int64_t n_pairs) {
 
 void check_parents(const Model &model, const Sampler *sampler, const Basis *parent, const BasisKind &kind) {
     if (kind.needs_sampler && !sampler)
-        throw Error(PLM_ERR_STATE, "this kind of basis needs the samples of a sampler that has run")
+        throw Error(status::state, "this kind of basis needs the samples of a sampler that has run")
             .argument("sampler");
     if (sampler && sampler->space()->model.get() != &model)
-        throw Error(PLM_ERR_ARGUMENT, "the sampler belongs to another model").argument("sampler");
+        throw Error(status::argument, "the sampler belongs to another model").argument("sampler");
     if (!parent) return;
     if (parent->model().get() != &model)
-        throw Error(PLM_ERR_ARGUMENT, "the parent basis belongs to another model").argument("parent");
+        throw Error(status::argument, "the parent basis belongs to another model").argument("parent");
     if (kind.any_parent) return;
     if (parent->options().kind->is_collected() || parent->options().kind->is_compressed())
-        throw Error(PLM_ERR_ARGUMENT, "the parent must be of kind \"craig_bampton\" or \"full\"")
+        throw Error(status::argument, "the parent must be of kind \"craig_bampton\" or \"full\"")
             .argument("parent");
 }
 
@@ -53,11 +53,11 @@ SelectionRule make_rule(const BasisOptions &o, const Sampler *sampler) {
     rule.min_hz = o.frequency_min_hz > 0 || !sampler ? o.frequency_min_hz : sampler->window().min_hz;
     rule.max_hz = o.frequency_max_hz > 0 || !sampler ? o.frequency_max_hz : sampler->window().max_hz;
     if (!(rule.max_hz > 0))
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     "frequency_max_hz is needed when there is no sampler to give the window")
             .argument("frequency_max_hz");
     if (!(rule.min_hz < rule.max_hz))
-        throw Error(PLM_ERR_ARGUMENT, format("frequency_min_hz (%g) must be below frequency_max_hz (%g)",
+        throw Error(status::argument, format("frequency_min_hz (%g) must be below frequency_max_hz (%g)",
                                              rule.min_hz, rule.max_hz))
             .argument("frequency_min_hz");
     return rule;
@@ -194,15 +194,15 @@ Basis::Basis(std::shared_ptr<const Model> model, std::shared_ptr<const Sampler> 
 
 void Basis::compress_parent(const Basis *parent, const Responses *responses) {
     if (!parent)
-        throw Error(PLM_ERR_STATE,
+        throw Error(status::state,
                     "a basis of kind pod needs the basis its responses were computed on; set that "
                     "as its parent first")
             .argument("parent");
     if (!responses)
-        throw Error(PLM_ERR_STATE, "a basis of kind pod needs responses; set those of its parent first")
+        throw Error(status::state, "a basis of kind pod needs responses; set those of its parent first")
             .argument("responses");
     if (!of_one_basis(responses->of, parent->reduced()))
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     "the responses were computed on another basis than the parent, or it was "
                     "built anew in between; set both from one build")
             .argument("responses");
@@ -213,7 +213,7 @@ void Basis::compress_parent(const Basis *parent, const Responses *responses) {
     estimated_min_ = parent->estimated_min_ && options_.frequency_min_hz == 0;
     estimated_max_ = parent->estimated_max_ && options_.frequency_max_hz == 0;
     if (!(window_min_hz_ < window_max_hz_))
-        throw Error(PLM_ERR_ARGUMENT, format("frequency_min_hz (%g) must be below frequency_max_hz (%g)",
+        throw Error(status::argument, format("frequency_min_hz (%g) must be below frequency_max_hz (%g)",
                                              window_min_hz_, window_max_hz_))
             .argument("frequency_min_hz");
     Compressed c = options_.kind->compress(*responses, options_);

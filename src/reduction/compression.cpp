@@ -139,7 +139,7 @@ Compressed compress(const Responses &responses, double tolerance, std::int64_t s
     const Decomposition dynamic(responses.dynamic,
                                 energy_weights(from.lambda, from.n_massless, responses.omega));
     if (!(dynamic.energy > 0))
-        throw Error(PLM_ERR_STATE, "nothing moves in the responses; they give no basis")
+        throw Error(status::state, "nothing moves in the responses; they give no basis")
             .argument("responses");
     const double largest = dynamic.svd.values[0], left_out = tolerance * tolerance;
     const std::int64_t kept = size > 0 ? std::min(size, dynamic.needed(0, rounding * largest))

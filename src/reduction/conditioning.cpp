@@ -96,8 +96,8 @@ Conditioned condition_columns(const Space &space, const Matrix &columns, double 
     Conditioned result;
     const double largest = svd.values.empty() ? 0 : svd.values.front();
     if (!(largest > 0))
-        throw Error(PLM_ERR_INTERNAL, "the collected modes have no direction")
-            .reason(PLM_REASON_BASIS_TOO_SMALL);
+        throw Error(status::internal, "the collected modes have no direction")
+            .reason(reason::basis_too_small);
     std::int64_t kept = 0;
     for (double s : svd.values) {
         result.singular_values.push_back(s / largest);

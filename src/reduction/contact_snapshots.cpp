@@ -103,7 +103,7 @@ class Snapshots {
         try {
             state = solve_static({space_.lambda, space_.gap, load, model.contact()});
         } catch (const Error &e) {
-            if (e.status() != PLM_ERR_CONVERGENCE) throw; // nothing holds the structure under this load
+            if (e.status() != status::convergence) throw; // nothing holds the structure under this load
             return;
         }
         Matrix column(space_.size(), 1), u(space_.n_pairs(), 1);
@@ -255,11 +255,11 @@ std::vector<RestSystem> rest_systems(const Space &space, const RestState &rest, 
 void warn_of_missing(const Snapshots &s, Watch watch) {
     const std::int64_t found = s.motions.cols();
     if (s.asked == 0)
-        watch.warn(PLM_REASON_BASIS_TOO_SMALL, "the dominant mode does not move the contact: the basis has "
-                                               "no snapshot; name another dominant mode");
+        watch.warn(reason::basis_too_small, "the dominant mode does not move the contact: the basis has "
+                                            "no snapshot; name another dominant mode");
     else if (found < s.asked)
         watch.warn(
-            PLM_REASON_BASIS_TOO_SMALL,
+            reason::basis_too_small,
             format("%lld of %lld static contact solutions do not exist: their loads drive a part that only "
                    "contact holds apart; kind \"plm\" needs none",
                    static_cast<long long>(s.asked - found), static_cast<long long>(s.asked)));
@@ -297,11 +297,11 @@ CollectedModes collect_snapshots(const ColumnSources &from, Watch watch) {
         result.columns.append(main_directions(space, modes, std::move(static_motions), 2 * M_PI * rule.max_hz,
                                               options.snapshot_tolerance));
     if (result.columns.cols() == 0)
-        throw Error(PLM_ERR_ARGUMENT, format("no mode at rest below %.6g Hz answers to the loads, and there "
+        throw Error(status::argument, format("no mode at rest below %.6g Hz answers to the loads, and there "
                                              "is no snapshot; raise rest_factor",
                                              options.rest_factor * rule.max_hz))
             .argument("rest_factor")
-            .reason(PLM_REASON_BASIS_TOO_SMALL);
+            .reason(reason::basis_too_small);
     return result;
 }
 

@@ -60,7 +60,7 @@ namespace {
 void check_discontinuities(const BasisOptions &o, std::int64_t n_pairs) {
     const long long asked = o.n_discontinuities, pairs = n_pairs;
     if (asked > pairs)
-        throw Error(PLM_ERR_ARGUMENT, format("n_discontinuities is %lld, but the model has %lld contact "
+        throw Error(status::argument, format("n_discontinuities is %lld, but the model has %lld contact "
                                              "pairs; 0 takes one vector per pair",
                                              asked, pairs))
             .argument("n_discontinuities");

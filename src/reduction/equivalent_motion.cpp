@@ -140,7 +140,7 @@ class Iteration {
         motion_.amplitude.assign(space.n_pairs(), 0.0);
         set_springs();
         if (options.amplitude == 0 && !resonance_.excited())
-            throw Error(PLM_ERR_ARGUMENT, "without an excitation equivalent_amplitude must say how large the "
+            throw Error(status::argument, "without an excitation equivalent_amplitude must say how large the "
                                           "motion is that the contact is linearised about")
                 .argument("equivalent_amplitude");
     }
@@ -229,10 +229,10 @@ class Iteration {
             if (value > most) most = value, best = j;
         }
         if (best < 0)
-            throw Error(PLM_ERR_ARGUMENT, "the equivalent system has no resonance below the limit; raise "
+            throw Error(status::argument, "the equivalent system has no resonance below the limit; raise "
                                           "frequency_max_hz or below_factor")
                 .argument("frequency_max_hz")
-                .reason(PLM_REASON_BASIS_TOO_SMALL);
+                .reason(reason::basis_too_small);
         return best;
     }
 
@@ -244,7 +244,7 @@ class Iteration {
         }
         const double damping = resonance_.damping_force(shape_.data(), motion_.frequency);
         if (!(damping > 0))
-            throw Error(PLM_ERR_ARGUMENT,
+            throw Error(status::argument,
                         "without damping nothing bounds the resonance; equivalent_amplitude "
                         "must say how large the motion is")
                 .argument("equivalent_amplitude");

@@ -47,7 +47,7 @@ class EquivalentFamily {
             }
             s = next(p, i, target, low, high);
         }
-        throw Error(PLM_ERR_EIGENSOLVER, format("the equivalent stiffness of mode %lld was not found",
+        throw Error(status::eigensolver, format("the equivalent stiffness of mode %lld was not found",
                                                 static_cast<long long>(i) + 1));
     }
 

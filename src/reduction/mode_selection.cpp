@@ -37,12 +37,12 @@ Matrix kept_columns(const SpaceModes &modes, const vector<char> &kept) {
 }
 
 Error no_mode_kept(const SelectionRule &rule, const char *who) {
-    return Error(PLM_ERR_ARGUMENT,
+    return Error(status::argument,
                  format("%s has a mode in the windows of %lld harmonics of [%.6g, %.6g] Hz; widen the window "
                         "or choose selection \"below\"",
                         who, static_cast<long long>(rule.n_harmonics), rule.min_hz, rule.max_hz))
         .argument("selection")
-        .reason(PLM_REASON_BASIS_TOO_SMALL);
+        .reason(reason::basis_too_small);
 }
 
 namespace {
@@ -103,7 +103,7 @@ void warn_of_lost_modes(const std::vector<SampleSelection> &samples, const Matri
                "%.2f)",
                first, s.frequency_hz[s.matched], s.matched_mac);
     if (n_lost > 1) text += format(", nor do %zu other samples keep theirs", n_lost - 1);
-    watch.warn(PLM_REASON_LOST_MODE, text + "; " + remedy(rule));
+    watch.warn(reason::lost_mode, text + "; " + remedy(rule));
 }
 
 CollectedModes collect_modes(const Space &space, const std::vector<SelectedSample> &samples,

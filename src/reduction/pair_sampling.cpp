@@ -128,10 +128,10 @@ vector<std::int64_t> pairs_by_master_dof(const Matrix &flexibility, const Matrix
     Matrix factor = flexibility, mass = inertia;
     DenseCholesky cholesky;
     if (!cholesky.factor(factor))
-        throw Error(PLM_ERR_SINGULAR, "the contact flexibility is not positive definite: pairs repeat the "
+        throw Error(status::singular, "the contact flexibility is not positive definite: pairs repeat the "
                                       "same gap row; choose pair_rule \"effective_independence\"")
             .argument("pair_rule")
-            .reason(PLM_REASON_SINGULAR);
+            .reason(reason::singular);
     Matrix stiffness(z, z);
     for (std::int64_t i = 0; i < z; ++i) stiffness(i, i) = 1;
     cholesky.solve(stiffness.data(), z, z);
@@ -159,7 +159,7 @@ std::shared_ptr<const ReducedModel> sample_pairs(const std::shared_ptr<const Red
                                                  const Space &space, PairRule rule, std::int64_t n,
                                                  double omega) {
     if (n > reduced->n_pairs())
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     format("n_pairs_carried is %lld, but the model has %lld pairs; 0 "
                            "carries all of them",
                            static_cast<long long>(n), static_cast<long long>(reduced->n_pairs())))

@@ -66,7 +66,7 @@ CollectedModes collect_updated_lelsm(const ColumnSources &from, Watch watch) {
     collected.columns = std::move(modes.columns);
     collected.equivalent_share = std::move(modes.motion.coupling);
     if (!modes.motion.settled)
-        watch.warn(PLM_REASON_NO_CONTRACTION,
+        watch.warn(reason::no_contraction,
                    format("the equivalent stiffnesses did not settle in %lld iterations; the last "
                           "ones are used. Set equivalent_amplitude or choose another kind",
                           static_cast<long long>(modes.motion.iterations) - 1));

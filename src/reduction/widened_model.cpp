@@ -6,7 +6,7 @@ namespace {
 
 ReducedModel widen(const ReducedModel &m) {
     if (!m.model)
-        throw Error(PLM_ERR_STATE, "a reduced model with static directions of its own needs its model");
+        throw Error(status::state, "a reduced model with static directions of its own needs its model");
     ReducedModel wide = m;
     wide.same_static = true;
     wide.lambda = m.lambda_0;

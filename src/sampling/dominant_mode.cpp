@@ -111,7 +111,7 @@ vector<std::int64_t> searched(const SpaceModes &modes, const ModeRequest &reques
 std::int64_t by_number(const SpaceModes &modes, const ModeRequest &request) {
     const std::int64_t count = modes.vectors.cols();
     if (request.mode > count)
-        throw Error(PLM_ERR_ARGUMENT, format("mode %lld of the %s system is asked for, but it has only %lld",
+        throw Error(status::argument, format("mode %lld of the %s system is asked for, but it has only %lld",
                                              static_cast<long long>(request.mode), name_of(request.system),
                                              static_cast<long long>(count)))
             .argument("mode")
@@ -132,7 +132,7 @@ void check_request(const SpaceModes &modes, double hz, double taken_hz, Watch wa
     constexpr double beside = 0.05, on_it = 0.01; // of the frequency
     const double as_rad_s = hz / (2 * M_PI), other_hz = to_hz(modes.values[nearest_mode(modes, as_rad_s)]);
     if (std::abs(taken_hz / hz - 1) < beside || std::abs(other_hz / as_rad_s - 1) > on_it) return;
-    watch.warn(PLM_REASON_OUTSIDE_BASIS,
+    watch.warn(reason::outside_basis,
                format("the mode nearest mode_frequency_hz = %.6g is one at %.6g Hz, but in rad/s that "
                       "frequency would be the mode at %.6g Hz. Divide it by 2 pi if that was meant, or name "
                       "the mode by its number (mode)",
@@ -184,7 +184,7 @@ void tell_of_ties(const Candidates &c, const vector<std::int64_t> &eligible, std
     for (std::int64_t j : largest(c.response, eligible, alike)) {
         const double hz = to_hz(c.modes.values[j]);
         if (std::abs(hz / taken_hz - 1) < together) continue;
-        watch.warn(PLM_REASON_TIE,
+        watch.warn(reason::tie,
                    format("the excitation drives two modes alike, at %.6g Hz and at %.6g Hz (by responses "
                           "estimated as 1 to %.3g): that at %.6g Hz is taken as the dominant mode, but the "
                           "resonance of the other may be higher. Look at that, too: mode_frequency_hz = %.6g "
@@ -197,7 +197,7 @@ std::int64_t by_response(const Candidates &c, const vector<std::int64_t> &among,
                          Watch watch) {
     if (among.empty())
         throw Error(
-            PLM_ERR_ARGUMENT,
+            status::argument,
             format("the %s system has no flexible mode%s; widen the search (\"search_max_hz\"), name "
                    "the mode (\"mode\"), or take another \"system\"",
                    name_of(request.system),
@@ -215,7 +215,7 @@ std::int64_t by_response(const Candidates &c, const vector<std::int64_t> &among,
         return best;
     }
     watch.warn(
-        PLM_REASON_LOST_MODE,
+        reason::lost_mode,
         c.excited
             ? "the excitation moves no mode searched: the lowest flexible one is taken as the dominant mode; "
               "name the mode if another is meant"

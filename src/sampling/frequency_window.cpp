@@ -23,7 +23,7 @@ double matched_frequency(const Space &space, const DominantMode &dominant, const
     const double omega = 2 * M_PI * dominant.frequency_hz;
     const MatchedModes matched = match_modes(space, states, dominant.coordinates, 9 * omega * omega);
     if (matched.best < 0)
-        throw Error(PLM_ERR_EIGENSOLVER, std::string("the linear system of ") + name + " has no mode");
+        throw Error(status::eigensolver, std::string("the linear system of ") + name + " has no mode");
     MacRow row;
     row.system = name;
     row.best = matched.best;
@@ -41,7 +41,7 @@ double matched_frequency(const Space &space, const DominantMode &dominant, const
             "the frequency window or choose another dominant mode",
             name, hz, best);
         if (decides)
-            watch.warn(PLM_REASON_LOST_MODE, text);
+            watch.warn(reason::lost_mode, text);
         else
             watch.log(1, text);
     }
@@ -66,7 +66,7 @@ void tell_of_rivals(const FrequencyWindow &w, const DominantMode &dominant, Watc
                      hz = other / dominant.harmonic;
         if (!(other > 0) || (hz >= w.min_hz && hz <= w.max_hz)) continue;
         watch.warn(
-            PLM_REASON_TIE,
+            reason::tie,
             format("two modes of %s resemble the dominant mode alike, at %.6g Hz and at %.6g Hz, and "
                    "so there are two resonances: the window is about the one estimated at %.6g Hz; the "
                    "other is near %.6g Hz and may be higher. Look at that, too: window_min_hz and "
@@ -99,7 +99,7 @@ void estimate(double half_width, const DominantMode &dominant, FrequencyWindow &
         w.why += format(", over %d, the harmonic of the excitation that drives it", dominant.harmonic);
     }
     if (w.max_hz > 0) return;
-    throw Error(PLM_ERR_ARGUMENT,
+    throw Error(status::argument,
                 "no frequency window follows from the dominant mode, which is a rigid-body motion of "
                 "the linear systems compared; choose a flexible mode or give the window")
         .argument("mode");
@@ -112,7 +112,7 @@ void check_unit(const FrequencyWindow &w, int harmonic, Watch watch) {
         if (hz > 0 && holds(hz)) return;
     const double resonance = w.blf_hz > 0 ? w.blf_hz : w.rest_hz;
     if (!holds(2 * M_PI * resonance) && !holds(2 * M_PI * w.rest_hz)) return;
-    watch.warn(PLM_REASON_OUTSIDE_BASIS,
+    watch.warn(reason::outside_basis,
                format("the window, %.6g to %.6g Hz, does not hold the resonance of the dominant mode, near "
                       "%.6g Hz, but would if its limits were in rad/s, which are wanted in Hz. Divide them "
                       "by 2 pi; or, if another mode is meant, name it (\"mode\" or \"mode_frequency_hz\")",

@@ -71,7 +71,7 @@ ContactSweep sweep_of(const Space &space, const RestState &rest, bool homogeneou
                       Watch watch) {
     if (!(contact_motion(space, d.mode_penetration, 2 * M_PI * d.frequency_hz) > no_contact_motion)) {
         watch.warn(
-            PLM_REASON_LOST_MODE,
+            reason::lost_mode,
             format("the dominant mode at %.6g Hz does not move the contact: there is one sample only; name "
                    "the mode of the resonance that opens and closes the contact (\"mode\" or "
                    "\"mode_frequency_hz\")",
@@ -88,7 +88,7 @@ Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &optio
                  std::shared_ptr<const Space> known)
     : options_(options), space_(std::move(known)), n_harmonics_(options.n_harmonics) {
     check_options(options);
-    if (model->n_pairs() == 0) throw Error(PLM_ERR_STATE, "the model has no contact pair to sample");
+    if (model->n_pairs() == 0) throw Error(status::state, "the model has no contact pair to sample");
     const bool homogeneous = is_homogeneous(*model);
     Watch watch = host;
     double highest = first_guess(options);

@@ -6,7 +6,7 @@ namespace plm {
 namespace {
 
 void demand(bool condition, const char *key, const std::string &text) {
-    if (!condition) throw Error(PLM_ERR_ARGUMENT, text).argument(key);
+    if (!condition) throw Error(status::argument, text).argument(key);
 }
 
 void check_range(double least, double most, const char *key_least, const char *key_most) {

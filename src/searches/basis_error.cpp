@@ -104,7 +104,7 @@ double basis_error_at(const std::shared_ptr<const Basis> &basis, const HbmOption
         });
         return error;
     } catch (const Error &e) { // a tangent that is singular, motions that nothing holds
-        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK)
+        if (e.status() == status::cancelled || e.status() == status::memory || e.status() == status::callback)
             throw;
         return not_judged;
     }
@@ -140,7 +140,7 @@ double multiplier_error_of(const std::shared_ptr<const Basis> &basis, const HbmO
     try {
         within(share_of_estimate * effort_left(), compare);
     } catch (const Error &e) {
-        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
+        if (e.status() == status::cancelled || e.status() == status::memory) throw;
     }
     return worst;
 }

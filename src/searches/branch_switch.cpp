@@ -29,8 +29,8 @@ vector<double> null_vector(Residual &system, const vector<double> &x, double ome
     system.linearize();
     const vector<double> v = null_direction(system);
     if (!all_finite(v.data(), system.size()))
-        throw Error(PLM_ERR_CONVERGENCE, "the tangent's null vector was not found at this point")
-            .reason(PLM_REASON_SINGULAR_TANGENT);
+        throw Error(status::convergence, "the tangent's null vector was not found at this point")
+            .reason(reason::singular_tangent);
     return v;
 }
 
@@ -104,15 +104,14 @@ std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &given, std::int64
     const Branch &branch = *on_basis;
     const std::shared_ptr<const ReducedModel> reduced = model_of(branch, "branch");
     const BranchPoint &origin = branch.points().at(static_cast<std::size_t>(point));
-    if (origin.bifurcation != PLM_BIFURCATION_BRANCH_POINT &&
-        origin.bifurcation != PLM_BIFURCATION_PERIOD_DOUBLING)
-        throw Error(PLM_ERR_ARGUMENT,
+    if (origin.bifurcation != bifurcation::branch_point && origin.bifurcation != bifurcation::period_doubling)
+        throw Error(status::argument,
                     format("point %lld is neither a branch point nor a period doubling; see the "
                            "branch's \"bifurcation\"",
                            static_cast<long long>(point)))
             .argument("point")
             .index(point);
-    const std::int64_t factor = origin.bifurcation == PLM_BIFURCATION_PERIOD_DOUBLING ? 2 : 1;
+    const std::int64_t factor = origin.bifurcation == bifurcation::period_doubling ? 2 : 1;
     HbmOptions options = options_;
     options.period_multiple = factor * branch.period_multiple();
     options.force_scale = origin.force_scale;
@@ -122,9 +121,9 @@ std::shared_ptr<const Branch> Hbm::switch_branch(const Branch &given, std::int64
     Switch other(reduced, options, longer(origin), longer(along), mirrored);
     CurveStart start;
     if (!other.find(start))
-        throw Error(PLM_ERR_CONVERGENCE, "no point of another curve was found beside this one")
+        throw Error(status::convergence, "no point of another curve was found beside this one")
             .argument("point")
-            .reason(PLM_REASON_START_FAILED);
+            .reason(reason::start_failed);
     auto found = std::make_shared<Branch>(reduced, options.force_scale, options.period_multiple);
     found->newton_work = other.work();
     trace_curve(options, start, watch_, *found);

@@ -51,8 +51,8 @@ vector<std::size_t> beside_changes(const std::vector<BranchPoint> &points) {
     bool changed = false;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const std::int32_t kind = points[i].bifurcation;
-        if (kind == PLM_BIFURCATION_NONE && i + 1 < points.size()) continue;
-        const bool change = kind != PLM_BIFURCATION_NONE && kind != PLM_BIFURCATION_FOLD;
+        if (kind == bifurcation::none && i + 1 < points.size()) continue;
+        const bool change = kind != bifurcation::none && kind != bifurcation::fold;
         if ((changed || change) && i > before + 1) at.push_back((before + i) / 2);
         before = i, changed = change;
     }
@@ -304,7 +304,7 @@ void CurveCompression::warn(Branch &curve) const {
     const double hz = curve.points()[static_cast<std::size_t>(largest_response(curve))].omega / (2 * M_PI);
     if (!std::isfinite(change_))
         keeping.warn(
-            PLM_REASON_UNVERIFIED,
+            reason::unverified,
             format("this curve of exact motions was followed on %lld of the basis' %lld coordinates, and "
                    "what more "
                    "of them would change at its highest point, %.6g Hz, was not found with the effort "
@@ -314,7 +314,7 @@ void CurveCompression::warn(Branch &curve) const {
                    hz));
     else if (change_ > options_.accuracy)
         keeping.warn(
-            PLM_REASON_BASIS_TOO_SMALL,
+            reason::basis_too_small,
             format("this curve of exact motions was followed on %lld of the basis' %lld coordinates, "
                    "and at its highest point, %.6g Hz, %lld of them change the amplitude by %.2g of "
                    "itself (accuracy %.2g): %s",
@@ -322,7 +322,7 @@ void CurveCompression::warn(Branch &curve) const {
                    static_cast<long long>(better_->size()), change_, options_.accuracy, dear.c_str()));
     if (!doubtful_.empty())
         keeping.warn(
-            PLM_REASON_UNVERIFIED,
+            reason::unverified,
             format("%s (%lld of the basis' %lld coordinates), or no motion was found there on a larger "
                    "one: stability flags near there are not certain, and %s",
                    doubtful_.c_str(), static_cast<long long>(curve.reduced().size()),

@@ -104,10 +104,10 @@ class Chain {
         };
         unless_there_is(best, [&] { within(flops_of_first_curve, look); });
         if (!best.curve)
-            throw Error(PLM_CANCELLED,
+            throw Error(status::cancelled,
                         "no periodic response was found with the effort allowed; raise the effort "
                         "of the context")
-                .reason(PLM_REASON_EFFORT);
+                .reason(reason::effort);
         const Effort little(flops_of_first_curve);
         if (is_cut(best)) find_peak(best);
     }
@@ -117,7 +117,7 @@ class Chain {
         try {
             attempt();
         } catch (const Error &e) {
-            if (!best.curve || e.status() != PLM_ERR_CONVERGENCE) throw;
+            if (!best.curve || e.status() != status::convergence) throw;
         }
     }
 
@@ -129,8 +129,8 @@ class Chain {
     // A larger basis helps where the curve is whole and has its peak inside, and it can be told by how much.
     bool can_improve(const ComputedResponse &r) const {
         if (is_cut(r)) return true;
-        return !is_met(r) && !std::isnan(r.error) && r.curve->end_reason == PLM_REASON_RANGE_END &&
-               !r.peak.branch->warnings.has(PLM_REASON_NO_PEAK);
+        return !is_met(r) && !std::isnan(r.error) && r.curve->end_reason == reason::range_end &&
+               !r.peak.branch->warnings.has(reason::no_peak);
     }
 
     // All of the structure where that is cheap; else the first basis that is not too small by what a curve of
@@ -168,7 +168,7 @@ class Chain {
             }
             if (one.points().empty()) return false;
         } catch (const Error &e) {
-            if (e.status() != PLM_ERR_CONVERGENCE) throw;
+            if (e.status() != status::convergence) throw;
             return false;
         }
         const double error = basis_error_at(basis, options_, one, 0, output_, much_flops, watch_);
@@ -188,7 +188,7 @@ class Chain {
         o.max_points = points_of_look;
         o.stability = StabilityKind::off;
         const auto curve = Hbm(reduced, basis->sweep_range(), o, watch_).sweep();
-        if (curve->end_reason == PLM_REASON_CANCELLED) require_unstopped(*curve);
+        if (curve->end_reason == reason::cancelled) require_unstopped(*curve);
         if (!was_stopped(*curve)) few_harmonics_ = {basis, curve};
         return curve;
     }
@@ -216,7 +216,7 @@ class Chain {
         o.output = output_;
         o.tolerance = accuracy_;
         const Refinement found = refine(last.basis, o, watch_, last.curve);
-        if (!found.basis) throw Error(PLM_ERR_CONVERGENCE, "no curve on a compressed basis");
+        if (!found.basis) throw Error(status::convergence, "no curve on a compressed basis");
         ComputedResponse r = with_curve(found.basis, found.branch);
         find_peak(r);
         return r;
@@ -227,10 +227,10 @@ class Chain {
         HbmOptions limited = options_;
         if (how == Follow::few_points) limited.max_points = few_points;
         const auto curve = Hbm(basis, limited, watch_).sweep(output_);
-        if (curve->end_reason == PLM_REASON_CANCELLED) require_unstopped(*curve);
+        if (curve->end_reason == reason::cancelled) require_unstopped(*curve);
         if (r.curve && is_whole(*r.curve) && was_stopped(*curve)) return; // what there is goes on to the end
         r = with_curve(std::move(basis), curve);
-        if (curve->end_reason != PLM_REASON_POINT_LIMIT || how == Follow::to_the_end) find_peak(r);
+        if (curve->end_reason != reason::point_limit || how == Follow::to_the_end) find_peak(r);
     }
 
     ComputedResponse with_curve(std::shared_ptr<const Basis> basis,
@@ -281,7 +281,7 @@ class Chain {
             if (better) best = std::move(next);
             return better;
         } catch (const Error &e) { // what is there already is an answer
-            if (e.status() != PLM_ERR_CONVERGENCE) throw;
+            if (e.status() != status::convergence) throw;
             watch_.log(1, std::string("no curve on the next basis: ") + e.what());
             return false;
         }
@@ -296,13 +296,12 @@ class Chain {
         if (!top.motion) r.error += top.harmonic_error < 0 ? NAN : top.harmonic_error;
         r.error += r.peak.above;
         // what was not followed may be higher by any amount
-        if (!std::isfinite(r.error) || !is_whole(*r.curve) || r.peak.branch->warnings.has(PLM_REASON_NO_PEAK))
+        if (!std::isfinite(r.error) || !is_whole(*r.curve) || r.peak.branch->warnings.has(reason::no_peak))
             r.error = NAN;
-        if (r.larger)
-            watch_.keeping(r.warnings).warn(PLM_REASON_LARGER_MOTION, words_for(*r.larger, known(r)));
+        if (r.larger) watch_.keeping(r.warnings).warn(reason::larger_motion, words_for(*r.larger, known(r)));
         if (spent_ && !(r.error <= options_.accuracy))
             r.warnings.add(
-                PLM_REASON_EFFORT,
+                reason::effort,
                 format("the effort allowed was spent before the accuracy, %.2g, was met (estimated error: "
                        "%.2g). This is the best found; raise the effort of the context",
                        options_.accuracy, r.error));
@@ -320,17 +319,17 @@ class Chain {
     void tell(ComputedResponse &r) const {
         Warnings all;
         for (const Warning &w : r.curve->warnings.list())
-            if (w.reason == PLM_REASON_MODEL) all.add(w.reason, w.text); // what explains the rest comes first
+            if (w.reason == reason::model) all.add(w.reason, w.text); // what explains the rest comes first
         if (r.basis->sampler()) all.add(r.basis->sampler()->warnings());
         all.add(r.basis->report().warnings);
         all.add(r.curve->warnings);
         all.add(r.peak.branch->warnings);
-        const bool is_peak = !all.has(PLM_REASON_NO_PEAK);
+        const bool is_peak = !all.has(reason::no_peak);
         for (const Warning &w : all.list())
             if (!(is_met(r) && is_peak && is_about_the_basis(w))) r.warnings.add(w.reason, w.text);
         if (!std::isfinite(r.error) && is_peak)
             r.warnings.add(
-                PLM_REASON_UNVERIFIED,
+                reason::unverified,
                 format("how much the basis (%lld coordinates) changes this peak could not be estimated: %s. "
                        "Compare with a basis of your own that is larger",
                        static_cast<long long>(r.basis->reduced()->size()),
@@ -341,8 +340,8 @@ class Chain {
 
     // Signs that it might be unfit, which the estimate of its error outweighs.
     static bool is_about_the_basis(const Warning &w) {
-        return w.reason == PLM_REASON_BASIS_TOO_SMALL || w.reason == PLM_REASON_OUTSIDE_BASIS ||
-               w.reason == PLM_REASON_NO_CONTRACTION;
+        return w.reason == reason::basis_too_small || w.reason == reason::outside_basis ||
+               w.reason == reason::no_contraction;
     }
 
     std::shared_ptr<const Model> model_;

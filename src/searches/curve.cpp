@@ -22,7 +22,7 @@ void warn_of_unverified(const HbmOptions &options, Branch &branch) {
     const auto unverified = std::count_if(points.begin(), points.end(),
                                           [](const BranchPoint &p) { return p.multipliers.empty(); });
     if (10 * unverified > n)
-        branch.warnings.add(PLM_REASON_UNVERIFIED,
+        branch.warnings.add(reason::unverified,
                             Stability(branch.reduced_model(), options).unknown_text(unverified, n));
 }
 
@@ -42,7 +42,7 @@ void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch
     const Warnings said = branch.warnings;
     trace(options, start, watch, branch);
     HbmOptions finer = options;
-    for (int k = 0; k < times_shorter && branch.end_reason == PLM_REASON_CROSSED_OVER; ++k) {
+    for (int k = 0; k < times_shorter && branch.end_reason == reason::crossed_over; ++k) {
         finer.max_step *= shorter;
         watch.log(
             1, format("the curve crossed over to a closed one; again with max_step = %.2g", finer.max_step));

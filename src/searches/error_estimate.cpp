@@ -71,10 +71,10 @@ class Correction {
         for (std::int64_t i = 0; i < n; ++i) x_[i] += step.x[i];
         omega_ += step.parameter;
         if (!std::isfinite(omega_) || !std::isfinite(norm2(n, x_.data())))
-            throw Error(PLM_ERR_CONVERGENCE,
+            throw Error(status::convergence,
                         "the tangent of the unreduced structure is singular at this point")
                 .argument("point")
-                .reason(PLM_REASON_SINGULAR_TANGENT);
+                .reason(reason::singular_tangent);
         return length;
     }
 
@@ -145,14 +145,14 @@ ErrorEstimator::ErrorEstimator(std::shared_ptr<const ReducedModel> full, const B
     options_.unknowns = NonlinearUnknowns::gaps;
     options_.period_multiple = branch.period_multiple();
     if (full_->n_pairs() == 0)
-        throw Error(PLM_ERR_STATE, "errors are estimated in the contact gaps: the model needs contact pairs");
+        throw Error(status::state, "errors are estimated in the contact gaps: the model needs contact pairs");
 }
 
 ErrorEstimate ErrorEstimator::estimate(std::int64_t point, std::int64_t dof, Measure measure,
                                        std::int64_t harmonic, bool with_harmonics) const {
     const BranchPoint &p = branch_.points().at(static_cast<std::size_t>(point));
     if (p.force_scale == 0 && norm2(p.eta.rows() * p.eta.cols(), p.eta.data()) > 0)
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     "the point is a motion without excitation, whose error is not estimated")
             .argument("point")
             .index(point);

@@ -52,7 +52,7 @@ class FoldPath final : public Tracer {
     }
 
     void record(const PathPoint &p) override {
-        turned_ = turned_ || p.bifurcation == PLM_BIFURCATION_FOLD;
+        turned_ = turned_ || p.bifurcation == bifurcation::fold;
         BranchPoint point = folds_.solved_point({p.x, p.parameter}, p.residual, p.iterations);
         put_place(p, point);
         branch_.append(std::move(point));
@@ -92,7 +92,7 @@ std::shared_ptr<Branch> follow_folds(std::shared_ptr<const ReducedModel> reduced
 namespace {
 
 bool ends_well(const Branch &b) {
-    return b.end_reason == PLM_REASON_RANGE_END || b.end_reason == PLM_REASON_LOOP_CLOSED;
+    return b.end_reason == reason::range_end || b.end_reason == reason::loop_closed;
 }
 
 } // namespace
@@ -101,7 +101,7 @@ std::shared_ptr<Branch> follow_folds_both_ways(std::shared_ptr<const ReducedMode
                                                FoldOptions options, const BranchPoint &fold, Watch watch) {
     options.upward = false;
     const auto below = follow_folds(reduced, options, fold, watch);
-    if (!below || below->end_reason == PLM_REASON_LOOP_CLOSED || was_stopped(*below)) return below;
+    if (!below || below->end_reason == reason::loop_closed || was_stopped(*below)) return below;
     const std::int64_t used = static_cast<std::int64_t>(below->points().size());
     options.upward = true;
     options.hbm.max_points = std::max<std::int64_t>(1, options.hbm.max_points - used + 1);

@@ -41,7 +41,7 @@ Hbm::~Hbm() = default;
 
 std::shared_ptr<const ReducedModel> Hbm::model_of(const Branch &branch, const char *argument) const {
     if (of_one_basis(branch.reduced_model(), basis_)) return branch.reduced_model();
-    throw Error(PLM_ERR_ARGUMENT, "the branch belongs to another basis").argument(argument);
+    throw Error(status::argument, "the branch belongs to another basis").argument(argument);
 }
 
 SweepTask Hbm::task() const {
@@ -71,7 +71,7 @@ std::shared_ptr<const Branch> Hbm::judged(const SweepTask &task) const {
 void Hbm::judge(Branch &curve) const {
     if (was_stopped(curve)) return;
     if (!within(effort_left(), [&] { look_over(curve); }))
-        curve.warnings.add(PLM_REASON_EFFORT,
+        curve.warnings.add(reason::effort,
                            "the effort allowed was spent before the curve was compared with the "
                            "whole structure; raise the effort of the context");
 }
@@ -91,7 +91,7 @@ void Hbm::look_over(Branch &curve) const {
 BranchPoint Hbm::first_guess(const Branch &start, std::int64_t point) const {
     const std::int64_t multiple = options_.period_multiple / start.period_multiple();
     if (multiple * start.period_multiple() != options_.period_multiple)
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     format("the start repeats after %lld excitation periods, which period_multiple = %lld is "
                            "not a multiple of",
                            static_cast<long long>(start.period_multiple()),
@@ -110,7 +110,7 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
         task.exact = exact_ && task.reduced == widened(basis_);
     }
     if (!(frequency_hz >= smallest_scale && frequency_hz <= largest_scale))
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     format("frequency_hz is %g; it must be positive, and squares must neither vanish nor "
                            "overflow (%g to %g)",
                            frequency_hz, smallest_scale, largest_scale))
@@ -120,19 +120,19 @@ std::shared_ptr<const Branch> Hbm::solve(double frequency_hz, const Branch *star
     BranchPoint guess, result;
     if (start) guess = first_guess(*start, point);
     if (!solve_at(task, 2 * M_PI * frequency_hz, start ? &guess : nullptr, *branch, result))
-        throw Error(PLM_ERR_CONVERGENCE,
+        throw Error(status::convergence,
                     format("no periodic response was found at %.6g Hz; give a neighbouring point "
                            "as start or use a sweep%s",
                            frequency_hz, drift_hint(*task.reduced).c_str()))
             .argument("frequency_hz")
-            .reason(PLM_REASON_START_FAILED);
+            .reason(reason::start_failed);
     Stability stability(task.reduced, options_, StabilityOf::point);
     if (stability.wanted() && !result.motion) result.multipliers = stability.multipliers(result);
     if (stability.wanted() && result.multipliers.empty())
-        branch->warnings.add(PLM_REASON_UNVERIFIED, stability.unknown_text(1, 1));
+        branch->warnings.add(reason::unverified, stability.unknown_text(1, 1));
     branch->append(std::move(result));
     warn_of_harmonics(with_affordable_harmonics(*task.reduced, options_), *branch);
-    branch->end_reason = PLM_REASON_RANGE_END;
+    branch->end_reason = reason::range_end;
     branch->unknowns_used = branch->points()[0].motion               ? "state"
                             : prefers_modal(*task.reduced, options_) ? "modal"
                                                                      : "gaps";

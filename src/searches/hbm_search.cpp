@@ -24,7 +24,7 @@ IsolatedSearch Hbm::find_isolated(const Branch &given, double force_max) const {
     if (!reduced->same_static) {
         if (options.motion == MotionKind::exact)
             throw Error(
-                PLM_ERR_ARGUMENT,
+                status::argument,
                 "the main branch has solutions of harmonic balance, and exact motions differ from them "
                 "on a basis with a pre-load; hand over a curve of exact motions, or set motion to "
                 "harmonics")
@@ -57,13 +57,13 @@ std::shared_ptr<const Branch> Hbm::track_fold(const Branch &given, std::int64_t 
     const Branch &branch = *on_basis;
     const BranchPoint &fold = branch.points().at(static_cast<std::size_t>(point));
     const std::shared_ptr<const ReducedModel> reduced = model_of(branch, "branch");
-    if (fold.bifurcation != PLM_BIFURCATION_FOLD)
-        throw Error(PLM_ERR_ARGUMENT, format("point %lld is no fold; see the branch's \"bifurcation\"",
+    if (fold.bifurcation != bifurcation::fold)
+        throw Error(status::argument, format("point %lld is no fold; see the branch's \"bifurcation\"",
                                              static_cast<long long>(point)))
             .argument("point")
             .index(point);
     if (!(fold.force_scale >= force_min && fold.force_scale <= force_max))
-        throw Error(PLM_ERR_ARGUMENT, format("the fold's force scale %g is outside the range [%g, %g]",
+        throw Error(status::argument, format("the fold's force scale %g is outside the range [%g, %g]",
                                              fold.force_scale, force_min, force_max))
             .argument(fold.force_scale < force_min ? "force_min" : "force_max");
     FoldOptions options;
@@ -73,9 +73,9 @@ std::shared_ptr<const Branch> Hbm::track_fold(const Branch &given, std::int64_t 
     options.force_max = force_max;
     const auto folds = follow_folds_both_ways(reduced, options, fold, watch_);
     if (!folds)
-        throw Error(PLM_ERR_CONVERGENCE, "the fold could not be corrected at its own force")
+        throw Error(status::convergence, "the fold could not be corrected at its own force")
             .argument("point")
-            .reason(PLM_REASON_START_FAILED);
+            .reason(reason::start_failed);
     return folds;
 }
 
@@ -94,7 +94,7 @@ Hbm::find_by_marching(const std::vector<std::shared_ptr<const Branch>> &given, s
     for (const auto &branch : known) {
         const auto of_this = model_of(*branch, "known");
         if (branch != known.front() && of_this != reduced)
-            throw Error(PLM_ERR_ARGUMENT, "the known branches are exact motions and solutions of harmonic "
+            throw Error(status::argument, "the known branches are exact motions and solutions of harmonic "
                                           "balance, which differ on a basis with a pre-load; hand over those "
                                           "of one kind (\"motion\" of the hbm)")
                 .argument("known");

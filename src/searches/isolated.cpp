@@ -209,7 +209,7 @@ class Search {
         IsolatedBranch found;
         const auto model = model_for(start);
         found.branch = trace_through(model, options_on(*model, options), start, watch_);
-        found.closed = found.branch->end_reason == PLM_REASON_LOOP_CLOSED;
+        found.closed = found.branch->end_reason == reason::loop_closed;
         const std::vector<BranchPoint> met =
             resonance_.on_curve(*on_whole_basis(*found.branch, options_, 0, -1));
         for (const BranchPoint &p : met)
@@ -249,7 +249,7 @@ class Search {
         std::vector<BranchPoint> folds;
         for (std::size_t i = 0; i < loop.points().size(); ++i) {
             const auto at = static_cast<std::int64_t>(i);
-            if (loop.points()[i].bifurcation == PLM_BIFURCATION_FOLD)
+            if (loop.points()[i].bifurcation == bifurcation::fold)
                 folds.push_back(on_whole_basis(loop, options_, at, at)->points()[i]);
         }
         std::sort(folds.begin(), folds.end(), [&](const BranchPoint &a, const BranchPoint &b) {
@@ -283,11 +283,11 @@ class Search {
             const auto folds = follow_folds(reduced_, o, from, watch_);
             if (!folds) break;
             require_unstopped(*folds);
-            if (folds->end_reason == PLM_REASON_RANGE_END) break;
+            if (folds->end_reason == reason::range_end) break;
             const auto &points = folds->points();
             std::size_t last = 0;
-            while (last + 1 < points.size() && points[last].bifurcation != PLM_BIFURCATION_FOLD) ++last;
-            if (points[last].bifurcation == PLM_BIFURCATION_FOLD) turn = points[last].force_scale;
+            while (last + 1 < points.size() && points[last].bifurcation != bifurcation::fold) ++last;
+            if (points[last].bifurcation == bifurcation::fold) turn = points[last].force_scale;
             if (!leap(points, last, upward, from)) break;
         }
         return turn;
@@ -333,7 +333,7 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
     const auto after = std::make_shared<Branch>(reduced, o.force_scale, o.period_multiple);
     trace_curve(o, {start, {}}, watch, *after);
     require_unstopped(*after);
-    if (after->end_reason == PLM_REASON_LOOP_CLOSED) return after;
+    if (after->end_reason == reason::loop_closed) return after;
     o.upward = false;
     Branch before(reduced, o.force_scale, o.period_multiple);
     trace_curve(o, {start, {}}, watch, before);
@@ -341,7 +341,7 @@ std::shared_ptr<Branch> trace_through(std::shared_ptr<const ReducedModel> reduce
     const auto whole = joined(before, *after);
     for (const Warnings *said : {&before.warnings, &after->warnings})
         for (const Warning &w : said->list()) // of harmonics the whole has its own
-            if (w.reason != PLM_REASON_HARMONICS_TOO_FEW) whole->warnings.add(w.reason, w.text);
+            if (w.reason != reason::harmonics_too_few) whole->warnings.add(w.reason, w.text);
     warn_of_harmonics(options, *whole);
     return whole;
 }

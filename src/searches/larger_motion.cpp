@@ -185,7 +185,7 @@ class SearchBeside {
         BranchPoint point = curve->points()[static_cast<std::size_t>(top)];
         const Peak peak = Hbm(known_.basis, known_.options, watch_.quiet())
                               .find_peak(*curve, of.dof, of.measure, of.harmonic);
-        if (peak.branch->warnings.has(PLM_REASON_NO_CONTRACTION)) return; // it need not be near a solution
+        if (peak.branch->warnings.has(reason::no_contraction)) return; // it need not be near a solution
         if (stability_of(peak.branch->points()[0]) == 1) {
             m.amplitude = peak.amplitude;
             point = peak.branch->points()[0];
@@ -235,7 +235,7 @@ std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch
     try {
         SearchBeside(known, watch, best).run();
     } catch (const Error &e) { // what there is already is an answer
-        if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_MEMORY) throw;
+        if (e.status() == status::cancelled || e.status() == status::memory) throw;
         watch.log(1, std::string("the search beside the curve ended early: ") + e.what());
     }
     return best;

@@ -82,7 +82,7 @@ class Marching {
         try {
             orbit = periodic_orbit(flow, start, shooting);
         } catch (const Error &e) { // chattering from a violent start: nothing found here
-            if (e.status() != PLM_ERR_CONVERGENCE) throw;
+            if (e.status() != status::convergence) throw;
             return;
         }
         if (!orbit.converged) return;
@@ -168,7 +168,7 @@ class Marching {
 MarchingSearch search_by_marching(std::shared_ptr<const ReducedModel> reduced, const MarchingOptions &options,
                                   const std::vector<std::shared_ptr<const Branch>> &known, Watch watch) {
     if (options.hbm.period_multiple != 1)
-        throw Error(PLM_ERR_ARGUMENT, "the search by marching needs period_multiple = 1")
+        throw Error(status::argument, "the search by marching needs period_multiple = 1")
             .argument("period_multiple");
     return Marching(std::move(reduced), options, known, watch).run();
 }

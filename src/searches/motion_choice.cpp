@@ -15,7 +15,7 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
     if (o.motion == MotionKind::harmonics) return false;
     const bool asked = o.motion == MotionKind::exact;
     const auto refuse = [&](const char *argument, const std::string &why) {
-        if (asked) throw Error(PLM_ERR_ARGUMENT, why).argument(argument);
+        if (asked) throw Error(status::argument, why).argument(argument);
         return false;
     };
     if (reduced->structural != 0)

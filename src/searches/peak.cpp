@@ -90,7 +90,7 @@ bool neighbours(const Branch &branch, std::int64_t top, std::array<std::int64_t,
     const bool inner = top > 0 && top < n - 1;
     around =
         inner ? std::array<std::int64_t, 3>{top - 1, top, top + 1} : std::array<std::int64_t, 3>{n - 2, 0, 1};
-    return inner || (branch.end_reason == PLM_REASON_LOOP_CLOSED && n > 3);
+    return inner || (branch.end_reason == reason::loop_closed && n > 3);
 }
 
 // What rounding leaves of a DOF that does not move, of the largest one: its amplitude says nothing.
@@ -132,7 +132,7 @@ std::string why_no_peak(const Branch &branch, std::int64_t top, bool of_motion, 
         return "this DOF does not move on the curve (in this measure), as one that is fixed, or at a node of "
                "the motion: it has no peak. Ask for a DOF that moves";
     if (n == 1) return format("the curve is a single point, %.6g Hz: its amplitude is no peak", hz);
-    if (top > 0 && branch.end_reason != PLM_REASON_RANGE_END)
+    if (top > 0 && branch.end_reason != reason::range_end)
         return format(
             "the highest point, %.6g Hz, is where the curve ended early (%s): no peak is known to be "
             "there",
@@ -163,7 +163,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
                is_peak = neighbours(branch, top, around) && of_motion;
     Peak peak;
     auto one = std::make_shared<Branch>(reduced, branch.force_scale(), branch.period_multiple());
-    one->end_reason = PLM_REASON_RANGE_END;
+    one->end_reason = reason::range_end;
     BranchPoint point = branch.points()[top];
     const HbmOptions limits = with_affordable_harmonics(*reduced, options_);
     const Output of{dof, measure, harmonic};
@@ -179,12 +179,12 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         error = look.harmonic_error();
         peak.above = look.above();
         if (options_.stability != StabilityKind::off && point.multipliers.empty())
-            one->warnings.add(PLM_REASON_UNVERIFIED,
+            one->warnings.add(reason::unverified,
                               in_time ? Stability(reduced, options_, StabilityOf::point).unknown_text(1, 1)
                                       : "the stability of the peak is not known: the effort allowed was "
                                         "spent before; raise the effort of the context");
     } else { // it stays where it is
-        watch_.keeping(one->warnings).warn(PLM_REASON_NO_PEAK, why_no_peak(branch, top, of_motion, of));
+        watch_.keeping(one->warnings).warn(reason::no_peak, why_no_peak(branch, top, of_motion, of));
     }
     one->append(point);
     vector<std::complex<double>> of_structure;

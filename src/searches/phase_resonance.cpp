@@ -39,7 +39,7 @@ struct PhaseResonance::Followed final : public Tracer {
         if (p.bifurcation == crossing) crossings.push_back(branch_.points().size());
         BranchPoint point = resonant.solved_point({p.x, p.parameter}, p.residual, p.iterations);
         put_place(p, point);
-        if (p.bifurcation == crossing) point.bifurcation = PLM_BIFURCATION_NONE;
+        if (p.bifurcation == crossing) point.bifurcation = bifurcation::none;
         point.multipliers = multipliers_at(*equations, point);
         omega = point.omega;
         passed.push_back(p.parameter);
@@ -98,8 +98,8 @@ Backbone PhaseResonance::follow(const BranchPoint &start, bool upward, double lo
     from.at = {path.resonant.unknowns(start), start.force_scale};
     from.scale = path.scale;
     path.run(range, from);
-    if (branch->end_reason == PLM_REASON_CANCELLED) require_unstopped(*branch);
-    if (branch->end_reason == PLM_REASON_NONE) branch->end_reason = PLM_REASON_RANGE_END;
+    if (branch->end_reason == reason::cancelled) require_unstopped(*branch);
+    if (branch->end_reason == reason::none) branch->end_reason = reason::range_end;
     branch->unknowns_used = options_.exact ? "state" : "modal";
     return {branch, std::move(path.crossings)};
 }

@@ -68,7 +68,7 @@ class Refiner {
         const std::int64_t top = branch.highest_point(output.dof, output.measure, output.harmonic);
         const double peak = std::abs(branch.amplitude(top, output.dof, output.measure, output.harmonic));
         if (!(peak > 0))
-            throw Error(PLM_ERR_ARGUMENT, "the DOF does not move on the curve; name one that does")
+            throw Error(status::argument, "the DOF does not move on the curve; name one that does")
                 .argument("dof");
         vector<std::int64_t> at = spread_over(branch, looked_at);
         at.push_back(top);

@@ -19,8 +19,8 @@ namespace {
 
 // A curve that could not be followed, not one that is long or was stopped.
 bool is_stuck(const Branch &branch) {
-    return branch.end_reason == PLM_REASON_STEP_MINIMUM || branch.end_reason == PLM_REASON_CONTACT_CHATTER ||
-           branch.end_reason == PLM_REASON_SINGULAR_TANGENT;
+    return branch.end_reason == reason::step_minimum || branch.end_reason == reason::contact_chatter ||
+           branch.end_reason == reason::singular_tangent;
 }
 
 std::shared_ptr<Branch> new_branch(const ResponseTask &task) {
@@ -67,12 +67,12 @@ std::shared_ptr<Branch> follow_curve(const SweepTask &task) {
     }
     if (!found)
         throw Error(
-            PLM_ERR_CONVERGENCE,
+            status::convergence,
             format("no periodic response was found at the start of the sweep (%.6g Hz and four neighbours), "
                    "nor at its other end; sweep over another range (frequency_min_hz, frequency_max_hz) or "
                    "with a smaller force_scale%s",
                    from / (2 * M_PI), drift_hint(*task.reduced).c_str()))
-            .reason(PLM_REASON_START_FAILED);
+            .reason(reason::start_failed);
     trace_curve(task.options, start, task.watch, *branch);
     if (task.exact && task.options.motion == MotionKind::automatic && is_stuck(*branch)) {
         const auto other = by_harmonics(task, start.point.omega);
@@ -128,9 +128,9 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
             return branch;
         }
     } catch (const Error &e) {
-        if (e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK) throw;
-        if (e.status() != PLM_CANCELLED) return nullptr;
-        if (!whole || e.reason() != PLM_REASON_EFFORT) throw;
+        if (e.status() == status::memory || e.status() == status::callback) throw;
+        if (e.status() != status::cancelled) return nullptr;
+        if (!whole || e.reason() != reason::effort) throw;
         compression.warn(*whole);
         return whole;
     }
@@ -154,14 +154,14 @@ void take_other_way(const SweepTask &task, std::shared_ptr<Branch> &branch) {
                              task.options.upward ? "lower" : "upper"));
     try {
         const auto other = sweep_from_its_end(back);
-        const bool is_better = spans(*other) || other->end_reason == PLM_REASON_POINT_LIMIT;
+        const bool is_better = spans(*other) || other->end_reason == reason::point_limit;
         if (branch && was_stopped(*other)) branch->end_reason = other->end_reason;
         if (branch && !is_better) return;
-        if (branch && branch->end_reason == PLM_REASON_LOOP_CLOSED) other->beside = branch;
+        if (branch && branch->end_reason == reason::loop_closed) other->beside = branch;
         branch = other;
     } catch (const Error &e) { // what the first way found, or why it found nothing, stays
-        if (e.status() == PLM_ERR_MEMORY || e.status() == PLM_ERR_CALLBACK) throw;
-        if (e.status() != PLM_CANCELLED) return;
+        if (e.status() == status::memory || e.status() == status::callback) throw;
+        if (e.status() != status::cancelled) return;
         if (!branch) throw;
         branch->end_reason = e.reason();
     }
@@ -174,10 +174,10 @@ std::shared_ptr<Branch> sweep_either_way(const SweepTask &task) {
     try {
         branch = sweep_from_its_end(task);
     } catch (const Error &e) {
-        if (e.reason() != PLM_REASON_START_FAILED) throw;
+        if (e.reason() != reason::start_failed) throw;
         no_start = std::current_exception();
     }
-    if (!branch || (!spans(*branch) && branch->end_reason != PLM_REASON_POINT_LIMIT && !was_stopped(*branch)))
+    if (!branch || (!spans(*branch) && branch->end_reason != reason::point_limit && !was_stopped(*branch)))
         take_other_way(task, branch);
     if (!branch) std::rethrow_exception(no_start);
     return branch;
@@ -247,11 +247,12 @@ std::shared_ptr<Branch> sweep_whole(const SweepTask &task) {
     std::shared_ptr<Branch> branch;
     const bool has_other = task.exact && task.options.motion == MotionKind::automatic;
     within((has_other ? share_of_exact : 1) * effort_left(), [&] { branch = sweep_either_way(task); });
-    if (has_other && (!branch || branch->end_reason == PLM_REASON_EFFORT)) take_harmonics(task, branch);
+    if (has_other && (!branch || branch->end_reason == reason::effort)) take_harmonics(task, branch);
     if (!branch)
-        throw Error(PLM_CANCELLED, "no periodic response was found with the effort allowed; raise the effort "
-                                   "of the context, or sweep over a smaller range")
-            .reason(PLM_REASON_EFFORT);
+        throw Error(status::cancelled,
+                    "no periodic response was found with the effort allowed; raise the effort "
+                    "of the context, or sweep over a smaller range")
+            .reason(reason::effort);
     return branch;
 }
 

@@ -23,7 +23,7 @@ class Widening {
     void run(const Output *asked) {
         if (bring_inside()) leave_room();
         asked_ = asked;
-        if (asked_ && branch_.end_reason == PLM_REASON_RANGE_END) bring_inside();
+        if (asked_ && branch_.end_reason == reason::range_end) bring_inside();
     }
 
   private:
@@ -37,7 +37,7 @@ class Widening {
                 if (!asked_) warn(at); // of what is asked its search for the peak speaks
                 return false;
             }
-            if (branch_.end_reason != PLM_REASON_RANGE_END) return false;
+            if (branch_.end_reason != reason::range_end) return false;
         }
     }
 
@@ -70,7 +70,7 @@ class Widening {
         for (End at : {End::first, End::last}) {
             const std::int64_t i = at == End::first ? 0 : static_cast<std::int64_t>(points().size()) - 1;
             if (!(response_size(branch_, i) > still_high * most) || is_fixed(at)) continue;
-            if (!move_range(is_low(at)) || !go_on(at) || branch_.end_reason != PLM_REASON_RANGE_END) return;
+            if (!move_range(is_low(at)) || !go_on(at) || branch_.end_reason != reason::range_end) return;
         }
     }
 
@@ -97,14 +97,13 @@ class Widening {
         Branch piece(branch_.reduced_model(), branch_.force_scale(), branch_.period_multiple());
         trace_curve(options, start, watch_, piece);
         add_cost(piece);
-        if (piece.end_reason == PLM_REASON_LOOP_CLOSED) // what was known is a part of it
+        if (piece.end_reason == reason::loop_closed) // what was known is a part of it
             take_loop(piece);
         else if (at == End::first)
             branch_.prepend(piece);
         else
             branch_.continue_with(piece);
-        if (at == End::last || piece.end_reason != PLM_REASON_RANGE_END)
-            branch_.end_reason = piece.end_reason;
+        if (at == End::last || piece.end_reason != reason::range_end) branch_.end_reason = piece.end_reason;
         return piece.points().size() > 1;
     }
 
@@ -123,7 +122,7 @@ class Widening {
     void warn(End at) {
         const bool low = is_low(at);
         watch_.keeping(branch_.warnings)
-            .warn(PLM_REASON_NO_PEAK,
+            .warn(reason::no_peak,
                   format("the response is largest at the %s end of the curve, %.6g Hz, though the range was "
                          "moved there from %.6g Hz: the resonance lies elsewhere or does not stand out, as "
                          "under damping near critical (1 %% is the ratio 0.01; of Rayleigh's damping alpha "
@@ -145,7 +144,7 @@ class Widening {
 
 void bring_peak_inside(const HbmOptions &options, const SweepRange &range, const Output *asked, Watch watch,
                        Branch &branch) {
-    if (branch.end_reason == PLM_REASON_RANGE_END) Widening(options, range, watch, branch).run(asked);
+    if (branch.end_reason == reason::range_end) Widening(options, range, watch, branch).run(asked);
 }
 
 } // namespace plm

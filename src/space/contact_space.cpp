@@ -63,7 +63,7 @@ class ContactSpaceBuilder {
         const double error = found.worst();
         if (error > options.tolerance)
             watch_.warn(
-                PLM_REASON_BASIS_TOO_SMALL,
+                reason::basis_too_small,
                 format("the contact space reaches a receptance error of %.1e at %.6g Hz, not the %.1e asked "
                        "for; raise cutoff_factor or max_blocks of the model",
                        error, highest_ / (2 * M_PI), options.tolerance));
@@ -137,7 +137,7 @@ class ContactSpaceBuilder {
             modes = model_->exact_modes_up_to(count + 10 * (attempt + 1), 0.0, watch_);
         if (count < below(1 - count_rounding) || count > below(1 + count_rounding))
             throw Error(
-                PLM_ERR_EIGENSOLVER,
+                status::eigensolver,
                 format("%lld open modes were found below %.6g Hz where the Sturm sequence counts %lld",
                        static_cast<long long>(below(1)), frequency / (2 * M_PI),
                        static_cast<long long>(count)));

@@ -53,7 +53,7 @@ Fit fit(const StructureEstimate &structure, std::int64_t n_pairs, const SpaceOpt
     const std::string other = may_be_single
                                   ? format(" (%.0f MiB with factor_precision = single)", in_mebibytes(single))
                                   : std::string();
-    throw Error(PLM_ERR_MEMORY,
+    throw Error(status::memory,
                 format("the model needs about %.0f MiB in double precision%s, and memory_limit is %g MiB: "
                        "raise it, or hand over fewer DOFs or contact pairs",
                        in_mebibytes(full), other.c_str(), options.memory_limit))

@@ -69,7 +69,7 @@ std::shared_ptr<const ExactModes> Model::modes_at_hand(Watch watch) const {
         search.look_for_missed = !(space_options_.verify_counts && tells_inertia());
         return exact_modes_up_to(std::max(modes_anyhow, n_rigid() + 1), 0, watch, search);
     } catch (const Error &e) {
-        if (e.status() != PLM_ERR_EIGENSOLVER) throw;
+        if (e.status() != status::eigensolver) throw;
         StructureModes rigid{vector<double>(n_rigid(), 0.0), rigid_modes(), nullptr};
         if (n_rigid() == 0) rigid.vectors = Field(n_free(), 0);
         return std::make_shared<const ExactModes>(exact_modes(*this, std::move(rigid), false));
@@ -107,14 +107,14 @@ vector<double> Model::flexibility_of_some() const {
 void Model::resolve_contact_stiffness(Watch watch) {
     if (n_pairs() == 0) return;
     const vector<double> &k = contact_.stiffness;
-    const bool all_given = std::find(k.begin(), k.end(), PLM_AUTO_STIFFNESS) == k.end(),
+    const bool all_given = std::find(k.begin(), k.end(), auto_stiffness) == k.end(),
                some_tell = all_given && n_pairs() > pairs_looked_at && shift() == 0;
     const vector<double> flexibility = some_tell ? flexibility_of_some() : elastic_flexibility(watch);
     if (!flexibility.empty()) local_stiffness_ = 1 / median(flexibility);
     for (std::int64_t i = 0; i < n_pairs(); ++i) {
-        if (contact_.stiffness[i] != PLM_AUTO_STIFFNESS) continue;
+        if (contact_.stiffness[i] != auto_stiffness) continue;
         if (!(local_stiffness_ > 0))
-            throw Error(PLM_ERR_ARGUMENT,
+            throw Error(status::argument,
                         format("PLM_AUTO_STIFFNESS of pair %lld: the bodies are rigid at the "
                                "contact, so there is no local stiffness to go by; give k_n",
                                static_cast<long long>(i)))

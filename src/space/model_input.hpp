@@ -5,9 +5,12 @@
 
 namespace plm {
 
+/// Of a pair: k_n is chosen when the flexibility is known (PLM_AUTO_STIFFNESS of plm.h).
+constexpr double auto_stiffness = -1;
+
 /// All that the caller said, before it is checked as a whole.
 struct ModelInput : StructureInput {
-    /// Of the pairs of the gap matrix. PLM_AUTO_STIFFNESS: chosen when the flexibility is known.
+    /// Of the pairs of the gap matrix, or auto_stiffness.
     Contact contact;
 };
 

@@ -6,11 +6,11 @@
 namespace plm {
 
 Error no_equilibrium(const char *load, const std::string &resultant) {
-    return Error(PLM_ERR_CONVERGENCE,
+    return Error(status::convergence,
                  format("the %s drives a rigid-body motion that no support and no contact holds%s%s; "
                         "fix DOFs or check the direction of the %s",
                         load, resultant.empty() ? "" : ": ", resultant.c_str(), load))
-        .reason(PLM_REASON_NO_EQUILIBRIUM);
+        .reason(reason::no_equilibrium);
 }
 
 namespace {
@@ -116,11 +116,11 @@ std::int64_t find_rest(RestEquations &equations, const Contact &contact, vector<
         ++iterations;
     }
     if (settled < 2)
-        throw Error(PLM_ERR_CONVERGENCE,
+        throw Error(status::convergence,
                     format("the static equilibrium under the pre-load was not found in %lld "
                            "iterations; check the pre-load and the initial gaps",
                            static_cast<long long>(limit)))
-            .reason(PLM_REASON_NO_EQUILIBRIUM);
+            .reason(reason::no_equilibrium);
     if (pushed) throw no_equilibrium("pre-load");
     return iterations;
 }

@@ -102,7 +102,7 @@ std::int64_t SpaceVectors::bytes() const {
 }
 
 const Field &SpaceVectors::formed() const {
-    if (!recovered_) throw Error(PLM_ERR_INTERNAL, "the vectors of a space are not formed as a whole");
+    if (!recovered_) throw Error(status::internal, "the vectors of a space are not formed as a whole");
     if (!recovered_->all) {
         recovered_->all = std::make_shared<const Field>(recover(parts_, unit_columns(cols(), 0, cols())));
         recovered_->rows.clear();

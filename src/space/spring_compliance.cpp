@@ -20,9 +20,9 @@ DenseCholesky with_springs(Matrix t, const vector<double> &spring) {
     const double rounding = 1e-15 * static_cast<double>(10 + t.rows());
     for (double softening : {rounding, 10 * rounding, 100 * rounding})
         if (factor(t, softening, cholesky)) return cholesky;
-    throw Error(PLM_ERR_SINGULAR, "the contact flexibility is not positive definite; look for gap rows "
+    throw Error(status::singular, "the contact flexibility is not positive definite; look for gap rows "
                                   "of very different size")
-        .reason(PLM_REASON_SINGULAR);
+        .reason(reason::singular);
 }
 
 } // namespace plm

@@ -201,7 +201,7 @@ class Elimination {
         constexpr std::int64_t most = 100'000'000;
         if (entries <= most) return;
         throw Error(
-            PLM_ERR_MEMORY,
+            status::memory,
             format("constraint row %lld (counted from 0, in the order they were added) leaves DOF %lld "
                    "as a sum of %lld others, and with it more than %lld coefficients in all: it couples "
                    "DOFs that are coupled to very many themselves; join such couplings at fewer nodes",

@@ -9,7 +9,7 @@ namespace {
 
 using Int = long long; // for printf
 
-[[noreturn]] void fail(plm_status status, std::int64_t position, const std::string &text) {
+[[noreturn]] void fail(Status status, std::int64_t position, const std::string &text) {
     throw Error(status, text).argument("value").index(position);
 }
 
@@ -22,18 +22,18 @@ class Entries {
     double operator()(std::int64_t i, std::int64_t j) const { return value_[position(i, j)]; }
     /// Of the lower triangle, i >= j, wherever it stands.
     std::int64_t lower_position(std::int64_t i, std::int64_t j) const {
-        return f_.part == PLM_UPPER ? position(j, i) : position(i, j);
+        return f_.part == part::upper ? position(j, i) : position(i, j);
     }
     double lower(std::int64_t i, std::int64_t j) const { return value_[lower_position(i, j)]; }
 
     void check_finite() const {
         for (std::int64_t j = 0; j < f_.n; ++j) {
-            const std::int64_t begin = f_.part == PLM_LOWER ? j : 0,
-                               end = f_.part == PLM_UPPER ? j + 1 : f_.n;
+            const std::int64_t begin = f_.part == part::lower ? j : 0,
+                               end = f_.part == part::upper ? j + 1 : f_.n;
             for (std::int64_t i = begin; i < end; ++i) {
                 const double v = (*this)(i, j);
                 if (std::isfinite(v) && !too_large(v)) continue;
-                fail(PLM_ERR_MATRIX, position(i, j),
+                fail(status::matrix, position(i, j),
                      format(
                          "value[%lld], row %lld and column %lld counted from 0, is %g: no number, or beyond "
                          "%g where squares and products overflow; look at the reduction that made it",
@@ -50,7 +50,7 @@ class Entries {
             for (std::int64_t i = j + 1; i < f_.n; ++i)
                 if (std::abs((*this)(i, j) - (*this)(j, i)) > 1e-8 * largest)
                     fail(
-                        PLM_ERR_MATRIX, position(i, j),
+                        status::matrix, position(i, j),
                         format("the matrix is not symmetric: %.10g in row %lld and column %lld (counted from "
                                "0) but %.10g at the mirrored place, more than 1e-8 of the largest entry %g "
                                "apart; pass PLM_LOWER or PLM_UPPER to use one triangle",
@@ -81,7 +81,7 @@ class Entries {
 
     MatrixFormat layout() const {
         MatrixFormat layout;
-        layout.n = f_.n, layout.part = PLM_LOWER, layout.negative_diagonal = !f_.semi_definite;
+        layout.n = f_.n, layout.part = part::lower, layout.negative_diagonal = !f_.semi_definite;
         return layout;
     }
 
@@ -94,7 +94,7 @@ class Entries {
 
   private:
     [[noreturn]] void not_semi_definite(std::int64_t dof) const {
-        fail(PLM_ERR_NOT_POSITIVE_DEFINITE, dof,
+        fail(status::not_positive_definite, dof,
              format("the matrix is indefinite, as DOF %lld (counted from 0) shows together with those before "
                     "it; mass and stiffness of a superelement are positive semi-definite: look at the "
                     "reduction that made them, and at signs",
@@ -110,7 +110,7 @@ class Entries {
 std::shared_ptr<const MatrixInput> make_dense_input(const DenseFormat &f, const double *value) {
     const Entries entries(f, value);
     entries.check_finite();
-    if (f.part == PLM_FULL) entries.check_symmetry();
+    if (f.part == part::full) entries.check_symmetry();
     if (f.semi_definite) entries.check_semi_definite();
     const bool without_zeros = entries.mostly_zero();
     vector<std::int64_t> start{0}, row;

@@ -6,9 +6,9 @@
 namespace plm {
 
 struct DenseFormat {
-    std::int64_t n = 0, ld = 0;   // column-major, entry (i, j) at i + j ld
-    std::int32_t part = PLM_FULL; // what is read
-    bool semi_definite = true;    // M and K must be; C need not
+    std::int64_t n = 0, ld = 0;     // column-major, entry (i, j) at i + j ld
+    std::int32_t part = part::full; // what is read
+    bool semi_definite = true;      // M and K must be; C need not
 };
 
 /// Throws PLM_ERR_MATRIX or PLM_ERR_NOT_POSITIVE_DEFINITE. A matrix of which more than half is zero is

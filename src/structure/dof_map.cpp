@@ -169,7 +169,7 @@ void DofMap::require_sparse(const char *name, const SparseMatrix &a, std::int64_
         elimination_.dependent.begin(), elimination_.dependent.end(),
         [&](const auto &x, const auto &y) { return terms(x.dof).size() < terms(y.dof).size(); });
     throw Error(
-        PLM_ERR_MEMORY,
+        status::memory,
         format("with the constraints eliminated the %s matrix would have more than %lld entries, where it "
                "has %lld: row %lld (counted from 0, in the order they were added) makes DOF %lld a sum of "
                "%lld others, and what stands at that DOF couples all of them. Leave such a reference DOF "

@@ -139,7 +139,7 @@ EigenPairs search(const Pencil &pencil, std::int64_t n_wanted) {
     }
     if (result.end == KrylovEnd::exhausted && pencil.rank() <= dense_limit)
         return dense_eigenpairs(pencil, n_wanted);
-    throw Error(PLM_ERR_EIGENSOLVER, format("%lld of %lld eigenpairs were found: %s",
+    throw Error(status::eigensolver, format("%lld of %lld eigenpairs were found: %s",
                                             static_cast<long long>(result.pairs.values.size()),
                                             static_cast<long long>(n_wanted), meaning(result.end)))
         .library_code(result.end == KrylovEnd::too_few ? eigs_too_few : 0);
@@ -200,7 +200,7 @@ EigenPairs lowest_eigenpairs(const SparseMatrix &k, const SparseMatrix &m, const
     } catch (const Error &e) {
         // Copies of a multiple eigenvalue come into a Krylov space of one vector by rounding alone: the last
         // of dozens may be the worse for it.
-        if (e.status() != PLM_ERR_EIGENSOLVER || pencil.rank() > dense_limit) throw;
+        if (e.status() != status::eigensolver || pencil.rank() > dense_limit) throw;
         return all_by_dense(pencil, n_wanted);
     }
     sort_and_cut(pairs, n_wanted);

@@ -81,7 +81,7 @@ class Arpack {
             multiply_transposed(pencil_.m, x, y);
         pencil_.factor.solve(y, 1, n_);
         if (!finite(y, n_)) // NaN in the Lanczos basis would go round until the last restart
-            throw Error(PLM_ERR_EIGENSOLVER, "the factorization's solve returned NaN or Inf");
+            throw Error(status::eigensolver, "the factorization's solve returned NaN or Inf");
     }
 
     void extract(blas_int &info) {

@@ -56,7 +56,7 @@ EigenPairs dense_eigenpairs(const Pencil &pencil, std::int64_t n_wanted) {
     pencil.poll();
 
     const double theta_max = e.values.back(), zero = 1e-16 * theta_max;
-    if (!(theta_max > 0)) throw Error(PLM_ERR_EIGENSOLVER, "no eigenvalue lies above the shift");
+    if (!(theta_max > 0)) throw Error(status::eigensolver, "no eigenvalue lies above the shift");
     const auto finite_ones = e.values.end() - std::upper_bound(e.values.begin(), e.values.end(), zero);
     const std::int64_t count = std::min<std::int64_t>(n_wanted, finite_ones), last = root.cols() - 1;
     Matrix y(root.cols(), count);

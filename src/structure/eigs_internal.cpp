@@ -13,7 +13,7 @@ void pseudo_random(Matrix &x, std::int64_t seed) {
 
 void Pencil::poll() const {
     if (options.cancelled && options.cancelled())
-        throw Error(PLM_CANCELLED, "cancelled by the progress callback").reason(PLM_REASON_CANCELLED);
+        throw Error(status::cancelled, "cancelled by the progress callback").reason(reason::cancelled);
 }
 
 } // namespace plm

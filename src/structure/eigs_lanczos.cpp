@@ -51,7 +51,7 @@ class Lanczos {
         if (request_.apart) // X -= Y Y^T M X
             gemm('N', 'N', -1, *request_.apart, product('T', 'N', *request_.m_apart, x), 1, x);
         if (!finite(x.data(), n_ * x.cols())) // NaN in the basis would go round until the last restart
-            throw Error(PLM_ERR_EIGENSOLVER, "the factorization's solve returned NaN or Inf");
+            throw Error(status::eigensolver, "the factorization's solve returned NaN or Inf");
     }
 
     /// The space of an earlier search, or none, and W.

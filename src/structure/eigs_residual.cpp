@@ -19,7 +19,7 @@ Matrix orthonormalize(const SparseMatrix &m, Matrix &x) {
     blas_int info = 0;
     dpotrf_("L", &count, gram.data(), &count, &info, 1);
     if (info != 0)
-        throw Error(PLM_ERR_EIGENSOLVER, "the eigenvectors found are linearly dependent").library_code(info);
+        throw Error(status::eigensolver, "the eigenvectors found are linearly dependent").library_code(info);
     const double one = 1;
     for (Matrix *block : {&x, &mx})
         dtrsm_("R", "L", "T", "N", &n, &count, &one, gram.data(), &count, block->data(), &n, 1, 1, 1, 1);
@@ -134,7 +134,7 @@ void improve(const Pencil &pencil, EigenPairs &pairs, Matrix mx) {
         const vector<std::int64_t> large = larger_than_allowed(pencil, pairs, products, relative);
         if (large.empty()) return;
         if (round == rounds)
-            throw Error(PLM_ERR_EIGENSOLVER,
+            throw Error(status::eigensolver,
                         format("eigenpair %lld (eigenvalue %g) has a relative residual of %g",
                                static_cast<long long>(large[0]), pairs.values[large[0]], relative[large[0]]))
                 .index(large[0]);

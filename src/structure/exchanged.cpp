@@ -43,7 +43,7 @@ void refuse_exchanged(const vector<Translation> &mass_like, const SparseMatrix &
     for (const Translation &t : mass_like)
         if (looks_like_stiffness(m, t))
             throw Error(
-                PLM_ERR_MATRIX,
+                status::matrix,
                 format("mass and stiffness are probably exchanged: the entries of the mass matrix "
                        "cancel where DOFs %lld, %lld, ... (%lld per node, counted from 0) move alike, "
                        "as those of a stiffness do, and those of the stiffness matrix are all "

@@ -94,7 +94,7 @@ class FixedInterface::Interior {
             if (model_shift_ == 0 || factor_->reciprocal_condition() > 1e-12) return;
         } catch (const Error &e) {
             if (model_shift_ == 0) throw;
-            if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE && e.status() != PLM_ERR_SINGULAR) throw;
+            if (e.status() != status::not_positive_definite && e.status() != status::singular) throw;
         }
         shift_ = model_shift_;
         factor_ = make_factor(add(1.0, k_, shift_, m_), solver_);
@@ -128,7 +128,7 @@ class FixedInterface::Interior {
             return value <= (1 + count_rounding) * limit * limit;
         });
         if (below < counted)
-            throw Error(PLM_ERR_EIGENSOLVER, format("%lld fixed-interface modes were found below %.6g Hz "
+            throw Error(status::eigensolver, format("%lld fixed-interface modes were found below %.6g Hz "
                                                     "where the Sturm sequence counts %lld",
                                                     static_cast<long long>(below), limit / (2 * M_PI),
                                                     static_cast<long long>(counted)));

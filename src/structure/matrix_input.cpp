@@ -20,7 +20,7 @@ template <class Index> class Reader {
         const bool regular = is_symmetric_at_a_glance(); // then none is given twice
         if (compressed() && !regular) check_duplicates();
         if (!f_.negative_diagonal) check_diagonal();
-        if (f_.part == PLM_FULL && !regular) check_symmetry();
+        if (f_.part == part::full && !regular) check_symmetry();
     }
 
     SparseMatrix mirrored() const {
@@ -28,13 +28,13 @@ template <class Index> class Reader {
         if (mirrored_in_place(a)) return a;
         vector<std::int64_t> i, j;
         vector<double> v;
-        const std::size_t most = static_cast<std::size_t>(f_.part == PLM_FULL ? f_.nnz : 2 * f_.nnz);
+        const std::size_t most = static_cast<std::size_t>(f_.part == part::full ? f_.nnz : 2 * f_.nnz);
         i.reserve(most), j.reserve(most), v.reserve(most);
         const auto put = [&](std::int64_t row, std::int64_t col, double value) {
             i.push_back(row), j.push_back(col), v.push_back(value);
         };
         for_each([&](std::int64_t, std::int64_t row, std::int64_t col, double value) {
-            if (f_.part == PLM_FULL && row < col) return; // the lower triangle speaks for both
+            if (f_.part == part::full && row < col) return; // the lower triangle speaks for both
             put(row, col, value);
             if (row != col) put(col, row, value);
         });
@@ -42,8 +42,8 @@ template <class Index> class Reader {
     }
 
   private:
-    bool compressed() const { return f_.storage != PLM_TRIPLETS; }
-    bool by_columns() const { return f_.storage == PLM_CSC; }
+    bool compressed() const { return f_.storage != storage::triplets; }
+    bool by_columns() const { return f_.storage == storage::csc; }
 
     /// visit(position, row, column, value) over the stored entries, base 0.
     template <class Visit> void for_each(Visit visit) const {
@@ -83,7 +83,7 @@ template <class Index> class Reader {
 
     // As most hosts have it: nothing has to be sorted.
     bool mirrored_in_place(SparseMatrix &a) const {
-        if (!compressed() || f_.part != PLM_FULL) return false;
+        if (!compressed() || f_.part != part::full) return false;
         a.rows = a.cols = f_.n;
         a.ptr.assign(a_, a_ + f_.n + 1);
         a.idx.assign(b_, b_ + f_.nnz);
@@ -101,7 +101,7 @@ template <class Index> class Reader {
     }
 
     [[noreturn]] static void fail(const char *argument, std::int64_t index, const std::string &text) {
-        throw Error(PLM_ERR_MATRIX, text).argument(argument).index(index);
+        throw Error(status::matrix, text).argument(argument).index(index);
     }
 
     void check_pointers() const {
@@ -146,11 +146,11 @@ template <class Index> class Reader {
                      format("value[%lld] is %g, at %s; beyond %g squares and products overflow: look for a "
                             "failed element there, or choose other units",
                             Int(p), value, entry_name(row, col).c_str(), largest_scale));
-            if ((f_.part == PLM_LOWER && row < col) || (f_.part == PLM_UPPER && row > col))
+            if ((f_.part == part::lower && row < col) || (f_.part == part::upper && row > col))
                 fail("b", p,
                      format("b[%lld]: the entry at %s is not in the %s triangle; pass %s or drop it", Int(p),
-                            entry_name(row, col).c_str(), f_.part == PLM_LOWER ? "lower" : "upper",
-                            f_.part == PLM_LOWER ? "PLM_FULL or PLM_UPPER" : "PLM_FULL or PLM_LOWER"));
+                            entry_name(row, col).c_str(), f_.part == part::lower ? "lower" : "upper",
+                            f_.part == part::lower ? "PLM_FULL or PLM_UPPER" : "PLM_FULL or PLM_LOWER"));
         });
     }
 
@@ -226,7 +226,7 @@ template <class Index> class Reader {
 
     /// By columns (or rows) that ascend, each entry next to its mirror image; false: not seen.
     bool is_symmetric_at_a_glance() const {
-        if (!compressed() || f_.part != PLM_FULL) return false;
+        if (!compressed() || f_.part != part::full) return false;
         double largest = 0, apart = 0;
         for (std::int64_t p = 0; p < f_.nnz; ++p) largest = std::max(largest, std::abs(value_[p]));
         return for_each_couple([&](std::int64_t p, std::int64_t q) {
@@ -247,7 +247,7 @@ MatrixInput::MatrixInput(const MatrixFormat &f, const Index *a, const Index *b, 
     : layout(f), value_(value) {
     IndexArrays<Index> arrays;
     if (f.copy) {
-        const std::int64_t n_a = f.storage == PLM_TRIPLETS ? f.nnz : f.n + 1;
+        const std::int64_t n_a = f.storage == storage::triplets ? f.nnz : f.n + 1;
         arrays.own_a.assign(a, a + n_a);
         arrays.own_b.assign(b, b + f.nnz);
         own_value_.assign(value, value + f.nnz);

@@ -8,10 +8,18 @@
 
 namespace plm {
 
-/// How the caller's arrays are to be read (PLM_CSC ..., PLM_FULL ..., 0 or 1).
+/// How the caller's arrays are to be read: PLM_CSC ... and PLM_FULL ... of plm.h.
+namespace storage {
+enum : std::int32_t { csc = 1, triplets = 2, csr = 3 };
+}
+namespace part {
+enum : std::int32_t { full = 1, lower = 2, upper = 3 };
+}
+
+/// Theirs, and the first index (0 or 1).
 struct MatrixFormat {
     std::int64_t n = 0, nnz = 0;
-    std::int32_t storage = PLM_CSC, part = PLM_FULL, index_base = 0;
+    std::int32_t storage = storage::csc, part = part::full, index_base = 0;
     bool copy = true;               // false: the arrays stay the caller's and must outlive the build
     bool negative_diagonal = false; // allowed? Not for M and K, which are positive semi-definite
 };

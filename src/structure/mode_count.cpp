@@ -9,7 +9,7 @@ std::int64_t count_modes(const SparseMatrix &k, const SparseMatrix &m, double om
     try {
         return count_negative({k, -omega * omega, m}, solver);
     } catch (const Error &e) {
-        if (e.status() != PLM_ERR_SINGULAR) throw;
+        if (e.status() != status::singular) throw;
         return hit_a_mode;
     }
 }
@@ -26,7 +26,7 @@ std::int64_t count_modes_near(const SparseMatrix &k, const SparseMatrix &m, doub
     }
     if (count == hit_a_mode)
         watch.warn(
-            PLM_REASON_UNVERIFIED,
+            reason::unverified,
             format("the number of %s below %.6g Hz could not be verified: K - w^2 M is singular there and "
                    "just above; compare with another %s",
                    which, omega / (2 * M_PI), remedy));

@@ -40,9 +40,9 @@ std::unique_ptr<Factor> factor_regular(const SparseMatrix &k, const Solver &solv
         if ((solver.serving_host() || condition < 1e-9) && !solves(k, *factor)) return nullptr;
         return factor;
     } catch (const Error &e) {
-        if (e.status() == PLM_ERR_CALLBACK)
+        if (e.status() == status::callback)
             of_host = e;
-        else if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE && e.status() != PLM_ERR_SINGULAR)
+        else if (e.status() != status::not_positive_definite && e.status() != status::singular)
             throw;
         return nullptr;
     }
@@ -196,7 +196,7 @@ class RigidModeSearch {
         try {
             return factor_shifted(shift, shift);
         } catch (const Error &e) {
-            if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE) throw;
+            if (e.status() != status::not_positive_definite) throw;
             return nullptr;
         }
     }
@@ -209,7 +209,7 @@ class RigidModeSearch {
             try {
                 low_.take(lowest(factor, shift, count, effort), k_, m_);
             } catch (const Error &e) {
-                const bool slow = e.status() == PLM_ERR_EIGENSOLVER && e.library_code() == eigs_too_few;
+                const bool slow = e.status() == status::eigensolver && e.library_code() == eigs_too_few;
                 if (!slow) throw;
                 return false;
             }
@@ -225,7 +225,7 @@ class RigidModeSearch {
             try {
                 return make_factor(add(1.0, k_, shift, m_), solver_);
             } catch (const Error &e) {
-                if (e.status() != PLM_ERR_NOT_POSITIVE_DEFINITE && e.status() != PLM_ERR_SINGULAR) throw;
+                if (e.status() != status::not_positive_definite && e.status() != status::singular) throw;
                 if (!(shift < largest)) throw not_positive_definite(e, shift);
             }
         }
@@ -235,14 +235,14 @@ class RigidModeSearch {
         const std::int64_t column = e.index();
         const bool known = column >= 0 && column < k_.cols;
         return Error(
-                   PLM_ERR_NOT_POSITIVE_DEFINITE,
+                   status::not_positive_definite,
                    format("K + %g M is not positive definite%s: the stiffness has a negative eigenvalue, or "
                           "mass-less DOFs can move without deformation; check the stiffness matrix and the "
                           "supports",
                           shift,
                           known ? format(" at DOF %lld (counted from 0)", Int(free_dof_[column])).c_str()
                                 : ""))
-            .reason(PLM_REASON_NOT_POSITIVE_DEFINITE)
+            .reason(reason::not_positive_definite)
             .argument("K")
             .index(known ? free_dof_[column] : -1)
             .library_code(e.library_code());
@@ -273,8 +273,8 @@ class RigidModeSearch {
     }
 
     Error unfit(std::int64_t column, const std::string &text) const {
-        return Error(PLM_ERR_NOT_POSITIVE_DEFINITE, text)
-            .reason(PLM_REASON_NOT_POSITIVE_DEFINITE)
+        return Error(status::not_positive_definite, text)
+            .reason(reason::not_positive_definite)
             .argument("K")
             .index(free_dof_[column]);
     }
@@ -283,11 +283,11 @@ class RigidModeSearch {
         const double value = low_.pairs.values.front();
         if (value >= -std::max(1e-6 * flexible, doubtful * low_.rounding.front())) return;
         throw Error(
-            PLM_ERR_NOT_POSITIVE_DEFINITE,
+            status::not_positive_definite,
             format("the stiffness matrix has the negative eigenvalue %g (the first elastic one is %g): it is "
                    "not positive semi-definite; check element signs and geometric stiffness",
                    value, flexible))
-            .reason(PLM_REASON_NOT_POSITIVE_DEFINITE)
+            .reason(reason::not_positive_definite)
             .argument("K");
     }
 
@@ -300,12 +300,12 @@ class RigidModeSearch {
     }
 
     Error too_fine() const {
-        return Error(PLM_ERR_SINGULAR,
+        return Error(status::singular,
                      "the lowest elastic modes lie below what rounding makes of the stiffness matrix, and "
                      "cannot be "
                      "told from rigid-body motion: the mesh is too fine, or a penalty too stiff, for double "
                      "precision; use larger elements, a softer penalty, or supports")
-            .reason(PLM_REASON_SINGULAR)
+            .reason(reason::singular)
             .argument("K");
     }
 

@@ -41,7 +41,7 @@ SparseMatrix from_triplets(std::int64_t rows, std::int64_t cols, const vector<st
     SparseMatrix a = shaped(rows, cols, count);
     for (std::int64_t t = 0; t < count; ++t) {
         if (i[t] < 0 || i[t] >= rows || j[t] < 0 || j[t] >= cols)
-            throw Error(PLM_ERR_ARGUMENT, "triplet index out of range").index(t);
+            throw Error(status::argument, "triplet index out of range").index(t);
         ++row_ptr[i[t] + 1];
         ++a.ptr[j[t] + 1];
     }

@@ -18,7 +18,7 @@ double bytes_of(const SparseMatrix &a) {
 
 void require_size(const char *what, std::int64_t size, std::int64_t n_dof) {
     if (size != n_dof)
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     format("%s has %lld entries where the model has %lld DOFs", what, Int(size), Int(n_dof)))
             .argument(what);
 }
@@ -34,7 +34,7 @@ void require_nonnegative_diagonal(const char *name, const SparseMatrix &a, const
     for (std::int64_t j = 0; j < a.cols; ++j)
         for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p)
             if (a.idx[p] == j && a.val[p] < 0 && !dofs.is_held(j))
-                throw Error(PLM_ERR_MATRIX,
+                throw Error(status::matrix,
                             format("the %s matrix has the negative diagonal entry %g at DOF %lld "
                                    "(counted from 0); it must be positive semi-definite",
                                    name, a.val[p], Int(j)))
@@ -43,7 +43,7 @@ void require_nonnegative_diagonal(const char *name, const SparseMatrix &a, const
 }
 
 // What the parts of a model are made of: the largest entry of each counts.
-void require_scale(const char *what, const double *values, std::int64_t n, plm_status status,
+void require_scale(const char *what, const double *values, std::int64_t n, Status status,
                    const char *argument) {
     const double largest = largest_of(values, n);
     if (!too_large(largest) && !too_small(largest)) return;
@@ -53,7 +53,7 @@ void require_scale(const char *what, const double *values, std::int64_t n, plm_s
         .argument(argument);
 }
 void require_scale(const char *what, const SparseMatrix &a) {
-    require_scale(what, a.val.data(), a.nnz(), PLM_ERR_MATRIX, "value");
+    require_scale(what, a.val.data(), a.nnz(), status::matrix, "value");
 }
 
 } // namespace
@@ -89,7 +89,7 @@ StructureEstimate Structure::estimate(const StructureInput &input, GapSize gap, 
 
 void Structure::assemble(const StructureInput &input, GapSize gap) {
     if (!input.mass || !input.stiffness)
-        throw Error(PLM_ERR_STATE, input.mass
+        throw Error(status::state, input.mass
                                        ? "the stiffness matrix is missing; hand it over with PLM_STIFFNESS"
                                        : "the mass matrix is missing; hand it over with PLM_MASS");
     map_dofs(input.fixed, input.constraints);
@@ -107,7 +107,7 @@ void Structure::assemble_parts(const StructureInput &input, GapSize gap) {
     require_scale("mass matrix", mass_);
     require_scale("stiffness matrix", stiffness_);
     if (!(trace(mass_) > 0))
-        throw Error(PLM_ERR_MATRIX, "no free DOF has mass; check the mass matrix and the fixed DOFs")
+        throw Error(status::matrix, "no free DOF has mass; check the mass matrix and the fixed DOFs")
             .argument("value");
     require_scale("damping matrix", damping_);
     assemble_gap(input, gap);
@@ -133,7 +133,7 @@ StillDofs Structure::find_still_dofs() const {
 void Structure::map_dofs(const vector<std::int64_t> &fixed, const ConstraintRows &constraints) {
     dofs_ = DofMap(n_dof_, fixed, constraints);
     if (n_free() == 0)
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     constraints.n_rows() > 0
                         ? "the constraints and the fixed DOFs leave nothing to move; take away some of them"
                         : "all DOFs are fixed; nothing is left to move")
@@ -144,7 +144,7 @@ void Structure::warn_of_printed_constraints(Watch watch) const {
     const EliminatedConstraints &e = dofs_.elimination();
     if (e.largest_miss > cancelled_exactly)
         watch.warn(
-            PLM_REASON_ROUNDED,
+            reason::rounded,
             format("constraint row %lld (counted from 0, in the order they were added) repeats what the "
                    "others say but for %.1e of its terms: it is taken to repeat them, as with "
                    "coefficients of more digits",
@@ -182,7 +182,7 @@ void Structure::assemble_gap(const StructureInput &input, GapSize size) {
     for (std::int64_t p = 0; p < gap.nnz(); ++p) weight[gap.idx[p]] += std::abs(gap.val[p]);
     for (std::int64_t i = 0; i < n_rows; ++i)
         if (!(weight[i] > 0 && weight[i] > cancelled_exactly * given[i]))
-            throw Error(PLM_ERR_ARGUMENT,
+            throw Error(status::argument,
                         format("contact pair %lld (counted from 0, in the order they were added) "
                                "touches %s: its penetration can never change; leave it "
                                "out or release a DOF",
@@ -203,7 +203,7 @@ void Structure::assemble_loads(const StructureInput &input) {
             require_size(what, static_cast<std::int64_t>(all.size()), n_dof_);
             free = Field(dofs_.forces(all.data()));
         }
-        require_scale(name, free.in_core().data(), n_free(), PLM_ERR_ARGUMENT, "force");
+        require_scale(name, free.in_core().data(), n_free(), status::argument, "force");
         return free;
     };
     excitation_on_supports_ = 0;
@@ -242,7 +242,7 @@ void Structure::leave_out_rounding(Watch watch) {
     if (miss.size > eps) gap_rows_.leave_out(unheld_, unheld_momenta_);
     if (miss.size > exactly_zero)
         watch.warn(
-            PLM_REASON_ROUNDED,
+            reason::rounded,
             format("the gap rows miss rigid-body motion by up to %.1e of their terms (pair %lld): they "
                    "are taken to leave it free, as with coordinates and weights of more digits",
                    miss.size, Int(gap_rows_.size().pair_of(miss.row))));
@@ -267,7 +267,7 @@ std::string Structure::balance(Field &load, const char *name, const RowMiss &mis
     if (r.relative > 0) add_combination(-1.0, unheld_momenta_, gram(unheld_, load), load);
     if (r.relative > exactly_zero)
         watch.warn(
-            PLM_REASON_ROUNDED,
+            reason::rounded,
             format("the %s acts on rigid-body motion that neither supports nor contact hold: %s; it is "
                    "taken as balanced, and that much left out through the masses: balance it, or fix DOFs",
                    name, fact.c_str()));

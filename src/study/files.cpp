@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void refuse(const std::string &what, const std::string &why) {
-    throw Error(PLM_ERR_ARGUMENT, what + ": " + why + "; name a folder that can be written to")
+    throw Error(status::argument, what + ": " + why + "; name a folder that can be written to")
         .argument("folder");
 }
 

@@ -28,7 +28,7 @@ vector<double> coefficients(const vector<double> &value, std::int64_t multiple) 
 
 TransientRun uncancelled(TransientRun run) {
     if (run.cancelled)
-        throw Error(PLM_CANCELLED, "cancelled by the progress callback").reason(PLM_REASON_CANCELLED);
+        throw Error(status::cancelled, "cancelled by the progress callback").reason(reason::cancelled);
     return run;
 }
 
@@ -52,7 +52,7 @@ MarchedCurve march_curve(Transient &motion, const TransientOptions &options, con
         const TransientRun period = uncancelled(motion.run(o, {output.dof}, watch));
         const std::int64_t n = o.period_multiple * o.steps_per_period;
         if (static_cast<std::int64_t>(period.values.size()) < n)
-            throw Error(PLM_ERR_INTERNAL, "a marched period was not recorded as a whole");
+            throw Error(status::internal, "a marched period was not recorded as a whole");
         const vector<double> last(period.values.end() - n, period.values.end());
         curve.samples.hz.push_back(o.frequency_hz);
         curve.samples.amplitude.push_back(

@@ -89,7 +89,7 @@ class Run {
         o.tolerance = method_.tolerance;
         Refinement found = refine(out_.basis, o, watch_);
         if (!found.basis)
-            throw Error(PLM_ERR_CONVERGENCE, "no curve could be computed on a compressed basis");
+            throw Error(status::convergence, "no curve could be computed on a compressed basis");
         if (!found.met)
             out_.note = format("the tolerance %g was not met in %lld curves, %.2g is left", method_.tolerance,
                                static_cast<long long>(found.rounds), found.error);
@@ -130,7 +130,7 @@ class Run {
 std::string unmeasured_text(const Warnings &warnings) {
     Warnings said;
     for (const Warning &w : warnings.list())
-        if (w.reason != PLM_REASON_BASIS_TOO_SMALL && w.reason != PLM_REASON_HARMONICS_TOO_FEW)
+        if (w.reason != reason::basis_too_small && w.reason != reason::harmonics_too_few)
             said.add(w.reason, w.text);
     return said.text();
 }
@@ -161,16 +161,16 @@ std::string end_of(const Measurement &m) {
     std::string text;
     for (std::size_t level = 0; level < m.curves.size(); ++level) {
         const std::string end = end_text(m.curves[level]->end_reason);
-        if (m.curves[level]->end_reason == PLM_REASON_RANGE_END) continue;
+        if (m.curves[level]->end_reason == reason::range_end) continue;
         text += (text.empty() ? "" : "; ") + format("level %zu: ", level) + end;
     }
     if (!m.note.empty()) text += (text.empty() ? "" : "; ") + m.note;
-    return text.empty() ? end_text(PLM_REASON_RANGE_END) : text;
+    return text.empty() ? end_text(reason::range_end) : text;
 }
 
 bool reached_the_end(const Measurement &m) {
     return m.note.empty() && std::all_of(m.curves.begin(), m.curves.end(),
-                                         [](const auto &b) { return b->end_reason == PLM_REASON_RANGE_END; });
+                                         [](const auto &b) { return b->end_reason == reason::range_end; });
 }
 
 } // namespace

@@ -7,7 +7,7 @@ namespace {
 std::shared_ptr<const Sampler> run_sampler(const std::shared_ptr<const Model> &model,
                                            const SamplerOptions &options, Watch watch, KnownSpace &space) {
     if (model->n_pairs() == 0)
-        throw Error(PLM_ERR_STATE,
+        throw Error(status::state,
                     "the model has no contact pair, so there is no contact area to sample; use a basis "
                     "of kind full or craig_bampton")
             .argument("sampler");
@@ -49,7 +49,7 @@ FrequencyRange range_of(const std::shared_ptr<const Model> &model, const Recipe 
     const FrequencyRange range{hbm.frequency_min_hz > 0 ? hbm.frequency_min_hz : basis.frequency_min_hz,
                                hbm.frequency_max_hz > 0 ? hbm.frequency_max_hz : basis.frequency_max_hz};
     if (!(range.low_hz > 0 && range.high_hz > range.low_hz))
-        throw Error(PLM_ERR_STATE,
+        throw Error(status::state,
                     format("the frequency range [%g, %g] Hz of the study is empty or not positive; set "
                            "frequency_min_hz and frequency_max_hz of the reference's hbm or basis, or "
                            "give its basis a sampler",
@@ -61,7 +61,7 @@ FrequencyRange range_of(const std::shared_ptr<const Model> &model, const Recipe 
 std::shared_ptr<const Basis> build(const std::shared_ptr<const Model> &model, const Recipe &recipe,
                                    Watch watch, KnownSpace &space) {
     if (recipe.basis.kind->needs_sampler && !recipe.sampler)
-        throw Error(PLM_ERR_STATE,
+        throw Error(status::state,
                     format("a basis of kind %s needs a sampler; give the basis one", recipe.basis.kind->name))
             .argument("sampler");
     std::shared_ptr<const Basis> parent;

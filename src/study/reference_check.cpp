@@ -38,7 +38,7 @@ HarmonicCheck check_harmonics(const Branch &branch, const Peak &peak, const HbmO
         around->append(std::move(corrected));
     }
     if (around->points().size() < 3)
-        throw Error(PLM_ERR_CONVERGENCE,
+        throw Error(status::convergence,
                     "the peak of the reference could not be solved with twice the harmonics");
     const Peak better = Hbm(branch.reduced_model(), 0, 0, finer, watch)
                             .find_peak(*around, output.dof, output.measure, output.harmonic);

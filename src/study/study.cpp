@@ -53,11 +53,11 @@ class Study {
   private:
     static Output checked_output(const StudyPlan &plan) {
         if (plan.methods.empty())
-            throw Error(PLM_ERR_STATE, "the study has no method; add one first, a response, a compressed or "
+            throw Error(status::state, "the study has no method; add one first, a response, a compressed or "
                                        "refined basis or marching")
                 .argument("study");
         if (!plan.output)
-            throw Error(PLM_ERR_STATE, "the study does not know the motion to look at; set its output first")
+            throw Error(status::state, "the study does not know the motion to look at; set its output first")
                 .argument("study");
         return *plan.output;
     }
@@ -97,7 +97,7 @@ class Study {
             truth.recipe.basis.kind = &basis_kinds::full;
             return truth;
         }
-        throw Error(PLM_ERR_STATE,
+        throw Error(status::state,
                     "methods that march in time give no reference; set the reference of the study")
             .argument("reference");
     }
@@ -136,7 +136,7 @@ class Study {
         Truth t;
         t.peak = peak_of(m, o, level);
         if (!(std::abs(t.peak.amplitude) > 0))
-            throw Error(PLM_ERR_ARGUMENT,
+            throw Error(status::argument,
                         "the DOF of the output does not move on the reference's curve; name one that does")
                 .argument("dof");
         t.scale = {where_.range.high_hz - where_.range.low_hz, std::abs(t.peak.amplitude)};
@@ -162,7 +162,7 @@ class Study {
             out_.harmonic_error = worse(out_.harmonic_error, check.amplitude);
             out_.harmonic_shift = worse(out_.harmonic_shift, check.frequency);
         } catch (const Error &e) { // stays not known
-            if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_CALLBACK) throw;
+            if (e.status() == status::cancelled || e.status() == status::callback) throw;
             watch_.log(2, e.what());
         }
     }
@@ -241,7 +241,7 @@ class Study {
             compare(method, first, r);
             r.failed = false;
         } catch (const Error &e) {
-            if (e.status() == PLM_CANCELLED) {
+            if (e.status() == status::cancelled) {
                 out_.cancelled = true;
                 return not_run(planned);
             }
@@ -359,7 +359,7 @@ class Study {
             if (difference > smallest_error) r.effectivity = expected / difference;
         } catch (
             const Error &e) { // not known: contacts that do not hold all rigid-body modes, a singular tangent
-            if (e.status() == PLM_CANCELLED || e.status() == PLM_ERR_CALLBACK) throw;
+            if (e.status() == status::cancelled || e.status() == status::callback) throw;
             watch_.log(1, "study: " + method.name + ": no estimate: " + e.what());
         }
     }

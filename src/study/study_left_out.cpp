@@ -5,7 +5,7 @@ namespace plm {
 namespace {
 
 [[noreturn]] void left_out() {
-    throw Error(PLM_ERR_NOT_BUILT,
+    throw Error(status::not_built,
                 "the study was left out of this build; configure libplm with -DPLM_WITH_STUDY=ON");
 }
 

@@ -69,8 +69,8 @@ void the_rigid_limit_is_reached_by_default(void **) {
                 rigid = sweep(1e12, FormulationKind::automatic), soft = sweep(30, FormulationKind::automatic);
     std::printf("    peak at k_n = 30: %.6f, 1e5: %.6f, 1e12: %.6f\n", soft.top, stiff.top, rigid.top);
     assert_true(!soft.compliant && stiff.compliant && rigid.compliant);
-    assert_int_equal(stiff.reason, PLM_REASON_RANGE_END);
-    assert_int_equal(rigid.reason, PLM_REASON_RANGE_END);
+    assert_int_equal(stiff.reason, plm::reason::range_end);
+    assert_int_equal(rigid.reason, plm::reason::range_end);
     assert_true(close_to(rigid.top, stiff.top, 5e-3)); // points of two sweeps, and O(1/k_n)
 }
 
@@ -82,7 +82,7 @@ void the_form_can_be_refused(void **) {
     try {
         solver(test::reduce_exactly(test::bilinear_oscillator(0.05, 3, 0, 1, 0)), o, 1, 2);
     } catch (const plm::Error &e) {
-        refused = e.status() == PLM_ERR_ARGUMENT;
+        refused = e.status() == plm::status::argument;
     }
     assert_true(refused);
 }

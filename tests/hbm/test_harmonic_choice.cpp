@@ -40,10 +40,10 @@ void a_load_that_the_harmonics_do_not_reach_is_refused(void **) {
                of_backbones = test::failure_of([&] { solver(m, few, 0.5, 2).find_backbones(0); }),
                of_capped = test::failure_of([&] { solver(m, capped, 0.5, 2).sweep(); });
     for (const auto &f : {of_solve, of_sweep, of_backbones}) {
-        assert_int_equal(f.status, PLM_ERR_ARGUMENT);
+        assert_int_equal(f.status, plm::status::argument);
         assert_string_equal(f.argument.c_str(), "n_harmonics");
     }
-    assert_int_equal(of_capped.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(of_capped.status, plm::status::argument);
     assert_string_equal(of_capped.argument.c_str(), "max_harmonics");
 }
 
@@ -68,7 +68,7 @@ void too_few_harmonics_are_said(void **) {
     const BranchPtr b = solver(m, test::by_harmonics(), 1.7, 2.1).solve(1.9 / (2 * M_PI), nullptr, 0);
     const HbmOptions o = test::by_harmonics();
     const bool missed = b->points()[0].harmonic_error > o.allowed_harmonic_error(),
-               said = b->warnings.has(PLM_REASON_HARMONICS_TOO_FEW),
+               said = b->warnings.has(plm::reason::harmonics_too_few),
                where = b->warnings.text().find("1 of 1 points") != std::string::npos &&
                        b->warnings.text().find("0.302394 Hz") != std::string::npos;
     assert_true(missed && said && where);

@@ -67,7 +67,7 @@ Errors homogeneous() {
 void bilinear_frequency_at_every_amplitude(void **) {
     const Errors e = homogeneous();
     print("no gap", e);
-    assert_int_equal(e.reason, PLM_REASON_RANGE_END);
+    assert_int_equal(e.reason, plm::reason::range_end);
     assert_true(below(std::abs(e.low / (4.0 / 3) - 1), 1e-6));
     assert_true(below(std::abs(e.high / (4.0 / 3) - 1), 1e-6));
     assert_true(below(e.damping, 1e-10));
@@ -79,7 +79,7 @@ Errors with_gap() {
 void gap_stiffens_as_the_exact_motion_does(void **) {
     const Errors e = with_gap();
     print("gap", e);
-    assert_int_equal(e.reason, PLM_REASON_RANGE_END);
+    assert_int_equal(e.reason, plm::reason::range_end);
     assert_true(e.low > 0.999999 && e.high > 1.3);
     assert_true(below(e.frequency, 1e-4));
     assert_true(below(e.closed, 1e-3));
@@ -210,7 +210,7 @@ plm::Warnings said_with(int most, double &tail) {
 void too_few_harmonics_are_said(void **) {
     const double wanted = plm::HbmOptions().allowed_harmonic_error();
     double tail = 0;
-    assert_true(said_with(3, tail).has(PLM_REASON_HARMONICS_TOO_FEW) && tail > wanted);
+    assert_true(said_with(3, tail).has(plm::reason::harmonics_too_few) && tail > wanted);
     assert_true(said_with(60, tail).empty() && tail <= wanted);
 }
 

@@ -23,7 +23,7 @@ using plm::Matrix;
 using plm::vector;
 
 struct Outcome {
-    int status = PLM_OK;
+    int status = plm::status::ok;
     int reason = 0;
     std::int64_t index = -1, code = 0;
 };

@@ -83,13 +83,13 @@ void both_ways_agree(void **) {
 void too_few_samples_are_refused(void **) {
     for (const Shape &s : {Shape{-1, 8}, Shape{4, 8}, Shape{0, 0}, Shape{1, -5}, Shape{INT64_MAX, 7}}) {
         const auto o = outcome_of([&] { plm::Dft(s.harmonics, s.samples); });
-        assert_int_equal(o.status, PLM_ERR_ARGUMENT);
+        assert_int_equal(o.status, plm::status::argument);
     }
     const auto o = outcome_of([] {
         Matrix x;
         plm::Dft(2, 8).to_time(Matrix(4, 1), x);
     });
-    assert_int_equal(o.status, PLM_ERR_INTERNAL);
+    assert_int_equal(o.status, plm::status::internal);
 }
 
 void the_backend_names_itself(void **) {

@@ -99,8 +99,8 @@ void bad_input_never_reaches_lapack(void **) {
         a(0, 1) = std::numeric_limits<double>::quiet_NaN();
         plm::general_eigenvalues(a);
     });
-    assert_int_equal(shape.status, PLM_ERR_INTERNAL);
-    assert_int_equal(nan.status, PLM_ERR_MATRIX);
+    assert_int_equal(shape.status, plm::status::internal);
+    assert_int_equal(nan.status, plm::status::matrix);
     assert_true(plm::general_eigenvalues(Matrix()).empty());
     assert_true(plm::general_eigen(Matrix()).values.empty());
 }

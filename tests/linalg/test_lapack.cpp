@@ -49,9 +49,9 @@ void wrong_shapes_never_reach_blas(void **) {
     const auto inner = outcome_of([] { plm::product('N', 'N', Matrix(2, 3), Matrix(2, 3)); });
     const auto op = outcome_of([] { plm::product('X', 'N', Matrix(2, 2), Matrix(2, 2)); });
     const auto empty = outcome_of([] { plm::product('T', 'N', Matrix(0, 3), Matrix(0, 2)); });
-    assert_int_equal(inner.status, PLM_ERR_INTERNAL);
-    assert_int_equal(op.status, PLM_ERR_INTERNAL);
-    assert_int_equal(empty.status, PLM_OK);
+    assert_int_equal(inner.status, plm::status::internal);
+    assert_int_equal(op.status, plm::status::internal);
+    assert_int_equal(empty.status, plm::status::ok);
 }
 
 void append_and_columns_keep_the_data(void **) {
@@ -109,8 +109,8 @@ void general_eigenpairs_are_b_orthonormal(void **) {
     Matrix indefinite = b;
     indefinite(7, 7) = -1;
     const auto o = outcome_of([&] { plm::symmetric_eigen_general(a, indefinite); });
-    assert_int_equal(o.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
-    assert_int_equal(o.reason, PLM_REASON_NOT_POSITIVE_DEFINITE);
+    assert_int_equal(o.status, plm::status::not_positive_definite);
+    assert_int_equal(o.reason, plm::reason::not_positive_definite);
     assert_int_equal(o.index, 7);
 }
 
@@ -157,7 +157,7 @@ void nan_and_inf_are_refused_before_lapack(void **) {
                 plm::ComplexLu().factor(2, t);
             }).status,
         };
-        for (int s : status) assert_int_equal(s, PLM_ERR_MATRIX);
+        for (int s : status) assert_int_equal(s, plm::status::matrix);
     }
 }
 

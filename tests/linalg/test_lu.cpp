@@ -36,18 +36,18 @@ int status_of_lu(std::int64_t n, Listener &listener) {
     } catch (const plm::Error &e) {
         return e.status();
     }
-    return PLM_OK;
+    return plm::status::ok;
 }
 
 // 2400^3 2/3 = 9.2e9 flops, which count for an eighth, in pieces of 3e8.
 void a_large_factorization_is_heard_of_and_can_be_stopped(void **) {
     Listener all, none, stopped;
     stopped.stop_at = 2;
-    assert_int_equal(status_of_lu(100, none), PLM_OK);
+    assert_int_equal(status_of_lu(100, none), plm::status::ok);
     assert_int_equal(none.heard, 0);
-    assert_int_equal(status_of_lu(2400, all), PLM_OK);
+    assert_int_equal(status_of_lu(2400, all), plm::status::ok);
     assert_in_range(all.heard, 3, 6);
-    assert_int_equal(status_of_lu(2400, stopped), PLM_CANCELLED);
+    assert_int_equal(status_of_lu(2400, stopped), plm::status::cancelled);
     assert_int_equal(stopped.heard, 2);
 }
 
@@ -112,7 +112,7 @@ void complex_lu_solves_and_refuses_singular_matrices(void **) {
     assert_true(error < 1e-11);
     vector<complex> singular(4, complex(1, 1));
     const auto o = outcome_of([&] { lu.factor(2, singular); });
-    assert_int_equal(o.status, PLM_ERR_SINGULAR);
+    assert_int_equal(o.status, plm::status::singular);
     assert_int_equal(o.index, 1);
 }
 

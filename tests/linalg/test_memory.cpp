@@ -87,8 +87,8 @@ void absurd_sizes_are_refused(void **) {
     const auto negative = outcome_of([] { Matrix().reset(-1, 3); });
     const auto overflow = outcome_of([] { Matrix().reset(INT64_MAX / 2, 3); });
     assert_int_equal(huge.status, bad_alloc);
-    assert_int_equal(negative.status, PLM_ERR_INTERNAL);
-    assert_int_equal(overflow.status, PLM_ERR_INTERNAL);
+    assert_int_equal(negative.status, plm::status::internal);
+    assert_int_equal(overflow.status, plm::status::internal);
 }
 
 /// Runs a task that allocates in many places with each of its allocations failing in turn.
@@ -111,7 +111,7 @@ void every_failing_allocation_is_bad_alloc_and_leaks_nothing(void **) {
             });
         }
         leaks += c.made != c.freed;
-        if (o.status == PLM_OK || rounds > 1000) break;
+        if (o.status == plm::status::ok || rounds > 1000) break;
         wrong_status += o.status != bad_alloc;
     }
     assert_int_equal(wrong_status, 0);

@@ -60,10 +60,10 @@ void the_exception_is_that_of_a_loop(void **) {
         const plm::ThreadsScope scope(3);
         const auto o = outcome_of([&] {
             plm::parallel_for(pieces, [](std::int64_t i) {
-                if (i >= 20) throw plm::Error(PLM_ERR_SINGULAR, "piece").index(i);
+                if (i >= 20) throw plm::Error(plm::status::singular, "piece").index(i);
             });
         });
-        assert_int_equal(o.status, PLM_ERR_SINGULAR);
+        assert_int_equal(o.status, plm::status::singular);
         assert_int_equal(o.index, 20);
     }
 }
@@ -89,7 +89,7 @@ void the_listener_is_called_on_its_thread(void **) {
             plm::worked(plm::piece_of_work);
         });
     });
-    assert_int_equal(o.status, PLM_CANCELLED);
+    assert_int_equal(o.status, plm::status::cancelled);
     assert_int_equal(stop.elsewhere.load(), 0);
     assert_true(done < 1000000);
 }
@@ -122,10 +122,10 @@ void the_first_piece_that_fails_is_told_whichever_was_the_faster(void **) {
             while (!(i == 0 ? fails : begun) && std::chrono::steady_clock::now() < until)
                 std::this_thread::yield();
             if (i == 0) std::this_thread::sleep_for(std::chrono::milliseconds(50)); // the other is through
-            throw plm::Error(PLM_ERR_SINGULAR, "piece").index(i);
+            throw plm::Error(plm::status::singular, "piece").index(i);
         });
     });
-    assert_int_equal(o.status, PLM_ERR_SINGULAR);
+    assert_int_equal(o.status, plm::status::singular);
     assert_int_equal(o.index, 0);
 }
 

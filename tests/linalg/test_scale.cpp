@@ -12,7 +12,8 @@ std::int64_t refused_at(const std::vector<double> &values) {
     try {
         plm::require_finite_result(values.data(), static_cast<std::int64_t>(values.size()), "result");
     } catch (const plm::Error &e) {
-        return e.status() == PLM_ERR_CONVERGENCE && e.reason() == PLM_REASON_NOT_FINITE ? e.index() : -2;
+        return e.status() == plm::status::convergence && e.reason() == plm::reason::not_finite ? e.index()
+                                                                                               : -2;
     }
     return -1;
 }

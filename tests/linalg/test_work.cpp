@@ -36,10 +36,10 @@ void an_inner_scope_gives_way_to_the_outer_one(void **) {
 
 void other_failures_pass(void **) {
     try {
-        plm::within(1000, [] { throw plm::Error(PLM_ERR_SINGULAR, "singular"); });
+        plm::within(1000, [] { throw plm::Error(plm::status::singular, "singular"); });
         fail();
     } catch (const plm::Error &e) {
-        assert_int_equal(e.status(), PLM_ERR_SINGULAR);
+        assert_int_equal(e.status(), plm::status::singular);
     }
 }
 

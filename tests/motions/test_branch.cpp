@@ -69,7 +69,7 @@ void a_curve_has_no_more_points_than_it_may(void **) {
         plm::PathOptions path = plm::path_options(options, 1, 2);
         path.upward = true;
         const plm::PathOutcome out = plm::follow_path(line, path, {{{1}, 1}}, owner);
-        assert_int_equal(out.end_reason, PLM_REASON_POINT_LIMIT);
+        assert_int_equal(out.end_reason, plm::reason::point_limit);
         assert_int_equal(owner.n, most);
     }
 }

@@ -92,9 +92,9 @@ void its_sweep_is_stable_and_whole(void **) {
     for (NonlinearUnknowns unknowns :
          {NonlinearUnknowns::automatic, NonlinearUnknowns::modal, NonlinearUnknowns::gaps}) {
         const auto curve = solver(in_free_flight(), unknowns).sweep();
-        assert_int_equal(curve->end_reason, PLM_REASON_RANGE_END);
+        assert_int_equal(curve->end_reason, plm::reason::range_end);
         for (const plm::BranchPoint &p : curve->points())
-            assert_true(plm::stability_of(p) == 1 && p.bifurcation == PLM_BIFURCATION_NONE);
+            assert_true(plm::stability_of(p) == 1 && p.bifurcation == plm::bifurcation::none);
     }
 }
 
@@ -104,7 +104,7 @@ void refused(const Model &m) {
         try {
             solver(m, unknowns).sweep();
         } catch (const plm::Error &e) {
-            thrown = e.reason() == PLM_REASON_NO_EQUILIBRIUM && std::strstr(e.what(), "rigid-body motion");
+            thrown = e.reason() == plm::reason::no_equilibrium && std::strstr(e.what(), "rigid-body motion");
         }
         assert_true(thrown);
     }
@@ -119,7 +119,8 @@ void loads_that_would_carry_it_away_are_refused(void **) {
     // a balanced pre-load only presses the masses on each other
     const Model pressed = in_free_flight();
     pressed->preload_0[1] = 0.2;
-    assert_int_equal(solver(pressed, NonlinearUnknowns::automatic).sweep()->end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(solver(pressed, NonlinearUnknowns::automatic).sweep()->end_reason,
+                     plm::reason::range_end);
 }
 
 // The pair of masses beside a wall: no spring but the stop would ever hold it.
@@ -159,7 +160,7 @@ void a_stop_out_of_reach_leaves_the_mean_position_at_zero(void **) {
     for (NonlinearUnknowns unknowns :
          {NonlinearUnknowns::automatic, NonlinearUnknowns::modal, NonlinearUnknowns::gaps}) {
         const Wall w = swept_beside_a_wall(unknowns);
-        assert_int_equal(w.reason, PLM_REASON_RANGE_END);
+        assert_int_equal(w.reason, plm::reason::range_end);
         assert_true(below(w.mean, 1e-9));      // of amplitudes near 1
         assert_true(below(w.amplitude, 1e-7)); // Newton's tolerance is 1e-9 of the force
         assert_true(w.stable == 1);

@@ -212,7 +212,7 @@ void chatter_is_an_error_not_a_hang(void **) {
     const auto model = std::make_shared<plm::FlowModel>(std::shared_ptr<const plm::ReducedModel>(m));
     plm::ExactFlow flow(model, 1, 1);
     FlowState x = at(-m->excitation.at(2000).real[0] / 4e6, 0); // no swing of its own
-    assert_int_equal(failure_of([&] { flow.advance(x, flow.period()); }).status, PLM_ERR_CONVERGENCE);
+    assert_int_equal(failure_of([&] { flow.advance(x, flow.period()); }).status, plm::status::convergence);
     assert_true(flow.n_events() > 1000);
 }
 
@@ -224,15 +224,18 @@ void wrong_input_is_refused(void **) {
         });
     };
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    assert_int_equal(run({{0, 0}, {0}, 0}, 1).status, PLM_ERR_ARGUMENT);
-    assert_int_equal(run({{nan}, {0}, 0}, 1).status, PLM_ERR_ARGUMENT);
-    assert_int_equal(run({{0}, {0}, 0}, nan).status, PLM_ERR_ARGUMENT);
-    assert_int_equal(run({{0}, {0}, 2}, 1).status, PLM_ERR_ARGUMENT);
+    assert_int_equal(run({{0, 0}, {0}, 0}, 1).status, plm::status::argument);
+    assert_int_equal(run({{nan}, {0}, 0}, 1).status, plm::status::argument);
+    assert_int_equal(run({{0}, {0}, 0}, nan).status, plm::status::argument);
+    assert_int_equal(run({{0}, {0}, 2}, 1).status, plm::status::argument);
     assert_int_equal(failure_of([] { plm::ExactFlow(oscillator(0, 3, 0, 1), 0, 1); }).status,
-                     PLM_ERR_ARGUMENT);
+                     plm::status::argument);
     const auto model = oscillator(0, 3, 0, 1);
-    assert_int_equal(failure_of([&] { model->state({0, 0}, Matrix(1, 2), 1, 0); }).status, PLM_ERR_ARGUMENT);
-    assert_int_equal(failure_of([&] { model->dof_row(1); }).status, PLM_ERR_ARGUMENT);
+    assert_int_equal(failure_of([&] {
+                         model->state({0, 0}, Matrix(1, 2), 1, 0);
+                     }).status,
+                     plm::status::argument);
+    assert_int_equal(failure_of([&] { model->dof_row(1); }).status, plm::status::argument);
 }
 
 struct Stopper : plm::Monitor {
@@ -247,7 +250,7 @@ void the_host_can_stop_it(void **) {
         FlowState x = at(0, 1);
         flow.advance(x, 1000 * flow.period());
     });
-    assert_int_equal(f.status, PLM_CANCELLED);
+    assert_int_equal(f.status, plm::status::cancelled);
 }
 
 } // namespace

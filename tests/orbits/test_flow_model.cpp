@@ -152,7 +152,7 @@ void structural_damping_loses_the_same_energy(void **) {
         r->structural = 0.04;
         plm::FlowModel m(r);
     });
-    assert_int_equal(f.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(f.status, plm::status::argument);
     assert_string_equal(f.argument.c_str(), "omega");
 }
 

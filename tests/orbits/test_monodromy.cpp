@@ -200,11 +200,11 @@ void wrong_intervals_are_refused(void **) {
     assert_int_equal(failure_of([&] {
                          plm::monodromy(*model, {{1.0, set({1, 0})}});
                      }).status,
-                     PLM_ERR_ARGUMENT);
+                     plm::status::argument);
     assert_int_equal(failure_of([&] {
                          plm::monodromy(*model, {{-1.0, set({1, 0, 0})}});
                      }).status,
-                     PLM_ERR_ARGUMENT);
+                     plm::status::argument);
 }
 
 // The cost of a stability statement; the numbers stand in docs and are printed, not judged.
@@ -216,10 +216,10 @@ std::int32_t reason_of_no_digit() {
     } catch (const plm::Error &e) {
         return e.reason();
     }
-    return PLM_REASON_NONE;
+    return plm::reason::none;
 }
 void a_phase_without_a_digit_is_said(void **) {
-    assert_int_equal(reason_of_no_digit(), PLM_REASON_NOT_FINITE);
+    assert_int_equal(reason_of_no_digit(), plm::reason::not_finite);
 }
 
 void print_times(void **) {

@@ -264,7 +264,7 @@ std::shared_ptr<const plm::Model> model_of(const scene &s) {
         }
     in.contact.stiffness.assign(s.contact_stiffness, s.contact_stiffness + s.n_pairs);
     for (double &k : in.contact.stiffness)
-        if (k < 0) k = PLM_AUTO_STIFFNESS;
+        if (k < 0) k = plm::auto_stiffness;
     in.contact.initial_gap.assign(s.gap, s.gap + s.n_pairs);
     if (s.preload) in.preload.assign(s.preload, s.preload + s.n_dof);
     in.excitation[1].real.assign(s.force, s.force + s.n_dof);
@@ -360,17 +360,17 @@ void wrong_input_is_refused(void **) {
     const exact::Structure s = structure(5, 0);
     const auto model = make_model(s);
     for (double omega : {0.0, std::numeric_limits<double>::quiet_NaN()})
-        assert_int_equal(failure_of([&] { plm::Newmark(model, omega, {}); }).status, PLM_ERR_ARGUMENT);
+        assert_int_equal(failure_of([&] { plm::Newmark(model, omega, {}); }).status, plm::status::argument);
     ModelExtras extras;
     extras.modal_ratio = {0.01};
     const auto modal = make_model(s, extras);
     const Failure f = failure_of([&] { plm::Newmark(modal, 1, {}); });
-    assert_int_equal(f.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(f.status, plm::status::argument);
     assert_string_equal(f.argument.c_str(), "modal_ratio");
     const Failure size = failure_of([&] {
         plm::Newmark(model, 1, {}).run(plm::FullState{plm::Field(1, 1), plm::Field(1, 1), 0});
     });
-    assert_int_equal(size.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(size.status, plm::status::argument);
 }
 
 struct Stopper : plm::Monitor {

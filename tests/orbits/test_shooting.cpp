@@ -141,7 +141,7 @@ void rest_has_no_defect(void **) {
 void rows_of_another_flow_are_refused(void **) {
     plm::ExactFlow flow(flow_model(bilinear_oscillator(0.05, 3, 0.2, 1, 0)), 1, 1);
     assert_int_equal(failure_of([&] { plm::orbit_peaks(flow, plm::FlowState(), 1, Matrix(1, 2)); }).status,
-                     PLM_ERR_ARGUMENT);
+                     plm::status::argument);
 }
 
 } // namespace

@@ -86,8 +86,8 @@ class Owner final : public plm::PathOwner {
         ++n_points;
         if (!p.x.empty()) heights.push_back(p.x[0]);
         all_whole = all_whole && p.x.size() == 1;
-        if (p.bifurcation == PLM_BIFURCATION_NEIMARK_SACKER) ++n_changes, change = p.parameter;
-        if (p.bifurcation != PLM_BIFURCATION_FOLD) return;
+        if (p.bifurcation == plm::bifurcation::neimark_sacker) ++n_changes, change = p.parameter;
+        if (p.bifurcation != plm::bifurcation::fold) return;
         ++n_folds;
         fold = p.parameter;
     }
@@ -99,7 +99,7 @@ class Owner final : public plm::PathOwner {
     }
     vector<std::int32_t> test_kinds() const override {
         if (!test_) return {};
-        return {PLM_BIFURCATION_NEIMARK_SACKER};
+        return {plm::bifurcation::neimark_sacker};
     }
     int n_points = 0, n_folds = 0, n_changes = 0, n_looks = 0;
     double fold = 0, change = 0;
@@ -157,7 +157,7 @@ double grazing_end() {
 void a_corner_beyond_a_right_angle_is_followed(void **) {
     KnownCurve curve(corner, corner_slope);
     const Followed f = follow(curve);
-    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(f.out.end_reason, plm::reason::range_end);
     assert_true(near(f.out.at.x[0], 2.0 / 3, 1e-9));
     assert_true(f.out.direction.parameter < 0);
 }
@@ -166,7 +166,7 @@ void a_corner_beyond_a_right_angle_is_followed(void **) {
 void a_path_that_comes_by_a_point_of_its_own_ends(void **) {
     Circle circle;
     const Followed f = follow(circle, {{{0.312}, 0.5}});
-    assert_int_equal(f.out.end_reason, PLM_REASON_CROSSED_OVER);
+    assert_int_equal(f.out.end_reason, plm::reason::crossed_over);
     assert_true(f.out.arclength > 1.5 && f.owner.n_points < 100);
 }
 
@@ -174,7 +174,7 @@ void a_path_that_comes_by_a_point_of_its_own_ends(void **) {
 void a_closed_path_comes_back_to_its_start(void **) {
     Circle circle;
     const Followed f = follow(circle, {{{0.3}, 0.5}});
-    assert_int_equal(f.out.end_reason, PLM_REASON_LOOP_CLOSED);
+    assert_int_equal(f.out.end_reason, plm::reason::loop_closed);
 }
 
 void a_corner_at_which_the_parameter_turns_is_a_fold(void **) {
@@ -187,7 +187,7 @@ void a_corner_at_which_the_parameter_turns_is_a_fold(void **) {
 void a_grazing_corner_is_passed_whatever_the_smallest_step(void **) {
     KnownCurve curve(grazing, grazing_slope);
     const Followed f = follow(curve);
-    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(f.out.end_reason, plm::reason::range_end);
     assert_true(near(f.out.at.x[0], grazing_end(), 1e-9)); // the tolerance of Newton's correction
     assert_true(f.owner.n_points < 150);
 }
@@ -200,12 +200,12 @@ void a_path_that_comes_to_its_beginning_from_behind_has_turned_back(void **) {
     start.end = {{0.4}, 0.4};
     start.end_direction = {{-1}, -1};
     const Followed f = follow(curve, start);
-    assert_int_equal(f.out.end_reason, PLM_REASON_TURNED_BACK);
+    assert_int_equal(f.out.end_reason, plm::reason::turned_back);
     assert_true(f.out.at.x[0] >= 0.4 && f.out.at.x[0] < 0.5);
     start.end_direction = {{1}, 1};
-    assert_int_equal(follow(curve, start).out.end_reason, PLM_REASON_LOOP_CLOSED);
+    assert_int_equal(follow(curve, start).out.end_reason, plm::reason::loop_closed);
     start.end.x = {0.48}; // beside the curve: neither
-    assert_int_equal(follow(curve, start).out.end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(follow(curve, start).out.end_reason, plm::reason::range_end);
 }
 
 // The amplitude of an undamped oscillator, beyond whose resonance at p = 1.01 the range does not reach: in
@@ -222,7 +222,7 @@ double resonance_slope(double p) {
 void the_flank_of_a_resonance_takes_few_points(void **) {
     Response curve(resonance, resonance_slope);
     const Followed f = follow(curve, {{{1}, 0}});
-    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(f.out.end_reason, plm::reason::range_end);
     assert_true(f.owner.n_points < 50);
 }
 
@@ -232,7 +232,7 @@ void the_last_point_belongs_to_the_curve(void **) {
     Response curve([](double p) { return std::pow(p, 8); }, [](double p) { return 8 * std::pow(p, 7); },
                    3e-3);
     const Followed f = follow(curve);
-    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(f.out.end_reason, plm::reason::range_end);
     assert_true(near(f.out.at.x[0], 1, 1e-9));
 }
 
@@ -240,7 +240,7 @@ void the_last_point_belongs_to_the_curve(void **) {
 void a_test_function_that_dips_is_not_stepped_over(void **) {
     KnownCurve line([](double x) { return x; }, [](double) { return 1; });
     const Followed f = follow(line, {{{0}, 0}}, Owner([](double p) { return std::abs(p - 0.5) - 0.01; }));
-    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(f.out.end_reason, plm::reason::range_end);
     assert_int_equal(f.owner.n_changes, 2);
 }
 
@@ -250,7 +250,7 @@ void a_test_function_that_is_infinite_has_no_zero(void **) {
     KnownCurve line([](double x) { return x; }, [](double) { return 1; });
     const Followed f =
         follow(line, {{{0}, 0}}, Owner([](double p) { return p < 0.3 ? INFINITY : -INFINITY; }));
-    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(f.out.end_reason, plm::reason::range_end);
     assert_int_equal(f.owner.n_changes, 0);
     assert_true(f.owner.all_whole);
 }
@@ -260,7 +260,7 @@ void a_test_function_that_is_not_known_keeps_its_sign(void **) {
     KnownCurve line([](double x) { return x; }, [](double) { return 1; });
     const auto gap = [](double p) { return p > 0.22 && p < 0.32 ? NAN : p - 0.36; };
     const Followed f = follow(line, {{{0}, 0}}, Owner(gap));
-    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(f.out.end_reason, plm::reason::range_end);
     assert_int_equal(f.owner.n_between(0.22, 0.32), 1);
     assert_int_equal(f.owner.n_between(0.32, 0.355), 0); // the next one lies beyond the zero
     assert_int_equal(f.owner.n_changes, 1);
@@ -274,7 +274,7 @@ void a_correction_far_beyond_its_step_is_no_step(void **) {
     Response cliff([](double p) { return 1 + 25 * (1 + std::tanh((p - 0.5) / width)); },
                    [](double p) { return 25 / width / std::pow(std::cosh((p - 0.5) / width), 2); });
     const Followed f = follow(cliff, {{{1}, 0}});
-    assert_int_equal(f.out.end_reason, PLM_REASON_RANGE_END);
+    assert_int_equal(f.out.end_reason, plm::reason::range_end);
     assert_true(near(f.out.at.x[0], 51, 1e-9));
     assert_true(f.owner.n_between(2, 50) >= 3);
 }

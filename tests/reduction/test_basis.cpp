@@ -257,7 +257,7 @@ void no_mode_at_all_is_an_error(void **) {
     BasisOptions o = rule(ModeSelection::bands);
     o.frequency_min_hz = 1e-6, o.frequency_max_hz = 2e-6;
     const test::Failure f = test::failure_of([&] { build(c, o); });
-    assert_int_equal(f.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(f.status, plm::status::argument);
     assert_string_equal(f.argument.c_str(), "selection");
 }
 

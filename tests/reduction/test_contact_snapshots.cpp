@@ -181,7 +181,7 @@ void it_needs_a_sampler(void **) {
     const Case c = chains(true);
     const test::Failure f =
         test::failure_of([&] { Basis(c.model, nullptr, nullptr, snapshots(), plm::Watch()); });
-    assert_int_equal(f.status, PLM_ERR_STATE);
+    assert_int_equal(f.status, plm::status::state);
     assert_string_equal(f.argument.c_str(), "sampler");
 }
 

@@ -206,7 +206,7 @@ void all_pairs_carried_is_no_sampling(void **) {
     assert_true(all->reduced()->contact.stiffness == c.model->contact_stiffness());
     const test::Failure f = test::failure_of(
         [&] { c.basis(sampled(&plm::basis_kinds::plm, 10, plm::PairRule::effective_independence)); });
-    assert_int_equal(f.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(f.status, plm::status::argument);
     assert_string_equal(f.argument.c_str(), "n_pairs_carried");
 }
 

@@ -13,7 +13,7 @@ std::shared_ptr<const plm::MatrixInput> to_input(int n, const std::function<doub
     plm::MatrixFormat f;
     f.n = n;
     f.nnz = static_cast<std::int64_t>(value.size());
-    f.storage = PLM_TRIPLETS;
+    f.storage = plm::storage::triplets;
     return std::make_shared<plm::MatrixInput>(f, row.data(), col.data(), value.data());
 }
 

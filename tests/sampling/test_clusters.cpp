@@ -79,7 +79,7 @@ void the_dominant_mode_of_a_shaft_lies_along_its_force(void **) {
             close_to(s->dominant()[0].frequency_hz, 100 * 2 * std::sin(M_PI / 14) / (2 * M_PI), 1e-9));
         const plm::MacRow &open = s->window().mac[1]; // the half cycle without contact
         assert_true(near(open.mac[0], 1, 1e-9) && near(open.mac[1], 0, 1e-9));
-        assert_false(s->warnings().has(PLM_REASON_LOST_MODE));
+        assert_false(s->warnings().has(plm::reason::lost_mode));
     }
 }
 
@@ -107,17 +107,17 @@ void resonances_driven_alike_are_both_named(void **) {
     const double low = 100 / (2 * M_PI), high = 200 / (2 * M_PI);
     for (double ratio : {0.97, 1.0, 1 + 1e-9, 1.02}) {
         const auto s = run(two_alike(ratio));
-        assert_true(s->warnings().has(PLM_REASON_TIE));
+        assert_true(s->warnings().has(plm::reason::tie));
         const std::string text = s->warnings().text();
         assert_true(text.find(plm::format("%.6g Hz", low)) != std::string::npos &&
                     text.find(plm::format("%.6g Hz", high)) != std::string::npos);
         const double want = ratio > 1.01 ? high : low; // of equal ones the lower
         assert_true(close_to(s->dominant()[0].frequency_hz, want, 1e-9));
     }
-    assert_false(run(two_alike(0.9))->warnings().has(PLM_REASON_TIE));
+    assert_false(run(two_alike(0.9))->warnings().has(plm::reason::tie));
     SamplerOptions o; // who names one has no choice to make
     o.mode_frequency_hz = high;
-    assert_false(run(two_alike(1), o)->warnings().has(PLM_REASON_TIE));
+    assert_false(run(two_alike(1), o)->warnings().has(plm::reason::tie));
 }
 
 // A structure of 100 rad/s within, on a soft spring: it moves most at 5 rad/s, and its contact does not.
@@ -130,7 +130,7 @@ void soft_supports_are_not_proposed(void **) {
     load(in, {1, 0});
     const auto s = run(in);
     assert_int_equal(s->dominant()[0].mode, 2);
-    assert_false(s->warnings().has(PLM_REASON_LOST_MODE));
+    assert_false(s->warnings().has(plm::reason::lost_mode));
     load(in, {1, 1 + 1e-4}); // driven alone, as good as, it is taken all the same
     SamplerOptions o;
     o.mode = 1;

@@ -247,7 +247,7 @@ void options_that_do_not_fit_one_another_or_the_model_are_refused(void **) {
     for (const auto &c : cases) {
         const test::Failure f = failure_with(c.change);
         assert_true(f.thrown);
-        assert_int_equal(f.status, PLM_ERR_ARGUMENT);
+        assert_int_equal(f.status, plm::status::argument);
         assert_string_equal(f.argument.c_str(), c.argument);
     }
 }

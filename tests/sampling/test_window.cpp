@@ -125,7 +125,7 @@ void a_window_in_rad_s_is_told(void **) {
         return plm::Sampler(test::make_model(s), o, plm::Watch()).warnings();
     };
     const double resonance = 2 * M_PI * 1.5 * hz; // rad/s
-    assert_true(said(0.9 * resonance, 1.1 * resonance).has(PLM_REASON_OUTSIDE_BASIS));
+    assert_true(said(0.9 * resonance, 1.1 * resonance).has(plm::reason::outside_basis));
     assert_true(said(0.9 * 1.5 * hz, 1.1 * 1.5 * hz).empty());
     assert_true(said(0.9 * 1.5 * hz, 1.1 * resonance).empty());  // wide, with the resonance inside
     assert_true(said(0.5 * resonance, 0.7 * resonance).empty()); // elsewhere, as a host may ask for
@@ -140,7 +140,7 @@ void a_mode_in_rad_s_is_told(void **) {
     };
     assert_true(said(1 * hz).empty());
     assert_true(said(1.5 * hz).empty()); // where the response is largest
-    assert_true(said(1).has(PLM_REASON_OUTSIDE_BASIS));
+    assert_true(said(1).has(plm::reason::outside_basis));
 }
 
 // A mass held by nothing but its contact, pressed by a weight: the open half cycle has no frequency.

@@ -49,7 +49,7 @@ void harmonics_follow_the_need_of_each_point(void **) {
     const Chosen c = chosen_harmonics();
     std::printf("    H between %d and %d, peak against H = 60: %.1e, points over the tolerance: %d\n",
                 static_cast<int>(c.fewest), static_cast<int>(c.most), c.error, static_cast<int>(c.over));
-    assert_int_equal(c.reason, PLM_REASON_RANGE_END);
+    assert_int_equal(c.reason, plm::reason::range_end);
     assert_true(c.fewest == 3 && c.most > 5 && c.most < 60);
     assert_true(below(c.error, 1e-3));
     assert_int_equal(c.over, 0); // points with too few are solved again with more

@@ -114,7 +114,7 @@ void peaks_are_followed_over_the_stiffness(void **) {
     assert_true(resonance.correct(1, peak));
     const plm::StiffnessPath path = resonance.over_stiffness(peak, 4);
     const auto &points = path.branch->points();
-    assert_true(points.size() == path.factor.size() && path.branch->end_reason == PLM_REASON_RANGE_END);
+    assert_true(points.size() == path.factor.size() && path.branch->end_reason == plm::reason::range_end);
     assert_true(near(path.factor.back(), 4, 1e-12));
     plm::BranchPoint other = points.back();
     assert_true(plm::PhaseResonance(chain_model(120), options, plm::Watch()).correct(1, other));

@@ -124,15 +124,15 @@ Located errors_of(const exact::Structure &s, std::int32_t kind, double sign, dou
 }
 
 void period_doublings_of_the_bilinear_oscillator_are_exact(void **) {
-    const Located f = errors_of(test::bilinear_oscillator(0.02, 3, 0, 1, 0), PLM_BIFURCATION_PERIOD_DOUBLING,
-                                -1, 2.0, 3.8, 60);
+    const Located f = errors_of(test::bilinear_oscillator(0.02, 3, 0, 1, 0),
+                                plm::bifurcation::period_doubling, -1, 2.0, 3.8, 60);
     assert_int_equal(f.n, 2);
     assert_true(below(f.error, 1e-6));
 }
 
 void folds_of_the_bilinear_oscillator_are_exact(void **) {
     const Located f =
-        errors_of(test::bilinear_oscillator(0.01, 3, 1.0, 0.1, 0), PLM_BIFURCATION_FOLD, 1, 0.9, 1.5, 60);
+        errors_of(test::bilinear_oscillator(0.01, 3, 1.0, 0.1, 0), plm::bifurcation::fold, 1, 0.9, 1.5, 60);
     assert_true(f.n >= 2);
     assert_true(below(f.error, 1e-6));
 }
@@ -178,7 +178,7 @@ Symmetry symmetry_breaking() {
     const plm::Hbm hbm = solver(m, o, 1.2, 2.0);
     const BranchPtr branch = hbm.sweep();
     Symmetry found;
-    const auto points = of_kind(*branch, PLM_BIFURCATION_BRANCH_POINT);
+    const auto points = of_kind(*branch, plm::bifurcation::branch_point);
     if (points.size() != 1) return found;
     const plm::BranchPoint &p = branch->points()[points[0]];
     const double truth = exact_symmetry_breaking(s, state_of(*m, p, p.omega), p.omega);
@@ -218,7 +218,7 @@ Doubled doubled_orbit() {
     const plm::Hbm hbm = solver(m, o, 2.0, 3.8);
     const BranchPtr branch = hbm.sweep();
     Doubled d;
-    const auto points = of_kind(*branch, PLM_BIFURCATION_PERIOD_DOUBLING);
+    const auto points = of_kind(*branch, plm::bifurcation::period_doubling);
     if (points.empty()) return d;
     const BranchPtr doubled = hbm.switch_branch(*branch, points.back(), false);
     d.multiple = doubled->period_multiple();
@@ -237,7 +237,7 @@ Doubled doubled_orbit() {
 void the_doubled_response_repeats_after_two_periods(void **) {
     const Doubled d = doubled_orbit();
     assert_int_equal(d.multiple, 2);
-    assert_int_equal(d.reason, PLM_REASON_LOOP_CLOSED); // back through the other period doubling
+    assert_int_equal(d.reason, plm::reason::loop_closed); // back through the other period doubling
     assert_true(d.after_one > 0.1);
     assert_true(below(d.after_two, 1e-4)); // the truncation at 20 harmonics
 }
@@ -303,7 +303,7 @@ Torus neimark_sacker() {
     o.n_harmonics = 60;
     const BranchPtr branch = solver(m, o, 0.575, 0.72).sweep();
     Torus t;
-    for (std::int64_t i : of_kind(*branch, PLM_BIFURCATION_NEIMARK_SACKER)) {
+    for (std::int64_t i : of_kind(*branch, plm::bifurcation::neimark_sacker)) {
         const plm::BranchPoint &p = branch->points()[i];
         const double truth = exact_torus(s, p.omega, state_of(*m, p, p.omega));
         std::printf("    Neimark-Sacker at %.8f, exact %.8f\n", p.omega, truth);
@@ -333,7 +333,7 @@ FoldCurve fold_curve(std::size_t from, std::vector<double> &folds) {
     o.n_harmonics = 21;
     const plm::Hbm hbm = solver(test::reduce_exactly(folding_oscillator()), o, 0.6, 1.9);
     const BranchPtr curve = hbm.sweep();
-    const auto at = of_kind(*curve, PLM_BIFURCATION_FOLD);
+    const auto at = of_kind(*curve, plm::bifurcation::fold);
     for (std::int64_t i : at) folds.push_back(curve->points()[i].omega);
     const auto tracked = hbm.track_fold(*curve, at.at(from), 0.3, 1.0);
     FoldCurve f;
@@ -368,7 +368,7 @@ void a_curve_of_folds_goes_to_both_sides(void **) {
         std::vector<double> folds;
         const FoldCurve f = fold_curve(from, folds);
         assert_int_equal(folds.size(), 2);
-        assert_int_equal(f.reason, PLM_REASON_RANGE_END);
+        assert_int_equal(f.reason, plm::reason::range_end);
         assert_true(f.ends == 1 && f.lowest < 0.7 && f.lowest > 0.3);
         assert_true(close_to(std::min(f.first, f.last), std::min(folds[0], folds[1]), 1e-6));
         assert_true(close_to(std::max(f.first, f.last), std::max(folds[0], folds[1]), 1e-6));
@@ -384,7 +384,7 @@ std::vector<double> outer_folds(plm::AftKind aft) {
     o.stability = plm::StabilityKind::off;
     const BranchPtr curve = solver(test::reduce_exactly(folding_oscillator()), o, 0.6, 1.9).sweep();
     std::vector<double> folds;
-    for (std::int64_t i : of_kind(*curve, PLM_BIFURCATION_FOLD)) folds.push_back(curve->points()[i].omega);
+    for (std::int64_t i : of_kind(*curve, plm::bifurcation::fold)) folds.push_back(curve->points()[i].omega);
     if (folds.empty()) return {0, 0};
     return {*std::min_element(folds.begin(), folds.end()), *std::max_element(folds.begin(), folds.end())};
 }
@@ -408,7 +408,7 @@ FromStart solve_from_the_upper_branch() {
     const plm::Hbm hbm = solver(test::reduce_exactly(folding_oscillator()), o, 0.6, 1.9);
     const BranchPtr curve = hbm.sweep();
     const auto omega = [&](std::int64_t i) { return curve->points()[i].omega; };
-    auto folds = of_kind(*curve, PLM_BIFURCATION_FOLD);
+    auto folds = of_kind(*curve, plm::bifurcation::fold);
     std::sort(folds.begin(), folds.end(), [&](auto a, auto b) { return omega(a) < omega(b); });
     // beyond the upper fold, coming down: the branch of large amplitudes
     const std::int64_t first = folds.back() + 1, last = first + 12;
@@ -422,7 +422,7 @@ FromStart solve_from_the_upper_branch() {
             f.quiet = f.quiet && one->warnings.empty();
         }
     const BranchPtr beyond = hbm.solve(1.02 * omega(folds.back()) / (2 * M_PI), curve.get(), first);
-    f.warned = beyond->warnings.has(PLM_REASON_OTHER_BRANCH);
+    f.warned = beyond->warnings.has(plm::reason::other_branch);
     return f;
 }
 void a_solution_from_a_start_keeps_to_its_branch_or_says_so(void **) {
@@ -539,7 +539,7 @@ void hills_method_ends_where_it_would_not_be_heard_of(void **) {
         o.n_harmonics = harmonics;
         const auto one = solver(m, o, 0.2, 1.5).solve(0.7 / (2 * M_PI), nullptr, 0);
         assert_int_equal(one->points()[0].multipliers.empty(), harmonics == 50);
-        assert_int_equal(one->warnings.has(PLM_REASON_UNVERIFIED), harmonics == 50);
+        assert_int_equal(one->warnings.has(plm::reason::unverified), harmonics == 50);
     }
 }
 

@@ -99,7 +99,7 @@ void same_curve_as_on_the_whole_basis(void **) {
         assert_true(c.compressed);
         assert_true(c.whole_reference);
         assert_true(c.same_stability);
-        assert_int_equal(c.end, PLM_REASON_RANGE_END);
+        assert_int_equal(c.end, plm::reason::range_end);
         assert_true(below(c.size, 0.6));
         assert_true(below(c.amplitude, allowed));
         assert_true(below(c.frequency, 1e-5));
@@ -257,9 +257,9 @@ void a_model_that_may_not_grow_says_what_a_better_one_changes(void **) {
         std::printf("    accuracy %g: %d coordinates, error %.2g\n", accuracy,
                     static_cast<int>(curve->reduced().size()), error);
         assert_true(curve->reduced().from != nullptr && curve->reduced().size() < p.curve->reduced().size());
-        assert_true(curve->warnings.has(PLM_REASON_BASIS_TOO_SMALL) == (accuracy < 1e-3));
+        assert_true(curve->warnings.has(plm::reason::basis_too_small) == (accuracy < 1e-3));
         assert_true((error > accuracy) == (accuracy < 1e-3));
-        assert_int_equal(curve->end_reason, PLM_REASON_RANGE_END);
+        assert_int_equal(curve->end_reason, plm::reason::range_end);
     }
 }
 
@@ -287,7 +287,7 @@ Flags flags_of(plm::MotionKind motion, double dearest_step = plm::HbmOptions().d
     const plm::Hbm hbm(bouncing_plate().basis(plm::BasisOptions()), o, plm::Watch());
     const CurvePtr curve = hbm.sweep();
     const auto peak = hbm.find_peak(*curve, bouncing_plate().output_dof(), plm::Measure::peak, 0);
-    return {curve->reduced().from != nullptr, curve->warnings.has(PLM_REASON_UNVERIFIED),
+    return {curve->reduced().from != nullptr, curve->warnings.has(plm::reason::unverified),
             unstable_share(*curve), peak.amplitude};
 }
 

@@ -227,7 +227,7 @@ Doubled doubled_response() {
     Doubled d;
     std::int64_t at = -1;
     for (std::size_t i = 0; i < branch->points().size(); ++i)
-        if (branch->points()[i].bifurcation == PLM_BIFURCATION_PERIOD_DOUBLING)
+        if (branch->points()[i].bifurcation == plm::bifurcation::period_doubling)
             at = static_cast<std::int64_t>(i);
     if (at < 0) return d;
     const BranchPtr doubled = hbm.switch_branch(*branch, at, false);
@@ -264,7 +264,7 @@ void motions_without_excitation_are_refused(void **) {
         const BranchPtr mode = solver(m, o, 0.1, 0.5).find_nonlinear_mode(1, 0, 1.0);
         ErrorEstimator(m, *mode, o).estimate(1, 0, measure, 0);
     });
-    assert_int_equal(refusal.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(refusal.status, plm::status::argument);
     assert_string_equal(refusal.argument.c_str(), "point");
 }
 

@@ -79,7 +79,7 @@ Comparison compare(const exact::Structure &s, double low, double high, int n_sam
     return c;
 }
 void expect_exact(const Comparison &c, double defect, double amplitude) {
-    assert_int_equal(c.end, PLM_REASON_RANGE_END);
+    assert_int_equal(c.end, plm::reason::range_end);
     assert_int_equal(c.n_exact, c.n_points);
     assert_true(c.peaks > 2);
     assert_int_equal(c.wrong_flags, 0);
@@ -106,7 +106,7 @@ void curves_turn_where_impacts_begin(void **) {
         for (const auto &[gap, preload] : {std::pair(1.0, 0.0), std::pair(0.0, 0.1), std::pair(0.0, 0.0)}) {
             const auto m = test::reduce_exactly(test::chain(4, 0.1, stiffness, gap, 1, preload, {3}));
             const auto curve = solver(m, HbmOptions(), 0.5, 0.9).sweep();
-            assert_int_equal(curve->end_reason, PLM_REASON_RANGE_END);
+            assert_int_equal(curve->end_reason, plm::reason::range_end);
             for (const plm::BranchPoint &p : curve->points()) assert_non_null(p.motion.get());
         }
 }
@@ -142,7 +142,7 @@ std::size_t points_with_ringing(double light) {
     m->damping_diagonal.clear();
     for (double l : m->lambda) m->damping_diagonal.push_back(2 * 0.01 * std::sqrt(l));
     const auto curve = solver(m, HbmOptions(), 0.44, 0.56).sweep();
-    return curve->end_reason == PLM_REASON_RANGE_END ? curve->points().size() : 99999;
+    return curve->end_reason == plm::reason::range_end ? curve->points().size() : 99999;
 }
 void what_rings_does_not_dictate_the_steps(void **) {
     for (double light : {1e-2, 1e-4, 1e-6}) assert_true(points_with_ringing(light) < 200);
@@ -190,14 +190,14 @@ std::int32_t refusal(const HbmOptions &o, double structural) {
 void what_has_no_exact_motion_is_refused(void **) {
     HbmOptions o;
     o.motion = plm::MotionKind::exact;
-    assert_int_equal(refusal(o, 0.02), PLM_ERR_ARGUMENT);
+    assert_int_equal(refusal(o, 0.02), plm::status::argument);
     HbmOptions sampled = o, hill = o;
     sampled.aft = plm::AftKind::sampled;
     hill.stability = plm::StabilityKind::hill;
-    assert_int_equal(refusal(sampled, 0), PLM_ERR_ARGUMENT);
-    assert_int_equal(refusal(hill, 0), PLM_ERR_ARGUMENT);
+    assert_int_equal(refusal(sampled, 0), plm::status::argument);
+    assert_int_equal(refusal(hill, 0), plm::status::argument);
     o.motion = plm::MotionKind::automatic;
-    assert_int_equal(refusal(o, 0.02), PLM_OK); // harmonics, then
+    assert_int_equal(refusal(o, 0.02), plm::status::ok); // harmonics, then
 }
 
 } // namespace

@@ -35,8 +35,8 @@ Still without_force(double preload) {
 }
 void without_force_nothing_moves(void **) {
     const Still loose = without_force(0), pressed = without_force(0.8), pulled = without_force(-0.8);
-    assert_int_equal(loose.reason, PLM_REASON_RANGE_END);
-    assert_int_equal(pressed.reason, PLM_REASON_RANGE_END);
+    assert_int_equal(loose.reason, plm::reason::range_end);
+    assert_int_equal(pressed.reason, plm::reason::range_end);
     assert_true(near(loose.motion, 0, 0) && near(loose.mean, 0, 0));
     // some roundings of the mean, as many as the machine's products make
     assert_true(near(pressed.motion, 0, 1e-14) && near(pressed.mean, 0.8 / 4, 1e-14)); // k + k_n = 4

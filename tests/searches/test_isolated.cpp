@@ -72,7 +72,7 @@ double highest(const plm::ReducedModel &m, const Branch &b) {
 std::vector<BranchPoint> folds_of(const Branch &b) {
     std::vector<BranchPoint> folds;
     for (const BranchPoint &p : b.points())
-        if (p.bifurcation == PLM_BIFURCATION_FOLD) folds.push_back(p);
+        if (p.bifurcation == plm::bifurcation::fold) folds.push_back(p);
     std::sort(folds.begin(), folds.end(),
               [](const BranchPoint &a, const BranchPoint &b) { return a.omega < b.omega; });
     return folds;
@@ -376,7 +376,7 @@ Marched march() {
     out.starts = all.n_starts, out.periodic = all.n_periodic, out.known = all.n_known;
     out.branches = all.branches.size();
     if (out.branches != 1) return out;
-    out.closed = all.branches[0]->end_reason == PLM_REASON_LOOP_CLOSED;
+    out.closed = all.branches[0]->end_reason == plm::reason::loop_closed;
     out.top = highest(*m, *all.branches[0]);
     out.top_of_search = find(m, options(0.006)).top;
     out.again = plm::search_by_marching(m, o, {main, all.branches[0]}, plm::Watch()).branches.size();

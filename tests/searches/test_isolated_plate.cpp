@@ -108,7 +108,7 @@ Found find() {
     f.closed = i.closed, f.tracked = i.tracked;
     f.birth = i.birth_force, f.merge = i.merge_force;
     f.top = highest(*i.branch, dof, f.top_hz);
-    for (const auto &p : i.branch->points()) f.folds += p.bifurcation == PLM_BIFURCATION_FOLD;
+    for (const auto &p : i.branch->points()) f.folds += p.bifurcation == plm::bifurcation::fold;
     plm::HbmOptions o = options();
     double hz = 0;
     o.force_scale = 0.997 * f.merge;
@@ -158,13 +158,13 @@ void a_solver_with_nothing_set_searches_beside_that_curve(void **) {
     assert_true(b.full_residual(static_cast<std::int64_t>(b.points().size() / 2)) < 1);
     o.motion = plm::MotionKind::exact;
     const plm::Hbm exact(all.plate.reduced, 0, 0, o, plm::Watch());
-    plm_status refusal = PLM_OK;
+    plm_status refusal = plm::status::ok;
     try {
         exact.find_isolated(*all.main, 0);
     } catch (const plm::Error &e) {
         refusal = e.status();
     }
-    assert_int_equal(refusal, PLM_ERR_ARGUMENT);
+    assert_int_equal(refusal, plm::status::argument);
 }
 
 // --- against the full-order loop
@@ -237,7 +237,7 @@ Loops compare_loops() {
         plm::Hbm(all.plate.full, 0, 0, here, plm::Watch()).solve(guess.omega / (2 * M_PI), &start, 0);
     o.max_step = 0.02; // a dense polyline
     const auto whole = plm::trace_through(all.plate.full, o, corrected->points()[0], plm::Watch());
-    l.closed = whole->end_reason == PLM_REASON_LOOP_CLOSED;
+    l.closed = whole->end_reason == plm::reason::loop_closed;
     o.max_step = 0.02;
     const auto dense = plm::trace_through(all.plate.reduced, o, loop.points()[middle], plm::Watch());
     const Curve a = curve_of(*dense, dof), b = curve_of(*whole, dof);
@@ -294,7 +294,7 @@ Marched march() {
     o.stability = plm::StabilityKind::floquet;
     const plm::Hbm hbm(all.plate.reduced, 0, 0, o, plm::Watch());
     for (std::size_t i = 0; i < loop.points().size() && out.checked < 4; i += 3) {
-        if (loop.points()[i].bifurcation != PLM_BIFURCATION_NONE)
+        if (loop.points()[i].bifurcation != plm::bifurcation::none)
             continue; // no unique solution to come back to
         const auto one = hbm.solve(loop.points()[i].omega / (2 * M_PI), &loop, static_cast<std::int64_t>(i));
         const plm::BranchPoint &p = one->points()[0];

@@ -106,13 +106,13 @@ void the_driven_harmonic_must_be_among_those_solved(void **) {
     few.frequency_min_hz = enough.frequency_min_hz, few.frequency_max_hz = enough.frequency_max_hz;
     const auto curve = plm::Hbm(m, 0, 0, enough, plm::Watch()).sweep();
     std::string argument;
-    std::int32_t status = PLM_OK;
+    std::int32_t status = plm::status::ok;
     try {
         plm::Hbm(m, 0, 0, few, plm::Watch()).find_isolated(*curve, 2.0);
     } catch (const plm::Error &e) {
         argument = e.argument(), status = e.status();
     }
-    assert_int_equal(status, PLM_ERR_ARGUMENT);
+    assert_int_equal(status, plm::status::argument);
     assert_string_equal(argument.c_str(), "n_harmonics");
 }
 
@@ -147,7 +147,7 @@ std::int32_t reason_of(const plm::BranchPoint &point, plm::Branch &branch) {
     } catch (const plm::Error &e) {
         return e.reason();
     }
-    return PLM_REASON_NONE;
+    return plm::reason::none;
 }
 void a_branch_holds_numbers_only(void **) {
     const Model m = striking();
@@ -156,12 +156,12 @@ void a_branch_holds_numbers_only(void **) {
     bad.eta(0, 1) = INFINITY;
     blurred.harmonic_error = NAN;
     blurred.multipliers = {{NAN, 0}, {0.5, 0}};
-    assert_int_equal(reason_of(good, branch), PLM_REASON_NONE);
+    assert_int_equal(reason_of(good, branch), plm::reason::none);
     assert_true(branch.warnings.empty());
-    assert_int_equal(reason_of(bad, branch), PLM_REASON_NOT_FINITE);
+    assert_int_equal(reason_of(bad, branch), plm::reason::not_finite);
     assert_int_equal(branch.points().size(), 1);
-    assert_int_equal(reason_of(blurred, branch), PLM_REASON_NONE);
-    assert_true(branch.warnings.has(PLM_REASON_NOT_FINITE));
+    assert_int_equal(reason_of(blurred, branch), plm::reason::none);
+    assert_true(branch.warnings.has(plm::reason::not_finite));
     assert_true(branch.points()[1].harmonic_error == -1);
     assert_int_equal(plm::stability_of(branch.points()[1]), -1);
 }

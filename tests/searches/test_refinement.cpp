@@ -46,7 +46,7 @@ struct Plate {
         must(context, plm_basis_set_double(b, "frequency_max_hz", high), "frequency_max_hz");
         must(context, plm_basis_set_sampler(b, sampler), "set_sampler");
         const plm_status s = plm_basis_build(b);
-        if (s != PLM_WARNING)
+        if (s != plm::status::warning)
             must(context, s, "basis build"); // bands may lose the resonance: part of the case
         return plm::capi::find<plm::capi::BasisHandle>(b)->core;
     }
@@ -122,7 +122,7 @@ void a_dof_that_rests_is_refused(void **) {
     try {
         plm::refine(start, o, plm::Watch());
     } catch (const plm::Error &e) {
-        refused = e.status() == PLM_ERR_ARGUMENT;
+        refused = e.status() == plm::status::argument;
     }
     assert_true(refused);
 }

@@ -165,8 +165,8 @@ void sweeps_pass_folds_in_both_directions(void **) {
     std::printf(
         "    down: %zu points, %d folds, top %.6g at %.6g; up: %zu points, %d folds, top %.6g at %.6g\n",
         down.points, down.folds, down.highest, down.at, up.points, up.folds, up.highest, up.at);
-    assert_int_equal(down.reason, PLM_REASON_RANGE_END);
-    assert_int_equal(up.reason, PLM_REASON_RANGE_END);
+    assert_int_equal(down.reason, plm::reason::range_end);
+    assert_int_equal(up.reason, plm::reason::range_end);
     assert_true(down.folds >= 2 && up.folds >= 2);
     assert_true(close_to(down.highest, up.highest, 2e-2)); // discrete points of two sweeps
 }
@@ -219,7 +219,7 @@ double last_frequency(double zeta, double high) {
     o.upward = true;
     o.stability = plm::StabilityKind::off;
     const auto branch = solver(m, o, 0.8, high).sweep();
-    return branch->end_reason == PLM_REASON_RANGE_END ? branch->points().back().omega : -1;
+    return branch->end_reason == plm::reason::range_end ? branch->points().back().omega : -1;
 }
 void a_curve_that_ends_at_its_range_has_its_last_point_there(void **) {
     for (double zeta : {5e-3, 5e-4})

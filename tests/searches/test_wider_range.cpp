@@ -81,7 +81,7 @@ void the_peak_is_brought_inside(void **) {
             const auto curve = hbm.sweep();
             const plm::Peak got = peak_of(hbm, *curve);
             assert_true(curve->warnings.empty() && got.branch->warnings.empty());
-            assert_int_equal(curve->end_reason, PLM_REASON_RANGE_END);
+            assert_int_equal(curve->end_reason, plm::reason::range_end);
             assert_true(is_one_curve(*curve));
             // both stand on the exact curve at the vertex of the amplitude: Newton's tolerance and the
             // parabola
@@ -106,9 +106,9 @@ void what_cannot_be_brought_inside_is_said(void **) {
     const Case c = oscillator();
     const plm::Hbm hbm = estimated(c, 1.7, 1.9, five());
     const auto curve = hbm.sweep();
-    assert_true(curve->warnings.has(PLM_REASON_NO_PEAK));
+    assert_true(curve->warnings.has(plm::reason::no_peak));
     assert_true(close_to(curve->points().back().omega, 1.7 * blf / 1.5, 1e-12)); // as far as it may
-    assert_true(peak_of(hbm, *curve).branch->warnings.has(PLM_REASON_NO_PEAK));
+    assert_true(peak_of(hbm, *curve).branch->warnings.has(plm::reason::no_peak));
 }
 
 // The host's own frequencies stay, and its flank is no fault of the sweep.
@@ -123,7 +123,7 @@ void a_range_of_the_host_stays(void **) {
     for (const auto &p : curve->points()) least = std::min(least, p.omega / (2 * M_PI));
     assert_true(close_to(least, o.frequency_min_hz, 1e-12));
     const plm::Peak p = peak_of(hbm, *curve);
-    assert_true(p.branch->warnings.has(PLM_REASON_NO_PEAK));
+    assert_true(p.branch->warnings.has(plm::reason::no_peak));
     assert_true(close_to(p.frequency_hz, least, 1e-12) && p.amplitude > 0); // still delivered
 }
 
@@ -133,9 +133,9 @@ void a_cut_off_curve_has_no_peak(void **) {
     o.max_points = 6;
     const plm::Hbm hbm = fixed(c, 0.9, 1.1, o);
     const auto curve = hbm.sweep();
-    assert_int_equal(curve->end_reason, PLM_REASON_POINT_LIMIT);
+    assert_int_equal(curve->end_reason, plm::reason::point_limit);
     const plm::Warnings said = peak_of(hbm, *curve).branch->warnings;
-    assert_true(said.has(PLM_REASON_NO_PEAK) && said.text().find("max_points") != std::string::npos);
+    assert_true(said.has(plm::reason::no_peak) && said.text().find("max_points") != std::string::npos);
 }
 
 // A chain of four on the modes of its first resonance only: fine there, of no use at its third.
@@ -156,7 +156,7 @@ void responses_outside_the_basis_are_said(void **) {
     assert_true(solve(0.5 * (basis->window_min_hz() + basis->window_max_hz()))->warnings.empty());
     const auto far = solve(3 * basis->window_max_hz());
     assert_true(far->full_residual(0) > 0.1);
-    assert_true(far->warnings.has(PLM_REASON_OUTSIDE_BASIS));
+    assert_true(far->warnings.has(plm::reason::outside_basis));
     assert_true(far->warnings.text().find("rad/s") == std::string::npos);
     const auto angular = solve(M_PI * (basis->window_min_hz() + basis->window_max_hz()));
     assert_true(angular->warnings.text().find("rad/s") != std::string::npos);
@@ -181,18 +181,19 @@ Struck struck_chain(bool all) {
     const plm::Basis basis(model, sampler, nullptr, o, plm::Watch());
     const plm::Hbm hbm(basis.reduced(), basis.sweep_range(), plm::HbmOptions(), plm::Watch());
     const auto curve = hbm.sweep();
-    return {hbm.find_peak(*curve, 7, plm::Measure::peak, 0), curve->warnings.has(PLM_REASON_BASIS_TOO_SMALL)};
+    return {hbm.find_peak(*curve, 7, plm::Measure::peak, 0),
+            curve->warnings.has(plm::reason::basis_too_small)};
 }
 
 void a_basis_too_small_for_the_contact_is_said(void **) {
     const Struck small = struck_chain(false), whole = struck_chain(true);
     const double wrong = std::abs(small.peak.amplitude / whole.peak.amplitude - 1);
     assert_true(wrong > 0.01);
-    assert_true(small.said && small.peak.branch->warnings.has(PLM_REASON_BASIS_TOO_SMALL));
+    assert_true(small.said && small.peak.branch->warnings.has(plm::reason::basis_too_small));
     // the number said is the size of the error
     const double number = small.peak.branch->full_residual(0);
     assert_true(number > 0.3 * wrong && number < 3 * wrong);
-    assert_true(!whole.said && !whole.peak.branch->warnings.has(PLM_REASON_BASIS_TOO_SMALL));
+    assert_true(!whole.said && !whole.peak.branch->warnings.has(plm::reason::basis_too_small));
 }
 
 // Gap 1: at resonance the mass moves by force / (2 zeta) = 50 force, so a force of 1e-5 stays 2,000 times
@@ -204,10 +205,10 @@ void a_linear_response_is_said_where_contact_is_out_of_reach(void **) {
             plm::Hbm(c.basis->reduced(), 0.9 / (2 * M_PI), 1.1 / (2 * M_PI), five(), plm::Watch()).sweep();
         return curve->warnings;
     };
-    assert_true(said(1e-5).has(PLM_REASON_NO_SWITCHING));
+    assert_true(said(1e-5).has(plm::reason::no_switching));
     assert_true(said(1e-5).text().find("2e+03") != std::string::npos);
     assert_true(said(1e-3).empty() && said(0).empty());
-    assert_true(!said(0.05).has(PLM_REASON_NO_SWITCHING));
+    assert_true(!said(0.05).has(plm::reason::no_switching));
 }
 
 // The resonance of the struck mass leaves the range above: the curve from there folds and goes back, that
@@ -241,13 +242,13 @@ plm::Branch followed(const Case &c, std::int32_t reason, const std::vector<doubl
 // What no other end helps against is an outcome of its own, though the curve is complete in itself.
 void a_sweep_that_does_not_lead_across_says_so(void **) {
     const Case c = oscillator();
-    const plm::Branch loop = followed(c, PLM_REASON_LOOP_CLOSED, {1.0, 1.1, 1.2, 1.0}),
-                      back = followed(c, PLM_REASON_RANGE_END, {1.0, 1.1, 1.2, 1.0}),
-                      from_inside = followed(c, PLM_REASON_RANGE_END, {1.02, 1.1, 1.2, 1.0}),
-                      across = followed(c, PLM_REASON_RANGE_END, {1.02, 1.2, 1.0, 1.3});
-    assert_true(loop.warnings.has(PLM_REASON_LOOP_CLOSED) && !plm::spans(loop));
-    assert_true(back.warnings.has(PLM_REASON_TURNED_BACK) && !plm::spans(back));
-    assert_true(from_inside.warnings.has(PLM_REASON_TURNED_BACK) && !plm::spans(from_inside));
+    const plm::Branch loop = followed(c, plm::reason::loop_closed, {1.0, 1.1, 1.2, 1.0}),
+                      back = followed(c, plm::reason::range_end, {1.0, 1.1, 1.2, 1.0}),
+                      from_inside = followed(c, plm::reason::range_end, {1.02, 1.1, 1.2, 1.0}),
+                      across = followed(c, plm::reason::range_end, {1.02, 1.2, 1.0, 1.3});
+    assert_true(loop.warnings.has(plm::reason::loop_closed) && !plm::spans(loop));
+    assert_true(back.warnings.has(plm::reason::turned_back) && !plm::spans(back));
+    assert_true(from_inside.warnings.has(plm::reason::turned_back) && !plm::spans(from_inside));
     assert_true(across.warnings.empty() && plm::spans(across));
 }
 
@@ -296,7 +297,7 @@ void a_peak_that_does_not_last_is_said(void **) {
         const plm::Peak peak = peak_of(hbm, *curve);
         const plm::Warnings &said = peak.branch->warnings;
         const double moving = unrest(s, 2 * M_PI * peak.frequency_hz);
-        assert_true(said.has(PLM_REASON_UNSTABLE_PEAK) == (moving > 0.1));
+        assert_true(said.has(plm::reason::unstable_peak) == (moving > 0.1));
         assert_true(said.empty() == (moving < 1e-3));
         assert_true((stop > 5) == (moving > 0.1)); // both cases occur
     }
@@ -325,7 +326,7 @@ void a_peak_is_as_stable_as_the_whole_structure(void **) {
     assert_true(largest(curve->points()[top]) > 1.1 && truth < 0.9);
     assert_int_equal(plm::stability_of(found), 1);
     assert_true(std::abs(largest(found) - truth) < 0.01); // the peaks are 1.6 % apart
-    assert_true(!peak.branch->warnings.has(PLM_REASON_UNSTABLE_PEAK));
+    assert_true(!peak.branch->warnings.has(plm::reason::unstable_peak));
 }
 
 } // namespace

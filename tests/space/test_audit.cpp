@@ -13,7 +13,7 @@ ModelInput sound() {
     test::Dense k = test::free_chain(6, 1e4);
     k[0][0] += 1e4;
     ModelInput in = test::input(test::diagonal(6, 0.5), k);
-    test::add_pair(in, {0, 0, 1, 0, 0, -1}, PLM_AUTO_STIFFNESS, 0.1);
+    test::add_pair(in, {0, 0, 1, 0, 0, -1}, plm::auto_stiffness, 0.1);
     in.damping.beta = 1e-5;
     in.excitation[1].real = {0, 0, 0, 0, 0, 1};
     return in;
@@ -104,7 +104,7 @@ ModelInput beam(int n) {
 void touch(ModelInput &in, std::int64_t dof, double direction, double gap = 0) {
     std::vector<double> row(static_cast<std::size_t>(in.n_dof), 0.0);
     row[static_cast<std::size_t>(dof)] = direction;
-    test::add_pair(in, row, PLM_AUTO_STIFFNESS, gap);
+    test::add_pair(in, row, plm::auto_stiffness, gap);
 }
 
 // The mass along a translation is that of the whole structure, supports included: length times mass per
@@ -217,7 +217,7 @@ void excitation_of_no_low_mode_is_told(void **) {
     k[12][12] = 1e9;
     in = test::input(m, k);
     in.damping.beta = 1e-5;
-    test::add_pair(in, {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, PLM_AUTO_STIFFNESS, 0.1);
+    test::add_pair(in, {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}, plm::auto_stiffness, 0.1);
     in.excitation[1].real.assign(13, 0.0);
     in.excitation[1].real[12] = 1;
     assert_true(warns(in, "the excitation moves none of the 10 lowest elastic modes", 1));
@@ -228,7 +228,7 @@ void excitation_of_no_low_mode_is_told(void **) {
     m[0][0] = 1e7;
     in = test::input(m, k);
     in.damping.beta = 1e-5;
-    test::add_pair(in, {0, 0, 1, 0, 0, -1}, PLM_AUTO_STIFFNESS, 1e-3);
+    test::add_pair(in, {0, 0, 1, 0, 0, -1}, plm::auto_stiffness, 1e-3);
     in.excitation[1].real = {1e7, 0, 0, 0, 0, 0};
     assert_true(with(findings(in), "moves none of") == nullptr);
 }
@@ -243,7 +243,7 @@ void pairs_of_mixed_components_are_told(void **) {
     const auto join = [&](std::int64_t a, std::int64_t b) {
         std::vector<double> row(30, 0.0);
         row[static_cast<std::size_t>(a)] = 1, row[static_cast<std::size_t>(b)] = -1;
-        test::add_pair(in, row, PLM_AUTO_STIFFNESS, 0.1);
+        test::add_pair(in, row, plm::auto_stiffness, 0.1);
     };
     join(3 * 2 + 1, 3 * 9 + 1);
     assert_true(with(findings(in), "were they counted") == nullptr);
@@ -267,7 +267,7 @@ ModelInput row_of_nodes(int nodes) {
 void row_of(ModelInput &in, std::int64_t a, double on_a, std::int64_t b, double on_b) {
     std::vector<double> row(static_cast<std::size_t>(in.n_dof), 0.0);
     row[static_cast<std::size_t>(a)] = on_a, row[static_cast<std::size_t>(b)] = on_b;
-    test::add_pair(in, row, PLM_AUTO_STIFFNESS, 0.1);
+    test::add_pair(in, row, plm::auto_stiffness, 0.1);
 }
 
 // One node against a wall is not a pair of nodes; two nodes with two normals are one that was meant

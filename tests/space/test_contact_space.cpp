@@ -18,7 +18,7 @@ std::shared_ptr<const plm::MatrixInput> lower(std::int64_t n, const std::vector<
                                               const std::vector<double> &v) {
     plm::MatrixFormat f;
     f.n = n, f.nnz = static_cast<std::int64_t>(v.size());
-    f.storage = PLM_TRIPLETS, f.part = PLM_LOWER;
+    f.storage = plm::storage::triplets, f.part = plm::part::lower;
     return std::make_shared<const plm::MatrixInput>(f, i.data(), j.data(), v.data());
 }
 

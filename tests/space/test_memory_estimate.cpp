@@ -32,7 +32,7 @@ bool fits(PrecisionChoice precision, double limit_in_bytes) {
         kept(precision, limit_in_bytes);
         return true;
     } catch (const plm::Error &e) {
-        if (e.status() != PLM_ERR_MEMORY) throw;
+        if (e.status() != plm::status::memory) throw;
         return false;
     }
 }

@@ -9,7 +9,7 @@ using plm::ModelInput;
 namespace {
 
 // Two masses, k1 to ground, k2 between, one pair of mass 2 against ground.
-ModelInput two_masses(double stiffness = PLM_AUTO_STIFFNESS) {
+ModelInput two_masses(double stiffness = plm::auto_stiffness) {
     ModelInput in = test::input({{2, 0}, {0, 3}}, {{100 + 50, -50}, {-50, 50}});
     test::add_pair(in, {0, 1}, stiffness, 0.25);
     return in;
@@ -21,7 +21,7 @@ Caught refused(const ModelInput &in) {
 
 void auto_stiffness_of_one_spring(void **) {
     ModelInput in = test::input({{2}}, {{100}});
-    test::add_pair(in, {1}, PLM_AUTO_STIFFNESS);
+    test::add_pair(in, {1}, plm::auto_stiffness);
     const auto m = test::build(in);
     assert_true(close_to(m->local_stiffness(), 100, 1e-13));
     assert_true(close_to(m->contact_stiffness()[0], 1000, 1e-13));
@@ -67,12 +67,12 @@ void mass_and_stiffness_exchanged_are_refused(void **) {
     assert_int_equal(test::build(in)->n_free(), n - 1);
     std::swap(in.mass, in.stiffness);
     const Caught c = refused(in);
-    assert_int_equal(c.status, PLM_ERR_MATRIX);
+    assert_int_equal(c.status, plm::status::matrix);
     assert_true(c.says("mass and stiffness are probably exchanged"));
     // nor where the host has removed what is fixed
     test::Dense held = test::free_chain(n, 10);
     held[0][0] += 10;
-    assert_int_equal(refused(test::input(held, mass)).status, PLM_ERR_MATRIX);
+    assert_int_equal(refused(test::input(held, mass)).status, plm::status::matrix);
     // a mass that two DOFs have between them alone is none of that, on springs that join them
     const ModelInput inerter = test::input({{1, -1}, {-1, 1}}, {{3, -1}, {-1, 3}});
     assert_int_equal(test::build(inerter)->n_free(), 2);
@@ -98,25 +98,25 @@ void wholes_that_make_no_sense_are_refused(void **) {
 
     in = two_masses(), in.fixed = {1};
     Caught c = refused(in);
-    assert_int_equal(c.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(c.status, plm::status::argument);
     assert_int_equal(c.index, 0);
     assert_true(c.says("contact pair 0") && c.says("fixed DOFs only") && c.argument == "pair");
 
     in = two_masses(), in.mass = nullptr;
-    assert_int_equal(refused(in).status, PLM_ERR_STATE);
+    assert_int_equal(refused(in).status, plm::status::state);
     in = two_masses(), in.stiffness = nullptr;
     assert_true(refused(in).says("PLM_STIFFNESS"));
 
     in = two_masses(), in.preload = {1, 2, 3};
     c = refused(in);
-    assert_int_equal(c.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(c.status, plm::status::argument);
     assert_true(c.argument == "preload" && c.says("3 entries"));
 
     in = two_masses(), in.mass = test::matrix({{1}});
     assert_true(refused(in).argument == "mass");
     in = two_masses(), in.mass = test::matrix({{1, 0}, {0, -1}});
     c = refused(in);
-    assert_int_equal(c.status, PLM_ERR_MATRIX);
+    assert_int_equal(c.status, plm::status::matrix);
     assert_int_equal(c.index, 1);
     in = two_masses(), in.mass = test::matrix({{0, 0}, {0, 0}});
     assert_true(refused(in).says("no free DOF has mass"));

@@ -66,7 +66,7 @@ void what_nothing_holds_is_refused(void **) {
         for (double right : {0.0, 1.0}) { // pushed away together; pulled apart
             const double left = right > 0 ? -1 : 1;
             const Caught e = caught([&] { rest_of(two_free_chains(4, 1, k, left, right)); });
-            assert_int_equal(e.status, PLM_ERR_CONVERGENCE);
+            assert_int_equal(e.status, plm::status::convergence);
             assert_true(e.says("drives a rigid-body motion"));
         }
 }

@@ -49,7 +49,7 @@ void rounded_rows_and_loads_rest(void **) {
             // the motion that the rows see least is (1 + row^2 / 2, 1): the loads miss that, too
             const bool row_is_said = row > 1e-10,
                        load_is_said = std::max(std::abs(load), row * row / 2) > 1e-10;
-            assert_true(b.warnings.has(PLM_REASON_ROUNDED) == (row_is_said || load_is_said));
+            assert_true(b.warnings.has(plm::reason::rounded) == (row_is_said || load_is_said));
             assert_true(b.says("gap rows") == row_is_said && b.says("pre-load") == load_is_said);
         }
 }
@@ -74,7 +74,7 @@ void a_small_lever_that_is_meant_holds(void **) {
     }
     const Built flat(on_leaning_walls(1e-7));
     assert_int_equal(flat.model->n_unheld(), 1);
-    assert_true(flat.warnings.has(PLM_REASON_ROUNDED));
+    assert_true(flat.warnings.has(plm::reason::rounded));
     assert_true(close_to(flat.rest().force[0], 0.5, 1e-8));
 }
 
@@ -107,7 +107,7 @@ void places_beside_one_another_hold_no_common_angle(void **) {
         in.preload = {3, 0, -3, 0};
         const Built b(in);
         assert_int_equal(b.model->n_unheld(), 2);
-        assert_true(b.warnings.has(PLM_REASON_ROUNDED) == (offset > 0));
+        assert_true(b.warnings.has(plm::reason::rounded) == (offset > 0));
         const plm::RestState rest = b.rest();
         for (double force : rest.force) assert_true(close_to(force, 1, 1e-8 + 10 * offset));
     }
@@ -125,7 +125,7 @@ void masses_may_differ_much(void **) {
 void a_load_that_does_not_balance_is_named(void **) {
     const Built b(pressed_chains(1e-7, 0.01));
     const Caught e = caught([&] { b.rest(); });
-    assert_int_equal(e.status, PLM_ERR_CONVERGENCE);
+    assert_int_equal(e.status, plm::status::convergence);
     assert_true(e.says("pre-load drives a rigid-body motion that no support and no contact holds"));
     // 0.01 on eight masses that move alike; half a per cent of 2.01
     assert_true(e.says("its resultant is 0.01, 5.0e-03 of its forces") && e.says("of pair 0, by 7.1e-08"));
@@ -136,7 +136,7 @@ void a_mean_excitation_is_balanced(void **) {
     plm::ModelInput in = pressed_chains(0, 0);
     in.excitation[0].real = {0.1, 0, 0, 0, 0, 0, 0, -0.1 * (1 + 1e-6)};
     const Built b(in);
-    assert_true(b.warnings.has(PLM_REASON_ROUNDED) && b.says("mean of the excitation"));
+    assert_true(b.warnings.has(plm::reason::rounded) && b.says("mean of the excitation"));
     double sum = 0;
     for (int i = 0; i < 8; ++i) sum += b.model->excitation().at(0).real.at(i);
     assert_true(std::abs(sum) < 1e-15);

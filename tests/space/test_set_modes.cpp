@@ -40,7 +40,7 @@ plm::ModelInput input_of(const plm::Matrix &k, double contact_stiffness) {
             if (k(r, c) != 0) i.push_back(r), j.push_back(c), v.push_back(k(r, c));
     }
     plm::MatrixFormat f;
-    f.n = n, f.storage = PLM_TRIPLETS, f.part = PLM_LOWER;
+    f.n = n, f.storage = plm::storage::triplets, f.part = plm::part::lower;
     plm::ModelInput in;
     in.n_dof = n;
     f.nnz = static_cast<std::int64_t>(v.size());

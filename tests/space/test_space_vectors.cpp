@@ -78,7 +78,7 @@ void they_are_formed_once_where_that_is_less_work(void **) {
     assert_true(copy.worth_forming(1));
     assert_ptr_equal(&basis.formed(), &copy.formed());
     for (int again = 0; again < 50; ++again) assert_false(space->vectors.worth_forming(space->size()));
-    assert_int_equal(caught([&] { space->vectors.formed(); }).status, PLM_ERR_INTERNAL);
+    assert_int_equal(caught([&] { space->vectors.formed(); }).status, plm::status::internal);
 }
 
 // What is made from a formed basis takes its columns.

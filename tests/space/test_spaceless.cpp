@@ -31,7 +31,7 @@ struct Blocks {
     std::shared_ptr<const plm::MatrixInput> matrix() const {
         plm::MatrixFormat f;
         f.n = n_dof, f.nnz = static_cast<std::int64_t>(v.size());
-        f.storage = PLM_TRIPLETS, f.part = PLM_LOWER;
+        f.storage = plm::storage::triplets, f.part = plm::part::lower;
         return std::make_shared<const plm::MatrixInput>(f, i.data(), j.data(), v.data());
     }
 };
@@ -134,7 +134,7 @@ void others_take_the_space(void **) {
 // Without auto stiffness the build solves for some pairs; with it, for all.
 void some_pairs_tell_the_local_stiffness(void **) {
     const double some = model(blocks(2))->local_stiffness(),
-                 all = model(blocks(PLM_AUTO_STIFFNESS))->local_stiffness();
+                 all = model(blocks(plm::auto_stiffness))->local_stiffness();
     assert_true(close_to(some, all, 0.05)); // pairs at edges are a little softer
 }
 

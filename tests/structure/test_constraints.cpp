@@ -171,7 +171,7 @@ void a_wide_coupling_fills_nothing_or_is_refused(void **) {
     assert_int_equal(map.free_index(n), -1);
     assert_int_equal(map.reduced("stiffness", springs(n, 0)).nnz(), n);
     const Caught refused = caught([&] { map.reduced("stiffness", springs(n, 1)); });
-    assert_int_equal(refused.status, PLM_ERR_MEMORY);
+    assert_int_equal(refused.status, plm::status::memory);
     assert_int_equal(refused.index, 0);
     assert_true(refused.says("row 0") && refused.says("DOF 20000") && refused.says("stiffness matrix"));
 }

@@ -80,15 +80,15 @@ void an_exception_in_the_solver_passes_through(void **) {
     const SparseMatrix k = membrane(side, side - 1);
     const vector<double> reference = undisturbed_values(k);
     Intruder factor(k);
-    factor.act = [](double *) { throw plm::Error(PLM_ERR_CALLBACK, "host").library_code(9); };
+    factor.act = [](double *) { throw plm::Error(plm::status::callback, "host").library_code(9); };
     const auto o = outcome_of([&] { values_of(k, factor); });
     Intruder poisoned(k);
     poisoned.act = [](double *x) { x[0] = std::nan(""); };
     const auto nan = outcome_of([&] { values_of(k, poisoned); });
     const vector<double> after = undisturbed_values(k);
-    assert_int_equal(o.status, PLM_ERR_CALLBACK);
+    assert_int_equal(o.status, plm::status::callback);
     assert_int_equal(o.code, 9);
-    assert_int_equal(nan.status, PLM_ERR_EIGENSOLVER);
+    assert_int_equal(nan.status, plm::status::eigensolver);
     assert_true(after == reference);
 }
 
@@ -102,10 +102,10 @@ void cancelling_stops_between_operations(void **) {
     options.cancelled = [&] { return ++at_once == 1; }; // what takes an instant is asked for once, before
     const auto quick = outcome_of([&] { values_of(k, *plm::make_factor(k), options); });
     const vector<double> reference = plain_values(k);
-    assert_int_equal(o.status, PLM_CANCELLED);
-    assert_int_equal(o.reason, PLM_REASON_CANCELLED);
+    assert_int_equal(o.status, plm::status::cancelled);
+    assert_int_equal(o.reason, plm::reason::cancelled);
     assert_int_equal(polls, 10);
-    assert_int_equal(quick.status, PLM_CANCELLED);
+    assert_int_equal(quick.status, plm::status::cancelled);
     assert_int_equal(reference.size(), wanted);
 }
 
@@ -118,8 +118,8 @@ void too_few_restarts_are_made_up_for_or_reported(void **) {
     const double shift = -1e7;
     const auto far = plm::make_factor(plm::add(1, k, -shift, m));
     const auto hopeless = outcome_of([&] { plm::lowest_eigenpairs(k, m, *far, shift, wanted, options); });
-    assert_int_equal(retried.status, PLM_OK);
-    assert_int_equal(hopeless.status, PLM_ERR_EIGENSOLVER);
+    assert_int_equal(retried.status, plm::status::ok);
+    assert_int_equal(hopeless.status, plm::status::eigensolver);
 }
 
 void two_threads_at_once_get_the_right_values(void **) {
@@ -130,7 +130,7 @@ void two_threads_at_once_get_the_right_values(void **) {
         for (int round = 0; round < 20; ++round) {
             vector<double> values;
             const auto o = outcome_of([&] { values = plain_values(k); });
-            bool same = o.status == PLM_OK && values.size() == exact.size();
+            bool same = o.status == plm::status::ok && values.size() == exact.size();
             for (std::size_t i = 0; same && i < exact.size(); ++i)
                 same = std::fabs(values[i] - exact[i]) < 1e-11 * exact[i];
             *bad += !same;

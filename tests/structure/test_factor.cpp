@@ -49,7 +49,7 @@ void dense_matrices_are_factored_as_such(void **) {
     assert_int_equal(factor->factor_nonzeros(), 100 * 101 / 2);
     assert_true(factor->reciprocal_condition() > 1e-8 && factor->reciprocal_condition() < 1);
     const auto o = outcome_of([] { plm::make_factor(dense_matrix(100, 70)); });
-    assert_int_equal(o.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+    assert_int_equal(o.status, plm::status::not_positive_definite);
     assert_int_equal(o.index, 70);
     assert_int_equal(plm::count_negative(dense_matrix(100, 70)), 1);
 }
@@ -61,12 +61,12 @@ void solvers_are_chosen_by_name(void **) {
     for (plm::SolverName name : {plm::SolverName::cholmod, plm::SolverName::eigen}) {
         double residual = INFINITY;
         const auto o = outcome_of([&] { residual = solve_residual(a, 3, name); });
-        assert_true(o.status == PLM_OK ? residual < 1e-12 : o.status == PLM_ERR_NOT_BUILT);
-        served += o.status == PLM_OK;
+        assert_true(o.status == plm::status::ok ? residual < 1e-12 : o.status == plm::status::not_built);
+        served += o.status == plm::status::ok;
     }
     assert_in_range(served, 1, 2);
     const auto none = outcome_of([&] { plm::count_negative(a, plm::SolverName::host); });
-    assert_int_equal(none.status, PLM_ERR_STATE);
+    assert_int_equal(none.status, plm::status::state);
 }
 
 void one_factor_serves_blocks_and_single_solves_alike(void **) {
@@ -121,17 +121,17 @@ void the_index_of_a_bad_pivot_is_the_callers(void **) {
             for (std::int64_t p = k.ptr[j]; p < k.ptr[j + 1]; ++p)
                 if (j == bad || k.idx[p] == bad) k.val[p] = k.idx[p] == j ? -1 : 0;
         const auto negative = outcome_of([&] { plm::make_factor(k); });
-        assert_int_equal(negative.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
-        assert_int_equal(negative.reason, PLM_REASON_NOT_POSITIVE_DEFINITE);
+        assert_int_equal(negative.status, plm::status::not_positive_definite);
+        assert_int_equal(negative.reason, plm::reason::not_positive_definite);
         assert_int_equal(negative.index, bad);
         assert_int_equal(plm::count_negative(k), 1);
         for (std::int64_t p = k.ptr[bad]; p < k.ptr[bad + 1]; ++p) k.val[p] = 0;
         const auto zero = outcome_of([&] { plm::count_negative(k); });
-        assert_int_equal(zero.status, PLM_ERR_SINGULAR);
-        assert_int_equal(zero.reason, PLM_REASON_SINGULAR);
+        assert_int_equal(zero.status, plm::status::singular);
+        assert_int_equal(zero.reason, plm::reason::singular);
         assert_int_equal(zero.index, bad);
         const auto semi = outcome_of([&] { plm::make_factor(k); });
-        assert_int_equal(semi.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+        assert_int_equal(semi.status, plm::status::not_positive_definite);
         assert_int_equal(semi.index, bad);
     }
 }
@@ -149,7 +149,7 @@ void nan_is_refused_with_its_column(void **) {
     SparseMatrix k = membrane(5, 5);
     k.val[k.ptr[7]] = std::nan("");
     const auto o = outcome_of([&] { plm::make_factor(k); });
-    assert_int_equal(o.status, PLM_ERR_MATRIX);
+    assert_int_equal(o.status, plm::status::matrix);
     assert_int_equal(o.index, 7);
 }
 
@@ -168,7 +168,7 @@ void the_hosts_random_numbers_are_left_alone(void **) {
 void an_empty_matrix_is_no_problem(void **) {
     const SparseMatrix none = plm::from_triplets(0, 0, {}, {}, {});
     const auto o = outcome_of([&] { plm::make_factor(none)->solve(nullptr, 1, 1); });
-    assert_int_equal(o.status, PLM_OK);
+    assert_int_equal(o.status, plm::status::ok);
 }
 
 // --- a host solver: dense LU of the triangle it is given
@@ -229,22 +229,22 @@ void the_hosts_failures_are_reported_with_their_code(void **) {
     const auto s = solver(h);
     h.fail_factor = 42;
     const auto factor = outcome_of([&] { plm::count_negative(k, &s); });
-    assert_int_equal(factor.status, PLM_ERR_CALLBACK);
+    assert_int_equal(factor.status, plm::status::callback);
     assert_int_equal(factor.code, 42);
     assert_int_equal(h.released, 0);
     h.fail_factor = 0;
     h.fail_solve = -7;
     const auto solve = outcome_of([&] { solve_residual(k, 1, &s); });
-    assert_int_equal(solve.status, PLM_ERR_CALLBACK);
+    assert_int_equal(solve.status, plm::status::callback);
     assert_int_equal(solve.code, -7);
     h.fail_solve = 0;
     h.poison = true;
     const auto nan = outcome_of([&] { solve_residual(k, 1, &s); });
-    assert_int_equal(nan.status, PLM_ERR_CALLBACK);
+    assert_int_equal(nan.status, plm::status::callback);
     assert_int_equal(h.released, h.factored);
     const plm::HostSolver incomplete;
     const auto none = outcome_of([&] { plm::count_negative(k, &incomplete); });
-    assert_int_equal(none.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(none.status, plm::status::argument);
 }
 
 } // namespace

@@ -11,7 +11,7 @@ using Ints = plm::vector<std::int64_t>;
 std::shared_ptr<const plm::MatrixInput> diagonal(double value) {
     plm::MatrixFormat f;
     f.n = f.nnz = 4;
-    f.storage = PLM_TRIPLETS;
+    f.storage = plm::storage::triplets;
     const std::vector<std::int64_t> at{0, 1, 2, 3};
     const std::vector<double> values(4, value);
     return std::make_shared<plm::MatrixInput>(f, at.data(), at.data(), values.data());
@@ -44,7 +44,7 @@ void rows_belong_to_their_pair(void **) {
 
 void a_row_that_nothing_moves_is_told_by_its_pair(void **) {
     const Caught c = caught([] { two_pairs(3); });
-    assert_int_equal(c.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(c.status, plm::status::argument);
     assert_int_equal(c.index, 1);
 }
 

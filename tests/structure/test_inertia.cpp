@@ -122,7 +122,7 @@ void a_pivot_without_a_sign_is_singular(void **) {
     const auto exchange = outcome_of([&] {
         plm::count_negative(plm::from_triplets(2, 2, {0, 1}, {1, 0}, {1, 1}));
     });
-    assert_int_equal(exchange.status, PLM_ERR_SINGULAR);
+    assert_int_equal(exchange.status, plm::status::singular);
     assert_in_range(exchange.index, 0, 1);
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         Random random(seed);
@@ -132,7 +132,7 @@ void a_pivot_without_a_sign_is_singular(void **) {
         for (std::int64_t j = 0; j < a.cols; ++j)
             for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p) a.val[p] *= scale[j] * scale[a.idx[p]];
         const auto rounding = outcome_of([&] { plm::count_negative(a, plm::SolverName::cholmod); });
-        assert_true(rounding.status == PLM_ERR_SINGULAR || rounding.status == PLM_ERR_NOT_BUILT);
+        assert_true(rounding.status == plm::status::singular || rounding.status == plm::status::not_built);
     }
 }
 

@@ -43,14 +43,24 @@ struct Case {
 // image is missing in the last column; one whose column is at its end; entries out of order; a triangle.
 const std::vector<Case> &cases() {
     static const std::vector<Case> all = {
-        {PLM_CSC, PLM_FULL, {0, 2, 5, 7}, {0, 1, 0, 1, 2, 1, 2}, {4, -1, -1, 5, -2, -2, 6}, true},
-        {PLM_CSC, PLM_FULL, {0, 3, 5, 6}, {0, 1, 2, 0, 1, 2}, {4, -1, -3, -1, 5, 6}, false},
-        {PLM_CSC, PLM_FULL, {0, 2, 4, 4}, {0, 2, 0, 1}, {4, -3, -1, 5}, false},
-        {PLM_CSC, PLM_FULL, {0, 1, 3, 3}, {0, 1, 2}, {4, 5, -2}, false},
-        {PLM_CSC, PLM_FULL, {0, 2, 5, 7}, {1, 0, 2, 1, 0, 2, 1}, {-1, 4, -2, 5, -1, 6, -2}, true},
-        {PLM_CSC, PLM_LOWER, {0, 2, 4, 5}, {0, 1, 1, 2, 2}, {4, -1, 5, -2, 6}, true},
-        {PLM_TRIPLETS,
-         PLM_FULL,
+        {plm::storage::csc,
+         plm::part::full,
+         {0, 2, 5, 7},
+         {0, 1, 0, 1, 2, 1, 2},
+         {4, -1, -1, 5, -2, -2, 6},
+         true},
+        {plm::storage::csc, plm::part::full, {0, 3, 5, 6}, {0, 1, 2, 0, 1, 2}, {4, -1, -3, -1, 5, 6}, false},
+        {plm::storage::csc, plm::part::full, {0, 2, 4, 4}, {0, 2, 0, 1}, {4, -3, -1, 5}, false},
+        {plm::storage::csc, plm::part::full, {0, 1, 3, 3}, {0, 1, 2}, {4, 5, -2}, false},
+        {plm::storage::csc,
+         plm::part::full,
+         {0, 2, 5, 7},
+         {1, 0, 2, 1, 0, 2, 1},
+         {-1, 4, -2, 5, -1, 6, -2},
+         true},
+        {plm::storage::csc, plm::part::lower, {0, 2, 4, 5}, {0, 1, 1, 2, 2}, {4, -1, 5, -2, 6}, true},
+        {plm::storage::triplets,
+         plm::part::full,
          {0, 0, 1, 1, 1, 2, 2},
          {0, 1, 0, 1, 2, 1, 2},
          {4, -1, -1, 5, -2, -2, 6},
@@ -71,7 +81,7 @@ template <class Index> bool is_read_within_bounds(const Case &c, std::int32_t st
     plm::SparseMatrix read;
     const Caught out = caught(
         [&] { read = plm::MatrixInput(f, pointers.data(), numbers.data(), values.data()).to_sparse(); });
-    return c.symmetric ? out.status == PLM_OK && read.nnz() == 7 : out.status == PLM_ERR_MATRIX;
+    return c.symmetric ? out.status == plm::status::ok && read.nnz() == 7 : out.status == plm::status::matrix;
 }
 
 void arrays_are_read_up_to_their_ends(void **) {
@@ -79,8 +89,8 @@ void arrays_are_read_up_to_their_ends(void **) {
         for (int base : {0, 1}) {
             assert_true(is_read_within_bounds<std::int32_t>(c, c.storage, base));
             assert_true(is_read_within_bounds<std::int64_t>(c, c.storage, base));
-            if (c.storage != PLM_CSC || c.part != PLM_FULL) continue;
-            assert_true(is_read_within_bounds<std::int32_t>(c, PLM_CSR, base));
+            if (c.storage != plm::storage::csc || c.part != plm::part::full) continue;
+            assert_true(is_read_within_bounds<std::int32_t>(c, plm::storage::csr, base));
         }
 }
 

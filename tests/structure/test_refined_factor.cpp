@@ -72,7 +72,7 @@ void a_bad_pivot_is_named_by_its_dof(void **) {
         vector<double> d(60, 2.0);
         d[41] = pivot;
         const auto o = outcome_of([&] { plm::make_factor(diagonal(d), single()); });
-        assert_int_equal(o.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+        assert_int_equal(o.status, plm::status::not_positive_definite);
         assert_int_equal(o.index, 41);
     }
 }
@@ -85,15 +85,15 @@ void what_does_not_contract_is_an_error(void **) {
     Matrix x(a.cols, 1);
     for (std::int64_t i = 0; i < a.cols; ++i) x(i, 0) = 1;
     const auto o = outcome_of([&] { factor->solve(x); });
-    assert_int_equal(o.status, PLM_ERR_CONVERGENCE);
-    assert_int_equal(o.reason, PLM_REASON_NO_CONTRACTION);
+    assert_int_equal(o.status, plm::status::convergence);
+    assert_int_equal(o.reason, plm::reason::no_contraction);
 }
 
 void solvers_without_it_refuse(void **) {
     plm::Solver eigen = plm::SolverName::eigen;
     eigen.precision = plm::FactorPrecision::single;
     const auto o = outcome_of([&] { plm::make_factor(membrane(3, 3), eigen); });
-    assert_true(o.status == PLM_ERR_ARGUMENT || o.status == PLM_ERR_NOT_BUILT);
+    assert_true(o.status == plm::status::argument || o.status == plm::status::not_built);
 }
 
 } // namespace

@@ -129,7 +129,7 @@ void rigid_motion_does_not_soften_the_contact(void **) {
     // Two loose chains meet: the elastic flexibility of a free chain of four at its end is known in closed
     // form.
     ModelInput in = loose_chains(2, 100, 3);
-    test::add_pair(in, {0, 0, 0, 1, -1, 0, 0, 0}, PLM_AUTO_STIFFNESS);
+    test::add_pair(in, {0, 0, 0, 1, -1, 0, 0, 0}, plm::auto_stiffness);
     const auto m = test::build(in);
     double end = 0; // sum phi_end^2 / lambda over the elastic modes of one chain
     for (int p = 1; p < 4; ++p) {
@@ -148,9 +148,9 @@ void bodies_without_stiffness_need_a_given_one(void **) {
     const auto m = test::build(in);
     assert_int_equal(m->n_rigid(), 1);
     assert_true(m->shift() > 0 && close_to(std::abs(m->rigid_modes().at(0, 0)), std::sqrt(0.5), 1e-12));
-    in.contact.stiffness[0] = PLM_AUTO_STIFFNESS;
+    in.contact.stiffness[0] = plm::auto_stiffness;
     const Caught c = caught([&] { test::build(in); });
-    assert_int_equal(c.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(c.status, plm::status::argument);
     assert_true(c.argument == "stiffness" && c.index == 0 && c.says("give k_n"));
 }
 
@@ -159,7 +159,7 @@ void massless_dofs_are_allowed_where_they_are_held(void **) {
     assert_int_equal(test::build(in)->n_rigid(), 1);
     in.stiffness = test::matrix({{10, 0, 0}, {0, 0, 0}, {0, 0, 10}});
     const Caught c = caught([&] { test::build(in); });
-    assert_int_equal(c.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+    assert_int_equal(c.status, plm::status::not_positive_definite);
     assert_int_equal(c.index, 1);
     assert_true(c.says("DOF 1"));
 }
@@ -169,7 +169,7 @@ void lagrange_multipliers_are_named(void **) {
     ModelInput in = test::input({{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}},
                                 {{10, 0, 1, 0}, {0, 10, -1, 1}, {1, -1, 0, 0}, {0, 1, 0, 0}});
     const Caught c = caught([&] { test::build(in); });
-    assert_int_equal(c.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+    assert_int_equal(c.status, plm::status::not_positive_definite);
     assert_int_equal(c.index, 2);
     assert_true(c.says("2 rows") && c.says("Lagrange multipliers") && c.says("DOF 2"));
 }
@@ -177,13 +177,13 @@ void lagrange_multipliers_are_named(void **) {
 void loose_massless_part_is_refused(void **) {
     // DOFs 1 and 2 hang together by a spring, but on nothing, and have no mass.
     ModelInput in = test::input({{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}, {{5, 0, 0}, {0, 10, -10}, {0, -10, 10}});
-    assert_int_equal(caught([&] { test::build(in); }).status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+    assert_int_equal(caught([&] { test::build(in); }).status, plm::status::not_positive_definite);
 }
 
 void negative_stiffness_is_refused(void **) {
     ModelInput in = test::input(test::diagonal(3, 1), {{1, 2, 0}, {2, 1, 0}, {0, 0, 4}});
     const Caught c = caught([&] { test::build(in); });
-    assert_int_equal(c.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+    assert_int_equal(c.status, plm::status::not_positive_definite);
     assert_true(c.says("negative eigenvalue"));
 }
 
@@ -221,7 +221,7 @@ struct Triplets {
     std::shared_ptr<const plm::MatrixInput> matrix(int n) const {
         plm::MatrixFormat f;
         f.n = n, f.nnz = static_cast<std::int64_t>(v.size());
-        f.storage = PLM_TRIPLETS, f.part = PLM_LOWER, f.negative_diagonal = true;
+        f.storage = plm::storage::triplets, f.part = plm::part::lower, f.negative_diagonal = true;
         return std::make_shared<const plm::MatrixInput>(f, i.data(), j.data(), v.data());
     }
 };
@@ -273,7 +273,7 @@ void a_free_chain_of_ten_thousand_masses(void **) {
     ModelInput in = body.input();
     std::vector<double> first(n);
     first[0] = 1;
-    test::add_pair(in, first, PLM_AUTO_STIFFNESS);
+    test::add_pair(in, first, plm::auto_stiffness);
     const auto m = test::build(in);
     assert_int_equal(m->n_rigid(), 1);
     assert_true(close_to(m->shift(), 1e-2 * first_of_chain(n, 1e9), 1e-6));
@@ -332,7 +332,7 @@ void a_mesh_too_fine_is_said(void **) {
     const std::clock_t begin = std::clock();
     const Caught c = caught([&] { test::build(in); });
     const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-    assert_int_equal(c.status, PLM_ERR_SINGULAR);
+    assert_int_equal(c.status, plm::status::singular);
     assert_true(c.says("mesh is too fine") && c.says("use larger elements"));
     assert_true(below(seconds, 60)); // 4 s; the sanitizers' take their time
 }

@@ -154,7 +154,7 @@ void a_bad_pivot_is_named_by_its_dof(void **) {
                 for (std::int64_t p = a.ptr[j]; p < a.ptr[j + 1]; ++p)
                     if (a.idx[p] == dof || j == dof) a.val[p] = a.idx[p] == j ? pivot : 0;
             const auto o = outcome_of([&] { plm::make_factor(a, plm::SolverName::cholmod); });
-            assert_int_equal(o.status, PLM_ERR_NOT_POSITIVE_DEFINITE);
+            assert_int_equal(o.status, plm::status::not_positive_definite);
             assert_int_equal(o.index, dof);
         }
 }

@@ -32,7 +32,7 @@ void triplets_are_sorted_and_duplicates_summed(void **) {
     const Matrix d = plm::to_dense(a);
     assert_true(d(0, 0) == 2 && d(2, 0) == 4 && d(1, 1) == 4);
     const auto o = outcome_of([] { plm::from_triplets(3, 2, {0, 3}, {0, 0}, {1, 1}); });
-    assert_int_equal(o.status, PLM_ERR_ARGUMENT);
+    assert_int_equal(o.status, plm::status::argument);
     assert_int_equal(o.index, 1);
 }
 
@@ -85,7 +85,7 @@ void block_products_match_dense_for_any_number_of_columns(void **) {
         assert_true(max_difference(plm::multiply_transposed(a, y), plm::product('T', 'N', d, y)) < 1e-13);
     }
     const auto o = outcome_of([&] { plm::multiply(a, Matrix(3, 3)); });
-    assert_int_equal(o.status, PLM_ERR_INTERNAL);
+    assert_int_equal(o.status, plm::status::internal);
 }
 
 void norm_and_trace_match_their_definitions(void **) {

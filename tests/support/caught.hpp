@@ -3,7 +3,7 @@
 #include "linalg/error.hpp"
 
 struct Caught {
-    plm_status status = PLM_OK;
+    plm::Status status = plm::status::ok;
     std::string argument, text;
     std::int64_t index = -1;
     bool says(const char *part) const {

@@ -17,7 +17,7 @@ inline std::shared_ptr<const plm::MatrixInput> matrix(const Dense &a) {
                 i.push_back(static_cast<int>(r)), j.push_back(static_cast<int>(c)), v.push_back(a[r][c]);
     plm::MatrixFormat f;
     f.n = static_cast<std::int64_t>(a.size()), f.nnz = static_cast<std::int64_t>(v.size());
-    f.storage = PLM_TRIPLETS, f.part = PLM_LOWER, f.negative_diagonal = true;
+    f.storage = plm::storage::triplets, f.part = plm::part::lower, f.negative_diagonal = true;
     return std::make_shared<const plm::MatrixInput>(f, i.data(), j.data(), v.data());
 }
 

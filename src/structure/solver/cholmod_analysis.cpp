@@ -117,7 +117,7 @@ void Cholmod::shape(cholmod_dense *&block, std::size_t rows, std::size_t cols) {
 void Cholmod::check(const char *step) const {
     if (common.status == CHOLMOD_OUT_OF_MEMORY) throw std::bad_alloc();
     if (common.status < 0)
-        throw Error(PLM_ERR_INTERNAL, format("CHOLMOD, %s: status %d", step, common.status))
+        throw Error(status::internal, format("CHOLMOD, %s: status %d", step, common.status))
             .library_code(common.status);
 }
 

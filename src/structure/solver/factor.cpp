@@ -4,17 +4,17 @@
 namespace plm {
 
 void throw_not_positive_definite(std::int64_t column) {
-    throw Error(PLM_ERR_NOT_POSITIVE_DEFINITE,
+    throw Error(status::not_positive_definite,
                 format("matrix is not positive definite: factorization stops at row %lld",
                        static_cast<long long>(column)))
-        .reason(PLM_REASON_NOT_POSITIVE_DEFINITE)
+        .reason(reason::not_positive_definite)
         .index(column);
 }
 
 void throw_singular(std::int64_t column) {
-    throw Error(PLM_ERR_SINGULAR,
+    throw Error(status::singular,
                 format("matrix is singular: no usable pivot at row %lld", static_cast<long long>(column)))
-        .reason(PLM_REASON_SINGULAR)
+        .reason(reason::singular)
         .index(column);
 }
 

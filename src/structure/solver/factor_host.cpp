@@ -27,12 +27,12 @@ class HostFactor final : public Factor {
     HostFactor(const SparseMatrix &a, bool positive_definite, const HostSolver &host)
         : host_(host), n_(a.cols) {
         if (!host.factor || !host.solve)
-            throw Error(PLM_ERR_ARGUMENT, "a host solver needs both a factor and a solve function");
+            throw Error(status::argument, "a host solver needs both a factor and a solve function");
         const SparseMatrix l = lower_triangle(a);
         const int status = host_.factor(n_, l.ptr.data(), l.idx.data(), l.val.data(), positive_definite,
                                         &handle_, host_.user);
         if (status != 0) // nothing was made, so the destructor (which would release it) need not run
-            throw Error(PLM_ERR_CALLBACK, format("the host's factorization failed with code %d", status))
+            throw Error(status::callback, format("the host's factorization failed with code %d", status))
                 .library_code(status);
     }
     ~HostFactor() override {
@@ -45,21 +45,21 @@ class HostFactor final : public Factor {
         if (n_ == 0 || nrhs == 0) return;
         const int status = host_.solve(handle_, nrhs, x, ldx, host_.user);
         if (status != 0)
-            throw Error(PLM_ERR_CALLBACK, format("the host's solve failed with code %d", status))
+            throw Error(status::callback, format("the host's solve failed with code %d", status))
                 .library_code(status);
         for (std::int64_t j = 0; j < nrhs; ++j)
             if (!finite(x + j * ldx, n_))
-                throw Error(PLM_ERR_CALLBACK, "the host's solve returned NaN or Inf").index(j);
+                throw Error(status::callback, "the host's solve returned NaN or Inf").index(j);
     }
     std::int64_t negative_eigenvalues() const {
         if (!host_.inertia) return -1;
         std::int64_t negative = -1;
         const int status = host_.inertia(handle_, &negative, host_.user);
         if (status != 0)
-            throw Error(PLM_ERR_CALLBACK, format("the host's inertia function failed with code %d", status))
+            throw Error(status::callback, format("the host's inertia function failed with code %d", status))
                 .library_code(status);
         if (negative < -1 || negative > n_)
-            throw Error(PLM_ERR_CALLBACK,
+            throw Error(status::callback,
                         format("the host's inertia function counts %lld negative eigenvalues of a matrix of "
                                "order %lld",
                                static_cast<long long>(negative), static_cast<long long>(n_)));

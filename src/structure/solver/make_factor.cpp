@@ -29,7 +29,7 @@ const Builtin &builtin(SolverName name) {
     for (const Builtin *one : builtins)
         if (one->name == name) return *one;
     const bool cholmod = name == SolverName::cholmod;
-    throw Error(PLM_ERR_NOT_BUILT, format("the solver %s was left out of this build; configure libplm with "
+    throw Error(status::not_built, format("the solver %s was left out of this build; configure libplm with "
                                           "PLM_WITH_%s=ON, or leave \"solver\" at auto",
                                           cholmod ? "cholmod" : "eigen", cholmod ? "CHOLMOD" : "EIGEN"))
         .argument("solver");
@@ -42,14 +42,14 @@ void require_matrix(const SparseMatrix &a) {
     std::int64_t j = 0, p = 0;
     while (std::isfinite(a.val[p])) ++p;
     while (a.ptr[j + 1] <= p) ++j;
-    throw Error(PLM_ERR_MATRIX, "NaN or Inf in the matrix to factor").index(j);
+    throw Error(status::matrix, "NaN or Inf in the matrix to factor").index(j);
 }
 
 } // namespace
 
 const HostSolver *Solver::serving_host() const {
     if (name == SolverName::host && !host)
-        throw Error(PLM_ERR_STATE,
+        throw Error(status::state,
                     "\"solver\" is host, but the context has no solver of the host's: hand one "
                     "over before, or leave \"solver\" at auto")
             .argument("solver");
@@ -61,7 +61,7 @@ std::unique_ptr<Factor> make_factor(const SparseMatrix &a, const Solver &solver)
     const HostSolver *host = solver.serving_host();
     if (solver.precision == FactorPrecision::single &&
         (host || builtin(solver.name).name != SolverName::cholmod))
-        throw Error(PLM_ERR_ARGUMENT,
+        throw Error(status::argument,
                     "\"factor_precision\" is single, which the solver cholmod alone offers; leave it at "
                     "auto or double, or choose that solver")
             .argument("factor_precision");

@@ -38,7 +38,7 @@ PanelFactor<T>::PanelFactor(const SparseMatrix &a, const Supernodes &s)
     try {
         eliminate_fronts(a, nodes(), this, least_pivot);
     } catch (const Error &e) {
-        if (e.status() == PLM_ERR_SINGULAR) throw_not_positive_definite(e.index());
+        if (e.status() == status::singular) throw_not_positive_definite(e.index());
         throw;
     }
     const auto range = std::minmax_element(pivots_.begin(), pivots_.end());

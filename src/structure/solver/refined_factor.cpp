@@ -20,12 +20,12 @@ constexpr int most_refinements = 10;
 
 [[noreturn]] void throw_no_contraction(double residual) {
     throw Error(
-        PLM_ERR_CONVERGENCE,
+        status::convergence,
         format(
             "a factorization kept in single precision does not serve this structure: refined solves keep a "
             "residual of %.1e; set factor_precision to double, with the memory it needs",
             residual))
-        .reason(PLM_REASON_NO_CONTRACTION)
+        .reason(reason::no_contraction)
         .argument("factor_precision");
 }
 
