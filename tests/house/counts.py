@@ -25,6 +25,8 @@ RULES = [
             (r"\bopen = 0, sliding = 1\b", r"sampling/sampler_options\.hpp", LINEAR_SYSTEMS),
             (r"\b(open|open_)\b", r"reduction/lelsm\.cpp", LINEAR_SYSTEMS),
             (r"\bleast_open_modes\b", r"reduction/basis\.cpp", LINEAR_SYSTEMS),
+            (r"\bloop_closed\b", r".*", "a curve that returns to its start, by the name of its reason"),
+            (r"\bno_switching\b", r".*", "the name of a reason"),
             (r"\brequire_open\b", r"capi/.*", "a handle whose model is not built yet"),
             (r"\bclosed\b", r"searches/isolated\.[ch]pp", "a curve that returns to its start"),
         ],
