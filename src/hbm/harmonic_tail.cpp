@@ -97,7 +97,7 @@ HarmonicChange harmonic_change(const ReducedModel &m, const BranchPoint &point, 
     const std::int64_t solved = point.n_harmonics, r = m.size();
     HarmonicChange out;
     out.motion.reset(r, 2 * (2 * solved + 2));
-    if (content.tail == 0) return out;
+    if (content.force_change.cols() == 0) return out;
     const PathState change = across_curve(system, x, point.omega, content.force_change);
     out.shift = change.parameter / point.omega;
     Matrix u, force;

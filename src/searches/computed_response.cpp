@@ -24,7 +24,6 @@ constexpr std::int64_t few_points = 300;
 // Where exact motions cost so many flops a step, one of them, found by a curve of few harmonics that takes a
 // fraction of theirs, says first whether the basis is worth a curve.
 constexpr double worth_a_look = 1e7;
-constexpr std::int64_t points_of_look = 250;
 // A step of exact motions on the whole structure: no basis saves anything.
 constexpr double cheap_whole = 3e6;
 // Of the effort: what curves may have, and what their peak and its error have at least.
@@ -73,6 +72,10 @@ class Chain {
     // best: what there is whenever the effort is spent.
     void search(const std::shared_ptr<const Basis> &smallest, ComputedResponse &best) {
         const auto first = first_basis(smallest, best);
+        if (beyond_reach_) { // no curve of more harmonics is better where they do not converge
+            unless_there_is(best, [&] { find_peak(best); });
+            if (best.peak.seen_in_time) return;
+        }
         unless_there_is(best, [&] {
             follow(first, is_complete(*first) ? Follow::to_the_end : Follow::few_points, best);
         });
@@ -182,12 +185,7 @@ class Chain {
     std::shared_ptr<const Branch> curve_of_few_harmonics(const std::shared_ptr<const Basis> &basis) {
         if (few_harmonics_.basis == basis) return few_harmonics_.curve;
         const auto reduced = widened(basis->reduced());
-        HbmOptions o = options_;
-        o.motion = MotionKind::harmonics;
-        o.n_harmonics = harmonics_of_look(*reduced);
-        o.max_points = points_of_look;
-        o.stability = StabilityKind::off;
-        const auto curve = Hbm(reduced, basis->sweep_range(), o, watch_).sweep();
+        const auto curve = Hbm(reduced, basis->sweep_range(), options_, watch_).sweep_with_few_harmonics();
         if (curve->end_reason == reason::cancelled) require_unstopped(*curve);
         if (!was_stopped(*curve)) few_harmonics_ = {basis, curve};
         return curve;
@@ -292,11 +290,11 @@ class Chain {
         tell(r);
         r.error = std::max(r.error, r.options.tolerance + r.basis->space()->error_estimate) +
                   model_->space_options().reduction_error;
-        const BranchPoint &top = r.peak.branch->points()[0];
-        if (!top.motion) r.error += top.harmonic_error < 0 ? NAN : top.harmonic_error;
+        r.error += r.peak.harmonic_error < 0 ? NAN : r.peak.harmonic_error;
         r.error += r.peak.above;
         // what was not followed may be higher by any amount
-        if (!std::isfinite(r.error) || !is_whole(*r.curve) || r.peak.branch->warnings.has(reason::no_peak))
+        const bool is_known = is_whole(*r.curve) || (spans(*r.curve) && r.peak.seen_in_time);
+        if (!std::isfinite(r.error) || !is_known || r.peak.branch->warnings.has(reason::no_peak))
             r.error = NAN;
         if (r.larger) watch_.keeping(r.warnings).warn(reason::larger_motion, words_for(*r.larger, known(r)));
         if (spent_ && !(r.error <= options_.accuracy))

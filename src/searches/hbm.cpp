@@ -58,6 +58,10 @@ std::shared_ptr<const Branch> Hbm::sweep(const Output &asked) const {
     return judged(task);
 }
 
+std::shared_ptr<const Branch> Hbm::sweep_with_few_harmonics() const {
+    return plm::sweep_with_few_harmonics(task());
+}
+
 std::shared_ptr<const Branch> Hbm::judged(const SweepTask &task) const {
     const Clock::time_point begin = Clock::now();
     const auto branch = sweep_whole(task);

@@ -12,6 +12,8 @@ struct Peak {
     double frequency_hz = 0, amplitude = 0;
     std::shared_ptr<const Branch> branch; // one point
     double basis_error = 0;               // as basis_error_at() tells it
+    double harmonic_error = 0;            // what the harmonics leave out; below 0: not known
+    bool seen_in_time = false;            // that is by the motion in time (motion_in_time.hpp)
     /// By how much it may be higher than the point found, of that: 0 where it was closed in upon.
     double above = 0;
 };
@@ -38,6 +40,8 @@ class Hbm {
     std::shared_ptr<const Branch> sweep() const;
     /// The same over a range that has the peak of this, too.
     std::shared_ptr<const Branch> sweep(const Output &asked) const;
+    /// The first look at the range, see sweep_with_few_harmonics().
+    std::shared_ptr<const Branch> sweep_with_few_harmonics() const;
     /// start may be null (cold start).
     std::shared_ptr<const Branch> solve(double frequency_hz, const Branch *start, std::int64_t point) const;
     Peak find_peak(const Branch &branch, std::int64_t dof, Measure measure, std::int64_t harmonic) const;

@@ -7,6 +7,7 @@
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/hbm.hpp"
+#include "searches/motion_in_time.hpp"
 #include "searches/point_equations.hpp"
 #include <algorithm>
 #include <array>
@@ -35,7 +36,9 @@ class CloserLook {
     void close_in() {
         const double wanted = 0.1 * options_.allowed_harmonic_error();
         if (automatic_) error_ = error_here();
+        double before;
         do {
+            before = error_;
             if (error_ > wanted)
                 options_.n_harmonics =
                     std::max(options_.n_harmonics, std::min(most_harmonics_, 2 * options_.n_harmonics));
@@ -44,7 +47,16 @@ class CloserLook {
                                                    reduced_, of_, watch_);
             search_->run(branch_, around_, point_);
             if (automatic_) error_ = error_here();
-        } while (error_ > wanted && options_.n_harmonics < most_harmonics_);
+        } while (error_ > wanted && error_ < before && options_.n_harmonics < most_harmonics_);
+    }
+
+    // The next harmonics tell little where the motion is a tangle of bounces; what it does in time tells.
+    void look_in_time() {
+        if (!automatic_ || !(error_ > options_.allowed_harmonic_error()) || !reduced_->same_static) return;
+        const HarmonicChange change = change_in_time(reduced_, options_, point_, watch_);
+        error_ = harmonic_error_at(*reduced_, point_, change, of_.dof, of_.measure, of_.harmonic);
+        in_time_ = true;
+        watch_.log(1, format("some periods in time change the peak by about %.2g of itself", error_));
     }
 
     void find_multipliers() {
@@ -53,6 +65,7 @@ class CloserLook {
 
     const BranchPoint &point() const { return point_; }
     double harmonic_error() const { return error_; }
+    bool seen_in_time() const { return in_time_; }
     /// As PeakSearch; where none was begun, by how much the lower neighbour is lower: a parabola rises less.
     double above() const {
         if (search_) return search_->above();
@@ -77,7 +90,8 @@ class CloserLook {
     Watch watch_;
     BranchPoint point_;
     std::int64_t most_harmonics_;
-    bool automatic_; // harmonics are chosen
+    bool automatic_;       // harmonics are chosen
+    bool in_time_ = false; // error_ is by the motion in time
     double error_ = 0;
     std::unique_ptr<PeriodicEquations> equations_;
     std::unique_ptr<PeakSearch> search_;
@@ -169,15 +183,18 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     const Output of{dof, measure, harmonic};
     double error = point.motion ? 0 : point.harmonic_error; // an exact motion lacks no harmonics
     if (is_peak) {
-        const double of_peak = 0.7; // of the effort: the rest is for the estimate of its error
+        // of the effort that is left, for each step: the last one is the estimate of the error by the basis
+        const double of_peak = 0.5;
         CloserLook look(reduced, options_, branch, around, of, watch_);
         within(of_peak * effort_left(), [&] { look.close_in(); });
+        within(of_peak * effort_left(), [&] { look.look_in_time(); });
         const bool in_time = within(of_peak * effort_left(), [&] { look.find_multipliers(); });
         const double multiplier_error = point.multiplier_error;
         point = look.point();
         point.multiplier_error = multiplier_error;
         error = look.harmonic_error();
         peak.above = look.above();
+        peak.seen_in_time = look.seen_in_time();
         if (options_.stability != StabilityKind::off && point.multipliers.empty())
             one->warnings.add(reason::unverified,
                               in_time ? Stability(reduced, options_, StabilityOf::point).unknown_text(1, 1)
@@ -210,6 +227,8 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         check_host_reduction(*one->reduced().model, options_.accuracy, by_basis,
                              watch_.keeping(one->warnings));
     peak.basis_error = by_basis;
+    const BranchPoint &found = one->points()[0]; // where nothing was seen in time, of its motion as a whole
+    peak.harmonic_error = found.motion ? 0 : peak.seen_in_time ? error : found.harmonic_error;
     one->unknowns_used = branch.unknowns_used;
     peak.frequency_hz = one->points()[0].omega / (2 * M_PI);
     peak.amplitude = one->amplitude(0, dof, measure, harmonic);

@@ -3,6 +3,7 @@
 #include "hbm/harmonic_point.hpp"
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
+#include "motions/first_harmonics.hpp"
 #include "motions/free_motion.hpp"
 #include "motions/motion_measures.hpp"
 #include "orbits/exact_flow.hpp"
@@ -90,25 +91,16 @@ std::shared_ptr<Branch> follow_curve(const SweepTask &task) {
 // The curve on a model that has what its motions need of the basis; null: such a model would not be much
 // smaller, or a curve on it is not what the whole basis says.
 std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
-    constexpr std::int64_t points_of_look = 250;
-    constexpr double share_of_look = 1e-2; // of the accuracy: what a few harmonics leave out is much more
     constexpr int most_curves = 3;
     CurveCompression compression(task.reduced, task.options, 2 * M_PI * task.options.frequency_max_hz,
                                  task.watch);
     SweepTask look = task, curve = task;
     look.only_looks = true;
     look.watch = task.watch.quiet();
-    look.exact = false;
-    look.options.motion = MotionKind::harmonics;
-    look.options.n_harmonics = harmonics_of_look(*task.reduced);
-    look.options.tolerance = std::max(task.options.tolerance, share_of_look * task.options.accuracy);
-    look.options.max_points = points_of_look;
-    look.options.stability = StabilityKind::off;
-    look.options.bifurcations = false;
     std::shared_ptr<Branch>
         whole; // the last one that came to its end: there is none better where the effort ends
     try {
-        const auto first = follow_curve(look);
+        const auto first = sweep_with_few_harmonics(look);
         require_unstopped(*first);
         if (!compression.begin_with(*first)) return nullptr;
         for (int k = 0; k < most_curves; ++k) {
@@ -190,20 +182,40 @@ void take_harmonics(const SweepTask &task, std::shared_ptr<Branch> &branch) {
     SweepTask other = task;
     other.exact = false;
     other.options.motion = MotionKind::harmonics;
-    for (bool few : {true, false}) {
-        other.options.max_harmonics =
-            few ? std::min(harmonics_of_look(*task.reduced), task.options.max_harmonics)
-                : task.options.max_harmonics;
-        other.options.harmonics_by_cost = few;
+    for (const auto &sweep : {sweep_with_few_harmonics, sweep_either_way})
         within(effort_left(), [&] {
-            const auto next = sweep_either_way(other);
+            const auto next = sweep(other);
             if (!branch || (!was_stopped(*next) && (!part || says_more(*next, *part, task.watch))))
                 branch = next;
         });
-    }
 }
 
 } // namespace
+
+std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task) {
+    constexpr std::int64_t few_points = 250;
+    constexpr double share_of_accuracy = 1e-2; // what a few harmonics leave out is much more
+    SweepTask look = task;
+    look.exact = false;
+    look.options.motion = MotionKind::harmonics;
+    look.options.tolerance = std::max(task.options.tolerance, share_of_accuracy * task.options.accuracy);
+    look.options.max_points = std::min(few_points, task.options.max_points);
+    look.options.stability = StabilityKind::off;
+    look.options.bifurcations = false;
+    std::shared_ptr<Branch> first;
+    const std::int64_t fewest = highest_excitation(*task.reduced);
+    for (std::int64_t h = harmonics_of_look(*task.reduced);; h = std::max(fewest, h / 2)) {
+        look.options.n_harmonics = std::min(h, task.options.max_harmonics);
+        try {
+            const auto next = sweep_either_way(look);
+            if (spans(*next) || was_stopped(*next)) return next;
+            if (!first) first = next;
+        } catch (const Error &e) {
+            if (e.reason() != reason::start_failed || (h == fewest && !first)) throw;
+        }
+        if (h == fewest) return first;
+    }
+}
 
 namespace {
 
