@@ -1,0 +1,85 @@
+// What some periods of the exact flow say of a solution of harmonic balance, against the exact motion's peak;
+// and few harmonics, of which a curve has as many as bring it to the other end of its range.
+#include "searches/motion_in_time.hpp"
+#include "motions/curve_verdicts.hpp"
+#include "reduction/basis.hpp"
+#include "reduction/widened_model.hpp"
+#include "sampling/small_models.hpp"
+#include "searches/hbm.hpp"
+#include "support/test.hpp"
+
+using plm::HbmOptions;
+using plm::Measure;
+
+namespace {
+
+constexpr int n_chain = 12, watched = n_chain - 1;
+constexpr Measure measure = Measure::half_peak_to_peak;
+
+// Two chains pressed together, the whole structure in the window of a resonance.
+struct Chains {
+    std::shared_ptr<const plm::ReducedModel> whole;
+    double low_hz = 0, high_hz = 0;
+};
+Chains chains(double contact_stiffness) {
+    exact::Structure s = test::two_chains(n_chain, 4, contact_stiffness, true);
+    s.force.assign(s.n, 0.0);
+    s.force[watched] = 0.05;
+    s.preload.assign(s.n, 0.0);
+    s.preload[watched] = 0.02;
+    s.preload[2 * n_chain - 1] = -0.02;
+    const auto model = test::make_model(s, {{}, 0, 0.3, false});
+    plm::SamplerOptions so;
+    so.system = plm::LinearSystem::open;
+    so.mode = 2;
+    so.n_samples = 2;
+    const auto sampler = std::make_shared<const plm::Sampler>(model, so, plm::Watch());
+    const auto basis =
+        std::make_shared<const plm::Basis>(model, sampler, nullptr, plm::BasisOptions(), plm::Watch());
+    const auto full = plm::unreduced_basis(basis, plm::Watch());
+    return {plm::widened(full->reduced()), full->window_min_hz(), full->window_max_hz()};
+}
+
+HbmOptions with_harmonics(std::int64_t n) {
+    HbmOptions o;
+    o.n_harmonics = n;
+    o.stability = plm::StabilityKind::off;
+    return o;
+}
+
+plm::Peak peak_of(const Chains &c, const HbmOptions &o) {
+    const plm::Hbm hbm(c.whole, c.low_hz, c.high_hz, o, plm::Watch());
+    return hbm.find_peak(*hbm.sweep(), watched, measure, 0);
+}
+
+// No less than a third of the truth, as every stated error, and no more than some times as much; where the
+// truth is below what the harmonics of one solution leave out elsewhere, no bound from below.
+void the_flow_knows_what_harmonics_miss(void **) {
+    for (double stiffness : {1.0, 10.0, 100.0}) {
+        const Chains c = chains(stiffness);
+        HbmOptions exactly;
+        exactly.motion = plm::MotionKind::exact;
+        const plm::Peak truth = peak_of(c, exactly);
+        assert_non_null(truth.branch->points()[0].motion.get());
+        for (std::int64_t n : {1, 2, 3}) {
+            const HbmOptions o = with_harmonics(n);
+            const plm::Peak peak = peak_of(c, o);
+            const auto change = plm::change_in_time(c.whole, o, peak.branch->points()[0], plm::Watch());
+            const double told = plm::harmonic_error_at(*c.whole, peak.branch->points()[0], change, watched,
+                                                       measure, 0),
+                         off = std::max(std::abs(peak.amplitude / truth.amplitude - 1),
+                                        std::abs(peak.frequency_hz / truth.frequency_hz - 1));
+            print_message("k_n %g, %lld harmonics: off by %.3g, told %.3g\n", stiffness,
+                          static_cast<long long>(n), off, told);
+            assert_true(told > off / 3);
+            assert_true(told < 10 * off + 0.01);
+        }
+    }
+}
+
+} // namespace
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_flow_knows_what_harmonics_miss)};
+    return cmocka_run_group_tests(tests, nullptr, nullptr);
+}
