@@ -38,6 +38,10 @@ class PieceEvents {
     /// known. A pair whose zero was just located has to leave it clearly, as in leave_clearly().
     std::int64_t not_staying(const Matrix &begin, const Matrix &end, const vector<double> &fourth,
                              const vector<double> &rounding, double duration, std::int64_t leaving);
+    /// Whether a pair with this penetration is on the other side of zero than its state says.
+    bool is_beyond(std::int64_t pair, double u) const {
+        return ContactLaw::closed(u) != states_.is_closed(pair);
+    }
     /// The pairs of the last first() or not_staying() change their states, their penetrations being zero
     /// there. Returns how many.
     std::int64_t pass();

@@ -44,8 +44,7 @@ bool ExactFlow::stay(FlowState &state, double left, FlowRecorder *recorder) {
             end_stay(state, duration, pair, recorder);
             return true;
         }
-        const bool beyond = other != pair && (there_(other, 0) > 0) != events_.states().is_closed(other);
-        if (beyond) {
+        if (other != pair && events_.is_beyond(other, there_(other, 0))) {
             const double share = here_(other, 0) / (here_(other, 0) - there_(other, 0));
             duration = modal_->zero_of(pair = other, std::clamp(share, 0.0, 1.0) * duration);
         } else {
