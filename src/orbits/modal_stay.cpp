@@ -11,7 +11,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int most_steps = 12;                   // of Newton's method
+constexpr int most_tangents = 12;                // of Newton's method
 constexpr double at_the_zero = 4e-16;            // of the time, of the last step
 constexpr double square_root_of_rounding = 1e-8; // of the duration: the next step would be rounding
 
@@ -112,7 +112,7 @@ double ModalPieces::zero_of(std::int64_t pair, double guess) const {
         of_load[l] += force_scale_ * Complex(load.real.gap[i], load.imag.gap[i]);
     }
     double at = guess;
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < most_tangents; ++step) {
         double u = constant, rate = 0;
         for (std::size_t l = 0; l < of_load.size(); ++l) {
             const double w = modes_->loads()[l].number * omega_;
