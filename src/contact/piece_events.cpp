@@ -94,6 +94,32 @@ double PieceEvents::first(const PiecePenetrations &penetrations, std::int64_t &p
     return share;
 }
 
+// The cubic through values and rates at both ends is off by s^2 (1 - s)^2 duration^4 / 24 of the fourth
+// derivative at most. Its Bernstein coefficients less that one's, as polynomials of degree four, are all on
+// the pair's side where the pair is. A zero at an end is known and divided out by its coefficient being zero.
+std::int64_t PieceEvents::not_staying(const Matrix &begin, const Matrix &end, const vector<double> &fourth,
+                                      const vector<double> &rounding, double duration, std::int64_t leaving) {
+    const double fourth_power = duration * duration * duration * duration;
+    std::int64_t worst = -1;
+    double beyond = 0;
+    for (std::int64_t i = 0; i < states_.size(); ++i) {
+        const double side = states_.is_closed(i) ? 1 : -1, noise = of_rounding * rounding[i],
+                     u0 = at_zero_[i] ? 0 : side * begin(i, 0), u1 = i == leaving ? 0 : side * end(i, 0),
+                     b1 = u0 + side * begin(i, 1) * duration / 3, b2 = u1 - side * end(i, 1) * duration / 3,
+                     off = fourth[i] * fourth_power / (24 * 6);
+        const bool stays = (u0 > noise || at_zero_[i]) && (u1 > noise || i == leaving) &&
+                           u0 + 3 * b1 > (at_zero_[i] ? clear_of_noise : 1) * noise &&
+                           3 * b2 + u1 > (i == leaving ? clear_of_noise : 1) * noise &&
+                           0.5 * (b1 + b2) > off + noise;
+        if (stays || (worst >= 0 && u1 >= beyond)) continue;
+        worst = i;
+        beyond = u1;
+    }
+    leaving_.clear();
+    if (worst < 0 && leaving >= 0) leaving_.push_back({1.0, leaving});
+    return worst;
+}
+
 // Share of the piece, or -1.
 double PieceEvents::crossing(const double *p, std::int64_t n_terms, std::int64_t pair, double until) {
     const std::int64_t power = sides_[pair].power;

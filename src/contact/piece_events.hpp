@@ -32,8 +32,18 @@ class PieceEvents {
     /// that of the last of them; the force is wrong by what a spring has for so long, the motion by the
     /// square of that.
     double first(const PiecePenetrations &penetrations, std::int64_t &pair, double together = 0);
-    /// The pairs of the last first() change their states, their penetrations being zero there. Returns how
-    /// many.
+    /// The same by the penetrations and their rates at both ends of a piece (Z x 2 each) and bounds of their
+    /// fourth derivatives on it (Z), with nothing between them looked at. -1: no pair comes to zero, but for
+    /// `leaving` (-1: none) at its end; else the first pair that is beyond zero there, or of which it is not
+    /// known. A pair whose zero was just located has to leave it clearly, as in leave_clearly().
+    std::int64_t not_staying(const Matrix &begin, const Matrix &end, const vector<double> &fourth,
+                             const vector<double> &rounding, double duration, std::int64_t leaving);
+    /// Whether a pair with this penetration is on the other side of zero than its state says.
+    bool is_beyond(std::int64_t pair, double u) const {
+        return ContactLaw::closed(u) != states_.is_closed(pair);
+    }
+    /// The pairs of the last first() or not_staying() change their states, their penetrations being zero
+    /// there. Returns how many.
     std::int64_t pass();
 
   private:

@@ -108,6 +108,13 @@ class ContactModesKept {
     /// Null where it has not been asked for.
     const vector<double> *known_transition(const std::shared_ptr<const ContactModes> &from,
                                            const std::shared_ptr<const ContactModes> &to) const;
+    /// What ended the last stay in a set, as far as a flow has said so: the pair (-1: none is known), and
+    /// the excitation's angle then.
+    struct Stay {
+        std::int64_t pair = -1;
+        double angle = 0;
+    };
+    Stay &last_stay(const PairStates &states) { return entries_[states].stay; }
     /// Where single motions are looked at from now on.
     void forget_transitions();
 
@@ -116,6 +123,7 @@ class ContactModesKept {
         std::int64_t effort = 0, last_use = 0;
         std::shared_ptr<const ContactModes> modes; // null: not made, or not usable
         bool tried = false;
+        Stay stay;
     };
     void make_room(double bytes);
 

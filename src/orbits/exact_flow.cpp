@@ -79,8 +79,8 @@ void ExactFlow::advance(FlowState &state, double t_end, FlowRecorder *recorder) 
         if (n_steps_++ % watch_interval == 0)
             watch_.step("exact flow", (state.time - begin) / (t_end - begin));
         const double left = t_end - state.time;
-        if (may_use_modes_ && (modal_->inside() || !(fresh_ && dense_)) && enter_modes(state) &&
-            modal_piece(state, left, recorder))
+        if (may_use_modes_ && goes_by_modes(recorder) && enter_modes(state) &&
+            (stay(state, left, recorder) || modal_piece(state, left, recorder)))
             continue;
         series_piece(state, left, recorder);
     }
@@ -118,6 +118,13 @@ void ExactFlow::take_set() {
     taken_ = modes_ ? modes_->known(events_.states()) : nullptr;
     set_ = taken_ ? &taken_->set() : &own_set_;
     if (!taken_) own_set_.assign(events_.states());
+}
+
+// Right after an event where they are dense, a piece that needs its polynomials is cheaper by the series.
+bool ExactFlow::goes_by_modes(FlowRecorder *recorder) const {
+    if (modal_->inside() || !(fresh_ && dense_)) return true;
+    const auto known = may_stay(recorder) ? modes_->known(events_.states()) : nullptr;
+    return known && known->usable_in_single();
 }
 
 bool ExactFlow::enter_modes(const FlowState &state) {

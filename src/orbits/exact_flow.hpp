@@ -74,6 +74,11 @@ class ExactFlow {
                 const FastMotion *fast, FlowRecorder &recorder);
     void series_piece(FlowState &state, double left, FlowRecorder *recorder);
     bool modal_piece(FlowState &state, double left, FlowRecorder *recorder);
+    bool goes_by_modes(FlowRecorder *recorder) const;
+    bool may_stay(FlowRecorder *recorder) const;
+    bool stay(FlowState &state, double left, FlowRecorder *recorder);
+    double expected_end(const ContactModesKept::Stay &last) const;
+    void end_stay(FlowState &state, double duration, std::int64_t pair, FlowRecorder *recorder);
     bool enter_modes(const FlowState &state);
     bool pass_on();
     void take_set();
@@ -99,6 +104,8 @@ class ExactFlow {
     double last_event_ = 0, shortest_series_ = 0;
     double truncation_ = 1e-17;
     std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_ = 0, stalled_ = 0;
+    Matrix here_, there_; // penetrations and rates at the ends of a stay
+    std::int64_t n_stays_ = 0, n_lost_stays_ = 0;
     double events_left_ = 0, tried_ = 0; // tried_: longest duration of the next piece
 };
 

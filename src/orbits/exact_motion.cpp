@@ -4,6 +4,7 @@
 #include "orbits/period_map.hpp"
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace plm {
 namespace {
@@ -12,14 +13,16 @@ constexpr int max_steps = 10, event_steps = 5;
 constexpr int may_wander = 3; // steps that may wander; later ones have to contract
 constexpr double contraction = 0.7;
 constexpr double same_motion = 0.3; // of the motion's size: farther away it is another one
-// How exact a motion has to be for its multipliers: near grazing they change with the root of the
-// penetration, a small part of the motion. Shares of their distance from the unit circle, and what is enough
-// wherever they are; in the state, as a share of the motion, and in the instants of the events, as angles.
-constexpr double safe_state = 2e-5, exact_state = 1e-9;
+// How exact a motion has to be for its multipliers. What they still change by, as a share of their distance
+// from the unit circle; a motion, as a share of its size, that is exact enough wherever they are.
+constexpr double settled = 1e-3, exact_state = 1e-9;
+// A step, as a share of that distance, after which they are told where no better motion is found: beside a
+// fold the exact curve has turned already.
+constexpr double safe_state = 2e-5;
+// The same by the instants of the events, as angles.
 constexpr double safe_shift = 5e-4, exact_shift = 1e-7;
-// Of one run of the flow, which finds events by itself: below, it costs no more than the point did; above, a
-// curve would take minutes.
-constexpr double cheap = 3e6, affordable = 3e7; // flops
+// Of one run of the flow, which finds events by itself: above, a curve would take minutes.
+constexpr double affordable = 3e7; // flops
 
 // The fastest motion of the stiffest contact set bounds the length of the flow's pieces from above; every
 // event ends one.
@@ -37,14 +40,26 @@ double flops_of_run(const ExactFlow &flow, std::int64_t periods, std::size_t n_e
 struct Verdict {
     double margin = 1;
     std::int64_t n_outside = 0;
+    vector<double> moduli; // the largest first
 };
 Verdict verdict_of(const Matrix &monodromy) {
     Verdict v;
     for (const std::complex<double> &m : multipliers(monodromy)) {
         v.margin = std::min(v.margin, std::abs(std::abs(m) - 1));
         v.n_outside += std::abs(m) > 1;
+        v.moduli.push_back(std::abs(m));
     }
     return v;
+}
+
+// Whether a step that is `shorter` times the last one changes nothing any more. Near grazing multipliers
+// change with the root of the penetration, elsewhere less.
+bool is_settled(const Verdict &before, const Verdict &now, double shorter) {
+    if (before.n_outside != now.n_outside || before.moduli.size() != now.moduli.size()) return false;
+    double change = 0;
+    for (std::size_t i = 0; i < now.moduli.size(); ++i)
+        change = std::max(change, std::abs(now.moduli[i] - before.moduli[i]));
+    return change * std::sqrt(shorter) <= settled * now.margin;
 }
 
 // Chatter, overflow, a mode too fast for the exponential, a singular system: no answer.
@@ -69,17 +84,21 @@ EventSequence contact_events(const ReducedModel &m, const BranchPoint &point, st
 // nearby motion, to whose shifts a stiff contact's multipliers answer with a factor of ten.
 Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
                                const EventSequence &sequence, const Matrix &within) {
-    ExactFlow flow(model, point.omega, point.force_scale);
+    if (model != model_) {
+        model_ = model;
+        modes_ = std::make_shared<ContactModesKept>(model);
+    }
+    ExactFlow flow(model, point.omega, point.force_scale, Watch(), modes_);
     if (sequence.events.empty())
         return found_by([&] {
             return plm::monodromy(*model, {{flow.period() * static_cast<double>(periods_), sequence.first}});
         });
     const double omega = point.omega / static_cast<double>(periods_);
     const FlowState start = model->state(point.eta_0, point.eta, omega, 0.0);
-    const double flops = flops_of_run(flow, periods_, sequence.events.size());
+    const bool dear = flops_of_run(flow, periods_, sequence.events.size()) > affordable;
     Matrix found;
-    if (flops > cheap) found = found_by([&] { return by_events(flow, start, sequence, within); });
-    if (found.rows() > 0 || flops > (patient_ ? INFINITY : affordable)) return found;
+    if (dear) found = found_by([&] { return by_events(flow, start, sequence, within); });
+    if (found.rows() > 0 || (dear && !patient_)) return found;
     if (!correction_.empty())
         found = found_by([&] { return newton(flow, start, moved(*model, start, correction_, 1), within); });
     return found.rows() > 0 ? found : found_by([&] { return newton(flow, start, start, within); });
@@ -109,20 +128,26 @@ Matrix MotionBeside::newton(ExactFlow &flow, const FlowState &start, FlowState n
     const FlowModel &model = flow.model();
     const EnergyNorm norm(flow);
     double before = INFINITY;
+    Verdict verdict;
+    Matrix safe; // of the last run that was that near to a motion
     for (int k = 0; k < max_steps; ++k) {
         const PeriodRun run = run_periods(flow, now, periods_);
-        Matrix matrix = plm::monodromy(model, run.intervals);
+        Matrix matrix = plm::monodromy(model, run.intervals, 1e-15, Watch(), modes_.get());
         FlowState next = moved(model, now, period_step(model, now, run, matrix, within), 1);
         const double step = run.size > 0 ? norm.distance(next, now) / run.size : 0;
         if (!std::isfinite(step) || norm.distance(next, start) > same_motion * run.size) return {};
-        if (k >= may_wander && step > contraction * before) return {};
-        before = step;
+        if (k >= may_wander && step > contraction * before) return safe;
         now = std::move(next);
-        if (step > exact_state && step > safe_state * verdict_of(matrix).margin) continue;
+        const Verdict last = std::exchange(verdict, step > exact_state ? verdict_of(matrix) : Verdict());
+        const double shorter = step / std::exchange(before, step);
+        if (step > exact_state && !is_settled(last, verdict, shorter)) {
+            if (step <= safe_state * verdict.margin) safe = std::move(matrix);
+            continue;
+        }
         keep_correction(model, start, now);
         return matrix;
     }
-    return {};
+    return safe;
 }
 
 void MotionBeside::keep_correction(const FlowModel &model, const FlowState &start, const FlowState &found) {

@@ -18,7 +18,8 @@ class MotionBeside {
     /// The monodromy matrix of the exact motion beside `point`; empty when a few steps of Newton's method do
     /// not lead to a motion that the point describes, or when the flow would take longer than allowed.
     /// sequence: contact_events() of the point; within: see period_step(). What lay between the last point
-    /// and its motion is the first guess for the next one.
+    /// and its motion is the first guess for the next one; contact sets that come back are known by their
+    /// modes.
     Matrix monodromy(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
                      const EventSequence &sequence, const Matrix &within);
 
@@ -30,7 +31,9 @@ class MotionBeside {
 
     std::int64_t periods_;
     bool patient_;
-    vector<double> correction_; // FlowModel::state_size(); empty: none is known
+    std::shared_ptr<const FlowModel> model_;  // of the last point
+    std::shared_ptr<ContactModesKept> modes_; // of that model
+    vector<double> correction_;               // FlowModel::state_size(); empty: none is known
 };
 
 } // namespace plm

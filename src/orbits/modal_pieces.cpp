@@ -124,23 +124,27 @@ bool ModalPieces::allows(double duration) {
     return true;
 }
 
-double ModalPieces::expand(double longest) {
-    const std::int64_t z = modes_->gap_by_pair().cols();
-    tiny_.resize(static_cast<std::size_t>(z));
-    veil_.resize(static_cast<std::size_t>(z));
+// Of the penetrations now, and how large the free motion of each mode is.
+void ModalPieces::sum_rounding() {
+    const std::size_t z = static_cast<std::size_t>(modes_->gap_by_pair().cols());
+    tiny_.resize(z);
     const double size = norm2(modes_->size(), at_now_.data());
+    if (!std::isfinite(size)) // no duration would do
+        throw Error(status::convergence, "the motion grows beyond all numbers").reason(reason::not_finite);
     put_aside(&ContactModes::Load::gap, now_, aside_);
-    now_penetration_ = aside_;
-    if (z > 0) gemv('T', 1.0, modes_->gap_by_pair(), at_now_.data(), 1.0, now_penetration_.data());
-    for (std::int64_t i = 0; i < z; ++i)
-        tiny_[i] = eps * (std::abs(aside_[i]) + modes_->gap_size()[i] * size);
+    for (std::size_t i = 0; i < z; ++i) tiny_[i] = eps * (std::abs(aside_[i]) + modes_->gap_size()[i] * size);
     size_.clear();
     for (const ContactModes::Mode &m : modes_->modes()) {
         const double re = present_[m.first], im = m.is_pair ? present_[m.first + 1] : 0.0;
         size_.push_back(std::sqrt(re * re + im * im));
     }
-    if (!std::isfinite(size)) // no duration would do
-        throw Error(status::convergence, "the motion grows beyond all numbers").reason(reason::not_finite);
+}
+
+double ModalPieces::expand(double longest) {
+    sum_rounding();
+    now_penetration_ = aside_;
+    veil_.resize(tiny_.size());
+    if (!tiny_.empty()) gemv('T', 1.0, modes_->gap_by_pair(), at_now_.data(), 1.0, now_penetration_.data());
     double duration = longest;
     for (const ContactModes::Mode &m : modes_->modes())
         if (m.rate.real() > 0) duration = std::min(duration, most_growth / m.rate.real());
@@ -315,7 +319,7 @@ void ModalPieces::advance_free(double share) {
 }
 
 void ModalPieces::advance(double duration) {
-    if (unheld_powers_.rows() > 0) advance_free(duration / duration_);
+    if (modes_->free_block().rows() > 0) advance_free(duration / duration_);
     now_ += duration;
     steady_at(now_, at_now_, nullptr);
     turn_free(free_, present_);

@@ -41,6 +41,16 @@ class ModalPieces {
     /// To `duration` beyond the beginning of the last piece.
     void advance(double duration);
 
+    /// In the place of expand(), where no polynomials are needed (modal_stay.cpp). False: free motions are
+    /// known by their powers alone.
+    bool begin_stay();
+    /// Penetrations and their rates at `duration` from now, Z x 2.
+    void look(double duration, Matrix &u);
+    /// Bounds of the fourth derivatives of the penetrations until then (Z).
+    const vector<double> &fourth(double duration);
+    /// How long from now a pair takes to zero, by Newton's method from a guess; NaN: it finds none.
+    double zero_of(std::int64_t pair, double guess) const;
+
   private:
     using Complex = std::complex<double>;
     // Response of one mode to one load: (plus (t) e^{iht} + minus (t) e^{-iht}), linear in t for the change.
@@ -70,6 +80,7 @@ class ModalPieces {
     /// a piece, under the loads or under what the parameter changes of them.
     void expand_free(const double *from, bool changed, double duration, Matrix &powers) const;
     void advance_free(double share);
+    void sum_rounding();
 
     const FlowModel &model_;
     double omega_, force_scale_;
@@ -97,6 +108,8 @@ class ModalPieces {
     FastMotion fast_;
     double duration_ = 0;
     std::int64_t n_terms_ = 0;
+    Matrix ahead_;                // coordinates and their rates, size x 2
+    vector<double> way_, fourth_; // of the modes, of the pairs
 };
 
 } // namespace plm

@@ -14,58 +14,18 @@ double EnergyNorm::distance(const FlowState &a, const FlowState &b) const {
     return std::sqrt(sum);
 }
 
-namespace {
-
-// Contact history, and the largest distance from the start at the ends of the pieces.
-class RunRecorder final : public FlowRecorder {
-  public:
-    RunRecorder(const EnergyNorm &norm, const FlowState &start) : norm_(norm), start_(start), now_(start) {}
-    void record(const FlowPiece &piece) override {
-        history_.record(piece);
-        const std::int64_t n = piece.coefficient.rows();
-        std::fill(now_.y.begin(), now_.y.end(), 0.0);
-        std::fill(now_.v.begin(), now_.v.end(), 0.0);
-        for (std::int64_t k = 0; k < piece.coefficient.cols(); ++k)
-            for (std::int64_t j = 0; j < n; ++j) {
-                const double c = piece.coefficient(j, k);
-                now_.y[j] += c;
-                now_.v[j] += static_cast<double>(k) * c / piece.duration;
-            }
-        for (std::size_t k = 0; piece.fast && k < piece.fast->rate.size(); ++k) {
-            const std::complex<double> rate = piece.fast->rate[k], turn = std::exp(rate * piece.duration);
-            const double *a = piece.fast->cosine.col(static_cast<std::int64_t>(k)),
-                         *b = piece.fast->sine.col(static_cast<std::int64_t>(k));
-            for (std::int64_t j = 0; j < n; ++j) {
-                const std::complex<double> q = std::complex<double>(a[j], b[j]) * turn;
-                now_.y[j] += q.real();
-                now_.v[j] += (rate * q).real();
-            }
-        }
-        size_ = std::max(size_, norm_.distance(now_, start_));
-    }
-    bool only_polynomials() const override { return false; }
-    double size() const { return size_; }
-    const std::vector<ContactInterval> &intervals() const { return history_.intervals(); }
-
-  private:
-    const EnergyNorm &norm_;
-    const FlowState &start_;
-    FlowState now_;
-    ContactHistory history_;
-    double size_ = 0;
-};
-
-} // namespace
-
 PeriodRun run_periods(ExactFlow &flow, const FlowState &start, std::int64_t periods) {
+    constexpr std::int64_t looks = 4; // at the distance from the start, in a period
     const EnergyNorm norm(flow);
-    RunRecorder recorder(norm, start);
+    ContactHistory history;
     PeriodRun run;
     run.end = start;
-    flow.advance(run.end, start.time + static_cast<double>(periods) * flow.period(), &recorder);
-    run.distance = norm.distance(run.end, start);
-    run.size = recorder.size();
-    run.intervals = recorder.intervals();
+    for (std::int64_t k = 1; k <= looks * periods; ++k) {
+        flow.advance(run.end, start.time + static_cast<double>(k) / looks * flow.period(), &history);
+        run.distance = norm.distance(run.end, start);
+        run.size = std::max(run.size, run.distance);
+    }
+    run.intervals = history.intervals();
     return run;
 }
 

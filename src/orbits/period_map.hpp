@@ -21,7 +21,7 @@ class EnergyNorm {
 struct PeriodRun {
     FlowState end;
     double distance = 0; // of the end from the start, in the energy norm
-    double size = 0;     // the largest distance of the motion from its start, at the ends of the pieces
+    double size = 0;     // the largest distance of the motion from its start, looked at four times a period
     std::vector<ContactInterval> intervals;
     double defect() const { return size > 0 ? distance / size : 0.0; }
 };

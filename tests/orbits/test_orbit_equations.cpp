@@ -234,6 +234,7 @@ class Shown final : public plm::FlowRecorder {
 // Means, displacements and velocities of all coordinates, and the parameter's effect on those in the state.
 struct Run {
     std::vector<double> state, change, dofs;
+    std::vector<double> end; // by stays, which show no motion
     plm::Matrix monodromy;
     std::int64_t n_events = 0;
 };
@@ -264,6 +265,8 @@ Run two_periods(const std::shared_ptr<const plm::FlowModel> &model, FlowParamete
     };
     for (const plm::vector<double> &x : {shown.motion.mean(), end.y, end.v}) add(x, model->size(), out.state);
     out.dofs = test::to_dofs(*model, end);
+    flow.advance(end = start, 2 * flow.period());
+    for (const plm::vector<double> &x : {end.y, end.v}) add(x, model->size(), out.end);
     add(flow.change().y, model->n_moving(), out.change);
     add(flow.change().v, model->n_massive(), out.change);
     out.monodromy = plm::monodromy(*model, shown.history.intervals(), 1e-15, plm::Watch(),
@@ -279,6 +282,7 @@ void modes_know_what_has_no_mass(void **) {
                 assert_true(series.n_events > 10); // one that only just touches may be seen or not
                 assert_true(std::abs(series.n_events - modes.n_events) <= 1);
                 assert_true(below(max_difference(series.state, modes.state), 1e-9));
+                assert_true(below(max_difference(series.end, modes.end), 1e-9));
                 assert_true(below(max_difference(series.change, modes.change), 1e-8));
                 assert_true(below(max_difference(series.monodromy, modes.monodromy), 1e-8));
             }
@@ -300,6 +304,7 @@ void modes_know_what_is_free(void **) {
                 const Run series = two_periods(model, by, false), modes = two_periods(model, by, true);
                 assert_true(series.n_events > 3 && series.n_events == modes.n_events);
                 assert_true(below(max_difference(series.state, modes.state), 1e-10));
+                assert_true(below(max_difference(series.end, modes.end), 1e-9));
                 assert_true(below(max_difference(series.change, modes.change), 1e-8));
                 // two ways to sum up two periods of growth by 1e3: their rounding, 1.3e-9 with another
                 // compiler

@@ -271,9 +271,9 @@ double exact_radius(const exact::Structure &s, double omega, Vec &state) {
     exact::period_map(s, omega, state, &monodromy);
     return spectral_radius(monodromy, 2 * s.n);
 }
-// Where it passes 1, by secants.
+// Where it passes 1, by secants; beside a grazing touch it does so within 1e-6 of the frequency.
 double exact_torus(const exact::Structure &s, double omega, Vec state) {
-    double a = omega, b = omega * (1 + 1e-4), fa = exact_radius(s, a, state) - 1,
+    double a = omega, b = omega * (1 + 1e-8), fa = exact_radius(s, a, state) - 1,
            fb = exact_radius(s, b, state) - 1;
     for (int k = 0; k < 20 && std::abs(b - a) > 1e-10; ++k) {
         const double c = b - fb * (b - a) / (fb - fa);
@@ -282,9 +282,10 @@ double exact_torus(const exact::Structure &s, double omega, Vec state) {
     }
     return std::abs(fb) < 1e-8 ? b : NAN;
 }
+// And how far the largest modulus of the points' multipliers is off, by its distance from 1.
 struct Torus {
-    std::size_t n = 0;
-    double error = 0;
+    std::size_t n = 0, n_grazing = 0;
+    double error = 0, modulus_error = 0;
 };
 Torus neimark_sacker() {
     exact::Structure s; // two unit masses, unit springs, a stop of stiffness 100 at distance 1
@@ -310,6 +311,14 @@ Torus neimark_sacker() {
         t.error = std::isfinite(truth) ? std::max(t.error, std::abs(p.omega / truth - 1)) : 1e300;
         ++t.n;
     }
+    for (const plm::BranchPoint &p : branch->points()) {
+        if (std::abs(p.omega - 0.58195) > 7e-5) continue; // a first touch of the stop
+        Vec state = state_of(*m, p, p.omega);
+        const double truth = exact_radius(s, p.omega, state), modulus = std::abs(p.multipliers[0]);
+        const double off = std::abs(modulus - truth);
+        if (off > 1e-6) t.modulus_error = std::max(t.modulus_error, off / std::abs(truth - 1));
+        ++t.n_grazing;
+    }
     return t;
 }
 void neimark_sacker_points_agree_with_the_exact_flow(void **) {
@@ -317,6 +326,10 @@ void neimark_sacker_points_agree_with_the_exact_flow(void **) {
     assert_true(t.n >= 1);
     assert_true(below(
         t.error, 1e-3)); // hits at a stiff stop converge slowly in H; the flow is exact for their instants
+    // beside a touch multipliers change with the root of its depth: 5e-2 where motions are so exact only as
+    // their distance from 1 asks for in proportion
+    assert_true(t.n_grazing >= 5);
+    assert_true(below(t.modulus_error, 2e-2));
 }
 
 // The curve of folds through one fold of the response meets the other one at the same force, and passes the
