@@ -109,6 +109,39 @@ static int contacts(plm_context *ctx) {
     return 0;
 }
 
+static int couplings(plm_context *ctx) {
+    plm_model *model = NULL;
+    TRY(plm_model_create(ctx, 15, &model));
+    /* [plm_model_add_rigid_link_i32] */
+    /* the nodes with DOFs 0 to 2 and 3 to 5 follow that with DOFs 9 to 14, its rotations among them */
+    const int32_t hub[] = {9, 10, 11, 12, 13, 14}, rim[] = {0, 1, 2, 3, 4, 5};
+    const double centre[] = {0, 0, 0}, at[] = {100, 0, 0, 0, 100, 0};
+    TRY(plm_model_add_rigid_link_i32(model, 0, 6, hub, centre, 2, 3, rim, at));
+    /* [plm_model_add_rigid_link_i32] */
+    /* [plm_model_add_rigid_link_i64] */
+    const int64_t wide_hub[] = {10, 11, 12, 13, 14, 15}, wide_rim[] = {1, 2, 3, 0, 5, 6}; /* from 1: 0 is none */
+    TRY(plm_model_add_rigid_link_i64(model, 1, 6, wide_hub, centre, 2, 3, wide_rim, at));
+    /* [plm_model_add_rigid_link_i64] */
+    TRY(plm_model_destroy(&model));
+
+    TRY(plm_model_create(ctx, 15, &model));
+    /* [plm_model_add_distributing_coupling_i32] */
+    /* a load at the middle of three nodes, DOFs 9 to 14, goes to them as a force and a moment would */
+    const int32_t middle[] = {9, 10, 11, 12, 13, 14}, nodes[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+    const double load_at[] = {30, 30, 0}, corners[] = {0, 0, 0, 100, 0, 0, 0, 100, 0}, area[] = {2, 1, 1};
+    TRY(plm_model_add_distributing_coupling_i32(model, 0, 6, middle, load_at, 3, nodes, corners, area));
+    /* [plm_model_add_distributing_coupling_i32] */
+    TRY(plm_model_destroy(&model));
+
+    TRY(plm_model_create(ctx, 15, &model));
+    /* [plm_model_add_distributing_coupling_i64] */
+    const int64_t mean[] = {9, 10, 11}, wide_nodes[] = {0, 1, 2, 3, 4, 5, 6, 7, 8}; /* without rotations */
+    TRY(plm_model_add_distributing_coupling_i64(model, 0, 3, mean, load_at, 3, wide_nodes, corners, NULL));
+    /* [plm_model_add_distributing_coupling_i64] */
+    TRY(plm_model_destroy(&model));
+    return 0;
+}
+
 /* both masses of the rod move with the one DOF that the host kept: T = (0.5, 1) */
 static int32_t whole_motion(plm_context *ctx, int64_t n_dof, int64_t n_columns, const double *reduced,
                             int64_t n_full, double *full, void *user) {
@@ -268,6 +301,7 @@ int example(plm_context *ctx) {
     plm_model *model = NULL;
     int line = matrices(ctx);
     if (!line) line = contacts(ctx);
+    if (!line) line = couplings(ctx);
     if (!line) line = superelement(ctx);
     if (!line) line = whole_way(ctx);
     if (line) return line;

@@ -710,6 +710,44 @@ class Model : public detail::WithOptions<Model, plm_model> {
                                                    coefficient.data()),
               verb);
     }
+    /// Nodes that follow a reference node rigidly. DOFs: 3 or 6 of the reference node, and 3 or 6 of every
+    /// other (base - 1: none); coordinates: 3, 3 x n.
+    void add_rigid_link(Indices reference_dof, Reals reference_xyz, Indices dependent_dof, Reals dependent_xyz,
+                        std::int32_t index_base = 0) {
+        const bool wide = dependent_dof.is_wide();
+        const char *verb = wide ? "add_rigid_link_i64" : "add_rigid_link_i32";
+        const std::int64_t n = dependent_xyz.size() / 3;
+        const std::int32_t per_reference = require_reference(reference_dof, reference_xyz, wide, verb),
+                           per_dependent = dependent_dof.size() > 3 * n ? 6 : 3;
+        require_size(dependent_xyz.size(), 3 * n, verb, "dependent_xyz");
+        require_size(dependent_dof.size(), per_dependent * n, verb, "dependent_dof");
+        check(wide ? plm_model_add_rigid_link_i64(handle_, index_base, per_reference, reference_dof.wide(),
+                                                  reference_xyz.data(), n, per_dependent,
+                                                  dependent_dof.wide(), dependent_xyz.data())
+                   : plm_model_add_rigid_link_i32(handle_, index_base, per_reference, reference_dof.narrow(),
+                                                  reference_xyz.data(), n, per_dependent,
+                                                  dependent_dof.narrow(), dependent_xyz.data()),
+              verb);
+    }
+    /// RBE3: a reference node of 3 or 6 DOFs by the rigid motion that fits nodes best; dof, xyz: 3 x n;
+    /// weight: n or {} (all alike).
+    void add_distributing_coupling(Indices reference_dof, Reals reference_xyz, Indices dof, Reals xyz,
+                                   Reals weight = {}, std::int32_t index_base = 0) {
+        const bool wide = dof.is_wide();
+        const char *verb = wide ? "add_distributing_coupling_i64" : "add_distributing_coupling_i32";
+        const std::int64_t n = xyz.size() / 3;
+        const std::int32_t per_reference = require_reference(reference_dof, reference_xyz, wide, verb);
+        require_size(xyz.size(), 3 * n, verb, "xyz");
+        require_size(dof.size(), 3 * n, verb, "dof");
+        if (weight.data()) require_size(weight.size(), n, verb, "weight");
+        check(wide ? plm_model_add_distributing_coupling_i64(handle_, index_base, per_reference,
+                                                             reference_dof.wide(), reference_xyz.data(), n,
+                                                             dof.wide(), xyz.data(), weight.data())
+                   : plm_model_add_distributing_coupling_i32(handle_, index_base, per_reference,
+                                                             reference_dof.narrow(), reference_xyz.data(), n,
+                                                             dof.narrow(), xyz.data(), weight.data()),
+              verb);
+    }
     /// A permutation of all DOFs: how the sparse factorization eliminates them, in place of the library's
     /// order.
     void set_elimination_order(Indices dof, std::int32_t index_base = 0) {
@@ -855,6 +893,14 @@ class Model : public detail::WithOptions<Model, plm_model> {
     void require_pairs(Reals normal, Reals gap, std::int64_t n, const char *verb) const {
         require_size(normal.size(), 3 * n, verb, "normal");
         if (gap.data()) require_size(gap.size(), n, verb, "gap");
+    }
+    /// How many DOFs a reference node has.
+    std::int32_t require_reference(const Indices &dof, Reals xyz, bool wide, const char *verb) const {
+        const std::int32_t n = dof.size() > 3 ? 6 : 3;
+        require_size(dof.size(), n, verb, "reference_dof");
+        require_size(xyz.size(), 3, verb, "reference_xyz");
+        require_width(dof, wide, verb, "reference_dof");
+        return n;
     }
     /// Both index arrays of a call have the same width; an empty one fits any.
     void require_width(const Indices &x, bool wide, const char *verb, const char *argument) const {

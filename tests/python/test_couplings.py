@@ -1,0 +1,158 @@
+"""Rigid links and distributing couplings, from coordinates, against T^T K T made by hand."""
+import unittest
+import warnings
+
+import numpy
+import plm
+import scipy.linalg
+
+UNITS = (1.0, 1000.0)  # m, mm
+
+
+def arm(r):
+    """u = u_0 + arm(r) @ theta."""
+    x, y, z = r
+    return numpy.array([[0, z, -y], [-z, 0, x], [y, -x, 0]])
+
+
+def body(seed, nodes, more, unit=1.0):
+    """An elastic body of nodes with 3 DOFs each, and `more` nodes of 6 DOFs, every one on springs of its own: M, K, coordinates.
+    unit: how many make a metre, of lengths alone."""
+    random = numpy.random.default_rng(seed)
+    xyz = random.uniform(-0.5, 0.5, (nodes + more, 3))
+    a = random.normal(size=(3 * nodes, 3 * nodes))
+    stiffness, mass = a @ a.T + 5 * numpy.eye(3 * nodes), numpy.diag(random.uniform(1, 2, 3 * nodes))
+    for _ in range(more):
+        turn = unit**2 * random.uniform(0.1, 0.5, (2, 3))  # torque by angle, moments of inertia
+        stiffness = scipy.linalg.block_diag(stiffness, numpy.diag([3, 4, 5]), numpy.diag(turn[0]))
+        mass = scipy.linalg.block_diag(mass, numpy.diag([2, 2, 2]), numpy.diag(turn[1]))
+    return mass, stiffness, unit * xyz
+
+
+def by_hand(mass, stiffness, T):
+    return scipy.linalg.eigh(T.T @ stiffness @ T, T.T @ mass @ T, eigvals_only=True)
+
+
+def fit(xyz, centre, weight):
+    """The rigid motion about `centre`, 6 x 3 n, of the translations of nodes at xyz: weighted least squares."""
+    G = numpy.vstack([numpy.hstack([numpy.eye(3), arm(r - centre)]) for r in xyz])
+    W = numpy.repeat(weight, 3)
+    return numpy.linalg.solve(G.T @ (W[:, None] * G), G.T * W)
+
+
+class Couplings(unittest.TestCase):
+    def near(self, got, want, tolerance):
+        numpy.testing.assert_allclose(got, want, rtol=tolerance, atol=0)
+
+    def eigenvalues(self, mass, stiffness, couple, n_free):
+        model = plm.Model(mass, stiffness)
+        couple(model)
+        model.build()
+        self.assertEqual(model.n_free, n_free)
+        hz, shapes = model.modes(n_free, shapes=True)
+        return (2 * numpy.pi * hz)**2, shapes
+
+    def test_rigid_link(self):
+        """Nodes of solids and one with rotations; the dependent ones keep their springs and masses."""
+        for unit in UNITS:
+            mass, stiffness, xyz = body(1, 8, 2, unit)
+            T = numpy.eye(36)
+            for i in range(4):
+                T[3 * i:3 * i + 3] = 0
+                T[3 * i:3 * i + 3, 24:27], T[3 * i:3 * i + 3, 27:30] = numpy.eye(3), arm(xyz[i] - xyz[8])
+            T[30:] = 0
+            T[30:33, 24:27], T[30:33, 27:30], T[33:, 27:30] = numpy.eye(3), arm(xyz[9] - xyz[8]), numpy.eye(3)
+            T = T[:, 12:30]
+
+            def couple(model):
+                hub = numpy.arange(24, 30)
+                model.add_rigid_link(hub, xyz[8], numpy.arange(12).reshape(4, 3), xyz[:4])
+                model.add_rigid_link(hub.astype(numpy.int32), xyz[8], numpy.arange(30, 36, dtype=numpy.int32), xyz[9])
+            got, shapes = self.eigenvalues(mass, stiffness, couple, 18)
+            self.near(got, by_hand(mass, stiffness, T), 1e-12)
+            self.assertLess(numpy.abs(shapes - T @ shapes[12:30]).max(), 1e-12 * numpy.abs(shapes).max())
+
+    def test_distributing_coupling(self):
+        """A heavy reference node on springs of its own, coupled to five of eight nodes with weights."""
+        for unit in UNITS:
+            mass, stiffness, xyz = body(2, 8, 1, unit)
+            weight = numpy.array([1, 2, 0.5, 3, 1])
+            T = numpy.zeros((30, 24))
+            T[:24], T[24:, :15] = numpy.eye(24), fit(xyz[:5], xyz[8], weight)
+            got, shapes = self.eigenvalues(
+                mass, stiffness, lambda model: model.add_distributing_coupling(
+                    numpy.arange(24, 30), xyz[8], numpy.arange(15).reshape(5, 3), xyz[:5], weight), 24)
+            self.near(got, by_hand(mass, stiffness, T), 1e-12)
+            # what is left out or made by the elimination of another DOF is the same motion
+            self.assertLess(numpy.abs(shapes[24:] - T[24:] @ shapes[:24]).max(), 1e-12 * numpy.abs(shapes).max())
+
+    def test_reference_without_rotations(self):
+        """Its translations follow the rigid motion all the same, away from the centre too."""
+        mass, stiffness, xyz = body(3, 6, 1)
+        mass, stiffness = mass[:21, :21], stiffness[:21, :21]
+        T = numpy.zeros((21, 18))
+        T[:18], T[18:, :18] = numpy.eye(18), fit(xyz[:6], xyz[6], numpy.ones(6))[:3]
+        got, _ = self.eigenvalues(mass, stiffness, lambda model: model.add_distributing_coupling(
+            numpy.arange(18, 21, dtype=numpy.int32), xyz[6], numpy.arange(18, dtype=numpy.int32).reshape(6, 3), xyz[:6]), 18)
+        self.near(got, by_hand(mass, stiffness, T), 1e-12)
+
+    def test_a_chain_of_couplings(self):
+        """A mean of nodes, a link from it to a node with a link to another: given from the end on."""
+        for unit in UNITS:
+            mass, stiffness, xyz = body(4, 7, 3, unit)
+            nodes = numpy.arange(12).reshape(4, 3)
+            hubs = [numpy.arange(21 + 6 * k, 27 + 6 * k) for k in range(3)]
+            T = numpy.zeros((39, 21))
+            T[:21] = numpy.eye(21)
+            T[21:27, :12] = fit(xyz[:4], xyz[7], numpy.ones(4))
+            for k in (0, 1):
+                below = slice(21 + 6 * k, 27 + 6 * k)
+                T[27 + 6 * k:30 + 6 * k] = T[below][:3] + arm(xyz[8 + k] - xyz[7 + k]) @ T[below][3:]
+                T[30 + 6 * k:33 + 6 * k] = T[below][3:]
+
+            def couple(model):
+                model.add_rigid_link(hubs[1], xyz[8], hubs[2], xyz[9])
+                model.add_rigid_link(hubs[0], xyz[7], hubs[1], xyz[8])
+                model.add_distributing_coupling(hubs[0], xyz[7], nodes, xyz[:4])
+            got, _ = self.eigenvalues(mass, stiffness, couple, 21)
+            self.near(got, by_hand(mass, stiffness, T), 1e-12)
+
+    def test_a_force_at_the_reference_goes_to_the_nodes(self):
+        """Its shares have the same resultant and moment, and the statics are those of the shares."""
+        mass, stiffness, xyz = body(5, 6, 1)
+        stiffness[18:, 18:], mass[18:, 18:] = 0, 0
+        reference, force = xyz[6], numpy.zeros(24)
+        force[18:] = 1, -2, 3, 0.4, 0.5, -0.6
+        model = plm.Model(mass, stiffness)
+        model.add_distributing_coupling(numpy.arange(18, 24), reference, numpy.arange(18).reshape(6, 3), xyz[:6])
+        model.add_gap_rows(numpy.eye(1, 24), gap=1e6, stiffness=1.0)
+        model.set_preload(force)
+        model.build().solve_rest()
+        shares = stiffness[:18, :18] @ model.rest_displacement[:18]
+        G = numpy.vstack([numpy.hstack([numpy.eye(3), arm(r - reference)]) for r in xyz[:6]])
+        self.near(G.T @ shares, force[18:], 1e-11)
+        want = numpy.linalg.solve(stiffness[:18, :18], fit(xyz[:6], reference, numpy.ones(6)).T @ force[18:])
+        self.near(model.rest_displacement[:18], want, 1e-10)
+
+    def test_refusals(self):
+        mass, stiffness, xyz = body(6, 4, 1)
+        model = plm.Model(mass, stiffness)
+        nodes = numpy.arange(12).reshape(4, 3)
+        with self.assertRaisesRegex(ValueError, "reference_dof has 4 DOFs"):
+            model.add_rigid_link([12, 13, 14, 15], xyz[4], nodes, xyz[:4])
+        with self.assertRaisesRegex(ValueError, "dependent_dof has shape .4, 3.; needed is 3 x 3 or 6"):
+            model.add_rigid_link([12, 13, 14], xyz[4], nodes, xyz[:3])
+        with self.assertRaisesRegex(ValueError, "xyz has shape .4, 2."):
+            model.add_distributing_coupling([12, 13, 14], xyz[4], nodes, xyz[:4, :2])
+        with self.assertRaisesRegex(ValueError, "weight has shape"):
+            model.add_distributing_coupling([12, 13, 14], xyz[4], nodes, xyz[:4], [1, 2])
+        with self.assertRaisesRegex(plm.PlmError, "at one point"):
+            model.add_distributing_coupling(numpy.arange(12, 18), xyz[4], nodes, xyz[[0, 0, 0, 0]])
+        model.add_rigid_link([12, 13, 14], xyz[4], nodes, xyz[:4])  # nothing of the others has stayed
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", plm.PlmWarning)
+            self.assertEqual(model.build().n_free, 6)
+
+
+if __name__ == "__main__":
+    unittest.main()
