@@ -354,6 +354,34 @@ PLM_API plm_status plm_model_add_distributing_coupling_i64(plm_model *model, int
                                                            int64_t n, const int64_t *dof, const double *xyz,
                                                            const double *weight);
 
+/* Tie: n nodes (dependent_dof, dependent_xyz: 3 x n) move as the points of a surface that are closest to them, q = sum N_i q_i
+ * in every direction with the shape functions of its faces. surface_dof, surface_xyz: 3 x n_surface, a table of nodes;
+ * faces by their places in it, compressed (face_ptr[n_faces + 1], face_node, both from index_base on): 3, 4, 6 or 8 nodes
+ * each, the corners around, then those in the middle of the sides from the one between the first two corners on. base - 1: no
+ * such DOF (it does not move that way). Rotations are not tied. Where a node stands off the surface, its force acts there
+ * without the moment of that distance, so that a turn of the surface does not swing the node: fine for what meshes miss of
+ * a curved interface, not for offsets that are meant. Nodes farther from all faces than the tolerance (> 0, length) stay
+ * free: PLM_WARNING with PLM_REASON_MODEL and how many, "n_untied_nodes"; PLM_ERR_ARGUMENT where none is near enough.
+ * distance[n] or NULL: of every node from the surface ("tie_distance": the largest of those tied). A node of the surface
+ * itself needs no tie, and gets none. */
+PLM_API plm_status plm_model_add_tie_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *dependent_dof,
+                                         const double *dependent_xyz, int64_t n_surface, const int32_t *surface_dof,
+                                         const double *surface_xyz, int64_t n_faces, const int32_t *face_ptr,
+                                         const int32_t *face_node, double tolerance, double *distance);
+PLM_API plm_status plm_model_add_tie_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *dependent_dof,
+                                         const double *dependent_xyz, int64_t n_surface, const int64_t *surface_dof,
+                                         const double *surface_xyz, int64_t n_faces, const int64_t *face_ptr,
+                                         const int64_t *face_node, double tolerance, double *distance);
+
+/* DOFs of the matrices that are Lagrange multipliers (n numbers; the second call replaces the first, n = 0 removes them): the
+ * row of such a DOF in K holds the coefficients of a constraint, its diagonal is zero, and nothing of M and C stands at it.
+ * The build makes constraints of these rows, behind all others, and takes the DOFs out of what moves: their values, the
+ * forces of the constraints, are reported as 0. PLM_ERR_MATRIX of the build, with the DOF as index, where a row has a
+ * diagonal, couples two multipliers or is empty (codes with two multipliers for each constraint: fix them, and hand over
+ * plm_model_add_constraints_i32); PLM_ERR_ARGUMENT where a load acts on one. */
+PLM_API plm_status plm_model_set_multipliers_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *dof);
+PLM_API plm_status plm_model_set_multipliers_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *dof);
+
 /* The order in which the sparse factorization by cholmod eliminates the DOFs, in place of the library's: a permutation of
  * all of them, n = n_dof, for hosts that know their mesh; fixed and dependent ones are passed over. It changes time and memory, no
  * result. n = 0 removes it. Repeated and missing DOFs are PLM_ERR_ARGUMENT with the position as index. */

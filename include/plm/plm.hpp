@@ -748,6 +748,41 @@ class Model : public detail::WithOptions<Model, plm_model> {
                                                              dof.narrow(), xyz.data(), weight.data()),
               verb);
     }
+    /// Nodes onto faces that do not match them: DOFs and coordinates 3 x n, those of the surface's nodes
+    /// 3 x n_surface; face_ptr (n_faces + 1), face_node. Returns the distance of every node from the surface.
+    std::vector<double> add_tie(Indices dependent_dof, Reals dependent_xyz, Indices surface_dof,
+                                Reals surface_xyz, Indices face_ptr, Indices face_node, double tolerance,
+                                std::int32_t index_base = 0) {
+        const bool wide = dependent_dof.is_wide();
+        const char *verb = wide ? "add_tie_i64" : "add_tie_i32";
+        const std::int64_t n = dependent_xyz.size() / 3, n_surface = surface_xyz.size() / 3,
+                           n_faces = face_ptr.size() - 1;
+        require_size(dependent_dof.size(), 3 * n, verb, "dependent_dof");
+        require_size(surface_dof.size(), 3 * n_surface, verb, "surface_dof");
+        if (n_faces < 0) require_size(face_ptr.size(), 1, verb, "face_ptr");
+        for (const auto &[array, name] : {std::make_pair(surface_dof, "surface_dof"),
+                                          std::make_pair(face_ptr, "face_ptr"),
+                                          std::make_pair(face_node, "face_node")})
+            require_width(array, wide, verb, name);
+        const std::int64_t end = wide ? face_ptr.wide()[n_faces] : std::int64_t(face_ptr.narrow()[n_faces]);
+        require_size(face_node.size(), end - index_base, verb, "face_node");
+        std::vector<double> distance(static_cast<std::size_t>(n));
+        check(wide ? plm_model_add_tie_i64(handle_, index_base, n, dependent_dof.wide(), dependent_xyz.data(),
+                                           n_surface, surface_dof.wide(), surface_xyz.data(), n_faces,
+                                           face_ptr.wide(), face_node.wide(), tolerance, distance.data())
+                   : plm_model_add_tie_i32(handle_, index_base, n, dependent_dof.narrow(),
+                                           dependent_xyz.data(), n_surface, surface_dof.narrow(),
+                                           surface_xyz.data(), n_faces, face_ptr.narrow(), face_node.narrow(),
+                                           tolerance, distance.data()),
+              verb);
+        return distance;
+    }
+    /// DOFs of the matrices that are Lagrange multipliers: their rows of K become constraints.
+    void set_multipliers(Indices dof, std::int32_t index_base = 0) {
+        check(dof.is_wide() ? plm_model_set_multipliers_i64(handle_, index_base, dof.size(), dof.wide())
+                            : plm_model_set_multipliers_i32(handle_, index_base, dof.size(), dof.narrow()),
+              dof.is_wide() ? "set_multipliers_i64" : "set_multipliers_i32");
+    }
     /// A permutation of all DOFs: how the sparse factorization eliminates them, in place of the library's
     /// order.
     void set_elimination_order(Indices dof, std::int32_t index_base = 0) {

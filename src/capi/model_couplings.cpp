@@ -1,7 +1,7 @@
 // Couplings of nodes by their coordinates: rows of constraints that the library makes.
 #include "capi/barrier.hpp"
 #include "capi/model_input.hpp"
-#include "structure/couplings.hpp"
+#include "structure/tie.hpp"
 #include <algorithm>
 
 namespace plm::capi {
@@ -29,7 +29,7 @@ template <class Index> class NodeReader {
   public:
     NodeReader(std::int64_t base, std::int64_t n_dof) : base_(base), n_dof_(n_dof) {}
 
-    vector<CoupledNode> take(const NodeArrays<Index> &x) {
+    vector<CoupledNode> take(const NodeArrays<Index> &x, bool may_be_held = false) {
         if (x.per_node != 3 && x.per_node != 6)
             bad_argument(x.per_node_name, -1,
                          format("%s is %d; a node has 3 DOFs (translations), or 6 (and the rotations)",
@@ -43,7 +43,8 @@ template <class Index> class NodeReader {
             node.dof.fill(no_dof);
             for (std::int32_t k = 0; k < x.per_node; ++k)
                 node.dof[static_cast<std::size_t>(k)] = dof(x, x.per_node * i + k);
-            if (std::all_of(node.dof.begin(), node.dof.end(), [](std::int64_t d) { return d == no_dof; }))
+            if (!may_be_held &&
+                std::all_of(node.dof.begin(), node.dof.end(), [](std::int64_t d) { return d == no_dof; }))
                 bad_argument(x.dof_name, x.per_node * i,
                              format("node %lld of %s has no DOF at all; leave it out, or check its DOFs",
                                     Int(i), x.dof_name));
@@ -133,6 +134,83 @@ plm_status add_distributing_coupling(const char *function, plm_model *model, con
     });
 }
 
+template <class Index> struct TieArguments {
+    std::int32_t index_base;
+    NodeArrays<Index> dependent, surface;
+    std::int64_t n_faces;
+    const Index *face_ptr, *face_node;
+    double tolerance;
+};
+
+template <class Index> void take_faces(TieSurface &surface, const TieArguments<Index> &x) {
+    const std::int64_t base = x.index_base, n_nodes = x.surface.n;
+    require_pointer(x.face_ptr, "face_ptr");
+    if (x.face_ptr[0] != base)
+        bad_argument("face_ptr", 0,
+                     format("face_ptr[0] = %lld must be the index base %lld", Int(x.face_ptr[0]), Int(base)));
+    for (std::int64_t i = 0; i < x.n_faces; ++i) {
+        const std::int64_t size = static_cast<std::int64_t>(x.face_ptr[i + 1]) - x.face_ptr[i];
+        if (!is_face(size))
+            bad_argument(
+                "face_ptr", i + 1,
+                format("face %lld has %lld nodes (face_ptr[%lld] = %lld, the one before %lld); a face has "
+                       "3, 4, 6 or 8",
+                       Int(i), Int(size), Int(i + 1), Int(x.face_ptr[i + 1]), Int(x.face_ptr[i])));
+        surface.face_ptr.push_back(x.face_ptr[i + 1] - base);
+    }
+    require_pointer(x.face_node, "face_node");
+    for (std::int64_t p = 0; p < surface.face_ptr.back(); ++p) {
+        if (x.face_node[p] < base || x.face_node[p] - base >= n_nodes)
+            bad_argument("face_node", p,
+                         format("face_node[%lld] = %lld is no node of the surface; it must lie in %lld..%lld",
+                                Int(p), Int(x.face_node[p]), Int(base), Int(base + n_nodes - 1)));
+        surface.face_node.push_back(x.face_node[p] - base);
+    }
+}
+
+Outcome outcome_of(const Tie &t, double tolerance) {
+    if (t.n_untied == 0) return PLM_OK;
+    return Outcome(PLM_WARNING, PLM_REASON_MODEL,
+                   format("%lld of %lld nodes stay free, farther from the surface than the tolerance %g: the "
+                          "farthest is node %lld (counted from 0), at %g; leave them out, or check their "
+                          "coordinates, the faces and the tolerance",
+                          Int(t.n_untied), Int(t.distance.size()), tolerance, Int(t.farthest_untied),
+                          t.distance[t.farthest_untied]));
+}
+
+template <class Index>
+plm_status add_tie(const char *function, plm_model *model, const TieArguments<Index> &x, double *distance) {
+    return call<ModelHandle>(function, model, [&](ModelHandle &m) -> Outcome {
+        require_open(m);
+        require_index_base(x.index_base);
+        require_range(x.dependent.n, 1, INT64_MAX / 64, "n");
+        require_range(x.surface.n, 1, INT64_MAX / 64, "n_surface");
+        require_range(x.n_faces, 1, INT64_MAX / 64, "n_faces");
+        require_finite(x.tolerance, "tolerance");
+        if (!(x.tolerance > 0))
+            bad_argument("tolerance", -1, format("tolerance is %g; it must be a length > 0", x.tolerance));
+        NodeReader<Index> reader(x.index_base, m.input.n_dof), of_surface(x.index_base, m.input.n_dof);
+        const vector<CoupledNode> dependent = reader.take(x.dependent);
+        reader.refuse_repeated_dofs();
+        TieSurface surface;
+        surface.node = of_surface.take(x.surface, true);
+        of_surface.refuse_repeated_dofs();
+        take_faces(surface, x);
+        const Tie t = tie_nodes(dependent, surface, x.tolerance);
+        if (t.farthest_tied < 0)
+            bad_argument(
+                "tolerance", -1,
+                format("no node is tied: the nearest, node %lld (counted from 0), is %g from the surface, "
+                       "and the tolerance is %g; check the units of the coordinates and the faces",
+                       Int(t.nearest), t.distance[t.nearest], x.tolerance));
+        add_to(m.input, t.rows);
+        m.n_untied += t.n_untied;
+        m.tie_distance = std::max(m.tie_distance, t.distance[t.farthest_tied]);
+        if (distance) std::copy(t.distance.begin(), t.distance.end(), distance);
+        return outcome_of(t, x.tolerance);
+    });
+}
+
 } // namespace
 } // namespace plm::capi
 
@@ -186,4 +264,38 @@ plm_status plm_model_add_distributing_coupling_i64(plm_model *model, std::int32_
         "plm_model_add_distributing_coupling_i64", model,
         {index_base, per_reference, reference_dof, reference_xyz, {"dof", "xyz", "", n, 3, dof, xyz}},
         weight);
+}
+
+plm_status plm_model_add_tie_i32(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                 const std::int32_t *dependent_dof, const double *dependent_xyz,
+                                 std::int64_t n_surface, const std::int32_t *surface_dof,
+                                 const double *surface_xyz, std::int64_t n_faces,
+                                 const std::int32_t *face_ptr, const std::int32_t *face_node,
+                                 double tolerance, double *distance) {
+    return add_tie<std::int32_t>("plm_model_add_tie_i32", model,
+                                 {index_base,
+                                  {"dependent_dof", "dependent_xyz", "", n, 3, dependent_dof, dependent_xyz},
+                                  {"surface_dof", "surface_xyz", "", n_surface, 3, surface_dof, surface_xyz},
+                                  n_faces,
+                                  face_ptr,
+                                  face_node,
+                                  tolerance},
+                                 distance);
+}
+
+plm_status plm_model_add_tie_i64(plm_model *model, std::int32_t index_base, std::int64_t n,
+                                 const std::int64_t *dependent_dof, const double *dependent_xyz,
+                                 std::int64_t n_surface, const std::int64_t *surface_dof,
+                                 const double *surface_xyz, std::int64_t n_faces,
+                                 const std::int64_t *face_ptr, const std::int64_t *face_node,
+                                 double tolerance, double *distance) {
+    return add_tie<std::int64_t>("plm_model_add_tie_i64", model,
+                                 {index_base,
+                                  {"dependent_dof", "dependent_xyz", "", n, 3, dependent_dof, dependent_xyz},
+                                  {"surface_dof", "surface_xyz", "", n_surface, 3, surface_dof, surface_xyz},
+                                  n_faces,
+                                  face_ptr,
+                                  face_node,
+                                  tolerance},
+                                 distance);
 }

@@ -64,7 +64,7 @@ class RigidFit {
 
     void require_for(const CoupledNode &reference) const {
         const Point arm = difference(reference.at, centre_);
-        for (const Point &axis : open_) {
+        for (const Point &axis : loose_) {
             for (int k = 0; k < 3; ++k)
                 if (reference.dof[3 + k] != no_dof && std::abs(axis[k]) > along)
                     throw undetermined(axis, "which a rotation of the reference node is to follow: add a "
@@ -114,14 +114,14 @@ class RigidFit {
         return t;
     }
 
-    // Of the largest moment, and not in units of length: what is open is the same in m and in mm.
+    // Of the largest moment, and not in units of length: what is loose is the same in m and in mm.
     void invert(const Matrix &moments) {
         const SymmetricEigen e = symmetric_eigen(moments);
         const double noise = 1e-12 * far_;
         for (int j = 0; j < 3; ++j) {
             const Point axis{e.vectors(0, j), e.vectors(1, j), e.vectors(2, j)};
             if (size_ <= noise || e.values[j] <= on_line * on_line * e.values[2])
-                open_.push_back(axis);
+                loose_.push_back(axis);
             else
                 for (int k = 0; k < 3; ++k)
                     for (int l = 0; l < 3; ++l) turn_(k, l) += axis[k] * axis[l] / e.values[j];
@@ -147,9 +147,9 @@ class RigidFit {
 
     Error undetermined(const Point &axis, const std::string &need) const {
         const std::string where =
-            open_.size() == 3 ? "all nodes of the coupling are at one point"
-                              : format("the nodes of the coupling are on a line, along (%.4g, %.4g, %.4g)",
-                                       axis[0], axis[1], axis[2]);
+            loose_.size() == 3 ? "all nodes of the coupling are at one point"
+                               : format("the nodes of the coupling are on a line, along (%.4g, %.4g, %.4g)",
+                                        axis[0], axis[1], axis[2]);
         return Error(status::argument, where + ": their motions do not tell the rotation about it, " + need)
             .argument("xyz");
     }
@@ -158,8 +158,8 @@ class RigidFit {
     const vector<double> &weight_;
     double total_ = 0, size_ = 0, far_ = 0;
     Point centre_{};
-    Matrix turn_;             // T^-1, without what is open
-    std::vector<Point> open_; // axes of rotations that are not determined
+    Matrix turn_;              // T^-1, without what is loose
+    std::vector<Point> loose_; // axes of rotations that are not determined
 };
 
 } // namespace

@@ -16,7 +16,7 @@ struct CoupledNode {
 ConstraintRows rigid_link(const CoupledNode &reference, const vector<CoupledNode> &dependent);
 
 /// The reference node moves as the rigid body that fits the translations of the nodes best, by least squares
-/// with these weights. PLM_ERR_ARGUMENT where they leave open a rotation that one of its DOFs needs.
+/// with these weights. PLM_ERR_ARGUMENT where they do not tell a rotation that one of its DOFs needs.
 ConstraintRows distributing_coupling(const CoupledNode &reference, const vector<CoupledNode> &nodes,
                                      const vector<double> &weight);
 

@@ -102,8 +102,112 @@ static void distributing_couplings(void **state) {
                         "make a new one"));
 }
 
+static void ties(void **state) {
+    const char *f = "plm_model_add_tie_i32";
+    const int32_t over[] = {18, 19, 20, 21, 22, 23}, table[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11},
+                  ptr[] = {0, 4}, two[] = {0, 2}, from_1[] = {1, 5}, quad[] = {0, 1, 2, 3},
+                  no_node[] = {0, 1, 2, 4};
+    const int64_t over64[] = {19, 20, 21, 22, 23, 24}, table64[] = {1, 2, 3, 4, 5, 6, 7, 8, 9},
+                  ptr64[] = {1, 4}, none64[] = {1, 2, 0};
+    const double xyz[] = {0.5, 0.5, 0.01, 0.5, 0.5, 3}, square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    double distance[2] = {-1, -1}, far = -1;
+    int64_t n = -1;
+    (void)state;
+#define TIE(base, n, d, x, n_s, sd, sx, n_f, fp, fn, tol)                                                    \
+    plm_model_add_tie_i32(model, base, n, d, x, n_s, sd, sx, n_f, fp, fn, tol, distance)
+    BAD(TIE(3, 2, over, xyz, 4, table, square, 1, ptr, quad, 0.1), f, "index_base", -1, "0 (C)");
+    BAD(TIE(0, 0, over, xyz, 4, table, square, 1, ptr, quad, 0.1), f, "n", -1, "n is 0");
+    BAD(TIE(0, 2, NULL, xyz, 4, table, square, 1, ptr, quad, 0.1), f, "dependent_dof", -1, "NULL");
+    BAD(TIE(0, 2, over, NULL, 4, table, square, 1, ptr, quad, 0.1), f, "dependent_xyz", -1, "NULL");
+    BAD(TIE(0, 2, none, xyz, 4, table, square, 1, ptr, quad, 0.1), f, "dependent_dof", 0, "no DOF at all");
+    BAD(TIE(0, 2, repeated, xyz, 4, table, square, 1, ptr, quad, 0.1), f, "dependent_dof", 5, "already");
+    BAD(TIE(0, 2, outside, xyz, 4, table, square, 1, ptr, quad, 0.1), f, "dependent_dof", 5, "0..23");
+    BAD(TIE(0, 2, over, xyz, 0, table, square, 1, ptr, quad, 0.1), f, "n_surface", -1, "n_surface is 0");
+    BAD(TIE(0, 2, over, xyz, 4, NULL, square, 1, ptr, quad, 0.1), f, "surface_dof", -1, "NULL");
+    BAD(TIE(0, 2, over, xyz, 4, table, NULL, 1, ptr, quad, 0.1), f, "surface_xyz", -1, "NULL");
+    BAD(TIE(0, 2, over, xyz, 2, table, nan_at, 1, ptr, quad, 0.1), f, "surface_xyz", 4, "NaN");
+    BAD(TIE(0, 2, over, xyz, 2, repeated, square, 1, ptr, quad, 0.1), f, "surface_dof", 5, "already");
+    BAD(TIE(0, 2, over, xyz, 4, table, square, 0, ptr, quad, 0.1), f, "n_faces", -1, "n_faces is 0");
+    BAD(TIE(0, 2, over, xyz, 4, table, square, 1, NULL, quad, 0.1), f, "face_ptr", -1, "NULL");
+    BAD(TIE(0, 2, over, xyz, 4, table, square, 1, from_1, quad, 0.1), f, "face_ptr", 0, "index base 0");
+    BAD(TIE(0, 2, over, xyz, 4, table, square, 1, two, quad, 0.1), f, "face_ptr", 1, "face 0 has 2 nodes");
+    BAD(TIE(0, 2, over, xyz, 4, table, square, 1, ptr, NULL, 0.1), f, "face_node", -1, "NULL");
+    BAD(TIE(0, 2, over, xyz, 4, table, square, 1, ptr, no_node, 0.1), f, "face_node", 3, "0..3");
+    BAD(TIE(0, 2, over, xyz, 4, table, square, 1, ptr, quad, 0), f, "tolerance", -1, "a length > 0");
+    BAD(TIE(0, 2, over, xyz, 4, table, square, 1, ptr, quad, NAN), f, "tolerance", -1, "NaN");
+    BAD(TIE(0, 2, over, xyz, 4, table, square, 1, ptr, quad, 1e-3), f, "tolerance", -1,
+        "node 0 (counted from 0), is 0.01");
+    BAD(plm_model_add_tie_i64(model, 1, 2, over64, xyz, 3, table64, square, 1, ptr64, none64, 0.1, NULL),
+        "plm_model_add_tie_i64", "face_node", 2, "1..3");
+    assert_true(distance[0] == -1 && distance[1] == -1);
+    assert_int_equal(plm_model_get_int(model, "n_untied_nodes", &n), PLM_OK);
+    assert_int_equal(n, 0);
+    assert_true(
+        refused(ctx, TIE(0, 2, over, xyz, 4, table, square, 1, ptr, quad, 0.1), PLM_WARNING, f, "", -1,
+                "1 of 2 nodes stay free, farther from the surface than the tolerance 0.1: the farthest "
+                "is node 1"));
+    assert_true(fabs(distance[0] - 0.01) < 1e-14 && fabs(distance[1] - 3) < 1e-14);
+    assert_int_equal(plm_model_get_int(model, "n_untied_nodes", &n), PLM_OK);
+    assert_int_equal(plm_model_get_double(model, "tie_distance", &far), PLM_OK);
+    assert_true(n == 1 && fabs(far - 0.01) < 1e-14);
+    assert_int_equal(n_free_of(), 24 - 3);
+}
+
+/* 0 and 1 on springs, and DOF 2: what its row holds; mass: of DOF 2 */
+static void set_tied_springs(double diagonal, double c, double mass) {
+    const int32_t row[] = {0, 1, 2, 2, 2}, column[] = {0, 1, 2, 0, 1};
+    const double k[] = {1000, 3000, diagonal, c, -c}, m[] = {1, 2, mass};
+    assert_int_equal(
+        plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 3, row, column, m),
+        PLM_OK);
+    assert_int_equal(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 5,
+                                              row, column, k),
+                     PLM_OK);
+}
+
+static void multipliers(void **state) {
+    const char *f = "plm_model_set_multipliers_i32", *build = "plm_model_build";
+    const int32_t dof[] = {2}, twice[] = {2, 2}, beyond[] = {3}, wrong[] = {1};
+    const int64_t from_1[] = {3}, none64[] = {0};
+    const double load[] = {1, 0, 0.5}, no_load[] = {1, 0, 0};
+    double hz = 0, shape[3] = {7, 7, 7};
+    (void)state;
+    assert_int_equal(plm_model_destroy(&model), PLM_OK);
+    assert_int_equal(plm_model_create(ctx, 3, &model), PLM_OK);
+    BAD(plm_model_set_multipliers_i32(model, 2, 1, dof), f, "index_base", -1, "0 (C)");
+    BAD(plm_model_set_multipliers_i32(model, 0, -1, dof), f, "n", -1, "n is -1");
+    BAD(plm_model_set_multipliers_i32(model, 0, 1, NULL), f, "dof", -1, "NULL");
+    BAD(plm_model_set_multipliers_i32(model, 0, 1, beyond), f, "dof", 0, "0..2");
+    BAD(plm_model_set_multipliers_i32(model, 0, 2, twice), f, "dof", 1, "a second time");
+    BAD(plm_model_set_multipliers_i64(model, 1, 1, none64), "plm_model_set_multipliers_i64", "dof", 0,
+        "1..3");
+#define REFUSED(words)                                                                                       \
+    assert_true(refused(ctx, plm_model_build(model), PLM_ERR_MATRIX, build, "value", 2, words))
+    assert_int_equal(plm_model_set_multipliers_i32(model, 0, 1, wrong), PLM_OK);
+    assert_int_equal(plm_model_set_multipliers_i64(model, 1, 1, from_1), PLM_OK); /* in its place */
+    set_tied_springs(-4, 1, 0);
+    REFUSED("-4 at (2, 2), among multipliers");
+    set_tied_springs(0, 0, 0);
+    REFUSED("its row of the stiffness matrix is empty");
+    set_tied_springs(0, 1, 3);
+    REFUSED("the mass matrix has 3 at (2, 2)");
+    set_tied_springs(0, 1, 0);
+    assert_int_equal(plm_model_set_excitation(model, 1, 3, load, NULL), PLM_OK);
+    assert_true(refused(ctx, plm_model_build(model), PLM_ERR_ARGUMENT, build, "force", 2,
+                        "the excitation is 0.5 at DOF 2"));
+    assert_int_equal(plm_model_set_excitation(model, 1, 3, no_load, NULL), PLM_OK);
+    assert_int_equal(plm_model_build(model), PLM_OK);
+    assert_int_equal(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 1, &hz, shape), PLM_OK);
+    assert_true(
+        close_to(2 * 3.14159265358979323846 * hz, sqrt(4000 / 3.0), 1e-13)); /* both on both springs */
+    assert_true(fabs(shape[0] - shape[1]) < 1e-14 && shape[2] == 0);
+    assert_true(refused(ctx, plm_model_set_multipliers_i32(model, 0, 1, dof), PLM_ERR_STATE, f, "", -1,
+                        "make a new one"));
+}
+
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
-    const struct CMUnitTest tests[] = {TEST(rigid_links), TEST(distributing_couplings)};
+    const struct CMUnitTest tests[] = {TEST(rigid_links), TEST(distributing_couplings), TEST(ties),
+                                       TEST(multipliers)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-"""Rigid links and distributing couplings, from coordinates, against T^T K T made by hand."""
+"""Rigid links, distributing couplings and ties, from coordinates, against T^T K T made by hand."""
 import unittest
 import warnings
 
@@ -133,6 +133,57 @@ class Couplings(unittest.TestCase):
         self.near(G.T @ shares, force[18:], 1e-11)
         want = numpy.linalg.solve(stiffness[:18, :18], fit(xyz[:6], reference, numpy.ones(6)).T @ force[18:])
         self.near(model.rest_displacement[:18], want, 1e-10)
+
+    def test_tied_meshes(self):
+        """Nodes of one body on faces of another, of every kind; against shape functions written down here."""
+        random = numpy.random.default_rng(7)
+        corners = numpy.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+        middles = numpy.array([[0, -1], [1, 0], [0, 1], [-1, 0]])
+
+        def shape(kind, s, t):
+            if kind == 3:
+                return numpy.array([1 - s - t, s, t])
+            if kind == 6:
+                r = 1 - s - t
+                return numpy.array([r * (2 * r - 1), s * (2 * s - 1), t * (2 * t - 1), 4 * r * s, 4 * s * t, 4 * t * r])
+            a, b = corners.T
+            if kind == 4:
+                return (1 + s * a) * (1 + t * b) / 4
+            c, d = middles.T
+            return numpy.concatenate([(1 + s * a) * (1 + t * b) * (s * a + t * b - 1) / 4,
+                                      numpy.where(c == 0, (1 - s * s) * (1 + t * d), (1 + s * c) * (1 - t * t)) / 2])
+        triangle = numpy.array([[0, 0], [1, 0], [0, 1], [0.5, 0], [0.5, 0.5], [0, 0.5]])
+        for kind in (3, 4, 6, 8):
+            at = triangle[:kind] if kind in (3, 6) else numpy.vstack([corners, middles])[:kind]
+            surface = numpy.column_stack([30 * at, 2 * at[:, 0] * at[:, 1]]) + random.uniform(-1, 1, (kind, 3))
+            places = random.uniform(0.1, 0.4, (3, 2))
+            N = numpy.array([shape(kind, *p) for p in places])
+            n = 3 * (kind + 3)
+            a = random.normal(size=(n, n))
+            mass, stiffness = numpy.diag(random.uniform(1, 2, n)), a @ a.T + 5 * numpy.eye(n)
+            T = numpy.vstack([numpy.eye(3 * kind), numpy.kron(N, numpy.eye(3))])
+            dof = numpy.arange(n, dtype=numpy.int32).reshape(-1, 3)
+
+            def couple(model):
+                distance = model.add_tie(dof[kind:], N @ surface, dof[:kind], surface, numpy.arange(kind, dtype=numpy.int32)[None], 0.1)
+                self.assertLess(distance.max(), 1e-12)
+                model.add_tie(dof[kind:kind + 1].astype(int), N[:1] @ surface, dof[:kind].astype(int), surface, [range(kind)], 0.1)
+            got, _ = self.eigenvalues(mass, stiffness, couple, 3 * kind)
+            self.near(got, by_hand(mass, stiffness, T), 1e-11)
+
+    def test_what_stays_untied(self):
+        mass, stiffness, _ = body(8, 6, 0)
+        dof, square = numpy.arange(18).reshape(6, 3), numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+        model = plm.Model(mass, stiffness)
+        with self.assertWarnsRegex(plm.PlmWarning, "1 of 2 nodes stay free.*tolerance 0.1.*node 1 .*, at 2"):
+            distance = model.add_tie(dof[4:], [[0.5, 0.5, 0.02], [0.5, 0.5, -2]], dof[:4], square, [[0, 1, 2, 3]], 0.1)
+        self.near(distance, [0.02, 2], 1e-13)
+        self.near([model.n_untied_nodes, model.tie_distance], [1, 0.02], 1e-13)
+        with self.assertRaisesRegex(ValueError, "surface_dof has 4 nodes, surface_xyz 3"):
+            model.add_tie(dof[4:], square[:2], dof[:4], square[:3], [[0, 1, 2]], 0.1)
+        with self.assertRaisesRegex(plm.PlmError, "face 0 has 2 nodes"):
+            model.add_tie(dof[4:], square[:2], dof[:4], square, [[0, 1]], 0.1)
+        self.assertEqual(model.build().n_free, 15)
 
     def test_refusals(self):
         mass, stiffness, xyz = body(6, 4, 1)
