@@ -176,7 +176,7 @@ contains
             call refuse('add_rigid_link: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
-        call finish(self%context, plm_model_add_rigid_link(self%handle, 1_c_int32_t, size(reference_dof, kind=int32), &
+        call finish(self%context, plm_model_add_rigid_link_i32(self%handle, 1_c_int32_t, size(reference_dof, kind=int32), &
             reference_dof, reference_xyz, size(dependent_dof, 2, kind=int64), size(dependent_dof, 1, kind=int32), &
             dependent_dof, dependent_xyz), stat, errmsg)
     end subroutine add_rigid_link_int32
@@ -200,7 +200,7 @@ contains
                 return
             end if
         end if
-        call finish(self%context, plm_model_add_distributing_coupling(self%handle, 1_c_int32_t, &
+        call finish(self%context, plm_model_add_distributing_coupling_i32(self%handle, 1_c_int32_t, &
             size(reference_dof, kind=int32), reference_dof, reference_xyz, size(xyz, 2, kind=int64), dof, xyz, weight), &
             stat, errmsg)
     end subroutine add_distributing_coupling_int32
@@ -231,7 +231,7 @@ contains
                 return
             end if
         end if
-        call finish(self%context, plm_model_add_tie(self%handle, 1_c_int32_t, size(dependent_xyz, 2, kind=int64), &
+        call finish(self%context, plm_model_add_tie_i32(self%handle, 1_c_int32_t, size(dependent_xyz, 2, kind=int64), &
             dependent_dof, dependent_xyz, size(surface_xyz, 2, kind=int64), surface_dof, surface_xyz, &
             size(face_ptr, kind=int64) - 1, face_ptr, face_node, tolerance, distance), stat, errmsg)
     end subroutine add_tie_int32

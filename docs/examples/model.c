@@ -117,7 +117,8 @@ static int couplings(plm_context *ctx) {
     const int32_t row[] = {0, 1, 2, 2}, column[] = {0, 1, 0, 1}, multiplier[] = {2};
     const double m[] = {1, 2}, k[] = {1000, 3000, 1, -1};
     TRY(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 2, row, column, m));
-    TRY(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 4, row, column, k));
+    TRY(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 4, row, column,
+                                 k));
     TRY(plm_model_set_multipliers_i32(model, 0, 1, multiplier));
     /* [plm_model_set_multipliers_i32] */
     /* [plm_model_set_multipliers_i64] */
@@ -135,7 +136,8 @@ static int couplings(plm_context *ctx) {
     TRY(plm_model_add_rigid_link_i32(model, 0, 6, hub, centre, 2, 3, rim, at));
     /* [plm_model_add_rigid_link_i32] */
     /* [plm_model_add_rigid_link_i64] */
-    const int64_t wide_hub[] = {10, 11, 12, 13, 14, 15}, wide_rim[] = {1, 2, 3, 0, 5, 6}; /* from 1: 0 is none */
+    const int64_t wide_hub[] = {10, 11, 12, 13, 14, 15},
+                  wide_rim[] = {1, 2, 3, 0, 5, 6}; /* from 1: 0 is none */
     TRY(plm_model_add_rigid_link_i64(model, 1, 6, wide_hub, centre, 2, 3, wide_rim, at));
     /* [plm_model_add_rigid_link_i64] */
     TRY(plm_model_destroy(&model));
@@ -159,16 +161,17 @@ static int couplings(plm_context *ctx) {
     TRY(plm_model_create(ctx, 15, &model));
     /* [plm_model_add_tie_i32] */
     /* the node with DOFs 12 to 14 stands 0.1 mm over a face of four nodes */
-    const int32_t node[] = {12, 13, 14}, face_dof[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, face_ptr[] = {0, 4},
-                  face_node[] = {0, 1, 2, 3};
+    const int32_t node[] = {12, 13, 14}, face_dof[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11},
+                  face_ptr[] = {0, 4}, face_node[] = {0, 1, 2, 3};
     const double node_at[] = {30, 40, 0.1}, face_at[] = {0, 0, 0, 100, 0, 0, 100, 100, 0, 0, 100, 0};
     double distance[1];
-    TRY(plm_model_add_tie_i32(model, 0, 1, node, node_at, 4, face_dof, face_at, 1, face_ptr, face_node, 1, distance));
+    TRY(plm_model_add_tie_i32(model, 0, 1, node, node_at, 4, face_dof, face_at, 1, face_ptr, face_node, 1,
+                              distance));
     /* [plm_model_add_tie_i32] */
     EXPECT(distance[0] > 0.0999 && distance[0] < 0.1001);
     /* [plm_model_add_tie_i64] */
-    const int64_t wide_node[] = {12, 13, 14}, wide_face[] = {0, 1, 2, 3, 4, 5, 6, 7, 8}, wide_face_ptr[] = {0, 3},
-                  wide_face_node[] = {0, 1, 2}; /* a triangle of the first three */
+    const int64_t wide_node[] = {12, 13, 14}, wide_face[] = {0, 1, 2, 3, 4, 5, 6, 7, 8},
+                  wide_face_ptr[] = {0, 3}, wide_face_node[] = {0, 1, 2}; /* a triangle of the first three */
     TRY(plm_model_add_tie_i64(model, 0, 1, wide_node, node_at, 3, wide_face, face_at, 1, wide_face_ptr,
                               wide_face_node, 10, NULL));
     /* [plm_model_add_tie_i64] */

@@ -181,6 +181,38 @@ void a_chain_of_couplings(void **) {
         assert_true(below(std::abs(got[i] - q[i]), 1e-13 * 8e3)); // of what turns
 }
 
+// 10,000 nodes with a spring from each to a neighbour of its own: with a link all neighbours are joined to
+// six DOFs, with a mean nothing is joined at all.
+void wide_couplings_stay_sparse(void **) {
+    constexpr std::int64_t n = 10'000;
+    const Nodes nodes = scattered(n, 1.0, 11, 3);
+    const std::int64_t n_dof = 12 * n + 12; // 6 n + 6 of the nodes, and a neighbour of each
+    plm::vector<std::int64_t> row, column, fixed;
+    plm::vector<double> value;
+    const auto put = [&](std::int64_t i, std::int64_t j, double v) {
+        row.push_back(i), column.push_back(j), value.push_back(v);
+    };
+    for (const CoupledNode &node : nodes)
+        for (std::size_t k = 0; k < 6; ++k) {
+            if (k >= 3) {
+                for (std::int64_t half : {0, 1})
+                    fixed.push_back(node.dof[0] + half * (6 * n + 6) + static_cast<std::int64_t>(k));
+                continue;
+            }
+            const std::int64_t i = node.dof[k], j = i + 6 * n + 6;
+            put(i, i, 2), put(j, j, 1), put(i, j, -1), put(j, i, -1);
+        }
+    for (std::int64_t k = 0; k < 6; ++k) fixed.push_back(6 * n + 6 + k);
+    const plm::SparseMatrix springs = plm::from_triplets(n_dof, n_dof, row, column, value);
+    const CoupledNode reference = node(0, {20, -7, 0});
+    const plm::DofMap link(n_dof, fixed, rigid_link(reference, nodes)),
+        mean(n_dof, fixed, distributing_coupling(reference, nodes, plm::vector<double>(n, 1.0)));
+    assert_int_equal(link.n_free(), 3 * n + 6);
+    assert_true(link.reduced("stiffness", springs).nnz() <= 3 * n + 2 * 3 * 3 * n + 36);
+    assert_int_equal(mean.n_free(), 6 * n);
+    assert_int_equal(mean.reduced("stiffness", springs).nnz(), 12 * n);
+}
+
 } // namespace
 
 int main() {
@@ -190,6 +222,7 @@ int main() {
         cmocka_unit_test(rotations_that_nodes_do_not_tell),
         cmocka_unit_test(links_of_nodes_with_fewer_dofs),
         cmocka_unit_test(a_chain_of_couplings),
+        cmocka_unit_test(wide_couplings_stay_sparse),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

@@ -160,9 +160,8 @@ void ties_among_faces(void **) {
     assert_int_equal(surface.closest({100, 0.5, 1}).face, 0);
 }
 
-// Faces visited, by the time it takes, grow as the logarithm: a hundred times as many may cost a few times
-// as much, and not a hundred.
-void a_million_faces_are_no_matter(void **) {
+// 20,000 points on 90,000 faces: a second, where trying all of them would take hours.
+void many_faces_are_no_matter(void **) {
     constexpr int n = 300;
     SurfaceMesh mesh;
     for (int i = 0; i <= n; ++i)
@@ -174,7 +173,7 @@ void a_million_faces_are_no_matter(void **) {
             mesh.face_ptr.push_back(static_cast<std::int64_t>(mesh.face_node.size()));
         }
     const Surface surface(std::move(mesh));
-    for (int k = 0; k < 20'000; ++k) { // 1.8e9 faces if all were tried
+    for (int k = 0; k < 20'000; ++k) {
         const double x = 0.013 * k + 0.2, y = 0.011 * k + 0.3;
         const plm::Projection found = surface.closest({x, y, 0.01 + std::sin(0.1 * x)});
         assert_true(found.face >= 0 && found.point.distance < 0.02);
@@ -191,7 +190,7 @@ int main() {
         cmocka_unit_test(a_small_face_far_away),
         cmocka_unit_test(the_search_finds_the_closest_face_of_all),
         cmocka_unit_test(ties_among_faces),
-        cmocka_unit_test(a_million_faces_are_no_matter),
+        cmocka_unit_test(many_faces_are_no_matter),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
