@@ -40,6 +40,49 @@ def fit(xyz, centre, weight):
     return numpy.linalg.solve(G.T @ (W[:, None] * G), G.T * W)
 
 
+def block(cells, low, high, modulus=100.0, poisson=0.3, density=1.0):
+    """A block of 8-node bricks: M, K, coordinates, and the numbers of the nodes as an array nx + 1 x ny + 1 x nz + 1."""
+    lines = [numpy.linspace(a, b, n + 1) for a, b, n in zip(low, high, cells)]
+    xyz = numpy.stack(numpy.meshgrid(*lines, indexing="ij"), -1).reshape(-1, 3)
+    number = numpy.arange(len(xyz)).reshape([n + 1 for n in cells])
+    at = numpy.array([[i, j, k] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    size = (numpy.array(high) - low) / cells
+    D = numpy.zeros((6, 6))
+    D[:3, :3] = poisson
+    D[range(6), range(6)] = [1 - poisson] * 3 + [0.5 - poisson] * 3
+    D *= modulus / (1 + poisson) / (1 - 2 * poisson)
+    k, m = numpy.zeros((24, 24)), numpy.zeros((24, 24))
+    for p in (2 * at - 1) / numpy.sqrt(3):
+        N = numpy.prod(1 + (2 * at - 1) * p, axis=1) / 8
+        x, y, z = ((2 * at[:, a] - 1) * N / (1 + (2 * at[:, a] - 1) * p[a]) * 2 / size[a] for a in range(3))
+        B = numpy.zeros((6, 8, 3))
+        B[0, :, 0], B[1, :, 1], B[2, :, 2] = x, y, z
+        B[3, :, 1], B[3, :, 2], B[4, :, 0], B[4, :, 2], B[5, :, 0], B[5, :, 1] = z, y, z, x, y, x
+        B = B.reshape(6, 24)
+        k += B.T @ D @ B * numpy.prod(size) / 8
+        m += density * numpy.kron(numpy.outer(N, N), numpy.eye(3)) * numpy.prod(size) / 8
+    M, K = numpy.zeros((3 * len(xyz),) * 2), numpy.zeros((3 * len(xyz),) * 2)
+    for cell in numpy.ndindex(*cells):
+        dof = (3 * number[tuple((at + cell).T)][:, None] + numpy.arange(3)).ravel()
+        M[numpy.ix_(dof, dof)] += m
+        K[numpy.ix_(dof, dof)] += k
+    return M, K, xyz, number
+
+
+def two_blocks(above):
+    """One on the other, with faces of their own at z = 1: a tied model, the lower one's cells being 3 x 2 x 2."""
+    M, K, xyz, number = block((3, 2, 2), (0, 0, 0), (3, 2, 1))
+    m, k, more, other = block(above, (0, 0, 1), (3, 2, 2))
+    n = len(xyz)
+    model = plm.Model(scipy.sparse.csc_matrix(scipy.linalg.block_diag(M, m)), scipy.sparse.csc_matrix(scipy.linalg.block_diag(K, k)))
+    top, dof = number[:, :, -1], numpy.arange(3 * (n + len(more))).reshape(-1, 3)
+    faces = numpy.stack([top[:-1, :-1], top[1:, :-1], top[1:, 1:], top[:-1, 1:]], -1).reshape(-1, 4)
+    under = other[:, :, 0].ravel()
+    model.add_tie(dof[n + under], more[under], dof[:n], xyz, faces, 1e-3)
+    model.add_gap_rows(numpy.eye(1, dof.size, dof.size - 1), stiffness=1.0)
+    return model, number, n + other
+
+
 class Couplings(unittest.TestCase):
     def near(self, got, want, tolerance):
         numpy.testing.assert_allclose(got, want, rtol=tolerance, atol=0)
@@ -170,6 +213,25 @@ class Couplings(unittest.TestCase):
                 model.add_tie(dof[kind:kind + 1].astype(int), N[:1] @ surface, dof[:kind].astype(int), surface, [range(kind)], 0.1)
             got, _ = self.eigenvalues(mass, stiffness, couple, 3 * kind)
             self.near(got, by_hand(mass, stiffness, T), 1e-11)
+
+    def test_tied_blocks_vibrate_as_the_merged_mesh(self):
+        model, number, other = two_blocks((3, 2, 2))
+        M, K, _, merged = block((3, 2, 4), (0, 0, 0), (3, 2, 2))
+        whole = plm.Model(scipy.sparse.csc_matrix(M), scipy.sparse.csc_matrix(K))
+        for held, bottom in ((model, number), (whole, merged)):
+            held.fix_dofs(3 * bottom[:, :, 0].ravel()[:, None] + numpy.arange(3))
+        self.near(model.build().modes(20), whole.build().modes(20), 1e-10)
+
+    def test_a_tie_of_meshes_that_do_not_match_strains_nothing(self):
+        """Six rigid motions are left, and the stiffness of the whole is about that of the merged mesh."""
+        model, _, _ = two_blocks((5, 3, 2))
+        M, K, _, _ = block((3, 2, 4), (0, 0, 0), (3, 2, 2))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", plm.PlmWarning)
+            model.build()
+        self.assertEqual(model.n_rigid_modes, 6)
+        want = numpy.sqrt(scipy.linalg.eigh(K, M, eigvals_only=True)[6:9]) / (2 * numpy.pi)
+        self.near(model.modes(9)[6:], want, 0.05)
 
     def test_what_stays_untied(self):
         mass, stiffness, _ = body(8, 6, 0)
