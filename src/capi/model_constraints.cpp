@@ -1,6 +1,7 @@
 // Linear constraints among the DOFs of the model, as rows or as multipliers of its matrices.
 #include "capi/barrier.hpp"
 #include "capi/sparse_rows.hpp"
+#include "structure/couplings.hpp"
 
 namespace plm::capi {
 namespace {
@@ -20,14 +21,13 @@ plm_status add_constraints(const char *function, plm_model *model, std::int32_t 
                                      dof,
                                      coefficient};
         check_row_pointers(rows);
-        ConstraintRows all = m.input.constraints; // what is there stays as it is if anything fails
-        const std::int64_t before = all.ptr.back();
+        ConstraintRows checked;
         for_entries(rows, m.input.n_dof, [&](std::int64_t, std::int64_t j, double c) {
-            all.dof.push_back(j);
-            all.coefficient.push_back(c);
+            checked.dof.push_back(j);
+            checked.coefficient.push_back(c);
         });
-        for (std::int64_t i = 0; i < n; ++i) all.ptr.push_back(before + row_ptr[i + 1] - index_base);
-        m.input.constraints = std::move(all);
+        for (std::int64_t i = 0; i < n; ++i) checked.ptr.push_back(row_ptr[i + 1] - index_base);
+        append(m.input.constraints, checked);
         return PLM_OK;
     });
 }

@@ -77,13 +77,6 @@ template <class Index> class NodeReader {
     std::vector<NamedDof> seen_;
 };
 
-/// What is there stays as it is if anything fails.
-void add_to(ModelInput &input, const ConstraintRows &rows) {
-    ConstraintRows all = input.constraints;
-    append(all, rows);
-    input.constraints = std::move(all);
-}
-
 template <class Index> struct Coupling {
     std::int32_t index_base, per_reference;
     const Index *reference_dof;
@@ -101,7 +94,7 @@ template <class Index, class Rows> void add_coupling(ModelHandle &m, const Coupl
                                                x.per_reference, x.reference_dof, x.reference_xyz})[0];
     const vector<CoupledNode> nodes = reader.take(x.nodes);
     reader.refuse_repeated_dofs();
-    add_to(m.input, rows(reference, nodes));
+    append(m.input.constraints, rows(reference, nodes));
 }
 
 template <class Index>
@@ -203,7 +196,7 @@ plm_status add_tie(const char *function, plm_model *model, const TieArguments<In
                 format("no node is tied: the nearest, node %lld (counted from 0), is %g from the surface, "
                        "and the tolerance is %g; check the units of the coordinates and the faces",
                        Int(t.nearest), t.distance[t.nearest], x.tolerance));
-        add_to(m.input, t.rows);
+        append(m.input.constraints, t.rows);
         m.n_untied += t.n_untied;
         m.tie_distance = std::max(m.tie_distance, t.distance[t.farthest_tied]);
         if (distance) std::copy(t.distance.begin(), t.distance.end(), distance);

@@ -23,7 +23,19 @@ void add_row(ConstraintRows &rows, const DofTerms &terms) {
     if (end > rows.ptr.back()) rows.ptr.push_back(end);
 }
 
+namespace {
+
+// Generously, so that adding couplings one by one stays linear.
+template <class T> void reserve_more(vector<T> &to, std::size_t more) {
+    if (to.capacity() - to.size() < more) to.reserve(std::max(to.size() + more, 2 * to.capacity()));
+}
+
+} // namespace
+
 void append(ConstraintRows &to, const ConstraintRows &rows) {
+    reserve_more(to.dof, rows.dof.size());
+    reserve_more(to.coefficient, rows.coefficient.size());
+    reserve_more(to.ptr, rows.ptr.size());
     const std::int64_t before = to.ptr.back();
     to.dof.insert(to.dof.end(), rows.dof.begin(), rows.dof.end());
     to.coefficient.insert(to.coefficient.end(), rows.coefficient.begin(), rows.coefficient.end());

@@ -22,6 +22,7 @@ ConstraintRows distributing_coupling(const CoupledNode &reference, const vector<
 
 /// A row with these terms behind the others; nothing where no DOF is in it.
 void add_row(ConstraintRows &rows, const DofTerms &terms);
+/// All or nothing.
 void append(ConstraintRows &to, const ConstraintRows &rows);
 
 } // namespace plm

@@ -16,41 +16,31 @@ struct Side {
     double constant, s, t;
 };
 
-struct Shape {
-    int n_nodes, n_corners;
+struct Domain {
+    int n_corners;
     Place corner[4];
     Side side[4];
+};
+constexpr Domain triangle{3, {{0, 0}, {1, 0}, {0, 1}}, {{0, 0, 1}, {1, -1, -1}, {0, 1, 0}}};
+constexpr Domain square{
+    4, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {{1, 0, 1}, {1, -1, 0}, {1, 0, -1}, {1, 1, 0}}};
+
+struct Shape {
+    int n_nodes;
+    const Domain &domain;
     double of[most_face_nodes][n_monomials]; // shape functions by monomials
 };
 
-constexpr Place triangle[] = {{0, 0}, {1, 0}, {0, 1}};
-constexpr Place square[] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-
-#define PLM_TRIANGLE                                                                                         \
-    {triangle[0], triangle[1], triangle[2]}, {                                                               \
-        {0, 0, 1}, {1, -1, -1}, {                                                                            \
-            0, 1, 0                                                                                          \
-        }                                                                                                    \
-    }
-#define PLM_SQUARE                                                                                           \
-    {square[0], square[1], square[2], square[3]}, {                                                          \
-        {1, 0, 1}, {1, -1, 0}, {1, 0, -1}, {                                                                 \
-            1, 1, 0                                                                                          \
-        }                                                                                                    \
-    }
-
 constexpr Shape shapes[] = {
-    {3, 3, PLM_TRIANGLE, {{1, -1, -1}, {0, 1}, {0, 0, 1}}},
+    {3, triangle, {{1, -1, -1}, {0, 1}, {0, 0, 1}}},
     {4,
-     4,
-     PLM_SQUARE,
+     square,
      {{.25, -.25, -.25, 0, .25},
       {.25, .25, -.25, 0, -.25},
       {.25, .25, .25, 0, .25},
       {.25, -.25, .25, 0, -.25}}},
     {6,
-     3,
-     PLM_TRIANGLE,
+     triangle,
      {{1, -3, -3, 2, 4, 2},
       {0, -1, 0, 2},
       {0, 0, -1, 0, 0, 2},
@@ -58,8 +48,7 @@ constexpr Shape shapes[] = {
       {0, 0, 0, 0, 4},
       {0, 0, 4, 0, -4, -4}}},
     {8,
-     4,
-     PLM_SQUARE,
+     square,
      {{-.25, 0, 0, .25, .25, .25, -.25, -.25},
       {-.25, 0, 0, .25, -.25, .25, -.25, .25},
       {-.25, 0, 0, .25, .25, .25, .25, .25},
@@ -69,8 +58,6 @@ constexpr Shape shapes[] = {
       {.5, 0, .5, -.5, 0, 0, -.5},
       {.5, -.5, 0, 0, 0, -.5, 0, .5}}},
 };
-#undef PLM_TRIANGLE
-#undef PLM_SQUARE
 
 const Shape &shape_of(int n_nodes) {
     return *std::find_if(std::begin(shapes), std::end(shapes),
@@ -80,7 +67,8 @@ const Shape &shape_of(int n_nodes) {
 // The face as seen from the point, so that what is near to it has all its digits.
 class Seen {
   public:
-    Seen(const Point *node, int n_nodes, const Point &from) : shape_(shape_of(n_nodes)) {
+    Seen(const Point *node, int n_nodes, const Point &from)
+        : shape_(shape_of(n_nodes)), domain_(shape_.domain) {
         for (int i = 0; i < n_nodes; ++i) {
             const Point r = difference(node[i], from);
             for (int m = 0; m < n_monomials; ++m)
@@ -91,8 +79,8 @@ class Seen {
     // From the best place of a grid downhill, and likewise along the sides; the nearest of these.
     Place closest() const {
         constexpr int steps = 4;
-        const int n = shape_.n_corners;
-        Place best = shape_.corner[0];
+        const int n = domain_.n_corners;
+        Place best = domain_.corner[0];
         const auto take = [&](Place p) {
             if (half_square(p) < half_square(best)) best = p;
         };
@@ -103,7 +91,7 @@ class Seen {
             }
         take(downhill(best, nullptr));
         for (int i = 0; i < n; ++i) {
-            const Place a = shape_.corner[i], b = shape_.corner[(i + 1) % n],
+            const Place a = domain_.corner[i], b = domain_.corner[(i + 1) % n],
                         along{(b.s - a.s) / steps, (b.t - a.t) / steps};
             Place start = a;
             for (int j = 1; j <= steps; ++j) {
@@ -169,8 +157,8 @@ class Seen {
     // How much of a step stays on the face.
     double room(Place p, Place d) const {
         double most = 1;
-        for (int i = 0; i < shape_.n_corners; ++i) {
-            const Side &side = shape_.side[i];
+        for (int i = 0; i < domain_.n_corners; ++i) {
+            const Side &side = domain_.side[i];
             const double here = std::max(0.0, side.constant + side.s * p.s + side.t * p.t),
                          falls = -(side.s * d.s + side.t * d.t);
             if (falls > here) most = std::min(most, here / falls);
@@ -197,6 +185,7 @@ class Seen {
     }
 
     const Shape &shape_;
+    const Domain &domain_;
     std::array<Point, n_monomials> by_{};
 };
 
@@ -223,7 +212,7 @@ ClosestPoint closest_on_face(const Point *node, int n_nodes, const Point &to) {
 
 // Bernstein's coefficients of the polynomial.
 int hull_of_face(const Point *node, int n_nodes, Point *hull) {
-    const int corners = shape_of(n_nodes).n_corners;
+    const int corners = shape_of(n_nodes).domain.n_corners;
     const bool is_curved = n_nodes > corners;
     Point middle{};
     for (int i = 0; i < n_nodes; ++i)

@@ -1,4 +1,5 @@
 """Rigid links, distributing couplings and ties, from coordinates, against T^T K T made by hand."""
+import time
 import unittest
 import warnings
 
@@ -246,6 +247,15 @@ class Couplings(unittest.TestCase):
         with self.assertRaisesRegex(plm.PlmError, "face 0 has 2 nodes"):
             model.add_tie(dof[4:], square[:2], dof[:4], square, [[0, 1]], 0.1)
         self.assertEqual(model.build().n_free, 15)
+
+    def test_many_couplings_one_by_one(self):
+        """They cost as many as there are: half a second, where a copy of all before for each of them takes minutes."""
+        n = 20_000
+        dof, model = numpy.arange(6 * n).reshape(-1, 6), plm.Model(n_dof=6 * n)
+        before = time.process_time()
+        for i in range(1, n):
+            model.add_rigid_link(dof[0], [0, 0, 0], dof[i], [1, 2, 3])
+        self.assertLess(time.process_time() - before, 20)
 
     def test_refusals(self):
         mass, stiffness, xyz = body(6, 4, 1)
