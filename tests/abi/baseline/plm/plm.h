@@ -343,9 +343,9 @@ PLM_API plm_status plm_model_add_rigid_link_i64(plm_model *model, int32_t index_
  * against one another. reference_dof, reference_xyz as for a rigid link; dof and xyz: 3 x n, weight[n] > 0 or NULL (all
  * alike). Nodes on a line, or one alone, leave open the rotation about it: PLM_ERR_ARGUMENT where the reference node has
  * that rotation, or stands off the line; with 3 DOFs on the line it is a mean. The DOFs of the reference node follow from
- * those of all the nodes, so that stiffness and mass of its own couple each with all others, and so does holding it:
- * PLM_ERR_MEMORY of the build where that is too much (some thousands of nodes); without any, tens of thousands of nodes
- * cost nothing. */
+ * those of all the nodes: without stiffness and mass of its own, tens of thousands of nodes cost nothing. With any, or
+ * held, it couples each of them with all others, a dense part of the matrices of three DOFs a node: nothing for a hundred
+ * nodes, much time and memory for a thousand, and PLM_ERR_MEMORY of the build, with the row, for several thousands. */
 PLM_API plm_status plm_model_add_distributing_coupling_i32(plm_model *model, int32_t index_base, int32_t per_reference,
                                                            const int32_t *reference_dof, const double *reference_xyz,
                                                            int64_t n, const int32_t *dof, const double *xyz,
