@@ -464,6 +464,122 @@ module plm_c
             real(c_double), intent(in) :: coefficient(*)
             integer(plm_status) :: code
         end function plm_model_add_constraints_i64
+        function plm_model_add_rigid_link_i32(model, index_base, per_reference, reference_dof, reference_xyz, n, &
+            per_dependent, dependent_dof, dependent_xyz) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int32_t), value :: per_reference
+            integer(c_int32_t), intent(in) :: reference_dof(*)
+            real(c_double), intent(in) :: reference_xyz(*)
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), value :: per_dependent
+            integer(c_int32_t), intent(in) :: dependent_dof(*)
+            real(c_double), intent(in) :: dependent_xyz(*)
+            integer(plm_status) :: code
+        end function plm_model_add_rigid_link_i32
+        function plm_model_add_rigid_link_i64(model, index_base, per_reference, reference_dof, reference_xyz, n, &
+            per_dependent, dependent_dof, dependent_xyz) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int32_t), value :: per_reference
+            integer(c_int64_t), intent(in) :: reference_dof(*)
+            real(c_double), intent(in) :: reference_xyz(*)
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), value :: per_dependent
+            integer(c_int64_t), intent(in) :: dependent_dof(*)
+            real(c_double), intent(in) :: dependent_xyz(*)
+            integer(plm_status) :: code
+        end function plm_model_add_rigid_link_i64
+        function plm_model_add_distributing_coupling_i32(model, index_base, per_reference, reference_dof, &
+            reference_xyz, n, dof, xyz, weight) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int32_t), value :: per_reference
+            integer(c_int32_t), intent(in) :: reference_dof(*)
+            real(c_double), intent(in) :: reference_xyz(*)
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), intent(in) :: dof(*)
+            real(c_double), intent(in) :: xyz(*)
+            real(c_double), intent(in), optional :: weight(*)
+            integer(plm_status) :: code
+        end function plm_model_add_distributing_coupling_i32
+        function plm_model_add_distributing_coupling_i64(model, index_base, per_reference, reference_dof, &
+            reference_xyz, n, dof, xyz, weight) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int32_t), value :: per_reference
+            integer(c_int64_t), intent(in) :: reference_dof(*)
+            real(c_double), intent(in) :: reference_xyz(*)
+            integer(c_int64_t), value :: n
+            integer(c_int64_t), intent(in) :: dof(*)
+            real(c_double), intent(in) :: xyz(*)
+            real(c_double), intent(in), optional :: weight(*)
+            integer(plm_status) :: code
+        end function plm_model_add_distributing_coupling_i64
+        function plm_model_add_tie_i32(model, index_base, n, dependent_dof, dependent_xyz, n_surface, surface_dof, &
+            surface_xyz, n_faces, face_ptr, face_node, tolerance, distance) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), intent(in) :: dependent_dof(*)
+            real(c_double), intent(in) :: dependent_xyz(*)
+            integer(c_int64_t), value :: n_surface
+            integer(c_int32_t), intent(in) :: surface_dof(*)
+            real(c_double), intent(in) :: surface_xyz(*)
+            integer(c_int64_t), value :: n_faces
+            integer(c_int32_t), intent(in) :: face_ptr(*)
+            integer(c_int32_t), intent(in) :: face_node(*)
+            real(c_double), value :: tolerance
+            real(c_double), intent(inout), optional :: distance(*)
+            integer(plm_status) :: code
+        end function plm_model_add_tie_i32
+        function plm_model_add_tie_i64(model, index_base, n, dependent_dof, dependent_xyz, n_surface, surface_dof, &
+            surface_xyz, n_faces, face_ptr, face_node, tolerance, distance) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int64_t), intent(in) :: dependent_dof(*)
+            real(c_double), intent(in) :: dependent_xyz(*)
+            integer(c_int64_t), value :: n_surface
+            integer(c_int64_t), intent(in) :: surface_dof(*)
+            real(c_double), intent(in) :: surface_xyz(*)
+            integer(c_int64_t), value :: n_faces
+            integer(c_int64_t), intent(in) :: face_ptr(*)
+            integer(c_int64_t), intent(in) :: face_node(*)
+            real(c_double), value :: tolerance
+            real(c_double), intent(inout), optional :: distance(*)
+            integer(plm_status) :: code
+        end function plm_model_add_tie_i64
+        function plm_model_set_multipliers_i32(model, index_base, n, dof) bind(c) result(code)
+            import :: c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), intent(in) :: dof(*)
+            integer(plm_status) :: code
+        end function plm_model_set_multipliers_i32
+        function plm_model_set_multipliers_i64(model, index_base, n, dof) bind(c) result(code)
+            import :: c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int64_t), intent(in) :: dof(*)
+            integer(plm_status) :: code
+        end function plm_model_set_multipliers_i64
         function plm_model_set_elimination_order_i32(model, index_base, n, dof) bind(c) result(code)
             import :: c_int32_t, c_int64_t, c_ptr, plm_status
             implicit none
@@ -1709,6 +1825,18 @@ module plm_c
     end interface
     interface plm_model_add_constraints
         procedure :: plm_model_add_constraints_i32, plm_model_add_constraints_i64
+    end interface
+    interface plm_model_add_rigid_link
+        procedure :: plm_model_add_rigid_link_i32, plm_model_add_rigid_link_i64
+    end interface
+    interface plm_model_add_distributing_coupling
+        procedure :: plm_model_add_distributing_coupling_i32, plm_model_add_distributing_coupling_i64
+    end interface
+    interface plm_model_add_tie
+        procedure :: plm_model_add_tie_i32, plm_model_add_tie_i64
+    end interface
+    interface plm_model_set_multipliers
+        procedure :: plm_model_set_multipliers_i32, plm_model_set_multipliers_i64
     end interface
     interface plm_model_set_elimination_order
         procedure :: plm_model_set_elimination_order_i32, plm_model_set_elimination_order_i64

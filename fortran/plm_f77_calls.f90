@@ -342,6 +342,80 @@ subroutine plmmcn(handle, n, irow, idof, coeff, ierr)
     ierr = int(plm_model_add_constraints(as_pointer(handle), int(1, c_int32_t), int(n, int64), irow, idof, coeff))
 end subroutine plmmcn
 
+subroutine plmmrl(handle, nref, irefd, refxyz, n, ndep, idepd, depxyz, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_add_rigid_link
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: nref
+    integer, intent(in) :: irefd(*)
+    real(real64), intent(in) :: refxyz(*)
+    integer, intent(in) :: n
+    integer, intent(in) :: ndep
+    integer, intent(in) :: idepd(*)
+    real(real64), intent(in) :: depxyz(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_add_rigid_link(as_pointer(handle), int(1, c_int32_t), int(nref, c_int32_t), irefd, refxyz, &
+        int(n, int64), int(ndep, c_int32_t), idepd, depxyz))
+end subroutine plmmrl
+
+subroutine plmmdc(handle, nref, irefd, refxyz, n, idof, xyz, weight, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_add_distributing_coupling
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: nref
+    integer, intent(in) :: irefd(*)
+    real(real64), intent(in) :: refxyz(*)
+    integer, intent(in) :: n
+    integer, intent(in) :: idof(*)
+    real(real64), intent(in) :: xyz(*)
+    real(real64), intent(in) :: weight(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_add_distributing_coupling(as_pointer(handle), int(1, c_int32_t), int(nref, c_int32_t), &
+        irefd, refxyz, int(n, int64), idof, xyz, weight))
+end subroutine plmmdc
+
+subroutine plmmti(handle, n, idepd, depxyz, nsurf, isurd, surxyz, nface, ifptr, ifnode, tol, dist, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_add_tie
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    integer, intent(in) :: idepd(*)
+    real(real64), intent(in) :: depxyz(*)
+    integer, intent(in) :: nsurf
+    integer, intent(in) :: isurd(*)
+    real(real64), intent(in) :: surxyz(*)
+    integer, intent(in) :: nface
+    integer, intent(in) :: ifptr(*)
+    integer, intent(in) :: ifnode(*)
+    real(real64), intent(in) :: tol
+    real(real64), intent(inout) :: dist(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_add_tie(as_pointer(handle), int(1, c_int32_t), int(n, int64), idepd, depxyz, int(nsurf, &
+        int64), isurd, surxyz, int(nface, int64), ifptr, ifnode, tol, dist))
+end subroutine plmmti
+
+subroutine plmmlm(handle, n, idof, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_model_set_multipliers
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    integer, intent(in) :: idof(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_set_multipliers(as_pointer(handle), int(1, c_int32_t), int(n, int64), idof))
+end subroutine plmmlm
+
 subroutine plmmeo(handle, n, idof, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t
     use, intrinsic :: iso_fortran_env, only: int64

@@ -25,6 +25,10 @@ module plm_models
         procedure, private :: add_ground_contacts_int32, add_ground_contacts_int64
         procedure, private :: add_gap_rows_int32, add_gap_rows_int64
         procedure, private :: add_constraints_int32, add_constraints_int64
+        procedure, private :: add_rigid_link_int32, add_rigid_link_int64
+        procedure, private :: add_distributing_coupling_int32, add_distributing_coupling_int64
+        procedure, private :: add_tie_int32, add_tie_int64
+        procedure, private :: set_multipliers_int32, set_multipliers_int64
         procedure, private :: set_excitation_real, set_excitation_complex
         generic :: set_csc => set_csc_int32, set_csc_int64
         generic :: set_csr => set_csr_int32, set_csr_int64
@@ -35,6 +39,10 @@ module plm_models
         generic :: add_ground_contacts => add_ground_contacts_int32, add_ground_contacts_int64
         generic :: add_gap_rows => add_gap_rows_int32, add_gap_rows_int64
         generic :: add_constraints => add_constraints_int32, add_constraints_int64
+        generic :: add_rigid_link => add_rigid_link_int32, add_rigid_link_int64
+        generic :: set_multipliers => set_multipliers_int32, set_multipliers_int64
+        generic :: add_tie => add_tie_int32, add_tie_int64
+        generic :: add_distributing_coupling => add_distributing_coupling_int32, add_distributing_coupling_int64
         procedure :: set_dense_matrix
         procedure :: add_dense_gap_rows
         procedure :: set_recovery
@@ -154,6 +162,89 @@ contains
         call finish(self%context, plm_model_add_constraints(self%handle, 1_c_int32_t, size(row_ptr, kind=int64) - 1, &
             row_ptr, dof, coefficient), stat, errmsg)
     end subroutine add_constraints_int32
+
+    ! Nodes that follow a reference node rigidly. DOFs: 3 or 6 of the reference node, (3, n) or (6, n) of the others,
+    ! 0 for no such DOF; dependent_xyz(3, n).
+    subroutine add_rigid_link_int32(self, reference_dof, reference_xyz, dependent_dof, dependent_xyz, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: reference_dof(:), dependent_dof(:, :)
+        real(real64), intent(in), contiguous :: reference_xyz(:), dependent_xyz(:, :)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(reference_xyz) /= 3 .or. size(dependent_xyz, 1) /= 3 .or. &
+            size(dependent_dof, 2) /= size(dependent_xyz, 2)) then
+            call refuse('add_rigid_link: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_add_rigid_link_i32(self%handle, 1_c_int32_t, size(reference_dof, kind=int32), &
+            reference_dof, reference_xyz, size(dependent_dof, 2, kind=int64), size(dependent_dof, 1, kind=int32), &
+            dependent_dof, dependent_xyz), stat, errmsg)
+    end subroutine add_rigid_link_int32
+
+    ! RBE3: a reference node (3 or 6 DOFs) by the rigid motion that fits the nodes best; dof(3, n), xyz(3, n), weight(n),
+    ! absent: all alike
+    subroutine add_distributing_coupling_int32(self, reference_dof, reference_xyz, dof, xyz, weight, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: reference_dof(:), dof(:, :)
+        real(real64), intent(in), contiguous :: reference_xyz(:), xyz(:, :)
+        real(real64), intent(in), contiguous, optional :: weight(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(reference_xyz) /= 3 .or. any(shape(dof) /= shape(xyz)) .or. size(xyz, 1) /= 3) then
+            call refuse('add_distributing_coupling: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (present(weight)) then
+            if (size(weight) /= size(xyz, 2)) then
+                call refuse('add_distributing_coupling: weight has the wrong length', stat, errmsg)
+                return
+            end if
+        end if
+        call finish(self%context, plm_model_add_distributing_coupling_i32(self%handle, 1_c_int32_t, &
+            size(reference_dof, kind=int32), reference_dof, reference_xyz, size(xyz, 2, kind=int64), dof, xyz, weight), &
+            stat, errmsg)
+    end subroutine add_distributing_coupling_int32
+
+    ! Nodes onto faces that do not match them: DOFs (0: none) and coordinates (3, n), those of the nodes of the surface
+    ! (3, n_surface); faces by places among the latter, face_ptr(n_faces + 1), face_node. distance(n): from the surface
+    subroutine add_tie_int32(self, dependent_dof, dependent_xyz, surface_dof, surface_xyz, face_ptr, face_node, &
+        tolerance, distance, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: dependent_dof(:, :), surface_dof(:, :), face_ptr(:), face_node(:)
+        real(real64), intent(in), contiguous :: dependent_xyz(:, :), surface_xyz(:, :)
+        real(real64), intent(in) :: tolerance
+        real(real64), intent(inout), contiguous, optional :: distance(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (any(shape(dependent_dof) /= shape(dependent_xyz)) .or. any(shape(surface_dof) /= shape(surface_xyz)) .or. &
+            size(dependent_xyz, 1) /= 3 .or. size(surface_xyz, 1) /= 3 .or. size(face_ptr) < 1) then
+            call refuse('add_tie: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (face_ptr(size(face_ptr)) > size(face_node) + 1) then
+            call refuse('add_tie: face_ptr ends behind the end of face_node', stat, errmsg)
+            return
+        end if
+        if (present(distance)) then
+            if (size(distance) /= size(dependent_xyz, 2)) then
+                call refuse('add_tie: distance has the wrong length', stat, errmsg)
+                return
+            end if
+        end if
+        call finish(self%context, plm_model_add_tie_i32(self%handle, 1_c_int32_t, size(dependent_xyz, 2, kind=int64), &
+            dependent_dof, dependent_xyz, size(surface_xyz, 2, kind=int64), surface_dof, surface_xyz, &
+            size(face_ptr, kind=int64) - 1, face_ptr, face_node, tolerance, distance), stat, errmsg)
+    end subroutine add_tie_int32
+
+    ! DOFs of the matrices that are Lagrange multipliers: their rows of K become constraints.
+    subroutine set_multipliers_int32(self, dof, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: dof(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_multipliers(self%handle, 1_c_int32_t, size(dof, kind=int64), dof), &
+            stat, errmsg)
+    end subroutine set_multipliers_int32
 
     ! all DOFs as the sparse factorization eliminates them, in place of the library's order
     subroutine set_elimination_order_int32(self, dof, stat, errmsg)

@@ -109,6 +109,76 @@ static int contacts(plm_context *ctx) {
     return 0;
 }
 
+static int couplings(plm_context *ctx) {
+    plm_model *model = NULL;
+    TRY(plm_model_create(ctx, 3, &model));
+    /* [plm_model_set_multipliers_i32] */
+    /* two masses on springs, tied by DOF 2, a multiplier: its row of K says q_0 - q_1 = 0 */
+    const int32_t row[] = {0, 1, 2, 2}, column[] = {0, 1, 0, 1}, multiplier[] = {2};
+    const double m[] = {1, 2}, k[] = {1000, 3000, 1, -1};
+    TRY(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 2, row, column, m));
+    TRY(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 4, row, column,
+                                 k));
+    TRY(plm_model_set_multipliers_i32(model, 0, 1, multiplier));
+    /* [plm_model_set_multipliers_i32] */
+    /* [plm_model_set_multipliers_i64] */
+    const int64_t from_1[] = {3};
+    TRY(plm_model_set_multipliers_i64(model, 1, 1, from_1)); /* in place of those before */
+    /* [plm_model_set_multipliers_i64] */
+    TRY(plm_model_build(model));
+    TRY(plm_model_destroy(&model));
+
+    TRY(plm_model_create(ctx, 15, &model));
+    /* [plm_model_add_rigid_link_i32] */
+    /* the nodes with DOFs 0 to 2 and 3 to 5 follow that with DOFs 9 to 14, its rotations among them */
+    const int32_t hub[] = {9, 10, 11, 12, 13, 14}, rim[] = {0, 1, 2, 3, 4, 5};
+    const double centre[] = {0, 0, 0}, at[] = {100, 0, 0, 0, 100, 0};
+    TRY(plm_model_add_rigid_link_i32(model, 0, 6, hub, centre, 2, 3, rim, at));
+    /* [plm_model_add_rigid_link_i32] */
+    /* [plm_model_add_rigid_link_i64] */
+    const int64_t wide_hub[] = {10, 11, 12, 13, 14, 15},
+                  wide_rim[] = {1, 2, 3, 0, 5, 6}; /* from 1: 0 is none */
+    TRY(plm_model_add_rigid_link_i64(model, 1, 6, wide_hub, centre, 2, 3, wide_rim, at));
+    /* [plm_model_add_rigid_link_i64] */
+    TRY(plm_model_destroy(&model));
+
+    TRY(plm_model_create(ctx, 15, &model));
+    /* [plm_model_add_distributing_coupling_i32] */
+    /* a load at the middle of three nodes, DOFs 9 to 14, goes to them as a force and a moment would */
+    const int32_t middle[] = {9, 10, 11, 12, 13, 14}, nodes[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};
+    const double load_at[] = {30, 30, 0}, corners[] = {0, 0, 0, 100, 0, 0, 0, 100, 0}, area[] = {2, 1, 1};
+    TRY(plm_model_add_distributing_coupling_i32(model, 0, 6, middle, load_at, 3, nodes, corners, area));
+    /* [plm_model_add_distributing_coupling_i32] */
+    TRY(plm_model_destroy(&model));
+
+    TRY(plm_model_create(ctx, 15, &model));
+    /* [plm_model_add_distributing_coupling_i64] */
+    const int64_t mean[] = {9, 10, 11}, wide_nodes[] = {0, 1, 2, 3, 4, 5, 6, 7, 8}; /* without rotations */
+    TRY(plm_model_add_distributing_coupling_i64(model, 0, 3, mean, load_at, 3, wide_nodes, corners, NULL));
+    /* [plm_model_add_distributing_coupling_i64] */
+    TRY(plm_model_destroy(&model));
+
+    TRY(plm_model_create(ctx, 15, &model));
+    /* [plm_model_add_tie_i32] */
+    /* the node with DOFs 12 to 14 stands 0.1 mm over a face of four nodes */
+    const int32_t node[] = {12, 13, 14}, face_dof[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11},
+                  face_ptr[] = {0, 4}, face_node[] = {0, 1, 2, 3};
+    const double node_at[] = {30, 40, 0.1}, face_at[] = {0, 0, 0, 100, 0, 0, 100, 100, 0, 0, 100, 0};
+    double distance[1];
+    TRY(plm_model_add_tie_i32(model, 0, 1, node, node_at, 4, face_dof, face_at, 1, face_ptr, face_node, 1,
+                              distance));
+    /* [plm_model_add_tie_i32] */
+    EXPECT(distance[0] > 0.0999 && distance[0] < 0.1001);
+    /* [plm_model_add_tie_i64] */
+    const int64_t wide_node[] = {12, 13, 14}, wide_face[] = {0, 1, 2, 3, 4, 5, 6, 7, 8},
+                  wide_face_ptr[] = {0, 3}, wide_face_node[] = {0, 1, 2}; /* a triangle of the first three */
+    TRY(plm_model_add_tie_i64(model, 0, 1, wide_node, node_at, 3, wide_face, face_at, 1, wide_face_ptr,
+                              wide_face_node, 10, NULL));
+    /* [plm_model_add_tie_i64] */
+    TRY(plm_model_destroy(&model));
+    return 0;
+}
+
 /* both masses of the rod move with the one DOF that the host kept: T = (0.5, 1) */
 static int32_t whole_motion(plm_context *ctx, int64_t n_dof, int64_t n_columns, const double *reduced,
                             int64_t n_full, double *full, void *user) {
@@ -268,6 +338,7 @@ int example(plm_context *ctx) {
     plm_model *model = NULL;
     int line = matrices(ctx);
     if (!line) line = contacts(ctx);
+    if (!line) line = couplings(ctx);
     if (!line) line = superelement(ctx);
     if (!line) line = whole_way(ctx);
     if (line) return line;

@@ -322,6 +322,67 @@ PLM_API plm_status plm_model_add_constraints_i64(plm_model *model, int32_t index
                                                  const int64_t *row_ptr, const int64_t *dof,
                                                  const double *coefficient);
 
+/* Rigid link: n dependent nodes move with a reference node as one rigid body, at small rotations: u = u_r + w_r x (x - x_r)
+ * and w = w_r. per_reference and per_dependent tell how many DOFs a node has: 3 (x, y, z) or 6 (and the rotations about
+ * x, y, z). reference_dof[per_reference], reference_xyz[3], dependent_dof: per_dependent x n, dependent_xyz: 3 x n; base - 1:
+ * no such DOF. A reference node without rotations does not turn, and any that has not got a DOF does not move that way.
+ * The rows become constraints as by plm_model_add_constraints_i32, and count among them: further links, couplings and
+ * constraints may use the same DOFs, the dependent ones too. PLM_ERR_ARGUMENT with the position as index where a DOF comes
+ * twice in one link. */
+PLM_API plm_status plm_model_add_rigid_link_i32(plm_model *model, int32_t index_base, int32_t per_reference,
+                                                const int32_t *reference_dof, const double *reference_xyz, int64_t n,
+                                                int32_t per_dependent, const int32_t *dependent_dof,
+                                                const double *dependent_xyz);
+PLM_API plm_status plm_model_add_rigid_link_i64(plm_model *model, int32_t index_base, int32_t per_reference,
+                                                const int64_t *reference_dof, const double *reference_xyz, int64_t n,
+                                                int32_t per_dependent, const int64_t *dependent_dof,
+                                                const double *dependent_xyz);
+
+/* Distributing coupling (RBE3): the reference node moves as the rigid body that fits the translations of n nodes best, by
+ * least squares with a weight for each; its forces and moments go to them in these shares. The nodes stay free to move
+ * against one another. reference_dof, reference_xyz as for a rigid link; dof and xyz: 3 x n, weight[n] > 0 or NULL (all
+ * alike). Nodes on a line, or one alone, leave open the rotation about it: PLM_ERR_ARGUMENT where the reference node has
+ * that rotation, or stands off the line; with 3 DOFs on the line it is a mean. The DOFs of the reference node follow from
+ * those of all the nodes: without stiffness and mass of its own, tens of thousands of nodes cost nothing. With any, or
+ * held, it couples each of them with all others, a dense part of the matrices of three DOFs a node: nothing for a hundred
+ * nodes, much time and memory for a thousand, and PLM_ERR_MEMORY of the build, with the row, for several thousands. */
+PLM_API plm_status plm_model_add_distributing_coupling_i32(plm_model *model, int32_t index_base, int32_t per_reference,
+                                                           const int32_t *reference_dof, const double *reference_xyz,
+                                                           int64_t n, const int32_t *dof, const double *xyz,
+                                                           const double *weight);
+PLM_API plm_status plm_model_add_distributing_coupling_i64(plm_model *model, int32_t index_base, int32_t per_reference,
+                                                           const int64_t *reference_dof, const double *reference_xyz,
+                                                           int64_t n, const int64_t *dof, const double *xyz,
+                                                           const double *weight);
+
+/* Tie: n nodes (dependent_dof, dependent_xyz: 3 x n) move as the points of a surface that are closest to them, q = sum N_i q_i
+ * in every direction with the shape functions of its faces. surface_dof, surface_xyz: 3 x n_surface, a table of nodes;
+ * faces by their places in it, compressed (face_ptr[n_faces + 1], face_node, both from index_base on): 3, 4, 6 or 8 nodes
+ * each, the corners around, then those in the middle of the sides from the one between the first two corners on. base - 1: no
+ * such DOF (it does not move that way). Rotations are not tied. Where a node stands off the surface, its force acts there
+ * without the moment of that distance, so that a turn of the surface does not swing the node: fine for what meshes miss of
+ * a curved interface, not for offsets that are meant. Nodes farther from all faces than the tolerance (> 0, length) stay
+ * free: PLM_WARNING with PLM_REASON_MODEL and how many, "n_untied_nodes"; PLM_ERR_ARGUMENT where none is near enough.
+ * distance[n] or NULL: of every node from the surface ("tie_distance": the largest of those tied). A node of the surface
+ * itself needs no tie, and gets none. */
+PLM_API plm_status plm_model_add_tie_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *dependent_dof,
+                                         const double *dependent_xyz, int64_t n_surface, const int32_t *surface_dof,
+                                         const double *surface_xyz, int64_t n_faces, const int32_t *face_ptr,
+                                         const int32_t *face_node, double tolerance, double *distance);
+PLM_API plm_status plm_model_add_tie_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *dependent_dof,
+                                         const double *dependent_xyz, int64_t n_surface, const int64_t *surface_dof,
+                                         const double *surface_xyz, int64_t n_faces, const int64_t *face_ptr,
+                                         const int64_t *face_node, double tolerance, double *distance);
+
+/* DOFs of the matrices that are Lagrange multipliers (n numbers; the second call replaces the first, n = 0 removes them): the
+ * row of such a DOF in K holds the coefficients of a constraint, its diagonal is zero, and nothing of M and C stands at it.
+ * The build makes constraints of these rows, behind all others, and takes the DOFs out of what moves: their values, the
+ * forces of the constraints, are reported as 0. PLM_ERR_MATRIX of the build, with the DOF as index, where a row has a
+ * diagonal, couples two multipliers or is empty (codes with two multipliers for each constraint: fix them, and hand over
+ * plm_model_add_constraints_i32); PLM_ERR_ARGUMENT where a load acts on one. */
+PLM_API plm_status plm_model_set_multipliers_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *dof);
+PLM_API plm_status plm_model_set_multipliers_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *dof);
+
 /* The order in which the sparse factorization by cholmod eliminates the DOFs, in place of the library's: a permutation of
  * all of them, n = n_dof, for hosts that know their mesh; fixed and dependent ones are passed over. It changes time and memory, no
  * result. n = 0 removes it. Repeated and missing DOFs are PLM_ERR_ARGUMENT with the position as index. */

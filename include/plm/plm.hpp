@@ -710,6 +710,79 @@ class Model : public detail::WithOptions<Model, plm_model> {
                                                    coefficient.data()),
               verb);
     }
+    /// Nodes that follow a reference node rigidly. DOFs: 3 or 6 of the reference node, and 3 or 6 of every
+    /// other (base - 1: none); coordinates: 3, 3 x n.
+    void add_rigid_link(Indices reference_dof, Reals reference_xyz, Indices dependent_dof, Reals dependent_xyz,
+                        std::int32_t index_base = 0) {
+        const bool wide = dependent_dof.is_wide();
+        const char *verb = wide ? "add_rigid_link_i64" : "add_rigid_link_i32";
+        const std::int64_t n = dependent_xyz.size() / 3;
+        const std::int32_t per_reference = require_reference(reference_dof, reference_xyz, wide, verb),
+                           per_dependent = dependent_dof.size() > 3 * n ? 6 : 3;
+        require_size(dependent_xyz.size(), 3 * n, verb, "dependent_xyz");
+        require_size(dependent_dof.size(), per_dependent * n, verb, "dependent_dof");
+        check(wide ? plm_model_add_rigid_link_i64(handle_, index_base, per_reference, reference_dof.wide(),
+                                                  reference_xyz.data(), n, per_dependent,
+                                                  dependent_dof.wide(), dependent_xyz.data())
+                   : plm_model_add_rigid_link_i32(handle_, index_base, per_reference, reference_dof.narrow(),
+                                                  reference_xyz.data(), n, per_dependent,
+                                                  dependent_dof.narrow(), dependent_xyz.data()),
+              verb);
+    }
+    /// RBE3: a reference node of 3 or 6 DOFs by the rigid motion that fits nodes best; dof, xyz: 3 x n;
+    /// weight: n or {} (all alike).
+    void add_distributing_coupling(Indices reference_dof, Reals reference_xyz, Indices dof, Reals xyz,
+                                   Reals weight = {}, std::int32_t index_base = 0) {
+        const bool wide = dof.is_wide();
+        const char *verb = wide ? "add_distributing_coupling_i64" : "add_distributing_coupling_i32";
+        const std::int64_t n = xyz.size() / 3;
+        const std::int32_t per_reference = require_reference(reference_dof, reference_xyz, wide, verb);
+        require_size(xyz.size(), 3 * n, verb, "xyz");
+        require_size(dof.size(), 3 * n, verb, "dof");
+        if (weight.data()) require_size(weight.size(), n, verb, "weight");
+        check(wide ? plm_model_add_distributing_coupling_i64(handle_, index_base, per_reference,
+                                                             reference_dof.wide(), reference_xyz.data(), n,
+                                                             dof.wide(), xyz.data(), weight.data())
+                   : plm_model_add_distributing_coupling_i32(handle_, index_base, per_reference,
+                                                             reference_dof.narrow(), reference_xyz.data(), n,
+                                                             dof.narrow(), xyz.data(), weight.data()),
+              verb);
+    }
+    /// Nodes onto faces that do not match them: DOFs and coordinates 3 x n, those of the surface's nodes
+    /// 3 x n_surface; face_ptr (n_faces + 1), face_node. Returns the distance of every node from the surface.
+    std::vector<double> add_tie(Indices dependent_dof, Reals dependent_xyz, Indices surface_dof,
+                                Reals surface_xyz, Indices face_ptr, Indices face_node, double tolerance,
+                                std::int32_t index_base = 0) {
+        const bool wide = dependent_dof.is_wide();
+        const char *verb = wide ? "add_tie_i64" : "add_tie_i32";
+        const std::int64_t n = dependent_xyz.size() / 3, n_surface = surface_xyz.size() / 3,
+                           n_faces = face_ptr.size() - 1;
+        require_size(dependent_dof.size(), 3 * n, verb, "dependent_dof");
+        require_size(surface_dof.size(), 3 * n_surface, verb, "surface_dof");
+        if (n_faces < 0) require_size(face_ptr.size(), 1, verb, "face_ptr");
+        for (const auto &[array, name] : {std::make_pair(surface_dof, "surface_dof"),
+                                          std::make_pair(face_ptr, "face_ptr"),
+                                          std::make_pair(face_node, "face_node")})
+            require_width(array, wide, verb, name);
+        const std::int64_t end = wide ? face_ptr.wide()[n_faces] : std::int64_t(face_ptr.narrow()[n_faces]);
+        require_size(face_node.size(), end - index_base, verb, "face_node");
+        std::vector<double> distance(static_cast<std::size_t>(n));
+        check(wide ? plm_model_add_tie_i64(handle_, index_base, n, dependent_dof.wide(), dependent_xyz.data(),
+                                           n_surface, surface_dof.wide(), surface_xyz.data(), n_faces,
+                                           face_ptr.wide(), face_node.wide(), tolerance, distance.data())
+                   : plm_model_add_tie_i32(handle_, index_base, n, dependent_dof.narrow(),
+                                           dependent_xyz.data(), n_surface, surface_dof.narrow(),
+                                           surface_xyz.data(), n_faces, face_ptr.narrow(), face_node.narrow(),
+                                           tolerance, distance.data()),
+              verb);
+        return distance;
+    }
+    /// DOFs of the matrices that are Lagrange multipliers: their rows of K become constraints.
+    void set_multipliers(Indices dof, std::int32_t index_base = 0) {
+        check(dof.is_wide() ? plm_model_set_multipliers_i64(handle_, index_base, dof.size(), dof.wide())
+                            : plm_model_set_multipliers_i32(handle_, index_base, dof.size(), dof.narrow()),
+              dof.is_wide() ? "set_multipliers_i64" : "set_multipliers_i32");
+    }
     /// A permutation of all DOFs: how the sparse factorization eliminates them, in place of the library's
     /// order.
     void set_elimination_order(Indices dof, std::int32_t index_base = 0) {
@@ -855,6 +928,14 @@ class Model : public detail::WithOptions<Model, plm_model> {
     void require_pairs(Reals normal, Reals gap, std::int64_t n, const char *verb) const {
         require_size(normal.size(), 3 * n, verb, "normal");
         if (gap.data()) require_size(gap.size(), n, verb, "gap");
+    }
+    /// How many DOFs a reference node has.
+    std::int32_t require_reference(const Indices &dof, Reals xyz, bool wide, const char *verb) const {
+        const std::int32_t n = dof.size() > 3 ? 6 : 3;
+        require_size(dof.size(), n, verb, "reference_dof");
+        require_size(xyz.size(), 3, verb, "reference_xyz");
+        require_width(dof, wide, verb, "reference_dof");
+        return n;
     }
     /// Both index arrays of a call have the same width; an empty one fits any.
     void require_width(const Indices &x, bool wide, const char *verb, const char *argument) const {

@@ -43,6 +43,8 @@ struct ModelHandle final : HandleOf<plm_model, Kind::model> {
     std::int64_t n_findings = 0; // worth a look, of the build or of the last audit
     Warnings warnings;           // of the build
     Recovery recovery;           // of a superelement
+    std::int64_t n_untied = 0;   // nodes that ties left free
+    double tie_distance = 0;     // largest of those tied
 };
 
 struct SamplerHandle final : HandleOf<plm_sampler, Kind::sampler> {

@@ -172,8 +172,10 @@ void DofMap::require_sparse(const char *name, const SparseMatrix &a, std::int64_
         status::memory,
         format("with the constraints eliminated the %s matrix would have more than %lld entries, where it "
                "has %lld: row %lld (counted from 0, in the order they were added) makes DOF %lld a sum of "
-               "%lld others, and what stands at that DOF couples all of them. Leave such a reference DOF "
-               "without stiffness and mass of its own (put them on the nodes), or couple fewer nodes",
+               "%lld others, and what stands at that DOF couples all of them. Couple fewer nodes; or, where "
+               "that "
+               "is the reference node of a distributing coupling, leave it without stiffness and mass of its "
+               "own (put them on the nodes), and do not fix it (hold some of the nodes)",
                name, Int(many), Int(a.nnz()), Int(widest->row), Int(widest->dof),
                Int(terms(widest->dof).size())))
         .argument("dof")

@@ -267,8 +267,8 @@ class RigidModeSearch {
                 first,
                 format("%lld rows of the stiffness matrix (the first: DOF %lld, counted from 0) are "
                        "coupled to others, but have zero on the diagonal and no mass: they look like "
-                       "Lagrange multipliers of constraints, which leave K indefinite. Fix these DOFs and "
-                       "hand over what their rows say as constraints of the model",
+                       "Lagrange multipliers of constraints, which leave K indefinite. Hand their DOFs over as "
+                       "multipliers of the model, and their rows become constraints",
                        multipliers, Int(free_dof_[first])));
     }
 

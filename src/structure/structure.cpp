@@ -2,6 +2,7 @@
 #include "linalg/scale.hpp"
 #include "structure/exchanged.hpp"
 #include "structure/matrix_input.hpp"
+#include "structure/multipliers.hpp"
 #include "structure/rigid_modes.hpp"
 #include "structure/solver/make_factor.hpp"
 #include <algorithm>
@@ -27,6 +28,14 @@ void require_size(const char *what, std::int64_t size, std::int64_t n_dof) {
 SparseMatrix over_all_dofs(const char *name, const MatrixInput &input, std::int64_t n_dof) {
     require_size(name, input.layout.n, n_dof);
     return input.to_sparse();
+}
+
+/// The constraints, and those that the host's multipliers stand for.
+ConstraintRows with_multipliers(const StructureInput &input) {
+    ConstraintRows rows = input.constraints;
+    if (input.multipliers.empty()) return rows;
+    add_multiplier_rows(over_all_dofs("stiffness", *input.stiffness, input.n_dof), input.multipliers, rows);
+    return rows;
 }
 
 // Of all that moves: where constraints add up entries, rounding decides about the sign of a zero.
@@ -92,13 +101,15 @@ void Structure::assemble(const StructureInput &input, GapSize gap) {
         throw Error(status::state, input.mass
                                        ? "the stiffness matrix is missing; hand it over with PLM_STIFFNESS"
                                        : "the mass matrix is missing; hand it over with PLM_MASS");
-    map_dofs(input.fixed, input.constraints);
+    vector<std::int64_t> held = input.fixed;
+    held.insert(held.end(), input.multipliers.begin(), input.multipliers.end());
+    const ConstraintRows constraints = with_multipliers(input);
+    map_dofs(held, constraints);
     assemble_parts(input, gap);
     still_dofs_ = find_still_dofs();
     if (still_dofs_.dof.empty()) return;
-    vector<std::int64_t> held = input.fixed;
     held.insert(held.end(), still_dofs_.dof.begin(), still_dofs_.dof.end());
-    map_dofs(held, input.constraints);
+    map_dofs(held, constraints);
     assemble_parts(input, gap);
 }
 
@@ -164,12 +175,14 @@ void Structure::assemble_matrices(const StructureInput &input) {
     all = without_zeros(over_all_dofs("mass", *input.mass, n_dof_));
     if (!mass_like.empty()) refuse_exchanged(mass_like, all);
     weigh(translations_, all);
+    require_none_at(input.multipliers, "mass", all);
     require_nonnegative_diagonal("mass", all, dofs_);
     mass_ = dofs_.reduced("mass", all);
     damping_options_ = input.damping;
     damping_options_.has_matrix = input.damping_matrix != nullptr;
     if (!damping_options_.has_matrix) return;
     all = over_all_dofs("damping", *input.damping_matrix, n_dof_);
+    require_none_at(input.multipliers, "damping", all);
     damping_ = dofs_.reduced("damping", all);
 }
 
@@ -201,6 +214,7 @@ void Structure::assemble_loads(const StructureInput &input) {
         Field free(n_free(), 1);
         if (!all.empty()) {
             require_size(what, static_cast<std::int64_t>(all.size()), n_dof_);
+            require_none_at(input.multipliers, name, all);
             free = Field(dofs_.forces(all.data()));
         }
         require_scale(name, free.in_core().data(), n_free(), status::argument, "force");

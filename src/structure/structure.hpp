@@ -33,6 +33,7 @@ struct StructureInput {
     Damping damping;
     vector<std::int64_t> fixed; // DOFs held at zero, in any order, some perhaps twice
     ConstraintRows constraints;
+    vector<std::int64_t> multipliers; // DOFs whose rows of K are constraints (multipliers.hpp)
     vector<std::int64_t>
         elimination_order; // all DOFs, as the host wants them eliminated; empty: the library's order
     // gap matrix by rows: B = [row; dof; coefficient] triplets

@@ -38,6 +38,8 @@ def build(m):
         model.set_modal_damping(m["damping"][1])
     if "rows" in m:
         model.add_constraints(m["rows"])
+    for method, *arguments in m.get("couplings", ()):
+        getattr(model, method)(*arguments)
     model.add_gap_rows(sp.csr_matrix(m.get("B_library", m["B"])), stiffness=m["kn"], gap=m["g"])
     if np.any(m["P"]):
         model.set_preload(m["P"])

@@ -6,8 +6,8 @@ families.py, with more of what the judge should know:
     twin       (T, out): the same model in other coordinates, q = T q_twin; its answer must be the same
     K_library  what the library is given where the exact motion needs more (B_library likewise)
     exact_to   how exact the exact motion is, where not 1e-6
-    host       what the library is given in place of all this: DOFs q of which `rows` @ q = 0, the motions of the model by
-               q = `to_host` times those here
+    host       what the library is given in place of all this: DOFs q of which `rows` @ q = 0, or with `couplings` (methods of
+               plm.Model and their arguments), the motions of the model by q = `to_host` times those here
 """
 import numpy as np
 import scipy.linalg
@@ -281,5 +281,91 @@ def constrained(rng):
     return dict(m, **small, B=B @ N, F=N.T @ F[0], P=N.T @ P[0], out=at, damping=("matrix",), host=host, to_host=N)
 
 
+def frame(rng, xyz):
+    """Masses at these points, joined to their nearest by bars and to the ground by soft springs: M, K of three DOFs each."""
+    n = len(xyz)
+    K = np.diag(10 ** rng.uniform(1.5, 2, 3 * n))
+    for i in range(n):
+        for j in np.argsort(np.linalg.norm(xyz - xyz[i], axis=1))[1:5]:
+            e = np.zeros(3 * n)
+            e[3 * j:3 * j + 3] = (xyz[j] - xyz[i]) / np.linalg.norm(xyz[j] - xyz[i])
+            e[3 * i:3 * i + 3] = -e[3 * j:3 * j + 3]
+            K += 1e4 * 10 ** rng.uniform(-0.3, 0.3) * np.outer(e, e)
+    return np.diag(np.repeat(10 ** rng.uniform(-0.2, 0.2, n), 3)), K
+
+
+def arm(r):
+    """u = u_0 + arm(r) @ theta."""
+    return np.array([[0, r[2], -r[1]], [-r[2], 0, r[0]], [r[1], -r[0], 0]])
+
+
+def coupled(rng):
+    """A frame in space and hubs of six DOFs, joined by rigid links and distributing couplings, on one another too, in m or mm.
+    The library makes the rows; what is exact lives on a null space of those written down here."""
+    n, hubs, unit = int(rng.integers(6, 9)), int(rng.integers(1, 4)), float(rng.choice([1.0, 1e3]))
+    xyz = rng.uniform(-1, 1, (n + hubs, 3))
+    M, K = frame(rng, xyz[:n])
+    for _ in range(hubs):
+        M = scipy.linalg.block_diag(M, np.diag(np.repeat(rng.uniform(0.2, 1), 3)), np.diag(rng.uniform(0.02, 0.1, 3) * unit ** 2))
+        K = scipy.linalg.block_diag(K, 50 * np.eye(3), 20 * unit ** 2 * np.eye(3))
+    xyz, count, rows, couplings, free = unit * xyz, len(M), [], [], list(rng.permutation(n))
+
+    def dof(i):
+        return np.arange(3 * i, 3 * i + 3) if i < n else 3 * n + 6 * (i - n) + np.arange(6)
+
+    def link(to, nodes):
+        couplings.append(("add_rigid_link", dof(to), xyz[to], np.array([dof(i) for i in nodes]), xyz[nodes]))
+        for i in nodes:
+            row = np.zeros((len(dof(i)), count))
+            row[:, dof(i)] = np.eye(len(dof(i)))
+            row[:3, dof(to)] = -np.hstack([np.eye(3), arm(xyz[i] - xyz[to])])
+            row[3:, dof(to)[3:]] = -np.eye(3)[:len(row) - 3]
+            rows.append(row)
+
+    def mean(to, nodes, weight):
+        couplings.append(("add_distributing_coupling", dof(to), xyz[to], np.array([dof(i) for i in nodes]), xyz[nodes], weight))
+        G = np.vstack([np.hstack([np.eye(3), arm(xyz[i] - xyz[to]) / unit]) for i in nodes])
+        W = np.repeat(weight, 3)
+        row = np.zeros((6, count))
+        row[:, dof(to)] = np.eye(6)
+        row[:, np.concatenate([dof(i) for i in nodes])] = -np.linalg.solve(G.T @ (W[:, None] * G), G.T * W)
+        row[3:, :3 * n] /= unit
+        rows.append(row)
+
+    for k in range(n, n + hubs):
+        way = rng.random()
+        if k > n and way < 0.4:
+            link(int(rng.integers(n, k)), [k])
+        elif way < 0.6:
+            link(k, [free.pop(), free.pop()])
+        else:
+            mean(k, rng.choice(n, 4, replace=False), rng.uniform(0.5, 2, 4))
+    scale = np.ones(count)
+    for k in range(n, n + hubs):
+        scale[dof(k)[3:]] = 1 / unit
+    null = scale[:, None] * scipy.linalg.null_space(np.vstack(rows) * scale)
+    at, pairs = np.arange(3 * n), []
+    while len(pairs) < int(rng.integers(1, 3)):
+        i, j, k = *rng.choice(n, 2, replace=False), rng.integers(3)
+        row = gap_row(count, (int(3 * i + k), 1.0), (int(3 * j + k), -1.0))
+        if np.linalg.norm(row @ null) > 0.3:
+            pairs.append(row)
+    out = int(rng.choice(at[np.linalg.norm(null[:3 * n], axis=1) > 0.3]))
+    turn, _ = np.linalg.qr(np.column_stack([null[out], rng.normal(size=(null.shape[1], null.shape[1] - 1))]))
+    N = null @ turn
+    N[:, 0] /= N[out, 0]  # so that the first coordinate is the DOF that is looked at
+    B = np.array(pairs)
+    small = {name: N.T @ a @ N for name, a in (("M", M), ("K", K))}
+    m = finish(rng, *((a + a.T) / 2 for a in small.values()), B @ N, stiffness=(-1, 1.5), out=0)
+    if m["damping"][0] == "matrix":
+        w1 = np.sqrt(scipy.linalg.eigh(m["K"], m["M"], eigvals_only=True)[0])
+        beta = 2 * 10 ** rng.uniform(-2.6, -1.3) / w1
+        m.update(damping=("rayleigh", 0.0, beta), C=beta * m["K"])
+    force = np.zeros(count)
+    force[out] = m["F"][0]
+    host = dict(M=M, K=K, B=B, F=force, P=B.T @ np.linalg.lstsq((B @ N).T, m["P"], rcond=None)[0], couplings=couplings, out=out)
+    return dict(m, host=host, to_host=N)
+
+
 FAMILIES = (hard_stops, hard_stops_one_ratio, many_gaps, permuted, turned_mesh, round_shaft, twin_plates, free_bodies, hanging_parts,
-            dashpots, superelements, constrained)
+            dashpots, superelements, constrained, coupled)

@@ -50,6 +50,11 @@ static const int32_t i32[8] = {0, 1, 2, 3};
 static const int64_t i64[8] = {0, 1, 2, 3};
 static const int32_t other32[3] = {1, 2, 0};
 static const int64_t other64[3] = {1, 2, 0};
+static const int32_t far32[3] = {4, 5, 6};
+static const int64_t far64[3] = {4, 5, 6};
+static const int32_t face_dof32[9] = {3, 4, 5, 6, 7, 8, 9, 10, 11}, face_ptr32[2] = {0, 3};
+static const int64_t face_dof64[9] = {3, 4, 5, 6, 7, 8, 9, 10, 11}, face_ptr64[2] = {0, 3};
+static const double face[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 static const double one[3] = {1, 0, 0};
 CASE(model, plm_model_set_matrix_i32, PLM_MASS, PLM_CSC, PLM_FULL, 0, PLM_COPY, 3, i32, i32, one)
 CASE(model, plm_model_set_matrix_i64, PLM_MASS, PLM_CSC, PLM_FULL, 0, PLM_COPY, 3, i64, i64, one)
@@ -60,6 +65,14 @@ CASE(model, plm_model_fix_dofs_i32, 0, 1, i32)
 CASE(model, plm_model_fix_dofs_i64, 0, 1, i64)
 CASE(model, plm_model_add_constraints_i32, 0, 1, i32, i32, one)
 CASE(model, plm_model_add_constraints_i64, 0, 1, i64, i64, one)
+CASE(model, plm_model_add_rigid_link_i32, 0, 3, i32, one, 1, 3, far32, numbers)
+CASE(model, plm_model_add_rigid_link_i64, 0, 3, i64, one, 1, 3, far64, numbers)
+CASE(model, plm_model_add_distributing_coupling_i32, 0, 3, i32, numbers, 1, far32, numbers, NULL)
+CASE(model, plm_model_add_distributing_coupling_i64, 0, 3, i64, numbers, 1, far64, numbers, NULL)
+CASE(model, plm_model_add_tie_i32, 0, 1, other32, one, 3, face_dof32, face, 1, face_ptr32, i32, 5, &out[0].d)
+CASE(model, plm_model_add_tie_i64, 0, 1, other64, one, 3, face_dof64, face, 1, face_ptr64, i64, 5, &out[0].d)
+CASE(model, plm_model_set_multipliers_i32, 0, 1, i32)
+CASE(model, plm_model_set_multipliers_i64, 0, 1, i64)
 CASE(model, plm_model_set_elimination_order_i32, 0, 3, other32)
 CASE(model, plm_model_set_elimination_order_i64, 0, 3, other64)
 CASE(model, plm_model_add_node_pairs_i32, 0, 1, i32, other32, one, one, NULL)
@@ -165,6 +178,14 @@ static const struct {
                  ENTRY(MODEL, plm_model_fix_dofs_i64),
                  ENTRY(MODEL, plm_model_add_constraints_i32),
                  ENTRY(MODEL, plm_model_add_constraints_i64),
+                 ENTRY(MODEL, plm_model_add_rigid_link_i32),
+                 ENTRY(MODEL, plm_model_add_rigid_link_i64),
+                 ENTRY(MODEL, plm_model_add_distributing_coupling_i32),
+                 ENTRY(MODEL, plm_model_add_distributing_coupling_i64),
+                 ENTRY(MODEL, plm_model_add_tie_i32),
+                 ENTRY(MODEL, plm_model_add_tie_i64),
+                 ENTRY(MODEL, plm_model_set_multipliers_i32),
+                 ENTRY(MODEL, plm_model_set_multipliers_i64),
                  ENTRY(MODEL, plm_model_set_elimination_order_i32),
                  ENTRY(MODEL, plm_model_set_elimination_order_i64),
                  ENTRY(MODEL, plm_model_add_node_pairs_i32),

@@ -69,6 +69,42 @@ static plm_model *make_model(void) {
     return model;
 }
 
+/* a hub (DOFs 0 to 5) by three nodes of a face (6 to 14), a node linked to it (15 to 17), one tied to the
+ * face (18 to 20), and a multiplier (21) between two DOFs (22, 23) */
+static void print_coupled(void) {
+    const int32_t hub[] = {0, 1, 2, 3, 4, 5}, face[] = {6, 7, 8, 9, 10, 11, 12, 13, 14},
+                  linked[] = {15, 16, 17}, tied[] = {18, 19, 20}, face_ptr[] = {0, 3},
+                  face_node[] = {0, 1, 2}, multiplier[] = {21}, tail[] = {22, 23, 22, 23},
+                  head[] = {22, 23, 21, 21};
+    const double origin[] = {0, 0, 0}, corners[] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, weight[] = {1, 2, 3},
+                 aside[] = {1, 1, 0}, above[] = {0.4, 0.4, 0.5};
+    int32_t row[25], column[25];
+    double mass[25], stiffness[25], distance[1], hz[4];
+    int64_t n = 0;
+    plm_model *model = NULL;
+    for (int32_t i = 0; i < 25; i++) {
+        row[i] = i < 21 ? i : tail[i - 21], column[i] = i < 21 ? i : head[i - 21];
+        mass[i] = 1, stiffness[i] = i < 23 ? 1000 * (1 + row[i]) : 2 * i - 47; /* at the end -1 and 1 */
+    }
+    must(plm_model_create(ctx, 24, &model));
+    must(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 23, row, column,
+                                  mass));
+    must(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 25, row, column,
+                                  stiffness));
+    must(plm_model_add_distributing_coupling_i32(model, 0, 6, hub, origin, 3, face, corners, weight));
+    must(plm_model_add_rigid_link_i32(model, 0, 6, hub, origin, 1, 3, linked, aside));
+    must(plm_model_add_tie_i32(model, 0, 1, tied, above, 3, face, corners, 1, face_ptr, face_node, 1,
+                               distance));
+    must(plm_model_set_multipliers_i32(model, 0, 1, multiplier));
+    must(plm_model_build(model));
+    must(plm_model_get_int(model, "n_free", &n));
+    heading("coupled_n_free"), whole(n);
+    reals("tie_distance", 1, distance);
+    must(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 4, hz, NULL));
+    reals("coupled_hz", 4, hz);
+    must(plm_model_destroy(&model));
+}
+
 static void print_model(plm_model *model) {
     double x[N], hz[3];
     int64_t n = 0, count = 0;
@@ -308,6 +344,7 @@ int main(void) {
     if (plm_context_create(PLM_API_VERSION, &ctx)) return 1;
     plm_model *model = make_model();
     print_model(model);
+    print_coupled();
     print_response(model, make_basis(model));
     return plm_context_destroy(&ctx);
 }

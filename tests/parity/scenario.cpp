@@ -42,6 +42,28 @@ plm::Model make_model(const plm::Context &context) {
     return model;
 }
 
+void print_coupled(const plm::Context &context) {
+    std::vector<std::int32_t> row, column;
+    std::vector<double> stiffness;
+    for (int i = 0; i < 24; ++i)
+        if (i != 21) row.push_back(i), column.push_back(i), stiffness.push_back(1000 * (1 + i));
+    plm::Model model(context, 24);
+    model.set_mass(plm::triplets(row, column, std::vector<double>(23, 1.0)).lower());
+    for (int i : {22, 23}) row.push_back(i), column.push_back(21), stiffness.push_back(2 * i - 45);
+    model.set_stiffness(plm::triplets(row, column, stiffness).lower());
+    const std::vector<double> origin(3), corners{1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const std::vector<std::int32_t> hub{0, 1, 2, 3, 4, 5}, face{6, 7, 8, 9, 10, 11, 12, 13, 14};
+    model.add_distributing_coupling(hub, origin, face, corners, {1, 2, 3});
+    model.add_rigid_link(hub, origin, {15, 16, 17}, {1, 1, 0});
+    const std::vector<double> distance =
+        model.add_tie({18, 19, 20}, {0.4, 0.4, 0.5}, face, corners, {0, 3}, {0, 1, 2}, 1);
+    model.set_multipliers({21});
+    model.build();
+    print("coupled_n_free", std::vector{model.get_int("n_free")});
+    print("tie_distance", distance);
+    print("coupled_hz", model.modes(PLM_SYSTEM_OPEN, 4).frequency_hz);
+}
+
 void print_model(plm::Model &model) {
     print("n_free", std::vector{model.get_int("n_free")});
     print("contact_stiffness", model.get_array("contact_stiffness"));
@@ -180,6 +202,7 @@ int main() {
     try {
         plm::Model model = make_model(plm::Context());
         print_model(model);
+        print_coupled(plm::Context());
         print_response(model, make_basis(model));
     } catch (const plm::Error &e) {
         std::fprintf(stderr, "%s\n", e.what());

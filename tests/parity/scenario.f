@@ -11,6 +11,7 @@ C     points count from 1 here.
       CALL MUST(IERR)
       CALL MAKMOD(MODEL)
       CALL SHOMOD(MODEL)
+      CALL SHOCPL
       CALL MAKBAS(MODEL, IBASIS)
       CALL SHORES(MODEL, IBASIS)
       CALL PLMCDE(LCTX, IERR)
@@ -108,6 +109,74 @@ C     points count from 1 here.
       CALL PLMMEX(MODEL, 1, N, FRE, FIM, IERR)
       CALL MUST(IERR)
       CALL PLMMBU(MODEL, IERR)
+      CALL MUST(IERR)
+      END
+
+      SUBROUTINE SHOCPL
+      INCLUDE 'plmf.inc'
+      INTEGER*8 LCTX
+      COMMON /PLMLNK/ LCTX
+      INTEGER*8 MODEL
+      INTEGER I, IERR, NUMBER, INTS(1)
+      INTEGER IROW(25), ICOL(25), IHUB(6), IFACE(9), ILINK(3), ITIED(3)
+      INTEGER IFPTR(2), IFNODE(3), MULT(1)
+      DOUBLE PRECISION XM(25), XK(25), ORIGIN(3), CORNER(9), WEIGHT(3)
+      DOUBLE PRECISION ASIDE(3), ABOVE(3), DIST(1), HZ(4)
+      DATA IHUB /1, 2, 3, 4, 5, 6/
+      DATA IFACE /7, 8, 9, 10, 11, 12, 13, 14, 15/
+      DATA ILINK /16, 17, 18/
+      DATA ITIED /19, 20, 21/
+      DATA IFPTR /1, 4/
+      DATA IFNODE /1, 2, 3/
+      DATA MULT /22/
+      DATA ORIGIN /0.0D0, 0.0D0, 0.0D0/
+      DATA CORNER /1.0D0, 3*0.0D0, 1.0D0, 3*0.0D0, 1.0D0/
+      DATA WEIGHT /1.0D0, 2.0D0, 3.0D0/
+      DATA ASIDE /1.0D0, 1.0D0, 0.0D0/
+      DATA ABOVE /0.4D0, 0.4D0, 0.5D0/
+      DO 10 I = 1, 23
+        IROW(I) = I
+        IF (I .GT. 21) IROW(I) = I + 1
+        ICOL(I) = IROW(I)
+        XM(I) = 1.0D0
+        XK(I) = 1000.0D0 * IROW(I)
+   10 CONTINUE
+      IROW(24) = 23
+      IROW(25) = 24
+      ICOL(24) = 22
+      ICOL(25) = 22
+      XK(24) = -1.0D0
+      XK(25) = 1.0D0
+      MODEL = 0
+      CALL PLMMCR(LCTX, 24, MODEL, IERR)
+      CALL MUST(IERR)
+      CALL PLMMMX(MODEL, PLMMAS, PLMTRI, PLMLOW, 23, IROW, ICOL, XM,
+     1            IERR)
+      CALL MUST(IERR)
+      CALL PLMMMX(MODEL, PLMSTF, PLMTRI, PLMLOW, 25, IROW, ICOL, XK,
+     1            IERR)
+      CALL MUST(IERR)
+      CALL PLMMDC(MODEL, 6, IHUB, ORIGIN, 3, IFACE, CORNER, WEIGHT,
+     1            IERR)
+      CALL MUST(IERR)
+      CALL PLMMRL(MODEL, 6, IHUB, ORIGIN, 1, 3, ILINK, ASIDE, IERR)
+      CALL MUST(IERR)
+      CALL PLMMTI(MODEL, 1, ITIED, ABOVE, 3, IFACE, CORNER, 1, IFPTR,
+     1            IFNODE, 1.0D0, DIST, IERR)
+      CALL MUST(IERR)
+      CALL PLMMLM(MODEL, 1, MULT, IERR)
+      CALL MUST(IERR)
+      CALL PLMMBU(MODEL, IERR)
+      CALL MUST(IERR)
+      CALL PLMMGI(MODEL, 'n_free', NUMBER, IERR)
+      CALL MUST(IERR)
+      INTS(1) = NUMBER
+      CALL SHOWI('coupled_n_free', 1, INTS)
+      CALL SHOW('tie_distance', 1, DIST)
+      CALL PLMMFR(MODEL, PLMOPN, 4, HZ, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('coupled_hz', 4, HZ)
+      CALL PLMMDE(MODEL, IERR)
       CALL MUST(IERR)
       END
 

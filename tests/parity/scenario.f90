@@ -11,6 +11,7 @@ program scenario
     call context%create()
     call make_model(context, model)
     call show_model(model)
+    call show_coupled(context)
     call make_basis(model, basis)
     call show_response(model, basis)
     call context%destroy()
@@ -54,6 +55,37 @@ contains
         call model%set_excitation(1, force)
         call model%build()
     end subroutine make_model
+
+    subroutine show_coupled(context)
+        type(plm_context), intent(in) :: context
+        type(plm_model) :: model
+        integer :: i, n, others(23), face(3, 3)
+        real(real64) :: corners(3, 3), distance(1), hz(4)
+        others = [(i, i=1, 21), 23, 24]
+        face = reshape([(i, i=7, 15)], [3, 3])
+        corners = 0
+        do i = 1, 3
+            corners(i, i) = 1
+        end do
+        call model%create(context, 24)
+        call model%set_triplets(PLM_MASS, PLM_LOWER, others, others, [(1.0_real64, i=1, 23)])
+        call model%set_triplets(PLM_STIFFNESS, PLM_LOWER, [others, 23, 24], [others, 22, 22], &
+            [1e3_real64 * others, -1.0_real64, 1.0_real64])
+        call model%add_distributing_coupling([(i, i=1, 6)], [0.0_real64, 0.0_real64, 0.0_real64], face, corners, &
+            [1.0_real64, 2.0_real64, 3.0_real64])
+        call model%add_rigid_link([(i, i=1, 6)], [0.0_real64, 0.0_real64, 0.0_real64], reshape([16, 17, 18], [3, 1]), &
+            reshape([1.0_real64, 1.0_real64, 0.0_real64], [3, 1]))
+        call model%add_tie(reshape([19, 20, 21], [3, 1]), reshape([0.4_real64, 0.4_real64, 0.5_real64], [3, 1]), &
+            face, corners, [1, 4], [1, 2, 3], 1.0_real64, distance)
+        call model%set_multipliers([22])
+        call model%build()
+        call model%get('n_free', n)
+        call show_integers('coupled_n_free', [n])
+        call show('tie_distance', distance)
+        call model%modes(PLM_SYSTEM_OPEN, hz)
+        call show('coupled_hz', hz)
+        call model%destroy()
+    end subroutine show_coupled
 
     subroutine show_model(model)
         type(plm_model), intent(inout) :: model

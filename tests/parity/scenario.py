@@ -32,6 +32,25 @@ def make_model():
     return model.build()
 
 
+def show_coupled():
+    numbers = [i for i in range(24) if i != 21]
+    stiffness = scipy.sparse.lil_matrix((24, 24))
+    for i in numbers:
+        stiffness[i, i] = 1000 * (1 + i)
+    stiffness[22, 21], stiffness[23, 21] = -1, 1
+    mass = scipy.sparse.coo_matrix((numpy.ones(23), (numbers, numbers)), (24, 24))
+    model = plm.Model(mass, stiffness.tocoo(), part="lower")
+    face, corners = numpy.arange(6, 15).reshape(3, 3), numpy.eye(3)
+    model.add_distributing_coupling(range(6), [0, 0, 0], face, corners, [1, 2, 3])
+    model.add_rigid_link(range(6), [0, 0, 0], [15, 16, 17], [1, 1, 0])
+    distance = model.add_tie([18, 19, 20], [0.4, 0.4, 0.5], face, corners, [[0, 1, 2]], 1)
+    model.set_multipliers([21])
+    model.build()
+    show("coupled_n_free", numpy.int64(model.n_free))
+    show("tie_distance", distance)
+    show("coupled_hz", model.modes(4))
+
+
 def show_model(model):
     show("n_free", numpy.int64(model.n_free))
     show("contact_stiffness", model.contact_stiffness)
@@ -140,6 +159,7 @@ def show_response(basis):
 def main():
     model = make_model()
     show_model(model)
+    show_coupled()
     show_response(make_basis(model))
 
 

@@ -195,17 +195,23 @@ class Constraints(unittest.TestCase):
         self.near(model.modes(2, "sliding")[1], numpy.sqrt(1e3 * numpy.linalg.inv(lever)[0, 0]) / (2 * numpy.pi), 1e-9)
 
     def test_multipliers_of_the_host(self):
-        """Refused as they are; with their DOFs fixed and their rows as constraints, the model that was meant."""
+        """Refused as they are; handed over as what they are, or fixed and their rows as constraints, the model that was meant."""
         mass, stiffness, turn, tie, merge = cut()
         n = len(mass)
         bordered = numpy.block([[stiffness, tie.T], [tie, numpy.zeros((1, 1))]])
         model = plm.Model(scipy.sparse.csc_matrix(scipy.linalg.block_diag(mass, 0)), scipy.sparse.csc_matrix(bordered))
-        with self.assertRaisesRegex(plm.PlmError, "Lagrange multipliers.*as constraints of the model"):
+        with self.assertRaisesRegex(plm.PlmError, "Lagrange multipliers.*as multipliers of the model"):
             model.build()
-        model.fix_dofs([n])
-        model.add_constraints(numpy.append(tie, [[0.0]], axis=1))
-        merged = plm.Model(merge.T @ mass @ merge, merge.T @ stiffness @ merge).build()
-        self.near(model.build().modes(5), merged.modes(5), 1e-10)
+        by_hand = plm.Model(scipy.sparse.csc_matrix(scipy.linalg.block_diag(mass, 0)), scipy.sparse.csc_matrix(bordered))
+        by_hand.fix_dofs([n])
+        by_hand.add_constraints(numpy.append(tie, [[0.0]], axis=1))
+        merged = plm.Model(merge.T @ mass @ merge, merge.T @ stiffness @ merge).build().modes(5)
+        self.near(by_hand.build().modes(5), merged, 1e-10)
+        model.set_multipliers(numpy.array([n], dtype=numpy.int32))
+        model.set_multipliers([n])
+        hz, shapes = model.build().modes(5, shapes=True)
+        self.near(hz, merged, 1e-10)
+        self.assertTrue((shapes[n] == 0).all())
 
     def test_recovery_of_a_tied_superelement(self):
         mass, stiffness, turn, tie, merge = cut()

@@ -114,6 +114,64 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         start, dof, coefficient, width = self._rows(rows, "it says nothing")
         self._call("add_constraints" + width, 0, start.size - 1, address(start), address(dof), address(coefficient))
 
+    def add_rigid_link(self, reference_dof, reference_xyz, dependent_dof, dependent_xyz):
+        """Nodes that move with a reference node as one rigid body, at small rotations. reference_dof: its 3 or 6 DOFs;
+        dependent_dof: n x 3 or n x 6 (-1: none); coordinates: 3, n x 3. A reference node of 3 DOFs does not turn."""
+        xyz = self._points(dependent_xyz, "dependent_xyz")
+        reference, at, nodes, width = self._coupled(reference_dof, reference_xyz, dependent_dof, "dependent_dof", len(xyz), (3, 6))
+        self._call("add_rigid_link" + width, 0, reference.size, address(reference), address(at), len(xyz), nodes.shape[1],
+                   address(nodes), address(xyz))
+
+    def add_distributing_coupling(self, reference_dof, reference_xyz, dof, xyz, weight=None):
+        """RBE3: a reference node (3 or 6 DOFs) moves as the rigid body that fits the translations of nodes best, by least
+        squares with these weights (n, or one number; None: all alike). dof: n x 3 (-1: none); xyz: n x 3."""
+        xyz = self._points(xyz, "xyz")
+        reference, at, nodes, width = self._coupled(reference_dof, reference_xyz, dof, "dof", len(xyz), (3,))
+        weight = reals(weight, (len(xyz),), "weight", "one for each node, or one number for all")
+        self._call("add_distributing_coupling" + width, 0, reference.size, address(reference), address(at), len(xyz),
+                   address(nodes), address(xyz), address(weight))
+
+    def add_tie(self, dependent_dof, dependent_xyz, surface_dof, surface_xyz, faces, tolerance):
+        """Nodes that move as the points of a surface closest to them. DOFs and coordinates: n x 3 each, of the nodes and of those
+        of the surface (-1: no such DOF); faces: rows of 3, 4, 6 or 8 places in the latter, an array or a list of lists.
+        Nodes farther than the tolerance stay free, with a warning. Returns the distance of every node from the surface."""
+        xyz, surface_xyz = self._points(dependent_xyz, "dependent_xyz"), self._points(surface_xyz, "surface_xyz")
+        faces = [integers(face, "faces").ravel() for face in faces]
+        start = numpy.concatenate([[0], numpy.cumsum([face.size for face in faces])]).astype(numpy.int32)
+        arrays = [integers(dependent_dof, "dependent_dof").reshape(-1, 3), integers(surface_dof, "surface_dof").reshape(-1, 3),
+                  start, numpy.concatenate(faces) if faces else start[:0]]
+        (dof, surface, start, node), width = alike(*arrays)
+        for name, given, at in (("dependent", dof, xyz), ("surface", surface, surface_xyz)):
+            if len(given) != len(at):
+                raise ValueError(f"{name}_dof has {len(given)} nodes, {name}_xyz {len(at)}")
+        distance = numpy.empty(len(xyz))
+        self._work("add_tie" + width, 0, len(xyz), address(dof), address(xyz), len(surface), address(surface), address(surface_xyz),
+                   len(faces), address(start), address(node), tolerance, address(distance))
+        return distance
+
+    @staticmethod
+    def _points(xyz, name):
+        xyz = numpy.atleast_2d(real_parts(numpy.asarray(xyz), name))
+        if xyz.ndim != 2 or xyz.shape[1] != 3:
+            raise ValueError(f"{name} has shape {xyz.shape}; needed is n x 3, the coordinates of n nodes")
+        return numpy.ascontiguousarray(xyz, dtype=float)
+
+    @staticmethod
+    def _coupled(reference_dof, reference_xyz, dof, name, n, widths):
+        """A reference node and others, as C takes them."""
+        (reference, nodes), width = alike(integers(reference_dof, "reference_dof").ravel(), numpy.atleast_2d(integers(dof, name)))
+        if reference.size not in (3, 6):
+            raise ValueError(f"reference_dof has {reference.size} DOFs; a node has 3 (translations), or 6 (and the rotations)")
+        if nodes.ndim != 2 or len(nodes) != n or nodes.shape[1] not in widths:
+            raise ValueError(f"{name} has shape {nodes.shape}; needed is {n} x {' or '.join(map(str, widths))}: a row for each node")
+        return reference, reals(reference_xyz, (3,), "reference_xyz", "x, y, z"), nodes, width
+
+    def set_multipliers(self, dof):
+        """DOFs of the matrices that are Lagrange multipliers: their rows of K become constraints, and they leave what moves (fields
+        are 0 there)."""
+        (dof,), width = alike(integers(dof, "dof").ravel())
+        self._call("set_multipliers" + width, 0, dof.size, address(dof))
+
     def set_elimination_order(self, dof):
         """A permutation of all DOFs: how the sparse factorization eliminates them, in place of the library's order."""
         (dof,), width = alike(integers(dof, "dof").ravel())
