@@ -49,6 +49,10 @@ class FlowModel {
     /// The pre-load and, through the springs of a contact set (one a pair), the gaps.
     vector<double> constant_load(const vector<double> &springs) const;
     const std::map<int, HarmonicLoad> &excitation() const { return excitation_; } // n each, h = 0 too
+    /// The pairs' walls move, in harmonics that the excitation has, too, if with zeros.
+    bool walls_move() const { return walls_move_; }
+    /// Amplitudes of the gaps in one harmonic, real and imaginary part: Z each.
+    vector<double> gap_motion(int harmonic, bool imaginary) const;
     const Contact &contact() const { return reduced_->contact; }
     const vector<double> &contact_stiffness() const { return reduced_->contact.stiffness; }
     const vector<double> &initial_gap() const { return reduced_->contact.initial_gap; }
@@ -78,6 +82,7 @@ class FlowModel {
     vector<double> lambda_, damping_diagonal_, preload_;
     std::int64_t n_relaxing_ = 0, n_following_ = 0;
     std::map<int, HarmonicLoad> excitation_;
+    bool walls_move_ = false;
 };
 
 } // namespace plm
