@@ -1,5 +1,5 @@
 // A reduced model in the time domain: y'' + C y' + diag(lambda) y = F_preload + F(t) - G^T max(k_n u, 0),
-// u = G y - g, in mass-normalised coordinates. Harmonic balance may use two sets of coordinates, P for
+// u = G y - g(t), in mass-normalised coordinates. Harmonic balance may use two sets of coordinates, P for
 // h >= 1 and P_0 for h = 0; a flow needs one. P_0 spans P and has diagonal m and k too, so the flow lives in
 // P_0 (reduction/widened_model.hpp), and T (ReducedModel::to_static) takes dynamic coordinates to its own.
 //
