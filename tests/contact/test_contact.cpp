@@ -174,7 +174,7 @@ void the_first_event_of_a_piece(void **) {
     u(2, 2) = 1;
     plm::PiecePenetrations piece;
     piece.expand(u);
-    plm::PieceEvents events(c, gap, 1);
+    plm::PieceEvents events(c, gap);
     events.guess({1, -1, 0});
     assert_true(!events.states().is_closed(2) && events.correct(piece, 0) && !events.correct(piece, 0));
     assert_true(events.states().closed_pairs() == (plm::vector<std::int64_t>{0, 2}));
@@ -197,7 +197,7 @@ void pairs_that_switch_at_once(void **) {
     plm::PiecePenetrations piece;
     piece.expand(u);
     for (const double together : {0.0, 1e-8}) {
-        plm::PieceEvents events(c, gap, 1);
+        plm::PieceEvents events(c, gap);
         events.guess({1, 1, 1});
         assert_false(events.correct(piece, 0));
         std::int64_t pair = -1;
@@ -210,7 +210,7 @@ void pairs_that_switch_at_once(void **) {
 // u = -1 + 2 s, then from zero: by its velocity; by that no more than rounding would do; by its acceleration.
 void a_pair_leaves_zero_clearly(void **) {
     const Contact c{{1}, {0}};
-    plm::PieceEvents events(c, Matrix(1, 1), 1);
+    plm::PieceEvents events(c, Matrix(1, 1));
     plm::PiecePenetrations piece;
     Matrix u(3, 1);
     u(0, 0) = -1, u(1, 0) = 2;
