@@ -698,6 +698,16 @@ module plm_c
             real(c_double), intent(in), optional :: imag(*)
             integer(plm_status) :: code
         end function plm_model_set_excitation
+        function plm_model_set_gap_motion(model, harmonic, n, real, imag) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: harmonic
+            integer(c_int64_t), value :: n
+            real(c_double), intent(in), optional :: real(*)
+            real(c_double), intent(in), optional :: imag(*)
+            integer(plm_status) :: code
+        end function plm_model_set_gap_motion
         function plm_model_set_dense_matrix(model, which, part, value, ld) bind(c) result(code)
             import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
             implicit none

@@ -242,6 +242,27 @@ subroutine plmmex(handle, iharm, ndof, dreal, dimag, ierr)
     end if
 end subroutine plmmex
 
+! the same
+subroutine plmmgm(handle, iharm, n, dreal, dimag, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_set_gap_motion
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: iharm
+    integer, intent(in) :: n
+    real(real64), intent(in) :: dreal(*)
+    real(real64), intent(in) :: dimag(*)
+    integer, intent(out) :: ierr
+    if (iharm == 0) then
+        ierr = int(plm_model_set_gap_motion(as_pointer(handle), int(iharm, c_int32_t), int(n, int64), dreal))
+    else
+        ierr = int(plm_model_set_gap_motion(as_pointer(handle), int(iharm, c_int32_t), int(n, int64), dreal, &
+            dimag))
+    end if
+end subroutine plmmgm
+
 ! flags of another width, as many as the model has pairs, read for one system only
 subroutine plmmmo(handle, isys, iclosd, n, freq, shape, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t

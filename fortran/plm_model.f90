@@ -30,6 +30,7 @@ module plm_models
         procedure, private :: add_tie_int32, add_tie_int64
         procedure, private :: set_multipliers_int32, set_multipliers_int64
         procedure, private :: set_excitation_real, set_excitation_complex
+        procedure, private :: set_gap_motion_real, set_gap_motion_complex
         generic :: set_csc => set_csc_int32, set_csc_int64
         generic :: set_csr => set_csr_int32, set_csr_int64
         generic :: set_triplets => set_triplets_int32, set_triplets_int64
@@ -49,6 +50,7 @@ module plm_models
         procedure :: recover
         procedure :: set_preload
         generic :: set_excitation => set_excitation_real, set_excitation_complex
+        generic :: set_gap_motion => set_gap_motion_real, set_gap_motion_complex
         procedure :: build
         procedure :: solve_rest
         procedure :: modes
@@ -442,6 +444,27 @@ contains
         call finish(self%context, plm_model_set_excitation(self%handle, int(harmonic, c_int32_t), &
             size(force, kind=int64), real(force, real64), aimag(force)), stat, errmsg)
     end subroutine set_excitation_complex
+
+    ! gap(t) = gap + sum over h of Re(motion_h exp(i h omega t)), of all pairs added so far
+    subroutine set_gap_motion_real(self, harmonic, motion, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(in) :: harmonic
+        real(real64), intent(in), contiguous :: motion(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_gap_motion(self%handle, int(harmonic, c_int32_t), &
+            size(motion, kind=int64), motion), stat, errmsg)
+    end subroutine set_gap_motion_real
+
+    subroutine set_gap_motion_complex(self, harmonic, motion, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(in) :: harmonic
+        complex(real64), intent(in) :: motion(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_gap_motion(self%handle, int(harmonic, c_int32_t), &
+            size(motion, kind=int64), real(motion, real64), aimag(motion)), stat, errmsg)
+    end subroutine set_gap_motion_complex
 
     subroutine build(self, stat, errmsg)
         class(plm_model), intent(inout) :: self

@@ -106,6 +106,14 @@ static int contacts(plm_context *ctx) {
     const int64_t wide_ptr[] = {0, 1}, wide_dof[] = {3};
     TRY(plm_model_add_gap_rows_i64(model, 0, 1, wide_ptr, wide_dof, coefficient, k_n, NULL));
     /* [plm_model_add_gap_rows_i64] */
+
+    /* [plm_model_set_gap_motion] */
+    /* six pairs by now, of which the wall of the third one shakes, and that of the fourth a quarter later */
+    const double shakes[] = {0, 0, 1e-4, 0, 0, 0}, later[] = {0, 0, 0, -1e-4, 0, 0};
+    TRY(plm_model_set_gap_motion(model, 1, 6, shakes, later));
+    TRY(plm_model_set_gap_motion(model, 2, 6, shakes, NULL)); /* and with twice the frequency */
+    TRY(plm_model_set_gap_motion(model, 2, 0, NULL, NULL));   /* which is taken back */
+    /* [plm_model_set_gap_motion] */
     return 0;
 }
 

@@ -424,6 +424,15 @@ PLM_API plm_status plm_model_set_preload(plm_model *model, int64_t n, const doub
  * real = NULL removes harmonic h. */
 PLM_API plm_status plm_model_set_excitation(plm_model *model, int32_t harmonic, int64_t n, const double *real,
                                             const double *imag);
+/* Moving walls: harmonic h of the gaps' motion, gap(t) = gap + sum_h Re(G_h exp(i h omega t)), G_h = real + i imag
+ * (length), each [n], imag or NULL (zero); n is the number of pairs added so far, those added later stand still. A
+ * casing that is out of round, a shaker's table, a travelling wave. Harmonic balance and motions in time take it
+ * exactly. It is excitation: force_scale multiplies it as it does the forces, h = 0 included (imag must be NULL
+ * then; what is not to be scaled belongs in the gap). Resonance is told by the phase against the forces, and so not
+ * where walls move: plm_hbm_find_backbones and plm_hbm_find_isolated refuse such a model, and plm_model_compute_response
+ * does not look for a larger motion beside the curve. real = NULL removes harmonic h. */
+PLM_API plm_status plm_model_set_gap_motion(plm_model *model, int32_t harmonic, int64_t n, const double *real,
+                                            const double *imag);
 
 /* Superelements: a structure that the host has reduced already (Craig and Bampton's method in any code, or modes and
  * contact attachment vectors, the columns of T) is a model like any other, whose DOFs are the coordinates of the

@@ -877,6 +877,13 @@ class Model : public detail::WithOptions<Model, plm_model> {
                                        imag.data()),
               "set_excitation");
     }
+    /// gap(t) = gap + Re((real + i imag) exp(i h omega t)) of all pairs added so far; real nullptr removes
+    /// harmonic h.
+    void set_gap_motion(std::int32_t harmonic, Reals real, Reals imag = {}) {
+        if (imag.data()) require_size(imag.size(), real.size(), "set_gap_motion", "imag");
+        check(plm_model_set_gap_motion(handle_, harmonic, real.size(), real.data(), imag.data()),
+              "set_gap_motion");
+    }
 
     /// PLM_OK or PLM_WARNING.
     plm_status build() { return finished(plm_model_build(handle_), "build"); }

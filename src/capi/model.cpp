@@ -101,6 +101,16 @@ void put_modes(const ModelHandle &m, const LowestModes &found, std::int64_t n, d
         frequency_hz[j] = std::sqrt(std::max(0.0, found.values[static_cast<std::size_t>(j)])) / (2 * M_PI);
 }
 
+// False: the harmonic is to be removed.
+bool is_given(std::int32_t harmonic, const double *real, const double *imag) {
+    require_range(harmonic, 0, 100000, "harmonic");
+    if (!real && imag)
+        bad_argument("real", -1, "real is NULL but imag is not; pass both, or none to remove the harmonic");
+    if (real && harmonic == 0 && imag)
+        bad_argument("imag", -1, "imag must be NULL for harmonic 0, which is static");
+    return real != nullptr;
+}
+
 } // namespace
 } // namespace plm::capi
 
@@ -131,20 +141,41 @@ plm_status plm_model_set_excitation(plm_model *model, std::int32_t harmonic, std
                                     const double *real, const double *imag) {
     return call<ModelHandle>("plm_model_set_excitation", model, [&](ModelHandle &m) {
         require_open(m);
-        require_range(harmonic, 0, 100000, "harmonic");
-        if (!real) {
-            if (imag)
-                bad_argument("real", -1,
-                             "real is NULL but imag is not; pass both, or none to remove the harmonic");
+        if (!is_given(harmonic, real, imag)) {
             m.input.excitation.erase(harmonic);
             return PLM_OK;
         }
-        if (harmonic == 0 && imag)
-            bad_argument("imag", -1, "imag must be NULL for harmonic 0, which is static");
         plm::HarmonicLoad load;
         load.real = copied_load("real", n, real, m.input.n_dof);
         if (imag) load.imag = copied_load("imag", n, imag, m.input.n_dof);
         std::swap(m.input.excitation[harmonic], load);
+        return PLM_OK;
+    });
+}
+
+plm_status plm_model_set_gap_motion(plm_model *model, std::int32_t harmonic, std::int64_t n,
+                                    const double *real, const double *imag) {
+    return call<ModelHandle>("plm_model_set_gap_motion", model, [&](ModelHandle &m) {
+        require_open(m);
+        plm::Contact &contact = m.input.contact;
+        if (!is_given(harmonic, real, imag)) {
+            contact.motion.erase(harmonic);
+            return PLM_OK;
+        }
+        if (n != contact.n_pairs())
+            bad_argument(
+                "n", -1,
+                plm::format("n is %lld, but the model has %lld contact pairs so far; add all pairs first, "
+                            "and hand over one value a pair, in the order in which they were added",
+                            static_cast<long long>(n), static_cast<long long>(contact.n_pairs())));
+        plm::GapHarmonic part;
+        require_finite_array(real, n, "real");
+        part.real.assign(real, real + n);
+        if (imag) {
+            require_finite_array(imag, n, "imag");
+            part.imag.assign(imag, imag + n);
+        }
+        std::swap(contact.motion[harmonic], part);
         return PLM_OK;
     });
 }

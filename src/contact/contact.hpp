@@ -4,15 +4,26 @@
 #pragma once
 #include "contact/contact_law.hpp"
 #include "contact/pair_states.hpp"
+#include "linalg/dense.hpp"
+#include <complex>
+#include <map>
 
 namespace plm {
 
 /// Of pairs with these penetrations.
 PairStates states_at(const vector<double> &u);
 
+/// One harmonic of the gaps' motion, Re((real + i imag) exp(i h omega t)); imag is empty where it is zero,
+/// and pairs beyond the end stand still.
+struct GapHarmonic {
+    vector<double> real, imag;
+};
+using GapMotion = std::map<int, GapHarmonic>; // by harmonic
+
 struct Contact {
     vector<double> stiffness;   // k_n of every pair
     vector<double> initial_gap; // g of every pair, < 0: interference
+    GapMotion motion;           // of walls, which is excitation: times its scale it is added to the gap
 
     std::int64_t n_pairs() const { return static_cast<std::int64_t>(stiffness.size()); }
     static constexpr std::int64_t n_directions = ContactLaw::n_directions; // of every pair
@@ -23,6 +34,25 @@ struct Contact {
     vector<double> unloaded_penetration() const;
     /// Some pair presses without any load.
     bool has_interference() const;
+
+    /// Walls move.
+    bool moves() const { return highest_motion() >= 0; }
+    /// The highest harmonic in which they do; -1: none.
+    int highest_motion() const;
+    /// Complex amplitude of the gap of one pair in one harmonic.
+    static std::complex<double> moved(const GapHarmonic &harmonic, std::int64_t pair);
+    /// Fourier coefficients of the gaps, Z x (2H + 1): the initial ones and `scale` times their motion, over
+    /// `multiple` periods of it; and of the motion alone.
+    Matrix gaps(std::int64_t n_harmonics, double scale, std::int64_t multiple = 1) const;
+    Matrix gap_motion(std::int64_t n_harmonics, std::int64_t multiple = 1) const;
+    /// At the angle omega t; and their change by that angle.
+    vector<double> gaps_at(double angle, double scale) const;
+    vector<double> gap_rates_at(double angle, double scale) const;
+    /// Through which moving walls act on the structure about these penetrations at rest: those of the pairs
+    /// that touch; of all pairs, where none does.
+    vector<double> wall_springs(const vector<double> &rest) const;
+    /// These pairs alone; stiffness: theirs.
+    Contact of_pairs(const vector<std::int64_t> &pairs, vector<double> stiffness) const;
 
     // u: penetration of every pair, along its normal
     double force(std::int64_t pair, double u) const { return ContactLaw::force(stiffness[pair], u); }

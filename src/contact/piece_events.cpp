@@ -13,13 +13,16 @@ constexpr double clear_of_noise = 1e4;
 
 } // namespace
 
-PieceEvents::PieceEvents(const Contact &contact, const Matrix &gap)
-    : contact_(contact), states_(PairStates::all_closed(gap.rows())), at_zero_(gap.rows()),
-      row_norm_(gap.rows()), noise_(gap.rows()), polynomial_(max_polynomial_degree + 1), sides_(gap.rows()) {
+PieceEvents::PieceEvents(const Contact &contact, const Matrix &gap, double wall_scale)
+    : states_(PairStates::all_closed(gap.rows())), at_zero_(gap.rows()), row_norm_(gap.rows()),
+      gap_size_(gap.rows()), noise_(gap.rows()), polynomial_(max_polynomial_degree + 1), sides_(gap.rows()) {
     for (std::int64_t i = 0; i < gap.rows(); ++i) {
         double sum = 0;
         for (std::int64_t j = 0; j < gap.cols(); ++j) sum += gap(i, j) * gap(i, j);
         row_norm_[i] = std::sqrt(sum);
+        gap_size_[i] = std::abs(contact.initial_gap[i]);
+        for (const auto &harmonic : contact.motion)
+            gap_size_[i] += std::abs(wall_scale * Contact::moved(harmonic.second, i));
     }
 }
 
@@ -34,7 +37,7 @@ void PieceEvents::forget_zeros() {
 
 bool PieceEvents::correct(const PiecePenetrations &penetrations, double reach) {
     for (std::int64_t i = 0; i < states_.size(); ++i)
-        noise_[i] = gap_noise * (std::abs(contact_.initial_gap[i]) + row_norm_[i] * reach);
+        noise_[i] = gap_noise * (gap_size_[i] + row_norm_[i] * reach);
     return confirm(penetrations);
 }
 

@@ -8,8 +8,8 @@ namespace plm {
 
 class PieceEvents {
   public:
-    /// contact is borrowed; gap: Z x n, the rows by which a state moves the pairs.
-    PieceEvents(const Contact &contact, const Matrix &gap);
+    /// gap: Z x n, the rows by which a state moves the pairs; wall_scale: of the gaps' motion.
+    PieceEvents(const Contact &contact, const Matrix &gap, double wall_scale = 1);
 
     const PairStates &states() const { return states_; }
     /// By the penetrations alone; pairs at zero get their side from correct().
@@ -62,10 +62,9 @@ class PieceEvents {
     double crossing(const double *p, std::int64_t n_terms, std::int64_t pair, double until);
     Side side_of(const double *p, std::int64_t n_terms, std::int64_t pair) const;
 
-    const Contact &contact_;
     PairStates states_;
     vector<char> at_zero_; // its zero was just located
-    vector<double> row_norm_, noise_, polynomial_;
+    vector<double> row_norm_, gap_size_, noise_, polynomial_;
     std::vector<Side> sides_;
     std::vector<Event> leaving_;
 };

@@ -42,30 +42,40 @@ class GapSystem final : public HbmSystem {
     GapSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
         : m_(std::move(reduced)), h_(options.n_harmonics), n_(2 * h_ + 1), z_(m_->n_pairs()), r_(m_->size()),
           r0_(m_->static_size()), force_(make_contact_force(options, z_)),
-          form_(make_formulation(*m_, options)), response_(m_, form_, h_), gap_(m_->contact.initial_gap),
-          u_(z_, n_), contact_(z_, n_), constant_(h_ + 1), eta_(h_ + 1), force_scale_(options.force_scale),
-          equations_(h_), cosine_(z_), sine_(z_), response_of_load_(r_) {
+          form_(make_formulation(*m_, options)), response_(m_, form_, h_),
+          motion_(m_->contact.gap_motion(h_)), u_(z_, n_), contact_(z_, n_), constant_(h_ + 1), eta_(h_ + 1),
+          force_scale_(options.force_scale), equations_(h_), cosine_(z_), sine_(z_), response_of_load_(r_) {
+        GapSystem::set_extra_gap(0);
         if (form_.compliant) law_ = std::make_shared<const vector<double>>(form_.stiffness);
     }
 
     std::int64_t size() const override { return z_ * n_; }
     std::int64_t static_size() const override { return z_; }
-    void set_force_scale(double scale) override { force_scale_ = scale; }
-    void force_derivative(double *r) override { // -B D F
+    void set_force_scale(double scale) override {
+        force_scale_ = scale;
+        set_extra_gap(extra_gap_);
+    }
+    void force_derivative(double *r) override { // -B D F, and what the gaps move
         std::fill(r, r + size(), 0.0);
+        if (m_->contact.moves()) {
+            add_mean_by_gaps(motion_.col(0), r);
+            for (std::int64_t k = 0; k < size(); ++k) r[k] += motion_.data()[k];
+        }
         for (const auto &[h, load] : m_->excitation) {
             if (h > h_) continue;
             if (h == 0) {
                 vector<double> &v = mean_;
                 v = load.real;
                 response_.mean().apply(v.data());
-                gemv('N', -1.0, m_->gap_0, v.data(), 0.0, r);
+                gemv('N', -1.0, m_->gap_0, v.data(), 1.0, r);
                 continue;
             }
             vector<Complex> &v = response_of_load_;
             for (std::int64_t j = 0; j < r_; ++j) v[j] = Complex(load.real[j], load.imag[j]);
             response_.harmonic(h).apply(v.data());
-            response_.write_gaps(v, -1.0, r + (2 * h - 1) * z_);
+            of_load_.resize(2 * z_);
+            response_.write_gaps(v, -1.0, of_load_.data());
+            for (std::int64_t k = 0; k < 2 * z_; ++k) r[(2 * h - 1) * z_ + k] += of_load_[k];
         }
     }
 
@@ -92,15 +102,15 @@ class GapSystem final : public HbmSystem {
     }
 
     void set_extra_gap(double extra) override {
-        for (std::int64_t i = 0; i < z_; ++i) gap_[i] = m_->contact.initial_gap[i] + extra;
+        extra_gap_ = extra;
+        gap_ = m_->contact.gaps(h_, force_scale_);
+        for (std::int64_t i = 0; i < z_; ++i) gap_(i, 0) += extra;
     }
 
     void gap_derivative(double *r) override {
         std::fill(r, r + size(), 0.0);
-        vector<double> moved(response_.mean().stiffness()), v(r0_); // the reference stiffness pulls at u + g
-        gemv('T', 1.0, m_->gap_0, moved.data(), 0.0, v.data());
-        response_.mean().apply(v.data());
-        gemv('N', -1.0, m_->gap_0, v.data(), 0.0, r);
+        const vector<double> wider(z_, 1.0);
+        add_mean_by_gaps(wider.data(), r);
         for (std::int64_t i = 0; i < z_; ++i) r[i] += 1.0;
     }
 
@@ -174,6 +184,7 @@ class GapSystem final : public HbmSystem {
         residual(x, omega, scratch.data());
         point.omega = omega;
         point.force_scale = force_scale_;
+        point.period_multiple = 1;
         point.eta_0 = eta_0_;
         point.n_harmonics = h_;
         point.eta.reset(r_, 2 * h_);
@@ -196,13 +207,22 @@ class GapSystem final : public HbmSystem {
         Matrix dynamic(z_, 2 * h_), eta = point.eta;
         set_harmonics(eta, h_);
         gemm('N', 'N', 1.0, m_->gap, eta, 0.0, dynamic);
-        for (std::int64_t i = 0; i < z_; ++i) x[i] = -gap_[i];
-        gemv('N', 1.0, m_->gap_0, point.eta_0.data(), 1.0, x);
+        gemv('N', 1.0, m_->gap_0, point.eta_0.data(), 0.0, x);
         std::copy(dynamic.data(), dynamic.data() + z_ * 2 * h_, x + z_);
+        for (std::int64_t k = 0; k < size(); ++k) x[k] -= gap_.data()[k];
         if (law_) add_slack_of_penalty(x);
     }
 
   private:
+    // The reference stiffness pulls at u + g.
+    void add_mean_by_gaps(const double *change, double *r) {
+        vector<double> moved(response_.mean().stiffness()), v(r0_);
+        for (std::int64_t i = 0; i < z_; ++i) moved[i] *= change[i];
+        gemv('T', 1.0, m_->gap_0, moved.data(), 0.0, v.data());
+        response_.mean().apply(v.data());
+        gemv('N', -1.0, m_->gap_0, v.data(), 1.0, r);
+    }
+
     void hold_mean() {
         if (!response_.mean().depends_on_contact()) return;
         fill_mean_load(mean_);
@@ -225,7 +245,7 @@ class GapSystem final : public HbmSystem {
         fill_mean_load(eta_0_);
         vector<double> &n = cosine_;
         for (std::int64_t i = 0; i < z_; ++i)
-            n[i] = contact_(i, 0) - response_.mean().stiffness()[i] * (u_(i, 0) + gap_[i]);
+            n[i] = contact_(i, 0) - response_.mean().stiffness()[i] * (u_(i, 0) + gap_(i, 0));
         gemv('T', -1.0, m_->gap_0, n.data(), 1.0, eta_0_.data());
         response_.mean().apply(eta_0_.data());
         for (std::int64_t h = 1; h <= h_; ++h) {
@@ -247,9 +267,9 @@ class GapSystem final : public HbmSystem {
 
     // out = B eta - g + slack N
     void gaps_of_response(double *out) {
-        for (std::int64_t i = 0; i < z_; ++i) out[i] = -gap_[i];
-        gemv('N', 1.0, m_->gap_0, eta_0_.data(), 1.0, out);
+        gemv('N', 1.0, m_->gap_0, eta_0_.data(), 0.0, out);
         for (std::int64_t h = 1; h <= h_; ++h) response_.write_gaps(eta_[h], 1.0, out + (2 * h - 1) * z_);
+        for (std::int64_t k = 0; k < size(); ++k) out[k] -= gap_.data()[k];
         if (form_.compliant)
             for (std::int64_t k = 0; k < size(); ++k) out[k] += form_.slack[k % z_] * contact_.data()[k];
     }
@@ -279,7 +299,7 @@ class GapSystem final : public HbmSystem {
 
     void solve_one(double *b) {
         const std::int64_t s = n_moving();
-        vector<double> &moving = motion_, &y = force_of_motion_;
+        vector<double> &moving = moving_motion_, &y = force_of_motion_;
         moving.resize(s * n_);
         y.resize(s * n_);
         for (std::int64_t h = 0; h <= h_; ++h) condense(h, b, moving.data());
@@ -328,17 +348,17 @@ class GapSystem final : public HbmSystem {
     LawForm form_;
     GapResponse response_;
     std::shared_ptr<const vector<double>> law_; // for points; null: penalty
-    vector<double> gap_;
-    Matrix u_, contact_;
+    const Matrix motion_; // of the gaps at a force scale of 1, Z x (2H + 1), and the gaps themselves
+    Matrix gap_, u_, contact_;
     std::vector<Constant> constant_;
     std::vector<vector<Complex>> eta_; // harmonics >= 1
     vector<double> eta_0_;
-    double force_scale_, stiffness_factor_ = 1;
+    double force_scale_, extra_gap_ = 0, stiffness_factor_ = 1;
     vector<std::int64_t> moving_;
     mutable MovingPairs equations_; // its sign may take a solution
     // of one call to the next: no iteration allocates
     vector<std::int64_t> coupled_;
-    vector<double> mean_, cosine_, sine_, motion_, force_of_motion_;
+    vector<double> mean_, cosine_, sine_, of_load_, moving_motion_, force_of_motion_;
     vector<Complex> response_of_load_, of_moving_;
     Matrix real_, imag_;
 };

@@ -2,6 +2,7 @@
 #include "contact/penetration_zeros.hpp"
 #include "hbm/make_system.hpp"
 #include "hbm/modal_factor.hpp"
+#include "hbm/modal_jacobian.hpp"
 #include "hbm/solved_point.hpp"
 #include "hbm/start.hpp"
 #include "structure/driven_harmonic.hpp"
@@ -23,6 +24,7 @@ void HarmonicEquations::residual(const double *x, double omega, double *r) {
 
 void HarmonicEquations::set(PathParameter parameter, double value) {
     if (parameter == PathParameter::stiffness) return system_->set_stiffness_factor(std::exp(value));
+    options_.force_scale = value;
     system_->set_force_scale(value);
 }
 
@@ -65,7 +67,13 @@ void HarmonicEquations::factor_bordered(const Border &border, std::unique_ptr<Bo
 // --- folds
 
 MotionGradient HarmonicEquations::tangent_change(const vector<double> &w, const vector<double> &v) {
-    return {contact_gradient(w, v), -dot(size(), w.data(), frequency_derivative(v).data()), 0};
+    const ReducedModel &m = *reduced_;
+    const Matrix change = contact_change(w, v),
+                 motion = m.contact.gap_motion(change.cols() / 2, options_.period_multiple);
+    vector<double> gradient(size(), 0.0);
+    add_coordinates_of_gaps(m.gap_0, m.gap, -1.0, change, gradient.data());
+    return {gradient, -dot(size(), w.data(), frequency_derivative(v).data()),
+            dot(motion.rows() * motion.cols(), motion.data(), change.data())};
 }
 
 // (dJ/domega) v: dR/domega is linear in x and the same matrix.
@@ -90,15 +98,16 @@ Matrix HarmonicEquations::gap_motion(const double *x, double factor) const {
     return u;
 }
 
-// -d(w^T J v), the mean over the period of k_n ds W V with ds = du / |u'| at each switching instant; the
-// residual of a harmonic is twice a mean, so that w's harmonics count twice in W(t).
-vector<double> HarmonicEquations::contact_gradient(const vector<double> &w, const vector<double> &v) const {
+// d(w^T J v) by the coefficients of the penetrations, Z x (2H + 1): the mean over the period of k_n ds W V
+// with ds = du / |u'| at each switching instant; the residual of a harmonic is twice a mean, so that w's
+// harmonics count twice in W(t).
+Matrix HarmonicEquations::contact_change(const vector<double> &w, const vector<double> &v) const {
     const ReducedModel &m = *reduced_;
-    const std::int64_t z = m.n_pairs(), r = m.size();
-    vector<double> gradient(size(), 0.0);
-    if (z == 0) return gradient;
+    const std::int64_t z = m.n_pairs();
+    if (z == 0) return Matrix(0, 1);
     Matrix u = gap_motion(x_.data(), 1);
-    for (std::int64_t i = 0; i < z; ++i) u(i, 0) -= m.contact.initial_gap[i];
+    const Matrix gaps = m.contact.gaps(u.cols() / 2, options_.force_scale, options_.period_multiple);
+    for (std::int64_t k = 0; k < gaps.rows() * gaps.cols(); ++k) u.data()[k] -= gaps.data()[k];
     const SwitchingInstants switching = switching_instants(u);
     const Matrix ut = u.transposed(), vt = gap_motion(v.data(), 1).transposed(),
                  wt = gap_motion(w.data(), 2).transposed();
@@ -116,10 +125,7 @@ vector<double> HarmonicEquations::contact_gradient(const vector<double> &w, cons
                 change(i, 2 * k) += weight * std::sin(static_cast<double>(k) * t);
             }
         }
-    gemv('T', -1.0, m.gap_0, change.col(0), 0.0, gradient.data());
-    for (std::int64_t c = 0; c < columns; ++c)
-        gemv('T', -1.0, m.gap, change.col(c + 1), 0.0, gradient.data() + m.static_size() + c * r);
-    return gradient;
+    return change;
 }
 
 // --- phase resonance

@@ -47,7 +47,7 @@ class HarmonicEquations final : public PeriodicEquations {
 
   private:
     vector<double> frequency_derivative(const vector<double> &v);
-    vector<double> contact_gradient(const vector<double> &w, const vector<double> &v) const;
+    Matrix contact_change(const vector<double> &w, const vector<double> &v) const;
     Matrix gap_motion(const double *x, double factor) const;
     const vector<double> &phase_row();
 

@@ -47,6 +47,7 @@ class SubharmonicSystem final : public WrappedSystem {
     void to_point(const double *x, double omega, BranchPoint &point) override {
         inner_.to_point(x, omega / multiple_, point);
         point.omega = omega;
+        point.period_multiple = static_cast<std::int64_t>(multiple_);
     }
 
   private:
@@ -59,6 +60,9 @@ std::shared_ptr<const ReducedModel> on_longer_period(const ReducedModel &reduced
     longer->excitation.clear();
     for (const auto &[harmonic, load] : reduced.excitation)
         longer->excitation[harmonic * static_cast<int>(multiple)] = load;
+    longer->contact.motion.clear();
+    for (const auto &[harmonic, part] : reduced.contact.motion)
+        longer->contact.motion[harmonic * static_cast<int>(multiple)] = part;
     return longer;
 }
 

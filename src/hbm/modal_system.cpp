@@ -15,7 +15,7 @@ class ModalSystem final : public HbmSystem {
     ModalSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
         : m_(std::move(reduced)), h_(options.n_harmonics), r_(m_->size()), r0_(m_->static_size()),
           z_(m_->n_pairs()), force_(make_contact_force(options, z_)), stiffness_(m_->contact.stiffness),
-          gap_(m_->contact.initial_gap), u_(z_, 2 * h_ + 1), contact_(z_, 2 * h_ + 1), x_(size(), 0.0),
+          motion_(m_->contact.gap_motion(h_)), u_(z_, 2 * h_ + 1), contact_(z_, 2 * h_ + 1), x_(size(), 0.0),
           jacobian_(m_, h_) {
         require_balanced(*m_);
         load_.assign(size(), 0.0);
@@ -30,10 +30,13 @@ class ModalSystem final : public HbmSystem {
         force_scale_ = scale;
         for (std::int64_t j = 0; j < size(); ++j) load_[j] = scale * excitation_[j];
         for (std::int64_t j = 0; j < r0_; ++j) load_[j] += m_->preload_0[j];
+        set_gaps();
     }
 
     void force_derivative(double *r) override {
-        for (std::int64_t j = 0; j < size(); ++j) r[j] = -excitation_[j];
+        std::fill(r, r + size(), 0.0);
+        if (m_->contact.moves()) add_change_by_gaps(motion_, r);
+        for (std::int64_t j = 0; j < size(); ++j) r[j] -= excitation_[j];
     }
 
     void set_stiffness_factor(double factor) override {
@@ -52,20 +55,23 @@ class ModalSystem final : public HbmSystem {
     }
 
     void set_extra_gap(double extra) override {
-        for (std::int64_t i = 0; i < z_; ++i) gap_[i] = m_->contact.initial_gap[i] + extra;
+        extra_gap_ = extra;
+        set_gaps();
     }
 
-    void gap_derivative(double *r) override { // B' dN/d gap, dN = -k J(s) e_0
-        const std::int64_t n = 2 * h_ + 1;
-        Matrix change(z_, n);
-        for (std::int64_t i = 0; i < z_; ++i)
-            for (std::int64_t c = 0; c < n; ++c)
-                change(i, c) = -stiffness_[i] * indicator_entry(indicator_.averages.col(i), c, 0);
+    void gap_derivative(double *r) override {
+        Matrix wider(z_, 2 * h_ + 1);
+        for (std::int64_t i = 0; i < z_; ++i) wider(i, 0) = 1;
         std::fill(r, r + size(), 0.0);
-        add_coordinates_of_gaps(m_->gap_0, m_->gap, 1.0, change, r);
+        add_change_by_gaps(wider, r);
     }
 
-    double residual_scale() const override { return norm2(size(), load_.data()); }
+    // Moving walls act through the contact alone.
+    double residual_scale() const override {
+        vector<double> pushed(size(), 0.0);
+        if (m_->contact.moves()) add_coordinates_of_gaps(m_->gap_0, m_->gap, 1.0, contact_, pushed.data());
+        return std::hypot(norm2(size(), load_.data()), norm2(size(), pushed.data()));
+    }
 
     void residual(const double *x, double omega, double *r) override {
         x_.assign(x, x + size());
@@ -123,7 +129,8 @@ class ModalSystem final : public HbmSystem {
         linear.set_hold(indicator_, load_.data());
         linear.set_tangent(indicator_, stiffness_);
         for (std::int64_t h = 1; h <= h_; ++h) {
-            const double *load = load_.data() + cosine_at(h);
+            const vector<double> loads = loads_with_walls(coupling, h);
+            const double *load = loads.data();
             if (h > 1 && std::all_of(load, load + 2 * r_, [](double f) { return f == 0; })) continue;
             linear.set_omega(static_cast<double>(h) * omega);
             linear.set_self_excitation(jacobian_.self_excitation() / static_cast<double>(h));
@@ -140,6 +147,7 @@ class ModalSystem final : public HbmSystem {
     void to_point(const double *x, double omega, BranchPoint &point) override {
         point.omega = omega;
         point.force_scale = force_scale_;
+        point.period_multiple = 1;
         point.eta_0.assign(x, x + r0_);
         point.n_harmonics = h_;
         point.eta.reset(r_, 2 * h_);
@@ -162,9 +170,30 @@ class ModalSystem final : public HbmSystem {
     }
     void put_mean_load(const vector<double> &coupling, double *b) const {
         vector<double> gap_force(z_); // -B' k s (-g)
-        for (std::int64_t i = 0; i < z_; ++i) gap_force[i] = stiffness_[i] * coupling[i] * gap_[i];
+        for (std::int64_t i = 0; i < z_; ++i) gap_force[i] = stiffness_[i] * coupling[i] * gap_(i, 0);
         std::copy_n(load_.data(), r0_, b);
         if (z_ > 0) gemv('T', 1.0, m_->gap_0, gap_force.data(), 1.0, b);
+    }
+    // Cosine and sine of one harmonic (2 r), with what moving walls do through the springs of the coupling.
+    vector<double> loads_with_walls(const vector<double> &coupling, std::int64_t h) const {
+        vector<double> load(load_.begin() + cosine_at(h), load_.begin() + cosine_at(h) + 2 * r_),
+            gap_force(z_);
+        for (std::int64_t part = 0; part < 2 && m_->contact.moves(); ++part) {
+            for (std::int64_t i = 0; i < z_; ++i)
+                gap_force[i] = stiffness_[i] * coupling[i] * gap_(i, 2 * h - 1 + part);
+            gemv('T', 1.0, m_->gap, gap_force.data(), 1.0, load.data() + part * r_);
+        }
+        return load;
+    }
+    // Of a change of the gaps, r += B' dN, dN = -k J(s) dg, at the last residual().
+    void add_change_by_gaps(const Matrix &change, double *r) const {
+        Matrix force;
+        apply_indicator(indicator_, stiffness_, change, force);
+        add_coordinates_of_gaps(m_->gap_0, m_->gap, -1.0, force, r);
+    }
+    void set_gaps() {
+        gap_ = m_->contact.gaps(h_, force_scale_);
+        for (std::int64_t i = 0; i < z_; ++i) gap_(i, 0) += extra_gap_;
     }
     void hold_mean() { jacobian_.set_hold(indicator_, load_.data()); }
     std::int64_t cosine_at(std::int64_t h) const { return jacobian_.cosine_at(h); }
@@ -187,7 +216,7 @@ class ModalSystem final : public HbmSystem {
 
     void penetration() {
         gaps_of_coordinates(m_->gap_0, m_->gap, x_.data(), u_);
-        for (std::int64_t i = 0; i < z_; ++i) u_(i, 0) -= gap_[i];
+        for (std::int64_t k = 0; k < z_ * (2 * h_ + 1); ++k) u_.data()[k] -= gap_.data()[k];
     }
 
     // y += factor * C v
@@ -202,10 +231,11 @@ class ModalSystem final : public HbmSystem {
     std::shared_ptr<const ReducedModel> m_;
     std::int64_t h_, r_, r0_, z_;
     std::unique_ptr<ContactForce> force_;
-    vector<double> stiffness_, gap_, excitation_, load_;
-    Matrix u_, contact_;
+    vector<double> stiffness_, excitation_, load_;
+    const Matrix motion_; // of the gaps at a force scale of 1, Z x (2H + 1), and the gaps themselves
+    Matrix gap_, u_, contact_;
     vector<double> x_;
-    double omega_ = 0, force_scale_ = 1;
+    double omega_ = 0, force_scale_ = 1, extra_gap_ = 0;
     ModalJacobian jacobian_;
     Border no_border_;
     ModalFactor factor_;

@@ -3,6 +3,7 @@
 #include "hbm/make_system.hpp"
 #include "hbm/wrapped_system.hpp"
 #include "motions/branch_path.hpp"
+#include "motions/penetration.hpp"
 #include "paths/quiet_owner.hpp"
 #include "reduction/reduced_rest.hpp"
 #include <algorithm>
@@ -133,10 +134,10 @@ class Starter {
         system_.to_point(x_.data(), omega_,
                          point); // what the unknowns are differs; the gaps follow from the point
         double reach = 0;
-        const Matrix dynamic = product('N', 'N', reduced_.gap, point.eta);
-        for (std::int64_t i = 0; i < dynamic.rows(); ++i) {
+        const Matrix u = penetration_of(reduced_, point, point.eta.cols() / 2);
+        for (std::int64_t i = 0; i < u.rows(); ++i) {
             double sum = 0;
-            for (std::int64_t c = 0; c < dynamic.cols(); ++c) sum += std::abs(dynamic(i, c));
+            for (std::int64_t c = 1; c < u.cols(); ++c) sum += std::abs(u(i, c));
             reach = std::max(reach, sum);
         }
         reach *= 1.01; // clear of it

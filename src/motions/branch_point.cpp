@@ -77,6 +77,7 @@ BranchPoint on_longer_period(const BranchPoint &point, std::int64_t multiple) {
     BranchPoint longer = point;
     longer.motion.reset();
     longer.n_harmonics = multiple * point.n_harmonics;
+    longer.period_multiple = multiple * point.period_multiple;
     longer.eta = spread_harmonics(point.eta, 0, multiple);
     if (point.contact_stiffness) longer.contact_motion = spread_harmonics(point.contact_motion, 1, multiple);
     longer.multipliers.clear(); // those of the longer period are powers

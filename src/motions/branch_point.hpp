@@ -19,7 +19,8 @@ struct BranchPoint {
     double harmonic_error = -1;   // what they would change, see harmonic_error(); -1: unknown. Of an exact
                                   // motion: what its coefficients leave out
     double force_scale = 1;       // factor on the excitation
-    double damping_ratio = 0;     // of a nonlinear mode, see Branch::is_mode
+    std::int64_t period_multiple = 1; // periods of the excitation in one of the motion
+    double damping_ratio = 0;         // of a nonlinear mode, see Branch::is_mode
     std::int32_t bifurcation = bifurcation::none;
     vector<std::complex<double>> multipliers; // Floquet multipliers; empty: not computed
     double multiplier_error = 0;              // of the largest one's modulus, by the basis

@@ -26,6 +26,7 @@ BranchPoint with_coordinates(const BranchPoint &p, const Matrix &mean, Matrix et
     BranchPoint out;
     out.omega = p.omega;
     out.force_scale = p.force_scale;
+    out.period_multiple = p.period_multiple;
     out.eta_0 = as_vector(mean);
     out.n_harmonics = eta.cols() / 2;
     out.eta = std::move(eta);

@@ -15,7 +15,7 @@ bool loaded(const HarmonicLoad &load) {
 } // namespace
 
 std::int64_t highest_excitation(const ReducedModel &m) {
-    int highest = 1;
+    int highest = std::max(1, m.whole_contact().highest_motion());
     for (const auto &[harmonic, load] : m.excitation)
         if (loaded(load)) highest = std::max(highest, harmonic);
     return highest;

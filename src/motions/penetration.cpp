@@ -9,10 +9,11 @@ Matrix penetration(const Matrix &gap_0, const Matrix &gap, const Contact &contac
     Matrix u(z, columns + 1), eta = point.eta;
     if (z == 0) return u;
     set_harmonics(eta, n_harmonics);
-    for (std::int64_t i = 0; i < z; ++i) u(i, 0) = -contact.initial_gap[i];
-    gemv('N', 1.0, gap_0, point.eta_0.data(), 1.0, u.col(0));
-    const Matrix dynamic = product('N', 'N', gap, eta);
+    gemv('N', 1.0, gap_0, point.eta_0.data(), 0.0, u.col(0));
+    const Matrix dynamic = product('N', 'N', gap, eta),
+                 gaps = contact.gaps(n_harmonics, point.force_scale, point.period_multiple);
     std::copy(dynamic.data(), dynamic.data() + z * columns, u.col(1));
+    for (std::int64_t k = 0; k < z * (columns + 1); ++k) u.data()[k] -= gaps.data()[k];
     return u;
 }
 

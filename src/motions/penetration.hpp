@@ -11,7 +11,7 @@ struct ContactMotion {
     Matrix u;
     const vector<double> *stiffness;
 };
-/// Z x (2H + 1) coefficients of the penetration, the gap included in the first column.
+/// Z x (2H + 1) coefficients of the penetration, the gap and its motion taken off.
 Matrix penetration_of(const ReducedModel &reduced, const BranchPoint &point, std::int64_t n_harmonics);
 ContactMotion contact_motion(const ReducedModel &reduced, const BranchPoint &point);
 

@@ -22,12 +22,12 @@ ContactModes::ContactModes(const FlowModel &model, const PairStates &states)
     decompose(system_matrix(model, set_.stiffness()));
     if (!usable_) return;
     find_displacements(model);
-    const vector<double> still(static_cast<std::size_t>(model.n_pairs()), 0.0),
-        none(static_cast<std::size_t>(model.size()), 0.0);
+    const vector<double> none(static_cast<std::size_t>(model.size()), 0.0);
     constant_ = load_of(model, model.preload(), model.initial_gap());
     for (const auto &[harmonic, load] : model.excitation())
-        loads_.push_back({harmonic, load_of(model, load.real, still),
-                          load_of(model, load.imag.empty() ? none : load.imag, still)});
+        loads_.push_back(
+            {harmonic, load_of(model, load.real, model.gap_motion(harmonic, false)),
+             load_of(model, load.imag.empty() ? none : load.imag, model.gap_motion(harmonic, true))});
 }
 
 // c y' = -K y - C v where there is no mass; its y' acts through the damping on what has mass, too.

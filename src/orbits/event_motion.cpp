@@ -44,7 +44,8 @@ Matrix EventMotion::stiffness_of(const vector<double> &springs) const {
     return stiffness;
 }
 
-vector<complex> EventMotion::wave(const Matrix &stiffness, double w, const HarmonicLoad &load) const {
+vector<complex> EventMotion::wave(const Matrix &stiffness, double w, const HarmonicLoad &load,
+                                  const vector<complex> &wall_load) const {
     vector<complex> a(n_ * n_), q(n_);
     for (std::int64_t j = 0; j < n_; ++j) {
         for (std::int64_t i = 0; i < n_; ++i)
@@ -52,12 +53,24 @@ vector<complex> EventMotion::wave(const Matrix &stiffness, double w, const Harmo
                              model_.has_diagonal_damping() ? 0.0 : w * model_.damping()(i, j)};
         a[j + j * n_] += complex(-w * w * model_.mass(j),
                                  model_.has_diagonal_damping() ? w * model_.damping_diagonal()[j] : 0.0);
-        q[j] = force_scale_ * complex(load.real[j], load.imag[j]);
+        q[j] = force_scale_ * (complex(load.real[j], load.imag[j]) + wall_load[j]);
     }
     ComplexLu lu;
     lu.factor(n_, a);
     lu.solve(q.data(), 1, n_);
     return q;
+}
+
+// What moving walls do through the springs of a contact set, G^T k g of one harmonic.
+vector<complex> EventMotion::wall_load(const vector<double> &springs, int harmonic) const {
+    vector<complex> load(n_, 0.0);
+    const auto found = model_.contact().motion.find(harmonic);
+    if (found == model_.contact().motion.end()) return load;
+    for (std::int64_t p = 0; p < model_.n_pairs(); ++p) {
+        const complex pushed = springs[p] * Contact::moved(found->second, p);
+        for (std::int64_t j = 0; pushed != 0.0 && j < n_; ++j) load[j] += model_.gap()(p, j) * pushed;
+    }
+    return load;
 }
 
 // What pre-load, mean excitation and the gaps of the pairs do through their springs, then each harmonic.
@@ -70,8 +83,10 @@ const EventMotion::Steady *EventMotion::steady(const PairStates &states) {
     found->mean = model_.constant_load(springs);
     for (const auto &[harmonic, load] : model_.excitation()) {
         const double w = static_cast<double>(harmonic) * omega_;
-        if (harmonic != 0) found->waves.emplace_back(w, wave(stiffness, w, load));
-        for (std::int64_t j = 0; harmonic == 0 && j < n_; ++j) found->mean[j] += force_scale_ * load.real[j];
+        const vector<complex> pushed = wall_load(springs, harmonic);
+        if (harmonic != 0) found->waves.emplace_back(w, wave(stiffness, w, load, pushed));
+        for (std::int64_t j = 0; harmonic == 0 && j < n_; ++j)
+            found->mean[j] += force_scale_ * (load.real[j] + pushed[j].real());
     }
     RealLu lu;
     lu.factor(stiffness);
@@ -121,7 +136,8 @@ bool EventMotion::add_piece(const PairStates &states, double from, double to, ve
 
 // Penetrations (first column) and their rates: of the steady response, and of the free motion beside it, in
 // which what has no mass is where the rest and the contact put it.
-Matrix EventMotion::penetrations(const Whole &steady, const vector<double> &state, const PairStates &states) {
+Matrix EventMotion::penetrations(const Whole &steady, const vector<double> &state, const PairStates &states,
+                                 double time) {
     const std::int64_t moving = model_.n_moving(), massive = model_.n_massive(), z = model_.n_pairs();
     const vector<double> at_rest = state_of(steady);
     vector<double> y(n_, 0.0), v(n_, 0.0);
@@ -135,7 +151,12 @@ Matrix EventMotion::penetrations(const Whole &steady, const vector<double> &stat
     set_.add_contact(u, force);
     gemv('N', 1.0, model_.gap(), steady.y.data(), 1.0, u.col(0));
     gemv('N', 1.0, model_.gap(), steady.v.data(), 1.0, u.col(1));
-    for (std::int64_t p = 0; p < z; ++p) u(p, 0) -= model_.initial_gap()[p];
+    const vector<double> gaps = model_.contact().gaps_at(omega_ * time, force_scale_),
+                         rates = model_.contact().gap_rates_at(omega_ * time, force_scale_);
+    for (std::int64_t p = 0; p < z; ++p) {
+        u(p, 0) -= gaps[p];
+        u(p, 1) -= omega_ * rates[p];
+    }
     return u;
 }
 
@@ -171,7 +192,7 @@ bool EventMotion::solve(const EventSequence &sequence) {
     for (std::size_t k = 0; k < sequence.events.size(); ++k) {
         const ContactEvent &event = sequence.events[k];
         pass(pieces_[k], state);
-        look_at_event(penetrations(pieces_[k].after, state, states), event, states);
+        look_at_event(penetrations(pieces_[k].after, state, states, event.time), event, states);
         pass_event(states, event);
         size_ = std::max(size_, norm.distance(plm::moved(model_, zero, state, 1), start_));
     }

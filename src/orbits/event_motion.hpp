@@ -39,13 +39,16 @@ class EventMotion {
         Whole before, after; // the steady response at its ends
     };
     Matrix stiffness_of(const vector<double> &springs) const;
-    vector<std::complex<double>> wave(const Matrix &stiffness, double w, const HarmonicLoad &load) const;
+    vector<std::complex<double>> wave(const Matrix &stiffness, double w, const HarmonicLoad &load,
+                                      const vector<std::complex<double>> &wall_load) const;
+    vector<std::complex<double>> wall_load(const vector<double> &springs, int harmonic) const;
     const Steady *steady(const PairStates &states);
     Whole at(const Steady &steady, double time) const;
     vector<double> state_of(const Whole &whole) const;
     void pass(const Piece &piece, vector<double> &state) const;
     bool add_piece(const PairStates &states, double from, double to, vector<double> &offset);
-    Matrix penetrations(const Whole &steady, const vector<double> &state, const PairStates &states);
+    Matrix penetrations(const Whole &steady, const vector<double> &state, const PairStates &states,
+                        double time);
     void look_at_event(const Matrix &u, const ContactEvent &event, const PairStates &states);
 
     const FlowModel &model_;

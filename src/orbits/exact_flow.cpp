@@ -33,7 +33,8 @@ constexpr int side_corrections = 8;      // one is usual; more when pairs that r
 ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, double force_scale, Watch watch,
                      std::shared_ptr<ContactModesKept> modes)
     : model_(std::move(model)), omega_(omega), force_scale_(force_scale), watch_(watch), own_set_(*model_),
-      events_(model_->contact(), model_->gap()), modes_(std::move(modes)), following_(model_->size()) {
+      events_(model_->contact(), model_->gap(), force_scale), modes_(std::move(modes)),
+      following_(model_->size()) {
     if (!(omega > 0 && std::isfinite(omega) && std::isfinite(force_scale)))
         throw Error(status::argument, "the flow needs a positive, finite frequency and a finite force scale")
             .argument("omega");
@@ -295,8 +296,8 @@ void ExactFlow::expand(const FlowState &state, double duration, Series &series) 
     }
 }
 
-// What the loads put aside has no powers where nothing follows at once. How far a pair may come nearer to
-// zero: by its first powers, and by what the others have at most.
+// How far a pair may come nearer to zero: by its first powers, and by what the others have at most; what
+// moves it besides the coordinates, where anything does, counts whole.
 void ExactFlow::find_penetrations(Series &series) {
     const Matrix &y = series.coefficient;
     const std::int64_t z = model_->n_pairs();
@@ -313,6 +314,8 @@ void ExactFlow::find_penetrations(Series &series) {
         const double side = now_[i] > 0 ? 1 : -1;
         for (std::int64_t k = 1; k < known_powers; ++k)
             travel_[i] += spare * std::max(0.0, -side * known_(i, k));
+        for (std::int64_t k = 1; k < series.offset.cols(); ++k)
+            travel_[i] += spare * std::abs(series.offset(i, k));
     }
     series.penetrations.expand(now_, travel_, model_->gap_by_pair(), 'T', y, series.offset);
 }

@@ -64,7 +64,11 @@ class ExactFlow {
     void expand_change_of_loads(double time, double duration, Matrix &force) const;
     void expand_loads(double time, double duration, Matrix &force) const;
     std::int64_t n_force_terms() const;
-    void expand_offsets(Series &series);
+    void expand_offsets(double time, double duration, Series &series);
+    /// What acts on the pairs besides the moving coordinates has powers of the time.
+    bool offsets_move() const { return model_->n_following() > 0 || model_->walls_move(); }
+    vector<std::complex<double>> powers_of_load(bool changed, int harmonic, double time, double duration,
+                                                std::int64_t count) const;
     void follow(Series &series);
     void find_penetrations(Series &series);
     bool correct_sides(const FlowState &state, double duration, const PiecePenetrations &penetrations);

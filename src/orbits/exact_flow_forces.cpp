@@ -18,10 +18,9 @@ void ExactFlow::expand_forces(double time, double duration, Series &series) {
         expand_change_of_loads(time, duration, series.force);
     else
         expand_loads(time, duration, series.force);
-    expand_offsets(series);
-    if (&series == &derivative_ && model_->n_following() == 0)
-        return; // the gaps stay, and so do their forces
-    series.still.reset(model_->n_pairs(), model_->n_following() > 0 ? n_terms_ : 1);
+    expand_offsets(time, duration, series);
+    if (&series == &derivative_ && !offsets_move()) return; // the gaps stay, and so do their forces
+    series.still.reset(model_->n_pairs(), offsets_move() ? n_terms_ : 1);
     if (model_->n_pairs() == 0) return;
     std::copy_n(series.offset.data(), series.still.rows() * series.still.cols(), series.still.data());
     set_->add_contact(series.still, contact_force_);
@@ -44,31 +43,42 @@ void add_load(const HarmonicLoad &load, const vector<std::complex<double>> &powe
 
 } // namespace
 
+vector<std::complex<double>> ExactFlow::powers_of_load(bool changed, int harmonic, double time,
+                                                       double duration, std::int64_t count) const {
+    return changed ? changed_load_powers(parameter_, harmonic, omega_, force_scale_, time, duration, count)
+                   : load_powers(harmonic, omega_, force_scale_, time, duration, count);
+}
+
 void ExactFlow::expand_loads(double time, double duration, Matrix &force) const {
     std::copy_n(model_->preload().data(), model_->size(), force.col(0));
     for (const auto &[harmonic, load] : model_->excitation())
-        add_load(load, load_powers(harmonic, omega_, force_scale_, time, duration, n_force_terms()), force);
+        add_load(load, powers_of_load(false, harmonic, time, duration, n_force_terms()), force);
 }
 
 void ExactFlow::expand_change_of_loads(double time, double duration, Matrix &force) const {
     for (const auto &[harmonic, load] : model_->excitation())
-        add_load(
-            load,
-            changed_load_powers(parameter_, harmonic, omega_, force_scale_, time, duration, n_force_terms()),
-            force);
+        add_load(load, powers_of_load(true, harmonic, time, duration, n_force_terms()), force);
 }
 
 // Penetrations with the moving coordinates at zero, without contact forces.
-void ExactFlow::expand_offsets(Series &series) {
+void ExactFlow::expand_offsets(double time, double duration, Series &series) {
     const std::int64_t moving = model_->n_moving(), n = model_->n_following(), z = model_->n_pairs();
-    series.offset.reset(z, n > 0 ? n_terms_ : 1);
+    series.offset.reset(z, offsets_move() ? n_terms_ : 1);
     std::fill(following_.begin(), following_.end(), 0.0);
     for (std::int64_t k = 0; k < series.offset.cols() && n > 0 && z > 0; ++k) {
         for (std::int64_t j = moving; j < moving + n; ++j)
             following_[j] = series.force(j, k) / model_->lambda()[j];
         gemv('N', 1.0, model_->gap(), following_.data(), 0.0, series.offset.col(k));
     }
-    if (&series == &derivative_) return; // the gaps stay
+    for (const auto &[harmonic, part] : model_->contact().motion) {
+        const auto powers =
+            powers_of_load(&series == &derivative_, harmonic, time, duration, series.offset.cols());
+        for (std::size_t k = 0; k < powers.size(); ++k)
+            for (std::int64_t i = 0; i < z; ++i)
+                series.offset(i, static_cast<std::int64_t>(k)) -=
+                    (powers[k] * Contact::moved(part, i)).real();
+    }
+    if (&series == &derivative_) return; // the initial gaps stay
     for (std::int64_t i = 0; i < z; ++i) series.offset(i, 0) -= model_->initial_gap()[i];
 }
 

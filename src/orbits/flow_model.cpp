@@ -26,6 +26,12 @@ FlowModel::FlowModel(std::shared_ptr<const ReducedModel> reduced, double omega) 
     preload_ = reduced_->preload_0;
     n_following_ = reduced_->n_massless;
     excitation_ = reduced_->excitation;
+    walls_move_ = contact().moves();
+    for (const auto &entry : contact().motion) {
+        HarmonicLoad &load = excitation_[entry.first];
+        load.real.resize(lambda_.size(), 0.0);
+        if (entry.first > 0) load.imag.resize(lambda_.size(), 0.0);
+    }
     damping_diagonal_ = reduced_->damping_diagonal;
     damping_ = reduced_->damping;
     if (reduced_->structural != 0) add_structural_damping(omega);
@@ -161,6 +167,16 @@ vector<double> FlowModel::constant_load(const vector<double> &springs) const {
         for (std::int64_t j = 0; springs[i] > 0 && j < size(); ++j)
             load[j] += gap_(i, j) * springs[i] * initial_gap()[i];
     return load;
+}
+
+vector<double> FlowModel::gap_motion(int harmonic, bool imaginary) const {
+    vector<double> g(static_cast<std::size_t>(n_pairs()), 0.0);
+    const auto found = contact().motion.find(harmonic);
+    for (std::int64_t i = 0; i < n_pairs() && found != contact().motion.end(); ++i) {
+        const std::complex<double> moved = Contact::moved(found->second, i);
+        g[i] = imaginary ? moved.imag() : moved.real();
+    }
+    return g;
 }
 
 vector<double> FlowModel::dof_row(std::int64_t dof) const {

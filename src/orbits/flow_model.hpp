@@ -1,5 +1,5 @@
 // A reduced model in the time domain: y'' + C y' + diag(lambda) y = F_preload + F(t) - G^T max(k_n u, 0),
-// u = G y - g, in mass-normalised coordinates. Harmonic balance may use two sets of coordinates, P for
+// u = G y - g(t), in mass-normalised coordinates. Harmonic balance may use two sets of coordinates, P for
 // h >= 1 and P_0 for h = 0; a flow needs one. P_0 spans P and has diagonal m and k too, so the flow lives in
 // P_0 (reduction/widened_model.hpp), and T (ReducedModel::to_static) takes dynamic coordinates to its own.
 //
@@ -49,6 +49,10 @@ class FlowModel {
     /// The pre-load and, through the springs of a contact set (one a pair), the gaps.
     vector<double> constant_load(const vector<double> &springs) const;
     const std::map<int, HarmonicLoad> &excitation() const { return excitation_; } // n each, h = 0 too
+    /// The pairs' walls move, in harmonics that the excitation has, too, if with zeros.
+    bool walls_move() const { return walls_move_; }
+    /// Amplitudes of the gaps in one harmonic, real and imaginary part: Z each.
+    vector<double> gap_motion(int harmonic, bool imaginary) const;
     const Contact &contact() const { return reduced_->contact; }
     const vector<double> &contact_stiffness() const { return reduced_->contact.stiffness; }
     const vector<double> &initial_gap() const { return reduced_->contact.initial_gap; }
@@ -78,6 +82,7 @@ class FlowModel {
     vector<double> lambda_, damping_diagonal_, preload_;
     std::int64_t n_relaxing_ = 0, n_following_ = 0;
     std::map<int, HarmonicLoad> excitation_;
+    bool walls_move_ = false;
 };
 
 } // namespace plm

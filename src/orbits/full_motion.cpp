@@ -9,12 +9,13 @@ namespace {
 // Histories of the observed DOFs, and how often a pair has changed its state.
 class RunObserver final : public NewmarkObserver {
   public:
-    RunObserver(const Model &model, const FullState &start, const vector<std::int64_t> &observed)
+    RunObserver(const Model &model, const FullState &start, const vector<double> &gaps,
+                const vector<std::int64_t> &observed)
         : contact_(model.contact()) {
         for (std::int64_t dof : observed) rows_.push_back(model.terms(dof));
         vector<double> u(model.n_pairs());
         model.gap_rows().of(start.q, u);
-        for (std::size_t i = 0; i < u.size(); ++i) u[i] -= model.initial_gap()[i];
+        for (std::size_t i = 0; i < u.size(); ++i) u[i] -= gaps[i];
         before_ = contact_.states(u);
     }
     void step(const NewmarkStep &step) override {
@@ -95,7 +96,8 @@ TransientRun FullMotion::run(const TransientOptions &options, const vector<std::
     const double omega = excitation_omega(options), period = 2 * M_PI / omega;
     FullState start = present();
     start.time = phase() * period;
-    RunObserver observer(*model_, start, observed);
+    RunObserver observer(*model_, start, model_->contact().gaps_at(omega * start.time, options.force_scale),
+                         observed);
     NewmarkResult found = march(newmark_options(options), omega, start, observer, watch);
     TransientRun run;
     run.cancelled = found.cancelled, run.settled = found.settled;

@@ -21,7 +21,7 @@ constexpr double unnoticed = 1e-11; // of the motion: fast modes that a recorder
 bool ModalPieces::enter(std::shared_ptr<const ContactModes> modes, const FlowState &state,
                         const FlowState &change) {
     modes_ = std::move(modes);
-    puts_aside_ = model_.n_following() > 0;
+    puts_aside_ = model_.n_following() > 0 || model_.walls_move();
     now_ = state.time;
     const std::size_t size = static_cast<std::size_t>(modes_->size());
     vector<double> coordinates(size), changed;

@@ -117,6 +117,11 @@ void Newmark::subtract_internal_forces(const Field &q, const Field &v, Field &f)
     add(-1.0, work_, f);
 }
 
+void Newmark::subtract_gaps(double time) {
+    const vector<double> gaps = model_->contact().gaps_at(omega_ * time, options_.force_scale);
+    for (std::size_t i = 0; i < u_free_.size(); ++i) u_free_[i] -= gaps[i];
+}
+
 // Forces and acceleration that go with the first state.
 void Newmark::start(const FullState &state) {
     const std::int64_t n = model_->n_free(), z = model_->n_pairs();
@@ -129,8 +134,9 @@ void Newmark::start(const FullState &state) {
     const Matrix u = model_->gap_rows().of(state_.q);
     u_free_.assign(u.data(), u.data() + z);
     Matrix force(z, 1);
+    subtract_gaps(state_.time);
     for (std::int64_t i = 0; i < z; ++i)
-        force(i, 0) = contact_force_[i] = model_->contact().force(i, u_free_[i] - model_->initial_gap()[i]);
+        force(i, 0) = contact_force_[i] = model_->contact().force(i, u_free_[i]);
     excitation(state_.time, rest_force_);
     subtract_internal_forces(state_.q, state_.v, rest_force_);
     add(-1.0, model_->gap_rows().forces(force), rest_force_);
@@ -152,7 +158,7 @@ void Newmark::step(double time) {
     if (z > 0) {
         set_sum({{1, q_}, {1, load_}}, work_);
         model_->gap_rows().of(work_, u_free_);
-        for (std::int64_t i = 0; i < z; ++i) u_free_[i] -= model_->initial_gap()[i];
+        subtract_gaps(time);
         contact_->solve(u_free_, contact_force_);
         add_combination(-rule_.now, response_, contact_force_, load_);
     }

@@ -72,6 +72,7 @@ class Newmark {
   private:
     void find_flexibility();
     void excitation(double time, Field &f) const;
+    void subtract_gaps(double time); // of u_free_
     void subtract_internal_forces(const Field &q, const Field &v, Field &f);
     void start(const FullState &state);
     void step(double time);

@@ -43,7 +43,7 @@ class OrbitMotion final : public PointMotion {
     Matrix contact_forces(std::int64_t n_harmonics) const override {
         RecordedMotion motion;
         run(1, &motion);
-        const RecordedMotion forces = motion.contact_forces(*model_);
+        const RecordedMotion forces = motion.contact_forces(conditions_.flow(model_, modes_));
         const vector<double> mean = forces.mean();
         const Matrix harmonics = forces.harmonics(1, n_harmonics);
         Matrix all(static_cast<std::int64_t>(mean.size()), 2 * n_harmonics + 1);
@@ -201,6 +201,7 @@ BranchPoint orbit_point(const OrbitEquations &equations, const MotionOptions &op
     BranchPoint point;
     point.omega = conditions.omega;
     point.force_scale = conditions.force_scale;
+    point.period_multiple = conditions.period_multiple;
     put_harmonics(equations.model(), motion, options, point);
     put_record(residual, iterations, motion.n_switching(), point);
     point.motion = std::make_shared<OrbitMotion>(equations.shared_model(), equations.modes(), start,

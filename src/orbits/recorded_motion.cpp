@@ -1,6 +1,7 @@
 #include "orbits/recorded_motion.hpp"
 #include "contact/polynomial.hpp"
 #include "orbits/exponential_integrals.hpp"
+#include "orbits/load_powers.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -97,6 +98,7 @@ std::int64_t n_felt(const Matrix &powers) {
 } // namespace
 
 void RecordedMotion::record(const FlowPiece &piece) {
+    if (pieces_.empty()) begin_ = piece.start;
     pieces_.push_back({duration_, piece.duration, piece.coefficient.columns(0, n_felt(piece.coefficient)),
                        piece.states, piece.fast ? *piece.fast : FastMotion()});
     duration_ += piece.duration;
@@ -255,8 +257,32 @@ std::vector<ValueRange> RecordedMotion::ranges(const Matrix &rows) const {
     return out;
 }
 
-RecordedMotion RecordedMotion::contact_forces(const FlowModel &model) const {
+namespace {
+
+// Z x terms, powers of the share of a piece.
+Matrix gap_powers(const ExactFlow &flow, double begin, double duration) {
+    constexpr double rounding = 1e-17;
+    const Contact &contact = flow.model().contact();
+    const std::int64_t fastest = std::max(contact.highest_motion(), 0);
+    const double turn = static_cast<double>(fastest) * flow.omega() * duration;
+    Matrix g(contact.n_pairs(), taylor_terms(turn, rounding));
+    for (std::int64_t i = 0; i < g.rows(); ++i) g(i, 0) = contact.initial_gap[i];
+    for (const auto &[harmonic, part] : contact.motion) {
+        const auto powers =
+            load_powers(harmonic, flow.omega(), flow.force_scale(), begin, duration, g.cols());
+        for (std::size_t k = 0; k < powers.size(); ++k)
+            for (std::int64_t i = 0; i < g.rows(); ++i)
+                g(i, static_cast<std::int64_t>(k)) += (powers[k] * Contact::moved(part, i)).real();
+    }
+    return g;
+}
+
+} // namespace
+
+RecordedMotion RecordedMotion::contact_forces(const ExactFlow &flow) const {
+    const FlowModel &model = flow.model();
     RecordedMotion forces;
+    forces.begin_ = begin_;
     forces.duration_ = duration_;
     for (const Piece &p : pieces_) {
         const vector<double> springs = model.contact().springs(p.states); // 0 where open
@@ -267,8 +293,12 @@ RecordedMotion RecordedMotion::contact_forces(const FlowModel &model) const {
             return force;
         };
         Piece now{p.start, p.duration, pressed(p.coefficient), p.states, {p.fast.rate, Matrix(), Matrix()}};
-        for (std::size_t i = 0; i < springs.size(); ++i)
-            now.coefficient.col(0)[i] -= springs[i] * model.initial_gap()[i];
+        const Matrix gaps = gap_powers(flow, begin_ + p.start, p.duration);
+        if (gaps.cols() > now.coefficient.cols())
+            now.coefficient.append(Matrix(gaps.rows(), gaps.cols() - now.coefficient.cols()));
+        for (std::int64_t k = 0; k < gaps.cols(); ++k)
+            for (std::size_t i = 0; i < springs.size(); ++i)
+                now.coefficient.col(k)[i] -= springs[i] * gaps.col(k)[i];
         now.fast.cosine = p.fast.rate.empty() ? Matrix() : pressed(p.fast.cosine);
         now.fast.sine = p.fast.rate.empty() ? Matrix() : pressed(p.fast.sine);
         forces.pieces_.push_back(std::move(now));

@@ -18,8 +18,8 @@ class RecordedMotion final : public FlowRecorder {
     Matrix covariance() const;
     /// Harmonics [first, first + count) of the motion as one period: n x 2 count, columns a_h, b_h.
     Matrix harmonics(std::int64_t first, std::int64_t count) const;
-    /// The forces of the pairs as a motion of Z coordinates.
-    RecordedMotion contact_forces(const FlowModel &model) const;
+    /// The forces of the pairs as a motion of Z coordinates; flow: that which was recorded.
+    RecordedMotion contact_forces(const ExactFlow &flow) const;
     /// Extrema of row . y for every row of a matrix (rows x n).
     std::vector<ValueRange> ranges(const Matrix &rows) const;
     /// Share of the motion during which each pair is closed, and the number of pairs that are not always or
@@ -38,7 +38,7 @@ class RecordedMotion final : public FlowRecorder {
     void weigh_fast(const Piece &piece, std::int64_t first, Matrix &of_cosine, Matrix &of_sine) const;
     static void widen_by_piece(const Piece &piece, const double *row, ValueRange &range);
     std::vector<Piece> pieces_;
-    double duration_ = 0;
+    double begin_ = 0, duration_ = 0; // begin_: the flow's time then
 };
 
 /// Z flags of the pairs that act at some time.

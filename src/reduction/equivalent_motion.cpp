@@ -88,9 +88,8 @@ class MeanEquilibrium {
 // What the structure's damping and the excitation make of a mode.
 class Resonance {
   public:
-    explicit Resonance(const Space &space) : space_(space) {
-        if (const auto *driven = driven_harmonic(space.excitation))
-            harmonic_ = driven->first, load_ = &driven->second;
+    explicit Resonance(const Space &space) : space_(space), drive_(drive_of(space)) {
+        if (const auto *driven = driven_harmonic(drive_)) harmonic_ = driven->first, load_ = &driven->second;
     }
 
     bool excited() const { return load_ != nullptr; }
@@ -127,6 +126,7 @@ class Resonance {
 
   private:
     const Space &space_;
+    const HarmonicLoads drive_;
     const HarmonicLoad *load_ = nullptr;
     int harmonic_ = 1;
 };

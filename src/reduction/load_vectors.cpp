@@ -1,4 +1,5 @@
 #include "reduction/load_vectors.hpp"
+#include "sampling/mode_clusters.hpp"
 
 namespace plm {
 namespace {
@@ -18,7 +19,7 @@ void append_response(const Space &space, const vector<double> &load, Matrix &col
 
 Matrix load_vectors(const Space &space) {
     Matrix columns;
-    for (const auto &entry : space.excitation) {
+    for (const auto &entry : drive_of(space)) {
         append_response(space, entry.second.real, columns);
         append_response(space, entry.second.imag, columns);
     }

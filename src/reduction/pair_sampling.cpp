@@ -83,10 +83,7 @@ std::shared_ptr<const ReducedModel> carry(const ReducedModel &whole, const vecto
     reduced->carried = carried;
     reduced->gap = select_rows(whole.gap, carried);
     reduced->gap_0 = select_rows(whole.gap_0, carried);
-    reduced->contact.stiffness.assign(carried.size(), 0.0);
-    reduced->contact.initial_gap.resize(carried.size());
-    for (std::size_t c = 0; c < carried.size(); ++c)
-        reduced->contact.initial_gap[c] = whole.contact.initial_gap[carried[c]];
+    reduced->contact = whole.contact.of_pairs(carried, vector<double>(carried.size(), 0.0));
     for (std::int64_t i = 0; i < whole.n_pairs(); ++i)
         reduced->contact.stiffness[nearest(motions, i, carried)] += whole.contact.stiffness[i];
     return reduced;

@@ -2,6 +2,7 @@
 #include "contact/describing_function.hpp"
 #include "reduction/basis_kind.hpp"
 #include "reduction/residual_responses.hpp"
+#include "sampling/mode_clusters.hpp"
 #include "sampling/mode_match.hpp"
 #include "space/linear_contact.hpp"
 #include <algorithm>
@@ -46,7 +47,7 @@ UpdatedModes updated_lelsm_modes(const Space &space, const SelectionRule &rule, 
     if (result.n_modes == 0) throw no_mode_kept(rule, "no equivalent system");
     Matrix loads(space.size(), 0);
     if (with_loads)
-        for (const auto &entry : space.excitation) {
+        for (const auto &entry : drive_of(space)) {
             append_load(entry.second.real, loads);
             append_load(entry.second.imag, loads);
         }

@@ -257,7 +257,8 @@ DominantMode find_dominant_mode(const Space &space, const ModeRequest &request, 
     dominant.system = request.system;
     dominant.mode = chosen + 1;
     dominant.frequency_hz = to_hz(c.modes.values[chosen]);
-    if (const auto *driven = driven_harmonic(space.excitation)) dominant.harmonic = driven->first;
+    const HarmonicLoads drive = drive_of(space);
+    if (const auto *driven = driven_harmonic(drive)) dominant.harmonic = driven->first;
     dominant.participation = participation_of(c.response, among, chosen);
     dominant.coordinates.assign(c.modes.vectors.col(chosen), c.modes.vectors.col(chosen) + space.size());
     dominant.mode_penetration.assign(space.n_pairs(), 0.0);

@@ -1,5 +1,6 @@
 #include "sampling/mode_clusters.hpp"
 #include "linalg/lapack.hpp"
+#include "space/rest.hpp"
 #include "structure/driven_harmonic.hpp"
 #include <algorithm>
 #include <cmath>
@@ -53,9 +54,32 @@ void align_clusters(const std::vector<const Matrix *> &seen, SpaceModes &modes) 
     }
 }
 
+HarmonicLoads drive_of(const Space &space) {
+    HarmonicLoads loads = space.excitation;
+    const Contact &contact = space.model->contact();
+    if (!contact.moves()) return loads;
+    const vector<double> spring = contact.wall_springs(rest_of(space)->penetration);
+    vector<double> real(spring.size()), imag(spring.size());
+    for (const auto &[harmonic, part] : contact.motion) {
+        for (std::size_t i = 0; i < spring.size(); ++i) {
+            const std::complex<double> force = spring[i] * Contact::moved(part, static_cast<std::int64_t>(i));
+            real[i] = force.real();
+            imag[i] = force.imag();
+        }
+        HarmonicLoad &load = loads[harmonic];
+        load.real.resize(space.lambda.size(), 0.0);
+        gemv('T', 1.0, space.gap, real.data(), 1.0, load.real.data());
+        if (harmonic == 0) continue;
+        load.imag.resize(space.lambda.size(), 0.0);
+        gemv('T', 1.0, space.gap, imag.data(), 1.0, load.imag.data());
+    }
+    return loads;
+}
+
 Matrix driving_loads(const Space &space) {
     Matrix loads(2, space.size());
-    const auto *driven = driven_harmonic(space.excitation);
+    const HarmonicLoads drive = drive_of(space);
+    const auto *driven = driven_harmonic(drive);
     if (!driven) return loads;
     const vector<double> *parts[] = {&driven->second.real, &driven->second.imag};
     for (std::int64_t i = 0; i < 2; ++i)

@@ -15,6 +15,9 @@ std::int64_t cluster_end(const vector<double> &values, std::int64_t first);
 /// others. Those that `seen` does not see are turned by the next matrix.
 void align_clusters(const std::vector<const Matrix *> &seen, SpaceModes &modes);
 
+/// What drives a structure: the excitation and, through the springs of the pairs that touch at rest, the
+/// moving walls; of all pairs, where none touches.
+HarmonicLoads drive_of(const Space &space);
 /// To look at: the harmonic of the excitation that drives the resonance, real and imaginary part (2 x m);
 /// and a shape, by its kinetic energy (1 x m).
 Matrix driving_loads(const Space &space);

@@ -14,10 +14,26 @@
 
 namespace plm {
 
+namespace {
+
+// Resonance is told by the phase of the motion against the excitation's force.
+void require_still_walls(const ReducedModel &reduced) {
+    if (reduced.whole_contact().moves())
+        throw Error(
+            status::argument,
+            "the gaps of the model move, and resonance is told by the phase "
+            "of the motion against the excitation's force, which says nothing of what moving walls do; "
+            "compute curves at several force scales, or start one at a motion that a transient finds")
+            .argument("hbm");
+}
+
+} // namespace
+
 IsolatedSearch Hbm::find_isolated(const Branch &given, double force_max) const {
     const auto on_basis = on_whole_basis(given, options_, 0, -1);
     const Branch &main = *on_basis;
     const std::shared_ptr<const ReducedModel> reduced = model_of(main, "main_branch");
+    require_still_walls(*reduced);
     HbmOptions options = options_;
     options.period_multiple = main.period_multiple();
     // exact motions have other coordinates there, and what is found is held against the main branch
@@ -41,6 +57,7 @@ IsolatedSearch Hbm::find_isolated(const Branch &given, double force_max) const {
 }
 
 std::vector<Backbone> Hbm::find_backbones(double force_max) const {
+    require_still_walls(*reduced_);
     BackboneOptions options;
     options.hbm = with_first_harmonics(*reduced_, options_);
     options.force_max = force_max;

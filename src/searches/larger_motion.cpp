@@ -48,6 +48,7 @@ class SearchBeside {
     void run() {
         if (curve_.beside) take(curve_.beside, nullptr);
         if (points_ < least_points || !is_held_apart()) return;
+        if (reduced_->whole_contact().moves()) return; // the phase against the force is none of resonance
         std::vector<BranchPoint> starts =
             PhaseResonance(reduced_, backbone_options(points_), watch_.quiet()).on_curve(curve_);
         std::sort(starts.begin(), starts.end(),

@@ -171,9 +171,14 @@ class Audit {
             if (harmonic == 0) continue;
             dynamic = std::hypot(dynamic, column_norms(load.real)[0], column_norms(load.imag)[0]);
         }
+        double wall = 0;
+        for (const auto &[harmonic, part] : m_.contact().motion)
+            for (std::int64_t i = 0; harmonic > 0 && i < m_.n_pairs(); ++i)
+                wall = std::max(wall, std::abs(Contact::moved(part, i)));
+        if (wall > 0) add(0, wall, format("gaps that move, by up to %g in one harmonic", wall));
         if (dynamic > 0)
             add(0, dynamic, format("harmonic excitation, norm %g", dynamic));
-        else
+        else if (!(wall > 0))
             add(1, 0,
                 format("no harmonic excitation on the free DOFs: the response is zero; %s",
                        m_.excitation_on_supports() > 0

@@ -187,6 +187,9 @@ class ModalAudit {
                 }
                 amplitude[i] += std::abs(u);
             }
+        for (const auto &[harmonic, part] : m_.contact().motion)
+            for (std::int64_t i = 0; harmonic > 0 && i < m_.n_pairs(); ++i)
+                amplitude[i] += std::abs(Contact::moved(part, i));
         return amplitude;
     }
 

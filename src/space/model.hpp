@@ -1,4 +1,4 @@
-// The structure with its contact: M q'' + C q' + K q = F(t) - B^T N(B q - g), checked once and then
+// The structure with its contact: M q'' + C q' + K q = F(t) - B^T N(B q - g(t)), checked once and then
 // read-only.
 #pragma once
 #include "linalg/kept.hpp"

@@ -29,7 +29,7 @@ class Piece:
         self.inverse = np.linalg.inv(self.vectors)
         load = np.concatenate([np.zeros(n), s.Minv @ (s.P + s.B.T @ (spring * s.g))])
         self.fixed = -np.linalg.solve(a, load)
-        self.drive = self.inverse @ np.concatenate([np.zeros(n), s.Minv @ s.F])
+        self.drive = self.inverse @ np.concatenate([np.zeros(n), s.Minv @ (s.F + s.B.T @ (spring * s.G))])
         self.gaps = s.B @ self.vectors[:n]
 
     def forced(self, omega):
@@ -51,12 +51,14 @@ def condensation(M, K, kept, reach=40.0, fewest=20):
 
 
 class Structure:
-    """M q'' + C q' + K q + B' max(kn (B q - g), 0) = P + Re(F exp(i omega t)); `out`: the DOF looked at, or several."""
+    """M q'' + C q' + K q + B' max(kn u, 0) = P + Re(F exp(i omega t)), u = B q - g - Re(G exp(i omega t)); `out`: the DOF looked
+    at, or several."""
 
-    def __init__(self, M, C, K, B, kn, g, P, F, out):
+    def __init__(self, M, C, K, B, kn, g, P, F, out, G=None):
         self.n = len(M)
         self.Minv = np.linalg.inv(M)
         self.C, self.K, self.B, self.kn, self.g, self.P, self.F, self.out = C, K, B, kn, g, P, F, out
+        self.G = np.zeros(len(g)) if G is None else G
         self._pieces = {}
 
     def piece(self, closed):
@@ -74,12 +76,13 @@ class Structure:
         outs = np.atleast_1d(self.out)
         t, events, peak = 0.0, 0, np.zeros(len(outs))
         phi = np.eye(2 * n) if derivative else None
-        u = self.B @ x[:n] - self.g
-        closed = np.where(np.abs(u) > 1e-13 * (np.abs(self.g) + np.abs(self.B) @ np.abs(x[:n])), u > 0, self.B @ x[n:] > 0)
+        u = self.B @ x[:n] - self.g - np.real(self.G)
+        noise = 1e-13 * (np.abs(self.g) + np.abs(self.G) + np.abs(self.B) @ np.abs(x[:n]))
+        closed = np.where(np.abs(u) > noise, u > 0, self.B @ x[n:] - np.real(1j * omega * self.G) > 0)
         while end - t > 1e-14 * end:
             p = self.piece(closed)
             f = p.forced(omega)
-            fg, fo, out = self.B @ f[:n], f[outs, None], p.vectors[outs]
+            fg, fo, out = self.B @ f[:n] - self.G, f[outs, None], p.vectors[outs]
             xp = lambda time: np.real(f * np.exp(1j * omega * time)) + p.fixed
             c = p.inverse @ (x - xp(t))
             base = self.B @ p.fixed[:n] - self.g

@@ -204,6 +204,24 @@ static void loads(void **state) {
     assert_int_equal(plm_model_set_excitation(model, 1, 6, NULL, NULL), PLM_OK);
 }
 
+static void gap_motion(void **state) {
+    const char *f = "plm_model_set_gap_motion";
+    const int32_t ptr[] = {0, 1, 2}, dof[] = {0, 1};
+    const double one[] = {1, 1}, bad[] = {1, NAN};
+    (void)state;
+    BAD(plm_model_set_gap_motion(model, 1, 2, one, NULL), f, "n", -1,
+        "0 contact pairs so far; add all pairs");
+    assert_int_equal(plm_model_add_gap_rows_i32(model, 0, 2, ptr, dof, one, one, NULL), PLM_OK);
+    BAD(plm_model_set_gap_motion(model, -1, 2, one, NULL), f, "harmonic", -1, "harmonic is -1");
+    BAD(plm_model_set_gap_motion(model, 1, 3, one, NULL), f, "n", -1, "n is 3");
+    BAD(plm_model_set_gap_motion(model, 1, 2, bad, NULL), f, "real", 1, "real[1]");
+    BAD(plm_model_set_gap_motion(model, 1, 2, one, bad), f, "imag", 1, "imag[1]");
+    BAD(plm_model_set_gap_motion(model, 0, 2, one, one), f, "imag", -1, "harmonic 0");
+    BAD(plm_model_set_gap_motion(model, 1, 2, NULL, one), f, "real", -1, "real is NULL");
+    assert_int_equal(plm_model_set_gap_motion(model, 1, 2, one, one), PLM_OK);
+    assert_int_equal(plm_model_set_gap_motion(model, 1, 0, NULL, NULL), PLM_OK);
+}
+
 static void text_outputs(void **state) {
     char buffer[8] = "before";
     int64_t needed = 77;
@@ -288,6 +306,8 @@ static void too_late(void **state) {
             "make a new one");
     REFUSED(plm_model_set_preload(built, CHAIN_DOFS, c.preload), PLM_ERR_STATE, "plm_model_set_preload", "",
             -1, "built");
+    REFUSED(plm_model_set_gap_motion(built, 1, 2, hz, NULL), PLM_ERR_STATE, "plm_model_set_gap_motion", "",
+            -1, "built");
     REFUSED(plm_model_set_structural_damping(built, 0), PLM_ERR_STATE, "plm_model_set_structural_damping", "",
             -1, "built");
     REFUSED(plm_model_set_int(built, "max_blocks", 2), PLM_ERR_STATE, "plm_model_set_int", "", -1, "built");
@@ -313,9 +333,9 @@ static void too_late(void **state) {
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(creation),    TEST(matrices), TEST(damping_and_supports), TEST(node_pairs), TEST(gap_rows),
-        TEST(constraints), TEST(loads),    TEST(text_outputs),         TEST(version),    TEST(too_early),
-        TEST(too_late),
+        TEST(creation),    TEST(matrices), TEST(damping_and_supports), TEST(node_pairs),   TEST(gap_rows),
+        TEST(constraints), TEST(loads),    TEST(gap_motion),           TEST(text_outputs), TEST(version),
+        TEST(too_early),   TEST(too_late),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

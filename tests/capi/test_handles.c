@@ -83,6 +83,7 @@ CASE(model, plm_model_add_gap_rows_i32, 0, 1, i32, i32, one, one, NULL)
 CASE(model, plm_model_add_gap_rows_i64, 0, 1, i64, i64, one, one, NULL)
 CASE(model, plm_model_set_preload, 3, one)
 CASE(model, plm_model_set_excitation, 1, 3, one, NULL)
+CASE(model, plm_model_set_gap_motion, 1, 0, one, NULL)
 KEYED(model)
 READ(model)
 READ_ARRAYS(model)
@@ -196,6 +197,7 @@ static const struct {
                  ENTRY(MODEL, plm_model_add_gap_rows_i64),
                  ENTRY(MODEL, plm_model_set_preload),
                  ENTRY(MODEL, plm_model_set_excitation),
+                 ENTRY(MODEL, plm_model_set_gap_motion),
                  KEYED_ENTRIES(MODEL, model),
                  READ_ENTRIES(MODEL, model),
                  ARRAY_ENTRIES(MODEL, model),

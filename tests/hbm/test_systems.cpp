@@ -156,6 +156,35 @@ void jacobians_match_with_a_static_basis(void **) {
     check_derivatives(with_static_basis());
 }
 
+// One in the harmonic of the force, one in another, and a mean.
+std::shared_ptr<ReducedModel> with_moving_walls(std::shared_ptr<ReducedModel> m) {
+    m->contact.motion = {{0, {{0.01}, {}}}, {1, {{0.04, -0.03}, {0.02, 0.05}}}, {3, {{0, 0.01}, {0.015}}}};
+    return m;
+}
+void jacobians_match_with_moving_walls(void **) {
+    check_derivatives(with_moving_walls(chain_model()));
+    check_derivatives(with_moving_walls(with_static_basis()));
+}
+
+// Of the residual, by the scale that forces and walls have in common.
+double force_derivative_error(HbmSystem &system, const plm::vector<double> &x) {
+    constexpr double omega = 0.7, scale = 1.2, step = 1e-6;
+    const std::int64_t n = system.size();
+    plm::vector<double> up(n), down(n), r(n), derivative(n);
+    system.set_force_scale(scale + step);
+    system.residual(x.data(), omega, up.data());
+    system.set_force_scale(scale - step);
+    system.residual(x.data(), omega, down.data());
+    system.set_force_scale(scale);
+    system.residual(x.data(), omega, r.data());
+    system.force_derivative(derivative.data());
+    double size = 0, worst = 0;
+    for (std::int64_t i = 0; i < n; ++i) {
+        size = std::max(size, std::abs(derivative[i]));
+        worst = std::max(worst, std::abs((up[i] - down[i]) / (2 * step) - derivative[i]));
+    }
+    return worst / size;
+}
 // A free-floating chain held only by its contacts.
 std::shared_ptr<ReducedModel> rigid_when_open() {
     exact::Structure s = test::chain(4, 0.02, 5, 0, 0.4, 0.5, {3});
@@ -167,6 +196,19 @@ std::shared_ptr<ReducedModel> rigid_when_open() {
 }
 void jacobians_match_with_rigid_body_modes(void **) {
     check_derivatives(rigid_when_open());
+}
+
+void walls_move_with_the_scale_of_the_force(void **) {
+    for (const auto &m : {chain_model(), with_static_basis(), rigid_when_open()})
+        for (NonlinearUnknowns unknowns : {NonlinearUnknowns::modal, NonlinearUnknowns::gaps})
+            for (std::int64_t multiple : {1, 2}) {
+                HbmOptions o = options_with(4, unknowns);
+                o.period_multiple = multiple;
+                const auto moving = with_moving_walls(m);
+                const auto system = plm::make_system(moving, o);
+                assert_true(
+                    below(force_derivative_error(*system, random_point(*system, *moving, 0.7)), 1e-6));
+            }
 }
 
 void jacobians_match_with_self_excitation(void **) {
@@ -502,6 +544,8 @@ int main() {
         cmocka_unit_test(jacobians_match_with_structural_damping),
         cmocka_unit_test(jacobians_match_with_a_static_basis),
         cmocka_unit_test(jacobians_match_with_rigid_body_modes),
+        cmocka_unit_test(jacobians_match_with_moving_walls),
+        cmocka_unit_test(walls_move_with_the_scale_of_the_force),
         cmocka_unit_test(jacobians_match_with_self_excitation),
         cmocka_unit_test(jacobians_with_more_equations_match_differences),
         cmocka_unit_test(condensed_factors_solve_like_dense_ones),

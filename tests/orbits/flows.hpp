@@ -11,8 +11,16 @@ namespace test {
 using plm::FlowState;
 using plm::Matrix;
 
-inline std::shared_ptr<const plm::FlowModel> flow_model(const exact::Structure &s) {
-    return std::make_shared<plm::FlowModel>(reduce_exactly(s));
+inline std::shared_ptr<const plm::FlowModel> flow_model(const exact::Structure &s,
+                                                        const plm::GapMotion &walls = {}) {
+    const auto reduced = reduce_exactly(s);
+    reduced->contact.motion = walls;
+    return std::make_shared<plm::FlowModel>(reduced);
+}
+
+/// Of two pairs' walls: of the harmonic of the excitation and of one that it does not have.
+inline plm::GapMotion moving_walls() {
+    return {{0, {{0.01}, {}}}, {1, {{0.04, -0.03}, {0.02, 0.05}}}, {3, {{0, 0.01}, {0.015}}}};
 }
 
 /// A chain of four masses with pairs on two of them.

@@ -33,8 +33,8 @@ struct Agreement {
     double state = 1e300, monodromy = 1e300;
     bool consistent = false;
 };
-Agreement against_shooting(double omega) {
-    const auto model = flow_model(damped_chain());
+Agreement against_shooting(double omega, const plm::GapMotion &walls = {}) {
+    const auto model = flow_model(damped_chain(), walls);
     plm::ExactFlow flow(model, omega, 1);
     const plm::PeriodicOrbit orbit = orbit_of(flow);
     plm::EventSequence sequence = events_of(orbit, 1e-3 * flow.period());
@@ -56,8 +56,9 @@ Agreement against_shooting(double omega) {
     return a;
 }
 void events_lead_to_the_orbit(void **) {
-    for (double omega : {0.2, 0.4, 1.5}) {
-        const Agreement a = against_shooting(omega);
+    for (const auto &[omega, walls] : {std::pair(0.2, plm::GapMotion()), std::pair(0.4, plm::GapMotion()),
+                                       std::pair(1.5, plm::GapMotion()), std::pair(0.4, moving_walls())}) {
+        const Agreement a = against_shooting(omega, walls);
         std::printf("    omega %.1f, %zu events: %.0e %.0e %.0e; state %.0e, monodromy %.0e\n", omega,
                     a.n_events, a.shift.at(0), a.shift.at(1), a.shift.at(2), a.state, a.monodromy);
         assert_true(a.n_events >= 2);

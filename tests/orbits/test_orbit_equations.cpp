@@ -19,8 +19,8 @@ FlowState rest_of(const plm::FlowModel &m) {
 }
 
 OrbitEquations equations(const exact::Structure &s, double omega, FlowParameter parameter,
-                         std::int64_t periods = 1) {
-    const auto model = flow_model(s);
+                         std::int64_t periods = 1, const plm::GapMotion &walls = {}) {
+    const auto model = flow_model(s, walls);
     return OrbitEquations(model, rest_of(*model), {omega, 1.0, periods}, parameter);
 }
 
@@ -55,8 +55,8 @@ struct Errors {
     double parameter = 1e300, direction = 1e300, solution = 1e300;
 };
 Errors derivative_errors(const exact::Structure &s, double omega, FlowParameter parameter, double p,
-                         std::int64_t periods = 1) {
-    OrbitEquations e = equations(s, omega, parameter, periods);
+                         std::int64_t periods = 1, const plm::GapMotion &walls = {}) {
+    OrbitEquations e = equations(s, omega, parameter, periods, walls);
     const plm::vector<double> x = solution(e, p);
     const std::size_t n = x.size();
     Errors out;
@@ -83,16 +83,17 @@ Errors derivative_errors(const exact::Structure &s, double omega, FlowParameter 
 // Differences over 1e-6 of the motion: events move by as much, and the force bends there.
 void derivatives_are_those_of_differences(void **) {
     const exact::Structure s = damped_chain();
-    for (double omega : {0.4, 0.9, 1.5}) {
-        const Errors w = derivative_errors(s, omega, FlowParameter::frequency, omega),
-                     f = derivative_errors(s, omega, FlowParameter::force_scale, 1.3),
-                     two = derivative_errors(s, omega, FlowParameter::frequency, omega, 2);
-        for (const Errors &e : {w, f, two}) {
-            assert_true(below(e.solution, 1e-11));
-            assert_true(below(e.parameter, 1e-4));
-            assert_true(below(e.direction, 1e-4));
+    for (const plm::GapMotion &walls : {plm::GapMotion(), moving_walls()})
+        for (double omega : {0.4, 0.9, 1.5}) {
+            const Errors w = derivative_errors(s, omega, FlowParameter::frequency, omega, 1, walls),
+                         f = derivative_errors(s, omega, FlowParameter::force_scale, 1.3, 1, walls),
+                         two = derivative_errors(s, omega, FlowParameter::frequency, omega, 2, walls);
+            for (const Errors &e : {w, f, two}) {
+                assert_true(below(e.solution, 1e-11));
+                assert_true(below(e.parameter, 1e-4));
+                assert_true(below(e.direction, 1e-4));
+            }
         }
-    }
 }
 void stiff_contact_has_the_same_derivatives(void **) {
     exact::Structure s = damped_chain();
@@ -185,7 +186,8 @@ void a_mode_that_hardly_moves_does_not_dictate_the_pieces(void **) {
 // Three coordinates with mass, three without: all follow, two of them relax, or a dashpot between what has
 // mass and what has none.
 enum class Massless { follow, relax, dashpot };
-std::shared_ptr<const plm::FlowModel> massless_model(Massless kind, double k_n) {
+std::shared_ptr<const plm::FlowModel> massless_model(Massless kind, double k_n,
+                                                     const plm::GapMotion &walls = {}) {
     constexpr int n = 6, z = 2;
     auto m = std::make_shared<plm::ReducedModel>();
     m->lambda = m->lambda_0 = {1, 2.5, 6, 5, 9, 14};
@@ -209,6 +211,7 @@ std::shared_ptr<const plm::FlowModel> massless_model(Massless kind, double k_n) 
     m->gap_0 = m->gap;
     m->contact.stiffness = {k_n, 2 * k_n};
     m->contact.initial_gap = {0.02, 0.05};
+    m->contact.motion = walls;
     m->preload_0 = {0.01, 0, 0.02, 0.03, 0, 0.01};
     m->excitation[1] = {{0.1, 0.2, 0, 0.3, -0.1, 0.2}, {0, 0.05, 0.1, -0.2, 0.1, 0}};
     m->vectors = plm::SpaceVectors(plm::Field(n, n));
@@ -273,19 +276,28 @@ Run two_periods(const std::shared_ptr<const plm::FlowModel> &model, FlowParamete
                                    by_modes ? modes.get() : nullptr);
     return out;
 }
+void series_and_modes_agree(const std::shared_ptr<const plm::FlowModel> &model, FlowParameter by,
+                            std::int64_t fewest_events = 10) {
+    const Run series = two_periods(model, by, false), modes = two_periods(model, by, true);
+    assert_true(series.n_events >
+                fewest_events); // a pair that only just touches and parts may be seen or not
+    assert_true(std::abs(series.n_events - modes.n_events) <= 2);
+    assert_true(below(max_difference(series.state, modes.state), 1e-9));
+    assert_true(below(max_difference(series.end, modes.end), 1e-9));
+    assert_true(below(max_difference(series.change, modes.change), 1e-8));
+    assert_true(below(max_difference(series.monodromy, modes.monodromy), 1e-8));
+}
 void modes_know_what_has_no_mass(void **) {
     for (Massless kind : {Massless::follow, Massless::relax, Massless::dashpot})
         for (double k_n : {3.0, 1e2})
             for (FlowParameter by : {FlowParameter::frequency, FlowParameter::force_scale}) {
-                const auto model = massless_model(kind, k_n);
-                const Run series = two_periods(model, by, false), modes = two_periods(model, by, true);
-                assert_true(series.n_events > 10); // one that only just touches may be seen or not
-                assert_true(std::abs(series.n_events - modes.n_events) <= 1);
-                assert_true(below(max_difference(series.state, modes.state), 1e-9));
-                assert_true(below(max_difference(series.end, modes.end), 1e-9));
-                assert_true(below(max_difference(series.change, modes.change), 1e-8));
-                assert_true(below(max_difference(series.monodromy, modes.monodromy), 1e-8));
+                series_and_modes_agree(massless_model(kind, k_n), by);
+                series_and_modes_agree(massless_model(kind, k_n, moving_walls()), by);
             }
+}
+void modes_know_how_walls_move(void **) {
+    for (FlowParameter by : {FlowParameter::frequency, FlowParameter::force_scale})
+        series_and_modes_agree(flow_model(damped_chain(), moving_walls()), by, 4);
 }
 
 // A chain that nothing holds, pressed against a stop that throws it off: in flight its centre goes by
@@ -479,6 +491,7 @@ int main() {
         cmocka_unit_test(modes_give_the_motion_of_the_series),
         cmocka_unit_test(a_mode_that_hardly_moves_does_not_dictate_the_pieces),
         cmocka_unit_test(modes_know_what_has_no_mass),
+        cmocka_unit_test(modes_know_how_walls_move),
         cmocka_unit_test(modes_know_what_is_free),
         cmocka_unit_test(crests_of_fast_motion_are_found_at_once),
         cmocka_unit_test(readings_are_those_of_dense_samples),

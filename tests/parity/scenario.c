@@ -42,7 +42,7 @@ static plm_model *make_model(void) {
     /* pair 0: u = q_2 - q_5, pair 1: u = q_8 - 0.001 */
     const int32_t row_start[] = {0, 2, 3}, dof[] = {2, 5, 8};
     const double coefficient[] = {1, -1, 1}, contact_stiffness[] = {PLM_AUTO_STIFFNESS, 20000},
-                 gap[] = {0, 0.001};
+                 gap[] = {0, 0.001}, shaken[] = {0, 2e-5}, later[] = {0, 1e-5};
     /* q_6 = (q_5 + q_7) / 2 */
     const int32_t middle_row[] = {0, 3}, middle_dof[] = {6, 5, 7};
     const double middle[] = {1, -0.5, -0.5};
@@ -65,6 +65,7 @@ static plm_model *make_model(void) {
     must(plm_model_add_gap_rows_i32(model, 0, PAIRS, row_start, dof, coefficient, contact_stiffness, gap));
     must(plm_model_set_preload(model, N, preload));
     must(plm_model_set_excitation(model, 1, N, force, NULL));
+    must(plm_model_set_gap_motion(model, 2, PAIRS, shaken, later));
     must(plm_model_build(model));
     return model;
 }

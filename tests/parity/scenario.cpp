@@ -38,6 +38,7 @@ plm::Model make_model(const plm::Context &context) {
     model.add_gap_rows({0, 2, 3}, {2, 5, 8}, {1, -1, 1}, {PLM_AUTO_STIFFNESS, 20000}, {0, 0.001});
     model.set_preload(preload);
     model.set_excitation(1, force);
+    model.set_gap_motion(2, {0.0, 2e-5}, {0.0, 1e-5});
     model.build();
     return model;
 }

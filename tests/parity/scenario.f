@@ -59,6 +59,7 @@ C     points count from 1 here.
       INTEGER IDOF(3), MROW(2), MDOF(3)
       DOUBLE PRECISION XM(N), XK(2*N-1), FRE(N), FIM(N), PRE(N)
       DOUBLE PRECISION XMID(3), COEFF(3), STIFF(NPAIRS), GAP(NPAIRS)
+      DOUBLE PRECISION SHAKE(NPAIRS), LATER(NPAIRS)
       DATA MROW /1, 4/
       DATA MDOF /7, 6, 8/
       DATA XMID /1.0D0, -0.5D0, -0.5D0/
@@ -66,6 +67,8 @@ C     points count from 1 here.
       DATA IDOF /3, 6, 9/
       DATA COEFF /1.0D0, -1.0D0, 1.0D0/
       DATA GAP /0.0D0, 0.001D0/
+      DATA SHAKE /0.0D0, 2.0D-5/
+      DATA LATER /0.0D0, 1.0D-5/
       STIFF(1) = PLMAUT
       STIFF(2) = 20000.0D0
       K = 0
@@ -107,6 +110,8 @@ C     points count from 1 here.
       CALL PLMMPL(MODEL, N, PRE, IERR)
       CALL MUST(IERR)
       CALL PLMMEX(MODEL, 1, N, FRE, FIM, IERR)
+      CALL MUST(IERR)
+      CALL PLMMGM(MODEL, 2, NPAIRS, SHAKE, LATER, IERR)
       CALL MUST(IERR)
       CALL PLMMBU(MODEL, IERR)
       CALL MUST(IERR)

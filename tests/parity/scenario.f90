@@ -53,6 +53,7 @@ contains
         preload(9) = 5
         call model%set_preload(preload)
         call model%set_excitation(1, force)
+        call model%set_gap_motion(2, [(0.0_real64, 0.0_real64), (2e-5_real64, 1e-5_real64)])
         call model%build()
     end subroutine make_model
 

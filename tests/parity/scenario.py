@@ -29,6 +29,7 @@ def make_model():
     force[4], preload[8] = 10, 5
     model.set_preload(preload)
     model.set_excitation(force)
+    model.set_gap_motion([0, 2e-5 + 1e-5j], harmonic=2)
     return model.build()
 
 

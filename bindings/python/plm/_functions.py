@@ -64,6 +64,7 @@ FUNCTIONS = {
     "plm_model_add_gap_rows_i64": "piqppppp model index_base n row_ptr dof coefficient stiffness gap",
     "plm_model_set_preload": "pqp model n force",
     "plm_model_set_excitation": "piqpp model harmonic n real imag",
+    "plm_model_set_gap_motion": "piqpp model harmonic n real imag",
     "plm_model_set_dense_matrix": "piipq model which part value ld",
     "plm_model_add_dense_gap_rows": "pqpqpp model n row ld stiffness gap",
     "plm_model_set_recovery": "pqpp model n_full fn user",

@@ -8,7 +8,7 @@ import scipy.sparse
 
 from . import _c
 from ._context import default_context
-from ._handle import Handle, address, alike, handle_of, integers, real_parts, reals
+from ._handle import Handle, address, alike, handle_of, integers, list_of_reals, real_parts, reals
 from ._methods import ModelMethods
 
 SYSTEMS = {"open": _c.SYSTEM_OPEN, "sliding": _c.SYSTEM_SLIDING, "rest": _c.SYSTEM_REST, "given": _c.SYSTEM_GIVEN}
@@ -271,6 +271,18 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
             force = numpy.real(force)
         force = reals(force, (self.n_dof,), "force", OF_DOFS)
         self._call("set_excitation", harmonic, self.n_dof, address(force), address(imaginary))
+
+    def set_gap_motion(self, motion, harmonic=1):
+        """gap(t) = gap + sum Re(G_h exp(i h omega t)), of walls that move; motion: G_h of all pairs added so far, real or
+        complex. force_scale multiplies it as it does the forces. None removes the harmonic."""
+        if motion is None:
+            return self._call("set_gap_motion", harmonic, 0, None, None)
+        motion = numpy.atleast_1d(motion)
+        real = list_of_reals(numpy.real(motion), "motion")
+        imaginary = None
+        if numpy.iscomplexobj(motion):
+            imaginary = list_of_reals(numpy.imag(motion), "motion")
+        self._call("set_gap_motion", harmonic, len(real), address(real), address(imaginary))
 
     # ---- work ----
 
