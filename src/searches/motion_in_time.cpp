@@ -36,10 +36,13 @@ Matrix in_static_coordinates(const FlowModel &model, const Matrix &motion) {
 // with these, it would say nothing against the solution.
 Matrix unexplained(const ReducedModel &reduced, const BranchPoint &point, const ContactIndicator &indicator,
                    const Matrix &motion, const Matrix &force) {
+    const std::int64_t solved = point.n_harmonics;
     const ContactMotion contact = contact_motion(reduced, point);
-    Matrix u = product('N', 'N', reduced.gap, motion), springs;
+    BranchPoint mean = point;
+    mean.eta_0.assign(motion.col(0), motion.col(1));
+    mean.eta = motion.columns(1, 2 * solved);
+    Matrix u = penetration_of(reduced, mean, solved), springs;
     for (std::int64_t i = 0; i < u.rows(); ++i) {
-        u(i, 0) -= reduced.contact.initial_gap[i];
         // in compliance form the unknowns hold the slack, too
         const double slack = 1 / (*contact.stiffness)[i] - 1 / reduced.contact.stiffness[i];
         for (std::int64_t k = 0; k < u.cols(); ++k) u(i, k) += slack * force(i, k);
@@ -64,7 +67,7 @@ HarmonicChange change_in_time(std::shared_ptr<const ReducedModel> reduced, const
     RecordedMotion motion;
     flow.advance(state, (settling + counted) * period, &motion);
     const Matrix harmonics = in_static_coordinates(*model, mean_harmonics(motion, all)),
-                 force = mean_harmonics(motion.contact_forces(*model), solved);
+                 force = mean_harmonics(motion.contact_forces(flow), solved);
 
     const auto system = make_system(reduced, options_at(point, multiple, options));
     vector<double> x(system->size()), residual(system->size());
