@@ -6,8 +6,7 @@
 #include "motions/first_harmonics.hpp"
 #include "motions/free_motion.hpp"
 #include "motions/motion_measures.hpp"
-#include "orbits/exact_flow.hpp"
-#include "orbits/orbit_point.hpp"
+#include "orbits/mean_motion.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/wider_range.hpp"
@@ -222,24 +221,6 @@ namespace {
 // Mean square of what the coordinates do beside their mean.
 double square_of(const BranchPoint &p) {
     return 0.5 * dot(p.eta.rows() * p.eta.cols(), p.eta.data(), p.eta.data());
-}
-
-// The same of the exact flow, after the periods that damping takes to forget where it began.
-double square_after(const Branch &curve, const BranchPoint &begin, Watch watch) {
-    constexpr int periods = 40, watched = 4, instants = 16, count = watched * instants;
-    const auto model = std::make_shared<FlowModel>(curve.reduced_model(), begin.omega);
-    ExactFlow flow(model, begin.omega, begin.force_scale, watch, std::make_shared<ContactModesKept>(model));
-    FlowState state = start_of(*model, begin, curve.period_multiple());
-    const std::int64_t n = model->size();
-    const double period = static_cast<double>(curve.period_multiple()) * flow.period();
-    vector<double> mean(static_cast<std::size_t>(n), 0.0);
-    double square = 0;
-    for (int k = 0; k < count; ++k) {
-        flow.advance(state, period * (periods + static_cast<double>(k) / instants));
-        square += dot(n, state.y.data(), state.y.data()) / count;
-        for (std::int64_t j = 0; j < n; ++j) mean[j] += state.y[j] / count;
-    }
-    return square - dot(n, mean.data(), mean.data());
 }
 
 } // namespace
