@@ -16,8 +16,8 @@ constexpr double tail_allowance = 20;
 // Of a step, in terms of HbmOptions::dearest_step: a curve takes some two hundred, all of them about alike.
 constexpr double dearest_with_harmonics = 12;
 
-// A step of a first curve, whose some two hundred solutions together take a second or two.
-constexpr double flops_of_look = 4e8;
+// A step of a first curve, which takes some five hundred of them: three seconds or so.
+constexpr double flops_of_look = 1.5e8;
 
 void require_excitation(const ReducedModel &m, const HbmOptions &o) {
     const bool automatic = o.n_harmonics == 0;

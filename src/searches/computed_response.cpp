@@ -57,7 +57,8 @@ class Chain {
             const Effort effort(std::max(effort_, setup));
             const bool all = within(share_of_curves * effort_left(), [&] { search(smallest, best); });
             spent_ = !all || beyond_reach_;
-            if (best.curve && is_cut(best)) within(effort_left(), [&] { find_peak(best); });
+            if (best.curve)
+                within(effort_left(), [&] { is_cut(best) ? find_peak(best) : estimate_error(best); });
             if (!is_cut(best)) look_beside(best);
         }
         if (is_cut(best) || !spans(*best.curve)) take_first_curve(smallest, best);
@@ -145,10 +146,12 @@ class Chain {
                 exact_step_flops(*whole->reduced(), options_) <= cheap_whole)
                 return whole;
         }
+        bool too_small = looks_too_small(basis, best);
         for (std::int64_t h : looked_at) {
             if (h <= basis->sampler()->n_harmonics()) continue;
-            if (basis->reduced()->size() >= many_columns || !looks_too_small(basis, best)) break;
+            if (!too_small || basis->reduced()->size() >= many_columns) break;
             basis = basis_for(h);
+            too_small = looks_too_small(basis, best);
         }
         return basis;
     }
@@ -156,13 +159,13 @@ class Chain {
     // The curve looked at is the first answer.
     bool looks_too_small(const std::shared_ptr<const Basis> &basis, ComputedResponse &best) {
         const auto reduced = widened(basis->reduced());
-        if (!prefers_exact(reduced, options_) || exact_step_flops(*reduced, options_) < worth_a_look)
-            return false;
+        const bool exact = prefers_exact(reduced, options_);
+        if (exact && exact_step_flops(*reduced, options_) < worth_a_look) return false;
         Branch one(reduced, options_.force_scale);
         try {
             const auto curve = curve_of_few_harmonics(basis);
             if (!best.curve || is_whole(*curve)) best = with_curve(basis, curve);
-            if (!spans(*curve)) return false;
+            if (!exact || !spans(*curve)) return false;
             const bool in_time =
                 within(share_of_look * effort_left(), [&] { find_motion_near_peak(*curve, one); });
             if (!in_time) { // a curve of such motions is out of reach
@@ -243,13 +246,18 @@ class Chain {
         Peak peak = Hbm(r.basis, r.options, watch_).find_peak(*r.curve, output_.dof, output_.measure, 0);
         r.peak = std::move(peak);
         r.error = r.peak.basis_error;
+        estimate_error(r);
+        watch_.log(1, format("%lld coordinates: peak %.6g at %.6g Hz, its error by the basis %.2g",
+                             static_cast<long long>(r.basis->reduced()->size()), r.peak.amplitude,
+                             r.peak.frequency_hz, r.error));
+    }
+
+    // Where the peak came without: for as much as is left.
+    void estimate_error(ComputedResponse &r) const {
         if (std::isnan(r.error))
             r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_, much_flops, watch_);
         if (std::isnan(r.error) && r.basis == looked_at_ && !r.curve->reduced().from)
             r.error = error_near_peak_;
-        watch_.log(1, format("%lld coordinates: peak %.6g at %.6g Hz, its error by the basis %.2g",
-                             static_cast<long long>(r.basis->reduced()->size()), r.peak.amplitude,
-                             r.peak.frequency_hz, r.error));
     }
 
     static bool is_whole(const Branch &curve) { return spans(curve) && !is_worthless(curve); }

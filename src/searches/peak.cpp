@@ -183,12 +183,13 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     const Output of{dof, measure, harmonic};
     double error = point.motion ? 0 : point.harmonic_error; // an exact motion lacks no harmonics
     if (is_peak) {
-        // of the effort that is left, for each step: the last one is the estimate of the error by the basis
-        const double of_peak = 0.5;
+        // of the effort that is left: for the peak itself, then for each of what is said of it, of which the
+        // estimate of the error by the basis is the last
+        const double of_peak = 0.3, of_next = 0.5;
         CloserLook look(reduced, options_, branch, around, of, watch_);
         within(of_peak * effort_left(), [&] { look.close_in(); });
-        within(of_peak * effort_left(), [&] { look.look_in_time(); });
-        const bool in_time = within(of_peak * effort_left(), [&] { look.find_multipliers(); });
+        within(of_next * effort_left(), [&] { look.look_in_time(); });
+        const bool in_time = within(of_next * effort_left(), [&] { look.find_multipliers(); });
         const double multiplier_error = point.multiplier_error;
         point = look.point();
         point.multiplier_error = multiplier_error;

@@ -193,6 +193,7 @@ void take_harmonics(const SweepTask &task, std::shared_ptr<Branch> &branch) {
 
 std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task) {
     constexpr std::int64_t few_points = 250;
+    constexpr double several_seconds = 2e10;   // flops
     constexpr double share_of_accuracy = 1e-2; // what a few harmonics leave out is much more
     SweepTask look = task;
     look.exact = false;
@@ -201,19 +202,24 @@ std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task) {
     look.options.max_points = std::min(few_points, task.options.max_points);
     look.options.stability = StabilityKind::off;
     look.options.bifurcations = false;
-    std::shared_ptr<Branch> first;
     const std::int64_t fewest = highest_excitation(*task.reduced);
+    std::shared_ptr<Branch> curve;
     for (std::int64_t h = harmonics_of_look(*task.reduced);; h = std::max(fewest, h / 2)) {
         look.options.n_harmonics = std::min(h, task.options.max_harmonics);
-        try {
-            const auto next = sweep_either_way(look);
-            if (spans(*next) || was_stopped(*next)) return next;
-            if (!first) first = next;
-        } catch (const Error &e) {
-            if (e.reason() != reason::start_failed || (h == fewest && !first)) throw;
-        }
-        if (h == fewest) return first;
+        const auto sweep = [&] {
+            try {
+                curve = sweep_either_way(look);
+            } catch (const Error &e) {
+                if (e.reason() != reason::start_failed || (h == fewest && !curve)) throw;
+            }
+        };
+        if (h == fewest)
+            sweep();
+        else
+            within(several_seconds, sweep);
+        if (h == fewest || (curve && (spans(*curve) || curve->end_reason == reason::cancelled))) break;
     }
+    return curve;
 }
 
 namespace {

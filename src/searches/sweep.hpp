@@ -16,8 +16,8 @@ struct SweepTask : ResponseTask {
 std::shared_ptr<Branch> sweep_whole(const SweepTask &task);
 
 /// With few harmonics and a rough tolerance, in a second or so where that can be; with fewer where such a
-/// curve does not come to the other end in a few hundred points, as in a tangle of bounces: the fewer
-/// harmonics, the simpler the curve. The first one tried where none comes to its end.
+/// curve does not come to the other end in a few hundred points or several seconds, as in a tangle of
+/// bounces: the fewer harmonics, the simpler the curve. The last one tried where none comes to its end.
 std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task);
 
 /// Whether a whole curve by harmonics tells of a larger motion than a part of one by exact motions: its
