@@ -2,27 +2,20 @@
 #include "cracked_plate.h"
 #include "scene_model.h"
 #include "study_case.h"
-#include <time.h>
 
 static plm_context *ctx;
 
 #define DONE(call) assert_true(done(ctx, call))
 
-static double seconds_now(void) {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-/* The contact space of the cracked plate for three methods that use it and one that does not: made once it
- * takes less time than four times, and the methods are charged as if each had made it. The answers are the
+/* The contact space of the cracked plate for three methods that use it and one that does not: made once there
+ * is one measurement, and the methods are charged as if each had made it. The answers are the
  * same, since the space is. */
 static void a_shared_contact_space_is_charged_to_all_that_use_it(void **state) {
     static const char *const kinds[] = {"plm", "bilinear", "full", "craig_bampton"};
     enum { N = 4 };
     cracked_plate_params params;
     scene *host = NULL;
-    double peak[2][N], setup[2][N], space[2][N], whole[2];
+    double peak[2][N], setup[2][N], space[2][N];
     int k, shared;
     (void)state;
     assert_int_equal(plm_context_create(PLM_API_VERSION, &ctx), PLM_OK);
@@ -35,7 +28,6 @@ static void a_shared_contact_space_is_charged_to_all_that_use_it(void **state) {
         plm_hbm *hbm = NULL;
         plm_study *study = NULL;
         int64_t n = 0;
-        double begin;
         DONE(scene_to_model(ctx, host, &model));
         DONE(plm_sampler_create(model, &sampler));
         DONE(plm_sampler_set_int(sampler, "mode", host->dominant_mode));
@@ -54,9 +46,7 @@ static void a_shared_contact_space_is_charged_to_all_that_use_it(void **state) {
             DONE(plm_basis_set_string(basis, "kind", kinds[k]));
             DONE(plm_study_add_response(study, kinds[k], hbm, NULL));
         }
-        begin = seconds_now();
         DONE(plm_study_run(study));
-        whole[shared] = seconds_now() - begin;
         DONE(plm_study_get_array(study, "peak_amplitude", N, peak[shared], &n));
         DONE(plm_study_get_array(study, "setup_seconds", N, setup[shared], &n));
         DONE(plm_study_get_array(study, "space_seconds", N, space[shared], &n));
@@ -68,10 +58,8 @@ static void a_shared_contact_space_is_charged_to_all_that_use_it(void **state) {
         assert_true(space[shared][0] > 0 && space[shared][3] == 0); /* Craig-Bampton has a space of its own */
         plm_model_destroy(&model);
     }
-    print_message("without sharing %.2f s, with it %.2f s\n", whole[0], whole[1]);
-    assert_true(space[1][0] == space[1][1] && space[1][1] == space[1][2]); /* one measurement */
-    /* three methods, twice each, spare a space each time but one */
-    assert_true(whole[1] < whole[0] - 3 * space[1][0]);
+    assert_true(space[1][0] == space[1][1] && space[1][1] == space[1][2]);       /* one measurement */
+    assert_true(space[0][0] != space[0][1] && space[0][1] != space[0][2]);       /* one each */
     for (k = 0; k < N; ++k) assert_true(close_to(peak[1][k], peak[0][k], 1e-7)); /* the spaces' tolerance */
     scene_destroy(&host);
     plm_context_destroy(&ctx);
