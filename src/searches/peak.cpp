@@ -36,9 +36,7 @@ class CloserLook {
     void close_in() {
         const double wanted = 0.1 * options_.allowed_harmonic_error();
         if (automatic_) error_ = error_here();
-        double before;
         do {
-            before = error_;
             if (error_ > wanted)
                 options_.n_harmonics =
                     std::max(options_.n_harmonics, std::min(most_harmonics_, 2 * options_.n_harmonics));
@@ -47,7 +45,7 @@ class CloserLook {
                                                    reduced_, of_, watch_);
             search_->run(branch_, around_, point_);
             if (automatic_) error_ = error_here();
-        } while (error_ > wanted && error_ < before && options_.n_harmonics < most_harmonics_);
+        } while (error_ > wanted && options_.n_harmonics < most_harmonics_);
     }
 
     // The next harmonics tell little where the motion is a tangle of bounces; what it does in time tells.
