@@ -712,8 +712,8 @@ class Model : public detail::WithOptions<Model, plm_model> {
     }
     /// Nodes that follow a reference node rigidly. DOFs: 3 or 6 of the reference node, and 3 or 6 of every
     /// other (base - 1: none); coordinates: 3, 3 x n.
-    void add_rigid_link(Indices reference_dof, Reals reference_xyz, Indices dependent_dof, Reals dependent_xyz,
-                        std::int32_t index_base = 0) {
+    void add_rigid_link(Indices reference_dof, Reals reference_xyz, Indices dependent_dof,
+                        Reals dependent_xyz, std::int32_t index_base = 0) {
         const bool wide = dependent_dof.is_wide();
         const char *verb = wide ? "add_rigid_link_i64" : "add_rigid_link_i32";
         const std::int64_t n = dependent_xyz.size() / 3;
@@ -760,9 +760,9 @@ class Model : public detail::WithOptions<Model, plm_model> {
         require_size(dependent_dof.size(), 3 * n, verb, "dependent_dof");
         require_size(surface_dof.size(), 3 * n_surface, verb, "surface_dof");
         if (n_faces < 0) require_size(face_ptr.size(), 1, verb, "face_ptr");
-        for (const auto &[array, name] : {std::make_pair(surface_dof, "surface_dof"),
-                                          std::make_pair(face_ptr, "face_ptr"),
-                                          std::make_pair(face_node, "face_node")})
+        for (const auto &[array, name] :
+             {std::make_pair(surface_dof, "surface_dof"), std::make_pair(face_ptr, "face_ptr"),
+              std::make_pair(face_node, "face_node")})
             require_width(array, wide, verb, name);
         const std::int64_t end = wide ? face_ptr.wide()[n_faces] : std::int64_t(face_ptr.narrow()[n_faces]);
         require_size(face_node.size(), end - index_base, verb, "face_node");

@@ -1,6 +1,6 @@
 // Couplings of nodes by their coordinates: rows of constraints that the library makes.
 #include "capi/barrier.hpp"
-#include "capi/model_input.hpp"
+#include "capi/sparse_rows.hpp"
 #include "structure/tie.hpp"
 #include <algorithm>
 
@@ -137,10 +137,7 @@ template <class Index> struct TieArguments {
 
 template <class Index> void take_faces(TieSurface &surface, const TieArguments<Index> &x) {
     const std::int64_t base = x.index_base, n_nodes = x.surface.n;
-    require_pointer(x.face_ptr, "face_ptr");
-    if (x.face_ptr[0] != base)
-        bad_argument("face_ptr", 0,
-                     format("face_ptr[0] = %lld must be the index base %lld", Int(x.face_ptr[0]), Int(base)));
+    check_pointers(x.face_ptr, "face_ptr", x.n_faces, base, "face");
     for (std::int64_t i = 0; i < x.n_faces; ++i) {
         const std::int64_t size = static_cast<std::int64_t>(x.face_ptr[i + 1]) - x.face_ptr[i];
         if (!is_face(size))

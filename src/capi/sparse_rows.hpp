@@ -14,18 +14,25 @@ template <class Index> struct SparseRows {
     const double *coefficient;
 };
 
-template <class Index> void check_row_pointers(const SparseRows<Index> &x) {
+/// name: of the argument; what: one of the n things that it has the entries of.
+template <class Index>
+void check_pointers(const Index *pointer, const char *name, std::int64_t n, std::int64_t base,
+                    const char *what) {
     using Int = long long;
-    require_pointer(x.row_ptr, "row_ptr");
-    if (x.row_ptr[0] != x.base)
-        bad_argument("row_ptr", 0,
-                     format("row_ptr[0] = %lld must be the index base %lld", Int(x.row_ptr[0]), Int(x.base)));
-    for (std::int64_t i = 0; i < x.n; ++i)
-        if (x.row_ptr[i + 1] <= x.row_ptr[i])
-            bad_argument("row_ptr", i + 1,
-                         format("row_ptr[%lld] = %lld: every %s needs at least one entry, so "
+    require_pointer(pointer, name);
+    if (pointer[0] != base)
+        bad_argument(name, 0,
+                     format("%s[0] = %lld must be the index base %lld", name, Int(pointer[0]), Int(base)));
+    for (std::int64_t i = 0; i < n; ++i)
+        if (pointer[i + 1] <= pointer[i])
+            bad_argument(name, i + 1,
+                         format("%s[%lld] = %lld: every %s needs at least one entry, so "
                                 "the pointers must increase",
-                                Int(i + 1), Int(x.row_ptr[i + 1]), x.what));
+                                name, Int(i + 1), Int(pointer[i + 1]), what));
+}
+
+template <class Index> void check_row_pointers(const SparseRows<Index> &x) {
+    check_pointers(x.row_ptr, "row_ptr", x.n, x.base, x.what);
 }
 
 /// Positions of one row, its DOFs in order, so that a repeated one is found in rows of any length.

@@ -70,14 +70,10 @@ void ExactFlow::expand_offsets(double time, double duration, Series &series) {
             following_[j] = series.force(j, k) / model_->lambda()[j];
         gemv('N', 1.0, model_->gap(), following_.data(), 0.0, series.offset.col(k));
     }
-    for (const auto &[harmonic, part] : model_->contact().motion) {
-        const auto powers =
-            powers_of_load(&series == &derivative_, harmonic, time, duration, series.offset.cols());
-        for (std::size_t k = 0; k < powers.size(); ++k)
-            for (std::int64_t i = 0; i < z; ++i)
-                series.offset(i, static_cast<std::int64_t>(k)) -=
-                    (powers[k] * Contact::moved(part, i)).real();
-    }
+    const auto powers_of = [&](int harmonic) {
+        return powers_of_load(&series == &derivative_, harmonic, time, duration, series.offset.cols());
+    };
+    add_wall_powers(model_->contact(), -1, powers_of, series.offset);
     if (&series == &derivative_) return; // the initial gaps stay
     for (std::int64_t i = 0; i < z; ++i) series.offset(i, 0) -= model_->initial_gap()[i];
 }

@@ -16,6 +16,10 @@ double exact_step_flops(const ReducedModel &m, const MotionOptions &o) {
     return events * (per_event + pieces_per_event * per_piece);
 }
 
+bool has_flow(const ReducedModel &m) {
+    return m.structural == 0 && (m.damping.empty() || !decays_hopelessly(m));
+}
+
 bool decays_hopelessly(const ReducedModel &m) {
     constexpr double terms = 26, radians = 2;
     constexpr double hopeless_period = 3e9; // flops: a curve takes many minutes

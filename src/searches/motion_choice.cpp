@@ -29,7 +29,7 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
     if (o.n_harmonics != 0 || o.tail_correction || o.unknowns != NonlinearUnknowns::automatic ||
         o.formulation != FormulationKind::automatic || reduced->n_pairs() == 0)
         return false;
-    if (!reduced->damping.empty() && decays_hopelessly(*reduced)) return false; // no modes to go by
+    if (!has_flow(*reduced)) return false; // no modes to go by
     return exact_step_flops(*reduced, o) <
            std::max(cheap_step, harmonic_step_flops(*reduced, usual_harmonics));
 }

@@ -3,6 +3,7 @@
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
 #include "motions/peak_search.hpp"
+#include "orbits/orbit_cost.hpp"
 #include "searches/basis_error.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
@@ -50,7 +51,8 @@ class CloserLook {
 
     // The next harmonics tell little where the motion is a tangle of bounces; what it does in time tells.
     void look_in_time() {
-        if (!automatic_ || !(error_ > options_.allowed_harmonic_error()) || !reduced_->same_static) return;
+        if (!automatic_ || !(error_ > options_.allowed_harmonic_error())) return;
+        if (!reduced_->same_static || !has_flow(*reduced_)) return;
         const HarmonicChange change = change_in_time(reduced_, options_, point_, watch_);
         error_ = harmonic_error_at(*reduced_, point_, change, of_.dof, of_.measure, of_.harmonic);
         in_time_ = true;

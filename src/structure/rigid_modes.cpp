@@ -265,11 +265,12 @@ class RigidModeSearch {
         if (multipliers > 0)
             throw unfit(
                 first,
-                format("%lld rows of the stiffness matrix (the first: DOF %lld, counted from 0) are "
-                       "coupled to others, but have zero on the diagonal and no mass: they look like "
-                       "Lagrange multipliers of constraints, which leave K indefinite. Hand their DOFs over as "
-                       "multipliers of the model, and their rows become constraints",
-                       multipliers, Int(free_dof_[first])));
+                format(
+                    "%lld rows of the stiffness matrix (the first: DOF %lld, counted from 0) are "
+                    "coupled to others, but have zero on the diagonal and no mass: they look like "
+                    "Lagrange multipliers of constraints, which leave K indefinite. Hand their DOFs over as "
+                    "multipliers of the model, and their rows become constraints",
+                    multipliers, Int(free_dof_[first])));
     }
 
     Error unfit(std::int64_t column, const std::string &text) const {

@@ -2,7 +2,7 @@
 // is solved here to see. Penalty and compliance form, sub-harmonic branches, single solutions.
 #include "hbm/formulation.hpp"
 #include "reduction/basis.hpp"
-#include "sampling/small_models.hpp"
+#include "searches/chains.hpp"
 #include "searches/error_estimate.hpp"
 #include "searches/hbm.hpp"
 #include "support/small_reduced.hpp"
@@ -15,13 +15,14 @@ using plm::ErrorEstimate;
 using plm::ErrorEstimator;
 using plm::HbmOptions;
 using plm::Measure;
+using test::Chains;
+using test::chains;
+using test::watched;
 
 namespace {
 
-using BasisPtr = std::shared_ptr<const plm::Basis>;
 using BranchPtr = std::shared_ptr<const plm::Branch>;
 
-constexpr int n_chain = 12, watched = n_chain - 1;
 constexpr Measure measure = Measure::half_peak_to_peak;
 
 plm::Hbm solver(std::shared_ptr<const plm::ReducedModel> m, const HbmOptions &o, double low_hz,
@@ -30,35 +31,6 @@ plm::Hbm solver(std::shared_ptr<const plm::ReducedModel> m, const HbmOptions &o,
 }
 double amplitude(const plm::Branch &b, std::int64_t dof = watched) {
     return b.amplitude(0, dof, measure, 0);
-}
-
-// Two chains in contact, the unreduced structure and piecewise-linear modes below a limit.
-struct Chains {
-    BasisPtr full, reduced;
-    double low_hz = 0, high_hz = 0;
-};
-Chains chains(double contact_stiffness, bool with_preload, std::int64_t basis_harmonics) {
-    exact::Structure s = test::two_chains(n_chain, 4, contact_stiffness, true);
-    s.force.assign(s.n, 0.0);
-    s.force[watched] = 0.05;
-    if (with_preload) {
-        s.preload.assign(s.n, 0.0);
-        s.preload[watched] = 0.02;
-        s.preload[2 * n_chain - 1] = -0.02;
-    }
-    const auto model = test::make_model(s, {{}, 0, 0.3, false});
-    plm::SamplerOptions so;
-    so.system = plm::LinearSystem::open;
-    so.mode = 2;
-    so.n_samples = 2;
-    const auto sampler = std::make_shared<const plm::Sampler>(model, so, plm::Watch());
-    BasisOptions o;
-    o.n_harmonics = basis_harmonics;
-    Chains c;
-    c.reduced = std::make_shared<const plm::Basis>(model, sampler, nullptr, o, plm::Watch());
-    c.full = plm::unreduced_basis(c.reduced, plm::Watch());
-    c.low_hz = c.full->window_min_hz(), c.high_hz = c.full->window_max_hz();
-    return c;
 }
 
 HbmOptions nine_harmonics() {

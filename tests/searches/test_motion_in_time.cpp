@@ -1,44 +1,19 @@
-// What some periods of the exact flow say of a solution of harmonic balance, against the exact motion's peak;
-// and few harmonics, of which a curve has as many as bring it to the other end of its range.
-#include "searches/motion_in_time.hpp"
-#include "motions/curve_verdicts.hpp"
-#include "reduction/basis.hpp"
+// What some periods of the exact flow say of a solution of harmonic balance, against the exact motion's peak.
 #include "reduction/widened_model.hpp"
-#include "sampling/small_models.hpp"
+#include "searches/chains.hpp"
 #include "searches/hbm.hpp"
+#include "searches/motion_in_time.hpp"
 #include "support/test.hpp"
 
 using plm::HbmOptions;
 using plm::Measure;
+using test::Chains;
+using test::chains;
+using test::watched;
 
 namespace {
 
-constexpr int n_chain = 12, watched = n_chain - 1;
 constexpr Measure measure = Measure::half_peak_to_peak;
-
-// Two chains pressed together, the whole structure in the window of a resonance.
-struct Chains {
-    std::shared_ptr<const plm::ReducedModel> whole;
-    double low_hz = 0, high_hz = 0;
-};
-Chains chains(double contact_stiffness) {
-    exact::Structure s = test::two_chains(n_chain, 4, contact_stiffness, true);
-    s.force.assign(s.n, 0.0);
-    s.force[watched] = 0.05;
-    s.preload.assign(s.n, 0.0);
-    s.preload[watched] = 0.02;
-    s.preload[2 * n_chain - 1] = -0.02;
-    const auto model = test::make_model(s, {{}, 0, 0.3, false});
-    plm::SamplerOptions so;
-    so.system = plm::LinearSystem::open;
-    so.mode = 2;
-    so.n_samples = 2;
-    const auto sampler = std::make_shared<const plm::Sampler>(model, so, plm::Watch());
-    const auto basis =
-        std::make_shared<const plm::Basis>(model, sampler, nullptr, plm::BasisOptions(), plm::Watch());
-    const auto full = plm::unreduced_basis(basis, plm::Watch());
-    return {plm::widened(full->reduced()), full->window_min_hz(), full->window_max_hz()};
-}
 
 HbmOptions with_harmonics(std::int64_t n) {
     HbmOptions o;
@@ -48,7 +23,7 @@ HbmOptions with_harmonics(std::int64_t n) {
 }
 
 plm::Peak peak_of(const Chains &c, const HbmOptions &o) {
-    const plm::Hbm hbm(c.whole, c.low_hz, c.high_hz, o, plm::Watch());
+    const plm::Hbm hbm(plm::widened(c.full->reduced()), c.low_hz, c.high_hz, o, plm::Watch());
     return hbm.find_peak(*hbm.sweep(), watched, measure, 0);
 }
 
@@ -56,7 +31,8 @@ plm::Peak peak_of(const Chains &c, const HbmOptions &o) {
 // truth is below what the harmonics of one solution leave out elsewhere, no bound from below.
 void the_flow_knows_what_harmonics_miss(void **) {
     for (double stiffness : {1.0, 10.0, 100.0}) {
-        const Chains c = chains(stiffness);
+        const Chains c = chains(stiffness, true, 0);
+        const auto whole = plm::widened(c.full->reduced());
         HbmOptions exactly;
         exactly.motion = plm::MotionKind::exact;
         const plm::Peak truth = peak_of(c, exactly);
@@ -64,8 +40,8 @@ void the_flow_knows_what_harmonics_miss(void **) {
         for (std::int64_t n : {1, 2, 3}) {
             const HbmOptions o = with_harmonics(n);
             const plm::Peak peak = peak_of(c, o);
-            const auto change = plm::change_in_time(c.whole, o, peak.branch->points()[0], plm::Watch());
-            const double told = plm::harmonic_error_at(*c.whole, peak.branch->points()[0], change, watched,
+            const auto change = plm::change_in_time(whole, o, peak.branch->points()[0], plm::Watch());
+            const double told = plm::harmonic_error_at(*whole, peak.branch->points()[0], change, watched,
                                                        measure, 0),
                          off = std::max(std::abs(peak.amplitude / truth.amplitude - 1),
                                         std::abs(peak.frequency_hz / truth.frequency_hz - 1));
