@@ -11,6 +11,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
+constexpr std::int64_t flops_of_mode = 200;      // flops: its exponential, and its loads
 constexpr int most_tangents = 12;                // of Newton's method
 constexpr double at_the_zero = 4e-16;            // of the time, of the last step
 constexpr double square_root_of_rounding = 1e-8; // of the duration: the next step would be rounding
@@ -26,7 +27,7 @@ bool ModalPieces::begin_stay() {
 
 void ModalPieces::look(double duration, Matrix &u) {
     const std::int64_t z = modes_->gap_by_pair().cols(), n = modes_->size();
-    worked(static_cast<double>(4 * n * z + 100 * n));
+    worked(static_cast<double>(4 * n * z + flops_of_mode * n));
     const double time = now_ + duration;
     double *c = ahead_.col(0), *rate = ahead_.col(1);
     for (std::size_t k = 0; k < modes_->modes().size(); ++k) {
@@ -80,6 +81,7 @@ const vector<double> &ModalPieces::fourth(double duration) {
                 way_[k] +=
                     std::abs(force_scale_) * steady_[l][k].size * power(modes_->loads()[l].number * omega_);
     }
+    worked(static_cast<double>(2 * way_.size() * tiny_.size()));
     fourth_.assign(tiny_.size(), 0.0);
     if (!tiny_.empty()) gemv('N', 1.0, modes_->reach(), way_.data(), 0.0, fourth_.data());
     for (const ContactModes::Harmonic &load : modes_->loads())
@@ -113,6 +115,7 @@ double ModalPieces::zero_of(std::int64_t pair, double guess) const {
     }
     double at = guess;
     for (int step = 0; step < most_tangents; ++step) {
+        worked(static_cast<double>(flops_of_mode * modes_->size()));
         double u = constant, rate = 0;
         for (std::size_t l = 0; l < of_load.size(); ++l) {
             const double w = modes_->loads()[l].number * omega_;

@@ -1,5 +1,6 @@
 #include "orbits/recorded_motion.hpp"
 #include "contact/polynomial.hpp"
+#include "linalg/work.hpp"
 #include "orbits/exponential_integrals.hpp"
 #include "orbits/load_powers.hpp"
 #include <algorithm>
@@ -97,6 +98,16 @@ std::int64_t n_felt(const Matrix &powers) {
 
 } // namespace
 
+// Flops of a piece: for so many exponentials the integrals of all its terms, and products with so many
+// columns.
+double RecordedMotion::work_of(const Piece &p, double exponentials, double columns) {
+    constexpr double of_exponential = 200, of_moment = 20, of_integral = 100;
+    const double powers = static_cast<double>(p.coefficient.cols()),
+                 fast = static_cast<double>(p.fast.rate.size());
+    return exponentials * (of_exponential + of_moment * powers + of_integral * fast) +
+           in_products * 2 * columns * static_cast<double>(p.coefficient.rows()) * (powers + 2 * fast);
+}
+
 void RecordedMotion::record(const FlowPiece &piece) {
     if (pieces_.empty()) begin_ = piece.start;
     pieces_.push_back({duration_, piece.duration, piece.coefficient.columns(0, n_felt(piece.coefficient)),
@@ -166,6 +177,7 @@ Matrix RecordedMotion::covariance() const {
         for (std::int64_t j = 0; j < n; ++j) parts.col(0)[j] -= mean[j];
         parts.append(p.fast.cosine);
         parts.append(p.fast.sine);
+        worked(work_of(p, static_cast<double>(p.fast.rate.size()), static_cast<double>(n + parts.cols())));
         weighted.reset(n, parts.cols());
         gemm('N', 'N', 1 / duration_, parts, weigh_squares(p.coefficient.cols(), p.fast, p.duration), 0.0,
              weighted);
@@ -178,6 +190,7 @@ Matrix RecordedMotion::harmonics(std::int64_t first, std::int64_t count) const {
     const std::int64_t n = pieces_.empty() ? 0 : pieces_[0].coefficient.rows();
     Matrix found(n, 2 * count), weight(0, 2 * count), of_sine;
     for (const Piece &p : pieces_) {
+        worked(work_of(p, static_cast<double>(count), 2.0 * static_cast<double>(count)));
         weigh_powers(p, first, weight);
         gemm('N', 'N', 1.0, p.coefficient, weight, 1.0, found);
         if (p.fast.rate.empty()) continue;

@@ -34,6 +34,7 @@ class RecordedMotion final : public FlowRecorder {
         PairStates states;
         FastMotion fast;
     };
+    static double work_of(const Piece &piece, double exponentials, double columns);
     void weigh_powers(const Piece &piece, std::int64_t first, Matrix &weight) const;
     void weigh_fast(const Piece &piece, std::int64_t first, Matrix &of_cosine, Matrix &of_sine) const;
     static void widen_by_piece(const Piece &piece, const double *row, ValueRange &range);
