@@ -100,7 +100,7 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
         whole; // the last one that came to its end: there is none better where the effort ends
     try {
         const auto first = sweep_with_few_harmonics(look);
-        require_unstopped(*first);
+        if (first->end_reason == reason::cancelled) require_unstopped(*first);
         if (!compression.begin_with(*first)) return nullptr;
         for (int k = 0; k < most_curves; ++k) {
             curve.reduced = compression.model();
@@ -219,6 +219,8 @@ std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task) {
             within(several_seconds, sweep);
         if (h == fewest || (curve && (spans(*curve) || curve->end_reason == reason::cancelled))) break;
     }
+    const bool is_own_limit = look.options.max_points < task.options.max_points;
+    if (curve->end_reason == reason::point_limit && is_own_limit) curve->end_reason = reason::effort;
     return curve;
 }
 

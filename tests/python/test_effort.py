@@ -7,7 +7,7 @@ import plm
 import scipy.sparse
 
 
-def lattice(nx, ny, nz, n_pairs):
+def lattice(nx, ny, nz, n_pairs, damping=(0, 2e-5)):
     """Two blocks of masses of 1 kg, face to face in pairs without gap: all of them bounce, and motions are proportional to
     the force."""
     def chain(k, grounded):
@@ -27,7 +27,7 @@ def lattice(nx, ny, nz, n_pairs):
     context = plm.Context()
     m = plm.Model(scipy.sparse.identity(2 * n, format="csc"), stiffness, context=context)
     m.add_gap_rows(scipy.sparse.csr_matrix((signs, (rows, columns)), (n_pairs, 2 * n)))
-    m.set_rayleigh_damping(0, 2e-5)
+    m.set_rayleigh_damping(*damping)
     force = numpy.zeros(2 * n)
     force[tip] = 1
     m.set_excitation(force)
@@ -59,6 +59,20 @@ class Effort(unittest.TestCase):
         first, more = self.one_call(0.3), self.one_call(0.3, threads=2)
         for a, b in zip(first[0][:3], more[0][:3]):
             self.assertEqual(a, b)
+
+    def test_a_first_curve_that_gets_lost_has_fewer_harmonics(self):
+        m, tip, context = lattice(5, 4, 3, 8, damping=(0.3, 0))  # high modes ring: all pairs bounce in a tangle
+        context.set_effort(1e-3)
+        said = []
+        context.log = lambda level, text: said.append(text)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", plm.PlmWarning)
+            r = m.compute_response(tip)
+        self.assertTrue(any(text.startswith("250 points") for text in said))
+        self.assertEqual(r.curve.status, plm.WARNING)  # whole all the same
+        hz = r.curve.frequency_hz
+        self.assertGreater(max(hz) - min(hz), 0.09 * r.frequency_hz)  # the window, +- 5 %
+        self.assertGreater(r.error, 0)
 
     def test_a_sweep_that_gets_nowhere_says_so(self):
         m, _, context = lattice(5, 4, 3, 8)
