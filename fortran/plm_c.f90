@@ -680,6 +680,32 @@ module plm_c
             real(c_double), intent(in), optional :: gap(*)
             integer(plm_status) :: code
         end function plm_model_add_gap_rows_i64
+        function plm_model_add_outputs_i32(model, index_base, n, row_ptr, dof, coefficient, &
+            first_dof) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), intent(in) :: row_ptr(*)
+            integer(c_int32_t), intent(in) :: dof(*)
+            real(c_double), intent(in) :: coefficient(*)
+            integer(c_int64_t), intent(inout) :: first_dof
+            integer(plm_status) :: code
+        end function plm_model_add_outputs_i32
+        function plm_model_add_outputs_i64(model, index_base, n, row_ptr, dof, coefficient, &
+            first_dof) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int64_t), intent(in) :: row_ptr(*)
+            integer(c_int64_t), intent(in) :: dof(*)
+            real(c_double), intent(in) :: coefficient(*)
+            integer(c_int64_t), intent(inout) :: first_dof
+            integer(plm_status) :: code
+        end function plm_model_add_outputs_i64
         function plm_model_set_preload(model, n, force) bind(c) result(code)
             import :: c_double, c_int64_t, c_ptr, plm_status
             implicit none
@@ -1397,6 +1423,16 @@ module plm_c
             real(c_double), intent(inout) :: coefficient(*)
             integer(plm_status) :: code
         end function plm_branch_get_coefficients
+        function plm_branch_get_history(branch, point, dof, n_times, q) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: point
+            integer(c_int64_t), value :: dof
+            integer(c_int64_t), value :: n_times
+            real(c_double), intent(inout) :: q(*)
+            integer(plm_status) :: code
+        end function plm_branch_get_history
         function plm_branch_get_field(branch, point, time_fraction, n, q) bind(c) result(code)
             import :: c_double, c_int64_t, c_ptr, plm_status
             implicit none
@@ -1859,6 +1895,9 @@ module plm_c
     end interface
     interface plm_model_add_gap_rows
         procedure :: plm_model_add_gap_rows_i32, plm_model_add_gap_rows_i64
+    end interface
+    interface plm_model_add_outputs
+        procedure :: plm_model_add_outputs_i32, plm_model_add_outputs_i64
     end interface
     interface plm_transient_observe
         procedure :: plm_transient_observe_i32, plm_transient_observe_i64

@@ -482,6 +482,27 @@ subroutine plmmgr(handle, n, irow, idof, coeff, stiff, gap, ierr)
         stiff, gap))
 end subroutine plmmgr
 
+subroutine plmmao(handle, n, irow, idof, coeff, ifirst, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_add_outputs
+    use plm_f77_support, only: as_pointer, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    integer, intent(in) :: irow(*)
+    integer, intent(in) :: idof(*)
+    real(real64), intent(in) :: coeff(*)
+    integer, intent(inout) :: ifirst
+    integer, intent(out) :: ierr
+    integer(int64) :: c_ifirst
+    c_ifirst = 0
+    ierr = int(plm_model_add_outputs(as_pointer(handle), int(1, c_int32_t), int(n, int64), irow, idof, coeff, &
+        c_ifirst))
+    if (ierr < 0) return
+    call narrow(c_ifirst + 1, ifirst, ierr)
+end subroutine plmmao
+
 subroutine plmmpl(handle, ndof, force, ierr)
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_c, only: plm_model_set_preload
@@ -1140,6 +1161,21 @@ subroutine plmrco(handle, ipoint, idof, n, coeff, ierr)
     ierr = int(plm_branch_get_coefficients(as_pointer(handle), int(ipoint - 1, int64), int(idof - 1, int64), int(n, &
         int64), coeff))
 end subroutine plmrco
+
+subroutine plmrhi(handle, ipoint, idof, ntimes, q, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_branch_get_history
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: ipoint
+    integer, intent(in) :: idof
+    integer, intent(in) :: ntimes
+    real(real64), intent(inout) :: q(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_branch_get_history(as_pointer(handle), int(ipoint - 1, int64), int(idof - 1, int64), int(ntimes, &
+        int64), q))
+end subroutine plmrhi
 
 subroutine plmrfi(handle, ipoint, tfrac, ndof, q, ierr)
     use, intrinsic :: iso_fortran_env, only: int64, real64

@@ -38,6 +38,7 @@ module plm_methods
 
     type, abstract, extends(plm_readable) :: plm_branch_methods
     contains
+        procedure :: history => branch_history
         procedure :: field => branch_field
         procedure :: periodicity_defect => branch_periodicity_defect
         procedure :: full_residual => branch_full_residual
@@ -170,6 +171,21 @@ contains
         status = plm_basis_set_parent(self%handle, c_parent)
         call finish(self%context, status, stat, errmsg)
     end subroutine basis_set_parent
+
+    ! Motion of a DOF at n_times equidistant times from 0 over the period of the response: q[n_times], n_times up
+    ! to 1048576. Of an exact motion itself, not of its harmonics.
+    subroutine branch_history(self, point, dof, q, stat, errmsg)
+        class(plm_branch_methods), intent(in) :: self
+        integer, intent(in) :: point
+        integer, intent(in) :: dof
+        real(real64), intent(inout), contiguous :: q(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(plm_status) :: status
+        status = plm_branch_get_history(self%handle, int(point, int64) - 1, int(dof, int64) - 1, size(q, &
+            kind=int64), q)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine branch_history
 
     ! All DOFs at time t = time_fraction * period: q[n_dof] (recovery q = P eta, paper, eq. (11)).
     subroutine branch_field(self, point, time_fraction, q, stat, errmsg)

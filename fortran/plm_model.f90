@@ -25,6 +25,7 @@ module plm_models
         procedure, private :: add_ground_contacts_int32, add_ground_contacts_int64
         procedure, private :: add_gap_rows_int32, add_gap_rows_int64
         procedure, private :: add_constraints_int32, add_constraints_int64
+        procedure, private :: add_outputs_int32, add_outputs_int64
         procedure, private :: add_rigid_link_int32, add_rigid_link_int64
         procedure, private :: add_distributing_coupling_int32, add_distributing_coupling_int64
         procedure, private :: add_tie_int32, add_tie_int64
@@ -40,6 +41,7 @@ module plm_models
         generic :: add_ground_contacts => add_ground_contacts_int32, add_ground_contacts_int64
         generic :: add_gap_rows => add_gap_rows_int32, add_gap_rows_int64
         generic :: add_constraints => add_constraints_int32, add_constraints_int64
+        generic :: add_outputs => add_outputs_int32, add_outputs_int64
         generic :: add_rigid_link => add_rigid_link_int32, add_rigid_link_int64
         generic :: set_multipliers => set_multipliers_int32, set_multipliers_int64
         generic :: add_tie => add_tie_int32, add_tie_int64
@@ -164,6 +166,31 @@ contains
         call finish(self%context, plm_model_add_constraints(self%handle, 1_c_int32_t, size(row_ptr, kind=int64) - 1, &
             row_ptr, dof, coefficient), stat, errmsg)
     end subroutine add_constraints_int32
+
+    ! Outputs, sum of coefficient x q(dof) in every row: first_dof is the number of the first, to stand for a DOF.
+    subroutine add_outputs_int32(self, row_ptr, dof, coefficient, first_dof, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: row_ptr(:), dof(:)
+        real(real64), intent(in), contiguous :: coefficient(:)
+        integer, intent(out) :: first_dof
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(int64) :: first
+        integer(plm_status) :: status
+        if (size(row_ptr) < 1 .or. size(dof) /= size(coefficient)) then
+            call refuse('add_outputs: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
+            call refuse('add_outputs: row_ptr ends behind the end of dof', stat, errmsg)
+            return
+        end if
+        first = 0
+        status = plm_model_add_outputs(self%handle, 1_c_int32_t, size(row_ptr, kind=int64) - 1, row_ptr, dof, coefficient, &
+            first)
+        if (status >= 0) first_dof = int(first + 1)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine add_outputs_int32
 
     ! Nodes that follow a reference node rigidly. DOFs: 3 or 6 of the reference node, (3, n) or (6, n) of the others,
     ! 0 for no such DOF; dependent_xyz(3, n).

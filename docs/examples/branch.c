@@ -38,6 +38,11 @@ static int one_point(plm_branch *peak) {
     printf("mean %.3g mm, first harmonic %.3g and %.3g mm\n", 1e3 * c[0], 1e3 * c[1], 1e3 * c[2]);
     /* [plm_branch_get_coefficients] */
 
+    /* [plm_branch_get_history] */
+    double history[TIMES]; /* DOF 1 over the period */
+    TRY(plm_branch_get_history(peak, 0, 1, TIMES, history));
+    /* [plm_branch_get_history] */
+
     /* [plm_branch_get_field] */
     double q[N_DOF]; /* a quarter of the period after the force was highest */
     TRY(plm_branch_get_field(peak, 0, 0.25, N_DOF, q));

@@ -114,6 +114,20 @@ static int contacts(plm_context *ctx) {
     TRY(plm_model_set_gap_motion(model, 2, 6, shakes, NULL)); /* and with twice the frequency */
     TRY(plm_model_set_gap_motion(model, 2, 0, NULL, NULL));   /* which is taken back */
     /* [plm_model_set_gap_motion] */
+
+    /* [plm_model_add_outputs_i32] */
+    /* how far the nodes move apart, and their mean: looked at as DOFs 6 and 7 */
+    const int32_t sum_ptr[] = {0, 2, 4}, sum_dof[] = {0, 3, 0, 3};
+    const double sums[] = {1, -1, 0.5, 0.5};
+    int64_t apart = 0;
+    TRY(plm_model_add_outputs_i32(model, 0, 2, sum_ptr, sum_dof, sums, &apart));
+    EXPECT(apart == 6);
+    /* [plm_model_add_outputs_i32] */
+    /* [plm_model_add_outputs_i64] */
+    const int64_t wide_sum_ptr[] = {0, 2}, wide_sum_dof[] = {0, 4}; /* one more */
+    TRY(plm_model_add_outputs_i64(model, 0, 1, wide_sum_ptr, wide_sum_dof, sums, &apart));
+    EXPECT(apart == 8);
+    /* [plm_model_add_outputs_i64] */
     return 0;
 }
 

@@ -417,6 +417,27 @@ PLM_API plm_status plm_model_add_gap_rows_i64(plm_model *model, int32_t index_ba
                                               const int64_t *dof, const double *coefficient, const double *stiffness,
                                               const double *gap);
 
+/* Outputs that are no DOFs: n sums of them, sum c_j q_j (compressed rows: row_ptr[n + 1], dof[nnz], coefficient[nnz]), such
+ * as a stress at a point, a relative motion, the mean over a surface, the elastic force on a support (the rows of K there).
+ * They are numbered on from the DOFs: first_dof is the number of the first one, n_dof when there are none yet, the others
+ * follow. Wherever a function takes the DOF of an output (`dof`, `first_dof` of plm_branch_get_coefficients, what a transient
+ * observes) such a number may stand: amplitudes with their exact extrema, peaks, error estimates, refinement, one call,
+ * studies and histories all look at a sum as at a DOF, and no function of its own is needed for any of them. Results do not
+ * depend on it otherwise, so outputs may be added before the build and after it, also for branches that are there already;
+ * none is ever taken away. Terms of fixed DOFs are zero. Fields (q[n_dof]) and loads are of the DOFs alone. */
+PLM_API plm_status plm_model_add_outputs_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *row_ptr,
+                                             const int32_t *dof, const double *coefficient, int64_t *first_dof);
+PLM_API plm_status plm_model_add_outputs_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *row_ptr,
+                                             const int64_t *dof, const double *coefficient, int64_t *first_dof);
+
+/* What acts may be changed after plm_model_build: pre-load, excitation, gap motion, Rayleigh, modal and structural damping
+ * (not a damping matrix), by the same functions. Nothing is factored again. They then return PLM_WARNING as the build does.
+ * Branches, studies that have run and what a transient has recorded stay what they are, of the loads as they were, with
+ * their error measures; plm_model_get_modes and the state at rest follow from the new ones. A sampler has to run again and
+ * a basis to be built again, in this order, before more is computed with them, a transient to be made anew:
+ * PLM_ERR_STATE says so until then, and names the argument. PLM_ERR_STATE also where the build had held DOFs that nothing
+ * moved and a load would move them now. (A force level alone is the option "force_scale", which makes nothing stale.) */
+
 /* Static pre-load, force[n_dof]; n must equal n_dof. NULL removes it. */
 PLM_API plm_status plm_model_set_preload(plm_model *model, int64_t n, const double *force);
 /* Harmonic h of the excitation: F(t) = sum_h Re(F_h exp(i h omega t)), F_h = real + i imag, each [n_dof], imag or
@@ -746,13 +767,16 @@ PLM_API plm_status plm_branch_get_array(plm_branch *branch, const char *key, int
 PLM_API plm_status plm_branch_get_int_array(plm_branch *branch, const char *key, int64_t capacity, int64_t *values,
                                             int64_t *count);
 /* Amplitude of a DOF at every point: n_points values. harmonic is used by PLM_HARMONIC only. Exact extrema of the
- * trigonometric polynomial, not of samples. */
+ * motion: of an exact one piece by piece, else of the trigonometric polynomial; not of samples. */
 PLM_API plm_status plm_branch_get_amplitude(plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                             int64_t capacity, double *amplitude, int64_t *count);
 /* Fourier coefficients a0, a1, b1, ..., aH, bH (q = a0 + sum a_h cos h omega t + b_h sin h omega t) of DOFs
  * [first_dof, first_dof + n): coefficient is (2H + 1) x n. */
 PLM_API plm_status plm_branch_get_coefficients(plm_branch *branch, int64_t point, int64_t first_dof, int64_t n,
                                                double *coefficient);
+/* Motion of a DOF at n_times equidistant times from 0 over the period of the response: q[n_times], n_times up to
+ * 1048576. Of an exact motion itself, not of its harmonics. */
+PLM_API plm_status plm_branch_get_history(plm_branch *branch, int64_t point, int64_t dof, int64_t n_times, double *q);
 /* All DOFs at time t = time_fraction * period: q[n_dof] (recovery q = P eta, paper, eq. (11)). */
 PLM_API plm_status plm_branch_get_field(plm_branch *branch, int64_t point, double time_fraction, int64_t n, double *q);
 /* Contact over the cycle at n_times equidistant times from 0: penetration, force, closed are n_pairs x n_times,

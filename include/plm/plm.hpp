@@ -710,6 +710,25 @@ class Model : public detail::WithOptions<Model, plm_model> {
                                                    coefficient.data()),
               verb);
     }
+    /// Outputs sum c_j q_j: row_ptr (n + 1), dof and coefficient. The number of the first, to stand for a DOF.
+    std::int64_t add_outputs(Indices row_ptr, Indices dof, Reals coefficient,
+                             std::int32_t index_base = 0) {
+        const bool wide = row_ptr.is_wide();
+        const char *verb = wide ? "add_outputs_i64" : "add_outputs_i32";
+        if (row_ptr.size() < 1) require_size(row_ptr.size(), 1, verb, "row_ptr");
+        const std::int64_t n = row_ptr.size() - 1;
+        const std::int64_t nnz = (wide ? row_ptr.wide()[n] : std::int64_t(row_ptr.narrow()[n])) - index_base;
+        require_size(dof.size(), nnz, verb, "dof");
+        require_width(dof, wide, verb, "dof");
+        require_size(coefficient.size(), nnz, verb, "coefficient");
+        std::int64_t first = 0;
+        check(wide ? plm_model_add_outputs_i64(handle_, index_base, n, row_ptr.wide(), dof.wide(),
+                                               coefficient.data(), &first)
+                   : plm_model_add_outputs_i32(handle_, index_base, n, row_ptr.narrow(), dof.narrow(),
+                                               coefficient.data(), &first),
+              verb);
+        return first;
+    }
     /// Nodes that follow a reference node rigidly. DOFs: 3 or 6 of the reference node, and 3 or 6 of every
     /// other (base - 1: none); coordinates: 3, 3 x n.
     void add_rigid_link(Indices reference_dof, Reals reference_xyz, Indices dependent_dof,
@@ -1051,6 +1070,12 @@ class Branch : public detail::Handle<plm_branch> {
         Dense<double> c{rows, n, std::vector<double>(detail::index(n > 0 ? rows * n : 0))};
         check(plm_branch_get_coefficients(handle_, point, first_dof, n, c.values.data()), "get_coefficients");
         return c;
+    }
+    /// Of an exact motion itself, not of its harmonics: q at n_times equidistant times of the period.
+    std::vector<double> history(std::int64_t point, std::int64_t dof, std::int64_t n_times) const {
+        std::vector<double> q(detail::index(n_times > 0 ? n_times : 0));
+        check(plm_branch_get_history(handle_, point, dof, n_times, q.data()), "get_history");
+        return q;
     }
     std::vector<double> field(std::int64_t point, double time_fraction) const {
         std::vector<double> q(detail::index(get_int("n_dof")));

@@ -13,6 +13,10 @@ const std::shared_ptr<const Basis> &built(const BasisHandle &h) {
     return h.core;
 }
 
+void require_current(const BasisHandle &h) {
+    require_current(built(h)->model(), *h.model, "basis", "build it again");
+}
+
 namespace {
 
 /// The sampler's result; null when the kind of basis does without.
@@ -24,7 +28,10 @@ std::shared_ptr<const Sampler> run_sampler(const BasisHandle &b) {
                 .argument("sampler");
         return nullptr;
     }
-    return needed ? built(*b.sampler) : b.sampler->core;
+    if (needed) built(*b.sampler);
+    if (b.sampler->core)
+        require_current(b.sampler->core->space()->model, *b.model, "sampler", "run it again");
+    return b.sampler->core;
 }
 
 void require_same_model(const ModelHandle *one, const ModelHandle *other, const char *name) {
@@ -92,6 +99,9 @@ plm_status plm_basis_set_responses(plm_basis *basis, std::int64_t n, plm_branch 
 plm_status plm_basis_build(plm_basis *basis) {
     return call<BasisHandle>("plm_basis_build", basis, [&](BasisHandle &b) {
         const std::shared_ptr<const plm::Model> &model = built(*b.model);
+        if (b.parent)
+            require_current(b.parent->model(), *b.model, "parent",
+                            "build the parent again, and set it as the parent again");
         const std::int64_t before = plm::work_done();
         b.core = std::make_shared<const plm::Basis>(model, run_sampler(b), b.parent, b.basis_options,
                                                     b.owner->watch(), b.responses.get());

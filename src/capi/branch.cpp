@@ -37,7 +37,7 @@ void require_point(const Branch &branch, std::int64_t point) {
 }
 
 void require_measure(const Branch &branch, std::int64_t dof, std::int32_t measure, std::int32_t harmonic) {
-    require_range(dof, 0, branch.reduced().model->n_dof() - 1, "dof");
+    require_range(dof, 0, branch.reduced().model->n_outputs() - 1, "dof");
     require_range(measure, PLM_PEAK, PLM_HARMONIC, "measure");
     if (measure == PLM_HARMONIC) require_range(harmonic, 0, branch.n_harmonics(), "harmonic");
 }
@@ -79,14 +79,30 @@ plm_status plm_branch_get_coefficients(plm_branch *branch, std::int64_t point, s
                                        std::int64_t n, double *coefficient) {
     return call<BranchHandle>("plm_branch_get_coefficients", branch, [&](BranchHandle &b) {
         require_point(*b.core, point);
-        const std::int64_t n_dof = b.core->reduced().model->n_dof(), rows = 2 * b.core->n_harmonics() + 1;
-        require_range(first_dof, 0, n_dof - 1, "first_dof");
-        require_range(n, 1, n_dof - first_dof, "n");
+        const std::int64_t n_outputs = b.core->reduced().model->n_outputs(),
+                           rows = 2 * b.core->n_harmonics() + 1;
+        require_range(first_dof, 0, n_outputs - 1, "first_dof");
+        require_range(n, 1, n_outputs - first_dof, "n");
         require_pointer(coefficient, "coefficient");
         plm::Matrix all(rows, n); // nothing is written unless all of it is known
         for (std::int64_t j = 0; j < n; ++j) copy_out(b.core->coefficients(point, first_dof + j), all.col(j));
         plm::require_finite_result(all.data(), rows * n, "coefficient");
         std::copy(all.data(), all.data() + rows * n, coefficient);
+        return PLM_OK;
+    });
+}
+
+plm_status plm_branch_get_history(plm_branch *branch, std::int64_t point, std::int64_t dof,
+                                  std::int64_t n_times, double *q) {
+    return call<BranchHandle>("plm_branch_get_history", branch, [&](BranchHandle &b) {
+        require_point(*b.core, point);
+        require_range(dof, 0, b.core->reduced().model->n_outputs() - 1, "dof");
+        require_range(n_times, 1, 1 << 20, "n_times");
+        require_pointer(q, "q");
+        plm::worked(20.0 * static_cast<double>(n_times * (2 * b.core->n_harmonics() + 1)));
+        const plm::vector<double> found = b.core->history(point, dof, n_times);
+        plm::require_finite_result(found.data(), n_times, "q");
+        copy_out(found, q);
         return PLM_OK;
     });
 }

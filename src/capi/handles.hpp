@@ -27,13 +27,18 @@ template <class Opaque_, Kind kind_> struct HandleOf : Object {
 struct ModelHandle final : HandleOf<plm_model, Kind::model> {
     ModelHandle(std::shared_ptr<Context> c, std::int64_t n_dof) : HandleOf(std::move(c)) {
         input.n_dof = n_dof;
+        input.outputs = outputs;
     }
     void *options() override { return &space_options; }
+    /// DOFs, and sums of them numbered on from there.
+    std::int64_t n_outputs() const { return input.n_dof + static_cast<std::int64_t>(outputs->size()); }
     const char *frozen() const override {
         return core ? "the model is built and no longer changes; make a new one" : nullptr;
     }
 
-    ModelInput input; // emptied by the build
+    std::shared_ptr<std::vector<DofTerms>> outputs = std::make_shared<std::vector<DofTerms>>();
+    ModelInput input;                       // after the build: what acts, which may still be changed
+    std::shared_ptr<SolverBinding> binding; // of the host's solver that factored, or null
     SpaceOptions space_options;
     std::shared_ptr<const Model> core;
     std::shared_ptr<const Space> space; // for modes and rest, made when first needed
@@ -108,6 +113,7 @@ struct TransientHandle final : HandleOf<plm_transient, Kind::transient> {
     TransientOptions transient_options;
     vector<std::int64_t> observed;   // DOFs, base 0
     std::unique_ptr<Transient> core; // made when first needed, of the basis as it is then
+    std::shared_ptr<const Model> made_of;
     std::optional<TransientRun> last_run;
     std::optional<PeriodicMotion> periodic; // of the last search from the present start
 };
@@ -130,6 +136,13 @@ const std::shared_ptr<const Branch> &built(const BranchHandle &h);
 
 /// Of the model's build and of the run: samples of a model that is not meant so are not meant so.
 Warnings warnings_of(const SamplerHandle &h);
+
+/// Of the model as it is, or PLM_ERR_STATE: its loads, damping or walls were changed after this was made.
+/// what: "sampler"; again: how to renew it.
+void require_current(const std::shared_ptr<const Model> &made_of, const ModelHandle &model, const char *what,
+                     const char *again);
+/// The same of a basis.
+void require_current(const BasisHandle &h);
 
 /// The rest state, solved when it is not known yet.
 const RestState &solved_rest(ModelHandle &h);

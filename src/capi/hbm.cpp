@@ -140,7 +140,7 @@ plm_status plm_hbm_refine_basis(plm_hbm *hbm, std::int64_t dof, std::int32_t mea
                                 double tolerance, plm_basis **refined, double *error) {
     return search_call("plm_hbm_refine_basis", hbm, [&](HbmHandle &h) {
         const std::shared_ptr<const plm::Basis> &basis = built(*h.basis);
-        require_range(dof, 0, basis->model()->n_dof() - 1, "dof");
+        require_range(dof, 0, basis->model()->n_outputs() - 1, "dof");
         require_range(measure, PLM_PEAK, PLM_HARMONIC, "measure");
         const std::int64_t most =
             h.hbm_options.n_harmonics > 0 ? h.hbm_options.n_harmonics : h.hbm_options.max_harmonics;

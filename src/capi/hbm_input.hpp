@@ -22,6 +22,7 @@ template <class Search> auto within_effort(double flops, const Search &search) {
 /// A call of an hbm that searches.
 template <class Body> plm_status search_call(const char *function, plm_hbm *hbm, const Body &body) {
     return call<HbmHandle>(function, hbm, [&](HbmHandle &h) {
+        require_current(*h.basis);
         return within_effort(h.owner->effort_beside(h.basis->work), [&] { return body(h); });
     });
 }

@@ -131,7 +131,7 @@ plm_status plm_hbm_find_nonlinear_mode(plm_hbm *hbm, std::int64_t mode, std::int
     return search_call("plm_hbm_find_nonlinear_mode", hbm, [&](HbmHandle &h) {
         const plm::ReducedModel &reduced = *built(*h.basis)->reduced();
         require_range(mode, 1, reduced.size(), "mode");
-        require_range(dof, 0, reduced.model->n_dof() - 1, "dof");
+        require_range(dof, 0, reduced.model->n_outputs() - 1, "dof");
         require_finite(amplitude_max, "amplitude_max");
         if (amplitude_max < 0)
             bad_argument(

@@ -1,4 +1,4 @@
-// The model's life, loads, build, rest state, modes and audit.
+// The model's life, build, rest state, modes and audit.
 #include "capi/barrier.hpp"
 #include "capi/model_input.hpp"
 #include "capi/model_space.hpp"
@@ -33,12 +33,31 @@ const RestState &solved_rest(ModelHandle &h) {
 
 namespace {
 
-std::shared_ptr<const Model> build(ModelHandle &m, Watch watch) {
+// The host's solver lives as long as the models whose factors it owns.
+std::shared_ptr<const Model> with_solver(std::unique_ptr<const Model> model,
+                                         const std::shared_ptr<SolverBinding> &binding) {
+    return std::shared_ptr<const Model>(model.release(), [binding](const Model *p) { delete p; });
+}
+
+void build(ModelHandle &m) {
     const std::shared_ptr<SolverBinding> binding = m.owner->bind_solver();
     const HostSolver host = binding ? binding->for_core() : HostSolver();
-    auto model = std::make_unique<const Model>(m.input, m.space_options, binding ? &host : nullptr, watch);
-    // the host's solver lives as long as the model whose factors it owns
-    return std::shared_ptr<const Model>(model.release(), [binding](const Model *p) { delete p; });
+    Warnings said;
+    take(m,
+         with_solver(std::make_unique<const Model>(m.input, m.space_options, binding ? &host : nullptr,
+                                                   m.owner->watch().keeping(said)),
+                     binding),
+         said);
+    m.binding = binding;
+}
+
+// The matrices live in the core now; borrowed arrays are the caller's again.
+ModelInput what_acts(const ModelInput &all) {
+    ModelInput kept;
+    kept.n_dof = all.n_dof, kept.damping = all.damping;
+    kept.preload = all.preload, kept.excitation = all.excitation;
+    kept.contact = all.contact;
+    return kept;
 }
 
 MemoryEstimate estimate(const ModelHandle &m) {
@@ -65,14 +84,47 @@ Warnings look_over(const std::vector<Finding> &findings, Watch watch) {
     return warnings;
 }
 
-vector<double> copied_load(const char *name, std::int64_t n, const double *force, std::int64_t n_dof) {
-    if (n != n_dof)
-        bad_argument("n", -1,
-                     format("n is %lld where the model has %lld DOFs", static_cast<long long>(n),
-                            static_cast<long long>(n_dof)));
-    require_finite_array(force, n, name);
-    return vector<double>(force, force + n);
+} // namespace
+
+Warnings take(ModelHandle &m, std::shared_ptr<const Model> core, const Warnings &said) {
+    const std::vector<Finding> findings = quick_audit(*core);
+    m.warnings = look_over(findings, m.owner->watch());
+    m.warnings.add(said);
+    m.n_findings = n_worth_a_look(findings);
+    m.findings.clear();
+    m.space.reset(), m.rest.reset();
+    m.core = std::move(core);
+    return m.warnings;
 }
+
+Outcome change_loads(ModelHandle &m, const std::function<void(ModelInput &)> &change) {
+    if (!m.core) {
+        change(m.input);
+        return PLM_OK;
+    }
+    ModelInput changed = m.input;
+    change(changed);
+    Warnings said;
+    const Warnings warnings =
+        take(m,
+             with_solver(std::make_unique<const Model>(*m.core, changed, m.owner->watch().keeping(said)),
+                         m.binding),
+             said);
+    m.input = std::move(changed);
+    return warnings;
+}
+
+void require_current(const std::shared_ptr<const Model> &made_of, const ModelHandle &model, const char *what,
+                     const char *again) {
+    if (made_of != model.core)
+        throw Error(PLM_ERR_STATE,
+                    format("the loads, the damping or the walls of the model were changed after "
+                           "the %s was made; %s",
+                           what, again))
+            .argument(what);
+}
+
+namespace {
 
 PairStates contact_set(ModelHandle &m, std::int32_t system, const std::int32_t *closed, Spaceless *without) {
     const std::int64_t z = m.core->n_pairs();
@@ -101,16 +153,6 @@ void put_modes(const ModelHandle &m, const LowestModes &found, std::int64_t n, d
         frequency_hz[j] = std::sqrt(std::max(0.0, found.values[static_cast<std::size_t>(j)])) / (2 * M_PI);
 }
 
-// False: the harmonic is to be removed.
-bool is_given(std::int32_t harmonic, const double *real, const double *imag) {
-    require_range(harmonic, 0, 100000, "harmonic");
-    if (!real && imag)
-        bad_argument("real", -1, "real is NULL but imag is not; pass both, or none to remove the harmonic");
-    if (real && harmonic == 0 && imag)
-        bad_argument("imag", -1, "imag must be NULL for harmonic 0, which is static");
-    return real != nullptr;
-}
-
 } // namespace
 } // namespace plm::capi
 
@@ -129,57 +171,6 @@ plm_status plm_model_destroy(plm_model **model) {
     return destroy<ModelHandle>(model);
 }
 
-plm_status plm_model_set_preload(plm_model *model, std::int64_t n, const double *force) {
-    return call<ModelHandle>("plm_model_set_preload", model, [&](ModelHandle &m) {
-        require_open(m);
-        m.input.preload = force ? copied_load("force", n, force, m.input.n_dof) : plm::vector<double>();
-        return PLM_OK;
-    });
-}
-
-plm_status plm_model_set_excitation(plm_model *model, std::int32_t harmonic, std::int64_t n,
-                                    const double *real, const double *imag) {
-    return call<ModelHandle>("plm_model_set_excitation", model, [&](ModelHandle &m) {
-        require_open(m);
-        if (!is_given(harmonic, real, imag)) {
-            m.input.excitation.erase(harmonic);
-            return PLM_OK;
-        }
-        plm::HarmonicLoad load;
-        load.real = copied_load("real", n, real, m.input.n_dof);
-        if (imag) load.imag = copied_load("imag", n, imag, m.input.n_dof);
-        std::swap(m.input.excitation[harmonic], load);
-        return PLM_OK;
-    });
-}
-
-plm_status plm_model_set_gap_motion(plm_model *model, std::int32_t harmonic, std::int64_t n,
-                                    const double *real, const double *imag) {
-    return call<ModelHandle>("plm_model_set_gap_motion", model, [&](ModelHandle &m) {
-        require_open(m);
-        plm::Contact &contact = m.input.contact;
-        if (!is_given(harmonic, real, imag)) {
-            contact.motion.erase(harmonic);
-            return PLM_OK;
-        }
-        if (n != contact.n_pairs())
-            bad_argument(
-                "n", -1,
-                plm::format("n is %lld, but the model has %lld contact pairs so far; add all pairs first, "
-                            "and hand over one value a pair, in the order in which they were added",
-                            static_cast<long long>(n), static_cast<long long>(contact.n_pairs())));
-        plm::GapHarmonic part;
-        require_finite_array(real, n, "real");
-        part.real.assign(real, real + n);
-        if (imag) {
-            require_finite_array(imag, n, "imag");
-            part.imag.assign(imag, imag + n);
-        }
-        std::swap(contact.motion[harmonic], part);
-        return PLM_OK;
-    });
-}
-
 plm_status plm_model_estimate_memory(plm_model *model, double *bytes) {
     return call<ModelHandle>("plm_model_estimate_memory", model, [&](ModelHandle &m) {
         require_open(m);
@@ -193,17 +184,8 @@ plm_status plm_model_estimate_memory(plm_model *model, double *bytes) {
 plm_status plm_model_build(plm_model *model) {
     return call<ModelHandle>("plm_model_build", model, [&](ModelHandle &m) {
         require_open(m);
-        plm::Warnings said;
-        std::shared_ptr<const plm::Model> core = build(m, m.owner->watch().keeping(said));
-        const std::vector<plm::Finding> findings = plm::quick_audit(*core);
-        m.warnings = look_over(findings, m.owner->watch());
-        m.warnings.add(said);
-        m.n_findings = n_worth_a_look(findings);
-        m.core = std::move(core);
-        const std::int64_t n_dof = m.input.n_dof;
-        m.input =
-            plm::ModelInput(); // the matrices live in the core now; borrowed arrays are the caller's again
-        m.input.n_dof = n_dof;
+        build(m);
+        m.input = what_acts(m.input);
         return Outcome(m.warnings);
     });
 }

@@ -2,11 +2,22 @@
 #pragma once
 #include "capi/arguments.hpp"
 #include "capi/handles.hpp"
+#include "capi/outcome.hpp"
+#include <functional>
 
 namespace plm::capi {
 
 /// PLM_ERR_STATE once the model is built.
 void require_open(const ModelHandle &m);
+
+/// The model that was built, or whose loads were changed, is the model from now on; what it is warned of.
+/// said: on the way.
+Warnings take(ModelHandle &m, std::shared_ptr<const Model> core, const Warnings &said);
+
+/// A change of loads, damping or moving walls, in the input before the build, in the model after it: it then
+/// shares all that was factored with the one before, which what was made of that one keeps. change(input)
+/// checks before it changes anything.
+Outcome change_loads(ModelHandle &m, const std::function<void(ModelInput &)> &change);
 
 /// Where PLM_MASS, PLM_STIFFNESS or PLM_DAMPING goes.
 std::shared_ptr<const MatrixInput> &matrix_of(ModelInput &input, std::int32_t which);

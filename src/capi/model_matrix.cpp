@@ -123,17 +123,15 @@ plm_status plm_model_set_matrix_i64(plm_model *model, std::int32_t which, std::i
 
 plm_status plm_model_set_rayleigh_damping(plm_model *model, double alpha, double beta) {
     return call<ModelHandle>("plm_model_set_rayleigh_damping", model, [&](ModelHandle &m) {
-        require_open(m);
         require_nonnegative(alpha, "alpha");
         require_nonnegative(beta, "beta");
-        m.input.damping.alpha = alpha, m.input.damping.beta = beta;
-        return PLM_OK;
+        return change_loads(
+            m, [&](plm::ModelInput &input) { input.damping.alpha = alpha, input.damping.beta = beta; });
     });
 }
 
 plm_status plm_model_set_modal_damping(plm_model *model, std::int64_t n, const double *ratio) {
     return call<ModelHandle>("plm_model_set_modal_damping", model, [&](ModelHandle &m) {
-        require_open(m);
         require_range(n, 0, INT64_MAX / 64, "n");
         if (n > 0) require_pointer(ratio, "ratio");
         for (std::int64_t j = 0; j < n; ++j)
@@ -143,17 +141,14 @@ plm_status plm_model_set_modal_damping(plm_model *model, std::int64_t n, const d
                                          "critical damping",
                                          static_cast<long long>(j), ratio[j]));
         plm::vector<double> copy(ratio, ratio + n);
-        m.input.damping.modal_ratio.swap(copy);
-        return PLM_OK;
+        return change_loads(m, [&](plm::ModelInput &input) { input.damping.modal_ratio.swap(copy); });
     });
 }
 
 plm_status plm_model_set_structural_damping(plm_model *model, double eta) {
     return call<ModelHandle>("plm_model_set_structural_damping", model, [&](ModelHandle &m) {
-        require_open(m);
         require_nonnegative(eta, "eta");
-        m.input.damping.structural = eta;
-        return PLM_OK;
+        return change_loads(m, [&](plm::ModelInput &input) { input.damping.structural = eta; });
     });
 }
 

@@ -55,7 +55,7 @@ plm_status plm_model_compute_response(plm_model *model, std::int64_t dof, std::i
                                       plm_branch **curve, plm_hbm **hbm) {
     return call<ModelHandle>("plm_model_compute_response", model, [&](ModelHandle &m) {
         const std::shared_ptr<const plm::Model> &core = built(m);
-        require_range(dof, 0, core->n_dof() - 1, "dof");
+        require_range(dof, 0, core->n_outputs() - 1, "dof");
         require_range(measure, PLM_PEAK, PLM_RMS, "measure");
         require_finite(accuracy, "accuracy");
         if (!(accuracy >= 1e-8 && accuracy <= 0.5))

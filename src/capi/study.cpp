@@ -125,7 +125,7 @@ plm_status plm_study_destroy(plm_study **study) {
 plm_status plm_study_set_output(plm_study *study, std::int64_t dof, std::int32_t measure,
                                 std::int32_t harmonic) {
     return call<StudyHandle>("plm_study_set_output", study, [&](StudyHandle &s) {
-        require_range(dof, 0, s.model->input.n_dof - 1, "dof");
+        require_range(dof, 0, s.model->n_outputs() - 1, "dof");
         require_range(measure, PLM_PEAK, PLM_HARMONIC, "measure");
         if (measure == PLM_HARMONIC) require_range(harmonic, 0, 1000000, "harmonic");
         s.plan.output = plm::Output{dof, static_cast<plm::Measure>(measure), harmonic};

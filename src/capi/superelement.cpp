@@ -81,7 +81,9 @@ plm_status plm_model_recover_amplitude(plm_model *model, plm_branch *branch, std
         const plm::Branch &curve = *same_context<BranchHandle>(m, branch, "branch")->core;
         const plm::ReducedModel &reduced = curve.reduced();
         if (reduced.model != built(m))
-            bad_argument("branch", -1, "the branch was computed from another model; name the one it is of");
+            bad_argument("branch", -1,
+                         "the branch was computed from another model, or before the loads of this one were "
+                         "changed; name the one it is of, or compute it again");
         if (m.recovery.fn) require_range(full_dof, 0, m.recovery.n_full - 1, "full_dof");
         require_measure(curve, 0, measure, harmonic);
         plm::vector<double> values(curve.points().size());

@@ -15,8 +15,11 @@ namespace {
 Transient &core(TransientHandle &h) {
     if (!h.core) {
         const std::shared_ptr<const Model> &model = built(*h.model);
+        if (h.basis) require_current(*h.basis);
         h.core = make_transient(model, h.basis ? built(*h.basis)->reduced() : nullptr);
+        h.made_of = model;
     }
+    require_current(h.made_of, *h.model, "transient", "make a new one, and hand its state over");
     return *h.core;
 }
 
@@ -34,7 +37,7 @@ plm_status observe(const char *function, plm_transient *transient, std::int32_t 
         if (n > 0) require_pointer(dof, "dof");
         vector<std::int64_t> observed;
         for (std::int64_t i = 0; i < n; ++i) {
-            require_dof(dof[i], index_base, t.model->input.n_dof, "dof", i);
+            require_dof(dof[i], index_base, t.model->n_outputs(), "dof", i);
             observed.push_back(dof[i] - index_base);
         }
         t.observed = std::move(observed);
@@ -140,7 +143,7 @@ plm_status plm_transient_get_state(plm_transient *transient, std::int64_t n, dou
     return call<TransientHandle>("plm_transient_get_state", transient, [&](TransientHandle &t) {
         require_n_dof(t, n);
         plm::vector<double> state(static_cast<std::size_t>(2 * n));
-        core(t).get_state(state.data(), state.data() + n);
+        (t.core ? *t.core : core(t)).get_state(state.data(), state.data() + n); // also when it is stale
         plm::require_finite_result(state.data(), 2 * n, "state");
         if (q) std::copy_n(state.data(), n, q);
         if (v) std::copy_n(state.data() + n, n, v);

@@ -18,6 +18,9 @@ template <class T> class Kept {
         return value_;
     }
 
+    /// What there is of it; null: nobody has asked for it.
+    const T *known() const { return value_.get(); }
+
   private:
     mutable std::shared_ptr<const T> value_;
 };

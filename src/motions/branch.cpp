@@ -203,6 +203,18 @@ std::int64_t Branch::highest_point(std::int64_t dof, Measure measure, std::int64
     return static_cast<std::int64_t>(top);
 }
 
+vector<double> Branch::history(std::int64_t point, std::int64_t dof, std::int64_t n) const {
+    const BranchPoint &p = points_[static_cast<std::size_t>(point)];
+    if (p.motion) return p.motion->history(reduced_->static_vectors().row(reduced_->model->terms(dof)), n);
+    const vector<double> c = coefficients(point, dof);
+    vector<double> values;
+    for (std::int64_t k = 0; k < n; ++k)
+        values.push_back(
+            evaluate_trig(c.data(), n_harmonics_, 2 * M_PI * static_cast<double>(k) / static_cast<double>(n))
+                .value);
+    return values;
+}
+
 Field Branch::field(std::int64_t point, double fraction) const {
     const BranchPoint &p = points_[point];
     if (p.motion) return combine(reduced_->static_vectors(), p.motion->displacement(fraction));

@@ -13,7 +13,7 @@ enum class Measure { peak = 1, half_peak_to_peak = 2, rms = 3, harmonic = 4 }; /
 
 /// Whose amplitude is asked for.
 struct Output {
-    std::int64_t dof = 0; // base 0
+    std::int64_t dof = 0; // base 0; or one of the sums of DOFs (Structure::n_outputs())
     Measure measure = Measure::half_peak_to_peak;
     std::int64_t harmonic = 0; // of Measure::harmonic
 };
@@ -71,12 +71,15 @@ class Branch {
     bool is_mode = false;      // a nonlinear mode: motions without excitation, each with a damping ratio
     std::shared_ptr<const Branch> beside; // a closed curve that its sweep came upon first; or null
 
-    /// (2H + 1) coefficients a0, a1, b1, ... of a full-model DOF (base 0; zeros when fixed) at a point.
+    // dof: of the full model, base 0, or an output of it numbered on from there (zeros when fixed)
+    /// (2H + 1) coefficients a0, a1, b1, ... at a point.
     vector<double> coefficients(std::int64_t point, std::int64_t dof) const;
     double amplitude(std::int64_t point, std::int64_t dof, Measure measure, std::int64_t harmonic) const;
     double amplitude(std::int64_t point, const DofInBasis &dof, Measure measure, std::int64_t harmonic) const;
     /// The point where the amplitude is largest; 0 on an empty branch.
     std::int64_t highest_point(std::int64_t dof, Measure measure, std::int64_t harmonic) const;
+    /// At n equidistant instants of the period, from its beginning.
+    vector<double> history(std::int64_t point, std::int64_t dof, std::int64_t n) const;
     /// q on the free DOFs at t = fraction x period, one column.
     Field field(std::int64_t point, double fraction) const;
     /// Penetration coefficients (2H + 1) x Z of all pairs of the model, the gap included in a0.

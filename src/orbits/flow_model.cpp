@@ -181,10 +181,10 @@ vector<double> FlowModel::gap_motion(int harmonic, bool imaginary) const {
 
 vector<double> FlowModel::dof_row(std::int64_t dof) const {
     const SpaceVectors &vectors = reduced_->vectors;
-    const std::int64_t n_dof = reduced_->model ? reduced_->model->n_dof() : vectors.rows();
-    if (dof < 0 || dof >= n_dof)
+    const std::int64_t n_outputs = reduced_->model ? reduced_->model->n_outputs() : vectors.rows();
+    if (dof < 0 || dof >= n_outputs)
         throw Error(status::argument, format("DOF %lld is not one of 0 .. %lld", static_cast<long long>(dof),
-                                             static_cast<long long>(n_dof - 1)))
+                                             static_cast<long long>(n_outputs - 1)))
             .argument("dof")
             .index(dof);
     const DofTerms row = reduced_->model ? reduced_->model->terms(dof) : DofTerms{{dof, 1.0}};

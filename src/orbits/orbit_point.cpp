@@ -1,6 +1,8 @@
 #include "orbits/orbit_point.hpp"
+#include "linalg/blas_lapack.hpp"
 #include "motions/branch_path.hpp"
 #include "motions/first_harmonics.hpp"
+#include "orbits/instant_recorder.hpp"
 #include "orbits/recorded_motion.hpp"
 #include "reduction/compression.hpp"
 #include <algorithm>
@@ -26,18 +28,26 @@ class OrbitMotion final : public PointMotion {
 
     ValueRange range(std::int64_t dof) const override {
         if (dof != known_dof_) {
-            known_range_ = range_of_flow(model_->dof_row(dof));
+            known_range_ = range_of_flow(one_row(model_->dof_row(dof)));
             known_dof_ = dof;
         }
         return known_range_;
     }
 
-    ValueRange range_of(const vector<double> &row) const override {
-        return range_of_flow(model_->from_static_coordinates(row));
-    }
+    ValueRange range_of(const vector<double> &row) const override { return range_of_flow(row_of_flow(row)); }
 
     vector<double> displacement(double fraction) const override {
         return model_->in_static_coordinates(run(fraction - std::floor(fraction), nullptr).y);
+    }
+
+    // the recorder begins with the instant after the first, which is the last one of a periodic motion
+    vector<double> history(const vector<double> &row, std::int64_t n) const override {
+        InstantRecorder recorder(row_of_flow(row), period() / static_cast<double>(n));
+        run(1, &recorder);
+        vector<double> values = recorder.take_values();
+        require(static_cast<std::int64_t>(values.size()) == n, "history: instants of a period");
+        std::rotate(values.begin(), values.end() - 1, values.end());
+        return values;
     }
 
     Matrix contact_forces(std::int64_t n_harmonics) const override {
@@ -55,12 +65,24 @@ class OrbitMotion final : public PointMotion {
     const vector<double> &closed_shares() const override { return closed_shares_; }
 
   private:
-    ValueRange range_of_flow(const vector<double> &row) const {
+    static Matrix one_row(const vector<double> &row) {
+        Matrix rows(1, static_cast<std::int64_t>(row.size()));
+        std::copy(row.begin(), row.end(), rows.data());
+        return rows;
+    }
+
+    Matrix row_of_flow(const vector<double> &row) const {
+        return one_row(model_->from_static_coordinates(row));
+    }
+
+    ValueRange range_of_flow(const Matrix &row) const {
         RecordedMotion motion;
         run(1, &motion);
-        Matrix rows(1, model_->size());
-        std::copy(row.begin(), row.end(), rows.data());
-        return motion.ranges(rows)[0];
+        return motion.ranges(row)[0];
+    }
+
+    double period() const {
+        return static_cast<double>(conditions_.period_multiple) * 2 * M_PI / conditions_.omega;
     }
 
     FlowState run(double periods, FlowRecorder *recorder) const {

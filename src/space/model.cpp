@@ -35,6 +35,13 @@ Model::Model(const ModelInput &input, const SpaceOptions &options, const Solver 
     resolve_contact_stiffness(watch);
 }
 
+Model::Model(const Model &built, const ModelInput &loads, Watch watch)
+    : Structure(built, loads, watch), contact_(built.contact_), local_stiffness_(built.local_stiffness_),
+      known_modes_(built.known_modes_), space_options_(built.space_options_) {
+    contact_.motion = loads.contact.motion;
+    if (const StaticResponses *known = built.responses_.known()) known_modes_ = known->modes;
+}
+
 std::shared_ptr<const ExactModes> Model::exact_modes_up_to(std::int64_t wanted, double cutoff, Watch watch,
                                                            ModeSearch search) const {
     watch.step("open modes", 0.0);
@@ -63,6 +70,7 @@ std::shared_ptr<const ExactModes> Model::looked_over(const ExactModes &modes, Wa
 
 // Whose modes cannot all be found has its rigid-body motion at least; a space asks for what it needs.
 std::shared_ptr<const ExactModes> Model::modes_at_hand(Watch watch) const {
+    if (known_modes_) return known_modes_;
     try {
         ModeSearch search;
         search.keep_rest = true; // a space mostly asks for more, and counts those that matter to it

@@ -12,6 +12,9 @@ class Model : public Structure {
     /// Throws plm::Error with the argument and index at fault.
     /// host: its own solver, or null.
     Model(const ModelInput &input, const SpaceOptions &options, const HostSolver *host, Watch watch);
+    /// The same model under other loads, damping and motion of the walls: nothing is factored anew, and what
+    /// is known of the first one, with all that was made of it, stays as it is.
+    Model(const Model &built, const ModelInput &loads, Watch watch);
 
     std::int64_t n_pairs() const { return contact_.n_pairs(); }
     const Contact &contact() const { return contact_; }
@@ -42,6 +45,7 @@ class Model : public Structure {
     Contact contact_;
     double local_stiffness_ = 0;
     Kept<StaticResponses> responses_;
+    std::shared_ptr<const ExactModes> known_modes_; // of the model whose loads were changed; or null
     SpaceOptions space_options_;
 };
 

@@ -2,6 +2,7 @@
 #include "linalg/error.hpp"
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace plm {
 namespace {
@@ -66,6 +67,16 @@ template <class F> void DofMap::for_terms(std::int64_t dof, F f) const {
 DofTerms DofMap::terms(std::int64_t dof) const {
     DofTerms terms;
     for_terms(dof, [&](std::int64_t free, double c) { terms.push_back({free, c}); });
+    return terms;
+}
+
+DofTerms DofMap::terms(const DofTerms &sum) const {
+    std::map<std::int64_t, double> by_free;
+    for (const DofTerm &given : sum)
+        for_terms(given.dof, [&](std::int64_t free, double c) { by_free[free] += given.coefficient * c; });
+    DofTerms terms;
+    for (const auto &[free, c] : by_free)
+        if (c != 0) terms.push_back({free, c});
     return terms;
 }
 

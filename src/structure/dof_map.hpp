@@ -20,6 +20,8 @@ class DofMap {
     std::int64_t free_index(std::int64_t dof) const { return place_[dof] >= 0 ? place_[dof] : -1; }
     /// Its row of T over free indices, empty where it is held at zero.
     DofTerms terms(std::int64_t dof) const;
+    /// The same of a sum over all DOFs, by ascending free index.
+    DofTerms terms(const DofTerms &sum) const;
     bool is_held(std::int64_t dof) const;
     bool has_dependent() const { return dependent_.cols > 0; }
     /// What became of the constraints; the terms of the dependent DOFs are here, no longer there.

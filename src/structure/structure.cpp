@@ -68,10 +68,12 @@ void require_scale(const char *what, const SparseMatrix &a) {
 } // namespace
 
 Structure::Structure(const StructureInput &input, GapSize gap, const Solver &solver)
-    : n_dof_(input.n_dof), solver_(solver) {
+    : n_dof_(input.n_dof), outputs_(input.outputs), parts_(std::make_shared<Parts>()) {
+    parts_->solver = solver;
+    parts_->multipliers = input.multipliers;
     assemble(input, gap);
     for (std::int64_t dof : input.elimination_order)
-        if (dofs_.free_index(dof) >= 0) solver_.order.push_back(dofs_.free_index(dof));
+        if (parts_->dofs.free_index(dof) >= 0) parts_->solver.order.push_back(parts_->dofs.free_index(dof));
 }
 
 Structure::Structure(const StructureInput &input, GapSize gap, double largest_contact, const Solver &solver,
@@ -79,20 +81,21 @@ Structure::Structure(const StructureInput &input, GapSize gap, double largest_co
     : Structure(input, gap, solver) {
     warn_of_printed_constraints(watch);
     factor_stiffness(largest_contact, watch);
-    leave_out_rounding(watch);
+    leave_out_rounding();
+    check_unheld_motion(watch);
 }
 
 StructureEstimate Structure::estimate(const StructureInput &input, GapSize gap, const Solver &solver) {
     const Structure structure(input, gap, solver);
-    const SparseMatrix sum = add(1.0, structure.stiffness_, 1.0, structure.mass_);
+    const Parts &parts = *structure.parts_;
+    const SparseMatrix sum = add(1.0, parts.stiffness, 1.0, parts.mass);
     StructureEstimate e;
     e.n_free = structure.n_free();
-    for (const SparseMatrix *a :
-         {&structure.mass_, &structure.stiffness_, &structure.damping_, &structure.gap_rows_.matrix()})
+    for (const SparseMatrix *a : {&parts.mass, &parts.stiffness, &parts.damping, &parts.gap_rows.matrix()})
         e.bytes += bytes_of(*a);
-    e.bytes += structure.dofs_.bytes() + bytes_of(structure.given_gap_rows_);
-    if (!keeps_pattern({structure.stiffness_, 1, structure.mass_})) e.counted = bytes_of(sum);
-    e.factor = estimate_factor(sum, structure.solver_); // with the host's order
+    e.bytes += parts.dofs.bytes() + bytes_of(parts.given_gap_rows);
+    if (!keeps_pattern({parts.stiffness, 1, parts.mass})) e.counted = bytes_of(sum);
+    e.factor = estimate_factor(sum, parts.solver); // with the host's order
     return e;
 }
 
@@ -106,21 +109,21 @@ void Structure::assemble(const StructureInput &input, GapSize gap) {
     const ConstraintRows constraints = with_multipliers(input);
     map_dofs(held, constraints);
     assemble_parts(input, gap);
-    still_dofs_ = find_still_dofs();
-    if (still_dofs_.dof.empty()) return;
-    held.insert(held.end(), still_dofs_.dof.begin(), still_dofs_.dof.end());
+    parts_->still_dofs = find_still_dofs();
+    if (parts_->still_dofs.dof.empty()) return;
+    held.insert(held.end(), parts_->still_dofs.dof.begin(), parts_->still_dofs.dof.end());
     map_dofs(held, constraints);
     assemble_parts(input, gap);
 }
 
 void Structure::assemble_parts(const StructureInput &input, GapSize gap) {
     assemble_matrices(input);
-    require_scale("mass matrix", mass_);
-    require_scale("stiffness matrix", stiffness_);
-    if (!(trace(mass_) > 0))
+    require_scale("mass matrix", parts_->mass);
+    require_scale("stiffness matrix", parts_->stiffness);
+    if (!(trace(parts_->mass) > 0))
         throw Error(status::matrix, "no free DOF has mass; check the mass matrix and the fixed DOFs")
             .argument("value");
-    require_scale("damping matrix", damping_);
+    require_scale("damping matrix", parts_->damping);
     assemble_gap(input, gap);
     assemble_loads(input);
 }
@@ -129,8 +132,9 @@ void Structure::assemble_parts(const StructureInput &input, GapSize gap) {
 StillDofs Structure::find_still_dofs() const {
     if (damping_options_.modal_ratio.size() > 1) return {};
     vector<char> moves(n_free(), 0);
-    for (const SparseMatrix *a : {&stiffness_, &mass_, &damping_}) mark_coupled(*a, moves);
-    for (std::int64_t dof : gap_rows_.dofs()) moves[dof] = 1;
+    for (const SparseMatrix *a : {&parts_->stiffness, &parts_->mass, &parts_->damping})
+        mark_coupled(*a, moves);
+    for (std::int64_t dof : parts_->gap_rows.dofs()) moves[dof] = 1;
     const auto mark_loaded = [&](const Field &load) {
         for (std::int64_t i = 0; i < load.rows() && load.cols() > 0; ++i)
             if (load.at(i, 0) != 0) moves[i] = 1;
@@ -138,11 +142,12 @@ StillDofs Structure::find_still_dofs() const {
     mark_loaded(preload_);
     for (const auto &entry : excitation_) mark_loaded(entry.second.real), mark_loaded(entry.second.imag);
     const bool others_move = std::count(moves.begin(), moves.end(), 1) > 0;
-    return others_move ? plm::still_dofs(stiffness_, mass_, moves, dofs_.free_dofs()) : StillDofs();
+    return others_move ? plm::still_dofs(parts_->stiffness, parts_->mass, moves, parts_->dofs.free_dofs())
+                       : StillDofs();
 }
 
 void Structure::map_dofs(const vector<std::int64_t> &fixed, const ConstraintRows &constraints) {
-    dofs_ = DofMap(n_dof_, fixed, constraints);
+    parts_->dofs = DofMap(n_dof_, fixed, constraints);
     if (n_free() == 0)
         throw Error(status::argument,
                     constraints.n_rows() > 0
@@ -152,7 +157,7 @@ void Structure::map_dofs(const vector<std::int64_t> &fixed, const ConstraintRows
 }
 
 void Structure::warn_of_printed_constraints(Watch watch) const {
-    const EliminatedConstraints &e = dofs_.elimination();
+    const EliminatedConstraints &e = parts_->dofs.elimination();
     if (e.largest_miss > cancelled_exactly)
         watch.warn(
             reason::rounded,
@@ -165,30 +170,30 @@ void Structure::warn_of_printed_constraints(Watch watch) const {
 void Structure::assemble_matrices(const StructureInput &input) {
     // one at a time: over all DOFs they are large
     SparseMatrix all = over_all_dofs("stiffness", *input.stiffness, n_dof_);
-    translations_ = find_translations(all);
+    parts_->translations = find_translations(all);
     const vector<Translation> mass_like =
-        translations_.empty() ? without_negative_entries(all) : vector<Translation>();
-    diagonal_twice_ = translations_.empty() && is_diagonal_twice(all);
-    require_nonnegative_diagonal("stiffness", all, dofs_);
-    stiffness_ = dofs_.reduced("stiffness", all);
+        parts_->translations.empty() ? without_negative_entries(all) : vector<Translation>();
+    parts_->diagonal_twice = parts_->translations.empty() && is_diagonal_twice(all);
+    require_nonnegative_diagonal("stiffness", all, parts_->dofs);
+    parts_->stiffness = parts_->dofs.reduced("stiffness", all);
     // as many codes hand it over: with the pattern of the stiffness, two thirds zero
     all = without_zeros(over_all_dofs("mass", *input.mass, n_dof_));
     if (!mass_like.empty()) refuse_exchanged(mass_like, all);
-    weigh(translations_, all);
+    weigh(parts_->translations, all);
     require_none_at(input.multipliers, "mass", all);
-    require_nonnegative_diagonal("mass", all, dofs_);
-    mass_ = dofs_.reduced("mass", all);
+    require_nonnegative_diagonal("mass", all, parts_->dofs);
+    parts_->mass = parts_->dofs.reduced("mass", all);
     damping_options_ = input.damping;
     damping_options_.has_matrix = input.damping_matrix != nullptr;
     if (!damping_options_.has_matrix) return;
     all = over_all_dofs("damping", *input.damping_matrix, n_dof_);
     require_none_at(input.multipliers, "damping", all);
-    damping_ = dofs_.reduced("damping", all);
+    parts_->damping = parts_->dofs.reduced("damping", all);
 }
 
 void Structure::assemble_gap(const StructureInput &input, GapSize size) {
     const std::int64_t n_rows = size.n_rows();
-    SparseMatrix gap = dofs_.reduced_rows(n_rows, input.gap_row, input.gap_dof, input.gap_coefficient);
+    SparseMatrix gap = parts_->dofs.reduced_rows(n_rows, input.gap_row, input.gap_dof, input.gap_coefficient);
     vector<double> weight(n_rows, 0.0), given(n_rows, 0.0);
     for (std::size_t k = 0; k < input.gap_row.size(); ++k)
         given[input.gap_row[k]] += std::abs(input.gap_coefficient[k]);
@@ -200,13 +205,15 @@ void Structure::assemble_gap(const StructureInput &input, GapSize size) {
                                "touches %s: its penetration can never change; leave it "
                                "out or release a DOF",
                                Int(size.pair_of(i)),
-                               dofs_.has_dependent() ? "only DOFs that are fixed or tied to one another"
-                                                     : "fixed DOFs only"))
+                               parts_->dofs.has_dependent()
+                                   ? "only DOFs that are fixed or tied to one another"
+                                   : "fixed DOFs only"))
                 .argument("pair")
                 .index(size.pair_of(i));
-    gap_rows_ = GapRows(std::move(gap), size);
-    if (dofs_.has_dependent())
-        given_gap_rows_ = from_triplets(n_rows, n_dof_, input.gap_row, input.gap_dof, input.gap_coefficient);
+    parts_->gap_rows = GapRows(std::move(gap), size);
+    if (parts_->dofs.has_dependent())
+        parts_->given_gap_rows =
+            from_triplets(n_rows, n_dof_, input.gap_row, input.gap_dof, input.gap_coefficient);
 }
 
 void Structure::assemble_loads(const StructureInput &input) {
@@ -214,8 +221,8 @@ void Structure::assemble_loads(const StructureInput &input) {
         Field free(n_free(), 1);
         if (!all.empty()) {
             require_size(what, static_cast<std::int64_t>(all.size()), n_dof_);
-            require_none_at(input.multipliers, name, all);
-            free = Field(dofs_.forces(all.data()));
+            require_none_at(parts_->multipliers, name, all);
+            free = Field(parts_->dofs.forces(all.data()));
         }
         require_scale(name, free.in_core().data(), n_free(), status::argument, "force");
         return free;
@@ -230,66 +237,24 @@ void Structure::assemble_loads(const StructureInput &input) {
         mine.imag = on_free_dofs("excitation", "excitation", load.imag);
         for (std::int64_t dof = 0; dof < n_dof_; ++dof)
             for (const vector<double> *part : {&load.real, &load.imag})
-                if (!part->empty() && dofs_.is_held(dof))
+                if (!part->empty() && parts_->dofs.is_held(dof))
                     excitation_on_supports_ = std::hypot(excitation_on_supports_, (*part)[dof]);
     }
 }
 
 void Structure::factor_stiffness(double largest_contact, Watch watch) {
     watch.step("factorization", 0.1);
-    FactoredStiffness result =
-        factor_with_rigid_modes(stiffness_, mass_, largest_contact, dofs_.free_dofs(), solver_, watch);
-    factor_ = std::move(result.factor);
-    shift_ = result.shift;
-    if (shift_ > 0) shifted_ = add(1.0, stiffness_, shift_, mass_);
-    rigid_modes_ = std::move(result.rigid_modes);
-    uncertainty_ = result.uncertainty;
-}
-
-// Also what is too small to be said: what carries no force has moved far before a tiny one is felt.
-void Structure::leave_out_rounding(Watch watch) {
-    constexpr double eps = 1e-15;
-    unheld_ = unheld_motion(gap_rows_, rigid_modes_);
-    if (unheld_.cols() == 0) return;
-    unheld_momenta_ = mass_times(unheld_);
-    const RowMiss miss = largest_miss(gap_rows_, unheld_, rigid_modes_);
-    if (miss.size > eps) gap_rows_.leave_out(unheld_, unheld_momenta_);
-    if (miss.size > exactly_zero)
-        watch.warn(
-            reason::rounded,
-            format("the gap rows miss rigid-body motion by up to %.1e of their terms (pair %lld): they "
-                   "are taken to leave it free, as with coordinates and weights of more digits",
-                   miss.size, Int(gap_rows_.size().pair_of(miss.row))));
-    preload_resultant_ = balance(preload_, "pre-load", miss, watch);
-    const auto mean = excitation_.find(0);
-    if (mean != excitation_.end())
-        mean_resultant_ = balance(mean->second.real, "mean of the excitation", miss, watch);
-}
-
-// A load that is meant to balance becomes one that does, by the inertia of the structure.
-std::string Structure::balance(Field &load, const char *name, const RowMiss &miss, Watch watch) const {
-    const Resultant r = resultant(load, unheld_);
-    std::string fact = format("its resultant is %.3g, %.1e of its forces, along the one in which DOF %lld "
-                              "(counted from 0) moves most",
-                              r.force, r.relative, Int(dof(r.dof)));
-    if (r.relative > meant_as_zero) {
-        if (miss.size > exactly_zero)
-            fact += format("; the row nearest to holding it is that of pair %lld, by %.1e of its terms",
-                           Int(gap_rows_.size().pair_of(miss.row)), miss.size);
-        return fact;
-    }
-    if (r.relative > 0) add_combination(-1.0, unheld_momenta_, gram(unheld_, load), load);
-    if (r.relative > exactly_zero)
-        watch.warn(
-            reason::rounded,
-            format("the %s acts on rigid-body motion that neither supports nor contact hold: %s; it is "
-                   "taken as balanced, and that much left out through the masses: balance it, or fix DOFs",
-                   name, fact.c_str()));
-    return {};
+    FactoredStiffness result = factor_with_rigid_modes(parts_->stiffness, parts_->mass, largest_contact,
+                                                       parts_->dofs.free_dofs(), parts_->solver, watch);
+    parts_->factor = std::move(result.factor);
+    parts_->shift = result.shift;
+    if (parts_->shift > 0) parts_->shifted = add(1.0, parts_->stiffness, parts_->shift, parts_->mass);
+    parts_->rigid_modes = std::move(result.rigid_modes);
+    parts_->uncertainty = result.uncertainty;
 }
 
 bool Structure::multiply_responses(const Field &loads, Matrix &energy, Matrix &inertia) const {
-    SparseMatrix f = transpose(gap_rows_.matrix());
+    SparseMatrix f = transpose(parts_->gap_rows.matrix());
     for (std::int64_t j = 0; j < loads.cols(); ++j) {
         for (std::int64_t i = 0; i < loads.rows(); ++i) {
             if (loads.at(i, j) == 0) continue;
@@ -299,7 +264,7 @@ bool Structure::multiply_responses(const Field &loads, Matrix &energy, Matrix &i
         f.ptr.push_back(f.nnz());
         ++f.cols;
     }
-    return factor_->multiply_responses(f, mass_, energy, inertia);
+    return parts_->factor->multiply_responses(f, parts_->mass, energy, inertia);
 }
 
 StructureModes lowest_modes(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
@@ -320,7 +285,7 @@ StructureModes lowest_modes(const SparseMatrix &k, const SparseMatrix &m, const 
 }
 
 StructureModes Structure::lowest_modes(std::int64_t n, const ModeSearch &search) const {
-    return plm::lowest_modes(stiffness_, mass_, *factor_, -shift_, n, search);
+    return plm::lowest_modes(parts_->stiffness, parts_->mass, *parts_->factor, -parts_->shift, n, search);
 }
 
 // Inverse iteration, and the Rayleigh quotient of what it comes to.
@@ -332,33 +297,35 @@ double Structure::rough_lowest_elastic() const {
     double square = 0;
     for (int step = 0; step < 3; ++step) {
         Field force = mass_times(x);
-        if (n_rigid() > 0) add_combination(-1, mass_times(rigid_modes_), gram(rigid_modes_, force), force);
+        if (n_rigid() > 0)
+            add_combination(-1, mass_times(parts_->rigid_modes), gram(parts_->rigid_modes, force), force);
         x = force;
         solve(x);
         const double energy = column_products(x, force)[0], inertia = column_products(x, mass_times(x))[0];
         if (!(energy > 0 && inertia > 0)) return 0;
-        square = energy / inertia - shift_;
+        square = energy / inertia - parts_->shift;
         for (std::int64_t i = 0; i < n_free(); ++i) x.in_core()(i, 0) /= std::sqrt(inertia);
     }
     return std::sqrt(std::max(0.0, square));
 }
 
 std::int64_t Structure::count_modes_below(double omega) const {
-    return count_modes(stiffness_, mass_, omega, solver_);
+    return count_modes(parts_->stiffness, parts_->mass, omega, parts_->solver);
 }
 
 std::int64_t Structure::count_modes_near(double &omega, Watch watch) const {
-    return plm::count_modes_near(stiffness_, mass_, omega, solver_, "open modes", "cutoff_factor", watch);
+    return plm::count_modes_near(parts_->stiffness, parts_->mass, omega, parts_->solver, "open modes",
+                                 "cutoff_factor", watch);
 }
 
 std::int64_t Structure::n_massless_dofs() const {
     std::int64_t count = n_free();
-    for (double m : diagonal(mass_)) count -= m > 0;
+    for (double m : diagonal(parts_->mass)) count -= m > 0;
     return count;
 }
 
 void Structure::expand(const Field &x, std::int64_t j, double *all) const {
-    dofs_.expand(x.in_core().col(j), all);
+    parts_->dofs.expand(x.in_core().col(j), all);
 }
 
 vector<double> Structure::expanded(const Field &x) const {
@@ -368,17 +335,17 @@ vector<double> Structure::expanded(const Field &x) const {
 }
 
 Field Structure::restricted(const double *all) const {
-    return Field(dofs_.free_part(all));
+    return Field(parts_->dofs.free_part(all));
 }
 
 std::vector<DofTerms> Structure::given_gap_rows() const {
-    const bool as_given = dofs_.has_dependent();
+    const bool as_given = parts_->dofs.has_dependent();
     std::vector<DofTerms> rows =
-        as_given ? GapRows(given_gap_rows_, gap_rows_.size()).rows() : gap_rows_.rows();
+        as_given ? GapRows(parts_->given_gap_rows, parts_->gap_rows.size()).rows() : parts_->gap_rows.rows();
     for (DofTerms &row : rows) {
         if (as_given)
             row.erase(std::remove_if(row.begin(), row.end(),
-                                     [&](const DofTerm &t) { return dofs_.is_held(t.dof); }),
+                                     [&](const DofTerm &t) { return parts_->dofs.is_held(t.dof); }),
                       row.end());
         else
             for (DofTerm &t : row) t.dof = dof(t.dof);

@@ -41,6 +41,9 @@ struct StructureInput {
     vector<double> gap_coefficient;
     vector<double> preload; // empty: none
     HarmonicLoads excitation;
+    /// What may be asked of motions beside the DOFs: sums over all of them, numbered on from n_dof. It may
+    /// grow while structures know it, and what is in it stays; null: none.
+    std::shared_ptr<const std::vector<DofTerms>> outputs;
 };
 
 /// Eigenpairs of K x = lambda M x, M-orthonormal.
@@ -81,40 +84,52 @@ class Structure {
     /// largest_contact: the largest k_n given by the caller, 0 if unknown; the scale where K has none.
     Structure(const StructureInput &input, GapSize gap, double largest_contact, const Solver &solver,
               Watch watch);
+    /// The same structure under the loads and the damping of another input (its matrix apart): what was
+    /// factored and found is shared.
+    Structure(const Structure &built, const StructureInput &loads, Watch watch);
     Structure(const Structure &) = delete;
 
     std::int64_t n_dof() const { return n_dof_; }
-    std::int64_t n_free() const { return dofs_.n_free(); }
+    std::int64_t n_free() const { return parts_->dofs.n_free(); }
     /// DOF of a free index.
-    std::int64_t dof(std::int64_t free_index) const { return dofs_.free_dofs()[free_index]; }
-    /// A DOF of the caller by the free ones; empty where it is held at zero.
-    DofTerms terms(std::int64_t dof) const { return dofs_.terms(dof); }
+    std::int64_t dof(std::int64_t free_index) const { return parts_->dofs.free_dofs()[free_index]; }
+    /// The DOFs of the caller, and the sums of them numbered on from there.
+    std::int64_t n_outputs() const {
+        return n_dof_ + (outputs_ ? static_cast<std::int64_t>(outputs_->size()) : 0);
+    }
+    /// One of these by the free DOFs; empty where it is held at zero.
+    DofTerms terms(std::int64_t output) const {
+        return output < n_dof_ ? parts_->dofs.terms(output)
+                               : parts_->dofs.terms((*outputs_)[output - n_dof_]);
+    }
     /// Constraints that the others and the fixed DOFs say already.
-    std::int64_t n_redundant_constraints() const { return dofs_.elimination().n_redundant; }
+    std::int64_t n_redundant_constraints() const { return parts_->dofs.elimination().n_redundant; }
 
     /// M X, K X, C X (the explicit part of the damping only) and (K + shift() M) X.
-    Field mass_times(const Field &x) const { return times(mass_, x); }
-    Field stiffness_times(const Field &x) const { return times(stiffness_, x); }
-    Field damping_times(const Field &x) const { return times(damping_, x); }
-    Field shifted_times(const Field &x) const { return times(shift_ > 0 ? shifted_ : stiffness_, x); }
+    Field mass_times(const Field &x) const { return times(parts_->mass, x); }
+    Field stiffness_times(const Field &x) const { return times(parts_->stiffness, x); }
+    Field damping_times(const Field &x) const { return times(parts_->damping, x); }
+    Field shifted_times(const Field &x) const {
+        return times(parts_->shift > 0 ? parts_->shifted : parts_->stiffness, x);
+    }
     /// y = M x and y = K x, one column each.
     void mass_times(const Field &x, Field &y) const {
-        multiply_transposed(mass_, x.in_core().data(), y.in_core().data());
+        multiply_transposed(parts_->mass, x.in_core().data(), y.in_core().data());
     }
     void stiffness_times(const Field &x, Field &y) const {
-        multiply_transposed(stiffness_, x.in_core().data(), y.in_core().data());
+        multiply_transposed(parts_->stiffness, x.in_core().data(), y.in_core().data());
     }
     /// X becomes (K + shift() M)^-1 X; shift() is 0 when K is positive definite.
-    void solve(Field &x) const { factor_->solve(x.in_core()); }
-    double shift() const { return shift_; }
+    void solve(Field &x) const { parts_->factor->solve(x.in_core()); }
+    double shift() const { return parts_->shift; }
     /// For the static responses X = (K + shift() M)^-1 F to F = [B^T loads]: F^T X and X^T M X, without
     /// keeping X and for less than a solution each. False where that is not to be had.
     bool multiply_responses(const Field &loads, Matrix &energy, Matrix &inertia) const;
     /// Rough, from the pivots of that factor.
-    double reciprocal_condition() const { return factor_->reciprocal_condition(); }
+    double reciprocal_condition() const { return parts_->factor->reciprocal_condition(); }
 
     /// Whether modes can be counted.
-    bool tells_inertia() const { return solver_.tells_inertia(); }
+    bool tells_inertia() const { return parts_->solver.tells_inertia(); }
     /// The n lowest modes, fewer when there are fewer of finite frequency.
     StructureModes lowest_modes(std::int64_t n, const ModeSearch &search = {}) const;
     /// About the lowest elastic frequency (rad/s), from above, for a few solutions; 0 where there is none.
@@ -123,26 +138,26 @@ class Structure {
     std::int64_t count_modes_below(double omega) const;
     std::int64_t count_modes_near(double &omega, Watch watch) const;
     /// M-orthonormal rigid-body modes (may have no column).
-    const Field &rigid_modes() const { return rigid_modes_; }
-    std::int64_t n_rigid() const { return rigid_modes_.cols(); }
+    const Field &rigid_modes() const { return parts_->rigid_modes; }
+    std::int64_t n_rigid() const { return parts_->rigid_modes.cols(); }
     /// Rigid-body motions that no gap row holds, among them (unheld_motion.hpp): rows and loads that miss
     /// them by rounding do not act on them, which is warned of.
-    std::int64_t n_unheld() const { return unheld_.cols(); }
+    std::int64_t n_unheld() const { return parts_->unheld.cols(); }
     /// Of the pre-load and of the mean of the excitation along them, more than rounding, so that they have
     /// nothing to rest on: what to read; empty where there is none.
     const std::string &preload_resultant() const { return preload_resultant_; }
     const std::string &mean_resultant() const { return mean_resultant_; }
     /// What rounding of K makes of the first elastic eigenvalue where there are rigid-body modes, relative.
-    double uncertainty() const { return uncertainty_; }
+    double uncertainty() const { return parts_->uncertainty; }
 
-    const GapRows &gap_rows() const { return gap_rows_; }
+    const GapRows &gap_rows() const { return parts_->gap_rows; }
     /// The gap rows as they were handed over, in DOFs of the caller, less those that are held at zero.
     std::vector<DofTerms> given_gap_rows() const;
     /// B (K + shift() M)^-1 f of one load: how the gaps of the open structure answer it statically.
     vector<double> static_gaps(Field load) const {
         solve(load);
-        vector<double> answer(static_cast<std::size_t>(gap_rows_.n_rows()));
-        gap_rows_.of(load, answer);
+        vector<double> answer(static_cast<std::size_t>(parts_->gap_rows.n_rows()));
+        parts_->gap_rows.of(load, answer);
         return answer;
     }
     const Damping &damping() const { return damping_options_; }
@@ -151,14 +166,14 @@ class Structure {
     const std::map<int, HarmonicForce> &excitation() const { return excitation_; }
 
     /// Motions known to strain nothing before supports are applied; empty where the matrices do not tell.
-    const vector<Translation> &translations() const { return translations_; }
+    const vector<Translation> &translations() const { return parts_->translations; }
     /// Those held like fixed ones, which they were meant to be, since nothing moves them.
-    const StillDofs &still_dofs() const { return still_dofs_; }
+    const StillDofs &still_dofs() const { return parts_->still_dofs; }
     /// The stiffness matrix looks as if its diagonal was added up twice.
-    bool diagonal_twice() const { return diagonal_twice_; }
+    bool diagonal_twice() const { return parts_->diagonal_twice; }
     /// Norm of the harmonic excitation on fixed DOFs, where it does nothing.
     double excitation_on_supports() const { return excitation_on_supports_; }
-    double trace_of_mass() const { return trace(mass_); }
+    double trace_of_mass() const { return trace(parts_->mass); }
     std::int64_t n_massless_dofs() const;
 
     /// Column j over all DOFs (n_dof numbers), fixed ones zero; and a motion of all DOFs, one column, by its
@@ -172,7 +187,7 @@ class Structure {
         const SparseMatrix &mass, &stiffness, &damping; // damping: 0 x 0 without an explicit one
         const Solver &solver;
     };
-    Matrices matrices() const { return {mass_, stiffness_, damping_, solver_}; }
+    Matrices matrices() const { return {parts_->mass, parts_->stiffness, parts_->damping, parts_->solver}; }
 
   private:
     Structure(const StructureInput &input, GapSize gap, const Solver &solver);
@@ -189,26 +204,37 @@ class Structure {
     void assemble_gap(const StructureInput &input, GapSize size);
     void assemble_loads(const StructureInput &input);
     void factor_stiffness(double largest_contact, Watch watch);
-    void leave_out_rounding(Watch watch);
-    std::string balance(Field &load, const char *name, const RowMiss &miss, Watch watch) const;
+    void leave_out_rounding();
+    void check_unheld_motion(Watch watch);
+    std::string balance(Field &load, const char *name, Watch watch) const;
+    void refuse_what_would_move_still_dofs(const StructureInput &loads) const;
+
+    /// What neither loads nor damping change: made once, and shared by structures that differ in these.
+    struct Parts {
+        DofMap dofs;
+        SparseMatrix mass, stiffness, damping;
+        SparseMatrix shifted; // K + sigma M when sigma > 0
+        GapRows gap_rows;
+        SparseMatrix given_gap_rows; // over all DOFs, where some are dependent
+        vector<std::int64_t> multipliers;
+        vector<Translation> translations;
+        StillDofs still_dofs;
+        bool diagonal_twice = false;
+        double shift = 0, uncertainty = 0;
+        std::unique_ptr<Factor> factor;
+        Field rigid_modes, unheld, unheld_momenta; // R, R_0, M R_0
+        RowMiss miss;                              // of the gap rows along R_0
+        Solver solver;
+    };
 
     std::int64_t n_dof_ = 0;
-    DofMap dofs_;
-    SparseMatrix mass_, stiffness_, damping_;
-    SparseMatrix shifted_; // K + sigma M when sigma > 0
-    GapRows gap_rows_;
-    SparseMatrix given_gap_rows_; // over all DOFs, where some are dependent
+    std::shared_ptr<const std::vector<DofTerms>> outputs_;
+    std::shared_ptr<Parts> parts_; // changed by the constructor that makes it alone
     Damping damping_options_;
     Field preload_;
     std::map<int, HarmonicForce> excitation_;
-    vector<Translation> translations_;
-    StillDofs still_dofs_;
-    bool diagonal_twice_ = false;
-    double excitation_on_supports_ = 0, shift_ = 0, uncertainty_ = 0;
-    std::unique_ptr<Factor> factor_;
-    Field rigid_modes_, unheld_, unheld_momenta_; // R, R_0, M R_0
+    double excitation_on_supports_ = 0;
     std::string preload_resultant_, mean_resultant_;
-    Solver solver_;
 };
 
 } // namespace plm

@@ -288,6 +288,89 @@ static void too_early(void **state) {
     assert_true(hz == 5 && n == 5 && severity == 5 && branch == NULL);
 }
 
+/* of outputs before and after the build */
+static void outputs(void **state) {
+    const char *f = "plm_model_add_outputs_i32";
+    const int32_t ptr[] = {0, 2, 3}, empty_row[] = {0, 2, 2}, dof[] = {0, 3, 5}, twice[] = {3, 3, 5},
+                  outside[] = {0, 3, 6};
+    const int64_t ptr64[] = {1, 2}, dof64[] = {0}, own[] = {7};
+    const double c[] = {1, -1, 1}, nan[] = {1, NAN, 1}, zero[] = {1, -1, 0};
+    int64_t first = 7;
+    (void)state;
+    BAD(plm_model_add_outputs_i32(model, 0, 2, empty_row, dof, c, &first), f, "row_ptr", 2,
+        "every output row");
+    BAD(plm_model_add_outputs_i32(model, 0, 2, NULL, dof, c, &first), f, "row_ptr", -1, "NULL");
+    BAD(plm_model_add_outputs_i32(model, 0, 0, ptr, dof, c, &first), f, "n", -1, "n is 0");
+    BAD(plm_model_add_outputs_i32(model, 2, 2, ptr, dof, c, &first), f, "index_base", -1, "0 (C)");
+    BAD(plm_model_add_outputs_i32(model, 0, 2, ptr, twice, c, &first), f, "dof", 1, "twice");
+    BAD(plm_model_add_outputs_i32(model, 0, 2, ptr, outside, c, &first), f, "dof", 2, "dof[2] = 6");
+    BAD(plm_model_add_outputs_i32(model, 0, 2, ptr, NULL, c, &first), f, "dof", -1, "NULL");
+    BAD(plm_model_add_outputs_i32(model, 0, 2, ptr, dof, NULL, &first), f, "coefficient", -1, "NULL");
+    BAD(plm_model_add_outputs_i32(model, 0, 2, ptr, dof, nan, &first), f, "coefficient", 1, "NaN");
+    BAD(plm_model_add_outputs_i32(model, 0, 2, ptr, dof, zero, &first), f, "coefficient", 2,
+        "output row 1 is zero");
+    BAD(plm_model_add_outputs_i32(model, 0, 2, ptr, dof, c, NULL), f, "first_dof", -1, "NULL");
+    BAD(plm_model_add_outputs_i64(model, 1, 1, ptr64, dof64, c, &first), "plm_model_add_outputs_i64", "dof",
+        0, "1..6");
+    assert_int_equal(first, 7);
+    assert_int_equal(plm_model_add_outputs_i32(model, 0, 2, ptr, dof, c, &first), PLM_OK);
+    assert_int_equal(first, 6);
+    assert_int_equal(plm_model_add_outputs_i32(model, 0, 2, ptr, dof, c, &first), PLM_OK);
+    assert_int_equal(first, 8);
+    BAD(plm_model_add_outputs_i64(model, 1, 1, ptr64, own, c, &first), "plm_model_add_outputs_i64", "dof", 0,
+        "1..6"); /* sums are of DOFs alone */
+}
+
+/* What was made before loads change is refused until it is made again; what was computed can still be read.
+ */
+static void changed_loads(void **state) {
+    plm_model *built = NULL;
+    plm_sampler *sampler = NULL;
+    plm_basis *basis = NULL;
+    plm_hbm *hbm = NULL;
+    plm_branch *before = NULL, *after = NULL;
+    plm_transient *motion = NULL;
+    double residual[2] = {0, 0}, amplitude[2] = {0, 0}, q[CHAIN_DOFS];
+    int64_t count = 0;
+    chain c;
+    (void)state;
+    chain_fill(&c);
+    assert_true(done(ctx, chain_built(ctx, 0, &built)));
+    assert_int_equal(plm_sampler_create(built, &sampler), PLM_OK);
+    assert_true(plm_sampler_run(sampler) >= 0);
+    assert_int_equal(plm_basis_create(built, &basis), PLM_OK);
+    assert_int_equal(plm_basis_set_sampler(basis, sampler), PLM_OK);
+    assert_true(plm_basis_build(basis) >= 0);
+    assert_int_equal(plm_hbm_create(basis, &hbm), PLM_OK);
+    assert_int_equal(plm_transient_create(built, basis, &motion), PLM_OK);
+    assert_int_equal(plm_transient_get_state(motion, CHAIN_DOFS, q, NULL), PLM_OK);
+    assert_true(plm_hbm_solve(hbm, 1.0, NULL, 0, &before) >= 0);
+    assert_int_equal(plm_branch_get_full_residual(before, 0, &residual[0]), PLM_OK);
+    assert_int_equal(plm_branch_get_amplitude(before, 0, PLM_PEAK, 0, 1, &amplitude[0], &count), PLM_OK);
+
+    BAD(plm_model_set_preload(built, CHAIN_DOFS - 1, c.preload), "plm_model_set_preload", "n", -1, "DOFs");
+    assert_true(plm_hbm_solve(hbm, 1.0, NULL, 0, &after) >= 0); /* nothing has changed */
+    for (int i = 0; i < CHAIN_DOFS; ++i) c.preload[i] *= 2;
+    assert_true(plm_model_set_preload(built, CHAIN_DOFS, c.preload) >= 0);
+
+    REFUSED(plm_hbm_solve(hbm, 1.0, NULL, 0, &after), PLM_ERR_STATE, "plm_hbm_solve", "basis", -1,
+            "changed after the basis was made; build it again");
+    REFUSED(plm_basis_build(basis), PLM_ERR_STATE, "plm_basis_build", "sampler", -1, "run it again");
+    REFUSED(plm_transient_run(motion), PLM_ERR_STATE, "plm_transient_run", "transient", -1, "make a new one");
+    assert_int_equal(plm_transient_get_state(motion, CHAIN_DOFS, q, NULL), PLM_OK);
+    assert_int_equal(plm_branch_get_full_residual(before, 0, &residual[1]), PLM_OK);
+    assert_int_equal(plm_branch_get_amplitude(before, 0, PLM_PEAK, 0, 1, &amplitude[1], &count), PLM_OK);
+    assert_true(residual[0] == residual[1] && amplitude[0] == amplitude[1]);
+
+    assert_true(plm_sampler_run(sampler) >= 0);
+    REFUSED(plm_hbm_solve(hbm, 1.0, NULL, 0, &after), PLM_ERR_STATE, "plm_hbm_solve", "basis", -1, "again");
+    assert_true(plm_basis_build(basis) >= 0);
+    assert_true(plm_hbm_solve(hbm, 1.0, NULL, 0, &after) >= 0);
+    BAD(plm_hbm_solve(hbm, 1.0, before, 0, &after), "plm_hbm_solve", "start", -1, "another basis");
+    assert_int_equal(plm_branch_get_amplitude(after, 0, PLM_PEAK, 0, 1, &amplitude[1], &count), PLM_OK);
+    assert_true(amplitude[0] != amplitude[1]);
+}
+
 static void too_late(void **state) {
     plm_model *built = NULL;
     plm_sampler *sampler = NULL;
@@ -304,12 +387,9 @@ static void too_late(void **state) {
             "plm_model_add_constraints_i32", "", -1, "make a new one");
     REFUSED(plm_model_fix_dofs_i32(built, 0, 1, dof), PLM_ERR_STATE, "plm_model_fix_dofs_i32", "", -1,
             "make a new one");
-    REFUSED(plm_model_set_preload(built, CHAIN_DOFS, c.preload), PLM_ERR_STATE, "plm_model_set_preload", "",
-            -1, "built");
-    REFUSED(plm_model_set_gap_motion(built, 1, 2, hz, NULL), PLM_ERR_STATE, "plm_model_set_gap_motion", "",
-            -1, "built");
-    REFUSED(plm_model_set_structural_damping(built, 0), PLM_ERR_STATE, "plm_model_set_structural_damping", "",
-            -1, "built");
+    REFUSED(
+        plm_model_set_matrix_i32(built, PLM_DAMPING, PLM_TRIPLETS, PLM_FULL, 0, PLM_COPY, 1, dof, dof, hz),
+        PLM_ERR_STATE, "plm_model_set_matrix_i32", "", -1, "make a new one");
     REFUSED(plm_model_set_int(built, "max_blocks", 2), PLM_ERR_STATE, "plm_model_set_int", "", -1, "built");
     BAD(plm_model_get_modes(built, 4, NULL, 1, hz, NULL), "plm_model_get_modes", "system", -1, "0..3");
     BAD(plm_model_get_modes(built, PLM_SYSTEM_OPEN, closed, 1, hz, NULL), "plm_model_get_modes", "closed", -1,
@@ -333,9 +413,11 @@ static void too_late(void **state) {
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(creation),    TEST(matrices), TEST(damping_and_supports), TEST(node_pairs),   TEST(gap_rows),
-        TEST(constraints), TEST(loads),    TEST(gap_motion),           TEST(text_outputs), TEST(version),
-        TEST(too_early),   TEST(too_late),
+        TEST(creation),   TEST(matrices),      TEST(damping_and_supports),
+        TEST(node_pairs), TEST(gap_rows),      TEST(constraints),
+        TEST(loads),      TEST(gap_motion),    TEST(text_outputs),
+        TEST(version),    TEST(too_early),     TEST(too_late),
+        TEST(outputs),    TEST(changed_loads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -84,6 +84,8 @@ CASE(model, plm_model_add_gap_rows_i64, 0, 1, i64, i64, one, one, NULL)
 CASE(model, plm_model_set_preload, 3, one)
 CASE(model, plm_model_set_excitation, 1, 3, one, NULL)
 CASE(model, plm_model_set_gap_motion, 1, 0, one, NULL)
+CASE(model, plm_model_add_outputs_i32, 0, 1, i32, i32, one, &out[0].l)
+CASE(model, plm_model_add_outputs_i64, 0, 1, i64, i64, one, &out[0].l)
 KEYED(model)
 READ(model)
 READ_ARRAYS(model)
@@ -120,6 +122,7 @@ READ(branch)
 READ_ARRAYS(branch)
 CASE(branch, plm_branch_get_amplitude, 0, PLM_PEAK, 0, 1, &out[0].d, &out[1].l)
 CASE(branch, plm_branch_get_coefficients, 0, 0, 1, numbers)
+CASE(branch, plm_branch_get_history, 0, 0, 1, numbers)
 CASE(branch, plm_branch_get_field, 0, 0, 3, numbers)
 CASE(branch, plm_branch_get_contact, 0, 1, numbers, NULL, NULL)
 CASE(branch, plm_branch_get_closed_share, 0, 1, numbers)
@@ -198,6 +201,8 @@ static const struct {
                  ENTRY(MODEL, plm_model_set_preload),
                  ENTRY(MODEL, plm_model_set_excitation),
                  ENTRY(MODEL, plm_model_set_gap_motion),
+                 ENTRY(MODEL, plm_model_add_outputs_i32),
+                 ENTRY(MODEL, plm_model_add_outputs_i64),
                  KEYED_ENTRIES(MODEL, model),
                  READ_ENTRIES(MODEL, model),
                  ARRAY_ENTRIES(MODEL, model),
@@ -234,6 +239,7 @@ static const struct {
                  ARRAY_ENTRIES(BRANCH, branch),
                  ENTRY(BRANCH, plm_branch_get_amplitude),
                  ENTRY(BRANCH, plm_branch_get_coefficients),
+                 ENTRY(BRANCH, plm_branch_get_history),
                  ENTRY(BRANCH, plm_branch_get_field),
                  ENTRY(BRANCH, plm_branch_get_contact),
                  ENTRY(BRANCH, plm_branch_get_closed_share),

@@ -306,6 +306,10 @@ static void branch_arguments_are_checked(void **state) {
     BAD(plm_branch_get_coefficients(curve, 0, CHAIN_DOFS, 1, x), "plm_branch_get_coefficients", "first_dof",
         "0..23");
     BAD(plm_branch_get_coefficients(curve, 0, 1, CHAIN_DOFS, x), "plm_branch_get_coefficients", "n", "1..23");
+    BAD(plm_branch_get_history(curve, 0, CHAIN_DOFS, 8, x), "plm_branch_get_history", "dof", "0..23");
+    BAD(plm_branch_get_history(curve, 0, 0, 0, x), "plm_branch_get_history", "n_times", "n_times is 0");
+    BAD(plm_branch_get_history(curve, 0, 0, 8, NULL), "plm_branch_get_history", "q", "NULL");
+    BAD(plm_branch_get_history(curve, 100000, 0, 8, x), "plm_branch_get_history", "point", "point");
     BAD(plm_branch_get_field(curve, 0, NAN, CHAIN_DOFS, x), "plm_branch_get_field", "time_fraction", "NaN");
     BAD(plm_branch_get_field(curve, 0, 0, 3, x), "plm_branch_get_field", "n", "n is 3");
     BAD(plm_branch_get_contact(curve, 0, 0, x, NULL, NULL), "plm_branch_get_contact", "n_times",

@@ -36,6 +36,8 @@ static void reals(const char *name, int64_t n, const double *x) {
     for (int64_t i = 0; i < n; i++) real(x[i]);
 }
 
+static int64_t relative; /* output */
+
 static plm_model *make_model(void) {
     int32_t diagonal[N], row[2 * N - 1], column[2 * N - 1];
     double mass[N], stiffness[2 * N - 1], force[N] = {0}, preload[N] = {0};
@@ -67,6 +69,8 @@ static plm_model *make_model(void) {
     must(plm_model_set_excitation(model, 1, N, force, NULL));
     must(plm_model_set_gap_motion(model, 2, PAIRS, shaken, later));
     must(plm_model_build(model));
+    /* the motion of pair 0, as DOF N */
+    must(plm_model_add_outputs_i32(model, 0, 1, row_start, dof, coefficient, &relative));
     return model;
 }
 
@@ -155,6 +159,10 @@ static void print_point(plm_branch *branch, int64_t point) {
     int32_t closed[PAIRS * TIMES];
     must(plm_branch_get_coefficients(branch, point, WATCHED, 1, x));
     reals("coefficients", 2 * H + 1, x);
+    must(plm_branch_get_coefficients(branch, point, relative, 1, x));
+    reals("relative", 2 * H + 1, x);
+    must(plm_branch_get_history(branch, point, relative, TIMES, x));
+    reals("relative_history", TIMES, x);
     must(plm_branch_get_field(branch, point, 0.25, N, x));
     reals("field", N, x);
     must(plm_branch_get_contact(branch, point, TIMES, penetration, force, closed));

@@ -4,7 +4,7 @@
 
 namespace {
 
-constexpr int n_masses = 10, n_harmonics = 5, watched = 7;
+constexpr int n_masses = 10, n_harmonics = 5, watched = 7, relative = 10;
 
 void print(double x) {
     std::printf("%.17g\n", x);
@@ -40,6 +40,7 @@ plm::Model make_model(const plm::Context &context) {
     model.set_excitation(1, force);
     model.set_gap_motion(2, {0.0, 2e-5}, {0.0, 1e-5});
     model.build();
+    if (model.add_outputs({0, 2}, {2, 5}, {1, -1}) != relative) std::exit(1);
     return model;
 }
 
@@ -90,6 +91,8 @@ plm::Basis make_basis(const plm::Model &model) {
 
 void print_point(const plm::Branch &branch, std::int64_t point) {
     print("coefficients", branch.coefficients(point, watched, 1).values);
+    print("relative", branch.coefficients(point, relative, 1).values);
+    print("relative_history", branch.history(point, relative, 8));
     print("field", branch.field(point, 0.25));
     const plm::Contact contact = branch.contact(point, 8);
     print("penetration", contact.penetration.values);

@@ -53,7 +53,7 @@ C     points count from 1 here.
       INTEGER*8 LCTX
       COMMON /PLMLNK/ LCTX
       INTEGER*8 MODEL
-      INTEGER N, NPAIRS, I, K, IERR
+      INTEGER N, NPAIRS, I, K, IERR, IOUT
       PARAMETER (N = 10, NPAIRS = 2)
       INTEGER IDIAG(N), IROW(2*N-1), ICOL(2*N-1), IPTR(NPAIRS+1)
       INTEGER IDOF(3), MROW(2), MDOF(3)
@@ -115,6 +115,9 @@ C     points count from 1 here.
       CALL MUST(IERR)
       CALL PLMMBU(MODEL, IERR)
       CALL MUST(IERR)
+      CALL PLMMAO(MODEL, 1, IPTR, IDOF, COEFF, IOUT, IERR)
+      CALL MUST(IERR)
+      IF (IOUT .NE. N + 1) STOP 1
       END
 
       SUBROUTINE SHOCPL
@@ -514,6 +517,12 @@ C     points count from 1 here.
       CALL PLMRCO(PEAK, 1, IWATCH, 1, X, IERR)
       CALL MUST(IERR)
       CALL SHOW('coefficients', 11, X)
+      CALL PLMRCO(PEAK, 1, N + 1, 1, X, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('relative', 11, X)
+      CALL PLMRHI(PEAK, 1, N + 1, NTIMES, X, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('relative_history', NTIMES, X)
       CALL PLMRFI(PEAK, 1, 0.25D0, N, X, IERR)
       CALL MUST(IERR)
       CALL SHOW('field', N, X)

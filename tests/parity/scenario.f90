@@ -4,6 +4,7 @@ program scenario
     use plm
     implicit none
     integer, parameter :: n_masses = 10, n_harmonics = 5, n_times = 8, watched = 8
+    integer :: relative ! output
     type(plm_context) :: context
     type(plm_model) :: model
     type(plm_basis) :: basis
@@ -55,6 +56,7 @@ contains
         call model%set_excitation(1, force)
         call model%set_gap_motion(2, [(0.0_real64, 0.0_real64), (2e-5_real64, 1e-5_real64)])
         call model%build()
+        call model%add_outputs([1, 3], [3, 6], [1.0_real64, -1.0_real64], relative)
     end subroutine make_model
 
     subroutine show_coupled(context)
@@ -308,9 +310,13 @@ contains
         integer, intent(in) :: point
         real(real64), allocatable :: coefficient(:, :), penetration(:, :), force(:, :), share(:)
         logical, allocatable :: closed(:, :)
-        real(real64) :: q(n_masses), residual
+        real(real64) :: q(n_masses), history(n_times), residual
         call branch%coefficients(point, watched, coefficient)
         call show('coefficients', coefficient(:, 1))
+        call branch%coefficients(point, relative, coefficient)
+        call show('relative', coefficient(:, 1))
+        call branch%history(point, relative, history)
+        call show('relative_history', history)
         call branch%field(point, 0.25_real64, q)
         call show('field', q)
         call branch%contact(point, n_times, penetration, force, closed)

@@ -5,7 +5,7 @@ import numpy
 import plm
 import scipy.sparse
 
-N, H, WATCHED = 10, 5, 7
+N, H, WATCHED, RELATIVE = 10, 5, 7, 10
 
 
 def show(name, values):
@@ -30,7 +30,9 @@ def make_model():
     model.set_preload(preload)
     model.set_excitation(force)
     model.set_gap_motion([0, 2e-5 + 1e-5j], harmonic=2)
-    return model.build()
+    model.build()
+    assert model.add_outputs(rows[:1]) == range(RELATIVE, RELATIVE + 1)
+    return model
 
 
 def show_coupled():
@@ -72,6 +74,8 @@ def make_basis(model):
 
 def show_point(branch, point):
     show("coefficients", branch.coefficients(point, WATCHED))
+    show("relative", branch.coefficients(point, RELATIVE))
+    show("relative_history", branch.history(point, RELATIVE, 8))
     show("field", branch.field(point, 0.25))
     contact = branch.contact(point, 8)
     show("penetration", contact.penetration)

@@ -198,6 +198,31 @@ void matrices_are_reduced(void **) {
         }
 }
 
+// Sums over free, dependent and fixed DOFs are those of the rows of T; what cancels is left out.
+void sums_of_dofs_by_the_free_ones(void **) {
+    constexpr std::int64_t n_dof = 40, n_rows = 12;
+    const DofMap map(n_dof, {39}, random_rows(n_rows, n_dof, 5));
+    const Matrix t = dense_map(map);
+    test::Random random(9);
+    DofTerms sum;
+    for (std::int64_t i = n_dof; i-- > 0;) sum.push_back({i, random()});
+    plm::vector<double> got(map.n_free(), 0.0);
+    std::int64_t before = -1;
+    for (const plm::DofTerm &term : map.terms(sum)) {
+        assert_true(term.dof > before);
+        before = term.dof, got[term.dof] = term.coefficient;
+    }
+    for (std::int64_t j = 0; j < map.n_free(); ++j) {
+        double want = 0;
+        for (const plm::DofTerm &term : sum) want += term.coefficient * t(term.dof, j);
+        assert_true(near(got[j], want, 1e-12));
+    }
+    assert_true(map.terms(DofTerms{{39, 3.0}}).empty());
+    ConstraintRows tie;
+    add(tie, {{0, 1}, {1, -1}});
+    assert_true(DofMap(3, {}, tie).terms(DofTerms{{0, 2.0}, {1, -2.0}}).empty());
+}
+
 } // namespace
 
 int main() {
@@ -209,6 +234,7 @@ int main() {
         cmocka_unit_test(a_rotation_stays_though_its_coefficients_are_large),
         cmocka_unit_test(a_wide_coupling_fills_nothing_or_is_refused),
         cmocka_unit_test(matrices_are_reduced),
+        cmocka_unit_test(sums_of_dofs_by_the_free_ones),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

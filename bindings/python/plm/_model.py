@@ -114,6 +114,15 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         start, dof, coefficient, width = self._rows(rows, "it says nothing")
         self._call("add_constraints" + width, 0, start.size - 1, address(start), address(dof), address(coefficient))
 
+    def add_outputs(self, rows):
+        """Outputs rows @ q (n x n_dof, sparse or dense) beside the DOFs: a stress, a relative motion. Returns their numbers, each
+        of which may stand wherever a dof is looked at. Before or after the build, also for branches that are there."""
+        start, dof, coefficient, width = self._rows(rows, "it never moves")
+        first = ctypes.c_int64()
+        self._call("add_outputs" + width, 0, start.size - 1, address(start), address(dof), address(coefficient),
+                   ctypes.byref(first))
+        return range(first.value, first.value + start.size - 1)
+
     def add_rigid_link(self, reference_dof, reference_xyz, dependent_dof, dependent_xyz):
         """Nodes that move with a reference node as one rigid body, at small rotations. reference_dof: its 3 or 6 DOFs;
         dependent_dof: n x 3 or n x 6 (-1: none); coordinates: 3, n x 3. A reference node of 3 DOFs does not turn."""
@@ -261,7 +270,7 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
     def set_preload(self, force):
         """Static force, n_dof; None removes it."""
         force = reals(force, (self.n_dof,), "force", OF_DOFS)
-        self._call("set_preload", self.n_dof, address(force))
+        self._work("set_preload", self.n_dof, address(force))
 
     def set_excitation(self, force, harmonic=1):
         """F(t) = sum Re(F_h exp(i h omega t)); force: F_h, n_dof, real or complex. None removes the harmonic."""
@@ -270,19 +279,19 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
             imaginary = reals(numpy.imag(force), (self.n_dof,), "force", OF_DOFS)
             force = numpy.real(force)
         force = reals(force, (self.n_dof,), "force", OF_DOFS)
-        self._call("set_excitation", harmonic, self.n_dof, address(force), address(imaginary))
+        self._work("set_excitation", harmonic, self.n_dof, address(force), address(imaginary))
 
     def set_gap_motion(self, motion, harmonic=1):
         """gap(t) = gap + sum Re(G_h exp(i h omega t)), of walls that move; motion: G_h of all pairs added so far, real or
         complex. force_scale multiplies it as it does the forces. None removes the harmonic."""
         if motion is None:
-            return self._call("set_gap_motion", harmonic, 0, None, None)
+            return self._work("set_gap_motion", harmonic, 0, None, None)
         motion = numpy.atleast_1d(motion)
         real = list_of_reals(numpy.real(motion), "motion")
         imaginary = None
         if numpy.iscomplexobj(motion):
             imaginary = list_of_reals(numpy.imag(motion), "motion")
-        self._call("set_gap_motion", harmonic, len(real), address(real), address(imaginary))
+        self._work("set_gap_motion", harmonic, len(real), address(real), address(imaginary))
 
     # ---- work ----
 

@@ -263,6 +263,12 @@ class Branch(BranchMethods, Handle, noun="branch", kind=_c.KIND_BRANCH):
         c = self.coefficients(point, dof)
         return numpy.concatenate([c[:1], numpy.hypot(c[1::2], c[2::2])])
 
+    def history(self, point, dof, n_times=128):
+        """Motion of a DOF at n_times equidistant times of the period: of an exact motion itself, not of its harmonics."""
+        q = numpy.empty(n_times)
+        self._call("get_history", self._from_end(point), dof, n_times, address(q))
+        return q
+
     def field(self, point, time_fraction=0.0):
         """All DOFs at a time, given as a fraction of the period."""
         q = numpy.empty(self.n_dof)
