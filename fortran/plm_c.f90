@@ -91,6 +91,11 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_COPY = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_BORROW = 2_c_int32_t
     real(c_double), parameter :: PLM_AUTO_STIFFNESS = -1.0_c_double
+    integer(c_int32_t), parameter :: PLM_SURFACE_POINTS = 1_c_int32_t
+    integer(c_int32_t), parameter :: PLM_SURFACE_SYMMETRIC = 2_c_int32_t
+    integer(c_int32_t), parameter :: PLM_SURFACE_SMOOTH = 4_c_int32_t
+    integer(c_int32_t), parameter :: PLM_SURFACE_TWO_SIDED = 8_c_int32_t
+    real(c_double), parameter :: PLM_KEEP_GAP = -1.0_c_double
     integer(c_int32_t), parameter :: PLM_SYSTEM_OPEN = 0_c_int32_t
     integer(c_int32_t), parameter :: PLM_SYSTEM_SLIDING = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_SYSTEM_REST = 2_c_int32_t
@@ -680,6 +685,59 @@ module plm_c
             real(c_double), intent(in), optional :: gap(*)
             integer(plm_status) :: code
         end function plm_model_add_gap_rows_i64
+        function plm_model_add_surface_i32(model, index_base, n, dof, xyz, area, n_faces, face_ptr, face_node, &
+            surface) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), intent(in), optional :: dof(*)
+            real(c_double), intent(in) :: xyz(*)
+            real(c_double), intent(in), optional :: area(*)
+            integer(c_int64_t), value :: n_faces
+            integer(c_int32_t), intent(in), optional :: face_ptr(*)
+            integer(c_int32_t), intent(in), optional :: face_node(*)
+            integer(c_int64_t), intent(inout) :: surface
+            integer(plm_status) :: code
+        end function plm_model_add_surface_i32
+        function plm_model_add_surface_i64(model, index_base, n, dof, xyz, area, n_faces, face_ptr, face_node, &
+            surface) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int64_t), intent(in), optional :: dof(*)
+            real(c_double), intent(in) :: xyz(*)
+            real(c_double), intent(in), optional :: area(*)
+            integer(c_int64_t), value :: n_faces
+            integer(c_int64_t), intent(in), optional :: face_ptr(*)
+            integer(c_int64_t), intent(in), optional :: face_node(*)
+            integer(c_int64_t), intent(inout) :: surface
+            integer(plm_status) :: code
+        end function plm_model_add_surface_i64
+        function plm_model_add_surface_contact(model, slave, master, options, stiffness, search, &
+            closed) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int64_t), value :: slave
+            integer(c_int64_t), value :: master
+            integer(c_int32_t), value :: options
+            real(c_double), value :: stiffness
+            real(c_double), value :: search
+            real(c_double), value :: closed
+            integer(plm_status) :: code
+        end function plm_model_add_surface_contact
+        function plm_model_set_rest_force(model, n, force) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int64_t), value :: n
+            real(c_double), intent(in), optional :: force(*)
+            integer(plm_status) :: code
+        end function plm_model_set_rest_force
         function plm_model_add_outputs_i32(model, index_base, n, row_ptr, dof, coefficient, &
             first_dof) bind(c) result(code)
             import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
@@ -1895,6 +1953,9 @@ module plm_c
     end interface
     interface plm_model_add_gap_rows
         procedure :: plm_model_add_gap_rows_i32, plm_model_add_gap_rows_i64
+    end interface
+    interface plm_model_add_surface
+        procedure :: plm_model_add_surface_i32, plm_model_add_surface_i64
     end interface
     interface plm_model_add_outputs
         procedure :: plm_model_add_outputs_i32, plm_model_add_outputs_i64

@@ -503,6 +503,60 @@ subroutine plmmao(handle, n, irow, idof, coeff, ifirst, ierr)
     call narrow(c_ifirst + 1, ifirst, ierr)
 end subroutine plmmao
 
+subroutine plmmsu(handle, n, idof, xyz, area, nface, ifptr, ifnode, number, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_add_surface
+    use plm_f77_support, only: as_pointer, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    integer, intent(in) :: idof(*)
+    real(real64), intent(in) :: xyz(*)
+    real(real64), intent(in) :: area(*)
+    integer, intent(in) :: nface
+    integer, intent(in) :: ifptr(*)
+    integer, intent(in) :: ifnode(*)
+    integer, intent(inout) :: number
+    integer, intent(out) :: ierr
+    integer(int64) :: c_number
+    c_number = 0
+    ierr = int(plm_model_add_surface(as_pointer(handle), int(1, c_int32_t), int(n, int64), idof, xyz, area, &
+        int(nface, int64), ifptr, ifnode, c_number))
+    if (ierr < 0) return
+    call narrow(c_number + 1, number, ierr)
+end subroutine plmmsu
+
+subroutine plmmsc(handle, nslave, nmastr, iopt, stiff, search, closed, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_add_surface_contact
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: nslave
+    integer, intent(in) :: nmastr
+    integer, intent(in) :: iopt
+    real(real64), intent(in) :: stiff
+    real(real64), intent(in) :: search
+    real(real64), intent(in) :: closed
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_add_surface_contact(as_pointer(handle), int(nslave - 1, int64), int(nmastr - 1, int64), &
+        int(iopt, c_int32_t), stiff, search, closed))
+end subroutine plmmsc
+
+subroutine plmmrf(handle, n, force, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_set_rest_force
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    real(real64), intent(in) :: force(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_set_rest_force(as_pointer(handle), int(n, int64), force))
+end subroutine plmmrf
+
 subroutine plmmpl(handle, ndof, force, ierr)
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_c, only: plm_model_set_preload

@@ -417,6 +417,50 @@ PLM_API plm_status plm_model_add_gap_rows_i64(plm_model *model, int32_t index_ba
                                               const int64_t *dof, const double *coefficient, const double *stiffness,
                                               const double *gap);
 
+/* Contact between surfaces, whose meshes need not match. First the surfaces: a table of n nodes (dof, xyz: 3 x n, base - 1:
+ * no such DOF; dof NULL: a rigid wall, or ground, which nothing moves) and faces by their places in it, as those of
+ * plm_model_add_tie, numbered so that their normals (right-hand rule around the corners) point out of the body. n_faces = 0
+ * (face_ptr, face_node NULL): nodes alone, which can be a slave. area[n] or NULL: the areas that nodes stand for where the
+ * faces do not tell or are not to (0: what the faces give). surface: its number, from 0 on. PLM_ERR_ARGUMENT for faces
+ * without an area. */
+PLM_API plm_status plm_model_add_surface_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *dof,
+                                             const double *xyz, const double *area, int64_t n_faces,
+                                             const int32_t *face_ptr, const int32_t *face_node, int64_t *surface);
+PLM_API plm_status plm_model_add_surface_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *dof,
+                                             const double *xyz, const double *area, int64_t n_faces,
+                                             const int64_t *face_ptr, const int64_t *face_node, int64_t *surface);
+/* options of a surface contact, added up */
+#define PLM_SURFACE_POINTS 1    /* pairs at the points that integrate over the slave's faces, not at its nodes */
+#define PLM_SURFACE_SYMMETRIC 2 /* and the master's against the slave's faces, with half the stiffness each */
+#define PLM_SURFACE_SMOOTH 4    /* normals smooth across the master's edges below 45 degrees, not those of its faces */
+#define PLM_SURFACE_TWO_SIDED 8 /* the master is a sheet, and each point stands on the side that it is on */
+/* Then the contact: each node on the slave's faces (each node where it has none) is a contact pair with its projection onto
+ * the nearest face of the master, u = normal . (q - sum N_i q_i) - gap, the normal being that of the master, turned into
+ * it, and the gap the distance along it, < 0: interference, in which the model then rests; gaps and interferences up to
+ * `closed` (a length >= 0) become 0: what meshes miss of curved interfaces (the square of a cell by 8 radii) belongs there.
+ * stiffness: by area (force/length^3), times the area that each node stands for; of each pair (force/length) where the
+ * slave has neither faces nor areas; or PLM_AUTO_STIFFNESS. Nodes farther than `search` from all faces, or beside them (by
+ * more than half their gap and a hundredth of the face), have no partner. Nor have those that look the same way as the
+ * nearest face does: PLM_WARNING with PLM_REASON_MODEL, for then faces are turned over, or a sheet has two sides.
+ * PLM_ERR_ARGUMENT where nobody has a partner. Rows are zero along rigid motions of both surfaces, rotations included,
+ * whatever the gap: its lever arm lies along the normal. (A slave that leans over turns the force with its own
+ * displacement no more than any small motion does.) What was found: "surface_report" in words, and "surface_point",
+ * "_face", "_pair", "_gap", "_normal", "_area" of every point. The pairs stand behind those added before, in this order.
+ * A uniform pressure passes exactly between plane matching meshes; between others the resultant and its moment are exact,
+ * and so are the nodal forces of the slave with faces of 3 and 4 nodes, and with PLM_SURFACE_POINTS of all kinds (nodes
+ * of faces with 6 and 8 share the area by the squares of their shape functions, for the true shares are not positive). */
+PLM_API plm_status plm_model_add_surface_contact(plm_model *model, int64_t slave, int64_t master, int32_t options,
+                                                 double stiffness, double search, double closed);
+
+/* A contact force at rest, force[n], in place of the initial gap: pair i presses with force[i] >= 0 when the structure rests
+ * under the pre-load, whatever its k_n, and the build finds the gap that does so ("initial_gap", mostly an interference);
+ * PLM_KEEP_GAP: the pair keeps its gap. n is the number of pairs added so far, those added later keep theirs; NULL
+ * removes it. Displacements count from the structure without loads and contact, as ever: where the matrices
+ * are those of the state at rest, hand over B^T force as pre-load and they count from there. Motions are the same.
+ * PLM_ERR_CONVERGENCE of the build with PLM_REASON_NO_EQUILIBRIUM where pre-load and forces push a loose body. */
+#define PLM_KEEP_GAP (-1.0)
+PLM_API plm_status plm_model_set_rest_force(plm_model *model, int64_t n, const double *force);
+
 /* Outputs that are no DOFs: n sums of them, sum c_j q_j (compressed rows: row_ptr[n + 1], dof[nnz], coefficient[nnz]), such
  * as a stress at a point, a relative motion, the mean over a surface, the elastic force on a support (the rows of K there).
  * They are numbered on from the DOFs: first_dof is the number of the first one, n_dof when there are none yet, the others
@@ -430,8 +474,8 @@ PLM_API plm_status plm_model_add_outputs_i32(plm_model *model, int32_t index_bas
 PLM_API plm_status plm_model_add_outputs_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *row_ptr,
                                              const int64_t *dof, const double *coefficient, int64_t *first_dof);
 
-/* What acts may be changed after plm_model_build: pre-load, excitation, gap motion, Rayleigh, modal and structural damping
- * (not a damping matrix), by the same functions. Nothing is factored again. They then return PLM_WARNING as the build does.
+/* What acts may be changed after plm_model_build: pre-load, forces at rest, excitation, gap motion, Rayleigh, modal and
+ * structural damping (not a damping matrix), by the same functions. Nothing is factored again. They then return PLM_WARNING as the build does.
  * Branches, studies that have run and what a transient has recorded stay what they are, of the loads as they were, with
  * their error measures; plm_model_get_modes and the state at rest follow from the new ones. A sampler has to run again and
  * a basis to be built again, in this order, before more is computed with them, a transient to be made anew:

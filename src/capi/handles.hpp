@@ -3,6 +3,7 @@
 #pragma once
 #include "capi/context.hpp"
 #include "capi/recovery.hpp"
+#include "capi/surfaces.hpp"
 #include "orbits/transient.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/sampler.hpp"
@@ -45,11 +46,13 @@ struct ModelHandle final : HandleOf<plm_model, Kind::model> {
     std::shared_ptr<const RestState> rest;
     std::vector<Finding> findings;
     std::optional<MemoryEstimate> memory;
-    std::int64_t n_findings = 0; // worth a look, of the build or of the last audit
-    Warnings warnings;           // of the build
-    Recovery recovery;           // of a superelement
-    std::int64_t n_untied = 0;   // nodes that ties left free
-    double tie_distance = 0;     // largest of those tied
+    std::int64_t n_findings = 0;          // worth a look, of the build or of the last audit
+    Warnings warnings;                    // of the build
+    Recovery recovery;                    // of a superelement
+    std::int64_t n_untied = 0;            // nodes that ties left free
+    double tie_distance = 0;              // largest of those tied
+    std::vector<ContactSurface> surfaces; // until the build
+    SurfaceReport surface_report;
 };
 
 struct SamplerHandle final : HandleOf<plm_sampler, Kind::sampler> {

@@ -3,6 +3,7 @@
 #include "capi/model_input.hpp"
 #include "capi/model_space.hpp"
 #include "linalg/scale.hpp"
+#include "space/rest_gaps.hpp"
 #include "structure/matrix_input.hpp"
 #include <algorithm>
 
@@ -34,19 +35,20 @@ const RestState &solved_rest(ModelHandle &h) {
 namespace {
 
 // The host's solver lives as long as the models whose factors it owns.
-std::shared_ptr<const Model> with_solver(std::unique_ptr<const Model> model,
-                                         const std::shared_ptr<SolverBinding> &binding) {
-    return std::shared_ptr<const Model>(model.release(), [binding](const Model *p) { delete p; });
+std::shared_ptr<const Model> finished(std::unique_ptr<Model> model,
+                                      const std::shared_ptr<SolverBinding> &binding, Watch watch) {
+    return with_rest_gaps(std::shared_ptr<Model>(model.release(), [binding](const Model *p) { delete p; }),
+                          watch);
 }
 
 void build(ModelHandle &m) {
     const std::shared_ptr<SolverBinding> binding = m.owner->bind_solver();
     const HostSolver host = binding ? binding->for_core() : HostSolver();
     Warnings said;
+    const Watch watch = m.owner->watch().keeping(said);
     take(m,
-         with_solver(std::make_unique<const Model>(m.input, m.space_options, binding ? &host : nullptr,
-                                                   m.owner->watch().keeping(said)),
-                     binding),
+         finished(std::make_unique<Model>(m.input, m.space_options, binding ? &host : nullptr, watch), binding,
+                  watch),
          said);
     m.binding = binding;
 }
@@ -56,7 +58,7 @@ ModelInput what_acts(const ModelInput &all) {
     ModelInput kept;
     kept.n_dof = all.n_dof, kept.damping = all.damping;
     kept.preload = all.preload, kept.excitation = all.excitation;
-    kept.contact = all.contact;
+    kept.contact = all.contact, kept.rest_forces = all.rest_forces;
     return kept;
 }
 
@@ -105,11 +107,9 @@ Outcome change_loads(ModelHandle &m, const std::function<void(ModelInput &)> &ch
     ModelInput changed = m.input;
     change(changed);
     Warnings said;
+    const Watch watch = m.owner->watch().keeping(said);
     const Warnings warnings =
-        take(m,
-             with_solver(std::make_unique<const Model>(*m.core, changed, m.owner->watch().keeping(said)),
-                         m.binding),
-             said);
+        take(m, finished(std::make_unique<Model>(*m.core, changed, watch), m.binding, watch), said);
     m.input = std::move(changed);
     return warnings;
 }
@@ -186,6 +186,7 @@ plm_status plm_model_build(plm_model *model) {
         require_open(m);
         build(m);
         m.input = what_acts(m.input);
+        m.surfaces.clear();
         return Outcome(m.warnings);
     });
 }

@@ -1,5 +1,6 @@
 // The contact pairs of the model: node pairs, ground contacts and raw rows all become rows of the gap matrix.
 #include "capi/barrier.hpp"
+#include "capi/new_pairs.hpp"
 #include "capi/sparse_rows.hpp"
 #include "linalg/scale.hpp"
 #include <algorithm>
@@ -8,12 +9,6 @@ namespace plm::capi {
 namespace {
 
 using Int = long long; // for printf
-
-/// New rows of B, complete and checked before the model sees them.
-struct NewPairs {
-    vector<std::int64_t> row, dof;
-    vector<double> coefficient, stiffness, gap;
-};
 
 // Reserves generously, so that adding pairs one by one stays linear.
 template <class T> void reserve_for(vector<T> &to, const vector<T> &from) {
@@ -24,7 +19,12 @@ template <class T> void append(vector<T> &to, const vector<T> &from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
-// All or nothing: after the reservations nothing can fail.
+} // namespace
+
+bool is_stiffness(double k_n) {
+    return k_n == PLM_AUTO_STIFFNESS || (k_n >= smallest_scale && k_n <= largest_scale);
+}
+
 void add_to(ModelInput &input, NewPairs &pairs) {
     const std::int64_t first = input.contact.n_rows();
     for (std::int64_t &r : pairs.row) r += first;
@@ -40,11 +40,12 @@ void add_to(ModelInput &input, NewPairs &pairs) {
     append(input.contact.initial_gap, pairs.gap);
 }
 
+namespace {
+
 void take_stiffness_and_gap(NewPairs &pairs, std::int64_t n, const double *stiffness, const double *gap) {
     if (n > 0) require_pointer(stiffness, "stiffness");
     for (std::int64_t i = 0; i < n; ++i)
-        if (stiffness[i] != PLM_AUTO_STIFFNESS &&
-            !(stiffness[i] >= smallest_scale && stiffness[i] <= largest_scale))
+        if (!is_stiffness(stiffness[i]))
             bad_argument("stiffness", i,
                          format("stiffness[%lld] is %g; it must be > 0 (%g to %g), or PLM_AUTO_STIFFNESS",
                                 Int(i), stiffness[i], smallest_scale, largest_scale));

@@ -83,3 +83,21 @@ plm_status plm_model_set_gap_motion(plm_model *model, std::int32_t harmonic, std
         });
     });
 }
+
+plm_status plm_model_set_rest_force(plm_model *model, std::int64_t n, const double *force) {
+    return call<ModelHandle>("plm_model_set_rest_force", model, [&](ModelHandle &m) {
+        return change_loads(m, [&](plm::ModelInput &input) {
+            input.rest_forces.force.clear();
+            if (!force) return;
+            require_n_pairs(n, input.contact.n_pairs());
+            require_finite_array(force, n, "force");
+            for (std::int64_t i = 0; i < n; ++i)
+                if (force[i] < 0 && force[i] != PLM_KEEP_GAP)
+                    bad_argument("force", i,
+                                 plm::format("force[%lld] is %g; contact presses, so that it must be >= 0, or "
+                                             "PLM_KEEP_GAP for a pair that keeps its gap",
+                                             static_cast<long long>(i), force[i]));
+            input.rest_forces.force.assign(force, force + n);
+        });
+    });
+}

@@ -19,6 +19,7 @@ static_assert(storage::csc == PLM_CSC);
 static_assert(storage::triplets == PLM_TRIPLETS);
 static_assert(storage::csr == PLM_CSR);
 static_assert(auto_stiffness == PLM_AUTO_STIFFNESS);
+static_assert(keep_gap == PLM_KEEP_GAP);
 static_assert(status::handle == PLM_ERR_HANDLE);
 static_assert(status::argument == PLM_ERR_ARGUMENT);
 static_assert(status::key == PLM_ERR_KEY);

@@ -31,13 +31,14 @@ Model::Model(const ModelInput &input, const SpaceOptions &options, const HostSol
 Model::Model(const ModelInput &input, const SpaceOptions &options, const Solver &solver, Watch watch)
     : Structure(input, {input.contact.n_pairs(), Contact::n_directions},
                 largest_given(input.contact.stiffness), solver, watch),
-      contact_(input.contact), space_options_(options) {
+      contact_(input.contact), space_options_(options), rest_forces_(input.rest_forces) {
     resolve_contact_stiffness(watch);
 }
 
 Model::Model(const Model &built, const ModelInput &loads, Watch watch)
     : Structure(built, loads, watch), contact_(built.contact_), local_stiffness_(built.local_stiffness_),
-      known_modes_(built.known_modes_), space_options_(built.space_options_) {
+      known_modes_(built.known_modes_), space_options_(built.space_options_),
+      rest_forces_(loads.rest_forces) {
     contact_.motion = loads.contact.motion;
     if (const StaticResponses *known = built.responses_.known()) known_modes_ = known->modes;
 }

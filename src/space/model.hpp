@@ -20,6 +20,9 @@ class Model : public Structure {
     const Contact &contact() const { return contact_; }
     const vector<double> &contact_stiffness() const { return contact_.stiffness; } // k_n, resolved
     const vector<double> &initial_gap() const { return contact_.initial_gap; }
+    const GivenForces &rest_forces() const { return rest_forces_; }
+    /// Before the model is shared: gaps that follow from forces at rest (rest_gaps.hpp).
+    void set_initial_gap(vector<double> gap) { contact_.initial_gap = std::move(gap); }
     /// 1 / median of the contact flexibility diag(B K^-1 B^T), rigid-body motion left out; 0 without pairs.
     /// Where every k_n is given, of some pairs at most.
     double local_stiffness() const { return local_stiffness_; }
@@ -47,6 +50,7 @@ class Model : public Structure {
     Kept<StaticResponses> responses_;
     std::shared_ptr<const ExactModes> known_modes_; // of the model whose loads were changed; or null
     SpaceOptions space_options_;
+    GivenForces rest_forces_;
 };
 
 } // namespace plm

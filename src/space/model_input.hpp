@@ -1,6 +1,6 @@
 // What a model is made from: all that the caller said, and the options.
 #pragma once
-#include "contact/contact.hpp"
+#include "space/given_forces.hpp"
 #include "structure/structure.hpp"
 
 namespace plm {
@@ -12,6 +12,7 @@ constexpr double auto_stiffness = -1;
 struct ModelInput : StructureInput {
     /// Of the pairs of the gap matrix, or auto_stiffness.
     Contact contact;
+    GivenForces rest_forces;
 };
 
 /// Of a factorization's numbers. automatic: double, unless only single fits the limit of memory.

@@ -133,6 +133,17 @@ StaticState solve_static(const StaticProblem &p) {
     return state;
 }
 
+void RestState::put_forces(const Model &model) {
+    model.rest_forces().put_penetrations(model.contact(), penetration);
+    states = model.contact().states(penetration);
+    force = model.contact().forces(penetration);
+    model.rest_forces().put_forces(force);
+}
+
+bool is_loaded_at_rest(const Model &model) {
+    return model.has_preload() || model.contact().has_interference() || !model.rest_forces().empty();
+}
+
 namespace {
 
 RestState solve_rest(const Space &space) {
@@ -141,16 +152,18 @@ RestState solve_rest(const Space &space) {
     rest.coordinates.assign(space.size(), 0.0);
     rest.penetration = model.contact().unloaded_penetration();
     if (!model.preload_resultant().empty()) throw no_equilibrium("pre-load", model.preload_resultant());
-    if (model.has_preload() || model.contact().has_interference()) {
+    if (is_loaded_at_rest(model)) {
         vector<double> load(space.preload);
         load.resize(space.size(), 0.0);
-        StaticState state = solve_static({space.lambda, space.gap, load, model.contact()});
+        const GivenForces &given = model.rest_forces();
+        gemv('T', -1.0, space.gap, given.loads(model.n_pairs()).data(), 1.0, load.data());
+        const Contact others = given.without_them(model.contact());
+        StaticState state = solve_static({space.lambda, space.gap, load, others});
         rest.coordinates = std::move(state.coordinates);
         rest.penetration = std::move(state.penetration);
         rest.iterations = state.iterations;
     }
-    rest.states = model.contact().states(rest.penetration);
-    rest.force = model.contact().forces(rest.penetration);
+    rest.put_forces(model);
     rest.displacement = combine(space.vectors, rest.coordinates);
     return rest;
 }

@@ -48,7 +48,7 @@ std::int64_t find_rest(RestEquations &equations, const Contact &contact, vector<
 /// resultant: what is known of it (Structure::preload_resultant()).
 Error no_equilibrium(const char *load, const std::string &resultant = {});
 
-/// The structure at rest under the pre-load.
+/// The structure at rest under the pre-load, and under the contact forces that are given.
 struct RestState {
     vector<double> coordinates; // in the space: q_rest = V coordinates; none where it was found without
     Field displacement;         // one column
@@ -56,7 +56,12 @@ struct RestState {
     vector<double> force;       // N per pair
     PairStates states;
     std::int64_t iterations = 0;
+
+    /// force and states, from the penetrations; those of given force have it to the last digit.
+    void put_forces(const Model &model);
 };
+/// Loads, given forces or interference move the structure.
+bool is_loaded_at_rest(const Model &model);
 /// Solved when first asked for, and kept with the space.
 std::shared_ptr<const RestState> rest_of(const Space &space);
 

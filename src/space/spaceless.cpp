@@ -22,20 +22,21 @@ constexpr std::size_t most_changed = 64;
 class Spaceless::Equations final : public RestEquations {
   public:
     explicit Equations(Spaceless &owner)
-        : owner_(owner), model_(*owner.model_), q_(model_.n_free(), 1), d_(model_.n_free(), 1) {}
+        : owner_(owner), model_(*owner.model_), contact_(model_.rest_forces().without_them(model_.contact())),
+          load_(load()), q_(model_.n_free(), 1), d_(model_.n_free(), 1) {}
 
     vector<double> penetration() const override {
         vector<double> u(static_cast<std::size_t>(model_.n_pairs()));
         model_.gap_rows().of(q_, u);
-        const vector<double> apart = model_.contact().unloaded_penetration();
+        const vector<double> apart = contact_.unloaded_penetration();
         for (std::size_t i = 0; i < u.size(); ++i) u[i] += apart[i];
         return u;
     }
 
     Step step(const vector<double> &u) override {
         Field elastic = model_.stiffness_times(q_);
-        if (model_.has_preload()) add(-1, model_.preload(), elastic);
-        const vector<double> forces = model_.contact().forces(u);
+        add(-1, load_, elastic);
+        const vector<double> forces = contact_.forces(u);
         Matrix n(static_cast<std::int64_t>(u.size()), 1);
         std::copy(forces.begin(), forces.end(), n.data());
         d_ = model_.gap_rows().forces(n);
@@ -52,11 +53,21 @@ class Spaceless::Equations final : public RestEquations {
     void move(double part) override { add(part, d_, q_); }
 
     const Field &displacement() const { return q_; }
+    const Contact &contact() const { return contact_; }
 
   private:
+    Field load() const {
+        const vector<double> given = model_.rest_forces().loads(model_.n_pairs());
+        Matrix n(model_.n_pairs(), 1);
+        for (std::int64_t i = 0; i < model_.n_pairs(); ++i) n(i, 0) = -given[i];
+        Field load = model_.gap_rows().forces(n);
+        if (model_.has_preload()) add(1, model_.preload(), load);
+        return load;
+    }
+
     // At first those that touch are closed, too: most pairs of joints that are pressed together end so.
     vector<double> springs_at(const vector<double> &u) {
-        vector<double> springs = model_.contact().tangents(u);
+        vector<double> springs = contact_.tangents(u);
         if (!std::exchange(begun_, true))
             for (std::size_t i = 0; i < u.size(); ++i)
                 if (u[i] == 0) springs[i] = model_.contact_stiffness()[i];
@@ -125,6 +136,8 @@ class Spaceless::Equations final : public RestEquations {
 
     Spaceless &owner_;
     const Model &model_;
+    const Contact contact_; // without the pairs whose forces are given, which are among the loads
+    const Field load_;
     Field q_, d_;
     bool begun_ = false;
     vector<std::size_t> changed_; // pairs whose springs differ from the factored ones,
@@ -150,18 +163,16 @@ std::unique_ptr<Spaceless> Spaceless::if_worth(std::shared_ptr<const Model> mode
 }
 
 std::shared_ptr<const RestState> Spaceless::rest() {
-    const Contact &contact = model_->contact();
     auto rest = std::make_shared<RestState>();
-    rest->penetration = contact.unloaded_penetration();
+    rest->penetration = model_->contact().unloaded_penetration();
     rest->displacement = Field(model_->n_free(), 1);
-    if (model_->has_preload() || contact.has_interference()) {
+    if (is_loaded_at_rest(*model_)) {
         watch_.step("rest", 0.0);
         Equations equations(*this);
-        rest->iterations = find_rest(equations, contact, rest->penetration);
+        rest->iterations = find_rest(equations, equations.contact(), rest->penetration);
         rest->displacement = equations.displacement();
     }
-    rest->states = contact.states(rest->penetration);
-    rest->force = contact.forces(rest->penetration);
+    rest->put_forces(*model_);
     return rest;
 }
 

@@ -109,6 +109,19 @@ class Seen {
     Point tangent_s(Place p) const { return sum(0, 1, 0, 2 * p.s, p.t, 0, 2 * p.s * p.t, p.t * p.t); }
     Point tangent_t(Place p) const { return sum(0, 0, 1, 0, p.s, 2 * p.t, p.s * p.s, 2 * p.s * p.t); }
 
+    /// Unit; zero where there is no area. size: the area by that of s and t.
+    Point normal(Place p, double *size = nullptr) const {
+        const Point a = tangent_s(p), b = tangent_t(p);
+        Point n = cross(a, b);
+        const double area = length(n);
+        const bool is_plane = area > 1e-12 * length(a) * length(b);
+        for (double &x : n) x = is_plane ? x / area : 0;
+        if (size) *size = area;
+        return n;
+    }
+    int n_corners() const { return domain_.n_corners; }
+    Place corner(int i) const { return domain_.corner[i % domain_.n_corners]; }
+
     double weight(int node, Place p) const {
         const double m[] = {1, p.s, p.t, p.s * p.s, p.s * p.t, p.t * p.t, p.s * p.s * p.t, p.s * p.t * p.t};
         double sum = 0;
@@ -203,11 +216,64 @@ ClosestPoint closest_on_face(const Point *node, int n_nodes, const Point &to) {
     const Point away = face.position(place);
     for (int k = 0; k < 3; ++k) found.at[k] = to[k] + away[k];
     found.distance = length(away);
-    const Point a = face.tangent_s(place), b = face.tangent_t(place), normal = cross(a, b);
-    const double size = length(normal);
-    if (size > 1e-12 * length(a) * length(b))
-        for (int k = 0; k < 3; ++k) found.normal[k] = normal[k] / size;
+    found.normal = face.normal(place);
     return found;
+}
+
+namespace {
+
+struct Quadrature {
+    Place at;
+    double weight;
+};
+
+// Gauss' points of a line, 2 or 3, make those of the square; of the triangle 3 (exact to degree 2) or 6 (4).
+std::vector<Quadrature> quadrature(int n_nodes) {
+    std::vector<Quadrature> points;
+    if (n_nodes == 3 || n_nodes == 6) {
+        const auto three = [&](double near, double weight) {
+            const double far = 1 - 2 * near;
+            for (const Place p : {Place{near, near}, Place{far, near}, Place{near, far}})
+                points.push_back({p, weight / 2});
+        };
+        if (n_nodes == 3) return three(1.0 / 6, 1.0 / 3), points;
+        three(0.445948490915964886, 0.223381589678011466);
+        three(0.0915762135097707435, 0.109951743655321868);
+        return points;
+    }
+    using Line = std::vector<std::pair<double, double>>;
+    const Line line = n_nodes == 4
+                          ? Line{{-std::sqrt(1.0 / 3), 1}, {std::sqrt(1.0 / 3), 1}}
+                          : Line{{-std::sqrt(0.6), 5.0 / 9}, {0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}};
+    for (const auto &[s, by_s] : line)
+        for (const auto &[t, by_t] : line) points.push_back({{s, t}, by_s * by_t});
+    return points;
+}
+
+} // namespace
+
+std::vector<FacePoint> face_points(const Point *node, int n_nodes) {
+    const Seen face(node, n_nodes, node[0]);
+    std::vector<FacePoint> points;
+    for (const Quadrature &q : quadrature(n_nodes)) {
+        FacePoint p;
+        for (int i = 0; i < n_nodes; ++i) p.weight[static_cast<std::size_t>(i)] = face.weight(i, q.at);
+        p.at = face.position(q.at);
+        for (int k = 0; k < 3; ++k) p.at[k] += node[0][k];
+        double size = 0;
+        p.normal = face.normal(q.at, &size);
+        p.area = q.weight * size;
+        points.push_back(p);
+    }
+    return points;
+}
+
+void normals_at_nodes(const Point *node, int n_nodes, Point *normal) {
+    const Seen face(node, n_nodes, node[0]);
+    for (int i = 0; i < n_nodes; ++i) {
+        const Place a = face.corner(i), b = face.corner(i + 1);
+        normal[i] = face.normal(i < face.n_corners() ? a : Place{(a.s + b.s) / 2, (a.t + b.t) / 2});
+    }
 }
 
 // Bernstein's coefficients of the polynomial.

@@ -2,6 +2,7 @@
 #pragma once
 #include "structure/point.hpp"
 #include <cstdint>
+#include <vector>
 
 namespace plm {
 
@@ -17,6 +18,18 @@ struct ClosestPoint {
     double distance = 0;
 };
 ClosestPoint closest_on_face(const Point *node, int n_nodes, const Point &to);
+
+/// Points that integrate over the face, each with the area it stands for: what its shape functions and
+/// polynomials a degree above them take on a plane face is exact (with middle nodes: two degrees above).
+struct FacePoint {
+    std::array<double, most_face_nodes> weight{};
+    Point at{};
+    Point normal{}; // as above
+    double area = 0;
+};
+std::vector<FacePoint> face_points(const Point *node, int n_nodes);
+/// At each of its nodes; zero where two sides fall together there.
+void normals_at_nodes(const Point *node, int n_nodes, Point *normal);
 
 /// Whose hull holds all of the face, curved as it may be; returns how many there are.
 constexpr int most_hull_points = 9;

@@ -1,15 +1,8 @@
 // Nodes tied to the faces of a surface that does not match them.
 #pragma once
-#include "structure/couplings.hpp"
-#include "structure/surface_projection.hpp"
+#include "structure/mesh_surface.hpp"
 
 namespace plm {
-
-/// The faces, and the DOFs of their nodes.
-struct TieSurface {
-    vector<CoupledNode> node;
-    vector<std::int64_t> face_ptr{0}, face_node;
-};
 
 struct Tie {
     ConstraintRows rows;
@@ -20,6 +13,6 @@ struct Tie {
 };
 
 /// Every node within the tolerance moves, in translation, as the point of the surface that is closest to it.
-Tie tie_nodes(const vector<CoupledNode> &dependent, const TieSurface &surface, double tolerance);
+Tie tie_nodes(const vector<CoupledNode> &dependent, const MeshSurface &surface, double tolerance);
 
 } // namespace plm

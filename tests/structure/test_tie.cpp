@@ -6,7 +6,7 @@
 using plm::CoupledNode;
 using plm::Point;
 using plm::Tie;
-using plm::TieSurface;
+using plm::MeshSurface;
 using Nodes = plm::vector<CoupledNode>;
 
 namespace {
@@ -20,8 +20,8 @@ double height(double x, double y) {
 }
 
 // 8-node faces, n x n over a square of n x n, bent: nodes 0, 1, ... as they come, shared by the faces.
-TieSurface bent(int n) {
-    TieSurface s;
+MeshSurface bent(int n) {
+    MeshSurface s;
     plm::vector<std::int64_t> at((2 * n + 1) * (2 * n + 1), -1);
     const auto number = [&](int i, int j) {
         std::int64_t &k = at[i * (2 * n + 1) + j];
@@ -48,7 +48,7 @@ Point bend(const Point &x) { // a field that the faces hold exactly: quadratic i
 
 // Of nodes on the faces the motion is the field that the nodes of the faces have.
 void nodes_on_faces_move_with_them(void **) {
-    const TieSurface surface = bent(4);
+    const MeshSurface surface = bent(4);
     const auto first = static_cast<std::int64_t>(surface.node.size());
     Nodes nodes;
     for (int i = 0; i < 7; ++i)
@@ -76,7 +76,7 @@ void nodes_on_faces_move_with_them(void **) {
 
 // On a node a node follows that one alone; one of the faces themselves, not at all.
 void nodes_on_nodes(void **) {
-    const TieSurface surface = bent(2);
+    const MeshSurface surface = bent(2);
     const auto first = static_cast<std::int64_t>(surface.node.size());
     const Tie t = tie_nodes({node(first, surface.node[5].at), surface.node[7]}, surface, 1e-6);
     assert_int_equal(t.n_untied, 0);
@@ -89,7 +89,7 @@ void nodes_on_nodes(void **) {
 
 // Beyond the tolerance they stay free, and are told.
 void what_stays_untied(void **) {
-    TieSurface surface = bent(2);
+    MeshSurface surface = bent(2);
     surface.node[0].dof.fill(plm::no_dof); // held where it is
     CoupledNode partly = node(100, {1, 1, height(1, 1) + 0.3});
     partly.dof[1] = plm::no_dof;

@@ -62,6 +62,10 @@ FUNCTIONS = {
     "plm_model_add_ground_contacts_i64": "piqpppp model index_base n dof normal stiffness gap",
     "plm_model_add_gap_rows_i32": "piqppppp model index_base n row_ptr dof coefficient stiffness gap",
     "plm_model_add_gap_rows_i64": "piqppppp model index_base n row_ptr dof coefficient stiffness gap",
+    "plm_model_add_surface_i32": "piqpppqppp model index_base n dof xyz area n_faces face_ptr face_node surface",
+    "plm_model_add_surface_i64": "piqpppqppp model index_base n dof xyz area n_faces face_ptr face_node surface",
+    "plm_model_add_surface_contact": "pqqiddd model slave master options stiffness search closed",
+    "plm_model_set_rest_force": "pqp model n force",
     "plm_model_add_outputs_i32": "piqpppp model index_base n row_ptr dof coefficient first_dof",
     "plm_model_add_outputs_i64": "piqpppp model index_base n row_ptr dof coefficient first_dof",
     "plm_model_set_preload": "pqp model n force",
@@ -280,6 +284,11 @@ UPPER = 3
 COPY = 1
 BORROW = 2
 AUTO_STIFFNESS = -1.0
+SURFACE_POINTS = 1
+SURFACE_SYMMETRIC = 2
+SURFACE_SMOOTH = 4
+SURFACE_TWO_SIDED = 8
+KEEP_GAP = -1.0
 SYSTEM_OPEN = 0
 SYSTEM_SLIDING = 1
 SYSTEM_REST = 2

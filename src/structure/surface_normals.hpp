@@ -1,0 +1,32 @@
+// Areas of a surface and its normals: of its faces, and smooth across their edges.
+#pragma once
+#include "structure/surface_projection.hpp"
+
+namespace plm {
+
+class SurfaceNormals {
+  public:
+    explicit SurfaceNormals(const SurfaceMesh &mesh);
+
+    /// Of the faces around it, the sum of which is the surface's: with middle nodes the shares are by the
+    /// squares of the shape functions, for their integrals are not positive there. 0 where there is no face.
+    double area(std::int64_t node) const { return area_[node]; }
+    /// The mean of the faces around a node, and of a face, unit; zero where they cancel.
+    const Point &at_node(std::int64_t node) const { return at_node_[node]; }
+    const Point &of_face(std::int64_t face) const { return of_face_[face]; }
+    double area_of_face(std::int64_t face) const { return face_area_[face]; }
+    /// On a face, by its shape functions there: from a mean at each node over those faces that meet this one
+    /// at less than 45 degrees, so that edges that are meant stay.
+    Point smooth(std::int64_t face, const std::array<double, most_face_nodes> &weight) const;
+
+  private:
+    void take_face(const SurfaceMesh &mesh, std::int64_t face);
+    void smooth_corners(const SurfaceMesh &mesh);
+
+    vector<double> area_, face_area_;
+    vector<Point> at_node_, of_face_;
+    vector<std::int64_t> face_ptr_;
+    vector<Point> of_corner_, smooth_; // by place in the list of faces
+};
+
+} // namespace plm
