@@ -19,6 +19,8 @@ module plm_methods
         procedure :: set_rayleigh_damping => model_set_rayleigh_damping
         procedure :: set_modal_damping => model_set_modal_damping
         procedure :: set_structural_damping => model_set_structural_damping
+        procedure :: add_surface_contact => model_add_surface_contact
+        procedure :: set_rest_force => model_set_rest_force
         procedure :: estimate_memory => model_estimate_memory
         procedure :: count_modes => model_count_modes
         procedure :: audit => model_audit
@@ -94,6 +96,49 @@ contains
         status = plm_model_set_structural_damping(self%handle, eta)
         call finish(self%context, status, stat, errmsg)
     end subroutine model_set_structural_damping
+
+    ! Then the contact: each node on the slave's faces (each node where it has none) is a contact pair with its
+    ! projection onto the nearest face of the master, u = normal . (q - sum N_i q_i) - gap, the normal being that
+    ! of the master, turned into it, and the gap the distance along it, < 0: interference, in which the model then
+    ! rests; gaps and interferences up to `closed` (a length >= 0) become 0: what meshes miss of curved interfaces
+    ! (the square of a cell by 8 radii) belongs there. stiffness: by area (force/length^3), times the area that
+    ! each node stands for; of each pair (force/length) where the slave has neither faces nor areas; or
+    ! PLM_AUTO_STIFFNESS. Nodes farther than `search` from all faces, or beside them (by more than half their gap
+    ! and a hundredth of the face), have no partner. Nor have those that look the same way as the nearest face
+    ! does: PLM_WARNING with PLM_REASON_MODEL, for then faces are turned over, or a sheet has two sides.
+    ! PLM_ERR_ARGUMENT where nobody has a partner. Rows are zero along rigid motions of both surfaces, rotations
+    ! included, whatever the gap: its lever arm lies along the normal. (A slave that leans over turns the force
+    ! with its own displacement no more than any small motion does.) What was found: "surface_report" in words,
+    ! and "surface_point", "_face", "_pair", "_gap", "_normal", "_area" of every point. The pairs stand behind
+    ! those added before, in this order. A uniform pressure passes exactly between plane matching meshes; between
+    ! others the resultant and its moment are exact, and so are the nodal forces of the slave with faces of 3 and
+    ! 4 nodes, and with PLM_SURFACE_POINTS of all kinds (nodes of faces with 6 and 8 share the area by the squares
+    ! of their shape functions, for the true shares are not positive).
+    subroutine model_add_surface_contact(self, slave, master, options, stiffness, search, closed, stat, errmsg)
+        class(plm_model_methods), intent(in) :: self
+        integer, intent(in) :: slave
+        integer, intent(in) :: master
+        integer, intent(in) :: options
+        real(real64), intent(in) :: stiffness
+        real(real64), intent(in) :: search
+        real(real64), intent(in) :: closed
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(plm_status) :: status
+        status = plm_model_add_surface_contact(self%handle, int(slave, int64) - 1, int(master, int64) - 1, &
+            int(options, c_int32_t), stiffness, search, closed)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine model_add_surface_contact
+
+    subroutine model_set_rest_force(self, force, stat, errmsg)
+        class(plm_model_methods), intent(in) :: self
+        real(real64), intent(in), contiguous :: force(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(plm_status) :: status
+        status = plm_model_set_rest_force(self%handle, size(force, kind=int64), force)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine model_set_rest_force
 
     ! Before the build: bytes that the model, and what is usually made of it, will take at once at most, from the
     ! pattern of the matrices (the factor's part is exact, an ordering and a symbolic factorization); by phase:

@@ -29,6 +29,7 @@ module plm_models
         procedure, private :: add_rigid_link_int32, add_rigid_link_int64
         procedure, private :: add_distributing_coupling_int32, add_distributing_coupling_int64
         procedure, private :: add_tie_int32, add_tie_int64
+        procedure, private :: add_surface_int32, add_surface_int64
         procedure, private :: set_multipliers_int32, set_multipliers_int64
         procedure, private :: set_excitation_real, set_excitation_complex
         procedure, private :: set_gap_motion_real, set_gap_motion_complex
@@ -44,6 +45,7 @@ module plm_models
         generic :: add_outputs => add_outputs_int32, add_outputs_int64
         generic :: add_rigid_link => add_rigid_link_int32, add_rigid_link_int64
         generic :: set_multipliers => set_multipliers_int32, set_multipliers_int64
+        generic :: add_surface => add_surface_int32, add_surface_int64
         generic :: add_tie => add_tie_int32, add_tie_int64
         generic :: add_distributing_coupling => add_distributing_coupling_int32, add_distributing_coupling_int64
         procedure :: set_dense_matrix
@@ -264,6 +266,40 @@ contains
             dependent_dof, dependent_xyz, size(surface_xyz, 2, kind=int64), surface_dof, surface_xyz, &
             size(face_ptr, kind=int64) - 1, face_ptr, face_node, tolerance, distance), stat, errmsg)
     end subroutine add_tie_int32
+
+    ! A surface for contact: DOFs (3, n; 0: none, a rigid wall where all are) and coordinates (3, n); faces face_ptr(n_faces + 1),
+    ! face_node (both empty: nodes alone); its number, from 1. area(n): in place of what the faces give
+    subroutine add_surface_int32(self, dof, xyz, face_ptr, face_node, surface, area, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: dof(:, :), face_ptr(:), face_node(:)
+        real(real64), intent(in), contiguous :: xyz(:, :)
+        integer, intent(out) :: surface
+        real(real64), intent(in), contiguous, optional :: area(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(int64) :: number
+        surface = 0
+        if (any(shape(dof) /= shape(xyz)) .or. size(xyz, 1) /= 3) then
+            call refuse('add_surface: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        if (size(face_ptr) > 0) then
+            if (face_ptr(size(face_ptr)) > size(face_node) + 1) then
+                call refuse('add_surface: face_ptr ends behind the end of face_node', stat, errmsg)
+                return
+            end if
+        end if
+        if (present(area)) then
+            if (size(area) /= size(xyz, 2)) then
+                call refuse('add_surface: area has the wrong length', stat, errmsg)
+                return
+            end if
+        end if
+        number = -1
+        call finish(self%context, plm_model_add_surface_i32(self%handle, 1_c_int32_t, size(xyz, 2, kind=int64), dof, xyz, &
+            area, max(size(face_ptr, kind=int64) - 1, 0_int64), face_ptr, face_node, number), stat, errmsg)
+        surface = int(number) + 1
+    end subroutine add_surface_int32
 
     ! DOFs of the matrices that are Lagrange multipliers: their rows of K become constraints.
     subroutine set_multipliers_int32(self, dof, stat, errmsg)

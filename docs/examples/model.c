@@ -107,6 +107,13 @@ static int contacts(plm_context *ctx) {
     TRY(plm_model_add_gap_rows_i64(model, 0, 1, wide_ptr, wide_dof, coefficient, k_n, NULL));
     /* [plm_model_add_gap_rows_i64] */
 
+    /* [plm_model_set_rest_force] */
+    /* the first of the six pairs by now presses with 250 N at rest, the second just touches, the others keep
+     * gaps */
+    const double at_rest[] = {250, 0, PLM_KEEP_GAP, PLM_KEEP_GAP, PLM_KEEP_GAP, PLM_KEEP_GAP};
+    TRY(plm_model_set_rest_force(model, 6, at_rest));
+    /* [plm_model_set_rest_force] */
+
     /* [plm_model_set_gap_motion] */
     /* six pairs by now, of which the wall of the third one shakes, and that of the fourth a quarter later */
     const double shakes[] = {0, 0, 1e-4, 0, 0, 0}, later[] = {0, 0, 0, -1e-4, 0, 0};
@@ -178,6 +185,31 @@ static int couplings(plm_context *ctx) {
     const int64_t mean[] = {9, 10, 11}, wide_nodes[] = {0, 1, 2, 3, 4, 5, 6, 7, 8}; /* without rotations */
     TRY(plm_model_add_distributing_coupling_i64(model, 0, 3, mean, load_at, 3, wide_nodes, corners, NULL));
     /* [plm_model_add_distributing_coupling_i64] */
+    TRY(plm_model_destroy(&model));
+
+    TRY(plm_model_create(ctx, 15, &model));
+    /* [plm_model_add_surface_i32] */
+    /* a face of four nodes, its normal up, and over it a node that stands for 40 mm2 */
+    const int32_t below_dof[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, below_ptr[] = {0, 4},
+                  below_node[] = {0, 1, 2, 3}, over_dof[] = {12, 13, 14};
+    const double below_at[] = {0, 0, 0, 10, 0, 0, 10, 10, 0, 0, 10, 0}, over_at[] = {3, 4, 0.1},
+                 over_area[] = {40};
+    int64_t below = 0, over = 0;
+    TRY(plm_model_add_surface_i32(model, 0, 4, below_dof, below_at, NULL, 1, below_ptr, below_node, &below));
+    TRY(plm_model_add_surface_i32(model, 0, 1, over_dof, over_at, over_area, 0, NULL, NULL, &over));
+    /* [plm_model_add_surface_i32] */
+    /* [plm_model_add_surface_contact] */
+    TRY(plm_model_add_surface_contact(model, over, below, 0, 1e3, 1, 0)); /* k_n: 1e3 N/mm3 * 40 mm2 */
+    int64_t n_surface_pairs = 0;
+    TRY(plm_model_get_int(model, "n_pairs", &n_surface_pairs));
+    /* [plm_model_add_surface_contact] */
+    EXPECT(n_surface_pairs == 1);
+    /* [plm_model_add_surface_i64] */
+    const int64_t wall_ptr[] = {0, 3}, wall_node[] = {0, 1, 2}; /* a rigid triangle, its normal down */
+    const double wall_at[] = {0, 0, 1, 0, 10, 1, 10, 0, 1};
+    int64_t wall = 0;
+    TRY(plm_model_add_surface_i64(model, 0, 3, NULL, wall_at, NULL, 1, wall_ptr, wall_node, &wall));
+    /* [plm_model_add_surface_i64] */
     TRY(plm_model_destroy(&model));
 
     TRY(plm_model_create(ctx, 15, &model));

@@ -796,6 +796,41 @@ class Model : public detail::WithOptions<Model, plm_model> {
               verb);
         return distance;
     }
+    /// A surface for contact, DOFs and coordinates 3 x n (dof empty: a rigid wall; face_ptr empty: nodes
+    /// alone); its number.
+    std::int64_t add_surface(Indices dof, Reals xyz, Indices face_ptr = {}, Indices face_node = {},
+                             Reals area = {}, std::int32_t index_base = 0) {
+        const bool wide = dof.size() > 0 ? dof.is_wide() : face_ptr.is_wide();
+        const char *verb = wide ? "add_surface_i64" : "add_surface_i32";
+        const std::int64_t n = xyz.size() / 3, n_faces = face_ptr.size() > 0 ? face_ptr.size() - 1 : 0;
+        if (dof.size() > 0) require_size(dof.size(), 3 * n, verb, "dof");
+        if (area.size() > 0) require_size(area.size(), n, verb, "area");
+        std::int64_t surface = -1;
+        if (n_faces > 0) {
+            require_width(face_ptr, wide, verb, "face_ptr");
+            require_width(face_node, wide, verb, "face_node");
+            const std::int64_t end =
+                wide ? face_ptr.wide()[n_faces] : std::int64_t(face_ptr.narrow()[n_faces]);
+            require_size(face_node.size(), end - index_base, verb, "face_node");
+        }
+        check(wide ? plm_model_add_surface_i64(handle_, index_base, n, dof.wide(), xyz.data(), area.data(),
+                                               n_faces, face_ptr.wide(), face_node.wide(), &surface)
+                   : plm_model_add_surface_i32(handle_, index_base, n, dof.narrow(), xyz.data(), area.data(),
+                                               n_faces, face_ptr.narrow(), face_node.narrow(), &surface),
+              verb);
+        return surface;
+    }
+    /// options: a sum of PLM_SURFACE_...; PLM_OK or PLM_WARNING.
+    plm_status add_surface_contact(std::int64_t slave, std::int64_t master, std::int32_t options,
+                                   double stiffness, double search, double closed = 0) {
+        return finished(
+            plm_model_add_surface_contact(handle_, slave, master, options, stiffness, search, closed),
+            "add_surface_contact");
+    }
+    /// N of all pairs added so far, PLM_KEEP_GAP of those that keep their gaps; empty removes it.
+    void set_rest_force(Reals force) {
+        check(plm_model_set_rest_force(handle_, force.size(), force.data()), "set_rest_force");
+    }
     /// DOFs of the matrices that are Lagrange multipliers: their rows of K become constraints.
     void set_multipliers(Indices dof, std::int32_t index_base = 0) {
         check(dof.is_wide() ? plm_model_set_multipliers_i64(handle_, index_base, dof.size(), dof.wide())

@@ -71,6 +71,10 @@ CASE(model, plm_model_add_distributing_coupling_i32, 0, 3, i32, numbers, 1, far3
 CASE(model, plm_model_add_distributing_coupling_i64, 0, 3, i64, numbers, 1, far64, numbers, NULL)
 CASE(model, plm_model_add_tie_i32, 0, 1, other32, one, 3, face_dof32, face, 1, face_ptr32, i32, 5, &out[0].d)
 CASE(model, plm_model_add_tie_i64, 0, 1, other64, one, 3, face_dof64, face, 1, face_ptr64, i64, 5, &out[0].d)
+CASE(model, plm_model_add_surface_i32, 0, 3, face_dof32, face, NULL, 1, face_ptr32, i32, &out[0].l)
+CASE(model, plm_model_add_surface_i64, 0, 3, face_dof64, face, NULL, 1, face_ptr64, i64, &out[0].l)
+CASE(model, plm_model_add_surface_contact, 0, 1, 0, 1, 1, 0)
+CASE(model, plm_model_set_rest_force, 1, one)
 CASE(model, plm_model_set_multipliers_i32, 0, 1, i32)
 CASE(model, plm_model_set_multipliers_i64, 0, 1, i64)
 CASE(model, plm_model_set_elimination_order_i32, 0, 3, other32)
@@ -188,6 +192,10 @@ static const struct {
                  ENTRY(MODEL, plm_model_add_distributing_coupling_i64),
                  ENTRY(MODEL, plm_model_add_tie_i32),
                  ENTRY(MODEL, plm_model_add_tie_i64),
+                 ENTRY(MODEL, plm_model_add_surface_i32),
+                 ENTRY(MODEL, plm_model_add_surface_i64),
+                 ENTRY(MODEL, plm_model_add_surface_contact),
+                 ENTRY(MODEL, plm_model_set_rest_force),
                  ENTRY(MODEL, plm_model_set_multipliers_i32),
                  ENTRY(MODEL, plm_model_set_multipliers_i64),
                  ENTRY(MODEL, plm_model_set_elimination_order_i32),

@@ -84,8 +84,9 @@ static void print_coupled(void) {
     const double origin[] = {0, 0, 0}, corners[] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, weight[] = {1, 2, 3},
                  aside[] = {1, 1, 0}, above[] = {0.4, 0.4, 0.5};
     int32_t row[25], column[25];
-    double mass[25], stiffness[25], distance[1], hz[4];
-    int64_t n = 0;
+    double mass[25], stiffness[25], distance[3], hz[4];
+    const double wall[] = {1.5, 0.5, 0.5, 0.5, 0.5, 1.5, 0.5, 1.5, 0.5}, press[] = {3, PLM_KEEP_GAP, 0};
+    int64_t n = 0, slave = -1, master = -1;
     plm_model *model = NULL;
     for (int32_t i = 0; i < 25; i++) {
         row[i] = i < 21 ? i : tail[i - 21], column[i] = i < 21 ? i : head[i - 21];
@@ -101,12 +102,20 @@ static void print_coupled(void) {
     must(plm_model_add_tie_i32(model, 0, 1, tied, above, 3, face, corners, 1, face_ptr, face_node, 1,
                                distance));
     must(plm_model_set_multipliers_i32(model, 0, 1, multiplier));
+    must(plm_model_add_surface_i32(model, 0, 3, face, corners, NULL, 1, face_ptr, face_node, &slave));
+    must(plm_model_add_surface_i32(model, 0, 3, NULL, wall, NULL, 1, face_ptr, face_node, &master));
+    must(plm_model_add_surface_contact(model, slave, master, PLM_SURFACE_SMOOTH, 50, 2, 0.1));
+    must(plm_model_set_rest_force(model, 3, press));
     must(plm_model_build(model));
     must(plm_model_get_int(model, "n_free", &n));
     heading("coupled_n_free"), whole(n);
     reals("tie_distance", 1, distance);
     must(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 4, hz, NULL));
     reals("coupled_hz", 4, hz);
+    must(plm_model_solve_rest(model));
+    must(plm_model_get_array(model, "surface_gap", 3, distance, &n)), reals("surface_gap", n, distance);
+    must(plm_model_get_array(model, "rest_force", 3, distance, &n)), reals("surface_force", n, distance);
+    must(plm_model_get_array(model, "initial_gap", 3, distance, &n)), reals("surface_rest_gap", n, distance);
     must(plm_model_destroy(&model));
 }
 

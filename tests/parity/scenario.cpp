@@ -60,10 +60,19 @@ void print_coupled(const plm::Context &context) {
     const std::vector<double> distance =
         model.add_tie({18, 19, 20}, {0.4, 0.4, 0.5}, face, corners, {0, 3}, {0, 1, 2}, 1);
     model.set_multipliers({21});
+    const std::vector<double> wall{1.5, 0.5, 0.5, 0.5, 0.5, 1.5, 0.5, 1.5, 0.5};
+    const auto slave = model.add_surface(face, corners, {0, 3}, {0, 1, 2});
+    const auto master = model.add_surface({}, wall, {0, 3}, {0, 1, 2});
+    model.add_surface_contact(slave, master, PLM_SURFACE_SMOOTH, 50, 2, 0.1);
+    model.set_rest_force({3, PLM_KEEP_GAP, 0});
     model.build();
     print("coupled_n_free", std::vector{model.get_int("n_free")});
     print("tie_distance", distance);
     print("coupled_hz", model.modes(PLM_SYSTEM_OPEN, 4).frequency_hz);
+    model.solve_rest();
+    print("surface_gap", model.get_array("surface_gap"));
+    print("surface_force", model.get_array("rest_force"));
+    print("surface_rest_gap", model.get_array("initial_gap"));
 }
 
 void print_model(plm::Model &model) {

@@ -127,7 +127,8 @@ C     points count from 1 here.
       INTEGER*8 MODEL
       INTEGER I, IERR, NUMBER, INTS(1)
       INTEGER IROW(25), ICOL(25), IHUB(6), IFACE(9), ILINK(3), ITIED(3)
-      INTEGER IFPTR(2), IFNODE(3), MULT(1)
+      INTEGER IFPTR(2), IFNODE(3), MULT(1), NODOF(9), ISLAVE, MASTER
+      DOUBLE PRECISION NOAREA(3), WALL(9), PRESS(3)
       DOUBLE PRECISION XM(25), XK(25), ORIGIN(3), CORNER(9), WEIGHT(3)
       DOUBLE PRECISION ASIDE(3), ABOVE(3), DIST(1), HZ(4)
       DATA IHUB /1, 2, 3, 4, 5, 6/
@@ -137,6 +138,9 @@ C     points count from 1 here.
       DATA IFPTR /1, 4/
       DATA IFNODE /1, 2, 3/
       DATA MULT /22/
+      DATA NODOF /9*0/
+      DATA NOAREA /3*0.0D0/
+      DATA WALL /1.5D0, 4*0.5D0, 1.5D0, 0.5D0, 1.5D0, 0.5D0/
       DATA ORIGIN /0.0D0, 0.0D0, 0.0D0/
       DATA CORNER /1.0D0, 3*0.0D0, 1.0D0, 3*0.0D0, 1.0D0/
       DATA WEIGHT /1.0D0, 2.0D0, 3.0D0/
@@ -174,6 +178,20 @@ C     points count from 1 here.
       CALL MUST(IERR)
       CALL PLMMLM(MODEL, 1, MULT, IERR)
       CALL MUST(IERR)
+      CALL PLMMSU(MODEL, 3, IFACE, CORNER, NOAREA, 1, IFPTR, IFNODE,
+     1            ISLAVE, IERR)
+      CALL MUST(IERR)
+      CALL PLMMSU(MODEL, 3, NODOF, WALL, NOAREA, 1, IFPTR, IFNODE,
+     1            MASTER, IERR)
+      CALL MUST(IERR)
+      CALL PLMMSC(MODEL, ISLAVE, MASTER, PLMSSM, 50.0D0, 2.0D0, 0.1D0,
+     1            IERR)
+      CALL MUST(IERR)
+      PRESS(1) = 3.0D0
+      PRESS(2) = PLMKGP
+      PRESS(3) = 0.0D0
+      CALL PLMMRF(MODEL, 3, PRESS, IERR)
+      CALL MUST(IERR)
       CALL PLMMBU(MODEL, IERR)
       CALL MUST(IERR)
       CALL PLMMGI(MODEL, 'n_free', NUMBER, IERR)
@@ -184,6 +202,17 @@ C     points count from 1 here.
       CALL PLMMFR(MODEL, PLMOPN, 4, HZ, IERR)
       CALL MUST(IERR)
       CALL SHOW('coupled_hz', 4, HZ)
+      CALL PLMMRS(MODEL, IERR)
+      CALL MUST(IERR)
+      CALL PLMMGA(MODEL, 'surface_gap', 3, PRESS, NUMBER, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('surface_gap', NUMBER, PRESS)
+      CALL PLMMGA(MODEL, 'rest_force', 3, PRESS, NUMBER, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('surface_force', NUMBER, PRESS)
+      CALL PLMMGA(MODEL, 'initial_gap', 3, PRESS, NUMBER, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('surface_rest_gap', NUMBER, PRESS)
       CALL PLMMDE(MODEL, IERR)
       CALL MUST(IERR)
       END

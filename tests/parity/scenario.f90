@@ -62,7 +62,8 @@ contains
     subroutine show_coupled(context)
         type(plm_context), intent(in) :: context
         type(plm_model) :: model
-        integer :: i, n, others(23), face(3, 3)
+        real(real64), allocatable :: values(:)
+        integer :: i, n, others(23), face(3, 3), slave, master
         real(real64) :: corners(3, 3), distance(1), hz(4)
         others = [(i, i=1, 21), 23, 24]
         face = reshape([(i, i=7, 15)], [3, 3])
@@ -81,12 +82,24 @@ contains
         call model%add_tie(reshape([19, 20, 21], [3, 1]), reshape([0.4_real64, 0.4_real64, 0.5_real64], [3, 1]), &
             face, corners, [1, 4], [1, 2, 3], 1.0_real64, distance)
         call model%set_multipliers([22])
+        call model%add_surface(face, corners, [1, 4], [1, 2, 3], slave)
+        call model%add_surface(spread(spread(0, 1, 3), 2, 3), reshape([1.5_real64, 0.5_real64, 0.5_real64, 0.5_real64, &
+            0.5_real64, 1.5_real64, 0.5_real64, 1.5_real64, 0.5_real64], [3, 3]), [1, 4], [1, 2, 3], master)
+        call model%add_surface_contact(slave, master, int(PLM_SURFACE_SMOOTH), 50.0_real64, 2.0_real64, 0.1_real64)
+        call model%set_rest_force([3.0_real64, PLM_KEEP_GAP, 0.0_real64])
         call model%build()
         call model%get('n_free', n)
         call show_integers('coupled_n_free', [n])
         call show('tie_distance', distance)
         call model%modes(PLM_SYSTEM_OPEN, hz)
         call show('coupled_hz', hz)
+        call model%solve_rest()
+        call model%get('surface_gap', values)
+        call show('surface_gap', values)
+        call model%get('rest_force', values)
+        call show('surface_force', values)
+        call model%get('initial_gap', values)
+        call show('surface_rest_gap', values)
         call model%destroy()
     end subroutine show_coupled
 

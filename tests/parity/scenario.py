@@ -48,10 +48,18 @@ def show_coupled():
     model.add_rigid_link(range(6), [0, 0, 0], [15, 16, 17], [1, 1, 0])
     distance = model.add_tie([18, 19, 20], [0.4, 0.4, 0.5], face, corners, [[0, 1, 2]], 1)
     model.set_multipliers([21])
+    slave = model.add_surface(face, corners, [[0, 1, 2]])
+    master = model.add_surface(None, [[1.5, 0.5, 0.5], [0.5, 0.5, 1.5], [0.5, 1.5, 0.5]], [[0, 1, 2]])
+    model.add_surface_contact(slave, master, search=2, stiffness=50, closed=0.1, smooth=True)
+    model.set_rest_force([3, numpy.nan, 0])
     model.build()
     show("coupled_n_free", numpy.int64(model.n_free))
     show("tie_distance", distance)
     show("coupled_hz", model.modes(4))
+    model.solve_rest()
+    show("surface_gap", model.surface_gap)
+    show("surface_force", model.rest_force)
+    show("surface_rest_gap", model.initial_gap)
 
 
 def show_model(model):

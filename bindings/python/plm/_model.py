@@ -145,17 +145,16 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         of the surface (-1: no such DOF); faces: rows of 3, 4, 6 or 8 places in the latter, an array or a list of lists.
         Nodes farther than the tolerance stay free, with a warning. Returns the distance of every node from the surface."""
         xyz, surface_xyz = self._points(dependent_xyz, "dependent_xyz"), self._points(surface_xyz, "surface_xyz")
-        faces = [integers(face, "faces").ravel() for face in faces]
-        start = numpy.concatenate([[0], numpy.cumsum([face.size for face in faces])]).astype(numpy.int32)
+        start, node = self._faces(faces)
         arrays = [integers(dependent_dof, "dependent_dof").reshape(-1, 3), integers(surface_dof, "surface_dof").reshape(-1, 3),
-                  start, numpy.concatenate(faces) if faces else start[:0]]
+                  start, node]
         (dof, surface, start, node), width = alike(*arrays)
         for name, given, at in (("dependent", dof, xyz), ("surface", surface, surface_xyz)):
             if len(given) != len(at):
                 raise ValueError(f"{name}_dof has {len(given)} nodes, {name}_xyz {len(at)}")
         distance = numpy.empty(len(xyz))
         self._work("add_tie" + width, 0, len(xyz), address(dof), address(xyz), len(surface), address(surface), address(surface_xyz),
-                   len(faces), address(start), address(node), tolerance, address(distance))
+                   len(start) - 1, address(start), address(node), tolerance, address(distance))
         return distance
 
     @staticmethod
@@ -213,6 +212,50 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         _, stiffness, gap = self._pairs(n, None, stiffness, gap)
         self._call("add_gap_rows" + width, 0, n, address(start), address(dof), address(coefficient), address(stiffness),
                    address(gap))
+
+    def add_surface(self, dof, xyz, faces=(), area=None):
+        """A surface for contact; returns its number. dof, xyz: n x 3 of a table of nodes (-1: no such DOF; dof None: a rigid
+        wall); faces: rows of 3, 4, 6 or 8 places in it, normals (right-hand rule) out of the body; none: nodes alone, which
+        can be a slave. area: n, what nodes stand for in place of what the faces give."""
+        xyz = self._points(xyz, "xyz")
+        start, node = self._faces(faces)
+        dof = numpy.full((len(xyz), 3), -1) if dof is None else integers(dof, "dof").reshape(-1, 3)
+        if len(dof) != len(xyz):
+            raise ValueError(f"dof has {len(dof)} nodes, xyz {len(xyz)}")
+        (table, start, node), width = alike(dof, start, node)
+        area = reals(area, (len(xyz),), "area", "one for each node, or one number for all")
+        number = ctypes.c_int64()
+        is_wall = bool(numpy.all(dof < 0))
+        self._call("add_surface" + width, 0, len(xyz), None if is_wall else address(table), address(xyz), address(area),
+                   len(start) - 1, address(start), address(node), ctypes.byref(number))
+        return number.value
+
+    def add_surface_contact(self, slave, master, search, stiffness=None, closed=0.0, points=False, symmetric=False, smooth=False,
+                            two_sided=False):
+        """Contact between two surfaces (numbers from add_surface) whose meshes need not match: the slave's nodes, or the points
+        that integrate over its faces, against the master's faces within `search`. stiffness: by area (of each node where
+        the slave has no faces; None: chosen by the library). Gaps and interferences up to `closed` are none. symmetric: both
+        ways, half each; smooth: normals without the master's edges; two_sided: the master is a sheet."""
+        options = (points * _c.SURFACE_POINTS + symmetric * _c.SURFACE_SYMMETRIC + smooth * _c.SURFACE_SMOOTH
+                   + two_sided * _c.SURFACE_TWO_SIDED)
+        self._work("add_surface_contact", slave, master, options, _c.AUTO_STIFFNESS if stiffness is None else stiffness, search,
+                   closed)
+
+    def set_rest_force(self, force):
+        """Contact forces at rest of all pairs added so far (n; NaN: the pair keeps its gap), in place of their gaps, which the
+        build finds ("initial_gap"). None removes them."""
+        if force is None:
+            return self._call("set_rest_force", 0, None)
+        force = numpy.atleast_1d(numpy.asarray(force, dtype=float))
+        force = list_of_reals(numpy.where(numpy.isnan(force), _c.KEEP_GAP, force), "force")
+        self._call("set_rest_force", len(force), address(force))
+
+    @staticmethod
+    def _faces(faces):
+        """As compressed rows."""
+        faces = [integers(face, "faces").ravel() for face in faces]
+        start = numpy.concatenate([[0], numpy.cumsum([face.size for face in faces])]).astype(numpy.int32)
+        return start, numpy.concatenate(faces) if faces else start[:0]
 
     def _rows(self, rows, when_zero):
         rows = scipy.sparse.csr_matrix(rows)
