@@ -72,8 +72,8 @@ class Surfaces(unittest.TestCase):
                 pressure = pressure * 2  # each side carries half
             errors[name] = abs(pressure - 1).max()
         print("largest error of a uniform pressure:", errors)
-        self.assertLess(errors["nodes"], 0.5)
-        self.assertLess(errors["points"], errors["nodes"])
+        self.assertLess(max(errors["nodes"], errors["points"]), 0.15)
+        self.assertLess(errors["symmetric points"], 0.16)
 
     def test_rigid_motion_is_free(self):
         """Two loose blocks apart: twelve rigid motions, six of them through the contact, and no word of rounded rows."""
@@ -118,7 +118,7 @@ class Surfaces(unittest.TestCase):
         n, z = 8, 3
         a = random.normal(size=(n, n))
         stiffness, B, f = a @ a.T + n * numpy.eye(n), random.normal(size=(z, n)), random.normal(size=n)
-        N = numpy.array([2.0, 0.0, 0.7])
+        N = numpy.array([2.0, 0.3, 0.7])
         for k in 10.0 ** numpy.arange(-3, 6):
             model = plm.Model(numpy.eye(n), stiffness)
             model.add_gap_rows(B, k)
