@@ -96,6 +96,9 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_SURFACE_SMOOTH = 4_c_int32_t
     integer(c_int32_t), parameter :: PLM_SURFACE_TWO_SIDED = 8_c_int32_t
     real(c_double), parameter :: PLM_KEEP_GAP = -1.0_c_double
+    integer(c_int32_t), parameter :: PLM_DISPLACEMENT = 0_c_int32_t
+    integer(c_int32_t), parameter :: PLM_VELOCITY = 1_c_int32_t
+    integer(c_int32_t), parameter :: PLM_ACCELERATION = 2_c_int32_t
     integer(c_int32_t), parameter :: PLM_SYSTEM_OPEN = 0_c_int32_t
     integer(c_int32_t), parameter :: PLM_SYSTEM_SLIDING = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_SYSTEM_REST = 2_c_int32_t
@@ -782,6 +785,17 @@ module plm_c
             real(c_double), intent(in), optional :: imag(*)
             integer(plm_status) :: code
         end function plm_model_set_excitation
+        function plm_model_set_growing_excitation(model, harmonic, power, n, real, imag) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: harmonic
+            integer(c_int32_t), value :: power
+            integer(c_int64_t), value :: n
+            real(c_double), intent(in), optional :: real(*)
+            real(c_double), intent(in), optional :: imag(*)
+            integer(plm_status) :: code
+        end function plm_model_set_growing_excitation
         function plm_model_set_gap_motion(model, harmonic, n, real, imag) bind(c) result(code)
             import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
             implicit none
@@ -792,6 +806,17 @@ module plm_c
             real(c_double), intent(in), optional :: imag(*)
             integer(plm_status) :: code
         end function plm_model_set_gap_motion
+        function plm_model_set_base_motion(model, quantity, harmonic, n, real, imag) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: quantity
+            integer(c_int32_t), value :: harmonic
+            integer(c_int64_t), value :: n
+            real(c_double), intent(in), optional :: real(*)
+            real(c_double), intent(in), optional :: imag(*)
+            integer(plm_status) :: code
+        end function plm_model_set_base_motion
         function plm_model_set_dense_matrix(model, which, part, value, ld) bind(c) result(code)
             import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
             implicit none

@@ -243,6 +243,29 @@ subroutine plmmex(handle, iharm, ndof, dreal, dimag, ierr)
 end subroutine plmmex
 
 ! the same
+subroutine plmmeg(handle, iharm, ipower, ndof, dreal, dimag, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_set_growing_excitation
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: iharm
+    integer, intent(in) :: ipower
+    integer, intent(in) :: ndof
+    real(real64), intent(in) :: dreal(*)
+    real(real64), intent(in) :: dimag(*)
+    integer, intent(out) :: ierr
+    if (iharm == 0) then
+        ierr = int(plm_model_set_growing_excitation(as_pointer(handle), int(iharm, c_int32_t), &
+            int(ipower, c_int32_t), int(ndof, int64), dreal))
+    else
+        ierr = int(plm_model_set_growing_excitation(as_pointer(handle), int(iharm, c_int32_t), &
+            int(ipower, c_int32_t), int(ndof, int64), dreal, dimag))
+    end if
+end subroutine plmmeg
+
+! the same
 subroutine plmmgm(handle, iharm, n, dreal, dimag, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t
     use, intrinsic :: iso_fortran_env, only: int64, real64

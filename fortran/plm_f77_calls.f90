@@ -569,6 +569,23 @@ subroutine plmmpl(handle, ndof, force, ierr)
     ierr = int(plm_model_set_preload(as_pointer(handle), int(ndof, int64), force))
 end subroutine plmmpl
 
+subroutine plmmbm(handle, iquant, iharm, ndof, dreal, dimag, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_set_base_motion
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: iquant
+    integer, intent(in) :: iharm
+    integer, intent(in) :: ndof
+    real(real64), intent(in) :: dreal(*)
+    real(real64), intent(in) :: dimag(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_set_base_motion(as_pointer(handle), int(iquant, c_int32_t), int(iharm, c_int32_t), &
+        int(ndof, int64), dreal, dimag))
+end subroutine plmmbm
+
 subroutine plmmdm(handle, iwhich, ipart, value, ld, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t
     use, intrinsic :: iso_fortran_env, only: int64, real64

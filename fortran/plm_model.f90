@@ -32,6 +32,8 @@ module plm_models
         procedure, private :: add_surface_int32, add_surface_int64
         procedure, private :: set_multipliers_int32, set_multipliers_int64
         procedure, private :: set_excitation_real, set_excitation_complex
+        procedure, private :: set_growing_excitation_real, set_growing_excitation_complex
+        procedure, private :: set_base_motion_real, set_base_motion_complex
         procedure, private :: set_gap_motion_real, set_gap_motion_complex
         generic :: set_csc => set_csc_int32, set_csc_int64
         generic :: set_csr => set_csr_int32, set_csr_int64
@@ -54,6 +56,8 @@ module plm_models
         procedure :: recover
         procedure :: set_preload
         generic :: set_excitation => set_excitation_real, set_excitation_complex
+        generic :: set_growing_excitation => set_growing_excitation_real, set_growing_excitation_complex
+        generic :: set_base_motion => set_base_motion_real, set_base_motion_complex
         generic :: set_gap_motion => set_gap_motion_real, set_gap_motion_complex
         procedure :: build
         procedure :: solve_rest
@@ -507,6 +511,49 @@ contains
         call finish(self%context, plm_model_set_excitation(self%handle, int(harmonic, c_int32_t), &
             size(force, kind=int64), real(force, real64), aimag(force)), stat, errmsg)
     end subroutine set_excitation_complex
+
+    ! and omega^power Re(force exp(i h omega t)), power 1 or 2: of an unbalance 2
+    subroutine set_growing_excitation_real(self, harmonic, power, force, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(in) :: harmonic, power
+        real(real64), intent(in), contiguous :: force(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_growing_excitation(self%handle, int(harmonic, c_int32_t), &
+            int(power, c_int32_t), size(force, kind=int64), force), stat, errmsg)
+    end subroutine set_growing_excitation_real
+
+    subroutine set_growing_excitation_complex(self, harmonic, power, force, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(in) :: harmonic, power
+        complex(real64), intent(in) :: force(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_growing_excitation(self%handle, int(harmonic, c_int32_t), &
+            int(power, c_int32_t), size(force, kind=int64), real(force, real64), aimag(force)), stat, errmsg)
+    end subroutine set_growing_excitation_complex
+
+    ! Motion of fixed DOFs, Re(motion exp(i h omega t)), zero at all others; quantity: PLM_DISPLACEMENT, _VELOCITY or
+    ! _ACCELERATION. Results are relative to the base.
+    subroutine set_base_motion_real(self, quantity, harmonic, motion, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(in) :: quantity, harmonic
+        real(real64), intent(in), contiguous :: motion(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_base_motion(self%handle, int(quantity, c_int32_t), &
+            int(harmonic, c_int32_t), size(motion, kind=int64), motion), stat, errmsg)
+    end subroutine set_base_motion_real
+
+    subroutine set_base_motion_complex(self, quantity, harmonic, motion, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer, intent(in) :: quantity, harmonic
+        complex(real64), intent(in) :: motion(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_model_set_base_motion(self%handle, int(quantity, c_int32_t), &
+            int(harmonic, c_int32_t), size(motion, kind=int64), real(motion, real64), aimag(motion)), stat, errmsg)
+    end subroutine set_base_motion_complex
 
     ! gap(t) = gap + sum over h of Re(motion_h exp(i h omega t)), of all pairs added so far
     subroutine set_gap_motion_real(self, harmonic, motion, stat, errmsg)

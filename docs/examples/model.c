@@ -296,6 +296,18 @@ static int loads_and_options(plm_model *model) {
     TRY(plm_model_set_excitation(model, 2, 2, NULL, NULL));      /* which is taken back */
     /* [plm_model_set_excitation] */
 
+    /* [plm_model_set_growing_excitation] */
+    const double unbalance[] = {0, 2e-3}; /* 0.2 kg turning 10 mm off its axis: kg m, for forces in N */
+    TRY(plm_model_set_growing_excitation(model, 1, 2, 2, unbalance, NULL));
+    TRY(plm_model_set_growing_excitation(model, 1, 2, 2, NULL, NULL)); /* and none */
+    /* [plm_model_set_growing_excitation] */
+
+    /* [plm_model_set_base_motion] */
+    const double shaken[] = {9.81, 0}; /* a DOF that is fixed shakes with 1 g */
+    TRY(plm_model_set_base_motion(model, PLM_ACCELERATION, 1, 2, shaken, NULL));
+    TRY(plm_model_set_base_motion(model, PLM_ACCELERATION, 1, 2, NULL, NULL)); /* here none is */
+    /* [plm_model_set_base_motion] */
+
     /* [plm_model_set_int] [plm_model_set_double] [plm_model_set_string] */
     TRY(plm_model_set_int(model, "verify_counts", 1));
     TRY(plm_model_set_double(model, "space_tolerance", 1e-8));

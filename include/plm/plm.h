@@ -475,7 +475,7 @@ PLM_API plm_status plm_model_add_outputs_i64(plm_model *model, int32_t index_bas
                                              const int64_t *dof, const double *coefficient, int64_t *first_dof);
 
 /* What acts may be changed after plm_model_build: pre-load, forces at rest, excitation, gap motion, Rayleigh, modal and
- * structural damping (not a damping matrix), by the same functions. Nothing is factored again. They then return PLM_WARNING as the build does.
+ * structural damping (not a damping matrix, nor the motion of supports), by the same functions. Nothing is factored again. They then return PLM_WARNING as the build does.
  * Branches, studies that have run and what a transient has recorded stay what they are, of the loads as they were, with
  * their error measures; plm_model_get_modes and the state at rest follow from the new ones. A sampler has to run again and
  * a basis to be built again, in this order, before more is computed with them, a transient to be made anew:
@@ -486,9 +486,16 @@ PLM_API plm_status plm_model_add_outputs_i64(plm_model *model, int32_t index_bas
 PLM_API plm_status plm_model_set_preload(plm_model *model, int64_t n, const double *force);
 /* Harmonic h of the excitation: F(t) = sum_h Re(F_h exp(i h omega t)), F_h = real + i imag, each [n_dof], imag or
  * NULL (zero). h = 0 is a static part that comes and goes with the excitation (imag must be NULL).
- * real = NULL removes harmonic h. */
+ * real = NULL removes it. */
 PLM_API plm_status plm_model_set_excitation(plm_model *model, int32_t harmonic, int64_t n, const double *real,
                                             const double *imag);
+/* A part of harmonic h of the excitation that grows with a power of its frequency: omega^power Re(F exp(i h omega t)) is
+ * added to what plm_model_set_excitation gives, omega in rad/s, power 1 or 2 (0 is that function's own part). F is what
+ * the load is at omega = 1 rad/s: of an unbalance, power 2, h = 1, it is mass times eccentricity (in t mm where forces are
+ * N, in kg m where they are N), turned with it by imag. n, real, imag, and what removes the part, as there. It is an
+ * excitation: force_scale multiplies it. */
+PLM_API plm_status plm_model_set_growing_excitation(plm_model *model, int32_t harmonic, int32_t power, int64_t n,
+                                                    const double *real, const double *imag);
 /* Moving walls: harmonic h of the gaps' motion, gap(t) = gap + sum_h Re(G_h exp(i h omega t)), G_h = real + i imag
  * (length), each [n], imag or NULL (zero); n is the number of pairs added so far, those added later stand still. A
  * casing that is out of round, a shaker's table, a travelling wave. Harmonic balance and motions in time take it
@@ -498,6 +505,23 @@ PLM_API plm_status plm_model_set_excitation(plm_model *model, int32_t harmonic, 
  * does not look for a larger motion beside the curve. real = NULL removes harmonic h. */
 PLM_API plm_status plm_model_set_gap_motion(plm_model *model, int32_t harmonic, int64_t n, const double *real,
                                             const double *imag);
+
+/* Moving supports: harmonic h >= 1 of the motion of fixed DOFs, Re((real + i imag) exp(i h omega t)), each [n], n =
+ * n_dof, imag or NULL (zero); entries of DOFs that are not fixed must be zero, and a DOF that moves is in no constraint
+ * (both are told by plm_model_build). quantity: PLM_DISPLACEMENT (length), PLM_VELOCITY (length/s) or PLM_ACCELERATION
+ * (length/s^2); one of them for a harmonic, the last one given. All results are relative to the base: displacements less
+ * those with which the structure follows its supports at rest, L u_s, L = -K_ff^-1 K_fs; supports stay at zero.
+ * With all supports moved alike L u_s is that rigid motion, which the host adds for absolute results. M, K and C act
+ * through the supports as they do among the free DOFs; modal damping, structural damping and the stiffness part of
+ * Rayleigh's damp the relative motion, the mass part and the matrix C the absolute one. A row of the gap matrix that the
+ * base moves, as against a wall that stands still, has a gap that moves (plm_model_set_gap_motion says what follows);
+ * that takes PLM_DISPLACEMENT, or plm_model_build refuses. It is excitation: force_scale multiplies it.
+ * real = NULL removes harmonic h. */
+#define PLM_DISPLACEMENT 0
+#define PLM_VELOCITY 1
+#define PLM_ACCELERATION 2
+PLM_API plm_status plm_model_set_base_motion(plm_model *model, int32_t quantity, int32_t harmonic, int64_t n,
+                                             const double *real, const double *imag);
 
 /* Superelements: a structure that the host has reduced already (Craig and Bampton's method in any code, or modes and
  * contact attachment vectors, the columns of T) is a model like any other, whose DOFs are the coordinates of the

@@ -931,6 +931,23 @@ class Model : public detail::WithOptions<Model, plm_model> {
                                        imag.data()),
               "set_excitation");
     }
+    /// And omega^power Re((real + i imag) exp(i h omega t)), power 1 or 2: an unbalance has the power 2; real
+    /// nullptr removes it.
+    void set_growing_excitation(std::int32_t harmonic, std::int32_t power, Reals real, Reals imag = {}) {
+        if (imag.data()) require_size(imag.size(), n_dof_, "set_growing_excitation", "imag");
+        check(plm_model_set_growing_excitation(handle_, harmonic, power, real.data() ? real.size() : n_dof_,
+                                               real.data(), imag.data()),
+              "set_growing_excitation");
+    }
+    /// Motion of fixed DOFs, Re((real + i imag) exp(i h omega t)), zero at all others; quantity:
+    /// PLM_DISPLACEMENT, PLM_VELOCITY or PLM_ACCELERATION. Results are relative to the base; real nullptr
+    /// removes harmonic h.
+    void set_base_motion(std::int32_t quantity, std::int32_t harmonic, Reals real, Reals imag = {}) {
+        if (imag.data()) require_size(imag.size(), n_dof_, "set_base_motion", "imag");
+        check(plm_model_set_base_motion(handle_, quantity, harmonic, real.data() ? real.size() : n_dof_,
+                                        real.data(), imag.data()),
+              "set_base_motion");
+    }
     /// gap(t) = gap + Re((real + i imag) exp(i h omega t)) of all pairs added so far; real nullptr removes
     /// harmonic h.
     void set_gap_motion(std::int32_t harmonic, Reals real, Reals imag = {}) {

@@ -33,6 +33,25 @@ void require_n_pairs(std::int64_t n, std::int64_t n_pairs) {
                    static_cast<long long>(n), static_cast<long long>(n_pairs)));
 }
 
+HarmonicLoad copied_loads(std::int64_t n_dof, std::int64_t n, const double *real, const double *imag) {
+    HarmonicLoad load;
+    load.real = copied_load("real", n, real, n_dof);
+    if (imag) load.imag = copied_load("imag", n, imag, n_dof);
+    return load;
+}
+
+Outcome change_excitation(ModelHandle &m, LoadPart part, std::int64_t n, const double *real,
+                          const double *imag) {
+    return change_loads(m, [&](ModelInput &input) {
+        if (!is_given(part.harmonic, real, imag)) {
+            input.excitation.erase(part);
+            return;
+        }
+        HarmonicLoad load = copied_loads(input.n_dof, n, real, imag);
+        std::swap(input.excitation[part], load);
+    });
+}
+
 } // namespace
 } // namespace plm::capi
 
@@ -49,16 +68,15 @@ plm_status plm_model_set_preload(plm_model *model, std::int64_t n, const double 
 plm_status plm_model_set_excitation(plm_model *model, std::int32_t harmonic, std::int64_t n,
                                     const double *real, const double *imag) {
     return call<ModelHandle>("plm_model_set_excitation", model, [&](ModelHandle &m) {
-        return change_loads(m, [&](plm::ModelInput &input) {
-            if (!is_given(harmonic, real, imag)) {
-                input.excitation.erase(harmonic);
-                return;
-            }
-            plm::HarmonicLoad load;
-            load.real = copied_load("real", n, real, input.n_dof);
-            if (imag) load.imag = copied_load("imag", n, imag, input.n_dof);
-            std::swap(input.excitation[harmonic], load);
-        });
+        return change_excitation(m, {harmonic}, n, real, imag);
+    });
+}
+
+plm_status plm_model_set_growing_excitation(plm_model *model, std::int32_t harmonic, std::int32_t power,
+                                            std::int64_t n, const double *real, const double *imag) {
+    return call<ModelHandle>("plm_model_set_growing_excitation", model, [&](ModelHandle &m) {
+        require_range(power, 0, 2, "power");
+        return change_excitation(m, {harmonic, power}, n, real, imag);
     });
 }
 
@@ -99,5 +117,21 @@ plm_status plm_model_set_rest_force(plm_model *model, std::int64_t n, const doub
                                              static_cast<long long>(i), force[i]));
             input.rest_forces.force.assign(force, force + n);
         });
+    });
+}
+
+plm_status plm_model_set_base_motion(plm_model *model, std::int32_t quantity, std::int32_t harmonic,
+                                     std::int64_t n, const double *real, const double *imag) {
+    return call<ModelHandle>("plm_model_set_base_motion", model, [&](ModelHandle &m) {
+        require_open(m);
+        require_range(quantity, PLM_DISPLACEMENT, PLM_ACCELERATION, "quantity");
+        require_range(harmonic, 1, 100000, "harmonic");
+        plm::HarmonicLoads &motion = m.input.base_motion;
+        plm::HarmonicLoad part;
+        if (is_given(harmonic, real, imag)) part = copied_loads(m.input.n_dof, n, real, imag);
+        for (std::int32_t q : {PLM_DISPLACEMENT, PLM_VELOCITY, PLM_ACCELERATION})
+            motion.erase({harmonic, -q});
+        if (real) motion[{harmonic, -quantity}] = std::move(part);
+        return PLM_OK;
     });
 }

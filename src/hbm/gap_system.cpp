@@ -61,22 +61,7 @@ class GapSystem final : public HbmSystem {
             add_mean_by_gaps(motion_.col(0), r);
             for (std::int64_t k = 0; k < size(); ++k) r[k] += motion_.data()[k];
         }
-        for (const auto &[h, load] : m_->excitation) {
-            if (h > h_) continue;
-            if (h == 0) {
-                vector<double> &v = mean_;
-                v = load.real;
-                response_.mean().apply(v.data());
-                gemv('N', -1.0, m_->gap_0, v.data(), 1.0, r);
-                continue;
-            }
-            vector<Complex> &v = response_of_load_;
-            for (std::int64_t j = 0; j < r_; ++j) v[j] = Complex(load.real[j], load.imag[j]);
-            response_.harmonic(h).apply(v.data());
-            of_load_.resize(2 * z_);
-            response_.write_gaps(v, -1.0, of_load_.data());
-            for (std::int64_t k = 0; k < 2 * z_; ++k) r[(2 * h - 1) * z_ + k] += of_load_[k];
-        }
+        take_response_to_loads(1.0, &LoadPart::growth, r);
     }
 
     void set_stiffness_factor(double factor) override { stiffness_factor_ = factor; }
@@ -120,7 +105,7 @@ class GapSystem final : public HbmSystem {
 
     void residual(const double *x, double omega, double *r) override {
         std::copy(x, x + size(), u_.data());
-        response_.set_frequency(omega);
+        set_frequency(omega);
         force_->indicator(u_, indicator_);
         apply_indicator(indicator_, form_.stiffness, u_, contact_);
         for (std::int64_t k = 0; k < size(); ++k) contact_.data()[k] *= stiffness_factor_;
@@ -165,11 +150,12 @@ class GapSystem final : public HbmSystem {
             response_.harmonic(h).apply(v.data());
             response_.write_gaps(v, 1.0, r + (2 * h - 1) * z_);
         }
+        take_response_to_loads(force_scale_, &LoadPart::growth_rate, r); // and -B D dF/d omega
     }
 
     void linear_response(const vector<double> &coupling, double omega, double *x) override {
         std::fill(u_.data(), u_.data() + size(), 0.0);
-        response_.set_frequency(omega);
+        set_frequency(omega);
         constant_indicator(coupling, h_, indicator_);
         contact_.reset(z_, n_);
         hold_mean();
@@ -214,6 +200,33 @@ class GapSystem final : public HbmSystem {
     }
 
   private:
+    void set_frequency(double omega) {
+        omega_ = omega;
+        response_.set_frequency(omega);
+    }
+
+    // r -= scale B D F, each part of the excitation with its factor at omega_.
+    void take_response_to_loads(double scale, double (LoadPart::*factor)(double) const, double *r) {
+        for (const auto &[part, load] : m_->excitation) {
+            const std::int64_t h = part.harmonic;
+            const double f = scale * (part.*factor)(omega_);
+            if (h > h_ || f == 0) continue;
+            if (h == 0) {
+                vector<double> &v = mean_;
+                v = load.real;
+                response_.mean().apply(v.data());
+                gemv('N', -f, m_->gap_0, v.data(), 1.0, r);
+                continue;
+            }
+            vector<Complex> &v = response_of_load_;
+            for (std::int64_t j = 0; j < r_; ++j) v[j] = Complex(load.real[j], load.imag[j]);
+            response_.harmonic(h).apply(v.data());
+            of_load_.resize(2 * z_);
+            response_.write_gaps(v, -f, of_load_.data());
+            for (std::int64_t k = 0; k < 2 * z_; ++k) r[(2 * h - 1) * z_ + k] += of_load_[k];
+        }
+    }
+
     // The reference stiffness pulls at u + g.
     void add_mean_by_gaps(const double *change, double *r) {
         vector<double> moved(response_.mean().stiffness()), v(r0_);
@@ -231,13 +244,9 @@ class GapSystem final : public HbmSystem {
 
     void fill_mean_load(vector<double> &load) const {
         load = m_->preload_0;
-        if (const HarmonicLoad *mean = excitation(0))
-            for (std::int64_t j = 0; j < r0_; ++j) load[j] += force_scale_ * mean->real[j];
-    }
-
-    const HarmonicLoad *excitation(std::int64_t h) const {
-        const auto found = m_->excitation.find(static_cast<int>(h));
-        return found == m_->excitation.end() ? nullptr : &found->second;
+        for (const auto &[part, mean] : m_->excitation)
+            for (std::int64_t j = 0; part.harmonic == 0 && j < r0_; ++j)
+                load[j] += force_scale_ * part.growth(omega_) * mean.real[j];
     }
 
     // eta = D (F - B' N) for every harmonic, from contact_.
@@ -250,9 +259,9 @@ class GapSystem final : public HbmSystem {
         response_.mean().apply(eta_0_.data());
         for (std::int64_t h = 1; h <= h_; ++h) {
             response_.gather(contact_.col(2 * h - 1), contact_.col(2 * h), -1.0, eta_[h]);
-            if (const HarmonicLoad *load = excitation(h))
-                for (std::int64_t j = 0; j < r_; ++j)
-                    eta_[h][j] += force_scale_ * Complex(load->real[j], load->imag[j]);
+            for (const auto &[part, load] : m_->excitation)
+                for (std::int64_t j = 0; part.harmonic == h && j < r_; ++j)
+                    eta_[h][j] += force_scale_ * part.growth(omega_) * Complex(load.real[j], load.imag[j]);
             response_.harmonic(h).apply(eta_[h].data());
         }
     }
@@ -353,7 +362,7 @@ class GapSystem final : public HbmSystem {
     std::vector<Constant> constant_;
     std::vector<vector<Complex>> eta_; // harmonics >= 1
     vector<double> eta_0_;
-    double force_scale_, extra_gap_ = 0, stiffness_factor_ = 1;
+    double force_scale_, omega_ = 1, extra_gap_ = 0, stiffness_factor_ = 1;
     vector<std::int64_t> moving_;
     mutable MovingPairs equations_; // its sign may take a solution
     // of one call to the next: no iteration allocates

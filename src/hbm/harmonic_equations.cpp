@@ -76,11 +76,15 @@ MotionGradient HarmonicEquations::tangent_change(const vector<double> &w, const 
             dot(motion.rows() * motion.cols(), motion.data(), change.data())};
 }
 
-// (dJ/domega) v: dR/domega is linear in x and the same matrix.
+// (dJ/domega) v: dR/domega is the same matrix times x, and what the loads change by, whatever x is.
 vector<double> HarmonicEquations::frequency_derivative(const vector<double> &v) {
-    vector<double> change(size()), scratch(size());
+    vector<double> change(size()), back(size()), scratch(size()), opposite(v);
+    for (double &o : opposite) o = -o;
+    system_->residual(opposite.data(), omega_, scratch.data());
+    system_->parameter_derivative(back.data());
     system_->residual(v.data(), omega_, scratch.data());
     system_->parameter_derivative(change.data());
+    for (std::size_t j = 0; j < change.size(); ++j) change[j] = 0.5 * (change[j] - back[j]);
     system_->residual(x_.data(), omega_, scratch.data());
     return change;
 }
@@ -130,37 +134,38 @@ Matrix HarmonicEquations::contact_change(const vector<double> &w, const vector<d
 
 // --- phase resonance
 
-// phase = row . x, Re(F^H q) of the lowest harmonic of the excitation.
-const vector<double> &HarmonicEquations::phase_row() {
-    const auto *driven = driven_harmonic(reduced_->excitation);
-    if (!phase_row_.empty()) return phase_row_;
-    phase_row_.assign(static_cast<std::size_t>(size()), 0.0);
-    if (!driven) return phase_row_;
+// phase = row . x, Re(F^H q) of the lowest harmonic of the excitation; or the row's change by the frequency.
+vector<double> HarmonicEquations::phase_row(bool changed) const {
+    vector<double> row(static_cast<std::size_t>(size()), 0.0);
+    const int driven = driven_harmonic(reduced_->excitation);
+    if (driven == 0) return row;
     const std::int64_t r = reduced_->size(),
-                       at = static_size() + 2 * (driven->first * options_.period_multiple - 1) * r;
+                       at = static_size() + 2 * (driven * options_.period_multiple - 1) * r;
     if (at + 2 * r > size())
         throw Error(
             status::argument,
             format("phase resonance is that of harmonic %d of the excitation, which n_harmonics leaves "
                    "out; set n_harmonics to %d or more",
-                   driven->first, driven->first))
+                   driven, driven))
             .argument("n_harmonics");
-    const double force =
-        std::hypot(norm2(r, driven->second.real.data()), norm2(r, driven->second.imag.data()));
+    const HarmonicLoad usual = load_at(reduced_->excitation, driven, reference_),
+                       load = changed ? load_change_at(reduced_->excitation, driven, omega_)
+                                      : load_at(reduced_->excitation, driven, omega_);
+    const double force = std::hypot(norm2(r, usual.real.data()), norm2(r, usual.imag.data()));
     const double scale = row_size(reference_) / (force > 0 ? force : 1);
     for (std::int64_t j = 0; j < r; ++j) {
-        phase_row_[at + j] = scale * driven->second.real[j];
-        phase_row_[at + r + j] = -scale * driven->second.imag[j];
+        row[at + j] = scale * load.real[j];
+        row[at + r + j] = -scale * load.imag[j];
     }
-    return phase_row_;
+    return row;
 }
 
 double HarmonicEquations::phase() {
-    return dot(size(), phase_row().data(), x_.data());
+    return dot(size(), phase_row(false).data(), x_.data());
 }
 
 bool HarmonicEquations::phase_gradient(MotionGradient &gradient) {
-    gradient = {phase_row(), 0, 0};
+    gradient = {phase_row(false), dot(size(), phase_row(true).data(), x_.data()), 0};
     return true;
 }
 

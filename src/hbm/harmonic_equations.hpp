@@ -49,7 +49,7 @@ class HarmonicEquations final : public PeriodicEquations {
     vector<double> frequency_derivative(const vector<double> &v);
     Matrix contact_change(const vector<double> &w, const vector<double> &v) const;
     Matrix gap_motion(const double *x, double factor) const;
-    const vector<double> &phase_row();
+    vector<double> phase_row(bool changed) const;
 
     std::shared_ptr<const ReducedModel> reduced_;
     HbmOptions options_;
@@ -61,7 +61,6 @@ class HarmonicEquations final : public PeriodicEquations {
     vector<double> known_x_;
     double known_omega_ = -1;
     vector<std::complex<double>> known_multipliers_;
-    vector<double> phase_row_; // empty: not asked for yet
 };
 
 } // namespace plm

@@ -22,10 +22,9 @@ void respond(const ReducedModel &m, std::int64_t h, double omega, std::int64_t m
     gemv('T', -1.0, m.gap, force.col(2 * h), 0.0, s.data());
     vector<std::complex<double>> v(r);
     for (std::int64_t j = 0; j < r; ++j) v[j] = {c[j], -s[j]};
-    const auto load = m.excitation.find(static_cast<int>(h / multiple));
-    if (h % multiple == 0 && load != m.excitation.end())
-        for (std::int64_t j = 0; j < r; ++j)
-            v[j] += force_scale * std::complex<double>(load->second.real[j], load->second.imag[j]);
+    for (const auto &[part, load] : m.excitation)
+        for (std::int64_t j = 0; part.harmonic * multiple == h && j < r; ++j)
+            v[j] += force_scale * part.growth(omega) * std::complex<double>(load.real[j], load.imag[j]);
     Receptance receptance;
     receptance.update(m, h, omega / static_cast<double>(multiple));
     receptance.apply(v.data());

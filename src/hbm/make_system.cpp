@@ -58,8 +58,13 @@ class SubharmonicSystem final : public WrappedSystem {
 std::shared_ptr<const ReducedModel> on_longer_period(const ReducedModel &reduced, std::int64_t multiple) {
     auto longer = std::make_shared<ReducedModel>(reduced);
     longer->excitation.clear();
-    for (const auto &[harmonic, load] : reduced.excitation)
-        longer->excitation[harmonic * static_cast<int>(multiple)] = load;
+    for (const auto &[part, load] : reduced.excitation) {
+        HarmonicLoad &longer_load =
+            longer->excitation[{part.harmonic * static_cast<int>(multiple), part.power}] = load;
+        // its frequency is that of the longer period
+        for (vector<double> *values : {&longer_load.real, &longer_load.imag})
+            for (double &f : *values) f *= part.growth(static_cast<double>(multiple));
+    }
     longer->contact.motion.clear();
     for (const auto &[harmonic, part] : reduced.contact.motion)
         longer->contact.motion[harmonic * static_cast<int>(multiple)] = part;

@@ -16,10 +16,10 @@ class ModalSystem final : public HbmSystem {
         : m_(std::move(reduced)), h_(options.n_harmonics), r_(m_->size()), r0_(m_->static_size()),
           z_(m_->n_pairs()), force_(make_contact_force(options, z_)), stiffness_(m_->contact.stiffness),
           motion_(m_->contact.gap_motion(h_)), u_(z_, 2 * h_ + 1), contact_(z_, 2 * h_ + 1), x_(size(), 0.0),
-          jacobian_(m_, h_) {
+          grows_(grow(m_->excitation)), jacobian_(m_, h_) {
         require_balanced(*m_);
         load_.assign(size(), 0.0);
-        fill_excitation();
+        excitation_ = excitation_by(&LoadPart::growth);
         ModalSystem::set_force_scale(options.force_scale);
     }
 
@@ -28,8 +28,7 @@ class ModalSystem final : public HbmSystem {
 
     void set_force_scale(double scale) override {
         force_scale_ = scale;
-        for (std::int64_t j = 0; j < size(); ++j) load_[j] = scale * excitation_[j];
-        for (std::int64_t j = 0; j < r0_; ++j) load_[j] += m_->preload_0[j];
+        set_loads();
         set_gaps();
     }
 
@@ -118,6 +117,9 @@ class ModalSystem final : public HbmSystem {
             add_damping_product(k, b, rc);
             add_damping_product(-k, a, rs);
         }
+        if (!grows_) return;
+        const vector<double> change = excitation_by(&LoadPart::growth_rate);
+        for (std::int64_t j = 0; j < size(); ++j) r[j] -= force_scale_ * change[j];
     }
 
     // Each harmonic answers to its own load alone, as the first one at its frequency would.
@@ -165,8 +167,16 @@ class ModalSystem final : public HbmSystem {
 
   private:
     void set_omega(double omega) {
+        const bool load_changes = grows_ && omega != omega_;
         omega_ = omega;
         jacobian_.set_omega(omega);
+        if (!load_changes) return;
+        excitation_ = excitation_by(&LoadPart::growth);
+        set_loads();
+    }
+    void set_loads() {
+        for (std::int64_t j = 0; j < size(); ++j) load_[j] = force_scale_ * excitation_[j];
+        for (std::int64_t j = 0; j < r0_; ++j) load_[j] += m_->preload_0[j];
     }
     void put_mean_load(const vector<double> &coupling, double *b) const {
         vector<double> gap_force(z_); // -B' k s (-g)
@@ -198,20 +208,21 @@ class ModalSystem final : public HbmSystem {
     void hold_mean() { jacobian_.set_hold(indicator_, load_.data()); }
     std::int64_t cosine_at(std::int64_t h) const { return jacobian_.cosine_at(h); }
 
-    void fill_excitation() {
-        excitation_.assign(size(), 0.0);
-        for (const auto &[harmonic, load] : m_->excitation) {
-            if (harmonic > h_) continue;
-            if (harmonic == 0) {
-                std::copy(load.real.begin(), load.real.end(), excitation_.begin());
-                continue;
-            }
-            double *cosine = excitation_.data() + cosine_at(harmonic), *sine = cosine + r_;
+    // At omega_, each part with its growth, or by how much it changes with the frequency.
+    vector<double> excitation_by(double (LoadPart::*factor)(double) const) const {
+        vector<double> sum(size(), 0.0);
+        for (const auto &[part, load] : m_->excitation) {
+            if (part.harmonic > h_) continue;
+            const double f = (part.*factor)(omega_);
+            for (std::int64_t j = 0; part.harmonic == 0 && j < r0_; ++j) sum[j] += f * load.real[j];
+            if (part.harmonic == 0) continue;
+            double *cosine = sum.data() + cosine_at(part.harmonic), *sine = cosine + r_;
             for (std::int64_t j = 0; j < r_; ++j) {
-                cosine[j] = load.real[j]; // Re((F_r + i F_i) exp(i h t)) = F_r cos - F_i sin
-                sine[j] = -load.imag[j];
+                cosine[j] += f * load.real[j]; // Re((F_r + i F_i) exp(i h t)) = F_r cos - F_i sin
+                sine[j] -= f * load.imag[j];
             }
         }
+        return sum;
     }
 
     void penetration() {
@@ -235,7 +246,8 @@ class ModalSystem final : public HbmSystem {
     const Matrix motion_; // of the gaps at a force scale of 1, Z x (2H + 1), and the gaps themselves
     Matrix gap_, u_, contact_;
     vector<double> x_;
-    double omega_ = 0, force_scale_ = 1, extra_gap_ = 0;
+    double omega_ = 1, force_scale_ = 1, extra_gap_ = 0;
+    const bool grows_; // the excitation, with the frequency
     ModalJacobian jacobian_;
     Border no_border_;
     ModalFactor factor_;

@@ -47,14 +47,14 @@ std::vector<BranchPoint> linear_resonances(std::shared_ptr<const ReducedModel> r
                                            const HbmOptions &options) {
     const ReducedModel &m = *reduced;
     const vector<double> coupling = coupling_at_rest(m);
-    const auto *driven = driven_harmonic(m.excitation);
-    if (!driven || driven->first > options.n_harmonics) return {};
+    const int driven = driven_harmonic(m.excitation);
+    if (driven == 0 || driven > options.n_harmonics) return {};
     const vector<double> lambda = modes_at_rest(m, coupling).values;
     const auto system = make_system(reduced, options);
     std::vector<BranchPoint> points;
     vector<double> x(system->size());
     for (double l : lambda) {
-        const double omega = std::sqrt(std::max(0.0, l)) / driven->first;
+        const double omega = std::sqrt(std::max(0.0, l)) / driven;
         if (omega < 2 * M_PI * options.frequency_min_hz || omega > 2 * M_PI * options.frequency_max_hz)
             continue;
         system->linear_response(coupling, omega, x.data());

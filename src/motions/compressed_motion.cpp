@@ -99,10 +99,10 @@ vector<complex> missing_force(const ReducedModel &m, const BranchPoint &p, const
     for (std::int64_t i = 0; i < r; ++i)
         f[i] = h == 0 ? complex(m.preload_0[i] - contact(i, 0))
                       : complex(-contact(i, 2 * h - 1), contact(i, 2 * h));
-    if (const auto load = m.excitation.find(static_cast<int>(h)); load != m.excitation.end())
-        for (std::int64_t i = 0; i < r; ++i)
-            f[i] += p.force_scale *
-                    complex(load->second.real[i], load->second.imag.empty() ? 0 : load->second.imag[i]);
+    for (const auto &[part, load] : m.excitation)
+        for (std::int64_t i = 0; part.harmonic == h && i < r; ++i)
+            f[i] += p.force_scale * part.growth(p.omega) *
+                    complex(load.real[i], load.imag.empty() ? 0 : load.imag[i]);
     for (std::int64_t j = 0; j < r; ++j) {
         f[j] -= (m.lambda[j] - omega * omega * m.mass(j)) * x[j];
         if (m.damping.empty()) f[j] -= complex(0, omega * m.damping_diagonal[j]) * x[j];

@@ -16,8 +16,8 @@ bool loaded(const HarmonicLoad &load) {
 
 std::int64_t highest_excitation(const ReducedModel &m) {
     int highest = std::max(1, m.whole_contact().highest_motion());
-    for (const auto &[harmonic, load] : m.excitation)
-        if (loaded(load)) highest = std::max(highest, harmonic);
+    for (const auto &[part, load] : m.excitation)
+        if (loaded(load)) highest = std::max(highest, part.harmonic);
     return highest;
 }
 

@@ -77,10 +77,10 @@ void require_balanced(const ReducedModel &m) {
         throw no_equilibrium("pre-load", m.model->preload_resultant());
     if (m.model && !m.model->mean_resultant().empty())
         throw no_equilibrium("mean of the excitation", m.model->mean_resultant());
-    const auto mean = m.excitation.find(0);
     if (acts_along(free, m.preload_0.data())) throw no_equilibrium("pre-load");
-    if (mean != m.excitation.end() && acts_along(free, mean->second.real.data()))
-        throw no_equilibrium("mean of the excitation");
+    for (const auto &[part, load] : m.excitation)
+        if (part.harmonic == 0 && acts_along(free, load.real.data()))
+            throw no_equilibrium("mean of the excitation");
 }
 
 std::string drift_hint(const ReducedModel &m) {

@@ -101,14 +101,15 @@ class FullResidual {
         for (std::size_t k = 0; k < harmonics.size(); ++k) {
             const std::int64_t h = harmonics[k];
             if (h % period_multiple_ != 0) continue;
-            const auto found = model_.excitation().find(static_cast<int>(h / period_multiple_));
-            if (found == model_.excitation().end()) continue;
-            Field force = found->second.real; // Re(F exp(i h w t)): the sine has -Im F
-            if (h > 0) force.append(found->second.imag);
-            Matrix place(force.cols(), r.cols());
-            place(0, static_cast<std::int64_t>(2 * k)) = 1;
-            if (h > 0) place(1, static_cast<std::int64_t>(2 * k + 1)) = -1;
-            add_combination(-point_.force_scale, force, place, r);
+            for (const auto &[part, load] : model_.excitation()) {
+                if (part.harmonic != h / period_multiple_) continue;
+                Field force = load.real; // Re(F exp(i h w t)): the sine has -Im F
+                if (h > 0) force.append(load.imag);
+                Matrix place(force.cols(), r.cols());
+                place(0, static_cast<std::int64_t>(2 * k)) = 1;
+                if (h > 0) place(1, static_cast<std::int64_t>(2 * k + 1)) = -1;
+                add_combination(-point_.force_scale * part.growth(point_.omega), force, place, r);
+            }
         }
     }
 

@@ -106,13 +106,14 @@ std::int64_t largest_response(const Branch &branch) {
 }
 
 double phase_of(const ReducedModel &m, const BranchPoint &point, std::int64_t period_multiple) {
-    const auto *driven = driven_harmonic(m.excitation);
-    if (!driven) return 0;
-    const std::int64_t h = driven->first * period_multiple;
+    const int driven = driven_harmonic(m.excitation);
+    if (driven == 0) return 0;
+    const std::int64_t h = driven * period_multiple;
     if (2 * h > point.eta.cols()) return 0;
+    const HarmonicLoad load = load_at(m.excitation, driven, point.omega);
     // q = a - i b and F = F_r + i F_i: Re(F^H q) = F_r . a - F_i . b
-    return dot(m.size(), driven->second.real.data(), point.eta.col(2 * h - 2)) -
-           dot(m.size(), driven->second.imag.data(), point.eta.col(2 * h - 1));
+    return dot(m.size(), load.real.data(), point.eta.col(2 * h - 2)) -
+           dot(m.size(), load.imag.data(), point.eta.col(2 * h - 1));
 }
 
 } // namespace plm

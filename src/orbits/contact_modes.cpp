@@ -24,10 +24,13 @@ ContactModes::ContactModes(const FlowModel &model, const PairStates &states)
     find_displacements(model);
     const vector<double> none(static_cast<std::size_t>(model.size()), 0.0);
     constant_ = load_of(model, model.preload(), model.initial_gap());
-    for (const auto &[harmonic, load] : model.excitation())
-        loads_.push_back(
-            {harmonic, load_of(model, load.real, model.gap_motion(harmonic, false)),
-             load_of(model, load.imag.empty() ? none : load.imag, model.gap_motion(harmonic, true))});
+    for (const auto &[part, load] : model.excitation()) {
+        vector<double> real, imag;
+        for (const std::complex<double> &g : model.gap_motion(part))
+            real.push_back(g.real()), imag.push_back(g.imag());
+        loads_.push_back({part, load_of(model, load.real, real),
+                          load_of(model, load.imag.empty() ? none : load.imag, imag)});
+    }
 }
 
 // c y' = -K y - C v where there is no mass; its y' acts through the damping on what has mass, too.

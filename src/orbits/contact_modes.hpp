@@ -47,15 +47,16 @@ class ContactModes {
     /// Largest effect of a unit of a mode on a pair: Z x modes.
     const Matrix &reach() const { return reach_; }
     /// A load: on the coordinates, and what it does at once to the penetrations (Z) and to the displacements
-    /// of what follows (the model's n_following). Constant ones with the gaps', and Re(F_h exp(i h w t)) of
-    /// the excitation, real and imaginary part of F_h.
+    /// of what follows (the model's n_following). Constant ones with the gaps', and w^p Re(F_h exp(i h w t))
+    /// of the excitation, real and imaginary part of F_h.
     struct Load {
         vector<double> coordinates, gap, following;
     };
     const Load &constant_load() const { return constant_; }
     struct Harmonic {
-        int number;
+        LoadPart part;
         Load real, imag;
+        double frequency(double omega) const { return part.harmonic * omega; }
     };
     const std::vector<Harmonic> &loads() const { return loads_; }
 

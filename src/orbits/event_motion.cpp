@@ -44,8 +44,9 @@ Matrix EventMotion::stiffness_of(const vector<double> &springs) const {
     return stiffness;
 }
 
-vector<complex> EventMotion::wave(const Matrix &stiffness, double w, const HarmonicLoad &load,
+vector<complex> EventMotion::wave(const Matrix &stiffness, const LoadPart &part, const HarmonicLoad &load,
                                   const vector<complex> &wall_load) const {
+    const double w = part.harmonic * omega_, scale = force_scale_ * part.growth(omega_);
     vector<complex> a(n_ * n_), q(n_);
     for (std::int64_t j = 0; j < n_; ++j) {
         for (std::int64_t i = 0; i < n_; ++i)
@@ -53,7 +54,7 @@ vector<complex> EventMotion::wave(const Matrix &stiffness, double w, const Harmo
                              model_.has_diagonal_damping() ? 0.0 : w * model_.damping()(i, j)};
         a[j + j * n_] += complex(-w * w * model_.mass(j),
                                  model_.has_diagonal_damping() ? w * model_.damping_diagonal()[j] : 0.0);
-        q[j] = force_scale_ * (complex(load.real[j], load.imag[j]) + wall_load[j]);
+        q[j] = scale * (complex(load.real[j], load.imag[j]) + wall_load[j]);
     }
     ComplexLu lu;
     lu.factor(n_, a);
@@ -61,13 +62,12 @@ vector<complex> EventMotion::wave(const Matrix &stiffness, double w, const Harmo
     return q;
 }
 
-// What moving walls do through the springs of a contact set, G^T k g of one harmonic.
-vector<complex> EventMotion::wall_load(const vector<double> &springs, int harmonic) const {
+// What moving walls do through the springs of a contact set, G^T k g of one part.
+vector<complex> EventMotion::wall_load(const vector<double> &springs, const LoadPart &part) const {
     vector<complex> load(n_, 0.0);
-    const auto found = model_.contact().motion.find(harmonic);
-    if (found == model_.contact().motion.end()) return load;
+    const vector<complex> gaps = model_.gap_motion(part);
     for (std::int64_t p = 0; p < model_.n_pairs(); ++p) {
-        const complex pushed = springs[p] * Contact::moved(found->second, p);
+        const complex pushed = springs[p] * gaps[p];
         for (std::int64_t j = 0; pushed != 0.0 && j < n_; ++j) load[j] += model_.gap()(p, j) * pushed;
     }
     return load;
@@ -81,12 +81,12 @@ const EventMotion::Steady *EventMotion::steady(const PairStates &states) {
     Matrix stiffness = stiffness_of(springs);
     auto found = std::make_shared<Steady>();
     found->mean = model_.constant_load(springs);
-    for (const auto &[harmonic, load] : model_.excitation()) {
-        const double w = static_cast<double>(harmonic) * omega_;
-        const vector<complex> pushed = wall_load(springs, harmonic);
-        if (harmonic != 0) found->waves.emplace_back(w, wave(stiffness, w, load, pushed));
-        for (std::int64_t j = 0; harmonic == 0 && j < n_; ++j)
-            found->mean[j] += force_scale_ * (load.real[j] + pushed[j].real());
+    for (const auto &[part, load] : model_.excitation()) {
+        const vector<complex> pushed = wall_load(springs, part);
+        if (part.harmonic != 0)
+            found->waves.emplace_back(part.harmonic * omega_, wave(stiffness, part, load, pushed));
+        for (std::int64_t j = 0; part.harmonic == 0 && j < n_; ++j)
+            found->mean[j] += force_scale_ * part.growth(omega_) * (load.real[j] + pushed[j].real());
     }
     RealLu lu;
     lu.factor(stiffness);

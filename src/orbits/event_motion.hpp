@@ -39,9 +39,9 @@ class EventMotion {
         Whole before, after; // the steady response at its ends
     };
     Matrix stiffness_of(const vector<double> &springs) const;
-    vector<std::complex<double>> wave(const Matrix &stiffness, double w, const HarmonicLoad &load,
+    vector<std::complex<double>> wave(const Matrix &stiffness, const LoadPart &part, const HarmonicLoad &load,
                                       const vector<std::complex<double>> &wall_load) const;
-    vector<std::complex<double>> wall_load(const vector<double> &springs, int harmonic) const;
+    vector<std::complex<double>> wall_load(const vector<double> &springs, const LoadPart &part) const;
     const Steady *steady(const PairStates &states);
     Whole at(const Steady &steady, double time) const;
     vector<double> state_of(const Whole &whole) const;

@@ -46,13 +46,12 @@ ExactEquations::ExactEquations(std::shared_ptr<const ReducedModel> reduced, cons
     : options_(options),
       orbits_(orbit_equations(std::move(reduced), options, omega, FlowParameter::frequency)),
       by_force_(orbit_equations(orbits_, options, omega, FlowParameter::force_scale)), omega_(omega) {
-    const auto *driven = driven_harmonic(orbits_.model().excitation());
-    if (!driven) return;
-    harmonic_ = driven->first;
-    load_ = &driven->second;
+    harmonic_ = driven_harmonic(orbits_.model().excitation());
+    if (harmonic_ == 0) return;
     // a load of this size on a displacement, as an energy
-    const double force = std::hypot(norm2(static_cast<std::int64_t>(load_->real.size()), load_->real.data()),
-                                    norm2(static_cast<std::int64_t>(load_->imag.size()), load_->imag.data()));
+    const HarmonicLoad f = load(omega);
+    const double force = std::hypot(norm2(static_cast<std::int64_t>(f.real.size()), f.real.data()),
+                                    norm2(static_cast<std::int64_t>(f.imag.size()), f.imag.data()));
     phase_size_ = force > 0 ? omega / force : 1;
 }
 
@@ -126,7 +125,7 @@ MotionGradient ExactEquations::tangent_change(const vector<double> &w, const vec
 }
 
 double ExactEquations::work(double omega, double force) const {
-    if (!load_) return 0;
+    if (harmonic_ == 0) return 0;
     OrbitConditions at = orbits_.conditions(omega);
     at.force_scale = force;
     RecordedMotion motion;
@@ -135,10 +134,11 @@ double ExactEquations::work(double omega, double force) const {
     flow.complete(state);
     flow.advance(state, static_cast<double>(options_.period_multiple) * flow.period(), &motion);
     const Matrix q = motion.harmonics(harmonic_ * options_.period_multiple, 1);
+    const HarmonicLoad f = load(omega);
     double sum = 0;
     for (std::int64_t j = 0; j < q.rows(); ++j) {
-        sum += load_->real[j] * q(j, 0);
-        if (!load_->imag.empty()) sum -= load_->imag[j] * q(j, 1);
+        sum += f.real[j] * q(j, 0);
+        if (!f.imag.empty()) sum -= f.imag[j] * q(j, 1);
     }
     return 0.5 * sum;
 }
@@ -150,9 +150,9 @@ double ExactEquations::phase() {
 // None where a set has no modes of its own.
 bool ExactEquations::phase_gradient(MotionGradient &gradient) {
     gradient = {vector<double>(x_.size()), 0, 0};
-    if (!load_) return true;
-    gradient.by_unknowns =
-        work_gradient(orbits_.model(), orbits_.intervals(), *load_, harmonic_ * omega_, *orbits_.modes());
+    if (harmonic_ == 0) return true;
+    gradient.by_unknowns = work_gradient(orbits_.model(), orbits_.intervals(), load(omega_),
+                                         harmonic_ * omega_, *orbits_.modes());
     if (gradient.by_unknowns.empty()) return false;
     orbits_.to_unknowns(gradient.by_unknowns);
     const double period = 2 * M_PI / omega_ * static_cast<double>(options_.period_multiple),

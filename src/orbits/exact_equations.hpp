@@ -56,12 +56,13 @@ class ExactEquations final : public PeriodicEquations {
     };
     Derivatives derivatives();
     double work(double omega, double force) const;
+    /// Of the harmonic that drives, at the frequency.
+    HarmonicLoad load(double omega) const { return load_at(orbits_.model().excitation(), harmonic_, omega); }
 
     MotionOptions options_; // with the force of now
     OrbitEquations orbits_, by_force_;
     double phase_size_ = 1;
-    int harmonic_ = 0; // of the excitation; 0: nothing is driven
-    const HarmonicLoad *load_ = nullptr;
+    int harmonic_ = 0;            // of the excitation; 0: nothing is driven
     vector<double> x_;            // of the last residual()
     double omega_ = 0, work_ = 0; // the latter: of the last phase()
 };

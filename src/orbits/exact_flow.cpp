@@ -39,7 +39,7 @@ ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, doubl
         throw Error(status::argument, "the flow needs a positive, finite frequency and a finite force scale")
             .argument("omega");
     for (const auto &entry : model_->excitation())
-        fastest_force_ = std::max(fastest_force_, static_cast<double>(entry.first) * omega);
+        fastest_force_ = std::max(fastest_force_, static_cast<double>(entry.first.harmonic) * omega);
     own_set_.assign_stiffest();
     shortest_series_ = longest_step / std::max(own_set_.rate(), fastest_force_);
     const double pairs = static_cast<double>(model_->n_pairs()), switches = own_set_.rate() * period() / M_PI;

@@ -67,8 +67,8 @@ class ExactFlow {
     void expand_offsets(double time, double duration, Series &series);
     /// What acts on the pairs besides the moving coordinates has powers of the time.
     bool offsets_move() const { return model_->n_following() > 0 || model_->walls_move(); }
-    vector<std::complex<double>> powers_of_load(bool changed, int harmonic, double time, double duration,
-                                                std::int64_t count) const;
+    vector<std::complex<double>> powers_of_load(bool changed, const LoadPart &part, double time,
+                                                double duration, std::int64_t count) const;
     void follow(Series &series);
     void find_penetrations(Series &series);
     bool correct_sides(const FlowState &state, double duration, const PiecePenetrations &penetrations);

@@ -43,21 +43,21 @@ void add_load(const HarmonicLoad &load, const vector<std::complex<double>> &powe
 
 } // namespace
 
-vector<std::complex<double>> ExactFlow::powers_of_load(bool changed, int harmonic, double time,
+vector<std::complex<double>> ExactFlow::powers_of_load(bool changed, const LoadPart &part, double time,
                                                        double duration, std::int64_t count) const {
-    return changed ? changed_load_powers(parameter_, harmonic, omega_, force_scale_, time, duration, count)
-                   : load_powers(harmonic, omega_, force_scale_, time, duration, count);
+    return changed ? changed_load_powers(parameter_, part, omega_, force_scale_, time, duration, count)
+                   : load_powers(part, omega_, force_scale_, time, duration, count);
 }
 
 void ExactFlow::expand_loads(double time, double duration, Matrix &force) const {
     std::copy_n(model_->preload().data(), model_->size(), force.col(0));
-    for (const auto &[harmonic, load] : model_->excitation())
-        add_load(load, powers_of_load(false, harmonic, time, duration, n_force_terms()), force);
+    for (const auto &[part, load] : model_->excitation())
+        add_load(load, powers_of_load(false, part, time, duration, n_force_terms()), force);
 }
 
 void ExactFlow::expand_change_of_loads(double time, double duration, Matrix &force) const {
-    for (const auto &[harmonic, load] : model_->excitation())
-        add_load(load, powers_of_load(true, harmonic, time, duration, n_force_terms()), force);
+    for (const auto &[part, load] : model_->excitation())
+        add_load(load, powers_of_load(true, part, time, duration, n_force_terms()), force);
 }
 
 // Penetrations with the moving coordinates at zero, without contact forces.

@@ -169,13 +169,11 @@ vector<double> FlowModel::constant_load(const vector<double> &springs) const {
     return load;
 }
 
-vector<double> FlowModel::gap_motion(int harmonic, bool imaginary) const {
-    vector<double> g(static_cast<std::size_t>(n_pairs()), 0.0);
-    const auto found = contact().motion.find(harmonic);
-    for (std::int64_t i = 0; i < n_pairs() && found != contact().motion.end(); ++i) {
-        const std::complex<double> moved = Contact::moved(found->second, i);
-        g[i] = imaginary ? moved.imag() : moved.real();
-    }
+vector<std::complex<double>> FlowModel::gap_motion(const LoadPart &part) const {
+    vector<std::complex<double>> g(static_cast<std::size_t>(n_pairs()), 0.0);
+    const auto found = contact().motion.find(part.harmonic);
+    if (part.power != 0 || found == contact().motion.end()) return g; // walls move as they are told
+    for (std::int64_t i = 0; i < n_pairs(); ++i) g[i] = Contact::moved(found->second, i);
     return g;
 }
 

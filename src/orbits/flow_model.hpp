@@ -48,11 +48,11 @@ class FlowModel {
     const vector<double> &preload() const { return preload_; }
     /// The pre-load and, through the springs of a contact set (one a pair), the gaps.
     vector<double> constant_load(const vector<double> &springs) const;
-    const std::map<int, HarmonicLoad> &excitation() const { return excitation_; } // n each, h = 0 too
-    /// The pairs' walls move, in harmonics that the excitation has, too, if with zeros.
+    const HarmonicLoads &excitation() const { return excitation_; } // n each, h = 0 too
+    /// The pairs' walls move, in parts that the excitation has, too, if with zeros.
     bool walls_move() const { return walls_move_; }
-    /// Amplitudes of the gaps in one harmonic, real and imaginary part: Z each.
-    vector<double> gap_motion(int harmonic, bool imaginary) const;
+    /// Amplitudes of the gaps that go with one part, Z.
+    vector<std::complex<double>> gap_motion(const LoadPart &part) const;
     const Contact &contact() const { return reduced_->contact; }
     const vector<double> &contact_stiffness() const { return reduced_->contact.stiffness; }
     const vector<double> &initial_gap() const { return reduced_->contact.initial_gap; }
@@ -81,7 +81,7 @@ class FlowModel {
     Matrix gap_, gap_by_pair_, flexibility_, damping_;
     vector<double> lambda_, damping_diagonal_, preload_;
     std::int64_t n_relaxing_ = 0, n_following_ = 0;
-    std::map<int, HarmonicLoad> excitation_;
+    HarmonicLoads excitation_;
     bool walls_move_ = false;
 };
 

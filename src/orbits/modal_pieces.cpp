@@ -77,7 +77,7 @@ void ModalPieces::put_aside(Part part, double time, vector<double> &sum) const {
     sum = modes_->constant_load().*part;
     for (const ContactModes::Harmonic &load : modes_->loads()) {
         if (!puts_aside_) break;
-        const Complex z = force_scale_ * std::polar(1.0, load.number * omega_ * time);
+        const Complex z = scale(load) * std::polar(1.0, load.frequency(omega_) * time);
         for (std::size_t i = 0; i < sum.size(); ++i)
             sum[i] += z.real() * (load.real.*part)[i] - z.imag() * (load.imag.*part)[i];
     }
@@ -89,12 +89,12 @@ void ModalPieces::add_put_aside(Part part, Matrix &powers) const {
     for (std::int64_t i = 0; i < n; ++i) powers(first + i, 0) += constant[i];
     for (const ContactModes::Harmonic &load : modes_->loads()) {
         if (!puts_aside_) break;
-        const double w = load.number * omega_;
-        Complex z = force_scale_ * std::polar(1.0, w * now_);
+        const double w = load.frequency(omega_);
+        Complex z = scale(load) * std::polar(1.0, w * now_);
         for (std::int64_t k = 0; k < powers.cols(); ++k) {
             for (std::int64_t i = 0; i < n; ++i)
                 powers(first + i, k) += z.real() * (load.real.*part)[i] - z.imag() * (load.imag.*part)[i];
-            if (load.number == 0) break;
+            if (load.part.harmonic == 0) break;
             z *= Complex(0, w * duration_ / static_cast<double>(k + 1));
         }
     }
@@ -178,8 +178,8 @@ void ModalPieces::bound_travel() {
         double way = size_[static_cast<std::size_t>(k)] * grows * turned(m.speed);
         for (std::size_t l = 0; l < steady_.size(); ++l)
             if (!steady_[l].empty())
-                way += std::abs(force_scale_) * steady_[l][static_cast<std::size_t>(k)].size *
-                       turned(modes_->loads()[l].number * omega_);
+                way += std::abs(scale(modes_->loads()[l])) * steady_[l][static_cast<std::size_t>(k)].size *
+                       turned(modes_->loads()[l].frequency(omega_));
         const double *row = reach.col(k);
         for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i] += row[i] * way;
     }
@@ -192,7 +192,7 @@ void ModalPieces::bound_travel() {
     }
     for (const ContactModes::Harmonic &load : modes_->loads())
         for (std::size_t i = 0; puts_aside_ && i < travel_.size(); ++i)
-            travel_[i] += std::abs(force_scale_) * turned(load.number * omega_) *
+            travel_[i] += std::abs(scale(load)) * turned(load.frequency(omega_)) *
                           (std::abs(load.real.gap[i]) + std::abs(load.imag.gap[i]));
 }
 
@@ -202,7 +202,7 @@ void ModalPieces::fill_powers(double duration) {
     for (const ContactModes::Mode &m : modes_->modes())
         if (m.speed * duration <= longest_turn) turn = std::max(turn, m.speed * duration);
     for (const ContactModes::Harmonic &load : modes_->loads())
-        turn = std::max(turn, load.number * omega_ * duration);
+        turn = std::max(turn, load.frequency(omega_) * duration);
     turn = std::max(turn, modes_->free_speed() * duration);
     const std::int64_t more =
         modes_->free_block().rows() > 0 ? 5 : 3; // by a load, a free motion is two powers on
@@ -226,9 +226,8 @@ void ModalPieces::expand_free(const double *from, bool changed, double duration,
     if (!changed) std::copy_n(modes_->constant_load().coordinates.data() + first, n, load.col(0));
     for (const ContactModes::Harmonic &of : modes_->loads()) {
         const vector<Complex> z =
-            changed
-                ? changed_load_powers(parameter_, of.number, omega_, force_scale_, now_, duration, n_terms_)
-                : load_powers(of.number, omega_, force_scale_, now_, duration, n_terms_);
+            changed ? changed_load_powers(parameter_, of.part, omega_, force_scale_, now_, duration, n_terms_)
+                    : load_powers(of.part, omega_, force_scale_, now_, duration, n_terms_);
         for (std::size_t k = 0; k < z.size(); ++k)
             for (std::int64_t i = 0; i < n; ++i)
                 load(i, static_cast<std::int64_t>(k)) += z[k].real() * of.real.coordinates[first + i] -

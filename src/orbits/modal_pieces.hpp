@@ -59,6 +59,7 @@ class ModalPieces {
         double size; // |plus| + |minus|
     };
     using Part = vector<double> ContactModes::Load::*; // the gaps' or what follows
+    double scale(const ContactModes::Harmonic &load) const { return force_scale_ * load.part.growth(omega_); }
     bool set_steady();
     bool begin(const vector<double> &coordinates, const vector<double> &changed);
     vector<double> changed_now() const;

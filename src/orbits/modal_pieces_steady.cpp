@@ -29,12 +29,15 @@ bool ModalPieces::set_steady() {
     for (std::size_t l = 0; l < steady_.size(); ++l) {
         const ContactModes::Harmonic &load = modes_->loads()[l];
         const vector<double> &cosine = load.real.coordinates, &sine = load.imag.coordinates;
-        if (load.number == 0) {
-            add_constant(cosine, force_scale_, constant_);
-            if (parameter_ == FlowParameter::force_scale) add_constant(cosine, 1.0, changed_constant_);
+        const double growth = load.part.growth(omega_), rate = load.part.growth_rate(omega_);
+        if (load.part.harmonic == 0) {
+            add_constant(cosine, scale(load), constant_);
+            if (parameter_ == FlowParameter::force_scale) add_constant(cosine, growth, changed_constant_);
+            if (parameter_ == FlowParameter::frequency)
+                add_constant(cosine, force_scale_ * rate, changed_constant_);
             continue;
         }
-        const double w = load.number * omega_;
+        const double w = load.frequency(omega_);
         for (const ContactModes::Mode &m : modes_->modes()) {
             const std::size_t j = static_cast<std::size_t>(m.first);
             const Complex real(cosine[j], m.is_pair ? cosine[j + 1] : 0.0),
@@ -45,7 +48,7 @@ bool ModalPieces::set_steady() {
             s.plus = 0.5 * (real + i * imag) / up;
             s.minus = 0.5 * (real - i * imag) / down;
             if (parameter_ == FlowParameter::frequency) {
-                const Complex turn = i * (load.number * force_scale_);
+                const Complex turn = i * (load.part.harmonic * scale(load));
                 s.plus_slope = turn * s.plus;
                 s.minus_slope = -turn * s.minus;
             }
@@ -61,21 +64,25 @@ void ModalPieces::steady_at(double time, vector<double> &motion, vector<double> 
     if (change) *change = changed_constant_;
     for (std::size_t l = 0; l < steady_.size(); ++l) {
         if (steady_[l].empty()) continue;
-        const double w = modes_->loads()[l].number * omega_;
+        const ContactModes::Harmonic &load = modes_->loads()[l];
+        const double w = load.frequency(omega_), size = scale(load);
+        const double changed_size = parameter_ == FlowParameter::frequency
+                                        ? force_scale_ * load.part.growth_rate(omega_)
+                                        : load.part.growth(omega_);
         const Complex e = std::polar(1.0, w * time), back = std::conj(e);
         for (std::size_t k = 0; k < steady_[l].size(); ++k) {
             const ContactModes::Mode &m = modes_->modes()[k];
             const Steady &s = steady_[l][k];
             const std::size_t j = static_cast<std::size_t>(m.first);
-            const Complex z = force_scale_ * (s.plus * e + s.minus * back);
+            const Complex answer = s.plus * e + s.minus * back, z = size * answer;
             motion[j] += z.real();
             if (m.is_pair) motion[j + 1] += z.imag();
             if (!change) continue;
-            Complex c = s.plus * e + s.minus * back;
+            Complex c = changed_size * answer;
             if (parameter_ == FlowParameter::frequency) { // (a t + b) e^{iht}: b = -a / (i h w - lambda)
                 const Complex i(0, 1);
-                c = s.plus_slope * e * (time - 1.0 / (i * w - m.rate)) +
-                    s.minus_slope * back * (time - 1.0 / (-i * w - m.rate));
+                c += s.plus_slope * e * (time - 1.0 / (i * w - m.rate)) +
+                     s.minus_slope * back * (time - 1.0 / (-i * w - m.rate));
             }
             (*change)[j] += c.real();
             if (m.is_pair) (*change)[j + 1] += c.imag();
@@ -85,8 +92,8 @@ void ModalPieces::steady_at(double time, vector<double> &motion, vector<double> 
 
 // plus exp(iwt) + minus exp(-iwt) of all modes: (iw duration)^k / k! is real for even k, imaginary for odd.
 void ModalPieces::add_steady_powers(std::size_t load, double duration) {
-    const double w = modes_->loads()[load].number * omega_;
-    const Complex turned = force_scale_ * std::polar(1.0, w * now_);
+    const double w = modes_->loads()[load].frequency(omega_);
+    const Complex turned = scale(modes_->loads()[load]) * std::polar(1.0, w * now_);
     const std::size_t size = static_cast<std::size_t>(powers_.rows());
     even_.assign(size, 0.0);
     odd_.assign(size, 0.0);

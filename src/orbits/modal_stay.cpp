@@ -43,8 +43,8 @@ void ModalPieces::look(double duration, Matrix &u) {
         rate[j + 1] = v.imag();
     }
     for (std::size_t l = 0; l < steady_.size(); ++l) {
-        const double w = modes_->loads()[l].number * omega_;
-        const Complex e = force_scale_ * std::polar(1.0, w * time), turning = Complex(0, w);
+        const double w = modes_->loads()[l].frequency(omega_);
+        const Complex e = scale(modes_->loads()[l]) * std::polar(1.0, w * time), turning = Complex(0, w);
         for (std::size_t k = 0; k < steady_[l].size(); ++k) {
             const ContactModes::Mode &m = modes_->modes()[k];
             const Complex a = steady_[l][k].plus * e, b = steady_[l][k].minus * std::conj(e), q = a + b,
@@ -61,8 +61,8 @@ void ModalPieces::look(double duration, Matrix &u) {
     std::copy(aside_.begin(), aside_.end(), u.col(0));
     for (const ContactModes::Harmonic &load : modes_->loads()) {
         if (!puts_aside_) break;
-        const double w = load.number * omega_;
-        const Complex v = Complex(0, w) * force_scale_ * std::polar(1.0, w * time);
+        const double w = load.frequency(omega_);
+        const Complex v = Complex(0, w) * scale(load) * std::polar(1.0, w * time);
         for (std::int64_t i = 0; i < z; ++i)
             u(i, 1) += v.real() * load.real.gap[i] - v.imag() * load.imag.gap[i];
     }
@@ -78,15 +78,15 @@ const vector<double> &ModalPieces::fourth(double duration) {
         way_[k] = size_[k] * grows * power(m.speed);
         for (std::size_t l = 0; l < steady_.size(); ++l)
             if (!steady_[l].empty())
-                way_[k] +=
-                    std::abs(force_scale_) * steady_[l][k].size * power(modes_->loads()[l].number * omega_);
+                way_[k] += std::abs(scale(modes_->loads()[l])) * steady_[l][k].size *
+                           power(modes_->loads()[l].frequency(omega_));
     }
     worked(static_cast<double>(2 * way_.size() * tiny_.size()));
     fourth_.assign(tiny_.size(), 0.0);
     if (!tiny_.empty()) gemv('N', 1.0, modes_->reach(), way_.data(), 0.0, fourth_.data());
     for (const ContactModes::Harmonic &load : modes_->loads())
         for (std::size_t i = 0; puts_aside_ && i < fourth_.size(); ++i)
-            fourth_[i] += std::abs(force_scale_) * power(load.number * omega_) *
+            fourth_[i] += std::abs(scale(load)) * power(load.frequency(omega_)) *
                           (std::abs(load.real.gap[i]) + std::abs(load.imag.gap[i]));
     return fourth_;
 }
@@ -106,19 +106,20 @@ double ModalPieces::zero_of(std::int64_t pair, double guess) const {
         of_mode.push_back(g * Complex(present_[m.first], m.is_pair ? present_[m.first + 1] : 0.0));
         for (std::size_t l = 0; l < steady_.size(); ++l)
             if (!steady_[l].empty())
-                of_load[l] += force_scale_ * (g * steady_[l][k].plus + std::conj(g * steady_[l][k].minus));
+                of_load[l] +=
+                    scale(modes_->loads()[l]) * (g * steady_[l][k].plus + std::conj(g * steady_[l][k].minus));
     }
     for (std::size_t l = 0; puts_aside_ && l < of_load.size(); ++l) {
         const ContactModes::Harmonic &load = modes_->loads()[l];
         const std::size_t i = static_cast<std::size_t>(pair);
-        of_load[l] += force_scale_ * Complex(load.real.gap[i], load.imag.gap[i]);
+        of_load[l] += scale(load) * Complex(load.real.gap[i], load.imag.gap[i]);
     }
     double at = guess;
     for (int step = 0; step < most_tangents; ++step) {
         worked(static_cast<double>(flops_of_mode * modes_->size()));
         double u = constant, rate = 0;
         for (std::size_t l = 0; l < of_load.size(); ++l) {
-            const double w = modes_->loads()[l].number * omega_;
+            const double w = modes_->loads()[l].frequency(omega_);
             const Complex q = of_load[l] * std::polar(1.0, w * (now_ + at));
             u += q.real();
             rate -= w * q.imag();

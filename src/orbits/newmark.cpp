@@ -97,14 +97,15 @@ FullState rest_state(const std::shared_ptr<const Model> &model, Watch watch) {
     return state;
 }
 
-// Pre-load and Re(F_h exp(i h w t)).
+// Pre-load and w^p Re(F_h exp(i h w t)).
 void Newmark::excitation(double time, Field &f) const {
     f.clear();
     if (model_->has_preload()) add(1.0, model_->preload(), f);
-    for (const auto &[harmonic, load] : model_->excitation()) {
-        const double phase = static_cast<double>(harmonic) * omega_ * time;
-        add(options_.force_scale * std::cos(phase), load.real, f);
-        if (harmonic > 0) add(-options_.force_scale * std::sin(phase), load.imag, f);
+    for (const auto &[part, load] : model_->excitation()) {
+        const double phase = part.harmonic * omega_ * time,
+                     scale = options_.force_scale * part.growth(omega_);
+        add(scale * std::cos(phase), load.real, f);
+        if (part.harmonic > 0) add(-scale * std::sin(phase), load.imag, f);
     }
 }
 

@@ -29,8 +29,8 @@ Space as_space(const ReducedModel &m) {
     s.n_massless = m.n_massless;
     s.gap = m.whole_gap();
     put_damping(m.damping_diagonal, m.damping, s);
-    for (const auto &[harmonic, load] : m.excitation)
-        if (harmonic > 0) s.excitation[harmonic] = load;
+    for (const auto &[part, load] : m.excitation)
+        if (part.harmonic > 0) s.excitation[part] = load;
     return s;
 }
 
@@ -127,8 +127,8 @@ void reduce_statics(const ReducedModel &from, Matrix y, const Matrix &beside, Re
         return g;
     };
     to.preload_0 = projected(from.preload_0);
-    const auto mean_load = from.excitation.find(0);
-    if (mean_load != from.excitation.end()) to.excitation[0] = {projected(mean_load->second.real), {}};
+    for (const auto &[part, load] : from.excitation)
+        if (part.harmonic == 0) to.excitation[part] = {projected(load.real), {}};
 }
 
 } // namespace

@@ -214,8 +214,8 @@ Matrix excitation_columns(const Space &space, const vector<double> &mode, double
             column(j, 0) = load[j] * damping * omega * omega / work;
         columns.append(column);
     };
-    for (const auto &[harmonic, load] : drive_of(space)) {
-        if (harmonic == 0) continue;
+    for (const auto &[part, load] : drive_of(space)) {
+        if (part.harmonic == 0) continue;
         append(load.real);
         append(load.imag);
     }

@@ -20,14 +20,14 @@ constexpr double settled_change = 1e-6; // of the largest coupling, which is tin
 // a convex, smooth energy, by Newton's method.
 class MeanEquilibrium {
   public:
-    explicit MeanEquilibrium(const Space &space)
+    /// omega: of the excitation, whose constant part may grow with it.
+    MeanEquilibrium(const Space &space, double omega)
         : space_(space), pivot_(held_pivots(space.lambda)), load_(space.preload),
           mean_(rest_of(space)->coordinates) {
         // Rigid-body motion that nothing holds drifts until contact is lost; the pivots let it end.
         load_.resize(space.size(), 0.0);
-        const auto constant = space.excitation.find(0);
-        if (constant == space.excitation.end() || constant->second.real.empty()) return;
-        for (std::size_t j = 0; j < load_.size(); ++j) load_[j] += constant->second.real[j];
+        const HarmonicLoad constant = load_at(space.excitation, 0, omega);
+        for (std::size_t j = 0; j < constant.real.size(); ++j) load_[j] += constant.real[j];
     }
 
     vector<double> penetration() const { return penetration_at(mean_); }
@@ -88,18 +88,20 @@ class MeanEquilibrium {
 // What the structure's damping and the excitation make of a mode.
 class Resonance {
   public:
-    explicit Resonance(const Space &space) : space_(space), drive_(drive_of(space)) {
-        if (const auto *driven = driven_harmonic(drive_)) harmonic_ = driven->first, load_ = &driven->second;
-    }
+    explicit Resonance(const Space &space)
+        : space_(space), drive_(drive_of(space)), driven_(driven_harmonic(drive_)) {}
 
-    bool excited() const { return load_ != nullptr; }
-    int harmonic() const { return harmonic_; }
+    bool excited() const { return driven_ > 0; }
+    int harmonic() const { return std::max(1, driven_); }
 
-    double force(const double *mode) const {
+    // At omega, a frequency of the motion.
+    double force(const double *mode, double omega) const {
+        if (!excited()) return 0;
+        const HarmonicLoad load = load_at(drive_, driven_, omega / driven_);
         const auto part = [&](const vector<double> &f) {
             return f.empty() ? 0.0 : dot(space_.size(), mode, f.data());
         };
-        return load_ ? std::hypot(part(load_->real), part(load_->imag)) : 0;
+        return std::hypot(part(load.real), part(load.imag));
     }
 
     // omega times the modal damping, structural damping of K included.
@@ -120,21 +122,20 @@ class Resonance {
 
     // Modal amplitude at the excitation frequency `omega`, up to a common factor where nothing excites.
     double response(const double *mode, double eigenvalue, double omega) const {
-        const double f = load_ ? force(mode) : 1;
+        const double f = excited() ? force(mode, omega) : 1;
         return f / std::hypot(eigenvalue - omega * omega, damping_force(mode, omega));
     }
 
   private:
     const Space &space_;
     const HarmonicLoads drive_;
-    const HarmonicLoad *load_ = nullptr;
-    int harmonic_ = 1;
+    const int driven_; // harmonic; 0: none
 };
 
 class Iteration {
   public:
     Iteration(const Space &space, const EquivalentMotionOptions &options)
-        : space_(space), options_(options), resonance_(space), equilibrium_(space) {
+        : space_(space), options_(options), resonance_(space), equilibrium_(space, options.middle) {
         motion_.coupling.assign(space.n_pairs(), 0.5); // the limit of large amplitudes
         motion_.mean = equilibrium_.penetration();
         motion_.amplitude.assign(space.n_pairs(), 0.0);
@@ -211,7 +212,7 @@ class Iteration {
         if (modes.values.empty() || !(modes.values.back() > 0))
             modes = modes_with_springs(space_.lambda, space_.n_massless, space_.gap, motion_.spring,
                                        std::numeric_limits<double>::infinity());
-        const Matrix seen = shape_.empty() ? driving_loads(space_) : row_of(space_, shape_);
+        const Matrix seen = shape_.empty() ? driving_loads(space_).rows : row_of(space_, shape_);
         align_clusters({&seen}, modes);
         return modes;
     }
@@ -248,7 +249,7 @@ class Iteration {
                         "without damping nothing bounds the resonance; equivalent_amplitude "
                         "must say how large the motion is")
                 .argument("equivalent_amplitude");
-        return resonance_.force(shape_.data()) / damping;
+        return resonance_.force(shape_.data(), motion_.frequency) / damping;
     }
 
     const Space &space_;

@@ -96,9 +96,9 @@ std::shared_ptr<const ReducedModel> project(const Space &space, const Coordinate
         reduced->damping_0 = std::move(damping.matrix);
     }
     reduced->preload_0 = project_vector(y_0, space.preload);
-    for (const auto &[harmonic, load] : space.excitation) {
-        const Matrix &y = harmonic == 0 ? y_0 : dynamic.y;
-        reduced->excitation[harmonic] = {project_vector(y, load.real), project_vector(y, load.imag)};
+    for (const auto &[part, load] : space.excitation) {
+        const Matrix &y = part.harmonic == 0 ? y_0 : dynamic.y;
+        reduced->excitation[part] = {project_vector(y, load.real), project_vector(y, load.imag)};
     }
     finish(space, *reduced);
     return reduced;

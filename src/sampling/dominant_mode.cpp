@@ -62,16 +62,22 @@ struct Candidates {
 };
 
 Candidates candidates(const Space &space, const vector<double> &spring, SpaceModes modes) {
-    const Matrix loads = driving_loads(space);
-    align_clusters({&loads, &space.gap}, modes);
+    const DrivingLoads loads = driving_loads(space);
+    align_clusters({&loads.rows, &space.gap}, modes);
     Candidates c{std::move(modes), {}, {}, {}};
-    c.excited = std::any_of(loads.data(), loads.data() + loads.rows() * loads.cols(),
-                            [](double f) { return f != 0; });
-    const Matrix force = product('N', 'N', loads, c.modes.vectors),
+    c.excited = !loads.parts.empty();
+    const Matrix force = product('N', 'N', loads.rows, c.modes.vectors),
                  gap = product('N', 'N', space.gap, c.modes.vectors);
     for (std::int64_t j = 0; j < c.modes.vectors.cols(); ++j) {
         const double lambda = c.modes.values[j];
-        c.force.emplace_back(force(0, j), force(1, j));
+        c.force.emplace_back(0.0, 0.0);
+        for (std::size_t p = 0; p < loads.parts.size(); ++p) { // as they are at its resonance
+            const std::int64_t row = 2 * static_cast<std::int64_t>(p);
+            const LoadPart &part = loads.parts[p];
+            if (lambda > 0 || part.power == 0)
+                c.force.back() += part.growth(std::sqrt(std::max(0.0, lambda)) / part.harmonic) *
+                                  std::complex<double>(force(row, j), force(row + 1, j));
+        }
         c.response.push_back(lambda > 0 ? std::abs(c.force.back()) / lambda : 0);
         const vector<double> dv(gap.col(j), gap.col(j + 1));
         const double omega = std::sqrt(std::max(0.0, lambda));
@@ -257,8 +263,7 @@ DominantMode find_dominant_mode(const Space &space, const ModeRequest &request, 
     dominant.system = request.system;
     dominant.mode = chosen + 1;
     dominant.frequency_hz = to_hz(c.modes.values[chosen]);
-    const HarmonicLoads drive = drive_of(space);
-    if (const auto *driven = driven_harmonic(drive)) dominant.harmonic = driven->first;
+    dominant.harmonic = std::max(1, driven_harmonic(drive_of(space)));
     dominant.participation = participation_of(c.response, among, chosen);
     dominant.coordinates.assign(c.modes.vectors.col(chosen), c.modes.vectors.col(chosen) + space.size());
     dominant.mode_penetration.assign(space.n_pairs(), 0.0);

@@ -76,15 +76,20 @@ HarmonicLoads drive_of(const Space &space) {
     return loads;
 }
 
-Matrix driving_loads(const Space &space) {
-    Matrix loads(2, space.size());
+DrivingLoads driving_loads(const Space &space) {
+    DrivingLoads loads;
     const HarmonicLoads drive = drive_of(space);
-    const auto *driven = driven_harmonic(drive);
-    if (!driven) return loads;
-    const vector<double> *parts[] = {&driven->second.real, &driven->second.imag};
-    for (std::int64_t i = 0; i < 2; ++i)
-        for (std::size_t j = 0; j < parts[i]->size(); ++j)
-            loads(i, static_cast<std::int64_t>(j)) = (*parts[i])[j];
+    const int driven = driven_harmonic(drive);
+    std::vector<const HarmonicLoad *> of;
+    for (const auto &[part, load] : drive)
+        if (driven > 0 && part.harmonic == driven) loads.parts.push_back(part), of.push_back(&load);
+    loads.rows.reset(std::max<std::int64_t>(2, 2 * static_cast<std::int64_t>(of.size())), space.size());
+    for (std::size_t p = 0; p < of.size(); ++p)
+        for (std::int64_t j = 0; j < space.size(); ++j) {
+            const std::int64_t row = 2 * static_cast<std::int64_t>(p);
+            loads.rows(row, j) = of[p]->real[static_cast<std::size_t>(j)];
+            loads.rows(row + 1, j) = of[p]->imag.empty() ? 0.0 : of[p]->imag[static_cast<std::size_t>(j)];
+        }
     return loads;
 }
 

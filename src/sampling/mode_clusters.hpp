@@ -18,9 +18,13 @@ void align_clusters(const std::vector<const Matrix *> &seen, SpaceModes &modes);
 /// What drives a structure: the excitation and, through the springs of the pairs that touch at rest, the
 /// moving walls; of all pairs, where none touches.
 HarmonicLoads drive_of(const Space &space);
-/// To look at: the harmonic of the excitation that drives the resonance, real and imaginary part (2 x m);
-/// and a shape, by its kinetic energy (1 x m).
-Matrix driving_loads(const Space &space);
+/// To look at: the parts of the harmonic that drives the resonance, two rows each, real and imaginary part;
+/// of no part two rows of zeros. And a shape, by its kinetic energy (1 x m).
+struct DrivingLoads {
+    std::vector<LoadPart> parts;
+    Matrix rows;
+};
+DrivingLoads driving_loads(const Space &space);
 Matrix row_of(const Space &space, const vector<double> &shape);
 
 } // namespace plm

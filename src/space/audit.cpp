@@ -3,6 +3,7 @@
 #include "space/row_audit.hpp"
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace plm {
 namespace {
@@ -167,9 +168,17 @@ class Audit {
         add(0, preload,
             m_.has_preload() ? format("static pre-load, norm %g", preload) : "no static pre-load");
         double dynamic = 0;
-        for (const auto &[harmonic, load] : m_.excitation()) {
-            if (harmonic == 0) continue;
-            dynamic = std::hypot(dynamic, column_norms(load.real)[0], column_norms(load.imag)[0]);
+        std::map<int, double> growing; // by the power
+        for (const auto &[part, load] : m_.excitation()) {
+            if (part.harmonic == 0) continue;
+            const double size = std::hypot(column_norms(load.real)[0], column_norms(load.imag)[0]);
+            double &sum = part.power == 0 ? dynamic : growing[part.power];
+            sum = std::hypot(sum, size);
+        }
+        bool grows = false;
+        for (const auto &[power, size] : growing) {
+            if (size > 0) add(0, size, format("harmonic excitation, norm %g times omega^%d", size, power));
+            grows = grows || size > 0;
         }
         double wall = 0;
         for (const auto &[harmonic, part] : m_.contact().motion)
@@ -178,7 +187,7 @@ class Audit {
         if (wall > 0) add(0, wall, format("gaps that move, by up to %g in one harmonic", wall));
         if (dynamic > 0)
             add(0, dynamic, format("harmonic excitation, norm %g", dynamic));
-        else if (!(wall > 0))
+        else if (!(wall > 0 || grows))
             add(1, 0,
                 format("no harmonic excitation on the free DOFs: the response is zero; %s",
                        m_.excitation_on_supports() > 0

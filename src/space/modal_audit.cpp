@@ -13,7 +13,8 @@ constexpr std::int64_t n_elastic = 10; // elastic modes looked at
 
 /// A harmonic of the excitation: its modal forces, and what the modes beyond the lowest answer at the pairs.
 struct Drive {
-    int harmonic = 1;
+    LoadPart part{1};
+    double still = 0; // largest displacement under the same force at rest
     Response force, residual;
 };
 
@@ -28,9 +29,9 @@ class ModalAudit {
         if (n_ <= rigid_) return findings_;
         lowest_frequency();
         damping_ = modal_damping();
-        for (const auto &[harmonic, load] : m_.excitation())
-            if (harmonic > 0 && std::hypot(column_norms(load.real)[0], column_norms(load.imag)[0]) > 0)
-                drives_.push_back(drive_of(harmonic, load));
+        for (const auto &[part, load] : m_.excitation())
+            if (part.harmonic > 0 && std::hypot(column_norms(load.real)[0], column_norms(load.imag)[0]) > 0)
+                drives_.push_back(drive_of(part, load));
         if (drives_.empty()) return findings_;
         driven_modes();
         if (m_.n_pairs() > 0) motion_within_gaps();
@@ -73,9 +74,10 @@ class ModalAudit {
         return z;
     }
 
-    Drive drive_of(int harmonic, const HarmonicForce &load) const {
+    Drive drive_of(const LoadPart &part, const HarmonicForce &load) const {
         Drive d;
-        d.harmonic = harmonic;
+        d.part = part;
+        d.still = std::hypot(elastic_deflection(load.real), elastic_deflection(load.imag));
         d.force = joined(projected(modes_.vectors, load.real), projected(modes_.vectors, load.imag));
         if (m_.n_pairs() == 0) return d;
         d.residual = joined(m_.static_gaps(load.real), m_.static_gaps(load.imag));
@@ -87,20 +89,20 @@ class ModalAudit {
 
     // A resonance that the excitation drives stands above its static deflection, or it is none to look at.
     void driven_modes() {
-        const double still = static_deflection();
-        double most = 0;
+        constexpr double seen = 0.01;
+        double most = 0, share = 0;
         std::int64_t best = rigid_;
         for (std::int64_t j = rigid_; j < n_; ++j) {
-            const double reach = resonant_deflection(j);
+            const double reach = resonant_deflection(j), still = static_deflection(j);
             if (reach > most) most = reach, best = j;
+            share = std::max(share, still > 0 ? reach / still : seen);
         }
-        constexpr double seen = 0.01;
-        if (most < seen * still)
-            add(1, most / still,
+        if (share < seen)
+            add(1, share,
                 format("the excitation moves none of the %lld lowest elastic modes, %.6g to %.6g Hz: at "
                        "resonance the largest moves %.2g as far as the same force at rest. It acts on DOFs, "
                        "or in a direction, that these modes leave still: move it",
-                       static_cast<long long>(n_ - rigid_), hz(rigid_), hz(n_ - 1), most / still));
+                       static_cast<long long>(n_ - rigid_), hz(rigid_), hz(n_ - 1), share));
         else
             add(0, hz(best),
                 format("of the %lld lowest elastic modes of the open structure the excitation moves the one "
@@ -108,19 +110,20 @@ class ModalAudit {
                        static_cast<long long>(n_ - rigid_), hz(best)));
     }
 
+    // Of a force at the resonance of mode j.
+    double growth(const Drive &d, std::int64_t j) const { return d.part.growth(omega(j) / d.part.harmonic); }
+
     double resonant_deflection(std::int64_t j) const {
         constexpr double undamped = 1e-4; // of the stiffness: where nothing damps
         const double lost = std::max(std::abs(stiffness(j, omega(j)).imag()), undamped * modes_.values[j]);
         double force = 0;
-        for (const Drive &d : drives_) force = std::hypot(force, std::abs(d.force[j]));
+        for (const Drive &d : drives_) force = std::hypot(force, growth(d, j) * std::abs(d.force[j]));
         return force / lost * largest_entry(modes_.vectors.columns(j, 1)).size;
     }
 
-    double static_deflection() const {
+    double static_deflection(std::int64_t j) const {
         double size = 0;
-        for (const auto &[harmonic, load] : m_.excitation())
-            if (harmonic > 0)
-                size = std::hypot(size, elastic_deflection(load.real), elastic_deflection(load.imag));
+        for (const Drive &d : drives_) size = std::hypot(size, growth(d, j) * d.still);
         return size;
     }
 
@@ -141,7 +144,7 @@ class ModalAudit {
         std::int64_t pair = 0;
         for (std::int64_t j = rigid_; j < n_; ++j)
             for (const Drive &d : drives_) {
-                const double base = omega(j) / d.harmonic;
+                const double base = omega(j) / d.part.harmonic;
                 const vector<double> amplitude = penetration_at(base);
                 for (std::int64_t i = 0; i < m_.n_pairs(); ++i) {
                     if (std::isnan(amplitude[i])) return; // a mode that nothing drives, nor damps
@@ -166,7 +169,7 @@ class ModalAudit {
             const vector<double> u = m_.static_gaps(load);
             for (std::int64_t i = 0; i < m_.n_pairs(); ++i) gap[i] -= u[Contact::normal_row(i)];
         };
-        const auto still = m_.excitation().find(0);
+        const auto still = m_.excitation().find(0); // what grows with the frequency is none at rest
         const bool loaded = m_.has_preload() || still != m_.excitation().end();
         if (loaded && rigid_ > 0) return {};
         if (m_.has_preload()) take_off(m_.preload());
@@ -182,10 +185,10 @@ class ModalAudit {
                 const std::int64_t row = Contact::normal_row(i);
                 Complex u = d.residual[row];
                 for (std::int64_t j = 0; j < n_; ++j) {
-                    const Complex k = stiffness(j, d.harmonic * base);
+                    const Complex k = stiffness(j, d.part.harmonic * base);
                     if (gap_(row, j) != 0 && d.force[j] != 0.0) u += gap_(row, j) * d.force[j] / k;
                 }
-                amplitude[i] += std::abs(u);
+                amplitude[i] += d.part.growth(base) * std::abs(u);
             }
         for (const auto &[harmonic, part] : m_.contact().motion)
             for (std::int64_t i = 0; harmonic > 0 && i < m_.n_pairs(); ++i)

@@ -32,6 +32,7 @@ Model::Model(const ModelInput &input, const SpaceOptions &options, const Solver 
     : Structure(input, {input.contact.n_pairs(), Contact::n_directions},
                 largest_given(input.contact.stiffness), solver, watch),
       contact_(input.contact), space_options_(options), rest_forces_(input.rest_forces) {
+    move_gaps();
     resolve_contact_stiffness(watch);
 }
 
@@ -41,6 +42,29 @@ Model::Model(const Model &built, const ModelInput &loads, Watch watch)
       rest_forces_(loads.rest_forces) {
     contact_.motion = loads.contact.motion;
     if (const StaticResponses *known = built.responses_.known()) known_modes_ = known->modes;
+    move_gaps();
+}
+
+// With the base, beside what moves them anyhow.
+void Model::move_gaps() {
+    for (const RowMotion &base : row_motions()) {
+        if (base.part.power != 0)
+            throw Error(
+                status::argument,
+                "the base motion strains the structure or moves it against a wall, so that the gaps of "
+                "pairs move with the displacement of the base, and its velocity or acceleration is "
+                "prescribed: prescribe the displacement, or move as one rigid body all that touches")
+                .argument("quantity");
+        GapHarmonic &gaps = contact_.motion[base.part.harmonic];
+        gaps.real.resize(static_cast<std::size_t>(n_pairs()), 0.0);
+        gaps.imag.resize(static_cast<std::size_t>(n_pairs()), 0.0);
+        for (std::int64_t i = 0; i < n_pairs(); ++i) {
+            const std::size_t pair = static_cast<std::size_t>(i),
+                              row = static_cast<std::size_t>(Contact::normal_row(i));
+            gaps.real[pair] += base.real[row];
+            gaps.imag[pair] += base.imag[row];
+        }
+    }
 }
 
 std::shared_ptr<const ExactModes> Model::exact_modes_up_to(std::int64_t wanted, double cutoff, Watch watch,

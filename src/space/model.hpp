@@ -40,6 +40,7 @@ class Model : public Structure {
 
   private:
     Model(const ModelInput &input, const SpaceOptions &options, const Solver &solver, Watch watch);
+    void move_gaps();
     std::shared_ptr<const ExactModes> modes_at_hand(Watch watch) const;
     vector<double> elastic_flexibility(Watch watch) const;
     vector<double> flexibility_of_some() const;

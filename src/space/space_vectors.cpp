@@ -180,10 +180,9 @@ vector<double> projected(const SpaceVectors &v, const Field &load) {
     return vector<double>(c.data(), c.data() + c.rows());
 }
 
-HarmonicLoads projected(const SpaceVectors &v, const std::map<int, HarmonicForce> &loads) {
+HarmonicLoads projected(const SpaceVectors &v, const HarmonicForces &loads) {
     HarmonicLoads reduced;
-    for (const auto &[harmonic, load] : loads)
-        reduced[harmonic] = {projected(v, load.real), projected(v, load.imag)};
+    for (const auto &[part, load] : loads) reduced[part] = {projected(v, load.real), projected(v, load.imag)};
     return reduced;
 }
 

@@ -70,6 +70,6 @@ Field all_columns(const SpaceVectors &v);
 Field columns(const SpaceVectors &v, std::int64_t first, std::int64_t count);
 /// V^T F, empty where there is no load.
 vector<double> projected(const SpaceVectors &v, const Field &load);
-HarmonicLoads projected(const SpaceVectors &v, const std::map<int, HarmonicForce> &loads);
+HarmonicLoads projected(const SpaceVectors &v, const HarmonicForces &loads);
 
 } // namespace plm

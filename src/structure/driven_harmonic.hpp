@@ -4,7 +4,7 @@
 
 namespace plm {
 
-/// The lowest dynamic harmonic with a load; null: nothing is driven.
-const std::pair<const int, HarmonicLoad> *driven_harmonic(const HarmonicLoads &excitation);
+/// The lowest dynamic harmonic with a load; 0: nothing is driven.
+int driven_harmonic(const HarmonicLoads &excitation);
 
 } // namespace plm

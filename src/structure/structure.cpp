@@ -81,7 +81,9 @@ Structure::Structure(const StructureInput &input, GapSize gap, double largest_co
     : Structure(input, gap, solver) {
     warn_of_printed_constraints(watch);
     factor_stiffness(largest_contact, watch);
+    follow_supports(input);
     leave_out_rounding();
+    add_base_forces();
     check_unheld_motion(watch);
 }
 
@@ -108,6 +110,7 @@ void Structure::assemble(const StructureInput &input, GapSize gap) {
     held.insert(held.end(), input.multipliers.begin(), input.multipliers.end());
     const ConstraintRows constraints = with_multipliers(input);
     map_dofs(held, constraints);
+    parts_->base = BaseMotion(input.base_motion, n_dof_, input.fixed, constraints);
     assemble_parts(input, gap);
     parts_->still_dofs = find_still_dofs();
     if (parts_->still_dofs.dof.empty()) return;
@@ -176,6 +179,7 @@ void Structure::assemble_matrices(const StructureInput &input) {
     parts_->diagonal_twice = parts_->translations.empty() && is_diagonal_twice(all);
     require_nonnegative_diagonal("stiffness", all, parts_->dofs);
     parts_->stiffness = parts_->dofs.reduced("stiffness", all);
+    parts_->base.act(BaseMotion::stiffness, all, parts_->dofs);
     // as many codes hand it over: with the pattern of the stiffness, two thirds zero
     all = without_zeros(over_all_dofs("mass", *input.mass, n_dof_));
     if (!mass_like.empty()) refuse_exchanged(mass_like, all);
@@ -183,12 +187,14 @@ void Structure::assemble_matrices(const StructureInput &input) {
     require_none_at(input.multipliers, "mass", all);
     require_nonnegative_diagonal("mass", all, parts_->dofs);
     parts_->mass = parts_->dofs.reduced("mass", all);
+    parts_->base.act(BaseMotion::mass, all, parts_->dofs);
     damping_options_ = input.damping;
     damping_options_.has_matrix = input.damping_matrix != nullptr;
     if (!damping_options_.has_matrix) return;
     all = over_all_dofs("damping", *input.damping_matrix, n_dof_);
     require_none_at(input.multipliers, "damping", all);
     parts_->damping = parts_->dofs.reduced("damping", all);
+    parts_->base.act(BaseMotion::damping, all, parts_->dofs);
 }
 
 void Structure::assemble_gap(const StructureInput &input, GapSize size) {
@@ -230,15 +236,15 @@ void Structure::assemble_loads(const StructureInput &input) {
     excitation_on_supports_ = 0;
     preload_ = on_free_dofs("preload", "pre-load", input.preload);
     if (largest_entry(preload_).size == 0) preload_ = Field(); // none: nobody downstream pays for it
-    for (const auto &[harmonic, load] : input.excitation) {
-        HarmonicForce &mine = excitation_[harmonic];
+    for (const auto &[part, load] : input.excitation) {
+        HarmonicForce &mine = excitation_[part];
         mine.real = on_free_dofs("excitation", "excitation", load.real);
-        if (harmonic == 0) continue;
+        if (part.harmonic == 0) continue;
         mine.imag = on_free_dofs("excitation", "excitation", load.imag);
-        for (std::int64_t dof = 0; dof < n_dof_; ++dof)
-            for (const vector<double> *part : {&load.real, &load.imag})
-                if (!part->empty() && parts_->dofs.is_held(dof))
-                    excitation_on_supports_ = std::hypot(excitation_on_supports_, (*part)[dof]);
+        for (const vector<double> *values : {&load.real, &load.imag})
+            for (std::int64_t dof = 0; dof < n_dof_ && !values->empty(); ++dof)
+                if (parts_->dofs.is_held(dof))
+                    excitation_on_supports_ = std::hypot(excitation_on_supports_, (*values)[dof]);
     }
 }
 
@@ -322,10 +328,6 @@ std::int64_t Structure::n_massless_dofs() const {
     std::int64_t count = n_free();
     for (double m : diagonal(parts_->mass)) count -= m > 0;
     return count;
-}
-
-void Structure::expand(const Field &x, std::int64_t j, double *all) const {
-    parts_->dofs.expand(x.in_core().col(j), all);
 }
 
 vector<double> Structure::expanded(const Field &x) const {

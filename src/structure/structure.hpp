@@ -3,6 +3,7 @@
 // is; what the pairs do is not.
 #pragma once
 #include "linalg/monitor.hpp"
+#include "structure/base_motion.hpp"
 #include "structure/dof_map.hpp"
 #include "structure/eigs.hpp"
 #include "structure/gap_rows.hpp"
@@ -39,8 +40,8 @@ struct StructureInput {
     // gap matrix by rows: B = [row; dof; coefficient] triplets
     vector<std::int64_t> gap_row, gap_dof;
     vector<double> gap_coefficient;
-    vector<double> preload; // empty: none
-    HarmonicLoads excitation;
+    vector<double> preload;                // empty: none
+    HarmonicLoads excitation, base_motion; // the latter of fixed DOFs (base_motion.hpp)
     /// What may be asked of motions beside the DOFs: sums over all of them, numbered on from n_dof. It may
     /// grow while structures know it, and what is in it stays; null: none.
     std::shared_ptr<const std::vector<DofTerms>> outputs;
@@ -163,7 +164,10 @@ class Structure {
     const Damping &damping() const { return damping_options_; }
     bool has_preload() const { return !preload_.empty(); }
     const Field &preload() const { return preload_; } // one column, none without pre-load
-    const std::map<int, HarmonicForce> &excitation() const { return excitation_; }
+    /// With what a motion of the base does as a force.
+    const HarmonicForces &excitation() const { return excitation_; }
+    /// And to the gaps.
+    const std::vector<RowMotion> &row_motions() const { return parts_->row_motions; }
 
     /// Motions known to strain nothing before supports are applied; empty where the matrices do not tell.
     const vector<Translation> &translations() const { return parts_->translations; }
@@ -178,7 +182,9 @@ class Structure {
 
     /// Column j over all DOFs (n_dof numbers), fixed ones zero; and a motion of all DOFs, one column, by its
     /// free ones.
-    void expand(const Field &x, std::int64_t j, double *all) const;
+    void expand(const Field &x, std::int64_t j, double *all) const {
+        parts_->dofs.expand(x.in_core().col(j), all);
+    }
     vector<double> expanded(const Field &x) const; // column 0
     Field restricted(const double *all) const;
 
@@ -204,6 +210,8 @@ class Structure {
     void assemble_gap(const StructureInput &input, GapSize size);
     void assemble_loads(const StructureInput &input);
     void factor_stiffness(double largest_contact, Watch watch);
+    void follow_supports(const StructureInput &input);
+    void add_base_forces();
     void leave_out_rounding();
     void check_unheld_motion(Watch watch);
     std::string balance(Field &load, const char *name, Watch watch) const;
@@ -220,6 +228,8 @@ class Structure {
         vector<Translation> translations;
         StillDofs still_dofs;
         bool diagonal_twice = false;
+        BaseMotion base;
+        std::vector<RowMotion> row_motions; // with it
         double shift = 0, uncertainty = 0;
         std::unique_ptr<Factor> factor;
         Field rigid_modes, unheld, unheld_momenta; // R, R_0, M R_0
@@ -232,7 +242,7 @@ class Structure {
     std::shared_ptr<Parts> parts_; // changed by the constructor that makes it alone
     Damping damping_options_;
     Field preload_;
-    std::map<int, HarmonicForce> excitation_;
+    HarmonicForces excitation_;
     double excitation_on_supports_ = 0;
     std::string preload_resultant_, mean_resultant_;
 };

@@ -12,6 +12,7 @@ Structure::Structure(const Structure &built, const StructureInput &loads, Watch 
     refuse_what_would_move_still_dofs(loads);
     damping_options_.has_matrix = built.damping_options_.has_matrix;
     assemble_loads(loads);
+    add_base_forces();
     warn_of_printed_constraints(watch);
     check_unheld_motion(watch);
 }
@@ -41,6 +42,21 @@ void Structure::refuse_what_would_move_still_dofs(const StructureInput &loads) c
     }
 }
 
+void Structure::follow_supports(const StructureInput &in) {
+    if (parts_->base.empty()) return;
+    parts_->base.follow(*parts_->factor);
+    parts_->row_motions = parts_->base.row_motions(parts_->gap_rows.n_rows(), in.gap_row, in.gap_dof,
+                                                   in.gap_coefficient, parts_->dofs);
+}
+
+void Structure::add_base_forces() {
+    if (parts_->base.empty()) return;
+    const Damping &d = damping_options_;
+    parts_->base.add_forces(
+        {parts_->mass, parts_->stiffness, parts_->damping, parts_->shift, d.alpha, d.beta, d.structural},
+        excitation_);
+}
+
 // Also what is too small to be said: what carries no force has moved far before a tiny one is felt.
 void Structure::leave_out_rounding() {
     constexpr double eps = 1e-15;
@@ -61,9 +77,9 @@ void Structure::check_unheld_motion(Watch watch) {
                    "are taken to leave it free, as with coordinates and weights of more digits",
                    miss.size, Int(parts_->gap_rows.size().pair_of(miss.row))));
     preload_resultant_ = balance(preload_, "pre-load", watch);
-    const auto mean = excitation_.find(0);
-    if (mean != excitation_.end())
-        mean_resultant_ = balance(mean->second.real, "mean of the excitation", watch);
+    for (auto &[part, load] : excitation_)
+        if (part.harmonic == 0 && mean_resultant_.empty())
+            mean_resultant_ = balance(load.real, "mean of the excitation", watch);
 }
 
 // A load that is meant to balance becomes one that does, by the inertia of the structure.

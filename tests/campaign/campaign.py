@@ -43,7 +43,7 @@ def build(m):
     model.add_gap_rows(sp.csr_matrix(m.get("B_library", m["B"])), stiffness=m["kn"], gap=m["g"])
     if np.any(m["P"]):
         model.set_preload(m["P"])
-    model.set_excitation(m["F"])
+    model.set_excitation(m["F"], power=m.get("power", 0))
     if "G" in m:
         model.set_gap_motion(m["G"])
     return model.build()
@@ -122,7 +122,7 @@ def compare(m, x, omega, result):
     """The exact peak nearest that of the library."""
     if m.get("condense"):
         m, x = condensed(m, x)
-    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], m["F"].astype(complex), m["out"], m.get("G"))
+    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], m["F"].astype(complex), m["out"], m.get("G"), m.get("power", 0))
     w, amplitude, phi, moved = s.peak_near(x, omega)
     result.update(exact_hz=w / 2 / np.pi, exact_amplitude=amplitude, moved=moved, events=s.events,
                   error=abs(result["amplitude"] / amplitude - 1), frequency_error=abs(omega / w - 1),
@@ -134,7 +134,7 @@ def compare_everywhere(m, peak, hbm, x, omega, result):
     largest), what is stated there, and the whole in the norm of energy. Curves over many gaps take too long to follow: the
     largest amplitude near a peak is that of any motion near it."""
     n = len(m["M"])
-    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], m["F"].astype(complex), np.arange(n), m.get("G"))
+    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], m["F"].astype(complex), np.arange(n), m.get("G"), m.get("power", 0))
     y, w, phi = s.nearest(x, omega)
     s.flow(y, w)
     true = s.peak

@@ -29,12 +29,13 @@ class Piece:
         self.inverse = np.linalg.inv(self.vectors)
         load = np.concatenate([np.zeros(n), s.Minv @ (s.P + s.B.T @ (spring * s.g))])
         self.fixed = -np.linalg.solve(a, load)
-        self.drive = self.inverse @ np.concatenate([np.zeros(n), s.Minv @ (s.F + s.B.T @ (spring * s.G))])
+        self.power = s.power
+        self.drive, self.walls = (self.inverse @ np.concatenate([np.zeros(n), s.Minv @ f]) for f in (s.F, s.B.T @ (spring * s.G)))
         self.gaps = s.B @ self.vectors[:n]
 
     def forced(self, omega):
         """Complex amplitude of the forced motion."""
-        return self.vectors @ (self.drive / (1j * omega - self.values))
+        return self.vectors @ ((omega**self.power * self.drive + self.walls) / (1j * omega - self.values))
 
 
 def condensation(M, K, kept, reach=40.0, fewest=20):
@@ -51,14 +52,15 @@ def condensation(M, K, kept, reach=40.0, fewest=20):
 
 
 class Structure:
-    """M q'' + C q' + K q + B' max(kn u, 0) = P + Re(F exp(i omega t)), u = B q - g - Re(G exp(i omega t)); `out`: the DOF looked
-    at, or several."""
+    """M q'' + C q' + K q + B' max(kn u, 0) = P + omega^power Re(F exp(i omega t)), u = B q - g - Re(G exp(i omega t)); `out`: the
+    DOF looked at, or several."""
 
-    def __init__(self, M, C, K, B, kn, g, P, F, out, G=None):
+    def __init__(self, M, C, K, B, kn, g, P, F, out, G=None, power=0):
         self.n = len(M)
         self.Minv = np.linalg.inv(M)
         self.C, self.K, self.B, self.kn, self.g, self.P, self.F, self.out = C, K, B, kn, g, P, F, out
         self.G = np.zeros(len(g)) if G is None else G
+        self.power = power
         self._pieces = {}
 
     def piece(self, closed):

@@ -7,6 +7,7 @@ families.py, with more of what the judge should know:
     K_library  what the library is given where the exact motion needs more (B_library likewise)
     exact_to   how exact the exact motion is, where not 1e-6
     G          motion of the gaps at the excitation's frequency, complex amplitudes
+    power      of the frequency, with which F grows
     host       what the library is given in place of all this: DOFs q of which `rows` @ q = 0, or with `couplings` (methods of
                plm.Model and their arguments), the motions of the model by q = `to_host` times those here
 """
@@ -381,5 +382,11 @@ def moving(rng):
     return m
 
 
+def unbalanced(rng):
+    """A force that grows with the square of the frequency: at the lowest natural frequency it is what the family draws."""
+    m = (families.chains, families.breathing, families.beam_with_stops)[int(rng.integers(3))](rng)
+    return dict(m, F=m["F"] / scipy.linalg.eigh(m["K"], m["M"], eigvals_only=True)[0], power=2)
+
+
 FAMILIES = (hard_stops, hard_stops_one_ratio, many_gaps, permuted, turned_mesh, round_shaft, twin_plates, free_bodies, hanging_parts,
-            dashpots, superelements, constrained, coupled, moving)
+            dashpots, superelements, constrained, coupled, moving, unbalanced)

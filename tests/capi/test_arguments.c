@@ -204,6 +204,34 @@ static void loads(void **state) {
     assert_int_equal(plm_model_set_excitation(model, 1, 6, NULL, NULL), PLM_OK);
 }
 
+static void growing_loads(void **state) {
+    const char *f = "plm_model_set_growing_excitation";
+    const double one[6] = {1, 1, 1, 1, 1, 1}, bad[6] = {1, 1, 1, 1, NAN, 1};
+    (void)state;
+    BAD(plm_model_set_growing_excitation(model, -1, 2, 6, one, NULL), f, "harmonic", -1, "harmonic is -1");
+    BAD(plm_model_set_growing_excitation(model, 1, 3, 6, one, NULL), f, "power", -1, "power is 3");
+    BAD(plm_model_set_growing_excitation(model, 1, -1, 6, one, NULL), f, "power", -1, "power is -1");
+    BAD(plm_model_set_growing_excitation(model, 1, 2, 7, one, NULL), f, "n", -1, "n is 7");
+    BAD(plm_model_set_growing_excitation(model, 1, 2, 6, bad, NULL), f, "real", 4, "real[4]");
+    BAD(plm_model_set_growing_excitation(model, 0, 2, 6, one, one), f, "imag", -1, "harmonic 0");
+    BAD(plm_model_set_growing_excitation(model, 1, 2, 6, NULL, one), f, "real", -1, "real is NULL");
+    assert_int_equal(plm_model_set_growing_excitation(model, 1, 2, 6, one, one), PLM_OK);
+    assert_int_equal(plm_model_set_growing_excitation(model, 1, 2, 6, NULL, NULL), PLM_OK);
+}
+
+static void base_motion(void **state) {
+    const char *f = "plm_model_set_base_motion";
+    const double one[6] = {1, 1, 1, 1, 1, 1}, bad[6] = {1, 1, 1, 1, NAN, 1};
+    (void)state;
+    BAD(plm_model_set_base_motion(model, 3, 1, 6, one, NULL), f, "quantity", -1, "quantity is 3");
+    BAD(plm_model_set_base_motion(model, PLM_VELOCITY, 0, 6, one, NULL), f, "harmonic", -1, "harmonic is 0");
+    BAD(plm_model_set_base_motion(model, PLM_VELOCITY, 1, 7, one, NULL), f, "n", -1, "n is 7");
+    BAD(plm_model_set_base_motion(model, PLM_VELOCITY, 1, 6, one, bad), f, "imag", 4, "imag[4]");
+    BAD(plm_model_set_base_motion(model, PLM_VELOCITY, 1, 6, NULL, one), f, "real", -1, "real is NULL");
+    assert_int_equal(plm_model_set_base_motion(model, PLM_ACCELERATION, 1, 6, one, one), PLM_OK);
+    assert_int_equal(plm_model_set_base_motion(model, PLM_DISPLACEMENT, 1, 6, NULL, NULL), PLM_OK);
+}
+
 static void gap_motion(void **state) {
     const char *f = "plm_model_set_gap_motion";
     const int32_t ptr[] = {0, 1, 2}, dof[] = {0, 1};
@@ -415,9 +443,10 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         TEST(creation),   TEST(matrices),      TEST(damping_and_supports),
         TEST(node_pairs), TEST(gap_rows),      TEST(constraints),
-        TEST(loads),      TEST(gap_motion),    TEST(text_outputs),
-        TEST(version),    TEST(too_early),     TEST(too_late),
-        TEST(outputs),    TEST(changed_loads),
+        TEST(loads),      TEST(growing_loads), TEST(base_motion),
+        TEST(gap_motion), TEST(text_outputs),  TEST(version),
+        TEST(too_early),  TEST(too_late),      TEST(outputs),
+        TEST(changed_loads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

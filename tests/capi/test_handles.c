@@ -87,6 +87,8 @@ CASE(model, plm_model_add_gap_rows_i32, 0, 1, i32, i32, one, one, NULL)
 CASE(model, plm_model_add_gap_rows_i64, 0, 1, i64, i64, one, one, NULL)
 CASE(model, plm_model_set_preload, 3, one)
 CASE(model, plm_model_set_excitation, 1, 3, one, NULL)
+CASE(model, plm_model_set_growing_excitation, 1, 2, 3, one, NULL)
+CASE(model, plm_model_set_base_motion, 0, 1, 3, one, NULL)
 CASE(model, plm_model_set_gap_motion, 1, 0, one, NULL)
 CASE(model, plm_model_add_outputs_i32, 0, 1, i32, i32, one, &out[0].l)
 CASE(model, plm_model_add_outputs_i64, 0, 1, i64, i64, one, &out[0].l)
@@ -208,6 +210,8 @@ static const struct {
                  ENTRY(MODEL, plm_model_add_gap_rows_i64),
                  ENTRY(MODEL, plm_model_set_preload),
                  ENTRY(MODEL, plm_model_set_excitation),
+                 ENTRY(MODEL, plm_model_set_growing_excitation),
+                 ENTRY(MODEL, plm_model_set_base_motion),
                  ENTRY(MODEL, plm_model_set_gap_motion),
                  ENTRY(MODEL, plm_model_add_outputs_i32),
                  ENTRY(MODEL, plm_model_add_outputs_i64),

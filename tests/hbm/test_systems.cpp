@@ -166,6 +166,50 @@ void jacobians_match_with_moving_walls(void **) {
     check_derivatives(with_moving_walls(with_static_basis()));
 }
 
+// Of every power, and a mean; beside a force that does not.
+std::shared_ptr<ReducedModel> with_growing_loads(std::shared_ptr<ReducedModel> m) {
+    const plm::HarmonicLoad force = m->excitation.at(1);
+    for (int power : {-1, 1, 2}) {
+        plm::HarmonicLoad &part = m->excitation[{1, power}];
+        part = force;
+        for (double &f : part.imag) f += 0.05 * power;
+    }
+    m->excitation[{3, 2}] = force;
+    m->excitation[{0, 2}].real.assign(static_cast<std::size_t>(m->static_size()), 0.03);
+    return m;
+}
+void jacobians_match_with_loads_that_grow(void **) {
+    for (const auto &m :
+         {chain_model(), with_full_damping(), with_static_basis(), with_a_massless_coordinate()})
+        check_derivatives(with_growing_loads(m));
+}
+// What the wrong sign, or the wrong power, would show in both forms alike: the load of one frequency.
+void loads_are_those_of_their_frequency(void **) {
+    constexpr double omega = 0.7;
+    for (NonlinearUnknowns unknowns : {NonlinearUnknowns::modal, NonlinearUnknowns::gaps})
+        for (std::int64_t multiple : {1, 2}) {
+            const auto growing = with_growing_loads(chain_model()), still = chain_model();
+            still->excitation.clear();
+            for (const auto &[part, load] : growing->excitation) {
+                plm::HarmonicLoad &sum = still->excitation[part.harmonic];
+                sum.real.resize(load.real.size(), 0.0), sum.imag.resize(load.imag.size(), 0.0);
+                for (std::size_t j = 0; j < load.real.size(); ++j)
+                    sum.real[j] += std::pow(omega, part.power) * load.real[j];
+                for (std::size_t j = 0; j < load.imag.size(); ++j)
+                    sum.imag[j] += std::pow(omega, part.power) * load.imag[j];
+            }
+            HbmOptions o = options_with(4, unknowns);
+            o.period_multiple = multiple;
+            o.force_scale = 1.3;
+            const auto one = plm::make_system(growing, o), other = plm::make_system(still, o);
+            const plm::vector<double> x = random_point(*one, *growing, omega);
+            plm::vector<double> a(x.size()), b(x.size());
+            one->residual(x.data(), omega, a.data());
+            other->residual(x.data(), omega, b.data());
+            for (std::size_t i = 0; i < x.size(); ++i) assert_true(below(std::abs(a[i] - b[i]), 1e-12));
+        }
+}
+
 // Of the residual, by the scale that forces and walls have in common.
 double force_derivative_error(HbmSystem &system, const plm::vector<double> &x) {
     constexpr double omega = 0.7, scale = 1.2, step = 1e-6;
@@ -545,6 +589,8 @@ int main() {
         cmocka_unit_test(jacobians_match_with_a_static_basis),
         cmocka_unit_test(jacobians_match_with_rigid_body_modes),
         cmocka_unit_test(jacobians_match_with_moving_walls),
+        cmocka_unit_test(jacobians_match_with_loads_that_grow),
+        cmocka_unit_test(loads_are_those_of_their_frequency),
         cmocka_unit_test(walls_move_with_the_scale_of_the_force),
         cmocka_unit_test(jacobians_match_with_self_excitation),
         cmocka_unit_test(jacobians_with_more_equations_match_differences),

@@ -11,10 +11,17 @@ namespace test {
 using plm::FlowState;
 using plm::Matrix;
 
+/// grow: with loads beside, in the harmonic of the force, in another and a mean, that grow with the
+/// frequency.
 inline std::shared_ptr<const plm::FlowModel> flow_model(const exact::Structure &s,
-                                                        const plm::GapMotion &walls = {}) {
+                                                        const plm::GapMotion &walls = {}, bool grow = false) {
     const auto reduced = reduce_exactly(s);
     reduced->contact.motion = walls;
+    const plm::HarmonicLoad force = reduced->excitation.at(1);
+    for (int power : {1, 2})
+        if (grow) reduced->excitation[{power, power}] = force;
+    for (double f : force.real)
+        if (grow) reduced->excitation[{0, 2}].real.push_back(0.1 * f);
     return std::make_shared<plm::FlowModel>(reduced);
 }
 

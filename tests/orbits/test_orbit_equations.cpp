@@ -19,8 +19,8 @@ FlowState rest_of(const plm::FlowModel &m) {
 }
 
 OrbitEquations equations(const exact::Structure &s, double omega, FlowParameter parameter,
-                         std::int64_t periods = 1, const plm::GapMotion &walls = {}) {
-    const auto model = flow_model(s, walls);
+                         std::int64_t periods = 1, const plm::GapMotion &walls = {}, bool grow = false) {
+    const auto model = flow_model(s, walls, grow);
     return OrbitEquations(model, rest_of(*model), {omega, 1.0, periods}, parameter);
 }
 
@@ -55,8 +55,8 @@ struct Errors {
     double parameter = 1e300, direction = 1e300, solution = 1e300;
 };
 Errors derivative_errors(const exact::Structure &s, double omega, FlowParameter parameter, double p,
-                         std::int64_t periods = 1, const plm::GapMotion &walls = {}) {
-    OrbitEquations e = equations(s, omega, parameter, periods, walls);
+                         std::int64_t periods = 1, const plm::GapMotion &walls = {}, bool grow = false) {
+    OrbitEquations e = equations(s, omega, parameter, periods, walls, grow);
     const plm::vector<double> x = solution(e, p);
     const std::size_t n = x.size();
     Errors out;
@@ -93,6 +93,17 @@ void derivatives_are_those_of_differences(void **) {
                 assert_true(below(e.parameter, 1e-4));
                 assert_true(below(e.direction, 1e-4));
             }
+        }
+}
+void loads_that_grow_have_their_derivatives(void **) {
+    const exact::Structure s = damped_chain();
+    for (double omega : {0.4, 0.9, 1.5})
+        for (const Errors &e :
+             {derivative_errors(s, omega, FlowParameter::frequency, omega, 1, moving_walls(), true),
+              derivative_errors(s, omega, FlowParameter::force_scale, 1.3, 1, {}, true)}) {
+            assert_true(below(e.solution, 1e-11));
+            assert_true(below(e.parameter, 1e-4));
+            assert_true(below(e.direction, 1e-4));
         }
 }
 void stiff_contact_has_the_same_derivatives(void **) {
@@ -297,7 +308,8 @@ void modes_know_what_has_no_mass(void **) {
 }
 void modes_know_how_walls_move(void **) {
     for (FlowParameter by : {FlowParameter::frequency, FlowParameter::force_scale})
-        series_and_modes_agree(flow_model(damped_chain(), moving_walls()), by, 4);
+        for (bool grow : {false, true})
+            series_and_modes_agree(flow_model(damped_chain(), moving_walls(), grow), by, 4);
 }
 
 // A chain that nothing holds, pressed against a stop that throws it off: in flight its centre goes by
@@ -486,6 +498,7 @@ int main() {
         cmocka_unit_test(what_overflows_ends_newton_s_method),
         cmocka_unit_test(a_place_that_is_remembered_is_there_again),
         cmocka_unit_test(derivatives_are_those_of_differences),
+        cmocka_unit_test(loads_that_grow_have_their_derivatives),
         cmocka_unit_test(stiff_contact_has_the_same_derivatives),
         cmocka_unit_test(solutions_are_orbits),
         cmocka_unit_test(modes_give_the_motion_of_the_series),

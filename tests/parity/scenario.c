@@ -40,7 +40,8 @@ static int64_t relative; /* output */
 
 static plm_model *make_model(void) {
     int32_t diagonal[N], row[2 * N - 1], column[2 * N - 1];
-    double mass[N], stiffness[2 * N - 1], force[N] = {0}, preload[N] = {0};
+    double mass[N], stiffness[2 * N - 1], force[N] = {0}, preload[N] = {0}, grows[N] = {0},
+                                          grows_later[N] = {0};
     /* pair 0: u = q_2 - q_5, pair 1: u = q_8 - 0.001 */
     const int32_t row_start[] = {0, 2, 3}, dof[] = {2, 5, 8};
     const double coefficient[] = {1, -1, 1}, contact_stiffness[] = {PLM_AUTO_STIFFNESS, 20000},
@@ -57,6 +58,7 @@ static plm_model *make_model(void) {
     }
     force[4] = 10;
     preload[8] = 5;
+    grows[8] = 4e-4, grows_later[7] = 2e-4; /* an unbalance */
     must(plm_model_create(ctx, N, &model));
     must(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, N, diagonal,
                                   diagonal, mass));
@@ -67,6 +69,7 @@ static plm_model *make_model(void) {
     must(plm_model_add_gap_rows_i32(model, 0, PAIRS, row_start, dof, coefficient, contact_stiffness, gap));
     must(plm_model_set_preload(model, N, preload));
     must(plm_model_set_excitation(model, 1, N, force, NULL));
+    must(plm_model_set_growing_excitation(model, 1, 2, N, grows, grows_later));
     must(plm_model_set_gap_motion(model, 2, PAIRS, shaken, later));
     must(plm_model_build(model));
     /* the motion of pair 0, as DOF N */

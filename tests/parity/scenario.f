@@ -59,7 +59,7 @@ C     points count from 1 here.
       INTEGER IDOF(3), MROW(2), MDOF(3)
       DOUBLE PRECISION XM(N), XK(2*N-1), FRE(N), FIM(N), PRE(N)
       DOUBLE PRECISION XMID(3), COEFF(3), STIFF(NPAIRS), GAP(NPAIRS)
-      DOUBLE PRECISION SHAKE(NPAIRS), LATER(NPAIRS)
+      DOUBLE PRECISION SHAKE(NPAIRS), LATER(NPAIRS), GRE(N), GIM(N)
       DATA MROW /1, 4/
       DATA MDOF /7, 6, 8/
       DATA XMID /1.0D0, -0.5D0, -0.5D0/
@@ -78,6 +78,8 @@ C     points count from 1 here.
         FRE(I) = 0.0D0
         FIM(I) = 0.0D0
         PRE(I) = 0.0D0
+        GRE(I) = 0.0D0
+        GIM(I) = 0.0D0
         K = K + 1
         IROW(K) = I
         ICOL(K) = I
@@ -92,6 +94,8 @@ C     points count from 1 here.
    10 CONTINUE
       FRE(5) = 10.0D0
       PRE(9) = 5.0D0
+      GRE(9) = 4.0D-4
+      GIM(8) = 2.0D-4
       MODEL = 0
       CALL PLMMCR(LCTX, N, MODEL, IERR)
       CALL MUST(IERR)
@@ -110,6 +114,8 @@ C     points count from 1 here.
       CALL PLMMPL(MODEL, N, PRE, IERR)
       CALL MUST(IERR)
       CALL PLMMEX(MODEL, 1, N, FRE, FIM, IERR)
+      CALL MUST(IERR)
+      CALL PLMMEG(MODEL, 1, 2, N, GRE, GIM, IERR)
       CALL MUST(IERR)
       CALL PLMMGM(MODEL, 2, NPAIRS, SHAKE, LATER, IERR)
       CALL MUST(IERR)

@@ -37,6 +37,7 @@ contains
         type(plm_context), intent(in) :: context
         type(plm_model), intent(inout) :: model
         real(real64) :: force(n_masses), preload(n_masses)
+        complex(real64) :: grows(n_masses)
         integer :: i
         call model%create(context, n_masses)
         call model%set_triplets(PLM_MASS, PLM_LOWER, [(i, i=1, n_masses)], [(i, i=1, n_masses)], &
@@ -52,8 +53,12 @@ contains
         force(5) = 10
         preload = 0
         preload(9) = 5
+        grows = 0
+        grows(9) = 4e-4_real64
+        grows(8) = cmplx(0.0_real64, 2e-4_real64, real64)
         call model%set_preload(preload)
         call model%set_excitation(1, force)
+        call model%set_growing_excitation(1, 2, grows)
         call model%set_gap_motion(2, [(0.0_real64, 0.0_real64), (2e-5_real64, 1e-5_real64)])
         call model%build()
         call model%add_outputs([1, 3], [3, 6], [1.0_real64, -1.0_real64], relative)

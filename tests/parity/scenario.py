@@ -25,10 +25,12 @@ def make_model():
     rows[0, [2, 5]] = 1, -1
     rows[1, 8] = 1
     model.add_gap_rows(rows, [plm.AUTO_STIFFNESS, 20000], [0, 0.001])
-    force, preload = numpy.zeros(N), numpy.zeros(N)
+    force, preload, grows = numpy.zeros(N), numpy.zeros(N), numpy.zeros(N, complex)
     force[4], preload[8] = 10, 5
+    grows[[7, 8]] = 2e-4j, 4e-4
     model.set_preload(preload)
     model.set_excitation(force)
+    model.set_excitation(grows, power=2)
     model.set_gap_motion([0, 2e-5 + 1e-5j], harmonic=2)
     model.build()
     assert model.add_outputs(rows[:1]) == range(RELATIVE, RELATIVE + 1)

@@ -70,7 +70,9 @@ FUNCTIONS = {
     "plm_model_add_outputs_i64": "piqpppp model index_base n row_ptr dof coefficient first_dof",
     "plm_model_set_preload": "pqp model n force",
     "plm_model_set_excitation": "piqpp model harmonic n real imag",
+    "plm_model_set_growing_excitation": "piiqpp model harmonic power n real imag",
     "plm_model_set_gap_motion": "piqpp model harmonic n real imag",
+    "plm_model_set_base_motion": "piiqpp model quantity harmonic n real imag",
     "plm_model_set_dense_matrix": "piipq model which part value ld",
     "plm_model_add_dense_gap_rows": "pqpqpp model n row ld stiffness gap",
     "plm_model_set_recovery": "pqpp model n_full fn user",
@@ -289,6 +291,9 @@ SURFACE_SYMMETRIC = 2
 SURFACE_SMOOTH = 4
 SURFACE_TWO_SIDED = 8
 KEEP_GAP = -1.0
+DISPLACEMENT = 0
+VELOCITY = 1
+ACCELERATION = 2
 SYSTEM_OPEN = 0
 SYSTEM_SLIDING = 1
 SYSTEM_REST = 2

@@ -11,6 +11,7 @@ from ._context import default_context
 from ._handle import Handle, address, alike, handle_of, integers, list_of_reals, real_parts, reals
 from ._methods import ModelMethods
 
+QUANTITIES = {"displacement": _c.DISPLACEMENT, "velocity": _c.VELOCITY, "acceleration": _c.ACCELERATION}
 SYSTEMS = {"open": _c.SYSTEM_OPEN, "sliding": _c.SYSTEM_SLIDING, "rest": _c.SYSTEM_REST, "given": _c.SYSTEM_GIVEN}
 MATRICES = {_c.MASS: "mass", _c.STIFFNESS: "stiffness", _c.DAMPING: "damping"}
 COMPLEX_MATRIX = ("hand over the real part, and damping by set_structural_damping (a loss factor, K (1 + i eta)), "
@@ -315,14 +316,29 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         force = reals(force, (self.n_dof,), "force", OF_DOFS)
         self._work("set_preload", self.n_dof, address(force))
 
-    def set_excitation(self, force, harmonic=1):
-        """F(t) = sum Re(F_h exp(i h omega t)); force: F_h, n_dof, real or complex. None removes the harmonic."""
+    def set_base_motion(self, motion, quantity="displacement", harmonic=1):
+        """Moving supports: Re(U_h exp(i h omega t)); motion: U_h, n_dof, real or complex, zero where a DOF is not fixed;
+        quantity: "displacement", "velocity" or "acceleration". Results are relative to the base. None removes the harmonic."""
+        if quantity not in QUANTITIES:
+            raise ValueError(f"quantity must be one of {', '.join(QUANTITIES)}, not {quantity!r}")
+        imaginary = None
+        if numpy.iscomplexobj(motion):
+            imaginary = reals(numpy.imag(motion), (self.n_dof,), "motion", OF_DOFS)
+            motion = numpy.real(motion)
+        motion = reals(motion, (self.n_dof,), "motion", OF_DOFS)
+        self._call("set_base_motion", QUANTITIES[quantity], harmonic, self.n_dof, address(motion), address(imaginary))
+
+    def set_excitation(self, force, harmonic=1, power=0):
+        """F(t) = sum omega^power Re(F_h exp(i h omega t)); force: F_h, n_dof, real or complex; power: 0, 1 or 2 (an unbalance:
+        mass times eccentricity), omega in rad/s; parts of different power add up. None removes the part."""
         imaginary = None
         if numpy.iscomplexobj(force):
             imaginary = reals(numpy.imag(force), (self.n_dof,), "force", OF_DOFS)
             force = numpy.real(force)
         force = reals(force, (self.n_dof,), "force", OF_DOFS)
-        self._work("set_excitation", harmonic, self.n_dof, address(force), address(imaginary))
+        if power == 0:
+            return self._work("set_excitation", harmonic, self.n_dof, address(force), address(imaginary))
+        self._work("set_growing_excitation", harmonic, power, self.n_dof, address(force), address(imaginary))
 
     def set_gap_motion(self, motion, harmonic=1):
         """gap(t) = gap + sum Re(G_h exp(i h omega t)), of walls that move; motion: G_h of all pairs added so far, real or
