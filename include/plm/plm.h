@@ -475,12 +475,13 @@ PLM_API plm_status plm_model_add_outputs_i64(plm_model *model, int32_t index_bas
                                              const int64_t *dof, const double *coefficient, int64_t *first_dof);
 
 /* What acts may be changed after plm_model_build: pre-load, forces at rest, excitation, gap motion, Rayleigh, modal and
- * structural damping (not a damping matrix, nor the motion of supports), by the same functions. Nothing is factored again. They then return PLM_WARNING as the build does.
- * Branches, studies that have run and what a transient has recorded stay what they are, of the loads as they were, with
- * their error measures; plm_model_get_modes and the state at rest follow from the new ones. A sampler has to run again and
- * a basis to be built again, in this order, before more is computed with them, a transient to be made anew:
- * PLM_ERR_STATE says so until then, and names the argument. PLM_ERR_STATE also where the build had held DOFs that nothing
- * moved and a load would move them now. (A force level alone is the option "force_scale", which makes nothing stale.) */
+ * structural damping (not a damping matrix, nor the motion of supports), by the same functions. Nothing is factored again.
+ * They then return PLM_WARNING as the build does. Branches, studies that have run and what a transient has recorded stay
+ * what they are, of the loads as they were, with their error measures; plm_model_get_modes and the state at rest follow
+ * from the new ones. A sampler has to run again and a basis to be built again, in this order, before more is computed with
+ * them, a transient to be made anew: PLM_ERR_STATE says so until then, and names the argument. PLM_ERR_STATE also where the
+ * build had held DOFs that nothing moved and a load would move them now. (A force level alone is the option "force_scale",
+ * which makes nothing stale.) */
 
 /* Static pre-load, force[n_dof]; n must equal n_dof. NULL removes it. */
 PLM_API plm_status plm_model_set_preload(plm_model *model, int64_t n, const double *force);
