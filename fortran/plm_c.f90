@@ -695,7 +695,7 @@ module plm_c
             type(c_ptr), value :: model
             integer(c_int32_t), value :: index_base
             integer(c_int64_t), value :: n
-            integer(c_int32_t), intent(in), optional :: dof(*)
+            integer(c_int32_t), intent(in) :: dof(*)
             real(c_double), intent(in) :: xyz(*)
             real(c_double), intent(in), optional :: area(*)
             integer(c_int64_t), value :: n_faces
@@ -711,7 +711,7 @@ module plm_c
             type(c_ptr), value :: model
             integer(c_int32_t), value :: index_base
             integer(c_int64_t), value :: n
-            integer(c_int64_t), intent(in), optional :: dof(*)
+            integer(c_int64_t), intent(in) :: dof(*)
             real(c_double), intent(in) :: xyz(*)
             real(c_double), intent(in), optional :: area(*)
             integer(c_int64_t), value :: n_faces

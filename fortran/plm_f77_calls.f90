@@ -527,7 +527,7 @@ subroutine plmmsu(handle, n, idof, xyz, area, nface, ifptr, ifnode, number, ierr
     call narrow(c_number + 1, number, ierr)
 end subroutine plmmsu
 
-subroutine plmmsc(handle, nslave, nmastr, iopt, stiff, search, closed, ierr)
+subroutine plmmcs(handle, nslave, nmastr, iopt, stiff, search, closed, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_c, only: plm_model_add_surface_contact
@@ -543,7 +543,7 @@ subroutine plmmsc(handle, nslave, nmastr, iopt, stiff, search, closed, ierr)
     integer, intent(out) :: ierr
     ierr = int(plm_model_add_surface_contact(as_pointer(handle), int(nslave - 1, int64), int(nmastr - 1, int64), &
         int(iopt, c_int32_t), stiff, search, closed))
-end subroutine plmmsc
+end subroutine plmmcs
 
 subroutine plmmrf(handle, n, force, ierr)
     use, intrinsic :: iso_fortran_env, only: int64, real64

@@ -418,7 +418,7 @@ PLM_API plm_status plm_model_add_gap_rows_i64(plm_model *model, int32_t index_ba
                                               const double *gap);
 
 /* Contact between surfaces, whose meshes need not match. First the surfaces: a table of n nodes (dof, xyz: 3 x n, base - 1:
- * no such DOF; dof NULL: a rigid wall, or ground, which nothing moves) and faces by their places in it, as those of
+ * no such DOF; none at all: a rigid wall, or ground, which nothing moves) and faces by their places in it, as those of
  * plm_model_add_tie, numbered so that their normals (right-hand rule around the corners) point out of the body. n_faces = 0
  * (face_ptr, face_node NULL): nodes alone, which can be a slave. area[n] or NULL: the areas that nodes stand for where the
  * faces do not tell or are not to (0: what the faces give). surface: its number, from 0 on. PLM_ERR_ARGUMENT for faces

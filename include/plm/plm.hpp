@@ -710,9 +710,9 @@ class Model : public detail::WithOptions<Model, plm_model> {
                                                    coefficient.data()),
               verb);
     }
-    /// Outputs sum c_j q_j: row_ptr (n + 1), dof and coefficient. The number of the first, to stand for a DOF.
-    std::int64_t add_outputs(Indices row_ptr, Indices dof, Reals coefficient,
-                             std::int32_t index_base = 0) {
+    /// Outputs sum c_j q_j: row_ptr (n + 1), dof and coefficient. The number of the first, to stand for a
+    /// DOF.
+    std::int64_t add_outputs(Indices row_ptr, Indices dof, Reals coefficient, std::int32_t index_base = 0) {
         const bool wide = row_ptr.is_wide();
         const char *verb = wide ? "add_outputs_i64" : "add_outputs_i32";
         if (row_ptr.size() < 1) require_size(row_ptr.size(), 1, verb, "row_ptr");
@@ -796,14 +796,14 @@ class Model : public detail::WithOptions<Model, plm_model> {
               verb);
         return distance;
     }
-    /// A surface for contact, DOFs and coordinates 3 x n (dof empty: a rigid wall; face_ptr empty: nodes
-    /// alone); its number.
+    /// A surface for contact, DOFs and coordinates 3 x n (no DOF at all: a rigid wall; face_ptr empty:
+    /// nodes alone); its number.
     std::int64_t add_surface(Indices dof, Reals xyz, Indices face_ptr = {}, Indices face_node = {},
                              Reals area = {}, std::int32_t index_base = 0) {
-        const bool wide = dof.size() > 0 ? dof.is_wide() : face_ptr.is_wide();
+        const bool wide = dof.is_wide();
         const char *verb = wide ? "add_surface_i64" : "add_surface_i32";
         const std::int64_t n = xyz.size() / 3, n_faces = face_ptr.size() > 0 ? face_ptr.size() - 1 : 0;
-        if (dof.size() > 0) require_size(dof.size(), 3 * n, verb, "dof");
+        require_size(dof.size(), 3 * n, verb, "dof");
         if (area.size() > 0) require_size(area.size(), n, verb, "area");
         std::int64_t surface = -1;
         if (n_faces > 0) {

@@ -47,8 +47,8 @@ void build(ModelHandle &m) {
     Warnings said;
     const Watch watch = m.owner->watch().keeping(said);
     take(m,
-         finished(std::make_unique<Model>(m.input, m.space_options, binding ? &host : nullptr, watch), binding,
-                  watch),
+         finished(std::make_unique<Model>(m.input, m.space_options, binding ? &host : nullptr, watch),
+                  binding, watch),
          said);
     m.binding = binding;
 }

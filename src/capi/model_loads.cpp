@@ -67,9 +67,8 @@ plm_status plm_model_set_preload(plm_model *model, std::int64_t n, const double 
 
 plm_status plm_model_set_excitation(plm_model *model, std::int32_t harmonic, std::int64_t n,
                                     const double *real, const double *imag) {
-    return call<ModelHandle>("plm_model_set_excitation", model, [&](ModelHandle &m) {
-        return change_excitation(m, {harmonic}, n, real, imag);
-    });
+    return call<ModelHandle>("plm_model_set_excitation", model,
+                             [&](ModelHandle &m) { return change_excitation(m, {harmonic}, n, real, imag); });
 }
 
 plm_status plm_model_set_growing_excitation(plm_model *model, std::int32_t harmonic, std::int32_t power,
@@ -111,10 +110,11 @@ plm_status plm_model_set_rest_force(plm_model *model, std::int64_t n, const doub
             require_finite_array(force, n, "force");
             for (std::int64_t i = 0; i < n; ++i)
                 if (force[i] < 0 && force[i] != PLM_KEEP_GAP)
-                    bad_argument("force", i,
-                                 plm::format("force[%lld] is %g; contact presses, so that it must be >= 0, or "
-                                             "PLM_KEEP_GAP for a pair that keeps its gap",
-                                             static_cast<long long>(i), force[i]));
+                    bad_argument(
+                        "force", i,
+                        plm::format("force[%lld] is %g; contact presses, so that it must be >= 0, or "
+                                    "PLM_KEEP_GAP for a pair that keeps its gap",
+                                    static_cast<long long>(i), force[i]));
             input.rest_forces.force.assign(force, force + n);
         });
     });

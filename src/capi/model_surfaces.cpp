@@ -29,12 +29,9 @@ plm_status add_surface(const char *function, plm_model *model, std::int32_t inde
         require_range(faces.n, 0, INT64_MAX / 64, "n_faces");
         require_pointer(surface, "surface");
         ContactSurface s;
-        s.is_wall = !nodes.dof;
-        NodeArrays<Index> table = nodes;
-        const vector<Index> held(s.is_wall ? 3 * nodes.n : 0, static_cast<Index>(index_base - 1));
-        if (s.is_wall) table.dof = held.data();
         NodeReader<Index> reader(index_base, m.input.n_dof);
-        s.mesh.node = reader.take(table, true);
+        s.mesh.node = reader.take(nodes, true);
+        s.is_wall = reader.has_no_dof();
         reader.refuse_repeated_dofs();
         if (faces.n > 0) take_faces(s.mesh, faces, index_base);
         require_areas(s.mesh);

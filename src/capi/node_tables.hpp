@@ -64,6 +64,8 @@ template <class Index> class NodeReader {
                                 Int(same->index)));
     }
 
+    bool has_no_dof() const { return seen_.empty(); }
+
   private:
     std::int64_t dof(const NodeArrays<Index> &x, std::int64_t k) {
         if (x.dof[k] < base_) return no_dof;

@@ -21,6 +21,7 @@ static int tear_down(void **state) {
 static const int32_t square_dof[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, square_ptr[] = {0, 4},
                      square_node[] = {0, 1, 2, 3},
                      over_dof[] = {12, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23}, turned[] = {3, 2, 1, 0};
+static const int32_t no_dof[] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1}; /* of a wall */
 static const double square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0},
                     over[] = {0, 0, 0.1, 1, 0, 0.2, 1, 1, 1e-3, 0, 1, -0.05};
 static int64_t below = -1, above = -1;
@@ -54,6 +55,7 @@ static void surfaces(void **state) {
     plm_model_add_surface_i32(model, base, n, d, x, a, n_f, fp, fn, &s)
     BAD(SURFACE(2, 4, square_dof, square, NULL, 1, square_ptr, square_node), f, "index_base", -1, "0 (C)");
     BAD(SURFACE(0, 0, square_dof, square, NULL, 1, square_ptr, square_node), f, "n", -1, "n is 0");
+    BAD(SURFACE(0, 4, NULL, square, NULL, 1, square_ptr, square_node), f, "dof", -1, "NULL");
     BAD(SURFACE(0, 4, square_dof, NULL, NULL, 1, square_ptr, square_node), f, "xyz", -1, "NULL");
     BAD(SURFACE(0, 4, square_dof, nan_at, NULL, 1, square_ptr, square_node), f, "xyz", 4, "NaN");
     BAD(SURFACE(0, 4, outside, square, NULL, 1, square_ptr, square_node), f, "dof", 11, "0..23");
@@ -72,7 +74,7 @@ static void surfaces(void **state) {
     BAD(plm_model_add_surface_i64(model, 1, 4, dof64, square, NULL, 1, ptr64, none64, &s),
         "plm_model_add_surface_i64", "face_node", 3, "1..4");
     assert_int_equal(s, -7);
-    assert_int_equal(SURFACE(0, 4, NULL, square, NULL, 1, square_ptr, square_node), PLM_OK);
+    assert_int_equal(SURFACE(0, 4, no_dof, square, NULL, 1, square_ptr, square_node), PLM_OK);
     assert_int_equal(s, 0);
     assert_int_equal(SURFACE(0, 4, over_dof, over, NULL, 0, NULL, NULL), PLM_OK);
     assert_int_equal(s, 1);
@@ -84,7 +86,7 @@ static void contacts(void **state) {
     (void)state;
     add_both(turned);
     assert_int_equal(
-        plm_model_add_surface_i32(model, 0, 4, NULL, square, NULL, 1, square_ptr, square_node, &wall),
+        plm_model_add_surface_i32(model, 0, 4, no_dof, square, NULL, 1, square_ptr, square_node, &wall),
         PLM_OK);
     assert_int_equal(plm_model_add_surface_i32(model, 0, 4, over_dof, over, NULL, 0, NULL, NULL, &cloud),
                      PLM_OK);

@@ -82,8 +82,8 @@ static plm_model *make_model(void) {
 static void print_coupled(void) {
     const int32_t hub[] = {0, 1, 2, 3, 4, 5}, face[] = {6, 7, 8, 9, 10, 11, 12, 13, 14},
                   linked[] = {15, 16, 17}, tied[] = {18, 19, 20}, face_ptr[] = {0, 3},
-                  face_node[] = {0, 1, 2}, multiplier[] = {21}, tail[] = {22, 23, 22, 23},
-                  head[] = {22, 23, 21, 21};
+                  face_node[] = {0, 1, 2}, no_dof[] = {-1, -1, -1, -1, -1, -1, -1, -1, -1},
+                  multiplier[] = {21}, tail[] = {22, 23, 22, 23}, head[] = {22, 23, 21, 21};
     const double origin[] = {0, 0, 0}, corners[] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, weight[] = {1, 2, 3},
                  aside[] = {1, 1, 0}, above[] = {0.4, 0.4, 0.5};
     int32_t row[25], column[25];
@@ -106,7 +106,7 @@ static void print_coupled(void) {
                                distance));
     must(plm_model_set_multipliers_i32(model, 0, 1, multiplier));
     must(plm_model_add_surface_i32(model, 0, 3, face, corners, NULL, 1, face_ptr, face_node, &slave));
-    must(plm_model_add_surface_i32(model, 0, 3, NULL, wall, NULL, 1, face_ptr, face_node, &master));
+    must(plm_model_add_surface_i32(model, 0, 3, no_dof, wall, NULL, 1, face_ptr, face_node, &master));
     must(plm_model_add_surface_contact(model, slave, master, PLM_SURFACE_SMOOTH, 50, 2, 0.1));
     must(plm_model_set_rest_force(model, 3, press));
     must(plm_model_build(model));

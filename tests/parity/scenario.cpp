@@ -65,7 +65,7 @@ void print_coupled(const plm::Context &context) {
     model.set_multipliers({21});
     const std::vector<double> wall{1.5, 0.5, 0.5, 0.5, 0.5, 1.5, 0.5, 1.5, 0.5};
     const auto slave = model.add_surface(face, corners, {0, 3}, {0, 1, 2});
-    const auto master = model.add_surface({}, wall, {0, 3}, {0, 1, 2});
+    const auto master = model.add_surface(std::vector<std::int32_t>(9, -1), wall, {0, 3}, {0, 1, 2});
     model.add_surface_contact(slave, master, PLM_SURFACE_SMOOTH, 50, 2, 0.1);
     model.set_rest_force({3, PLM_KEEP_GAP, 0});
     model.build();

@@ -190,7 +190,7 @@ C     points count from 1 here.
       CALL PLMMSU(MODEL, 3, NODOF, WALL, NOAREA, 1, IFPTR, IFNODE,
      1            MASTER, IERR)
       CALL MUST(IERR)
-      CALL PLMMSC(MODEL, ISLAVE, MASTER, PLMSSM, 50.0D0, 2.0D0, 0.1D0,
+      CALL PLMMCS(MODEL, ISLAVE, MASTER, PLMSSM, 50.0D0, 2.0D0, 0.1D0,
      1            IERR)
       CALL MUST(IERR)
       PRESS(1) = 3.0D0
@@ -208,7 +208,7 @@ C     points count from 1 here.
       CALL PLMMFR(MODEL, PLMOPN, 4, HZ, IERR)
       CALL MUST(IERR)
       CALL SHOW('coupled_hz', 4, HZ)
-      CALL PLMMRS(MODEL, IERR)
+      CALL PLMMRE(MODEL, IERR)
       CALL MUST(IERR)
       CALL PLMMGA(MODEL, 'surface_gap', 3, PRESS, NUMBER, IERR)
       CALL MUST(IERR)

@@ -226,9 +226,7 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         (table, start, node), width = alike(dof, start, node)
         area = reals(area, (len(xyz),), "area", "one for each node, or one number for all")
         number = ctypes.c_int64()
-        is_wall = bool(numpy.all(dof < 0))
-        self._call("add_surface" + width, 0, len(xyz), None if is_wall else address(table), address(xyz), address(area),
-                   len(start) - 1, address(start), address(node), ctypes.byref(number))
+        self._call("add_surface" + width, 0, len(xyz), address(table), address(xyz), address(area), len(start) - 1, address(start), address(node), ctypes.byref(number))
         return number.value
 
     def add_surface_contact(self, slave, master, search, stiffness=None, closed=0.0, points=False, symmetric=False, smooth=False,

@@ -119,7 +119,7 @@ def six_letters(said):
         yield from section.constants
 
 
-def check_layers(said):
+def check_layers(said, declared):
     """What has no six letters of its own has a reason to have none; only handles have methods."""
     for name, entry in said.functions.items():
         if entry.by_rule and name.split("_")[1] not in said.letters:
@@ -128,8 +128,12 @@ def check_layers(said):
     for name, six, entry in six_letters(said):
         if bool(six) == ("FORTRAN 77" in entry.left_out):
             raise SystemExit(f"{entry.where}: {name} needs six letters, or a reason: not in FORTRAN 77: ...")
-        if six and used.setdefault(six, name) != name:
-            raise SystemExit(f"{entry.where}: {six} is {used[six]} already")
+        # an option by key has one subroutine for each kind of handle that has it: X stands for its letter
+        with_letters = {six.replace("X", letter, 1) for noun, letter in said.letters.items()
+                        if name.replace("_X_", f"_{noun}_") in declared}
+        for one in with_letters if "_X_" in name else {six}:
+            if one and used.setdefault(one, name) != name:
+                raise SystemExit(f"{entry.where}: {one} is {used[one]} already")
 
 
 def read(header=HEADER, description=DESCRIPTION):
@@ -137,5 +141,5 @@ def read(header=HEADER, description=DESCRIPTION):
     for function in declared.functions + declared.callbacks:
         apply(function, said)
     check_names(declared, said)
-    check_layers(said)
+    check_layers(said, {function.name for function in declared.functions})
     return Api(declared.functions, declared.callbacks, declared.handles, declared.constants, said)

@@ -417,13 +417,112 @@ PLM_API plm_status plm_model_add_gap_rows_i64(plm_model *model, int32_t index_ba
                                               const int64_t *dof, const double *coefficient, const double *stiffness,
                                               const double *gap);
 
+/* Contact between surfaces, whose meshes need not match. First the surfaces: a table of n nodes (dof, xyz: 3 x n, base - 1:
+ * no such DOF; none at all: a rigid wall, or ground, which nothing moves) and faces by their places in it, as those of
+ * plm_model_add_tie, numbered so that their normals (right-hand rule around the corners) point out of the body. n_faces = 0
+ * (face_ptr, face_node NULL): nodes alone, which can be a slave. area[n] or NULL: the areas that nodes stand for where the
+ * faces do not tell or are not to (0: what the faces give). surface: its number, from 0 on. PLM_ERR_ARGUMENT for faces
+ * without an area. */
+PLM_API plm_status plm_model_add_surface_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *dof,
+                                             const double *xyz, const double *area, int64_t n_faces,
+                                             const int32_t *face_ptr, const int32_t *face_node, int64_t *surface);
+PLM_API plm_status plm_model_add_surface_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *dof,
+                                             const double *xyz, const double *area, int64_t n_faces,
+                                             const int64_t *face_ptr, const int64_t *face_node, int64_t *surface);
+/* options of a surface contact, added up */
+#define PLM_SURFACE_POINTS 1    /* pairs at the points that integrate over the slave's faces, not at its nodes */
+#define PLM_SURFACE_SYMMETRIC 2 /* and the master's against the slave's faces, with half the stiffness each */
+#define PLM_SURFACE_SMOOTH 4    /* normals smooth across the master's edges below 45 degrees, not those of its faces */
+#define PLM_SURFACE_TWO_SIDED 8 /* the master is a sheet, and each point stands on the side that it is on */
+/* Then the contact: each node on the slave's faces (each node where it has none) is a contact pair with its projection onto
+ * the nearest face of the master, u = normal . (q - sum N_i q_i) - gap, the normal being that of the master, turned into
+ * it, and the gap the distance along it, < 0: interference, in which the model then rests; gaps and interferences up to
+ * `closed` (a length >= 0) become 0: what meshes miss of curved interfaces (the square of a cell by 8 radii) belongs there.
+ * stiffness: by area (force/length^3), times the area that each node stands for; of each pair (force/length) where the
+ * slave has neither faces nor areas; or PLM_AUTO_STIFFNESS. Nodes farther than `search` from all faces, or beside them (by
+ * more than half their gap and a hundredth of the face), have no partner. Nor have those that look the same way as the
+ * nearest face does: PLM_WARNING with PLM_REASON_MODEL, for then faces are turned over, or a sheet has two sides.
+ * PLM_ERR_ARGUMENT where nobody has a partner. Rows are zero along rigid motions of both surfaces, rotations included,
+ * whatever the gap: its lever arm lies along the normal. (A slave that leans over turns the force with its own
+ * displacement no more than any small motion does.) What was found: "surface_report" in words, and "surface_point",
+ * "_face", "_pair", "_gap", "_normal", "_area" of every point. The pairs stand behind those added before, in this order.
+ * A uniform pressure passes exactly between plane matching meshes; between others the resultant and its moment are exact,
+ * and so are the nodal forces of the slave with faces of 3 and 4 nodes, and with PLM_SURFACE_POINTS of all kinds (nodes
+ * of faces with 6 and 8 share the area by the squares of their shape functions, for the true shares are not positive). */
+PLM_API plm_status plm_model_add_surface_contact(plm_model *model, int64_t slave, int64_t master, int32_t options,
+                                                 double stiffness, double search, double closed);
+
+/* A contact force at rest, force[n], in place of the initial gap: pair i presses with force[i] >= 0 when the structure rests
+ * under the pre-load, whatever its k_n, and the build finds the gap that does so ("initial_gap", mostly an interference);
+ * PLM_KEEP_GAP: the pair keeps its gap. n is the number of pairs added so far, those added later keep theirs; NULL
+ * removes it. Displacements count from the structure without loads and contact, as ever: where the matrices
+ * are those of the state at rest, hand over B^T force as pre-load and they count from there. Motions are the same.
+ * PLM_ERR_CONVERGENCE of the build with PLM_REASON_NO_EQUILIBRIUM where pre-load and forces push a loose body. */
+#define PLM_KEEP_GAP (-1.0)
+PLM_API plm_status plm_model_set_rest_force(plm_model *model, int64_t n, const double *force);
+
+/* Outputs that are no DOFs: n sums of them, sum c_j q_j (compressed rows: row_ptr[n + 1], dof[nnz], coefficient[nnz]), such
+ * as a stress at a point, a relative motion, the mean over a surface, the elastic force on a support (the rows of K there).
+ * They are numbered on from the DOFs: first_dof is the number of the first one, n_dof when there are none yet, the others
+ * follow. Wherever a function takes the DOF of an output (`dof`, `first_dof` of plm_branch_get_coefficients, what a transient
+ * observes) such a number may stand: amplitudes with their exact extrema, peaks, error estimates, refinement, one call,
+ * studies and histories all look at a sum as at a DOF, and no function of its own is needed for any of them. Results do not
+ * depend on it otherwise, so outputs may be added before the build and after it, also for branches that are there already;
+ * none is ever taken away. Terms of fixed DOFs are zero. Fields (q[n_dof]) and loads are of the DOFs alone. */
+PLM_API plm_status plm_model_add_outputs_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *row_ptr,
+                                             const int32_t *dof, const double *coefficient, int64_t *first_dof);
+PLM_API plm_status plm_model_add_outputs_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *row_ptr,
+                                             const int64_t *dof, const double *coefficient, int64_t *first_dof);
+
+/* What acts may be changed after plm_model_build: pre-load, forces at rest, excitation, gap motion, Rayleigh, modal and
+ * structural damping (not a damping matrix, nor the motion of supports), by the same functions. Nothing is factored again.
+ * They then return PLM_WARNING as the build does. Branches, studies that have run and what a transient has recorded stay
+ * what they are, of the loads as they were, with their error measures; plm_model_get_modes and the state at rest follow
+ * from the new ones. A sampler has to run again and a basis to be built again, in this order, before more is computed with
+ * them, a transient to be made anew: PLM_ERR_STATE says so until then, and names the argument. PLM_ERR_STATE also where the
+ * build had held DOFs that nothing moved and a load would move them now. (A force level alone is the option "force_scale",
+ * which makes nothing stale.) */
+
 /* Static pre-load, force[n_dof]; n must equal n_dof. NULL removes it. */
 PLM_API plm_status plm_model_set_preload(plm_model *model, int64_t n, const double *force);
 /* Harmonic h of the excitation: F(t) = sum_h Re(F_h exp(i h omega t)), F_h = real + i imag, each [n_dof], imag or
  * NULL (zero). h = 0 is a static part that comes and goes with the excitation (imag must be NULL).
- * real = NULL removes harmonic h. */
+ * real = NULL removes it. */
 PLM_API plm_status plm_model_set_excitation(plm_model *model, int32_t harmonic, int64_t n, const double *real,
                                             const double *imag);
+/* A part of harmonic h of the excitation that grows with a power of its frequency: omega^power Re(F exp(i h omega t)) is
+ * added to what plm_model_set_excitation gives, omega in rad/s, power 1 or 2 (0 is that function's own part). F is what
+ * the load is at omega = 1 rad/s: of an unbalance, power 2, h = 1, it is mass times eccentricity (in t mm where forces are
+ * N, in kg m where they are N), turned with it by imag. n, real, imag, and what removes the part, as there. It is an
+ * excitation: force_scale multiplies it. */
+PLM_API plm_status plm_model_set_growing_excitation(plm_model *model, int32_t harmonic, int32_t power, int64_t n,
+                                                    const double *real, const double *imag);
+/* Moving walls: harmonic h of the gaps' motion, gap(t) = gap + sum_h Re(G_h exp(i h omega t)), G_h = real + i imag
+ * (length), each [n], imag or NULL (zero); n is the number of pairs added so far, those added later stand still. A
+ * casing that is out of round, a shaker's table, a travelling wave. Harmonic balance and motions in time take it
+ * exactly. It is excitation: force_scale multiplies it as it does the forces, h = 0 included (imag must be NULL
+ * then; what is not to be scaled belongs in the gap). Resonance is told by the phase against the forces, and so not
+ * where walls move: plm_hbm_find_backbones and plm_hbm_find_isolated refuse such a model, and plm_model_compute_response
+ * does not look for a larger motion beside the curve. real = NULL removes harmonic h. */
+PLM_API plm_status plm_model_set_gap_motion(plm_model *model, int32_t harmonic, int64_t n, const double *real,
+                                            const double *imag);
+
+/* Moving supports: harmonic h >= 1 of the motion of fixed DOFs, Re((real + i imag) exp(i h omega t)), each [n], n =
+ * n_dof, imag or NULL (zero); entries of DOFs that are not fixed must be zero, and a DOF that moves is in no constraint
+ * (both are told by plm_model_build). quantity: PLM_DISPLACEMENT (length), PLM_VELOCITY (length/s) or PLM_ACCELERATION
+ * (length/s^2); one of them for a harmonic, the last one given. All results are relative to the base: displacements less
+ * those with which the structure follows its supports at rest, L u_s, L = -K_ff^-1 K_fs; supports stay at zero.
+ * With all supports moved alike L u_s is that rigid motion, which the host adds for absolute results. M, K and C act
+ * through the supports as they do among the free DOFs; modal damping, structural damping and the stiffness part of
+ * Rayleigh's damp the relative motion, the mass part and the matrix C the absolute one. A row of the gap matrix that the
+ * base moves, as against a wall that stands still, has a gap that moves (plm_model_set_gap_motion says what follows);
+ * that takes PLM_DISPLACEMENT, or plm_model_build refuses. It is excitation: force_scale multiplies it.
+ * real = NULL removes harmonic h. */
+#define PLM_DISPLACEMENT 0
+#define PLM_VELOCITY 1
+#define PLM_ACCELERATION 2
+PLM_API plm_status plm_model_set_base_motion(plm_model *model, int32_t quantity, int32_t harmonic, int64_t n,
+                                             const double *real, const double *imag);
 
 /* Superelements: a structure that the host has reduced already (Craig and Bampton's method in any code, or modes and
  * contact attachment vectors, the columns of T) is a model like any other, whose DOFs are the coordinates of the
@@ -737,13 +836,16 @@ PLM_API plm_status plm_branch_get_array(plm_branch *branch, const char *key, int
 PLM_API plm_status plm_branch_get_int_array(plm_branch *branch, const char *key, int64_t capacity, int64_t *values,
                                             int64_t *count);
 /* Amplitude of a DOF at every point: n_points values. harmonic is used by PLM_HARMONIC only. Exact extrema of the
- * trigonometric polynomial, not of samples. */
+ * motion: of an exact one piece by piece, else of the trigonometric polynomial; not of samples. */
 PLM_API plm_status plm_branch_get_amplitude(plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                             int64_t capacity, double *amplitude, int64_t *count);
 /* Fourier coefficients a0, a1, b1, ..., aH, bH (q = a0 + sum a_h cos h omega t + b_h sin h omega t) of DOFs
  * [first_dof, first_dof + n): coefficient is (2H + 1) x n. */
 PLM_API plm_status plm_branch_get_coefficients(plm_branch *branch, int64_t point, int64_t first_dof, int64_t n,
                                                double *coefficient);
+/* Motion of a DOF at n_times equidistant times from 0 over the period of the response: q[n_times], n_times up to
+ * 1048576. Of an exact motion itself, not of its harmonics. */
+PLM_API plm_status plm_branch_get_history(plm_branch *branch, int64_t point, int64_t dof, int64_t n_times, double *q);
 /* All DOFs at time t = time_fraction * period: q[n_dof] (recovery q = P eta, paper, eq. (11)). */
 PLM_API plm_status plm_branch_get_field(plm_branch *branch, int64_t point, double time_fraction, int64_t n, double *q);
 /* Contact over the cycle at n_times equidistant times from 0: penetration, force, closed are n_pairs x n_times,
