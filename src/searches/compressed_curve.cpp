@@ -34,6 +34,9 @@ constexpr double much_smaller = 0.7;
 constexpr double much_smaller_where_unstable = 0.6;
 constexpr std::int64_t motions_looked_at = 6; // of the first curve, besides its highest
 constexpr std::int64_t most_rounds = 6;
+// Of the accuracy: what the step to a model may have changed that is followed because the next one would save
+// nothing. Its own error is a part of that, and is measured where its curve is highest.
+constexpr double likely_settled = 30;
 
 // Of multipliers near the unit circle, on curves of cracked plates; and of motions whose multipliers are
 // right to that.
@@ -214,22 +217,23 @@ bool CurveCompression::begin_with(const Branch &look) {
     if (points.empty()) return false;
     const auto is_found = [](const Point &p) { return p.amplitude >= 0; };
     std::shared_ptr<const ReducedModel> before;
+    double change = INFINITY;
     for (std::int64_t round = 0; round < most_rounds; ++round) {
         const auto smaller = compressed_after(before.get());
         if (before && is_dear(*smaller)) {
             model_ = before;
             return true;
         }
-        if (!saves(*smaller, points)) { // a curve on the whole one does not end in minutes
-            model_ = before;
-            return before && is_dear(*whole_);
+        if (!saves(*smaller, points)) {
+            model_ = before; // or a curve on the whole one does not end in minutes
+            return before && (change <= likely_settled * options_.accuracy || is_dear(*whole_));
         }
         if (before && is_last_not_dear(*smaller)) {
             model_ = smaller;
             return true;
         }
         Needs needs;
-        const double change = settle(smaller, points, needs);
+        change = settle(smaller, points, needs);
         // they know more than those before, unless they are few
         if (2 * std::count_if(points.begin(), points.end(), is_found) < motions_looked_at)
             needs.motions.append(needs_.motions);
