@@ -1313,6 +1313,15 @@ module plm_c
             type(c_ptr), intent(inout) :: branch
             integer(plm_status) :: code
         end function plm_hbm_sweep
+        function plm_hbm_sweep_levels(hbm, n, force_scale, count) bind(c) result(code)
+            import :: c_double, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: hbm
+            integer(c_int64_t), value :: n
+            real(c_double), intent(in) :: force_scale(*)
+            integer(c_int64_t), intent(inout) :: count
+            integer(plm_status) :: code
+        end function plm_hbm_sweep_levels
         function plm_hbm_solve(hbm, frequency_hz, start, point, branch) bind(c) result(code)
             import :: c_double, c_int64_t, c_ptr, plm_status
             implicit none

@@ -1064,6 +1064,23 @@ subroutine plmhsb(handle, branch, ipoint, mirror, other, ierr)
     if (as_handle(c_other) /= 0) other = as_handle(c_other)
 end subroutine plmhsb
 
+subroutine plmhsl(handle, n, fscale, count, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_hbm_sweep_levels
+    use plm_f77_support, only: as_pointer, narrow
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    real(real64), intent(in) :: fscale(*)
+    integer, intent(inout) :: count
+    integer, intent(out) :: ierr
+    integer(int64) :: c_count
+    c_count = 0
+    ierr = int(plm_hbm_sweep_levels(as_pointer(handle), int(n, int64), fscale, c_count))
+    if (ierr < 0) return
+    call narrow(c_count, count, ierr)
+end subroutine plmhsl
+
 subroutine plmhfi(handle, branch, fmax, count, ierr)
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_c, only: plm_hbm_find_isolated

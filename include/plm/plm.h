@@ -739,6 +739,13 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
  * twice; then PLM_NOT_CONVERGED with PLM_REASON_CROSSED_OVER. A structure in free flight, or free along a rail: mean
  * position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
+/* The same at several levels of the excitation, force_scale[n] in place of the option "force_scale", in any order. count:
+ * curves found, read by plm_hbm_get_found in the order of their levels; each says its "force_scale", its warnings and how it
+ * ended, and may cost what plm_context_set_effort allows a sweep. The largest level is followed first, and where many
+ * pairs open and close the others go on from the coordinates that its motions needed, checked at each level as in a sweep
+ * of it alone: less work than as many sweeps. PLM_NOT_CONVERGED or PLM_TRUNCATED, with the level in the words, where a
+ * curve ended early or a level (without a curve then) has no first motion; PLM_CANCELLED with those found before. */
+PLM_API plm_status plm_hbm_sweep_levels(plm_hbm *hbm, int64_t n, const double *force_scale, int64_t *count);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
  * start. PLM_ERR_CONVERGENCE when no strategy converges; PLM_WARNING with PLM_REASON_OUTSIDE_BASIS as for a sweep. */
 PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, int64_t point,
@@ -774,7 +781,7 @@ PLM_API plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, 
  * stability at that force and frequency; else of as many harmonics as the hbm has, few where it is to choose them. None
  * without pre-load and gap (the force changes nothing then). */
 PLM_API plm_status plm_hbm_find_backbones(plm_hbm *hbm, double force_max, int64_t *count);
-/* What the last plm_hbm_find_... of this hbm found ("n_found"), or what lies beside the curve of the
+/* What the last plm_hbm_find_... or plm_hbm_sweep_levels of this hbm found ("n_found"), or what lies beside the curve of the
  * plm_model_compute_response that made it. force_range[2] or NULL: force scales between which an isolated
  * branch exists, NaN where unknown or meaningless. */
 PLM_API plm_status plm_hbm_get_found(plm_hbm *hbm, int64_t index, double *force_range, plm_branch **branch);

@@ -253,6 +253,12 @@ bool CurveCompression::begin_with(const Branch &look) {
     return false;
 }
 
+void CurveCompression::go_on(const HbmOptions &options) {
+    options_ = options;
+    left_out_ /= less; // for the next model: the last one was better than it needed to be
+    on_whole_ = nullptr;
+}
+
 bool CurveCompression::confirms(const Branch &curve) {
     better_ = nullptr, change_ = INFINITY;
     top_ = largest_response(curve);
@@ -260,7 +266,7 @@ bool CurveCompression::confirms(const Branch &curve) {
     if (!exact.motion) return false;
     std::vector<Point> one(1);
     one[0].motion = uncompressed(curve.reduced(), exact);
-    one[0].amplitude = amplitude(curve.reduced_model(), exact);
+    peak_ = one[0].amplitude = amplitude(curve.reduced_model(), exact);
     take(one[0].motion, needs_.motions);
     one[0].motion = corrected_on_whole(curve.reduced(), exact);
     take(one[0].motion, needs_.motions);

@@ -35,6 +35,8 @@ class CurveCompression {
     /// Takes motions of that curve, solved on the whole basis, and the exact ones beside some of them. False:
     /// these do not settle on a model that is much smaller.
     bool begin_with(const Branch &look);
+    /// From a curve that was confirmed to that of another force level, whose motions are much like it.
+    void go_on(const HbmOptions &options);
     /// To follow the curve on.
     const std::shared_ptr<const ReducedModel> &model() const { return model_; }
     /// Whether the highest motion of the curve on that model is as the whole basis has it; if not, model() is

@@ -58,6 +58,12 @@ std::shared_ptr<const Branch> Hbm::sweep(const Output &asked) const {
     return judged(task);
 }
 
+std::shared_ptr<const Branch> Hbm::sweep(std::shared_ptr<CurveCompression> &level_before) const {
+    SweepTask task = this->task();
+    task.level_before = &level_before;
+    return judged(task);
+}
+
 std::shared_ptr<const Branch> Hbm::sweep_with_few_harmonics() const {
     return plm::sweep_with_few_harmonics(task());
 }

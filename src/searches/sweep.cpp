@@ -87,21 +87,35 @@ std::shared_ptr<Branch> follow_curve(const SweepTask &task) {
     return branch;
 }
 
+// The model that the curve of another level was followed on, or one by a first look at this one. False: the
+// latter would not be much smaller than the basis.
+bool begin_compression(const SweepTask &task, std::shared_ptr<CurveCompression> &compression) {
+    if (task.level_before && *task.level_before) {
+        compression = std::move(*task.level_before);
+        compression->go_on(task.options);
+        return true;
+    }
+    compression = std::make_shared<CurveCompression>(
+        task.reduced, task.options, 2 * M_PI * task.options.frequency_max_hz, task.watch);
+    SweepTask look = task;
+    look.only_looks = true;
+    look.watch = task.watch.quiet();
+    const auto first = sweep_with_few_harmonics(look);
+    if (first->end_reason == reason::cancelled) require_unstopped(*first);
+    return compression->begin_with(*first);
+}
+
 // The curve on a model that has what its motions need of the basis; null: such a model would not be much
 // smaller, or a curve on it is not what the whole basis says.
 std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
     constexpr int most_curves = 3;
-    CurveCompression compression(task.reduced, task.options, 2 * M_PI * task.options.frequency_max_hz,
-                                 task.watch);
-    SweepTask look = task, curve = task;
-    look.only_looks = true;
-    look.watch = task.watch.quiet();
+    std::shared_ptr<CurveCompression> kept;
+    SweepTask curve = task;
     std::shared_ptr<Branch>
         whole; // the last one that came to its end: there is none better where the effort ends
     try {
-        const auto first = sweep_with_few_harmonics(look);
-        if (first->end_reason == reason::cancelled) require_unstopped(*first);
-        if (!compression.begin_with(*first)) return nullptr;
+        if (!begin_compression(task, kept)) return nullptr;
+        CurveCompression &compression = *kept;
         for (int k = 0; k < most_curves; ++k) {
             curve.reduced = compression.model();
             curve.options = options_on(*curve.reduced, task.options);
@@ -116,13 +130,14 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
             }
             if (!compression.confirms_stability(*branch)) return nullptr;
             compression.warn(*branch);
+            if (task.level_before) *task.level_before = kept;
             return branch;
         }
     } catch (const Error &e) {
         if (e.status() == status::memory || e.status() == status::callback) throw;
         if (e.status() != status::cancelled) return nullptr;
         if (!whole || e.reason() != reason::effort) throw;
-        compression.warn(*whole);
+        kept->warn(*whole);
         return whole;
     }
     return nullptr;

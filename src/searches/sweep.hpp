@@ -6,9 +6,14 @@
 
 namespace plm {
 
+class CurveCompression; // compressed_curve.hpp
+
 struct SweepTask : ResponseTask {
     SweepRange reach = {};         // how far the curve may go on to have its peak inside
     const Output *asked = nullptr; // whose peak that is to be, too
+    /// The model that the curve of another force level was followed on: taken up, and left for the next level.
+    /// Null: this curve is the only one.
+    std::shared_ptr<CurveCompression> *level_before = nullptr;
 };
 
 /// At least one point, within the effort that is left. PLM_ERR_CONVERGENCE where no motion is found,

@@ -131,6 +131,7 @@ FUNCTIONS = {
     "plm_hbm_get_double": "psp hbm key value",
     "plm_hbm_get_string": "psqpp hbm key capacity buffer needed",
     "plm_hbm_sweep": "pp hbm branch",
+    "plm_hbm_sweep_levels": "pqpp hbm n force_scale count",
     "plm_hbm_solve": "pdpqp hbm frequency_hz start point branch",
     "plm_hbm_find_peak": "ppqiippp hbm branch dof measure harmonic frequency_hz amplitude peak",
     "plm_hbm_switch_branch": "ppqip hbm branch point mirrored other",

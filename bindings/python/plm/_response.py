@@ -6,7 +6,7 @@ import numpy
 
 from . import _c
 from ._context import status_text
-from ._handle import Handle, address, branch_array, context_of, handle_of
+from ._handle import Handle, address, branch_array, context_of, handle_of, reals
 from ._methods import BranchMethods, HbmMethods
 from ._model import choice
 from ._reduction import Basis
@@ -164,6 +164,12 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
         other = Branch(self)
         return self._deliver("switch_branch", other, handle_of(branch, "branch", "branch"), branch._from_end(point), int(mirrored),
                              ctypes.byref(other._h), progress=progress)
+
+    def sweep_levels(self, force_scales, progress=None):
+        """A list of response curves, one at each of these force scales in their order (none where a level has no first
+        motion; see force_scale of each)."""
+        scales = reals(force_scales, (len(force_scales),), "force_scales")
+        return [one.branch for one in self._found("sweep_levels", len(scales), address(scales), progress=progress)]
 
     def find_isolated(self, main_branch, force_max=0.0, progress=None):
         """A list of Isolated(branch, force_range): closed branches beside the whole main curve. force_max: the largest force
