@@ -19,15 +19,17 @@ struct RowMotion {
 class BaseMotion {
   public:
     BaseMotion() = default;
-    /// Checks that what moves is fixed, and tied to nothing. prescribed: over all DOFs; of the power 0 a
-    /// displacement, -1 a velocity, -2 an acceleration.
+    /// Checks that what moves is among the fixed DOFs, and that the constraints let it. prescribed: over all
+    /// DOFs; of the power 0 a displacement, -1 a velocity, -2 an acceleration. held: at zero but for that.
     BaseMotion(const HarmonicLoads &prescribed, std::int64_t n_dof, const vector<std::int64_t> &fixed,
-               const ConstraintRows &constraints);
+               const vector<std::int64_t> &held, const ConstraintRows &constraints);
     bool empty() const { return parts_.empty(); }
 
     /// Through one matrix over all DOFs, A_fs U.
     enum Through { mass, stiffness, damping, n_matrices };
     void act(Through which, const SparseMatrix &all, const DofMap &dofs);
+    /// The free DOFs on which it does.
+    void mark_driven(vector<char> &moves) const;
 
     /// Once the stiffness has acted: L U by the factor of K and shift times M, before what follows is asked.
     void follow(const Factor &factor);
@@ -45,8 +47,10 @@ class BaseMotion {
 
   private:
     std::int64_t columns() const { return moved_.cols(); }
+    void carry(const vector<char> &moves, const vector<std::int64_t> &held,
+               const ConstraintRows &constraints);
     std::vector<LoadPart> parts_;
-    Matrix moved_;                     // U: n_dof x 2 parts, real and imaginary
+    Matrix moved_; // U, and what constraints tie to it: n_dof x 2 parts, real and imaginary
     Field through_[n_matrices], lift_; // A_fs U and L U, n_free x 2 parts
 };
 
