@@ -29,13 +29,14 @@ class Piece:
         self.inverse = np.linalg.inv(self.vectors)
         load = np.concatenate([np.zeros(n), s.Minv @ (s.P + s.B.T @ (spring * s.g))])
         self.fixed = -np.linalg.solve(a, load)
-        self.power = s.power
-        self.drive, self.walls = (self.inverse @ np.concatenate([np.zeros(n), s.Minv @ f]) for f in (s.F, s.B.T @ (spring * s.G)))
+        of_modes = lambda f: self.inverse @ np.concatenate([np.zeros(n), s.Minv @ f])
+        self.drive = {power: of_modes(f) for power, f in s.F.items()}
+        self.drive[0] = self.drive.get(0, 0) + of_modes(s.B.T @ (spring * s.G))
         self.gaps = s.B @ self.vectors[:n]
 
     def forced(self, omega):
         """Complex amplitude of the forced motion."""
-        return self.vectors @ ((omega**self.power * self.drive + self.walls) / (1j * omega - self.values))
+        return self.vectors @ (sum(omega**power * f for power, f in self.drive.items()) / (1j * omega - self.values))
 
 
 def condensation(M, K, kept, reach=40.0, fewest=20):
@@ -52,15 +53,15 @@ def condensation(M, K, kept, reach=40.0, fewest=20):
 
 
 class Structure:
-    """M q'' + C q' + K q + B' max(kn u, 0) = P + omega^power Re(F exp(i omega t)), u = B q - g - Re(G exp(i omega t)); `out`: the
-    DOF looked at, or several."""
+    """M q'' + C q' + K q + B' max(kn u, 0) = P + Re(F exp(i omega t)), u = B q - g - Re(G exp(i omega t)); F: a vector, or several by
+    the power of omega they grow with; `out`: the DOF looked at, or several."""
 
-    def __init__(self, M, C, K, B, kn, g, P, F, out, G=None, power=0):
+    def __init__(self, M, C, K, B, kn, g, P, F, out, G=None):
         self.n = len(M)
         self.Minv = np.linalg.inv(M)
-        self.C, self.K, self.B, self.kn, self.g, self.P, self.F, self.out = C, K, B, kn, g, P, F, out
+        self.C, self.K, self.B, self.kn, self.g, self.P, self.out = C, K, B, kn, g, P, out
+        self.F = F if isinstance(F, dict) else {0: F}
         self.G = np.zeros(len(g)) if G is None else G
-        self.power = power
         self._pieces = {}
 
     def piece(self, closed):
