@@ -171,6 +171,21 @@ void BaseMotion::add_forces(const Matrices &m, HarmonicForces &excitation) const
     }
 }
 
+KnownMotion BaseMotion::of(const DofTerms &sum, const DofMap &dofs, double omega) const {
+    KnownMotion known;
+    const DofTerms free = dofs.terms(sum);
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+        const auto column = 2 * static_cast<std::int64_t>(k);
+        Complex u = 0;
+        for (const DofTerm &t : sum)
+            u += t.coefficient * Complex(moved_(t.dof, column), moved_(t.dof, column + 1));
+        for (const DofTerm &t : free)
+            u += t.coefficient * Complex(lift_.at(t.dof, column), lift_.at(t.dof, column + 1));
+        known[parts_[k].harmonic] += parts_[k].growth(omega) * u;
+    }
+    return known;
+}
+
 std::vector<RowMotion> BaseMotion::row_motions(std::int64_t n_rows, const vector<std::int64_t> &row,
                                                const vector<std::int64_t> &dof,
                                                const vector<double> &coefficient, const DofMap &dofs) const {

@@ -3,6 +3,7 @@
 #include "structure/dof_map.hpp"
 #include "structure/loads.hpp"
 #include "structure/solver/factor.hpp"
+#include <complex>
 
 namespace plm {
 
@@ -11,6 +12,9 @@ struct RowMotion {
     LoadPart part;
     vector<double> real, imag;
 };
+
+/// What is added to a result of a motion because it is known, Re(u exp(i h omega t)): u by the harmonic h.
+using KnownMotion = std::map<int, std::complex<double>>;
 
 /// u_s = omega^power Re(U exp(i h omega t)) at the fixed DOFs. The motion of the free ones is counted from L
 /// u_s, with which they follow at rest, L = -K_ff^-1 K_fs: relative to the base. What is left of the motion
@@ -40,6 +44,8 @@ class BaseMotion {
         double shift, alpha, beta, structural;
     };
     void add_forces(const Matrices &m, HarmonicForces &excitation) const;
+    /// With the base: U + L U of a sum over all DOFs.
+    KnownMotion of(const DofTerms &sum, const DofMap &dofs, double omega) const;
     /// The rows as triplets over all DOFs.
     std::vector<RowMotion> row_motions(std::int64_t n_rows, const vector<std::int64_t> &row,
                                        const vector<std::int64_t> &dof, const vector<double> &coefficient,

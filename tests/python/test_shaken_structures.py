@@ -179,7 +179,7 @@ class OnAShaker(Near):
             self.near(got[1] - 1j * got[2], want, 1e-9)
 
 
-class Pounding(Near):
+class Absolute(Near):
     """Marching of the free DOFs in absolute coordinates: supports act by what the matrices make of their motion, and walls move
     with them only where a row has them in it."""
 
@@ -212,6 +212,8 @@ class Pounding(Near):
         rows[0, [2, 5]], rows[1, [5, 7]], rows[2, 9] = (1, -1), (1, -1), 1
         return m, 6e-3 * k + 0.4 * m, k, rows
 
+
+class Pounding(Absolute):
     def test_towers_on_one_base(self):
         m, c, k, rows = self.towers()
         omega, stiffness, gap = 17.0, [2e4, 2e4, 9e3], [0.002, 0.003, 0.02]
@@ -270,6 +272,97 @@ class Pounding(Near):
         for omega in (14.0, 19.0, 26.0):
             own = Marched(m, c, k, rows, [8e3], [2e-3], {1: omega**2 * turning}, {}, omega).settled(250)
             self.near(history(self.exact(model, omega)), own, 1e-9)
+
+
+class AbsoluteOutputs(Absolute):
+    """Sums of DOFs with the option "absolute_outputs": what marching in absolute coordinates gives, wherever they are looked at."""
+    OMEGA, MOTION = 17.0, {1: {0: 0.01}, 2: {0: 0.002 - 0.003j}}
+
+    def setUp(self):
+        self.m, self.c, self.k, rows = self.towers()
+        self.n, stiffness, gap = len(self.m), [2e4, 2e4, 9e3], [0.002, 0.003, 0.02]
+        free, own = self.absolute(self.m, self.c, self.k, rows, stiffness, gap, self.MOTION, self.OMEGA)
+        turn = 2 * numpy.pi * numpy.arange(400) / 400
+        self.base = sum(numpy.real(moved[0] * numpy.exp(1j * h * turn)) for h, moved in self.MOTION.items())
+        self.relative = numpy.column_stack([0 * self.base, own])
+        self.own = self.relative + self.base[:, None]  # all follow as one: L = 1
+        self.model = plm.Model(self.m, self.k, self.c, absolute_outputs=1)
+        self.model.fix_dofs([0])
+        self.model.add_gap_rows(rows, stiffness, gap)
+        for h, moved in self.MOTION.items():
+            self.model.set_base_motion(moved[0] * numpy.eye(self.n)[0], harmonic=h)
+        quietly(self.model.build)
+        self.sums = numpy.vstack([numpy.eye(self.n), numpy.eye(self.n)[9] - numpy.eye(self.n)[0], numpy.eye(self.n)[9] + 2 * numpy.eye(self.n)[4]])
+        self.numbers = self.model.add_outputs(self.sums)
+        self.wanted = self.own @ self.sums.T
+        self.hz = self.OMEGA / 2 / numpy.pi
+
+    def test_exact_motions(self):
+        branch = self.exact(self.model, self.OMEGA)
+        harmonics = numpy.fft.rfft(self.own @ self.sums.T, axis=0) / 200
+        for number, want, of in zip(self.numbers, self.wanted.T, harmonics.T):
+            self.near(branch.history(0, number, 400), want, OWN)
+            self.near(branch.amplitude(number, "peak"), numpy.abs(want).max(), 1e-4)  # of instants
+            self.near(branch.amplitude(number, "half_peak_to_peak"), 0.5 * numpy.ptp(want), 1e-4)
+            self.near(branch.amplitude(number, "rms"), numpy.sqrt((want**2).mean()), 1e-6)
+            got = branch.coefficients(0, number)
+            self.near(got[1:7:2] - 1j * got[2:7:2], of[1:4], 1e-5)
+        for dof in range(1, self.n):  # are relative
+            self.near(branch.history(0, dof, 400), self.relative[:, dof], OWN)
+        self.near(history(branch), self.relative, OWN)
+
+    def test_harmonic_balance(self):
+        for options in (dict(unknowns="modal"), dict(unknowns="gaps"), dict(period_multiple=2)):
+            hbm = plm.Hbm(full_basis(self.model, 60), **RANGE, motion="harmonics", n_harmonics=40, **options)
+            branch = quietly(lambda: hbm.solve(self.hz))
+            many = options.get("period_multiple", 1)
+            for number, want in zip(self.numbers, self.wanted.T):
+                self.near(branch.history(0, number, 400 * many)[:400], want, 3e-3)
+                self.near(branch.amplitude(number, "peak"), numpy.abs(want).max(), 3e-3)
+            got = branch.coefficients(0, self.numbers[0])
+            want = numpy.zeros(len(got))
+            for h, moved in self.MOTION.items():
+                want[2 * h * many - 1], want[2 * h * many] = moved[0].real, -moved[0].imag
+            self.near(got, want, 1e-12)  # the support itself
+
+    def test_marching(self):
+        for of in (self.model, full_basis(self.model, 60)):
+            march = plm.Transient(of, frequency_hz=self.hz, periods=120, steps_per_period=3200)
+            march.observe([*self.numbers, 9])
+            quietly(march.run)
+            for number, want in zip([*self.numbers, 9], [*self.wanted.T, self.relative[:, 9]]):
+                self.near(march.history(number)[-3200:][7::8], numpy.roll(want, -1), 3e-3)
+
+    def test_peak_error_and_one_call(self):
+        number = self.numbers[9]
+        answer = quietly(lambda: self.model.compute_response(number, accuracy=1e-3, measure="peak"))
+        omega = 2 * numpy.pi * answer.frequency_hz
+        self.OMEGA = omega
+        m, c, k, rows = self.towers()
+        free, own = self.absolute(m, c, k, rows, [2e4, 2e4, 9e3], [0.002, 0.003, 0.02], self.MOTION, omega)
+        self.assertLess(abs(answer.amplitude / numpy.abs(own[:, free.index(9)] + self.base).max() - 1), 2e-3)
+        at = quietly(lambda: answer.hbm.solve(answer.frequency_hz, answer.curve, int(numpy.argmax(answer.curve.amplitude(number, "peak")))))
+        estimate = quietly(lambda: answer.hbm.estimate_error(at, 0, number, "peak"))
+        self.assertLess(abs(estimate.amplitude.total), 5e-3 * answer.amplitude)
+
+    def test_by_acceleration_and_with_modal_damping(self):
+        """Closed form of the absolute motion of an oscillator, which modal damping damps against its base."""
+        omega, a, zeta, w0 = 9.0, 2.0 + 1j, 0.05, 10.0
+        model = plm.Model(numpy.eye(2), w0**2 * numpy.array([[1.0, -1], [-1, 1]]), absolute_outputs=1)
+        model.fix_dofs([0])
+        model.set_modal_damping([zeta])
+        model.add_gap_rows([[-1.0, 1]], 50.0, 100.0)
+        model.set_base_motion([a, 0], "acceleration")
+        quietly(model.build)
+        first = model.add_outputs(numpy.eye(2))[0]
+        base = -a / omega**2
+        want = base * (w0**2 + 2j * zeta * w0 * omega) / (w0**2 - omega**2 + 2j * zeta * w0 * omega)
+        for options in (dict(motion="exact"), dict(motion="harmonics")):
+            branch = quietly(lambda: plm.Hbm(full_basis(model, 20), **RANGE, **options).solve(omega / 2 / numpy.pi))
+            for number, value in ((first, base), (first + 1, want)):
+                got = branch.coefficients(0, number)
+                self.near(got[1] - 1j * got[2], value, 1e-9)
+                self.near(branch.amplitude(number), abs(value), 1e-9)
 
 
 if __name__ == "__main__":
