@@ -333,6 +333,18 @@ class AbsoluteOutputs(Absolute):
             for number, want in zip([*self.numbers, 9], [*self.wanted.T, self.relative[:, 9]]):
                 self.near(march.history(number)[-3200:][7::8], numpy.roll(want, -1), 3e-3)
 
+    def test_marching_at_another_frequency(self):
+        """The clock goes on, the excitation begins its period anew: seen at the support itself."""
+        for of in (self.model, full_basis(self.model, 60)):
+            march = plm.Transient(of, frequency_hz=2.0, periods=3, steps_per_period=64)
+            march.observe([self.numbers[0]])
+            quietly(march.run)
+            march.set_options(dict(frequency_hz=3.1, force_scale=0.5))
+            quietly(march.run)
+            turn = 2 * numpy.pi * numpy.arange(1, 193) / 64
+            want = 0.5 * sum(numpy.real(moved[0] * numpy.exp(1j * h * turn)) for h, moved in self.MOTION.items())
+            self.near(march.history(self.numbers[0])[-192:], want, 1e-9)
+
     def test_peak_error_and_one_call(self):
         number = self.numbers[9]
         answer = quietly(lambda: self.model.compute_response(number, accuracy=1e-3, measure="peak"))
