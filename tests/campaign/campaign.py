@@ -31,7 +31,8 @@ from verdicts import EVERY, failed, line, odd, summary, table
 def build(m):
     m = dict(m, **m.get("host", {}))
     of = (lambda a: a) if m.get("dense") else sp.csc_matrix
-    model = plm.Model(of(m.get("M_library", m["M"])), of(m.get("K_library", m["K"])), of(m["C"]) if m["damping"][0] == "matrix" else None)
+    damping, options = of(m["C"]) if m["damping"][0] == "matrix" else None, {"absolute_outputs": 1} if "absolute" in m else {}
+    model = plm.Model(of(m.get("M_library", m["M"])), of(m.get("K_library", m["K"])), damping, **options)
     if m["damping"][0] == "rayleigh":
         model.set_rayleigh_damping(*m["damping"][1:])
     elif m["damping"][0] == "modal":
@@ -49,7 +50,10 @@ def build(m):
         model.set_base_motion(*m["base"])
     elif "G" in m:
         model.set_gap_motion(m["G"])
-    return model.build()
+    model.build()
+    if "absolute" in m:
+        model.add_outputs(np.eye(len(m["M"]))[[m["absolute"]]])
+    return model
 
 
 def looked_at(m):
@@ -130,7 +134,7 @@ def compare(m, x, omega, result):
     """The exact peak nearest that of the library."""
     if m.get("condense"):
         m, x = condensed(m, x)
-    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], force_of(m), m["out"], m.get("G"))
+    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], force_of(m), m["out"], m.get("G"), m.get("beside"))
     w, amplitude, phi, moved = s.peak_near(x, omega)
     result.update(exact_hz=w / 2 / np.pi, exact_amplitude=amplitude, moved=moved, events=s.events,
                   error=abs(result["amplitude"] / amplitude - 1), frequency_error=abs(omega / w - 1),

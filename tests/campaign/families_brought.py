@@ -9,6 +9,7 @@ families.py, with more of what the judge should know:
     G          motion of the gaps at the excitation's frequency, complex amplitudes
     power      of the frequency, with which F grows
     drive      the force by powers of the frequency, where it is not F alone
+    beside     what is added to the DOF `out`, by powers of the frequency, too: there the library is looked at in absolute motion
     host       what the library is given in place of all this: DOFs q of which `rows` @ q = 0, or with `couplings` (methods of
                plm.Model and their arguments), the motions of the model by q = `to_host` times those here; with `base` (what
                plm.Model.set_base_motion takes) its DOFs that move are fixed

@@ -28,7 +28,7 @@ def unbalanced(rng):
 def shaken(rng):
     """Supports that move, one or two of them and each by a phase of its own, what the structure does being counted from how it
     follows them at rest, by r: K_fs = -K r. Masses, dampers and pairs reach to the supports, too. With pairs that see the base
-    (walls that stand still, strained structures) its displacement is given, else any of the three."""
+    (walls that stand still, strained structures) its displacement is given, else any of the three. Half of them are looked at in absolute motion."""
     m = (families.chains, families.breathing, families.beam_with_stops, families.cracked_beam)[int(rng.integers(4))](rng)
     n, s = len(m["M"]), int(rng.integers(1, 3))
     r = rng.normal(size=(n, s))
@@ -58,5 +58,9 @@ def shaken(rng):
     u = given / 1j**power  # times omega^-power
     drive = {2 - power: inertia @ u, 1 - power: -1j * loss @ u}
     host.update(F=np.zeros(n + s), P=np.append(m["P"], np.zeros(s)), out=m["out"], base=(np.append(np.zeros(n), given), quantity))
-    small = dict(m, F=np.zeros(n), drive=drive, host=host, to_host=np.eye(n + s, n))
+    beside = {}
+    if rng.random() < 0.5:  # its absolute motion, as the sum that comes after all DOFs
+        host.update(absolute=m["out"], out=n + s)
+        beside[-power] = r[m["out"]] @ u
+    small = dict(m, F=np.zeros(n), beside=beside, drive=drive, host=host, to_host=np.eye(n + s, n))
     return small if loose else dict(small, G=-(m["B"] @ r) @ u)
