@@ -80,7 +80,9 @@ class Outputs(unittest.TestCase):
         made = quietly(model)
         self.assertEqual(self.numbers, range(N, N + 3))
         self.assertEqual(list(made.add_outputs(self.rows[:1])), [N])
-        self.assertEqual(list(made.add_outputs(self.rows[1:])), [N + 1, N + 2])
+        wide = scipy.sparse.csr_matrix(self.rows[1:])
+        wide.indptr, wide.indices = wide.indptr.astype(numpy.int64), wide.indices.astype(numpy.int64)
+        self.assertEqual(list(made.add_outputs(wide)), [N + 1, N + 2])
         self.assertEqual(made.n_dof, N)
 
     def test_coefficients_and_histories_are_sums_of_those_of_dofs(self):
