@@ -534,7 +534,7 @@ contains
     end subroutine set_growing_excitation_complex
 
     ! Motion of fixed DOFs, Re(motion exp(i h omega t)), zero at all others; quantity: PLM_DISPLACEMENT, _VELOCITY or
-    ! _ACCELERATION. Results are relative to the base.
+    ! _ACCELERATION. Results are relative to the base, but for outputs with the option "absolute_outputs".
     subroutine set_base_motion_real(self, quantity, harmonic, motion, stat, errmsg)
         class(plm_model), intent(inout) :: self
         integer, intent(in) :: quantity, harmonic

@@ -940,8 +940,8 @@ class Model : public detail::WithOptions<Model, plm_model> {
               "set_growing_excitation");
     }
     /// Motion of fixed DOFs, Re((real + i imag) exp(i h omega t)), zero at all others; quantity:
-    /// PLM_DISPLACEMENT, PLM_VELOCITY or PLM_ACCELERATION. Results are relative to the base; real nullptr
-    /// removes harmonic h.
+    /// PLM_DISPLACEMENT, PLM_VELOCITY or PLM_ACCELERATION. Results are relative to the base, but for outputs
+    /// with the option "absolute_outputs"; real nullptr removes harmonic h.
     void set_base_motion(std::int32_t quantity, std::int32_t harmonic, Reals real, Reals imag = {}) {
         if (imag.data()) require_size(imag.size(), n_dof_, "set_base_motion", "imag");
         check(plm_model_set_base_motion(handle_, quantity, harmonic, real.data() ? real.size() : n_dof_,

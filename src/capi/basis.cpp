@@ -14,7 +14,7 @@ const std::shared_ptr<const Basis> &built(const BasisHandle &h) {
 }
 
 void require_current(const BasisHandle &h) {
-    require_current(built(h)->model(), *h.model, "basis", "build it again");
+    if (h.core) require_current(h.core->model(), *h.model, "basis", "build it again");
 }
 
 namespace {

@@ -57,6 +57,9 @@ const std::vector<Key> &model_keys() {
             "MiB that the model and what is made of it may take at once, as estimated before the build, the "
             "host's solver not counted; 0: no limit"),
 
+        int_option<&O::absolute_outputs>("absolute_outputs", 0, 1,
+                                         "1: outputs that are sums of DOFs include the motion of moving "
+                                         "supports; DOFs are relative to it"),
         real_option<&O::reduction_error>(
             "reduction_error", 0, 1,
             "a superelement's own error, as the host that reduced the structure estimates it (relative, of "

@@ -157,14 +157,20 @@ double harmonic_error_at(const ReducedModel &m, const BranchPoint &point, const 
     if (row.empty()) return 0;
     const bool one = measure == Measure::harmonic && harmonic > 0;
     const vector<double> p = m.vectors.row(row);
-    const auto size = [&](const Matrix &eta, std::int64_t n) {
+    const auto size = [&](const Matrix &eta, std::int64_t n, const KnownMotion &known) {
         vector<double> motion(2 * n);
+        for (const auto &[h, u] : known) {
+            const std::int64_t at = h * point.period_multiple;
+            if (at <= n && (!one || at == harmonic))
+                motion[2 * at - 2] = u.real(), motion[2 * at - 1] = -u.imag();
+        }
         for (std::int64_t c = one ? 2 * harmonic - 2 : 0; c < 2 * (one ? std::min(harmonic, n) : n); ++c)
             for (std::int64_t j = 0; j < m.size(); ++j) motion[c] += p[j] * eta(j, c);
         return norm2(2 * n, motion.data());
     };
-    const double motion = size(point.eta, point.n_harmonics),
-                 moved = size(change.motion, change.motion.cols() / 2);
+    const double motion = size(point.eta, point.n_harmonics,
+                               m.model->known_motion(dof, point.omega, point.force_scale)),
+                 moved = size(change.motion, change.motion.cols() / 2, {});
     return std::max(motion > 0 ? moved / motion : 0, std::abs(change.shift));
 }
 

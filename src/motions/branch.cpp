@@ -124,7 +124,17 @@ void Branch::append(BranchPoint point) {
 
 vector<double> Branch::coefficients(std::int64_t point, std::int64_t dof) const {
     const DofTerms row = reduced_->model->terms(dof);
-    return coefficients(point, {reduced_->vectors.row(row), reduced_->static_vectors().row(row)});
+    vector<double> c = coefficients(point, {reduced_->vectors.row(row), reduced_->static_vectors().row(row)});
+    for (const auto &[harmonic, u] : known_motion(point, dof)) {
+        const auto cosine = static_cast<std::size_t>(2 * harmonic * period_multiple_ - 1);
+        if (cosine < c.size()) c[cosine] += u.real(), c[cosine + 1] -= u.imag();
+    }
+    return c;
+}
+
+KnownMotion Branch::known_motion(std::int64_t point, std::int64_t dof) const {
+    const BranchPoint &p = points_[static_cast<std::size_t>(point)];
+    return is_mode ? KnownMotion() : reduced_->model->known_motion(dof, p.omega, p.force_scale);
 }
 
 vector<double> Branch::coefficients(std::int64_t point, const DofInBasis &dof) const {
@@ -205,7 +215,17 @@ std::int64_t Branch::highest_point(std::int64_t dof, Measure measure, std::int64
 
 vector<double> Branch::history(std::int64_t point, std::int64_t dof, std::int64_t n) const {
     const BranchPoint &p = points_[static_cast<std::size_t>(point)];
-    if (p.motion) return p.motion->history(reduced_->static_vectors().row(reduced_->model->terms(dof)), n);
+    if (p.motion) {
+        vector<double> values =
+            p.motion->history(reduced_->static_vectors().row(reduced_->model->terms(dof)), n);
+        for (const auto &[harmonic, u] : known_motion(point, dof))
+            for (std::int64_t k = 0; k < n; ++k)
+                values[static_cast<std::size_t>(k)] +=
+                    (u * std::polar(1.0, 2 * M_PI * static_cast<double>(harmonic * period_multiple_ * k) /
+                                             static_cast<double>(n)))
+                        .real();
+        return values;
+    }
     const vector<double> c = coefficients(point, dof);
     vector<double> values;
     for (std::int64_t k = 0; k < n; ++k)

@@ -91,6 +91,7 @@ class Branch {
 
   private:
     vector<double> coefficients(std::int64_t point, const DofInBasis &dof) const;
+    KnownMotion known_motion(std::int64_t point, std::int64_t dof) const;
 
     std::shared_ptr<const ReducedModel> reduced_;
     std::int64_t n_harmonics_ = 0;

@@ -108,6 +108,7 @@ TransientRun FullMotion::run(const TransientOptions &options, const vector<std::
     const double interval = period / static_cast<double>(options.steps_per_period);
     for (std::int64_t k = 1; k <= observer.n_steps() && !observed.empty(); ++k)
         run.time.push_back(time() + static_cast<double>(k) * interval);
+    add_known_motion(*model_, options, run);
     const std::int64_t left = observer.n_steps() - found.periods * options.steps_per_period;
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     advance_clock(found.periods, static_cast<double>(left) * interval, period);

@@ -28,7 +28,10 @@ class OrbitMotion final : public PointMotion {
 
     ValueRange range(std::int64_t dof) const override {
         if (dof != known_dof_) {
-            known_range_ = range_of_flow(one_row(model_->dof_row(dof)));
+            KnownMotion known;
+            if (const auto &whole = model_->reduced().model)
+                known = whole->known_motion(dof, conditions_.omega, conditions_.force_scale);
+            known_range_ = range_of_flow(one_row(model_->dof_row(dof)), known);
             known_dof_ = dof;
         }
         return known_range_;
@@ -75,10 +78,10 @@ class OrbitMotion final : public PointMotion {
         return one_row(model_->from_static_coordinates(row));
     }
 
-    ValueRange range_of_flow(const Matrix &row) const {
+    ValueRange range_of_flow(const Matrix &row, const KnownMotion &known = {}) const {
         RecordedMotion motion;
         run(1, &motion);
-        return motion.ranges(row)[0];
+        return motion.ranges(row, known, conditions_.omega)[0];
     }
 
     double period() const {

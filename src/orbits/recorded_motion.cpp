@@ -247,7 +247,8 @@ void RecordedMotion::weigh_fast(const Piece &p, std::int64_t first, Matrix &of_c
 
 // Where what is fast might raise or lower an extremum, the piece is halved until a polynomial describes it,
 // too.
-void RecordedMotion::widen_by_piece(const Piece &piece, const double *row, ValueRange &range) {
+void RecordedMotion::widen_by_piece(const Piece &piece, const double *row, const KnownMotion &known,
+                                    double omega, ValueRange &range) const {
     const std::int64_t n = piece.coefficient.rows(), degree = piece.coefficient.cols() - 1;
     vector<double> slow(static_cast<std::size_t>(degree + 1), 0.0);
     gemv('T', 1.0, piece.coefficient, row, 0.0, slow.data());
@@ -258,15 +259,19 @@ void RecordedMotion::widen_by_piece(const Piece &piece, const double *row, Value
             {piece.fast.rate[k],
              {dot(n, row, piece.fast.cosine.col(column)), dot(n, row, piece.fast.sine.col(column))}});
     }
+    for (const auto &[harmonic, u] : known)
+        fast.push_back(
+            {{0, harmonic * omega}, u * std::polar(1.0, harmonic * omega * (begin_ + piece.start))});
     widen_between(std::move(slow), std::move(fast), piece.duration, range);
 }
 
-std::vector<ValueRange> RecordedMotion::ranges(const Matrix &rows) const {
+std::vector<ValueRange> RecordedMotion::ranges(const Matrix &rows, const KnownMotion &known,
+                                               double omega) const {
     std::vector<ValueRange> out(static_cast<std::size_t>(rows.rows()), {INFINITY, -INFINITY});
     const Matrix by_row = rows.transposed();
     for (const Piece &p : pieces_)
         for (std::int64_t i = 0; i < rows.rows(); ++i)
-            widen_by_piece(p, by_row.col(i), out[static_cast<std::size_t>(i)]);
+            widen_by_piece(p, by_row.col(i), known, omega, out[static_cast<std::size_t>(i)]);
     return out;
 }
 

@@ -20,8 +20,9 @@ class RecordedMotion final : public FlowRecorder {
     Matrix harmonics(std::int64_t first, std::int64_t count) const;
     /// The forces of the pairs as a motion of Z coordinates; flow: that which was recorded.
     RecordedMotion contact_forces(const ExactFlow &flow) const;
-    /// Extrema of row . y for every row of a matrix (rows x n).
-    std::vector<ValueRange> ranges(const Matrix &rows) const;
+    /// Extrema of row . y for every row of a matrix (rows x n), with what is known beside the flow's motion
+    /// at the excitation's frequency.
+    std::vector<ValueRange> ranges(const Matrix &rows, const KnownMotion &known = {}, double omega = 0) const;
     /// Share of the motion during which each pair is closed, and the number of pairs that are not always or
     /// never so.
     vector<double> closed_shares() const;
@@ -37,7 +38,8 @@ class RecordedMotion final : public FlowRecorder {
     static double work_of(const Piece &piece, double exponentials, double columns);
     void weigh_powers(const Piece &piece, std::int64_t first, Matrix &weight) const;
     void weigh_fast(const Piece &piece, std::int64_t first, Matrix &of_cosine, Matrix &of_sine) const;
-    static void widen_by_piece(const Piece &piece, const double *row, ValueRange &range);
+    void widen_by_piece(const Piece &piece, const double *row, const KnownMotion &known, double omega,
+                        ValueRange &range) const;
     std::vector<Piece> pieces_;
     double begin_ = 0, duration_ = 0; // begin_: the flow's time then
 };

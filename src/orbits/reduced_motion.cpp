@@ -176,6 +176,7 @@ TransientRun ReducedMotion::run(const TransientOptions &options, const vector<st
     march.run();
     TransientRun run = march.result(time());
     run.observed = observed;
+    if (reduced_->model) add_known_motion(*reduced_->model, options, run);
     run.seconds = seconds_since(begin);
     advance_clock(march.periods(), march.part(), march.period_length());
     state_ = std::move(march.state());

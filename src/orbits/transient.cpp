@@ -10,6 +10,17 @@ void Transient::advance_clock(std::int64_t periods, double part, double period) 
     if (phase_ >= 1) phase_ = 0; // -eps - floor(-eps)
 }
 
+void Transient::add_known_motion(const Model &model, const TransientOptions &options,
+                                 TransientRun &run) const {
+    const double omega = excitation_omega(options);
+    for (std::size_t j = 0; j < run.observed.size(); ++j)
+        for (const auto &[harmonic, u] : model.known_motion(run.observed[j], omega, options.force_scale))
+            for (std::size_t k = 0; k < run.time.size(); ++k) {
+                const double angle = 2 * M_PI * phase_ + omega * (run.time[k] - time_);
+                run.values[k * run.observed.size() + j] += (u * std::polar(1.0, harmonic * angle)).real();
+            }
+}
+
 double excitation_omega(const TransientOptions &options) {
     if (!(options.frequency_hz > 0))
         throw Error(status::state, "\"frequency_hz\" of the excitation is not set; set it, or start at a "

@@ -75,6 +75,8 @@ class Transient {
     virtual PeriodicMotion find_periodic(const TransientOptions &options, Watch watch) = 0;
 
   protected:
+    /// To the observed DOFs, whatever of them is known beside the motion marched.
+    void add_known_motion(const Model &model, const TransientOptions &options, TransientRun &run) const;
     /// A new first state.
     void restart_clock() { time_ = phase_ = 0; }
     /// After `periods` whole periods of the given length, then a part of one.

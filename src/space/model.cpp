@@ -45,6 +45,13 @@ Model::Model(const Model &built, const ModelInput &loads, Watch watch)
     move_gaps();
 }
 
+KnownMotion Model::known_motion(std::int64_t output, double omega, double scale) const {
+    if (!space_options_.absolute_outputs || output < n_dof()) return {};
+    KnownMotion known = base_motion_of(output, omega);
+    for (auto &part : known) part.second *= scale;
+    return known;
+}
+
 // With the base, beside what moves them anyhow.
 void Model::move_gaps() {
     for (const RowMotion &base : row_motions()) {

@@ -37,6 +37,9 @@ class Model : public Structure {
     /// The same modes, with copies of multiple frequencies that may have been missed.
     std::shared_ptr<const ExactModes> looked_over(const ExactModes &modes, Watch watch) const;
     const SpaceOptions &space_options() const { return space_options_; }
+    /// What is to be added to an output of motions relative to the base, at a frequency and a scale of the
+    /// excitation.
+    KnownMotion known_motion(std::int64_t output, double omega, double scale) const;
 
   private:
     Model(const ModelInput &input, const SpaceOptions &options, const Solver &solver, Watch watch);

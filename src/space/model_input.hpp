@@ -28,7 +28,8 @@ struct SpaceOptions {
     SolverName solver = SolverName::automatic; // of the sparse factorizations
     double reduction_error = 0; // of the matrices themselves, as the host states it; relative, of amplitudes
     PrecisionChoice precision = PrecisionChoice::automatic;
-    double memory_limit = 0; // MiB for the model and all that is made of it at once; 0: no limit
+    double memory_limit = 0;       // MiB for the model and all that is made of it at once; 0: no limit
+    bool absolute_outputs = false; // sums of DOFs include the motion of the supports, DOFs never do
 };
 
 } // namespace plm

@@ -1,5 +1,6 @@
 #include "structure/base_motion.hpp"
 #include "linalg/error.hpp"
+#include "linalg/scale.hpp"
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -11,24 +12,20 @@ using Complex = std::complex<double>;
 using Int = long long; // for printf
 
 constexpr double left_by_rounding = 1e-12; // of the terms of a force: what rounding leaves of it
-constexpr double meant_to_follow = 1e-6;   // of the terms of a gap row: solutions of K have fewer digits
+constexpr double meant_to_follow =
+    1e-6; // of what a gap row makes of the base: solutions of K have fewer digits
 
-void require_fixed(const HarmonicLoad &load, const vector<char> &fixed, const vector<char> &tied) {
+// Marks what moves.
+void require_fixed(const HarmonicLoad &load, const vector<char> &fixed, vector<char> &moves) {
     for (std::size_t dof = 0; dof < fixed.size(); ++dof) {
         const double size = std::hypot(load.real[dof], load.imag.empty() ? 0.0 : load.imag[dof]);
         if (size == 0) continue;
+        moves[dof] = 1;
         if (!fixed[dof])
             throw Error(status::argument,
                         format("the base motion moves DOF %lld (counted from 0), which is not fixed: fix "
                                "it, for a motion can be prescribed to fixed DOFs only; entries of all "
                                "others must be zero",
-                               Int(dof)))
-                .argument("real")
-                .index(static_cast<std::int64_t>(dof));
-        if (tied[dof])
-            throw Error(status::argument,
-                        format("the base motion moves DOF %lld (counted from 0), which a constraint ties to "
-                               "others: take it out of the constraint and fix and move those as well",
                                Int(dof)))
                 .argument("real")
                 .index(static_cast<std::int64_t>(dof));
@@ -72,15 +69,14 @@ void clear_rounding(const vector<double> &size, Field &sum) {
 } // namespace
 
 BaseMotion::BaseMotion(const HarmonicLoads &prescribed, std::int64_t n_dof,
-                       const vector<std::int64_t> &fixed_dofs, const ConstraintRows &constraints) {
+                       const vector<std::int64_t> &fixed_dofs, const vector<std::int64_t> &held,
+                       const ConstraintRows &constraints) {
     if (prescribed.empty()) return;
-    vector<char> fixed(static_cast<std::size_t>(n_dof), 0), tied(fixed);
+    vector<char> fixed(static_cast<std::size_t>(n_dof), 0), moves(fixed);
     for (std::int64_t dof : fixed_dofs) fixed[static_cast<std::size_t>(dof)] = 1;
-    for (std::size_t k = 0; k < constraints.dof.size(); ++k)
-        if (constraints.coefficient[k] != 0) tied[static_cast<std::size_t>(constraints.dof[k])] = 1;
     moved_.reset(n_dof, 2 * static_cast<std::int64_t>(prescribed.size()));
     for (const auto &[part, load] : prescribed) {
-        require_fixed(load, fixed, tied);
+        require_fixed(load, fixed, moves);
         const std::int64_t column = 2 * static_cast<std::int64_t>(parts_.size());
         for (std::int64_t i = 0; i < n_dof; ++i) {
             const std::size_t k = static_cast<std::size_t>(i);
@@ -90,6 +86,42 @@ BaseMotion::BaseMotion(const HarmonicLoads &prescribed, std::int64_t n_dof,
         }
         parts_.push_back(part);
     }
+    if (constraints.n_rows() > 0) carry(moves, held, constraints);
+}
+
+// By a map of its own, in which what moves stays and gives what is tied to it, all other DOFs at zero: with
+// what the free ones add by theirs, one of the motions that the constraints allow.
+void BaseMotion::carry(const vector<char> &moves, const vector<std::int64_t> &held,
+                       const ConstraintRows &constraints) {
+    vector<std::int64_t> still;
+    for (std::int64_t dof : held)
+        if (!moves[static_cast<std::size_t>(dof)]) still.push_back(dof);
+    const DofMap map(moved_.rows(), still, constraints, moves);
+    vector<double> all(moves.size()), size(moves.size(), 0.0);
+    for (std::int64_t j = 0; j < columns(); ++j)
+        for (std::size_t dof = 0; dof < moves.size(); ++dof)
+            size[dof] = std::max(size[dof], std::abs(moved_(static_cast<std::int64_t>(dof), j)));
+    for (std::int64_t j = 0; j < columns(); ++j) {
+        double *u = moved_.col(j);
+        map.expand(map.free_part(u).data(), all.data());
+        for (std::size_t dof = 0; dof < moves.size(); ++dof)
+            if (moves[dof] && std::abs(all[dof] - u[dof]) > meant_to_follow * size[dof])
+                throw Error(status::argument,
+                            format("the base motion moves DOF %lld (counted from 0) otherwise than the "
+                                   "constraints that tie it to other fixed DOFs let it: move all of these as "
+                                   "the constraints say, or take the constraints away",
+                                   Int(dof)))
+                    .argument("real")
+                    .index(static_cast<std::int64_t>(dof));
+        std::copy(all.begin(), all.end(), u);
+    }
+}
+
+void BaseMotion::mark_driven(vector<char> &moves) const {
+    for (const Field &through : through_)
+        for (std::int64_t j = 0; j < through.cols(); ++j)
+            for (std::int64_t i = 0; i < through.rows(); ++i)
+                if (through.at(i, j) != 0) moves[static_cast<std::size_t>(i)] = 1;
 }
 
 void BaseMotion::act(Through which, const SparseMatrix &all, const DofMap &dofs) {
@@ -139,6 +171,21 @@ void BaseMotion::add_forces(const Matrices &m, HarmonicForces &excitation) const
     }
 }
 
+KnownMotion BaseMotion::of(const DofTerms &sum, const DofMap &dofs, double omega) const {
+    KnownMotion known;
+    const DofTerms free = dofs.terms(sum);
+    for (std::size_t k = 0; k < parts_.size(); ++k) {
+        const auto column = 2 * static_cast<std::int64_t>(k);
+        Complex u = 0;
+        for (const DofTerm &t : sum)
+            u += t.coefficient * Complex(moved_(t.dof, column), moved_(t.dof, column + 1));
+        for (const DofTerm &t : free)
+            u += t.coefficient * Complex(lift_.at(t.dof, column), lift_.at(t.dof, column + 1));
+        known[parts_[k].harmonic] += parts_[k].growth(omega) * u;
+    }
+    return known;
+}
+
 std::vector<RowMotion> BaseMotion::row_motions(std::int64_t n_rows, const vector<std::int64_t> &row,
                                                const vector<std::int64_t> &dof,
                                                const vector<double> &coefficient, const DofMap &dofs) const {
@@ -152,11 +199,12 @@ std::vector<RowMotion> BaseMotion::row_motions(std::int64_t n_rows, const vector
             dofs.expand(lift_.in_core().col(column), all.data());
             for (std::size_t i = 0; i < all.size(); ++i)
                 all[i] += moved_(static_cast<std::int64_t>(i), column);
+            const double largest = largest_of(all.data(), dofs.n_dof()); // a term may be rounding as a whole
             vector<double> sum(static_cast<std::size_t>(n_rows), 0.0), size(sum);
             for (std::size_t e = 0; e < row.size(); ++e) {
                 const double term = coefficient[e] * all[static_cast<std::size_t>(dof[e])];
                 sum[static_cast<std::size_t>(row[e])] -= term;
-                size[static_cast<std::size_t>(row[e])] += std::abs(term);
+                size[static_cast<std::size_t>(row[e])] += std::abs(coefficient[e]) * largest;
             }
             for (std::size_t i = 0; i < sum.size(); ++i) {
                 if (std::abs(sum[i]) <= meant_to_follow * size[i]) sum[i] = 0;

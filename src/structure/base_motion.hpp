@@ -3,6 +3,7 @@
 #include "structure/dof_map.hpp"
 #include "structure/loads.hpp"
 #include "structure/solver/factor.hpp"
+#include <complex>
 
 namespace plm {
 
@@ -12,6 +13,9 @@ struct RowMotion {
     vector<double> real, imag;
 };
 
+/// What is added to a result of a motion because it is known, Re(u exp(i h omega t)): u by the harmonic h.
+using KnownMotion = std::map<int, std::complex<double>>;
+
 /// u_s = omega^power Re(U exp(i h omega t)) at the fixed DOFs. The motion of the free ones is counted from L
 /// u_s, with which they follow at rest, L = -K_ff^-1 K_fs: relative to the base. What is left of the motion
 /// of the base is a force, -(M_ff L + M_fs) u_s'' - (C_ff L + C_fs) u_s', and a motion of the gaps, -(B_f L +
@@ -19,15 +23,17 @@ struct RowMotion {
 class BaseMotion {
   public:
     BaseMotion() = default;
-    /// Checks that what moves is fixed, and tied to nothing. prescribed: over all DOFs; of the power 0 a
-    /// displacement, -1 a velocity, -2 an acceleration.
+    /// Checks that what moves is among the fixed DOFs, and that the constraints let it. prescribed: over all
+    /// DOFs; of the power 0 a displacement, -1 a velocity, -2 an acceleration. held: at zero but for that.
     BaseMotion(const HarmonicLoads &prescribed, std::int64_t n_dof, const vector<std::int64_t> &fixed,
-               const ConstraintRows &constraints);
+               const vector<std::int64_t> &held, const ConstraintRows &constraints);
     bool empty() const { return parts_.empty(); }
 
     /// Through one matrix over all DOFs, A_fs U.
     enum Through { mass, stiffness, damping, n_matrices };
     void act(Through which, const SparseMatrix &all, const DofMap &dofs);
+    /// The free DOFs on which it does.
+    void mark_driven(vector<char> &moves) const;
 
     /// Once the stiffness has acted: L U by the factor of K and shift times M, before what follows is asked.
     void follow(const Factor &factor);
@@ -38,6 +44,8 @@ class BaseMotion {
         double shift, alpha, beta, structural;
     };
     void add_forces(const Matrices &m, HarmonicForces &excitation) const;
+    /// With the base: U + L U of a sum over all DOFs.
+    KnownMotion of(const DofTerms &sum, const DofMap &dofs, double omega) const;
     /// The rows as triplets over all DOFs.
     std::vector<RowMotion> row_motions(std::int64_t n_rows, const vector<std::int64_t> &row,
                                        const vector<std::int64_t> &dof, const vector<double> &coefficient,
@@ -45,8 +53,10 @@ class BaseMotion {
 
   private:
     std::int64_t columns() const { return moved_.cols(); }
+    void carry(const vector<char> &moves, const vector<std::int64_t> &held,
+               const ConstraintRows &constraints);
     std::vector<LoadPart> parts_;
-    Matrix moved_;                     // U: n_dof x 2 parts, real and imaginary
+    Matrix moved_; // U, and what constraints tie to it: n_dof x 2 parts, real and imaginary
     Field through_[n_matrices], lift_; // A_fs U and L U, n_free x 2 parts
 };
 

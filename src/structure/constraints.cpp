@@ -35,9 +35,9 @@ double remainder(const Row &row) {
 
 class Elimination {
   public:
-    Elimination(const ConstraintRows &rows, const vector<char> &fixed)
-        : by_row_(static_cast<std::size_t>(rows.n_rows())), rows_of_(fixed.size()), count_(fixed.size(), 0),
-          scale_(fixed.size(), 1.0), dependent_of_(fixed.size(), none) {
+    Elimination(const ConstraintRows &rows, const vector<char> &fixed, const vector<char> &kept)
+        : kept_(kept), by_row_(static_cast<std::size_t>(rows.n_rows())), rows_of_(fixed.size()),
+          count_(fixed.size(), 0), scale_(fixed.size(), 1.0), dependent_of_(fixed.size(), none) {
         for (std::int64_t i = 0; i < rows.n_rows(); ++i) take(rows, i, fixed);
         named_ = count_;
         equilibrate();
@@ -120,6 +120,10 @@ class Elimination {
     Term choose(const Row &row) const {
         constexpr double not_small = 0.01;
         const auto is_left = [](const Term &t) { return std::abs(t.value) > cancelled_as_printed * t.size; };
+        const auto is_kept = [&](const Term &t) { return !kept_.empty() && kept_[t.dof]; };
+        const bool all_kept =
+            std::all_of(row.begin(), row.end(), [&](const Term &t) { return is_kept(t) || !is_left(t); });
+        const auto may_go = [&](const Term &t) { return is_left(t) && (all_kept || !is_kept(t)); };
         const auto scaled = [&](const Term &t) { return std::abs(t.value) * scale_[t.dof]; };
         const auto cost = [&](const Term &t) {
             const double size = std::abs(t.value);
@@ -127,10 +131,10 @@ class Elimination {
         };
         double largest = 0;
         for (const Term &t : row)
-            if (is_left(t)) largest = std::max(largest, scaled(t));
+            if (may_go(t)) largest = std::max(largest, scaled(t));
         const Term *best = nullptr;
         for (const Term &t : row)
-            if (is_left(t) && scaled(t) >= not_small * largest && (!best || cost(t) < cost(*best))) best = &t;
+            if (may_go(t) && scaled(t) >= not_small * largest && (!best || cost(t) < cost(*best))) best = &t;
         return *best;
     }
 
@@ -210,6 +214,7 @@ class Elimination {
             .index(d.row);
     }
 
+    const vector<char> &kept_;
     std::vector<Row> by_row_;
     std::vector<vector<std::int64_t>> rows_of_; // of a DOF; some may have lost it since
     vector<std::int64_t> count_;                // of rows still at work in which a DOF stands
@@ -224,9 +229,10 @@ class Elimination {
 
 } // namespace
 
-EliminatedConstraints eliminate(const ConstraintRows &rows, const vector<char> &fixed) {
+EliminatedConstraints eliminate(const ConstraintRows &rows, const vector<char> &fixed,
+                                const vector<char> &kept) {
     if (rows.n_rows() == 0) return {};
-    return Elimination(rows, fixed).run();
+    return Elimination(rows, fixed, kept).run();
 }
 
 } // namespace plm

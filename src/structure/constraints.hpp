@@ -30,7 +30,9 @@ struct EliminatedConstraints {
 
 /// Sparse Gaussian elimination, short rows first. In a row the dependent DOF is one with a coefficient that
 /// is not small there, by which few other rows are changed, and among such one of a large coefficient.
-/// fixed[dof]: held at zero, so that its terms drop out.
-EliminatedConstraints eliminate(const ConstraintRows &rows, const vector<char> &fixed);
+/// fixed[dof]: held at zero, so that its terms drop out. kept[dof]: dependent only where a row has no other;
+/// empty: none.
+EliminatedConstraints eliminate(const ConstraintRows &rows, const vector<char> &fixed,
+                                const vector<char> &kept = {});
 
 } // namespace plm

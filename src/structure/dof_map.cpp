@@ -31,11 +31,12 @@ SparseMatrix mirrored(const SparseMatrix &upper) {
 
 } // namespace
 
-DofMap::DofMap(std::int64_t n_dof, const vector<std::int64_t> &fixed, const ConstraintRows &constraints)
+DofMap::DofMap(std::int64_t n_dof, const vector<std::int64_t> &fixed, const ConstraintRows &constraints,
+               const vector<char> &kept)
     : place_(n_dof, 0) {
     vector<char> is_fixed(n_dof, 0);
     for (std::int64_t dof : fixed) is_fixed[dof] = 1, place_[dof] = held;
-    elimination_ = eliminate(constraints, is_fixed);
+    elimination_ = eliminate(constraints, is_fixed, kept);
     for (const auto &d : elimination_.dependent) place_[d.dof] = held;
     for (std::int64_t i = 0; i < n_dof; ++i)
         if (place_[i] != held) {

@@ -9,8 +9,9 @@ namespace plm {
 class DofMap {
   public:
     DofMap() = default;
-    /// Fixed DOFs, in any order, some perhaps twice.
-    DofMap(std::int64_t n_dof, const vector<std::int64_t> &fixed, const ConstraintRows &constraints);
+    /// Fixed DOFs, in any order, some perhaps twice. kept[dof]: stays if it can (constraints.hpp).
+    DofMap(std::int64_t n_dof, const vector<std::int64_t> &fixed, const ConstraintRows &constraints,
+           const vector<char> &kept = {});
 
     std::int64_t n_dof() const { return static_cast<std::int64_t>(place_.size()); }
     std::int64_t n_free() const { return static_cast<std::int64_t>(free_dof_.size()); }

@@ -110,7 +110,7 @@ void Structure::assemble(const StructureInput &input, GapSize gap) {
     held.insert(held.end(), input.multipliers.begin(), input.multipliers.end());
     const ConstraintRows constraints = with_multipliers(input);
     map_dofs(held, constraints);
-    parts_->base = BaseMotion(input.base_motion, n_dof_, input.fixed, constraints);
+    parts_->base = BaseMotion(input.base_motion, n_dof_, input.fixed, held, constraints);
     assemble_parts(input, gap);
     parts_->still_dofs = find_still_dofs();
     if (parts_->still_dofs.dof.empty()) return;
@@ -144,6 +144,7 @@ StillDofs Structure::find_still_dofs() const {
     };
     mark_loaded(preload_);
     for (const auto &entry : excitation_) mark_loaded(entry.second.real), mark_loaded(entry.second.imag);
+    parts_->base.mark_driven(moves);
     const bool others_move = std::count(moves.begin(), moves.end(), 1) > 0;
     return others_move ? plm::still_dofs(parts_->stiffness, parts_->mass, moves, parts_->dofs.free_dofs())
                        : StillDofs();

@@ -166,6 +166,10 @@ class Structure {
     const Field &preload() const { return preload_; } // one column, none without pre-load
     /// With what a motion of the base does as a force.
     const HarmonicForces &excitation() const { return excitation_; }
+    /// What a motion of the base adds to one of the sums to be counted from where nothing moves.
+    KnownMotion base_motion_of(std::int64_t output, double omega) const {
+        return parts_->base.of((*outputs_)[output - n_dof_], parts_->dofs, omega);
+    }
     /// And to the gaps.
     const std::vector<RowMotion> &row_motions() const { return parts_->row_motions; }
 

@@ -31,7 +31,8 @@ from verdicts import EVERY, failed, line, odd, summary, table
 def build(m):
     m = dict(m, **m.get("host", {}))
     of = (lambda a: a) if m.get("dense") else sp.csc_matrix
-    model = plm.Model(of(m.get("M_library", m["M"])), of(m.get("K_library", m["K"])), of(m["C"]) if m["damping"][0] == "matrix" else None)
+    damping, options = of(m["C"]) if m["damping"][0] == "matrix" else None, {"absolute_outputs": 1} if "absolute" in m else {}
+    model = plm.Model(of(m.get("M_library", m["M"])), of(m.get("K_library", m["K"])), damping, **options)
     if m["damping"][0] == "rayleigh":
         model.set_rayleigh_damping(*m["damping"][1:])
     elif m["damping"][0] == "modal":
@@ -44,9 +45,15 @@ def build(m):
     if np.any(m["P"]):
         model.set_preload(m["P"])
     model.set_excitation(m["F"], power=m.get("power", 0))
-    if "G" in m:
+    if "base" in m:
+        model.fix_dofs(np.flatnonzero(m["base"][0]))
+        model.set_base_motion(*m["base"])
+    elif "G" in m:
         model.set_gap_motion(m["G"])
-    return model.build()
+    model.build()
+    if "absolute" in m:
+        model.add_outputs(np.eye(len(m["M"]))[[m["absolute"]]])
+    return model
 
 
 def looked_at(m):
@@ -118,11 +125,16 @@ def condensed(m, x):
     return small, state.T.ravel()
 
 
+def force_of(m):
+    """By the powers of the frequency."""
+    return m.get("drive", {m.get("power", 0): m["F"].astype(complex)})
+
+
 def compare(m, x, omega, result):
     """The exact peak nearest that of the library."""
     if m.get("condense"):
         m, x = condensed(m, x)
-    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], m["F"].astype(complex), m["out"], m.get("G"), m.get("power", 0))
+    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], force_of(m), m["out"], m.get("G"), m.get("beside"))
     w, amplitude, phi, moved = s.peak_near(x, omega)
     result.update(exact_hz=w / 2 / np.pi, exact_amplitude=amplitude, moved=moved, events=s.events,
                   error=abs(result["amplitude"] / amplitude - 1), frequency_error=abs(omega / w - 1),
@@ -134,7 +146,7 @@ def compare_everywhere(m, peak, hbm, x, omega, result):
     largest), what is stated there, and the whole in the norm of energy. Curves over many gaps take too long to follow: the
     largest amplitude near a peak is that of any motion near it."""
     n = len(m["M"])
-    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], m["F"].astype(complex), np.arange(n), m.get("G"), m.get("power", 0))
+    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], force_of(m), np.arange(n), m.get("G"))
     y, w, phi = s.nearest(x, omega)
     s.flow(y, w)
     true = s.peak

@@ -29,13 +29,14 @@ class Piece:
         self.inverse = np.linalg.inv(self.vectors)
         load = np.concatenate([np.zeros(n), s.Minv @ (s.P + s.B.T @ (spring * s.g))])
         self.fixed = -np.linalg.solve(a, load)
-        self.power = s.power
-        self.drive, self.walls = (self.inverse @ np.concatenate([np.zeros(n), s.Minv @ f]) for f in (s.F, s.B.T @ (spring * s.G)))
+        of_modes = lambda f: self.inverse @ np.concatenate([np.zeros(n), s.Minv @ f])
+        self.drive = {power: of_modes(f) for power, f in s.F.items()}
+        self.drive[0] = self.drive.get(0, 0) + of_modes(s.B.T @ (spring * s.G))
         self.gaps = s.B @ self.vectors[:n]
 
     def forced(self, omega):
         """Complex amplitude of the forced motion."""
-        return self.vectors @ ((omega**self.power * self.drive + self.walls) / (1j * omega - self.values))
+        return self.vectors @ (sum(omega**power * f for power, f in self.drive.items()) / (1j * omega - self.values))
 
 
 def condensation(M, K, kept, reach=40.0, fewest=20):
@@ -52,15 +53,16 @@ def condensation(M, K, kept, reach=40.0, fewest=20):
 
 
 class Structure:
-    """M q'' + C q' + K q + B' max(kn u, 0) = P + omega^power Re(F exp(i omega t)), u = B q - g - Re(G exp(i omega t)); `out`: the
-    DOF looked at, or several."""
+    """M q'' + C q' + K q + B' max(kn u, 0) = P + Re(F exp(i omega t)), u = B q - g - Re(G exp(i omega t)); F: a vector, or several by
+    the power of omega they grow with; `out`: the DOF looked at, or several; `beside`: what is known to be added there, by powers, too."""
 
-    def __init__(self, M, C, K, B, kn, g, P, F, out, G=None, power=0):
+    def __init__(self, M, C, K, B, kn, g, P, F, out, G=None, beside=None):
         self.n = len(M)
         self.Minv = np.linalg.inv(M)
-        self.C, self.K, self.B, self.kn, self.g, self.P, self.F, self.out = C, K, B, kn, g, P, F, out
+        self.C, self.K, self.B, self.kn, self.g, self.P, self.out = C, K, B, kn, g, P, out
+        self.beside = beside or {}
+        self.F = F if isinstance(F, dict) else {0: F}
         self.G = np.zeros(len(g)) if G is None else G
-        self.power = power
         self._pieces = {}
 
     def piece(self, closed):
@@ -77,14 +79,14 @@ class Structure:
         n, end = self.n, periods * 2 * np.pi / omega
         outs = np.atleast_1d(self.out)
         t, events, peak = 0.0, 0, np.zeros(len(outs))
-        phi = np.eye(2 * n) if derivative else None
+        phi, known = np.eye(2 * n) if derivative else None, sum(omega**power * a for power, a in self.beside.items())
         u = self.B @ x[:n] - self.g - np.real(self.G)
         noise = 1e-13 * (np.abs(self.g) + np.abs(self.G) + np.abs(self.B) @ np.abs(x[:n]))
         closed = np.where(np.abs(u) > noise, u > 0, self.B @ x[n:] - np.real(1j * omega * self.G) > 0)
         while end - t > 1e-14 * end:
             p = self.piece(closed)
             f = p.forced(omega)
-            fg, fo, out = self.B @ f[:n] - self.G, f[outs, None], p.vectors[outs]
+            fg, fo, out = self.B @ f[:n] - self.G, f[outs, None] + known, p.vectors[outs]
             xp = lambda time: np.real(f * np.exp(1j * omega * time)) + p.fixed
             c = p.inverse @ (x - xp(t))
             base = self.B @ p.fixed[:n] - self.g

@@ -3,8 +3,9 @@
  *     name                        a heading: the numbers that follow belong to it
  *     %.17g                       one number per line (integers without a point)
  *
- * The scene: ten masses of 1 kg in a chain, the first one held; springs of 1e4 N/m; two pairs (masses 3 and
- * 6; mass 9 against a stop 1 mm away), a static pre-load, a harmonic force. Every input is a short decimal,
+ * The scene: ten masses of 1 kg in a chain, the first one fixed; springs of 1e4 N/m; two pairs (masses 3 and
+ * 6; mass 9 against a stop 1 mm away), a static pre-load, a harmonic force, and the
+ * support of the first mass moves. Every input is a short decimal,
  * so that all languages hold the same doubles. Nothing printed depends on time. */
 #include <plm/plm.h>
 #include <stdio.h>
@@ -41,7 +42,7 @@ static int64_t relative; /* output */
 static plm_model *make_model(void) {
     int32_t diagonal[N], row[2 * N - 1], column[2 * N - 1];
     double mass[N], stiffness[2 * N - 1], force[N] = {0}, preload[N] = {0}, grows[N] = {0},
-                                          grows_later[N] = {0};
+                                          grows_later[N] = {0}, base[N] = {1e-4}, base_later[N] = {5e-5};
     /* pair 0: u = q_2 - q_5, pair 1: u = q_8 - 0.001 */
     const int32_t row_start[] = {0, 2, 3}, dof[] = {2, 5, 8};
     const double coefficient[] = {1, -1, 1}, contact_stiffness[] = {PLM_AUTO_STIFFNESS, 20000},
@@ -65,12 +66,14 @@ static plm_model *make_model(void) {
     must(plm_model_set_matrix_i32(model, PLM_STIFFNESS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, k, row, column,
                                   stiffness));
     must(plm_model_set_rayleigh_damping(model, 0.5, 0.0002));
+    must(plm_model_fix_dofs_i32(model, 0, 1, diagonal));
     must(plm_model_add_constraints_i32(model, 0, 1, middle_row, middle_dof, middle));
     must(plm_model_add_gap_rows_i32(model, 0, PAIRS, row_start, dof, coefficient, contact_stiffness, gap));
     must(plm_model_set_preload(model, N, preload));
     must(plm_model_set_excitation(model, 1, N, force, NULL));
     must(plm_model_set_growing_excitation(model, 1, 2, N, grows, grows_later));
     must(plm_model_set_gap_motion(model, 2, PAIRS, shaken, later));
+    must(plm_model_set_base_motion(model, PLM_DISPLACEMENT, 1, N, base, base_later));
     must(plm_model_build(model));
     /* the motion of pair 0, as DOF N */
     must(plm_model_add_outputs_i32(model, 0, 1, row_start, dof, coefficient, &relative));

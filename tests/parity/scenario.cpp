@@ -22,7 +22,8 @@ template <class T> void print(const char *name, const std::vector<T> &values) {
 
 plm::Model make_model(const plm::Context &context) {
     std::vector<std::int32_t> diagonal, row, column;
-    std::vector<double> stiffness, force(n_masses), preload(n_masses), grows(n_masses), grows_later(n_masses);
+    std::vector<double> stiffness, force(n_masses), preload(n_masses), grows(n_masses), grows_later(n_masses),
+        base(n_masses), base_later(n_masses);
     for (int i = 0; i < n_masses; ++i) {
         diagonal.push_back(i);
         row.push_back(i), column.push_back(i), stiffness.push_back(i < n_masses - 1 ? 20000 : 10000);
@@ -32,16 +33,20 @@ plm::Model make_model(const plm::Context &context) {
     preload[8] = 5;
     grows[8] = 4e-4;
     grows_later[7] = 2e-4;
+    base[0] = 1e-4;
+    base_later[0] = 5e-5;
     plm::Model model(context, n_masses);
     model.set_mass(plm::triplets(diagonal, diagonal, std::vector<double>(n_masses, 1.0)).lower());
     model.set_stiffness(plm::triplets(row, column, stiffness).lower());
     model.set_rayleigh_damping(0.5, 0.0002);
+    model.fix_dofs(std::vector<std::int32_t>{0});
     model.add_constraints({0, 3}, {6, 5, 7}, {1, -0.5, -0.5});
     model.add_gap_rows({0, 2, 3}, {2, 5, 8}, {1, -1, 1}, {PLM_AUTO_STIFFNESS, 20000}, {0, 0.001});
     model.set_preload(preload);
     model.set_excitation(1, force);
     model.set_growing_excitation(1, 2, grows, grows_later);
     model.set_gap_motion(2, {0.0, 2e-5}, {0.0, 1e-5});
+    model.set_base_motion(PLM_DISPLACEMENT, 1, base, base_later);
     model.build();
     if (model.add_outputs({0, 2}, {2, 5}, {1, -1}) != relative) std::exit(1);
     return model;

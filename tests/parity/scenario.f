@@ -60,6 +60,7 @@ C     points count from 1 here.
       DOUBLE PRECISION XM(N), XK(2*N-1), FRE(N), FIM(N), PRE(N)
       DOUBLE PRECISION XMID(3), COEFF(3), STIFF(NPAIRS), GAP(NPAIRS)
       DOUBLE PRECISION SHAKE(NPAIRS), LATER(NPAIRS), GRE(N), GIM(N)
+      DOUBLE PRECISION BRE(N), BIM(N)
       DATA MROW /1, 4/
       DATA MDOF /7, 6, 8/
       DATA XMID /1.0D0, -0.5D0, -0.5D0/
@@ -80,6 +81,8 @@ C     points count from 1 here.
         PRE(I) = 0.0D0
         GRE(I) = 0.0D0
         GIM(I) = 0.0D0
+        BRE(I) = 0.0D0
+        BIM(I) = 0.0D0
         K = K + 1
         IROW(K) = I
         ICOL(K) = I
@@ -96,6 +99,8 @@ C     points count from 1 here.
       PRE(9) = 5.0D0
       GRE(9) = 4.0D-4
       GIM(8) = 2.0D-4
+      BRE(1) = 1.0D-4
+      BIM(1) = 5.0D-5
       MODEL = 0
       CALL PLMMCR(LCTX, N, MODEL, IERR)
       CALL MUST(IERR)
@@ -106,6 +111,8 @@ C     points count from 1 here.
      1            IERR)
       CALL MUST(IERR)
       CALL PLMMRD(MODEL, 0.5D0, 0.0002D0, IERR)
+      CALL MUST(IERR)
+      CALL PLMMFX(MODEL, 1, 1, IERR)
       CALL MUST(IERR)
       CALL PLMMCN(MODEL, 1, MROW, MDOF, XMID, IERR)
       CALL MUST(IERR)
@@ -118,6 +125,8 @@ C     points count from 1 here.
       CALL PLMMEG(MODEL, 1, 2, N, GRE, GIM, IERR)
       CALL MUST(IERR)
       CALL PLMMGM(MODEL, 2, NPAIRS, SHAKE, LATER, IERR)
+      CALL MUST(IERR)
+      CALL PLMMBM(MODEL, PLMDSP, 1, N, BRE, BIM, IERR)
       CALL MUST(IERR)
       CALL PLMMBU(MODEL, IERR)
       CALL MUST(IERR)

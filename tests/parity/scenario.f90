@@ -37,7 +37,7 @@ contains
         type(plm_context), intent(in) :: context
         type(plm_model), intent(inout) :: model
         real(real64) :: force(n_masses), preload(n_masses)
-        complex(real64) :: grows(n_masses)
+        complex(real64) :: grows(n_masses), base(n_masses)
         integer :: i
         call model%create(context, n_masses)
         call model%set_triplets(PLM_MASS, PLM_LOWER, [(i, i=1, n_masses)], [(i, i=1, n_masses)], &
@@ -46,6 +46,7 @@ contains
             [(i, i=1, n_masses), (i - 1, i=2, n_masses)], &
             [(2e4_real64, i=1, n_masses - 1), 1e4_real64, (-1e4_real64, i=2, n_masses)])
         call model%set_rayleigh_damping(0.5_real64, 0.0002_real64)
+        call model%fix_dofs([1])
         call model%add_constraints([1, 4], [7, 6, 8], [1.0_real64, -0.5_real64, -0.5_real64])
         call model%add_gap_rows([1, 3, 4], [3, 6, 9], [1.0_real64, -1.0_real64, 1.0_real64], &
             [PLM_AUTO_STIFFNESS, 2e4_real64], [0.0_real64, 0.001_real64])
@@ -60,6 +61,9 @@ contains
         call model%set_excitation(1, force)
         call model%set_growing_excitation(1, 2, grows)
         call model%set_gap_motion(2, [(0.0_real64, 0.0_real64), (2e-5_real64, 1e-5_real64)])
+        base = 0
+        base(1) = cmplx(1e-4_real64, 5e-5_real64, real64)
+        call model%set_base_motion(PLM_DISPLACEMENT, 1, base)
         call model%build()
         call model%add_outputs([1, 3], [3, 6], [1.0_real64, -1.0_real64], relative)
     end subroutine make_model

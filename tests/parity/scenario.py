@@ -18,6 +18,7 @@ def make_model():
     stiffness = scipy.sparse.diags([[20000.0] * (N - 1) + [10000.0], [-10000.0] * (N - 1)], [0, -1], format="coo")
     model = plm.Model(scipy.sparse.identity(N, format="coo"), stiffness, part="lower")
     model.set_rayleigh_damping(0.5, 0.0002)
+    model.fix_dofs([0])
     middle = numpy.zeros((1, N))
     middle[0, [6, 5, 7]] = 1, -0.5, -0.5
     model.add_constraints(middle)
@@ -32,6 +33,7 @@ def make_model():
     model.set_excitation(force)
     model.set_excitation(grows, power=2)
     model.set_gap_motion([0, 2e-5 + 1e-5j], harmonic=2)
+    model.set_base_motion((1e-4 + 5e-5j) * (numpy.arange(N) == 0))
     model.build()
     assert model.add_outputs(rows[:1]) == range(RELATIVE, RELATIVE + 1)
     return model

@@ -16,7 +16,7 @@ class Scene:
     def __init__(self, **changed):
         force, preload = numpy.zeros(N), numpy.zeros(N)
         force[4], preload[2] = 2.0, 3.0
-        self.acts = {"excitation": [force], "second": [1e-1 * force, 2], "preload": [preload], "gap_motion": [None],
+        self.acts = {"excitation": [force], "second": [1e-1 * force, 2], "preload": [preload], "gap_motion": [None, 2],
                      "rayleigh_damping": [1.0, 1e-4], "modal_damping": [[]], "structural_damping": [0.0], **changed}
 
     def put(self, model, names=None):
@@ -139,7 +139,8 @@ class ChangedLoads(unittest.TestCase):
         model = Scene().model()
         sampler, basis, hbm = chain_of(model)
         computed(sampler, basis, hbm)
-        below = plm.Basis(model, sampler, parent=basis, kind="plm", n_harmonics=5)
+        parent = quietly(plm.Basis(model, sampler, kind="full", n_harmonics=5).build)
+        below = plm.Basis(model, sampler, parent=parent, kind="plm", n_harmonics=5)
         quietly(below.build)
         quietly(model.set_structural_damping, 0.01)
         quietly(sampler.run)
@@ -148,22 +149,22 @@ class ChangedLoads(unittest.TestCase):
         self.assertEqual((caught.exception.status, caught.exception.argument), (plm.ERR_STATE, "parent"))
 
     def test_loads_on_what_the_build_held(self):
-        """A DOF that nothing holds or moves is held by the build; a load on it needs another one."""
-        m, k = numpy.zeros((N + 1, N + 1)), numpy.zeros((N + 1, N + 1))
+        """DOFs with a spring to the ground each, that nothing moves, are held by the build; a load on one needs another build."""
+        m, k = numpy.eye(N + 2), numpy.eye(N + 2)
         m[:N, :N], k[:N, :N] = matrices()
         made = plm.Model(m, k)
-        made.add_gap_rows(pair_row(N + 1)[None], stiffness=5e4)
+        made.add_gap_rows(pair_row(N + 2)[None], stiffness=5e4)
         made.set_rayleigh_damping(1.0, 0.0)
-        made.set_excitation(numpy.eye(N + 1)[4])
+        made.set_excitation(numpy.eye(N + 2)[4])
         quietly(made.build)
-        held = numpy.eye(N + 1)[N]
+        held = numpy.eye(N + 2)[N + 1]
         for call in (lambda: made.set_preload(held), lambda: made.set_excitation(1j * held, 3),
                      lambda: made.set_modal_damping([0.1, 0.2])):
             with self.assertRaises(plm.PlmError) as caught:
                 quietly(call)
             self.assertEqual(caught.exception.status, plm.ERR_STATE)
             self.assertIn("make a new model", str(caught.exception))
-        quietly(made.set_preload, numpy.eye(N + 1)[3])
+        quietly(made.set_preload, numpy.eye(N + 2)[3])
 
     def test_rounding_of_unheld_loads_is_said_as_by_the_build(self):
         """A free chain: a pre-load that balances but for a printed digit is balanced and said, in the build or after it."""

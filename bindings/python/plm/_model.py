@@ -117,7 +117,8 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
 
     def add_outputs(self, rows):
         """Outputs rows @ q (n x n_dof, sparse or dense) beside the DOFs: a stress, a relative motion. Returns their numbers, each
-        of which may stand wherever a dof is looked at. Before or after the build, also for branches that are there."""
+        of which may stand wherever a dof is looked at. Before or after the build, also for branches that are there. With
+        Model(..., absolute_outputs=1) they include the motion of moving supports."""
         start, dof, coefficient, width = self._rows(rows, "it never moves")
         first = ctypes.c_int64()
         self._call("add_outputs" + width, 0, start.size - 1, address(start), address(dof), address(coefficient),
@@ -316,7 +317,8 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
 
     def set_base_motion(self, motion, quantity="displacement", harmonic=1):
         """Moving supports: Re(U_h exp(i h omega t)); motion: U_h, n_dof, real or complex, zero where a DOF is not fixed;
-        quantity: "displacement", "velocity" or "acceleration". Results are relative to the base. None removes the harmonic."""
+        quantity: "displacement", "velocity" or "acceleration". What constraints tie to the supports moves with them. Results are
+        relative to the base; with the option absolute_outputs=1 those of add_outputs are absolute. None removes the harmonic."""
         if quantity not in QUANTITIES:
             raise ValueError(f"quantity must be one of {', '.join(QUANTITIES)}, not {quantity!r}")
         imaginary = None

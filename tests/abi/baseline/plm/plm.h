@@ -468,7 +468,8 @@ PLM_API plm_status plm_model_set_rest_force(plm_model *model, int64_t n, const d
  * observes) such a number may stand: amplitudes with their exact extrema, peaks, error estimates, refinement, one call,
  * studies and histories all look at a sum as at a DOF, and no function of its own is needed for any of them. Results do not
  * depend on it otherwise, so outputs may be added before the build and after it, also for branches that are there already;
- * none is ever taken away. Terms of fixed DOFs are zero. Fields (q[n_dof]) and loads are of the DOFs alone. */
+ * none is ever taken away. Terms of fixed DOFs are zero (of moving supports: see plm_model_set_base_motion). Fields (q[n_dof])
+ * and loads are of the DOFs alone. */
 PLM_API plm_status plm_model_add_outputs_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *row_ptr,
                                              const int32_t *dof, const double *coefficient, int64_t *first_dof);
 PLM_API plm_status plm_model_add_outputs_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *row_ptr,
@@ -508,16 +509,22 @@ PLM_API plm_status plm_model_set_gap_motion(plm_model *model, int32_t harmonic, 
                                             const double *imag);
 
 /* Moving supports: harmonic h >= 1 of the motion of fixed DOFs, Re((real + i imag) exp(i h omega t)), each [n], n =
- * n_dof, imag or NULL (zero); entries of DOFs that are not fixed must be zero, and a DOF that moves is in no constraint
- * (both are told by plm_model_build). quantity: PLM_DISPLACEMENT (length), PLM_VELOCITY (length/s) or PLM_ACCELERATION
- * (length/s^2); one of them for a harmonic, the last one given. All results are relative to the base: displacements less
- * those with which the structure follows its supports at rest, L u_s, L = -K_ff^-1 K_fs; supports stay at zero.
- * With all supports moved alike L u_s is that rigid motion, which the host adds for absolute results. M, K and C act
- * through the supports as they do among the free DOFs; modal damping, structural damping and the stiffness part of
- * Rayleigh's damp the relative motion, the mass part and the matrix C the absolute one. A row of the gap matrix that the
- * base moves, as against a wall that stands still, has a gap that moves (plm_model_set_gap_motion says what follows);
- * that takes PLM_DISPLACEMENT, or plm_model_build refuses. It is excitation: force_scale multiplies it.
- * real = NULL removes harmonic h. */
+ * n_dof, imag or NULL (zero); entries of DOFs that are not fixed must be zero. Supports may move differently. DOFs that
+ * constraints tie to them move with them (a shaker's table: fix and move the reference node of a rigid link);
+ * plm_model_build refuses a DOF that moves without being fixed, and a motion that the constraints forbid. quantity:
+ * PLM_DISPLACEMENT (length), PLM_VELOCITY (length/s) or PLM_ACCELERATION (length/s^2), rotations in rad; one of them for a
+ * harmonic, the last one given.
+ * Results are relative to the base: displacements less those with which the structure follows its supports at rest, L u_s,
+ * L = -K_ff^-1 K_fs; supports, and what moves with them alone, stay at zero; what nothing but contact holds does not follow.
+ * For absolute results set the option "absolute_outputs" to 1 before the build: outputs of plm_model_add_outputs then include
+ * the motion of the supports (of supports themselves too), wherever an output may stand; DOFs, fields, states of a transient
+ * and plm_model_recover_amplitude stay relative.
+ * M, K and C act through the supports as they do among the free DOFs: a dashpot to a support needs its entries there. Modal
+ * damping, structural damping and the stiffness part of Rayleigh's damp the relative motion, the mass part and the matrix C
+ * the absolute one. A row of the gap matrix that the base moves, as against a wall that stands still, has a gap that moves
+ * (plm_model_set_gap_motion says what follows); that takes PLM_DISPLACEMENT, or plm_model_build refuses. A row with
+ * a support in it is a wall that moves with the support. It is excitation: force_scale multiplies it; it belongs to the build
+ * and is not changed after it. real = NULL removes harmonic h. */
 #define PLM_DISPLACEMENT 0
 #define PLM_VELOCITY 1
 #define PLM_ACCELERATION 2
