@@ -441,7 +441,8 @@ PLM_API plm_status plm_model_add_surface_i64(plm_model *model, int32_t index_bas
  * stiffness: by area (force/length^3), times the area that each node stands for; of each pair (force/length) where the
  * slave has neither faces nor areas; or PLM_AUTO_STIFFNESS. Nodes farther than `search` from all faces, or beside them (by
  * more than half their gap and a hundredth of the face), have no partner. Nor have those that look the same way as the
- * nearest face does: PLM_WARNING with PLM_REASON_MODEL, for then faces are turned over, or a sheet has two sides.
+ * nearest face does: PLM_WARNING with PLM_REASON_MODEL, for then faces are turned over, or a sheet has two sides. Where all
+ * DOFs of both sides are fixed by then there is no pair either.
  * PLM_ERR_ARGUMENT where nobody has a partner. Rows are zero along rigid motions of both surfaces, rotations included,
  * whatever the gap: its lever arm lies along the normal. (A slave that leans over turns the force with its own
  * displacement no more than any small motion does.) What was found: "surface_report" in words, and "surface_point",
@@ -457,7 +458,8 @@ PLM_API plm_status plm_model_add_surface_contact(plm_model *model, int64_t slave
  * PLM_KEEP_GAP: the pair keeps its gap. n is the number of pairs added so far, those added later keep theirs; NULL
  * removes it. Displacements count from the structure without loads and contact, as ever: where the matrices
  * are those of the state at rest, hand over B^T force as pre-load and they count from there. Motions are the same.
- * PLM_ERR_CONVERGENCE of the build with PLM_REASON_NO_EQUILIBRIUM where pre-load and forces push a loose body. */
+ * PLM_ERR_CONVERGENCE of the build with PLM_REASON_NO_EQUILIBRIUM where pre-load and forces push a loose body; where both
+ * change after the build: NULL, the new pre-load, the new forces. */
 #define PLM_KEEP_GAP (-1.0)
 PLM_API plm_status plm_model_set_rest_force(plm_model *model, int64_t n, const double *force);
 

@@ -109,6 +109,17 @@ struct Pass {
     bool knows_areas = false;
 };
 
+// Of what is fixed on both sides nothing ever changes, as at the ends of surfaces that are clamped together.
+void leave_out_held(std::vector<SurfacePair> &points, const ModelInput &input) {
+    std::vector<char> fixed(static_cast<std::size_t>(input.n_dof), 0);
+    for (std::int64_t dof : input.fixed) fixed[static_cast<std::size_t>(dof)] = 1;
+    for (SurfacePair &p : points)
+        if (p.has_partner() && std::all_of(p.row.begin(), p.row.end(), [&](const DofTerm &t) {
+                return fixed[static_cast<std::size_t>(t.dof)];
+            }))
+            p.face = SurfacePair::held;
+}
+
 Pass find_pairs(const ModelHandle &m, const Contacting &x, bool is_reversed) {
     const std::int64_t from = is_reversed ? x.master : x.slave, to = is_reversed ? x.slave : x.master;
     const ContactSurface &slave = surface_of(m, from, "slave"), &master = surface_of(m, to, "master");
@@ -119,6 +130,7 @@ Pass find_pairs(const ModelHandle &m, const Contacting &x, bool is_reversed) {
     choice.is_two_sided = x.options & PLM_SURFACE_TWO_SIDED;
     Pass pass{surface_contact(slave.mesh, master.mesh, choice), from, to,
               x.options & PLM_SURFACE_SYMMETRIC ? 0.5 : 1.0};
+    leave_out_held(pass.points, m.input);
     pass.knows_areas = slave.mesh.n_faces() > 0 || !slave.area.empty();
     if (!choice.at_points && !slave.area.empty())
         for (SurfacePair &p : pass.points)
@@ -150,7 +162,8 @@ void take(NewPairs &pairs, const Pass &pass, const Contacting &x) {
 
 /// Of one pass.
 struct Findings {
-    std::int64_t n_pairs = 0, n_alone = 0, n_opposed = 0, n_closed = 0, n_pressed = 0, first_opposed = -1;
+    std::int64_t n_pairs = 0, n_alone = 0, n_opposed = 0, n_held = 0, n_closed = 0, n_pressed = 0,
+                 first_opposed = -1;
     std::int64_t farthest = 0, deepest = 0, nearest = 0; // points
     double distance = 0, interference = 0, least = -1;
 };
@@ -161,6 +174,7 @@ Findings look_at(const Pass &pass, double closed) {
         if (f.least < 0 || p.distance < f.least) f.least = p.distance, f.nearest = p.point;
         if (p.face == SurfacePair::opposed && f.n_opposed++ == 0) f.first_opposed = p.point;
         f.n_alone += p.face == SurfacePair::none;
+        f.n_held += p.face == SurfacePair::held;
         if (!p.has_partner()) continue;
         ++f.n_pairs;
         f.n_closed += std::abs(p.gap) <= closed;
@@ -175,10 +189,11 @@ std::string in_words(const Pass &pass, const Findings &f, std::int64_t contact) 
     return format(
         "contact %lld, %lld points of surface %lld on surface %lld: %lld pairs, the farthest (point "
         "%lld) at %g; %lld of them closed, %lld with interference, the deepest (point %lld) by %g; "
-        "%lld points look the same way as the nearest face, %lld have no face near them\n",
+        "%lld points look the same way as the nearest face, %lld have no face near them, and at %lld nothing "
+        "can move\n",
         Int(contact), Int(pass.points.size()), Int(pass.slave), Int(pass.master), Int(f.n_pairs),
         Int(f.farthest), f.distance, Int(f.n_closed), Int(f.n_pressed), Int(f.deepest), f.interference,
-        Int(f.n_opposed), Int(f.n_alone));
+        Int(f.n_opposed), Int(f.n_alone), Int(f.n_held));
 }
 
 void add(SurfaceReport &report, const Pass &pass, const Findings &f, std::int64_t first_pair) {
@@ -204,7 +219,7 @@ Outcome add_contact(ModelHandle &m, const Contacting &x) {
         if (is_reversed && !(x.options & PLM_SURFACE_SYMMETRIC)) break;
         const Pass pass = find_pairs(m, x, is_reversed);
         const Findings f = look_at(pass, x.closed);
-        if (f.n_pairs == 0 && f.n_opposed == 0)
+        if (f.n_pairs + f.n_opposed + f.n_held == 0)
             bad_argument(
                 "search", -1,
                 format("no point of surface %lld has a partner on surface %lld: the nearest, point %lld "

@@ -143,7 +143,7 @@ std::vector<SurfacePair> surface_contact(const MeshSurface &slave, const MeshSur
             pair.row.erase(std::remove_if(pair.row.begin(), pair.row.end(),
                                           [](const DofTerm &t) { return t.coefficient == 0; }),
                            pair.row.end());
-            if (pair.row.empty()) pair.face = SurfacePair::none; // a node of both, or nothing that moves
+            if (pair.row.empty()) pair.face = SurfacePair::held; // a node of both, too
         }
         pairs.push_back(std::move(pair));
     }

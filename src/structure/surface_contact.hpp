@@ -14,7 +14,8 @@ struct SurfaceContactChoice {
 
 /// Of a node, or of a point of a face: a partner on the master, or none.
 struct SurfacePair {
-    static constexpr std::int64_t none = -1, opposed = -2; // face: too far or beside; looking the same way
+    // face: too far or beside; looking the same way; nothing there moves
+    static constexpr std::int64_t none = -1, opposed = -2, held = -3;
     std::int64_t face = none;
     std::int64_t point =
         0;           // the node, or the number of the point; nodes without faces are none where there are any
