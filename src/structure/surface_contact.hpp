@@ -8,7 +8,7 @@ namespace plm {
 struct SurfaceContactChoice {
     double search = 0;         // a length: points farther from all faces have no partner
     bool at_points = false;    // pairs at the points that integrate over the slave's faces, not at its nodes
-    bool is_smooth = false;    // normals smooth across the master's edges, not those of its faces
+    bool is_smooth = false;    // normals and gaps of surfaces smooth across their edges, not of their faces
     bool is_two_sided = false; // the master has no inside: each point stands on the side that it is on
 };
 

@@ -86,4 +86,17 @@ Point SurfaceNormals::smooth(std::int64_t face, const std::array<double, most_fa
     return n;
 }
 
+double SurfaceNormals::rise(const SurfaceMesh &mesh, std::int64_t face,
+                            const std::array<double, most_face_nodes> &weight) const {
+    const std::int64_t *node = mesh.nodes(face);
+    Point at{};
+    for (int i = 0; i < mesh.n_nodes(face); ++i)
+        add(at, weight[static_cast<std::size_t>(i)], mesh.node[node[i]]);
+    double rise = 0;
+    for (int i = 0; i < mesh.n_nodes(face); ++i)
+        rise += weight[static_cast<std::size_t>(i)] *
+                dot(difference(mesh.node[node[i]], at), smooth_[mesh.face_ptr[face] + i]) / 2;
+    return rise;
+}
+
 } // namespace plm

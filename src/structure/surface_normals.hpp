@@ -18,6 +18,10 @@ class SurfaceNormals {
     /// On a face, by its shape functions there: from a mean at each node over those faces that meet this one
     /// at less than 45 degrees, so that edges that are meant stay.
     Point smooth(std::int64_t face, const std::array<double, most_face_nodes> &weight) const;
+    /// How far the surface with these normals at its nodes stands above the face there. Of facets of a
+    /// parabola what they cut off: half of what each tangent plane tells.
+    double rise(const SurfaceMesh &mesh, std::int64_t face,
+                const std::array<double, most_face_nodes> &weight) const;
 
   private:
     void take_face(const SurfaceMesh &mesh, std::int64_t face);
