@@ -2,6 +2,7 @@
 import itertools
 
 import numpy
+import plm
 import scipy.sparse
 
 CORNERS = numpy.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 2], [2, 0, 2], [2, 2, 2], [0, 2, 2]])
@@ -112,3 +113,70 @@ class Solid:
                 faces.append(corners + (middles if self.kind in ("brick20", "tetra10") else []))
         return faces
 
+    def pressure(self, axis, end, value=1.0):
+        """Nodal forces of a uniform pressure on a side, n x 3."""
+        force = numpy.zeros_like(self.xyz)
+        for face in self.faces(axis, end):
+            square = self.kind.startswith("brick")
+            corners = numpy.array([[0, 0], [1, 0], [1, 1], [0, 1]] if square else [[0, 0], [1, 0], [0, 1]], float)
+            around = corners if len(face) == len(corners) else numpy.vstack([corners, (corners + numpy.roll(corners, -1, 0)) / 2])
+            powers = numpy.array(list(itertools.product(range(3), repeat=2)))
+            size = powers.max(1) if square else powers.sum(1)
+            linear = len(face) == len(corners)
+            powers = powers[size <= 1 if linear else (powers.min(1) < 2 if square else size <= 2)]
+            inverse = numpy.linalg.inv(flat(powers, around)[0])
+            x, w = numpy.polynomial.legendre.leggauss(4)
+            for (s, a), (t, b) in itertools.product(zip((x + 1) / 2, w / 2), repeat=2):
+                if not square:
+                    t, b = t * (1 - s), b * (1 - s)
+                N, ds, dt = (f[0] @ inverse for f in flat(powers, numpy.array([[s, t]])))
+                force[face] -= value * a * b * numpy.outer(N, numpy.cross(ds @ self.xyz[face], dt @ self.xyz[face]))
+        return force
+
+
+def flat(powers, x):
+    """Polynomials of the plane at points, and their two slopes."""
+    def power(a, n):
+        return x[:, None, a]**numpy.maximum(n, 0)
+    i, j = powers.T
+    return power(0, i) * power(1, j), i * power(0, i - 1) * power(1, j), j * power(0, i) * power(1, j - 1)
+
+
+class Joined:
+    """Two solids and their contact: the model, its DOFs (nodes x 3), and where the second's nodes begin."""
+
+    def __init__(self, one, other):
+        self.one, self.other, self.n = one, other, len(one.xyz)
+        self.xyz = numpy.vstack([one.xyz, other.xyz])
+        self.dof = numpy.arange(self.xyz.size).reshape(-1, 3)
+        self.mass = scipy.sparse.block_diag([one.mass, other.mass]).tocsc()
+        self.stiffness = scipy.sparse.block_diag([one.stiffness, other.stiffness]).tocsc()
+        self.model, self.held = plm.Model(self.mass, self.stiffness), []
+
+    def hold(self, nodes, *components):
+        for c in components:
+            self.held += list(self.dof[nodes, c])
+
+    def sides(self, axis, end):
+        """The nodes there, of both."""
+        return numpy.concatenate([self.one.nodes(axis, end), self.n + self.other.nodes(axis, end)])
+
+    def node(self, *at):
+        """The nearest."""
+        return int(numpy.argmin(abs(self.xyz - at).sum(1)))
+
+    def touch(self, of_one, of_other, stiffness, closed, search=0.1, turned=False, **options):
+        """The sides that meet; the other is the slave, or, turned, the master."""
+        self.model.fix_dofs(numpy.unique(self.held))
+        one = self.model.add_surface(self.dof[:self.n], self.one.xyz, self.one.faces(*of_one))
+        other = self.model.add_surface(self.dof[self.n:], self.other.xyz, self.other.faces(*of_other))
+        slave, master = (one, other) if turned else (other, one)
+        self.model.add_surface_contact(slave, master, search, stiffness, closed, **options)
+
+    def areas(self, symmetric=False):
+        """Of each pair; each side carries half where both are slaves."""
+        has = self.model.surface_pair >= 0
+        return numpy.bincount(self.model.surface_pair[has], self.model.surface_area[has]) * (0.5 if symmetric else 1)
+
+    def loads(self, one=None, other=None):
+        return numpy.vstack([numpy.zeros_like(s.xyz) if f is None else f for s, f in ((self.one, one), (self.other, other))]).ravel()
