@@ -6,8 +6,7 @@ families.py, with more of what the judge should know:
     twin       (T, out): the same model in other coordinates, q = T q_twin; its answer must be the same
     K_library  what the library is given where the exact motion needs more (B_library likewise)
     exact_to   how exact the exact motion is, where not 1e-6
-    G          motion of the gaps at the excitation's frequency, complex amplitudes
-    power      of the frequency, with which F grows
+    G, power, given: see families_acting.py
     host       what the library is given in place of all this: DOFs q of which `rows` @ q = 0, or with `couplings` (methods of
                plm.Model and their arguments), the motions of the model by q = `to_host` times those here
 """
@@ -369,24 +368,5 @@ def coupled(rng):
     return dict(m, host=host, to_host=N)
 
 
-def moving(rng):
-    """Walls that move with the excitation, each by a phase of its own or all in step, beside the force or, where the pairs touch at
-    rest, in its place."""
-    m = (families.chains, families.breathing, families.beam_with_stops)[int(rng.integers(3))](rng)
-    w2 = scipy.linalg.eigh(m["K"], m["M"], eigvals_only=True)
-    q = np.linalg.solve(m["K"] - w2[0] * m["M"] + 1j * np.sqrt(w2[0]) * m["C"], m["F"])
-    phase = rng.uniform(0, 2 * np.pi, len(m["B"])) if rng.random() < 0.5 else np.full(len(m["B"]), rng.uniform(0, 2 * np.pi))
-    m["G"] = np.abs(m["B"] @ q).max() * 10 ** rng.uniform(-1.5, -0.5) * rng.uniform(0.5, 1, len(m["B"])) * np.exp(1j * phase)
-    if m["kind"] in ("preload", "interference") and rng.random() < 0.4:
-        m["F"] = np.zeros(len(m["F"]))
-    return m
-
-
-def unbalanced(rng):
-    """A force that grows with the square of the frequency: at the lowest natural frequency it is what the family draws."""
-    m = (families.chains, families.breathing, families.beam_with_stops)[int(rng.integers(3))](rng)
-    return dict(m, F=m["F"] / scipy.linalg.eigh(m["K"], m["M"], eigvals_only=True)[0], power=2)
-
-
 FAMILIES = (hard_stops, hard_stops_one_ratio, many_gaps, permuted, turned_mesh, round_shaft, twin_plates, free_bodies, hanging_parts,
-            dashpots, superelements, constrained, coupled, moving, unbalanced)
+            dashpots, superelements, constrained, coupled)

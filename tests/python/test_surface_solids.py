@@ -156,6 +156,28 @@ class SurfacesOfSolids(unittest.TestCase):
             two.model.set_rest_force(2 * force)
             numpy.testing.assert_array_equal(two.model.solve_rest().rest_force, 2 * force)
 
+    def test_lap_joint(self):
+        """Two plates that bolts press together, free to slide: across that the pre-load has no terms but rounding, and it rests;
+        the resultant goes through the middle of the bolts."""
+        for kind, cells in ("brick8", (12, 4, 1)), ("brick8", (18, 5, 1)), ("brick20", (9, 4, 1)), ("tetra10", (9, 4, 1)):
+            two = Joined(Solid(kind, (12, 4, 1), lambda x, y, z: (6 * x, 2 * y, 0.3 * z), modulus=1000),
+                         Solid(kind, cells, lambda x, y, z: (4 + 6 * x, 2 * y, 0.3 + 0.3 * z), modulus=1000))
+            two.hold(two.one.nodes(0, 0), 0, 1, 2)
+            bolts = numpy.zeros_like(two.xyz)
+            for x, y in (4.5, 0.5), (4.5, 1.5), (5.5, 0.5), (5.5, 1.5):
+                bolts[two.n + numpy.argmin(abs(two.other.xyz - [x, y, 0.6]).sum(1)), 2] -= 1
+                bolts[numpy.argmin(abs(two.one.xyz - [x, y, 0]).sum(1)), 2] += 1
+            two.model.set_preload(bolts.ravel())
+            two.touch((2, -1), (2, 0), 1e4, 1e-6)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error", plm.PlmWarning)
+                two.model.build().solve_rest()
+            force = two.model.rest_force
+            self.assertLess(abs(force.sum() / 4 - 1), 1e-11)
+            if kind == "brick8":
+                at = two.other.xyz[two.model.surface_point[two.model.surface_pair >= 0]]
+                numpy.testing.assert_allclose(force @ at[:, :2] / 4, [5, 1], rtol=1e-9)
+
     def test_what_is_left_out(self):
         """A master smaller than the slave, and nodes that are fixed on both sides."""
         two = Joined(Solid("brick8", (3, 2, 1), lambda x, y, z: (3 * x, 2 * y, z)), Solid("brick8", (6, 2, 1), lambda x, y, z: (6 * x, 2 * y, 1 + z)))
