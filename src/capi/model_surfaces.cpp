@@ -64,7 +64,7 @@ const ContactSurface &surface_of(const ModelHandle &m, std::int64_t surface, con
         bad_argument(
             name, -1,
             format("%s is %lld, but the model has %lld surfaces, counted from 0 (from 1 in Fortran); "
-                   "add it first by plm_model_add_surface",
+                   "add it first",
                    name, Int(surface), Int(n)));
     return m.surfaces[static_cast<std::size_t>(surface)];
 }

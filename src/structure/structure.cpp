@@ -209,7 +209,7 @@ void Structure::assemble_gap(const StructureInput &input, GapSize size) {
             throw Error(status::argument,
                         format("contact pair %lld (counted from 0, in the order they were added) "
                                "touches %s: its penetration can never change; leave it "
-                               "out or release a DOF (plm_model_add_surface_contact leaves out "
+                               "out or release a DOF (a contact of surfaces leaves out "
                                "what is fixed by then)",
                                Int(size.pair_of(i)),
                                parts_->dofs.has_dependent()

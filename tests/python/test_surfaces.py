@@ -66,7 +66,7 @@ class Surfaces(unittest.TestCase):
             if by_hand:
                 model.add_ground_contacts(dof[top], [0, 0, 1], 50.0, xyz[top, 2] * 0 - 0.001)
             else:
-                nodes = model.add_surface(dof[top], xyz[top])
+                nodes = model.add_surface(dof[top].astype(numpy.int32), xyz[top])
                 model.add_surface_contact(nodes, model.add_surface(None, wall, [[3, 2, 1, 0]]), 0.1, 50.0)
                 self.near(model.surface_interference, 0.001, 1e-10)
                 self.assertRegex(model.surface_report, "9 pairs.* 0 of them closed, 9 with interference")
