@@ -178,6 +178,20 @@ class SurfacesOfSolids(unittest.TestCase):
                 at = two.other.xyz[two.model.surface_point[two.model.surface_pair >= 0]]
                 numpy.testing.assert_allclose(force @ at[:, :2], -bolts[two.n:, 2] @ two.other.xyz[:, :2], rtol=1e-9)
 
+    def test_twins(self):
+        """Nodes that face each other find each other from both sides: one pair of the whole stiffness, which both points name."""
+        made = []
+        for symmetric in False, True:
+            two = blocks("brick8", (3, 2, 2), (3, 2, 2))
+            two.model.set_preload(two.loads(other=two.other.pressure(2, -1)))
+            two.touch((2, -1), (2, 0), 1e4, 1e-6, symmetric=symmetric)
+            two.model.build().solve_rest()
+            made.append(two.model)
+        self.assertEqual(made[1].n_pairs, 12)
+        self.assertEqual(sorted(made[1].surface_pair), sorted(2 * list(range(12))))
+        numpy.testing.assert_allclose(made[1].contact_stiffness, made[0].contact_stiffness, rtol=1e-13)
+        numpy.testing.assert_allclose(made[1].rest_force, made[0].rest_force, rtol=1e-10)
+
     def test_what_is_left_out(self):
         """A master smaller than the slave, and nodes that are fixed on both sides."""
         two = Joined(Solid("brick8", (3, 2, 1), lambda x, y, z: (3 * x, 2 * y, z)), Solid("brick8", (6, 2, 1), lambda x, y, z: (6 * x, 2 * y, 1 + z)))
