@@ -207,8 +207,9 @@ static int couplings(plm_context *ctx) {
     /* [plm_model_add_surface_i64] */
     const int64_t wall_ptr[] = {0, 3}, wall_node[] = {0, 1, 2}; /* a rigid triangle, its normal down */
     const double wall_at[] = {0, 0, 1, 0, 10, 1, 10, 0, 1};
+    const int64_t none[] = {-1, -1, -1, -1, -1, -1, -1, -1, -1};
     int64_t wall = 0;
-    TRY(plm_model_add_surface_i64(model, 0, 3, NULL, wall_at, NULL, 1, wall_ptr, wall_node, &wall));
+    TRY(plm_model_add_surface_i64(model, 0, 3, none, wall_at, NULL, 1, wall_ptr, wall_node, &wall));
     /* [plm_model_add_surface_i64] */
     TRY(plm_model_destroy(&model));
 

@@ -3,6 +3,8 @@
 #include "capi/new_pairs.hpp"
 #include "capi/node_tables.hpp"
 #include "structure/surface_normals.hpp"
+#include <algorithm>
+#include <map>
 
 namespace plm::capi {
 namespace {
@@ -62,7 +64,7 @@ const ContactSurface &surface_of(const ModelHandle &m, std::int64_t surface, con
         bad_argument(
             name, -1,
             format("%s is %lld, but the model has %lld surfaces, counted from 0 (from 1 in Fortran); "
-                   "add it first by plm_model_add_surface",
+                   "add it first",
                    name, Int(surface), Int(n)));
     return m.surfaces[static_cast<std::size_t>(surface)];
 }
@@ -109,16 +111,36 @@ struct Pass {
     bool knows_areas = false;
 };
 
+// Shares of a pressure that nodes of such faces can carry are not positive at corners: no pairs at nodes pass
+// a uniform one.
+bool has_middle_nodes(const MeshSurface &surface) {
+    for (std::int64_t face = 0; face < surface.n_faces(); ++face)
+        if (surface.face_ptr[face + 1] - surface.face_ptr[face] > 4) return true;
+    return false;
+}
+
+// Of what is fixed on both sides nothing ever changes, as at the ends of surfaces that are clamped together.
+void leave_out_held(std::vector<SurfacePair> &points, const ModelInput &input) {
+    std::vector<char> fixed(static_cast<std::size_t>(input.n_dof), 0);
+    for (std::int64_t dof : input.fixed) fixed[static_cast<std::size_t>(dof)] = 1;
+    for (SurfacePair &p : points)
+        if (p.has_partner() && std::all_of(p.row.begin(), p.row.end(), [&](const DofTerm &t) {
+                return fixed[static_cast<std::size_t>(t.dof)];
+            }))
+            p.face = SurfacePair::held;
+}
+
 Pass find_pairs(const ModelHandle &m, const Contacting &x, bool is_reversed) {
     const std::int64_t from = is_reversed ? x.master : x.slave, to = is_reversed ? x.slave : x.master;
     const ContactSurface &slave = surface_of(m, from, "slave"), &master = surface_of(m, to, "master");
     SurfaceContactChoice choice;
     choice.search = x.search;
-    choice.at_points = x.options & PLM_SURFACE_POINTS;
+    choice.at_points = x.options & PLM_SURFACE_POINTS || (has_middle_nodes(slave.mesh) && slave.area.empty());
     choice.is_smooth = x.options & PLM_SURFACE_SMOOTH;
     choice.is_two_sided = x.options & PLM_SURFACE_TWO_SIDED;
     Pass pass{surface_contact(slave.mesh, master.mesh, choice), from, to,
               x.options & PLM_SURFACE_SYMMETRIC ? 0.5 : 1.0};
+    leave_out_held(pass.points, m.input);
     pass.knows_areas = slave.mesh.n_faces() > 0 || !slave.area.empty();
     if (!choice.at_points && !slave.area.empty())
         for (SurfacePair &p : pass.points)
@@ -126,31 +148,69 @@ Pass find_pairs(const ModelHandle &m, const Contacting &x, bool is_reversed) {
     return pass;
 }
 
-void take(NewPairs &pairs, const Pass &pass, const Contacting &x) {
-    for (const SurfacePair &p : pass.points) {
+// Nodes that face each other exactly find each other from both sides: the two are one pair.
+class KnownRows {
+  public:
+    /// The pair with this row; `next`, which becomes it, where there is none.
+    std::int64_t find(const DofTerms &row, std::int64_t next) {
+        constexpr double rounding = 1e-12;
+        std::vector<std::int64_t> dofs;
+        for (const DofTerm &t : row) dofs.push_back(t.dof);
+        auto &alike = of_dofs_[std::move(dofs)];
+        for (const auto &[known, pair] : alike)
+            if (std::equal(known.begin(), known.end(), row.begin(), [](const DofTerm &a, const DofTerm &b) {
+                    return std::abs(a.coefficient - b.coefficient) <= rounding;
+                }))
+                return pair;
+        alike.emplace_back(row, next);
+        return next;
+    }
+
+  private:
+    std::map<std::vector<std::int64_t>, std::vector<std::pair<DofTerms, std::int64_t>>> of_dofs_;
+};
+
+double stiffness_of(const SurfacePair &p, const Pass &pass, const Contacting &x) {
+    if (x.stiffness == PLM_AUTO_STIFFNESS) return x.stiffness;
+    const double k_n = x.stiffness * pass.share * (pass.knows_areas ? p.area : 1);
+    if (!is_stiffness(k_n))
+        bad_argument("stiffness", -1,
+                     format("point %lld of the slave (counted from 0) would have k_n = %g (an area of %g); "
+                            "it must lie in %g to %g",
+                            Int(p.point), k_n, p.area, smallest_scale, largest_scale));
+    return k_n;
+}
+
+// Returns the pair of each point, counted from the first of these; -1: none.
+vector<std::int64_t> take(NewPairs &pairs, KnownRows &known, Pass &pass, const Contacting &x) {
+    vector<std::int64_t> of_point;
+    for (SurfacePair &p : pass.points) {
+        of_point.push_back(-1);
         if (!p.has_partner()) continue;
-        double k_n = x.stiffness;
-        if (k_n != PLM_AUTO_STIFFNESS) k_n *= pass.share * (pass.knows_areas ? p.area : 1);
-        if (!is_stiffness(k_n))
-            bad_argument(
-                "stiffness", -1,
-                format("point %lld of the slave (counted from 0) would have k_n = %g (an area of %g); "
-                       "it must lie in %g to %g",
-                       Int(p.point), k_n, p.area, smallest_scale, largest_scale));
-        const auto row = plm::Contact::normal_row(static_cast<std::int64_t>(pairs.stiffness.size()));
+        const double k_n = stiffness_of(p, pass, x);
+        std::sort(p.row.begin(), p.row.end(),
+                  [](const DofTerm &a, const DofTerm &b) { return a.dof < b.dof; });
+        const auto next = static_cast<std::int64_t>(pairs.stiffness.size());
+        const std::int64_t pair = of_point.back() = known.find(p.row, next);
+        if (pair < next) {
+            if (k_n != PLM_AUTO_STIFFNESS) pairs.stiffness[pair] += k_n;
+            continue;
+        }
         for (const DofTerm &t : p.row) {
-            pairs.row.push_back(row);
+            pairs.row.push_back(plm::Contact::normal_row(pair));
             pairs.dof.push_back(t.dof);
             pairs.coefficient.push_back(t.coefficient);
         }
         pairs.stiffness.push_back(k_n);
         pairs.gap.push_back(std::abs(p.gap) <= x.closed ? 0 : p.gap);
     }
+    return of_point;
 }
 
 /// Of one pass.
 struct Findings {
-    std::int64_t n_pairs = 0, n_alone = 0, n_opposed = 0, n_closed = 0, n_pressed = 0, first_opposed = -1;
+    std::int64_t n_pairs = 0, n_alone = 0, n_opposed = 0, n_held = 0, n_closed = 0, n_pressed = 0,
+                 first_opposed = -1;
     std::int64_t farthest = 0, deepest = 0, nearest = 0; // points
     double distance = 0, interference = 0, least = -1;
 };
@@ -161,6 +221,7 @@ Findings look_at(const Pass &pass, double closed) {
         if (f.least < 0 || p.distance < f.least) f.least = p.distance, f.nearest = p.point;
         if (p.face == SurfacePair::opposed && f.n_opposed++ == 0) f.first_opposed = p.point;
         f.n_alone += p.face == SurfacePair::none;
+        f.n_held += p.face == SurfacePair::held;
         if (!p.has_partner()) continue;
         ++f.n_pairs;
         f.n_closed += std::abs(p.gap) <= closed;
@@ -175,17 +236,19 @@ std::string in_words(const Pass &pass, const Findings &f, std::int64_t contact) 
     return format(
         "contact %lld, %lld points of surface %lld on surface %lld: %lld pairs, the farthest (point "
         "%lld) at %g; %lld of them closed, %lld with interference, the deepest (point %lld) by %g; "
-        "%lld points look the same way as the nearest face, %lld have no face near them\n",
+        "%lld points look the same way as the nearest face, %lld have no face near them, and at %lld nothing "
+        "can move\n",
         Int(contact), Int(pass.points.size()), Int(pass.slave), Int(pass.master), Int(f.n_pairs),
         Int(f.farthest), f.distance, Int(f.n_closed), Int(f.n_pressed), Int(f.deepest), f.interference,
-        Int(f.n_opposed), Int(f.n_alone));
+        Int(f.n_opposed), Int(f.n_alone), Int(f.n_held));
 }
 
-void add(SurfaceReport &report, const Pass &pass, const Findings &f, std::int64_t first_pair) {
+void add(SurfaceReport &report, const Pass &pass, const Findings &f,
+         const vector<std::int64_t> &pair_of_point, std::int64_t n_before) {
+    for (std::int64_t pair : pair_of_point) report.pair.push_back(pair < 0 ? -1 : n_before + pair);
     for (const SurfacePair &p : pass.points) {
         report.point.push_back(p.point);
         report.face.push_back(p.has_partner() ? p.face : -1);
-        report.pair.push_back(p.has_partner() ? first_pair++ : -1);
         report.gap.push_back(p.gap);
         report.normal.insert(report.normal.end(), p.normal.begin(), p.normal.end());
         report.area.push_back(p.area);
@@ -198,22 +261,21 @@ void add(SurfaceReport &report, const Pass &pass, const Findings &f, std::int64_
 
 Outcome add_contact(ModelHandle &m, const Contacting &x) {
     NewPairs pairs;
+    KnownRows known;
     SurfaceReport report = m.surface_report;
     std::string said;
     for (const bool is_reversed : {false, true}) {
         if (is_reversed && !(x.options & PLM_SURFACE_SYMMETRIC)) break;
-        const Pass pass = find_pairs(m, x, is_reversed);
+        Pass pass = find_pairs(m, x, is_reversed);
         const Findings f = look_at(pass, x.closed);
-        if (f.n_pairs == 0 && f.n_opposed == 0)
+        if (f.n_pairs + f.n_opposed + f.n_held == 0)
             bad_argument(
                 "search", -1,
                 format("no point of surface %lld has a partner on surface %lld: the nearest, point %lld "
                        "(counted from 0), is %g from it, and search is %g; check the units of the "
                        "coordinates, the faces and search",
                        Int(pass.slave), Int(pass.master), Int(f.nearest), f.least, x.search));
-        const std::int64_t before = static_cast<std::int64_t>(pairs.stiffness.size());
-        take(pairs, pass, x);
-        add(report, pass, f, m.input.contact.n_pairs() + before);
+        add(report, pass, f, take(pairs, known, pass, x), m.input.contact.n_pairs());
         if (f.n_opposed > 0)
             said +=
                 format("%s%lld points of surface %lld look the same way as the face of surface %lld nearest "

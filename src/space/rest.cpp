@@ -2,6 +2,7 @@
 #include "space/linear_contact.hpp"
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace plm {
 
@@ -24,13 +25,26 @@ double slope_along(const RestEquations::Step &step, const Contact &contact, cons
     return s;
 }
 
+// No pair crosses zero by more than rounding makes of its penetration, whose terms are so large: a force is
+// continuous there, and a pair that touches exactly counts as it happens to come out.
+bool keeps_its_pairs(const Contact &contact, const vector<double> &terms, const vector<double> &from,
+                     const vector<double> &to) {
+    constexpr double rounding = 1e-12;
+    vector<double> there(to);
+    for (std::size_t i = 0; i < to.size(); ++i)
+        if (std::abs(to[i] - from[i]) <= rounding * (terms[i] + std::abs(contact.initial_gap[i])))
+            there[i] = from[i];
+    return contact.states(there) == contact.states(from);
+}
+
 // Exact minimum along the step: the slope is piecewise linear and increasing in t. Where no pair changes its
 // state on the way the energy is a parabola and the step leads to its lowest point, whatever rounding makes
 // of the slope of a step that only refines.
-double line_search(const RestEquations::Step &step, const Contact &contact, const vector<double> &u) {
+double line_search(const RestEquations::Step &step, const Contact &contact, const vector<double> &terms,
+                   const vector<double> &u) {
     vector<double> there(u);
     for (std::size_t i = 0; i < u.size(); ++i) there[i] += step.gaps[i];
-    if (contact.states(there) == contact.states(u)) return 1.0;
+    if (keeps_its_pairs(contact, terms, u, there)) return 1.0;
     const auto slope = [&](double t) { return slope_along(step, contact, u, t); };
     if (std::abs(slope(1.0)) <= 1e-9 * std::abs(slope(0.0))) return 1.0;
     double low = 0, high = 1;
@@ -55,6 +69,13 @@ class RestInSpace final : public RestEquations {
         vector<double> u = p_.contact.unloaded_penetration();
         gemv('N', 1.0, p_.gap, eta_.data(), 1.0, u.data());
         return u;
+    }
+
+    vector<double> terms() const override {
+        vector<double> terms(static_cast<std::size_t>(p_.gap.rows()), 0.0);
+        for (std::int64_t j = 0; j < p_.gap.cols(); ++j)
+            for (std::int64_t i = 0; i < p_.gap.rows(); ++i) terms[i] += std::abs(p_.gap(i, j) * eta_[j]);
+        return terms;
     }
 
     // -(D + G' k G)^-1 gradient over the pairs that press.
@@ -103,16 +124,15 @@ class RestInSpace final : public RestEquations {
 std::int64_t find_rest(RestEquations &equations, const Contact &contact, vector<double> &u) {
     constexpr std::int64_t limit = 200;
     std::int64_t iterations = 0;
-    int settled = 0;     // steps with an unchanged contact set: the second one only refines
+    int settled = 0;     // steps that keep their contact set: the second one only refines
     bool pushed = false; // by the last step; a huge one has left the slope of the line search to rounding
     u = equations.penetration();
     while (settled < 2 && iterations < limit) {
         const RestEquations::Step step = equations.step(u);
         pushed = step.pushes_rigid_motion;
-        equations.move(line_search(step, contact, u));
-        const PairStates before = contact.states(u);
-        u = equations.penetration();
-        settled = (contact.states(u) == before) ? settled + 1 : 0;
+        equations.move(line_search(step, contact, equations.terms(), u));
+        const vector<double> before = std::exchange(u, equations.penetration());
+        settled = keeps_its_pairs(contact, equations.terms(), before, u) ? settled + 1 : 0;
         ++iterations;
     }
     if (settled < 2)

@@ -40,6 +40,8 @@ class RestEquations {
     virtual void move(double part) = 0;
     /// Of the present state.
     virtual vector<double> penetration() const = 0;
+    /// What is summed to B q there, before it cancels.
+    virtual vector<double> terms() const = 0;
 };
 /// Returns the number of steps; u becomes the penetrations. Throws as solve_static().
 std::int64_t find_rest(RestEquations &equations, const Contact &contact, vector<double> &u);

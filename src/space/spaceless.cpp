@@ -33,6 +33,11 @@ class Spaceless::Equations final : public RestEquations {
         return u;
     }
 
+    vector<double> terms() const override {
+        const Matrix terms = model_.gap_rows().terms_of(q_);
+        return vector<double>(terms.data(), terms.data() + terms.rows());
+    }
+
     Step step(const vector<double> &u) override {
         Field elastic = model_.stiffness_times(q_);
         add(-1, load_, elastic);

@@ -210,7 +210,8 @@ void Structure::assemble_gap(const StructureInput &input, GapSize size) {
             throw Error(status::argument,
                         format("contact pair %lld (counted from 0, in the order they were added) "
                                "touches %s: its penetration can never change; leave it "
-                               "out or release a DOF",
+                               "out or release a DOF (a contact of surfaces leaves out "
+                               "what is fixed by then)",
                                Int(size.pair_of(i)),
                                parts_->dofs.has_dependent()
                                    ? "only DOFs that are fixed or tied to one another"

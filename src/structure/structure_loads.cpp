@@ -85,7 +85,7 @@ void Structure::check_unheld_motion(Watch watch) {
 // A load that is meant to balance becomes one that does, by the inertia of the structure.
 std::string Structure::balance(Field &load, const char *name, Watch watch) const {
     const RowMiss &miss = parts_->miss;
-    const Resultant r = resultant(load, parts_->unheld);
+    const Resultant r = resultant(load, parts_->unheld, parts_->rigid_modes);
     std::string fact = format("its resultant is %.3g, %.1e of its forces, along the one in which DOF %lld "
                               "(counted from 0) moves most",
                               r.force, r.relative, Int(dof(r.dof)));

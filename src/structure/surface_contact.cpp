@@ -18,23 +18,25 @@ struct SlavePoint {
     double area;
     std::int64_t node, face; // one of them is -1
     FaceWeights weight;
+    double rise; // of the smooth surface above it
 };
 
-std::vector<SlavePoint> points_of(const MeshSurface &slave, bool at_points) {
+std::vector<SlavePoint> points_of(const MeshSurface &slave, const SurfaceContactChoice &choice) {
     const SurfaceMesh mesh = places(slave);
+    const SurfaceNormals normals(mesh);
     std::vector<SlavePoint> points;
-    if (!at_points) {
-        const SurfaceNormals normals(mesh);
+    if (!choice.at_points) {
         for (std::int64_t i = 0; i < static_cast<std::int64_t>(mesh.node.size()); ++i)
             if (mesh.n_faces() == 0 || normals.area(i) > 0)
-                points.push_back({mesh.node[i], normals.at_node(i), normals.area(i), i, -1, {}});
+                points.push_back({mesh.node[i], normals.at_node(i), normals.area(i), i, -1, {}, 0});
         return points;
     }
     for (std::int64_t face = 0; face < mesh.n_faces(); ++face) {
         Point node[most_face_nodes];
         for (int i = 0; i < mesh.n_nodes(face); ++i) node[i] = mesh.node[mesh.nodes(face)[i]];
         for (const FacePoint &p : face_points(node, mesh.n_nodes(face)))
-            points.push_back({p.at, p.normal, p.area, -1, face, p.weight});
+            points.push_back({p.at, p.normal, p.area, -1, face, p.weight,
+                              choice.is_smooth ? normals.rise(mesh, face, p.weight) : 0});
     }
     return points;
 }
@@ -55,7 +57,8 @@ class Master {
         const Point off = difference(x.at, on.point.at);
         const double facing = knows_side ? -dot(x.normal, out) : choice_.is_two_sided ? dot(off, out) : 1;
         if (facing < 0 && !choice_.is_two_sided) return pair.face = SurfacePair::opposed, pair;
-        if (facing < 0) out = scaled(-1, out);
+        const double side = facing < 0 ? -1 : 1;
+        out = scaled(side, out);
         const double along = dot(out, off);
         const Point lateral = difference(off, scaled(along, out));
         if (length(lateral) >
@@ -64,6 +67,7 @@ class Master {
         pair.face = on.face, pair.normal = scaled(-1, out);
         const FaceWeights weight = moved(on, lateral, out);
         pair.gap = dot(out, difference(x.at, place(on.face, weight)));
+        if (choice_.is_smooth) pair.gap -= side * normals_.rise(faces_.mesh(), on.face, weight) + x.rise;
         add_motion(pair.row, surface_, on.face, weight, out);
         return pair;
     }
@@ -131,7 +135,7 @@ std::vector<SurfacePair> surface_contact(const MeshSurface &slave, const MeshSur
                                          const SurfaceContactChoice &choice) {
     const Master faces(master, choice);
     std::vector<SurfacePair> pairs;
-    for (const SlavePoint &x : points_of(slave, choice.at_points)) {
+    for (const SlavePoint &x : points_of(slave, choice)) {
         SurfacePair pair = faces.partner_of(x);
         pair.point = x.node >= 0 ? x.node : static_cast<std::int64_t>(pairs.size());
         if (pair.has_partner()) {
@@ -143,7 +147,7 @@ std::vector<SurfacePair> surface_contact(const MeshSurface &slave, const MeshSur
             pair.row.erase(std::remove_if(pair.row.begin(), pair.row.end(),
                                           [](const DofTerm &t) { return t.coefficient == 0; }),
                            pair.row.end());
-            if (pair.row.empty()) pair.face = SurfacePair::none; // a node of both, or nothing that moves
+            if (pair.row.empty()) pair.face = SurfacePair::held; // a node of both, too
         }
         pairs.push_back(std::move(pair));
     }

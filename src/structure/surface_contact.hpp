@@ -8,13 +8,14 @@ namespace plm {
 struct SurfaceContactChoice {
     double search = 0;         // a length: points farther from all faces have no partner
     bool at_points = false;    // pairs at the points that integrate over the slave's faces, not at its nodes
-    bool is_smooth = false;    // normals smooth across the master's edges, not those of its faces
+    bool is_smooth = false;    // normals and gaps of surfaces smooth across their edges, not of their faces
     bool is_two_sided = false; // the master has no inside: each point stands on the side that it is on
 };
 
 /// Of a node, or of a point of a face: a partner on the master, or none.
 struct SurfacePair {
-    static constexpr std::int64_t none = -1, opposed = -2; // face: too far or beside; looking the same way
+    // face: too far or beside; looking the same way; nothing there moves
+    static constexpr std::int64_t none = -1, opposed = -2, held = -3;
     std::int64_t face = none;
     std::int64_t point =
         0;           // the node, or the number of the point; nodes without faces are none where there are any

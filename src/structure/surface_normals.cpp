@@ -4,6 +4,8 @@
 namespace plm {
 namespace {
 
+constexpr double less_than_45_degrees = 0.7;
+
 void add(Point &to, double factor, const Point &x) {
     for (std::size_t k = 0; k < 3; ++k) to[k] += factor * x[k];
 }
@@ -22,6 +24,7 @@ SurfaceNormals::SurfaceNormals(const SurfaceMesh &mesh)
     for (std::int64_t face = 0; face < mesh.n_faces(); ++face) take_face(mesh, face);
     for (std::size_t i = 0; i < at_node_.size(); ++i) normalise(at_node_[i], area_[i]);
     smooth_corners(mesh);
+    bend_rims(mesh);
 }
 
 void SurfaceNormals::take_face(const SurfaceMesh &mesh, std::int64_t face) {
@@ -54,7 +57,6 @@ void SurfaceNormals::take_face(const SurfaceMesh &mesh, std::int64_t face) {
 }
 
 void SurfaceNormals::smooth_corners(const SurfaceMesh &mesh) {
-    constexpr double less_than_45_degrees = 0.7;
     const auto n_places = static_cast<std::int64_t>(mesh.face_node.size());
     vector<std::int64_t> order(n_places), face_of(n_places);
     for (std::int64_t face = 0; face < mesh.n_faces(); ++face)
@@ -78,12 +80,57 @@ void SurfaceNormals::smooth_corners(const SurfaceMesh &mesh) {
     }
 }
 
+bool SurfaceNormals::is_smooth_across(const SurfaceMesh &mesh, std::int64_t face, int side) const {
+    const std::int64_t *node = mesh.nodes(face);
+    const std::vector<std::int64_t> &both =
+        faces_at_.at(std::minmax({node[side], node[(side + 1) % mesh.n_nodes(face)]}));
+    return std::any_of(both.begin(), both.end(), [&](std::int64_t f) {
+        return f != face && dot(of_face_[f], of_face_[face]) >= less_than_45_degrees;
+    });
+}
+
+// The normal at an end of such a side is that of this face alone, straight across the side. Faces with middle
+// nodes have bends of their own.
+void SurfaceNormals::bend_rims(const SurfaceMesh &mesh) {
+    for (std::int64_t face = 0; face < mesh.n_faces(); ++face)
+        for (int i = 0, n = mesh.n_nodes(face); n <= 4 && i < n; ++i)
+            faces_at_[std::minmax({mesh.nodes(face)[i], mesh.nodes(face)[(i + 1) % n]})].push_back(face);
+    const vector<Point> straight = smooth_;
+    for (std::int64_t face = 0; face < mesh.n_faces(); ++face) {
+        const int n = mesh.n_nodes(face);
+        const std::int64_t first = mesh.face_ptr[face];
+        const auto bend = [&](int end, int behind) {
+            Point t = difference(mesh.node[mesh.nodes(face)[end]], mesh.node[mesh.nodes(face)[behind]]);
+            normalise(t, 0);
+            Point &normal = smooth_[first + end];
+            add(normal, -dot(straight[first + behind], t) - dot(straight[first + end], t), t);
+            normalise(normal, 1);
+        };
+        for (int i = 0; n <= 4 && i < n; ++i)
+            if (!is_smooth_across(mesh, face, i)) bend(i, (i + n - 1) % n), bend((i + 1) % n, (i + 2) % n);
+    }
+    faces_at_.clear();
+}
+
 Point SurfaceNormals::smooth(std::int64_t face, const std::array<double, most_face_nodes> &weight) const {
     Point n{};
     for (std::int64_t p = face_ptr_[face]; p < face_ptr_[face + 1]; ++p)
         add(n, weight[static_cast<std::size_t>(p - face_ptr_[face])], smooth_[p]);
     normalise(n, 1);
     return n;
+}
+
+double SurfaceNormals::rise(const SurfaceMesh &mesh, std::int64_t face,
+                            const std::array<double, most_face_nodes> &weight) const {
+    const std::int64_t *node = mesh.nodes(face);
+    Point at{};
+    for (int i = 0; i < mesh.n_nodes(face); ++i)
+        add(at, weight[static_cast<std::size_t>(i)], mesh.node[node[i]]);
+    double rise = 0;
+    for (int i = 0; i < mesh.n_nodes(face); ++i)
+        rise += weight[static_cast<std::size_t>(i)] *
+                dot(difference(mesh.node[node[i]], at), smooth_[mesh.face_ptr[face] + i]) / 2;
+    return rise;
 }
 
 } // namespace plm

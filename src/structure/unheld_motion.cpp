@@ -67,19 +67,23 @@ RowMiss largest_miss(const GapRows &rows, const Field &motions, const Field &rig
     return worst;
 }
 
-Resultant resultant(const Field &load, const Field &motions) {
+Resultant resultant(const Field &load, const Field &motions, const Field &rigid_modes) {
     if (load.empty() || motions.cols() == 0) return {};
     const Matrix along = gram(motions, load);
     const double size = norm2(along.rows(), along.data());
     if (!(size > 0)) return {};
-    double terms = 0;
-    for (std::int64_t j = 0; j < motions.cols(); ++j) {
-        double sum = 0;
-        for (std::int64_t i = 0; i < load.rows(); ++i) sum += std::abs(motions.at(i, j) * load.at(i));
-        terms = std::hypot(terms, sum);
-    }
+    const auto terms_in = [&](const Field &of) {
+        double terms = 0;
+        for (std::int64_t j = 0; j < of.cols(); ++j) {
+            double sum = 0;
+            for (std::int64_t i = 0; i < load.rows(); ++i) sum += std::abs(of.at(i, j) * load.at(i));
+            terms = std::hypot(terms, sum);
+        }
+        return terms;
+    };
     const LargestEntry most = largest_entry(combine(motions, along));
-    return {size / terms, size * size / most.size, most.row};
+    const double all = terms_in(rigid_modes);
+    return {size / (size > exactly_zero * all ? terms_in(motions) : all), size * size / most.size, most.row};
 }
 
 } // namespace plm

@@ -20,12 +20,14 @@ struct RowMiss {
 };
 RowMiss largest_miss(const GapRows &rows, const Field &motions, const Field &rigid_modes);
 
-/// Of a load (one column) along the motions: relative to its terms, and as a force or moment about the motion
-/// of its own in which the DOF (free index) that moves most moves by one.
+/// Of a load (one column) along the motions: relative to its terms there, or, where it is but rounding of its
+/// terms in all rigid-body modes, to those (a load across a motion has no terms along it but rounding); and
+/// as a force or moment about the motion of its own in which the DOF (free index) that moves most moves by
+/// one.
 struct Resultant {
     double relative = 0, force = 0;
     std::int64_t dof = 0;
 };
-Resultant resultant(const Field &load, const Field &motions);
+Resultant resultant(const Field &load, const Field &motions, const Field &rigid_modes);
 
 } // namespace plm

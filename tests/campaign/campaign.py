@@ -24,8 +24,7 @@ import scipy.sparse as sp
 
 import exact
 import families
-import families_brought
-from verdicts import EVERY, failed, line, odd, summary, table
+from verdicts import BROUGHT, EVERY, failed, line, odd, summary, table
 
 
 def build(m):
@@ -41,7 +40,10 @@ def build(m):
         model.add_constraints(m["rows"])
     for method, *arguments in m.get("couplings", ()):
         getattr(model, method)(*arguments)
-    model.add_gap_rows(sp.csr_matrix(m.get("B_library", m["B"])), stiffness=m["kn"], gap=m["g"])
+    given = m.get("given", np.full(len(m["g"]), np.nan))
+    model.add_gap_rows(sp.csr_matrix(m.get("B_library", m["B"])), stiffness=m["kn"], gap=np.where(np.isnan(given), m["g"], 0))
+    if "given" in m:
+        model.set_rest_force(given)
     if np.any(m["P"]):
         model.set_preload(m["P"])
     model.set_excitation(m["F"], power=m.get("power", 0))
@@ -251,8 +253,8 @@ def main():
     way = parser.add_mutually_exclusive_group()
     way.add_argument("--one_call", action="store_true", help="by compute_response (the default)")
     way.add_argument("--steps", action="store_true", help="sampler, basis, sweep, peak and its error instead")
-    sets = {"first": families.FAMILIES, "brought": families_brought.FAMILIES, "all": EVERY}
-    parser.add_argument("--families", choices=sets, default="all", help="families.py, families_brought.py or both")
+    sets = {"first": families.FAMILIES, "brought": BROUGHT, "all": EVERY}
+    parser.add_argument("--families", choices=sets, default="all", help="families.py, families_brought.py with families_acting.py, or all")
     parser.add_argument("--only", default="", metavar="FAMILY[,FAMILY...]")
     parser.add_argument("--one", type=int, default=-1)
     parser.add_argument("--limit", type=int, default=120, help="seconds of the processor a model may take, exact motion included")

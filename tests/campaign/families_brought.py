@@ -6,10 +6,7 @@ families.py, with more of what the judge should know:
     twin       (T, out): the same model in other coordinates, q = T q_twin; its answer must be the same
     K_library  what the library is given where the exact motion needs more (B_library likewise)
     exact_to   how exact the exact motion is, where not 1e-6
-    G          motion of the gaps at the excitation's frequency, complex amplitudes
-    power      of the frequency, with which F grows
-    drive      the force by powers of the frequency, where it is not F alone
-    beside     what is added to the DOF `out`, by powers of the frequency, too: there the library is looked at in absolute motion
+    G, power, drive, beside, given: see families_acting.py
     host       what the library is given in place of all this: DOFs q of which `rows` @ q = 0, or with `couplings` (methods of
                plm.Model and their arguments), the motions of the model by q = `to_host` times those here; with `base` (what
                plm.Model.set_base_motion takes) its DOFs that move are fixed
@@ -19,7 +16,6 @@ import scipy.linalg
 
 import families
 from families import beam_matrices, chain, finish, gap_row, membrane_matrices
-from families_moving import moving, shaken, unbalanced
 
 ROUNDED, TIE = 29, 28  # PLM_REASON_..., whether the library at hand has them or not
 
@@ -374,4 +370,4 @@ def coupled(rng):
 
 
 FAMILIES = (hard_stops, hard_stops_one_ratio, many_gaps, permuted, turned_mesh, round_shaft, twin_plates, free_bodies, hanging_parts,
-            dashpots, superelements, constrained, coupled, moving, unbalanced, shaken)
+            dashpots, superelements, constrained, coupled)

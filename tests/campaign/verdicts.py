@@ -3,10 +3,12 @@ import numpy as np
 import plm
 
 import families
+import families_acting
 import families_brought
 
 ACCURACY = 1e-3  # what is asked for where nothing is set
-EVERY = families.FAMILIES + families_brought.FAMILIES
+BROUGHT = families_brought.FAMILIES + families_acting.FAMILIES
+EVERY = families.FAMILIES + BROUGHT
 TWIN = 1e-9
 STATED_SHARE, CRIES_SHARE = 0.02, 0.01  # of the models, at most
 

@@ -300,7 +300,7 @@ std::shared_ptr<ReducedModel> random_model(Damping damping, bool separate, std::
     std::uniform_real_distribution<double> between(0.5, 1.5);
     for (std::int64_t j = 0; j < r; ++j) m->lambda.push_back(std::pow(j + between(random), 2));
     m->gap = random_matrix(z, r, random);
-    m->contact = {plm::vector<double>(z, 1.0), plm::vector<double>(z, 0.0)};
+    m->contact = {plm::vector<double>(z, 1.0), plm::vector<double>(z, 0.0), {}};
     m->damping_diagonal.assign(r, damping == Damping::diagonal ? 0.1 : 0.0);
     if (damping == Damping::structural) m->structural = 0.05;
     if (damping == Damping::full) {

@@ -71,6 +71,48 @@ void what_nothing_holds_is_refused(void **) {
         }
 }
 
+// Rest is made first: coordinates, and forces of pairs that press, that are apart, and that touch with no
+// force at all, some of them about zero displacement with no gap. These come out on either side of zero, step
+// by step.
+void pairs_that_touch_exactly(void **) {
+    std::mt19937 random(11);
+    std::uniform_real_distribution<double> entry(-1, 1);
+    const std::int64_t m = 12, z = 9;
+    for (int model = 0; model < 200; ++model)
+        for (double k : {1e-2, 1.0, 1e4, 1e8}) {
+            plm::vector<double> lambda(m), eta(m), load(m);
+            plm::Matrix gap(z, m);
+            for (std::int64_t j = 0; j < m; ++j) {
+                lambda[j] = std::pow(10, 3 * entry(random)), eta[j] = entry(random);
+                load[j] = lambda[j] * eta[j];
+                for (std::int64_t i = 0; i < z; ++i) gap(i, j) = entry(random);
+            }
+            plm::Contact contact;
+            contact.stiffness.assign(z, k), contact.initial_gap.assign(z, 0.0);
+            for (std::int64_t i = 0; i < z; ++i) {
+                double along = 0;
+                for (std::int64_t j = 0; j < m; ++j) along += gap(i, j) * eta[j];
+                const double force = i % 3 == 0 ? 0.5 : 0;
+                if (i == 8) gap(i, m - 1) -= along / eta[m - 1]; // touches where it was made
+                contact.initial_gap[i] = i == 8 ? 0 : along - force / k + (i % 3 == 1 ? 0.1 : 0);
+                for (std::int64_t j = 0; j < m; ++j) load[j] += gap(i, j) * force;
+            }
+            const plm::StaticState rest = plm::solve_static({lambda, gap, load, contact});
+            assert_true(rest.iterations <= 30);
+            double worst = 0;
+            for (std::int64_t j = 0; j < m; ++j)
+                worst = std::max(worst, std::abs(rest.coordinates[j] - eta[j]));
+            // lambda over six decades, springs up to five beyond them: some 1e-16 of those ratios, and of the
+            // 1e3 / 1e-3 between coordinates what is left in u
+            assert_true(below(worst, 1e-12 * (1e3 + k)));
+            for (std::int64_t i = 0; i < z; ++i)
+                assert_true(below(std::abs(rest.penetration[i] - (i % 3 == 0   ? 0.5 / k
+                                                                  : i % 3 == 1 ? -0.1
+                                                                               : 0)),
+                                  1e-11 * (1 + 1 / k)));
+        }
+}
+
 // M = G G^T of a rank below its order, without a row of zeros; a chain held at both ends whose outer masses a
 // pair joins. Returns the largest error of the displacements, relative, over `n_models` of them.
 double rest_error_without_full_mass(int n_models) {
@@ -121,9 +163,8 @@ void rest_does_not_depend_on_the_mass(void **) {
 
 int main() {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(free_bodies_press_on_each_other),
-        cmocka_unit_test(a_free_body_is_stretched),
-        cmocka_unit_test(what_nothing_holds_is_refused),
+        cmocka_unit_test(free_bodies_press_on_each_other),  cmocka_unit_test(a_free_body_is_stretched),
+        cmocka_unit_test(what_nothing_holds_is_refused),    cmocka_unit_test(pairs_that_touch_exactly),
         cmocka_unit_test(rest_does_not_depend_on_the_mass),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);

@@ -233,9 +233,10 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
     def add_surface_contact(self, slave, master, search, stiffness=None, closed=0.0, points=False, symmetric=False, smooth=False,
                             two_sided=False):
         """Contact between two surfaces (numbers from add_surface) whose meshes need not match: the slave's nodes, or the points
-        that integrate over its faces, against the master's faces within `search`. stiffness: by area (of each node where
-        the slave has no faces; None: chosen by the library). Gaps and interferences up to `closed` are none. symmetric: both
-        ways, half each; smooth: normals without the master's edges; two_sided: the master is a sheet."""
+        that integrate over its faces (always, where these have middle nodes), against the master's faces within `search`.
+        stiffness: by area (of each node where the slave has no faces; None: chosen by the library). Gaps and interferences up
+        to `closed` are none. symmetric: both ways, half each, nodes that face each other exactly being one pair; smooth:
+        normals and gaps of surfaces without edges, for curved ones of flat faces; two_sided: the master is a sheet."""
         options = (points * _c.SURFACE_POINTS + symmetric * _c.SURFACE_SYMMETRIC + smooth * _c.SURFACE_SMOOTH
                    + two_sided * _c.SURFACE_TWO_SIDED)
         self._work("add_surface_contact", slave, master, options, _c.AUTO_STIFFNESS if stiffness is None else stiffness, search,

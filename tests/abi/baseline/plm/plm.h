@@ -430,25 +430,31 @@ PLM_API plm_status plm_model_add_surface_i64(plm_model *model, int32_t index_bas
                                              const double *xyz, const double *area, int64_t n_faces,
                                              const int64_t *face_ptr, const int64_t *face_node, int64_t *surface);
 /* options of a surface contact, added up */
-#define PLM_SURFACE_POINTS 1    /* pairs at the points that integrate over the slave's faces, not at its nodes */
-#define PLM_SURFACE_SYMMETRIC 2 /* and the master's against the slave's faces, with half the stiffness each */
-#define PLM_SURFACE_SMOOTH 4    /* normals smooth across the master's edges below 45 degrees, not those of its faces */
+#define PLM_SURFACE_POINTS 1    /* pairs at the points that integrate over the slave's faces, not at its nodes; with middle nodes ever */
+#define PLM_SURFACE_SYMMETRIC 2 /* and the master's against the slave's faces, half the stiffness each; twins are one pair */
+#define PLM_SURFACE_SMOOTH 4    /* normals and gaps of surfaces smooth across edges below 45 degrees, not those of faces */
 #define PLM_SURFACE_TWO_SIDED 8 /* the master is a sheet, and each point stands on the side that it is on */
 /* Then the contact: each node on the slave's faces (each node where it has none) is a contact pair with its projection onto
  * the nearest face of the master, u = normal . (q - sum N_i q_i) - gap, the normal being that of the master, turned into
  * it, and the gap the distance along it, < 0: interference, in which the model then rests; gaps and interferences up to
- * `closed` (a length >= 0) become 0: what meshes miss of curved interfaces (the square of a cell by 8 radii) belongs there.
+ * `closed` (a length >= 0) become 0. Faces of 3 and 4 nodes cut off the square of a cell by 8 radii from a curved interface:
+ * where it is to be closed, that belongs to `closed`; where a gap or an interference counts (a press fit), ask for
+ * PLM_SURFACE_SMOOTH, which gives it back.
  * stiffness: by area (force/length^3), times the area that each node stands for; of each pair (force/length) where the
  * slave has neither faces nor areas; or PLM_AUTO_STIFFNESS. Nodes farther than `search` from all faces, or beside them (by
  * more than half their gap and a hundredth of the face), have no partner. Nor have those that look the same way as the
- * nearest face does: PLM_WARNING with PLM_REASON_MODEL, for then faces are turned over, or a sheet has two sides.
+ * nearest face does: PLM_WARNING with PLM_REASON_MODEL, for then faces are turned over, or a sheet has two sides. Where all
+ * DOFs of both sides are fixed by then there is no pair either.
  * PLM_ERR_ARGUMENT where nobody has a partner. Rows are zero along rigid motions of both surfaces, rotations included,
  * whatever the gap: its lever arm lies along the normal. (A slave that leans over turns the force with its own
  * displacement no more than any small motion does.) What was found: "surface_report" in words, and "surface_point",
  * "_face", "_pair", "_gap", "_normal", "_area" of every point. The pairs stand behind those added before, in this order.
  * A uniform pressure passes exactly between plane matching meshes; between others the resultant and its moment are exact,
- * and so are the nodal forces of the slave with faces of 3 and 4 nodes, and with PLM_SURFACE_POINTS of all kinds (nodes
- * of faces with 6 and 8 share the area by the squares of their shape functions, for the true shares are not positive). */
+ * and so are the nodal forces of the slave. Cells of 3 x 2 against 5 x 3: single pairs are off by 12 to 17 % of the pressure
+ * (nodes) or 13 to 31 % (points), displacements by 6 % of what the blocks give (nodes) or 0.3 % (points). Slaves whose faces
+ * have middle nodes therefore take points, unless `area` says what their nodes stand for: shares that pass a pressure are not
+ * positive there. With PLM_SURFACE_SYMMETRIC nodes that face each other exactly are one pair of the stiffness of both, and
+ * "surface_pair" names it for both. */
 PLM_API plm_status plm_model_add_surface_contact(plm_model *model, int64_t slave, int64_t master, int32_t options,
                                                  double stiffness, double search, double closed);
 
@@ -457,7 +463,8 @@ PLM_API plm_status plm_model_add_surface_contact(plm_model *model, int64_t slave
  * PLM_KEEP_GAP: the pair keeps its gap. n is the number of pairs added so far, those added later keep theirs; NULL
  * removes it. Displacements count from the structure without loads and contact, as ever: where the matrices
  * are those of the state at rest, hand over B^T force as pre-load and they count from there. Motions are the same.
- * PLM_ERR_CONVERGENCE of the build with PLM_REASON_NO_EQUILIBRIUM where pre-load and forces push a loose body. */
+ * PLM_ERR_CONVERGENCE of the build with PLM_REASON_NO_EQUILIBRIUM where pre-load and forces push a loose body; where both
+ * change after the build: NULL, the new pre-load, the new forces. */
 #define PLM_KEEP_GAP (-1.0)
 PLM_API plm_status plm_model_set_rest_force(plm_model *model, int64_t n, const double *force);
 
@@ -746,6 +753,13 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
  * twice; then PLM_NOT_CONVERGED with PLM_REASON_CROSSED_OVER. A structure in free flight, or free along a rail: mean
  * position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
+/* The same at several levels of the excitation, force_scale[n] in place of the option "force_scale", in any order. count:
+ * curves found, read by plm_hbm_get_found in the order of their levels; each says its "force_scale", its warnings and how it
+ * ended, and may cost what plm_context_set_effort allows a sweep. The largest level is followed first, and where many
+ * pairs open and close the others go on from the coordinates that its motions needed, checked at each level as in a sweep
+ * of it alone: less work than as many sweeps. PLM_NOT_CONVERGED or PLM_TRUNCATED, with the level in the words, where a
+ * curve ended early or a level (without a curve then) has no first motion; PLM_CANCELLED with those found before. */
+PLM_API plm_status plm_hbm_sweep_levels(plm_hbm *hbm, int64_t n, const double *force_scale, int64_t *count);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
  * start. PLM_ERR_CONVERGENCE when no strategy converges; PLM_WARNING with PLM_REASON_OUTSIDE_BASIS as for a sweep. */
 PLM_API plm_status plm_hbm_solve(plm_hbm *hbm, double frequency_hz, plm_branch *start, int64_t point,
@@ -781,7 +795,7 @@ PLM_API plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, 
  * stability at that force and frequency; else of as many harmonics as the hbm has, few where it is to choose them. None
  * without pre-load and gap (the force changes nothing then). */
 PLM_API plm_status plm_hbm_find_backbones(plm_hbm *hbm, double force_max, int64_t *count);
-/* What the last plm_hbm_find_... of this hbm found ("n_found"), or what lies beside the curve of the
+/* What the last plm_hbm_find_... or plm_hbm_sweep_levels of this hbm found ("n_found"), or what lies beside the curve of the
  * plm_model_compute_response that made it. force_range[2] or NULL: force scales between which an isolated
  * branch exists, NaN where unknown or meaningless. */
 PLM_API plm_status plm_hbm_get_found(plm_hbm *hbm, int64_t index, double *force_range, plm_branch **branch);

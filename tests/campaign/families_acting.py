@@ -1,5 +1,11 @@
-"""Random models whose walls or supports move, or whose force grows with its frequency: a part of families_brought.py, which says
-what is in them."""
+"""Random models on which more acts than a pre-load and a force: functions like those of families.py, with
+
+    G          motion of the gaps at the excitation's frequency, complex amplitudes
+    power      of the frequency, with which F grows
+    drive      the force by powers of the frequency, where it is not F alone
+    beside     what is added to the DOF `out`, by powers of the frequency, too: there the library is looked at in absolute motion
+    given      forces of the pairs at rest, which the library is given in place of their gaps; NaN: none
+"""
 import numpy as np
 import scipy.linalg
 
@@ -64,3 +70,24 @@ def shaken(rng):
         beside[-power] = r[m["out"]] @ u
     small = dict(m, F=np.zeros(n), beside=beside, drive=drive, host=host, to_host=np.eye(n + s, n))
     return small if loose else dict(small, G=-(m["B"] @ r) @ u)
+
+
+def given_forces(rng):
+    """Forces at rest in place of the gaps of some pairs, or of all: the gaps at which these, and those that the others have, balance
+    the pre-load are what is exact. Pairs that are given no force just touch."""
+    m = (families.chains, families.breathing, families.beam_with_stops)[int(rng.integers(3))](rng)
+    n, B, kn = len(m["B"]), m["B"], m["kn"]
+    w2 = scipy.linalg.eigh(m["K"], m["M"], eigvals_only=True)
+    moved = np.abs(B @ np.linalg.solve(m["K"] - w2[0] * m["M"] + 1j * np.sqrt(w2[0]) * m["C"], m["F"])).max()
+    penetration = rng.uniform(0.2, 1, n) * moved * 10 ** rng.uniform(-0.8, 0.5)
+    force = kn * penetration / (1 + kn * np.diag(B @ np.linalg.solve(m["K"], B.T)))
+    force[rng.random(n) < 0.2] = 0
+    given = rng.random(n) < 0.6
+    if not given.any():
+        given[:] = True
+    q = np.linalg.solve(m["K"], m["P"] - B.T @ force)
+    g = B @ q - force / kn + np.where(given | (force > 0), 0, penetration)
+    return dict(m, g=g, given=np.where(given, force, np.nan), kind="given")
+
+
+FAMILIES = (moving, unbalanced, shaken, given_forces)
