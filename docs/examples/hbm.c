@@ -36,6 +36,21 @@ static int sweep(plm_basis *basis) {
     /* [plm_hbm_sweep] */
     EXPECT(ended == 0 && harmonics == 7);
 
+    /* [plm_hbm_sweep_levels] */
+    const double level[] = {0.25, 0.5, 0.75}; /* times the excitation */
+    int64_t n_levels;
+    TRY(plm_hbm_sweep_levels(hbm, 3, level, &n_levels));
+    for (int64_t i = 0; i < n_levels; i++) {
+        plm_branch *lower = NULL;
+        double hz, amplitude;
+        TRY(plm_hbm_get_found(hbm, i, NULL, &lower));
+        TRY(plm_hbm_find_peak(hbm, lower, 1, PLM_PEAK, 0, &hz, &amplitude, NULL));
+        printf("%g of the force: %.4g mm at %.4f Hz\n", level[i], 1e3 * amplitude, hz);
+        TRY(plm_branch_destroy(&lower));
+    }
+    /* [plm_hbm_sweep_levels] */
+    EXPECT(n_levels == 3);
+
     /* [plm_hbm_find_peak] */
     double hz, amplitude;
     plm_branch *peak = NULL; /* that point; NULL instead of &peak if it is not wanted */

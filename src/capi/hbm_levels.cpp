@@ -44,7 +44,7 @@ class LevelSweep {
                 take(i, within_effort(h_.owner->effort_beside(h_.basis->work), [&] { return curve(i); }));
             } catch (const Error &e) { // there may be curves at other levels
                 if (e.status() != PLM_ERR_CONVERGENCE && e.status() != PLM_CANCELLED) throw;
-                if (n_ == 1) throw;
+                if (n_ == 1 || (e.status() == PLM_CANCELLED && !has_curve())) throw;
                 end(e.status() == PLM_CANCELLED ? PLM_CANCELLED : PLM_NOT_CONVERGED, e.reason(),
                     at_level(force_scale_[i], e.what()));
             }
@@ -64,14 +64,19 @@ class LevelSweep {
     }
 
   private:
+    bool has_curve() const {
+        return std::any_of(curves_.begin(), curves_.end(), [](const BranchPtr &c) { return c != nullptr; });
+    }
+
     BranchPtr curve(std::size_t i) {
         HbmOptions options = h_.hbm_options;
         options.force_scale = force_scale_[i];
-        return Hbm(built(*h_.basis), options, h_.owner->watch()).sweep(level_before_);
+        return Hbm(built(*h_.basis), options, h_.owner->watch()).sweep(nullptr, &level_before_);
     }
 
     void take(std::size_t i, BranchPtr found) {
-        for (const Warning &w : found->warnings.list()) warnings_.add(w.reason, at_level(force_scale_[i], w.text));
+        for (const Warning &w : found->warnings.list())
+            warnings_.add(w.reason, at_level(force_scale_[i], w.text));
         if (const plm_status status = end_status(found->end_reason); status != PLM_OK)
             end(status, found->end_reason, at_level(force_scale_[i], end_text(found->end_reason)));
         curves_[i] = std::move(found);

@@ -166,4 +166,26 @@ Matrix motions_of(const BranchPoint &point) {
     return columns;
 }
 
+std::shared_ptr<const ReducedModel> compressed_with(const ReducedModel &smaller, const BranchPoint &exact,
+                                                    double highest, double left_out) {
+    const ReducedModel &whole = *smaller.from->model;
+    Matrix motions = motions_of(exact);
+    const auto energy_of = [&](const double *q) {
+        double energy = 0;
+        for (std::int64_t j = 0; j < whole.size(); ++j)
+            energy += (whole.lambda[j] + exact.omega * exact.omega * whole.mass(j)) * q[j] * q[j];
+        return energy;
+    };
+    double all = 0;
+    for (std::int64_t k = 0; k < motions.cols(); ++k) all += energy_of(motions.col(k));
+    Matrix known = smaller.from->coordinates; // orthogonal by their energy: together as much as the motion
+    for (std::int64_t k = 0; k < known.cols(); ++k) {
+        const double factor = std::sqrt(all / static_cast<double>(known.cols()) / energy_of(known.col(k)));
+        for (std::int64_t j = 0; j < known.rows(); ++j) known(j, k) *= factor;
+    }
+    motions.append(known);
+    return compress_beside_modes(smaller.from->model, motions, {mean_springs(whole, exact)}, exact.omega,
+                                 left_out, slow_modes * highest, whole.size());
+}
+
 } // namespace plm

@@ -17,4 +17,13 @@ vector<double> mean_springs(const ReducedModel &model, const BranchPoint &exact)
 /// basis' coordinates.
 BranchPoint corrected_on_whole(const ReducedModel &model, const BranchPoint &exact);
 
+/// Modes below so many times the highest frequency of a range stay whole where its motions are compressed:
+/// they are those that internal resonances of low order can set in motion, and whose multipliers die out
+/// slowly.
+constexpr double slow_modes = 3;
+/// A compressed model with the directions of one more motion of the basis, as many as leave out this part of
+/// it. highest: angular frequency where the range ends.
+std::shared_ptr<const ReducedModel> compressed_with(const ReducedModel &smaller, const BranchPoint &exact,
+                                                    double highest, double left_out);
+
 } // namespace plm

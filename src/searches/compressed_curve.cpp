@@ -25,9 +25,6 @@ constexpr double share_of_accuracy = 0.3, share_where_dear = 0.5;
 // Above, the same holds of the motions: a step takes a tenth of a second. Below, they are as exact as others:
 // near grazing, multipliers answer to the root of an error.
 constexpr double long_step = 5e8, share_of_motions = 3e-2;
-// Modes below so many times the highest frequency of the range stay whole: they are those that internal
-// resonances of low order can set in motion, and whose multipliers die out slowly.
-constexpr double slow = 3;
 // A model that is not smaller than this share of the whole saves nothing.
 constexpr double much_smaller = 0.7;
 // Nor one of this share where contact bounces: its motions need more of the basis as they are followed.
@@ -85,28 +82,6 @@ double compression_tolerance(const ReducedModel &whole, const HbmOptions &option
     return (is_dear_step(whole, options) ? share_where_dear : share_of_accuracy) * options.accuracy;
 }
 
-std::shared_ptr<const ReducedModel> compressed_with(const ReducedModel &smaller, const BranchPoint &exact,
-                                                    const HbmOptions &options, double left_out) {
-    const ReducedModel &whole = *smaller.from->model;
-    Matrix motions = motions_of(exact);
-    const auto energy_of = [&](const double *q) {
-        double energy = 0;
-        for (std::int64_t j = 0; j < whole.size(); ++j)
-            energy += (whole.lambda[j] + exact.omega * exact.omega * whole.mass(j)) * q[j] * q[j];
-        return energy;
-    };
-    double all = 0;
-    for (std::int64_t k = 0; k < motions.cols(); ++k) all += energy_of(motions.col(k));
-    Matrix known = smaller.from->coordinates; // orthogonal by their energy: together as much as the motion
-    for (std::int64_t k = 0; k < known.cols(); ++k) {
-        const double factor = std::sqrt(all / static_cast<double>(known.cols()) / energy_of(known.col(k)));
-        for (std::int64_t j = 0; j < known.rows(); ++j) known(j, k) *= factor;
-    }
-    motions.append(known);
-    return compress_beside_modes(smaller.from->model, motions, {mean_springs(whole, exact)}, exact.omega,
-                                 left_out, slow * 2 * M_PI * options.frequency_max_hz, whole.size());
-}
-
 double CurveCompression::tolerance() const {
     return compression_tolerance(*whole_, options_);
 }
@@ -119,7 +94,7 @@ std::shared_ptr<const ReducedModel> CurveCompression::compressed_after(const Red
     std::vector<vector<double>> springs = needs_.springs;
     springs.push_back(whole_->contact.stiffness);
     const double most = last ? grows * static_cast<double>(last->size()) : whole_->size();
-    return compress_beside_modes(whole_, needs_.motions, springs, omega_, left_out_, slow * highest_,
+    return compress_beside_modes(whole_, needs_.motions, springs, omega_, left_out_, slow_modes * highest_,
                                  static_cast<std::int64_t>(most));
 }
 

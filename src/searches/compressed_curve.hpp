@@ -21,11 +21,6 @@ HbmOptions options_on(const ReducedModel &model, HbmOptions options);
 /// What a compressed model's motions may be off by: the basis takes its share of the accuracy, too.
 double compression_tolerance(const ReducedModel &whole, const HbmOptions &options);
 
-/// A compressed model with the directions of one more motion of the basis, as many as leave out this part of
-/// it.
-std::shared_ptr<const ReducedModel> compressed_with(const ReducedModel &smaller, const BranchPoint &exact,
-                                                    const HbmOptions &options, double left_out);
-
 class CurveCompression {
   public:
     /// highest: angular frequency where the range ends.

@@ -227,7 +227,7 @@ class Chain {
     void follow(std::shared_ptr<const Basis> basis, Follow how, ComputedResponse &r) {
         HbmOptions limited = options_;
         if (how == Follow::few_points) limited.max_points = few_points;
-        const auto curve = Hbm(basis, limited, watch_).sweep(output_);
+        const auto curve = Hbm(basis, limited, watch_).sweep(&output_);
         if (curve->end_reason == reason::cancelled) require_unstopped(*curve);
         if (r.curve && is_whole(*r.curve) && was_stopped(*curve)) return; // what there is goes on to the end
         r = with_curve(std::move(basis), curve);

@@ -48,19 +48,11 @@ SweepTask Hbm::task() const {
     return {{reduced_, options_, watch_, exact_}, reach_};
 }
 
-std::shared_ptr<const Branch> Hbm::sweep() const {
-    return judged(task());
-}
-
-std::shared_ptr<const Branch> Hbm::sweep(const Output &asked) const {
+std::shared_ptr<const Branch> Hbm::sweep(const Output *asked,
+                                         std::shared_ptr<CurveCompression> *level_before) const {
     SweepTask task = this->task();
-    task.asked = &asked;
-    return judged(task);
-}
-
-std::shared_ptr<const Branch> Hbm::sweep(std::shared_ptr<CurveCompression> &level_before) const {
-    SweepTask task = this->task();
-    task.level_before = &level_before;
+    task.asked = asked;
+    task.level_before = level_before;
     return judged(task);
 }
 

@@ -37,12 +37,9 @@ class Hbm {
     ~Hbm();
 
     /// Always returns a branch with at least one point, or throws; the outcome is in branch->end_reason.
-    std::shared_ptr<const Branch> sweep() const;
-    /// The same over a range that has the peak of this, too.
-    std::shared_ptr<const Branch> sweep(const Output &asked) const;
-    /// The same where it is one of several force levels, from the largest on: what the curve of the last one
-    /// was followed on (null at first) serves the next.
-    std::shared_ptr<const Branch> sweep(std::shared_ptr<CurveCompression> &level_before) const;
+    /// asked, level_before: as in SweepTask.
+    std::shared_ptr<const Branch> sweep(const Output *asked = nullptr,
+                                        std::shared_ptr<CurveCompression> *level_before = nullptr) const;
     /// The first look at the range, see sweep_with_few_harmonics().
     std::shared_ptr<const Branch> sweep_with_few_harmonics() const;
     /// start may be null (cold start).

@@ -182,7 +182,7 @@ class Search {
                 return reduced_;
             if (on_model(model, start)) return model;
             if (left_out == std::end(left_out_of_loop)) return reduced_;
-            model = compressed_with(*smaller_, start, options_, *left_out);
+            model = compressed_with(*smaller_, start, 2 * M_PI * options_.frequency_max_hz, *left_out);
         }
     }
 

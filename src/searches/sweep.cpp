@@ -95,8 +95,8 @@ bool begin_compression(const SweepTask &task, std::shared_ptr<CurveCompression> 
         compression->go_on(task.options);
         return true;
     }
-    compression = std::make_shared<CurveCompression>(
-        task.reduced, task.options, 2 * M_PI * task.options.frequency_max_hz, task.watch);
+    compression = std::make_shared<CurveCompression>(task.reduced, task.options,
+                                                     2 * M_PI * task.options.frequency_max_hz, task.watch);
     SweepTask look = task;
     look.only_looks = true;
     look.watch = task.watch.quiet();

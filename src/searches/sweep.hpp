@@ -11,8 +11,8 @@ class CurveCompression; // compressed_curve.hpp
 struct SweepTask : ResponseTask {
     SweepRange reach = {};         // how far the curve may go on to have its peak inside
     const Output *asked = nullptr; // whose peak that is to be, too
-    /// The model that the curve of another force level was followed on: taken up, and left for the next level.
-    /// Null: this curve is the only one.
+    /// The model that the curve of another force level was followed on: taken up, and left for the next
+    /// level. Null: this curve is the only one.
     std::shared_ptr<CurveCompression> *level_before = nullptr;
 };
 

@@ -98,6 +98,8 @@ static void searches(void **state) {
     const char *isolated = "plm_hbm_find_isolated", *backbones = "plm_hbm_find_backbones",
                *marching = "plm_hbm_find_by_marching", *get = "plm_hbm_get_found";
     plm_branch *known[2], *none = NULL;
+    const char *levels = "plm_hbm_sweep_levels";
+    const double level[] = {1, 0.5}, bad_level[] = {1, NAN}, huge_level[] = {1, 1e200};
     double range[2] = {7, 7};
     int64_t count = 7;
     (void)state;
@@ -116,6 +118,14 @@ static void searches(void **state) {
     BAD(plm_hbm_find_backbones(hbm, -1, &count), backbones, "force_max", "negative");
     BAD(plm_hbm_find_backbones(hbm, INFINITY, &count), backbones, "force_max", "infinite");
     BAD(plm_hbm_find_backbones(hbm, 0, NULL), backbones, "count", "NULL");
+
+    BAD(plm_hbm_sweep_levels(hbm, 0, level, &count), levels, "n", "n is 0");
+    BAD(plm_hbm_sweep_levels(hbm, 2, NULL, &count), levels, "force_scale", "NULL");
+    REFUSED(plm_hbm_sweep_levels(hbm, 2, bad_level, &count), PLM_ERR_ARGUMENT, levels, "force_scale", 1,
+            "NaN");
+    REFUSED(plm_hbm_sweep_levels(hbm, 2, huge_level, &count), PLM_ERR_ARGUMENT, levels, "force_scale", 1,
+            "at most");
+    BAD(plm_hbm_sweep_levels(hbm, 2, level, NULL), levels, "count", "NULL");
 
     BAD(plm_hbm_find_by_marching(hbm, -1, known, 1, 0, &count), marching, "n_known", "n_known is -1");
     BAD(plm_hbm_find_by_marching(hbm, 1, NULL, 1, 0, &count), marching, "known", "NULL");
@@ -150,6 +160,7 @@ static int32_t stop(plm_context *c, const char *stage, double fraction, void *us
     return fraction >= 0;
 }
 static void a_cancelled_search_leaves_what_was_found(void **state) {
+    const double levels[] = {0.01, 0.02};
     plm_branch *backbone = NULL, *again = NULL, *mode = NULL;
     int64_t count = 7, n = 0, m = 0;
     (void)state;
@@ -159,6 +170,7 @@ static void a_cancelled_search_leaves_what_was_found(void **state) {
     assert_int_equal(plm_hbm_find_isolated(hbm, curve, 0, &count), PLM_CANCELLED);
     assert_int_equal(plm_hbm_find_backbones(hbm, 0, &count), PLM_CANCELLED);
     assert_int_equal(plm_hbm_find_by_marching(hbm, 0, NULL, 4, 0, &count), PLM_CANCELLED);
+    assert_int_equal(plm_hbm_sweep_levels(hbm, 2, levels, &count), PLM_CANCELLED);
     assert_int_equal(plm_hbm_find_nonlinear_mode(hbm, 1, 0, 0.3, &mode), PLM_CANCELLED);
     plm_context_set_progress(ctx, NULL, NULL);
     assert_int_equal(count, 7);

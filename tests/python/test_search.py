@@ -52,6 +52,17 @@ class Stops(unittest.TestCase):
         self.assertAlmostEqual(energy.contact_area, self.curve.closed_share(0).mean(), places=9)
 
 
+    def test_levels(self):
+        """In the order asked for, each as a sweep of it alone: on a basis this small nothing is shared."""
+        scales = [0.5, 1.0, 0.75]
+        curves = self.hbm.sweep_levels(scales)
+        self.assertEqual([curve.force_scale for curve in curves], scales)
+        alone = plm.Hbm(models.between_stops(), force_scale=0.75).sweep()
+        numpy.testing.assert_array_equal(curves[2].frequency_hz, alone.frequency_hz)
+        self.assertEqual(self.hbm.n_found, 3)
+        self.assertEqual(self.hbm.force_scale, 1)
+
+
 class Carrier(unittest.TestCase):
     @classmethod
     def setUpClass(cls):

@@ -1,6 +1,7 @@
 // Curves of exact motions on a compressed basis: the same curve as on the whole one, and what starts from it
 // goes on on the whole one.
 #include "host_case.hpp"
+#include "linalg/work.hpp"
 #include "motions/compressed_motion.hpp"
 #include "motions/motion_measures.hpp"
 #include "motions/responses.hpp"
@@ -171,6 +172,31 @@ void grows_no_further_than_told(void **) {
     assert_true(size(0) >= 1 && size(0) < n - 3); // the slow modes
 }
 
+// A lower force level on what the curve of the full one was followed on: no first look, and the peak of the
+// level's own curve on the whole basis.
+void a_level_goes_on_from_the_one_before(void **) {
+    const Plate &p = plate(true);
+    plm::HbmOptions o;
+    std::shared_ptr<plm::CurveCompression> before;
+    plm::Hbm(p.basis, o, plm::Watch()).sweep(nullptr, &before);
+    assert_true(before != nullptr);
+    o.force_scale = 0.5;
+    const plm::Hbm half(p.basis, o, plm::Watch());
+    const std::int64_t work_before = plm::work_done();
+    const CurvePtr alone = half.sweep();
+    const std::int64_t work_between = plm::work_done();
+    const CurvePtr level = half.sweep(nullptr, &before);
+    const double share = static_cast<double>(plm::work_done() - work_between) /
+                         static_cast<double>(work_between - work_before);
+    o.motion = plm::MotionKind::exact;
+    const plm::Hbm exactly(p.basis, o, plm::Watch());
+    const double right = p.peak(exactly, exactly.sweep()).amplitude;
+    std::printf("    a level takes %.2g of the work of its curve alone\n", share);
+    assert_true(before != nullptr && level->reduced().from != nullptr);
+    assert_true(below(std::abs(p.peak(half, level).amplitude / right - 1), allowed));
+    assert_true(below(share, 0.9));
+}
+
 struct GoneOn {
     bool on_whole = false, start_on_whole = false, exact_where_asked = false, all_points = false;
     double solved = 1, carried = 1; // differences of amplitudes, as shares
@@ -324,7 +350,7 @@ LeftOut left_out_of_another() {
                    ? plm::solution_distance(plm::uncompressed(model, there), motion)
                    : 1e300;
     };
-    const auto larger = plm::compressed_with(p.curve->reduced(), motion, o, 1e-5);
+    const auto larger = plm::compressed_with(p.curve->reduced(), motion, 2 * M_PI * o.frequency_max_hz, 1e-5);
     return {left_out(p.curve->reduced()), left_out(*larger), p.curve->reduced().size(), larger->size()};
 }
 void a_model_takes_in_one_more_motion(void **) {
@@ -355,6 +381,7 @@ int main() {
         cmocka_unit_test(slow_modes_stay_whole),
         cmocka_unit_test(slow_modes_with_partly_closed_contact_stay),
         cmocka_unit_test(grows_no_further_than_told),
+        cmocka_unit_test(a_level_goes_on_from_the_one_before),
         cmocka_unit_test(what_starts_from_the_curve_goes_on_on_the_whole_basis),
         cmocka_unit_test(responses_are_of_the_whole_basis),
         cmocka_unit_test(a_bouncing_curve_is_as_stable_as_on_the_whole_basis),
