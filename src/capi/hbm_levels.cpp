@@ -84,7 +84,9 @@ class LevelSweep {
 
     // Of several, a stop by the host counts most, then the first.
     void end(plm_status status, std::int32_t reason, const std::string &text) {
-        if (ended_.status == PLM_OK || status == PLM_CANCELLED) ended_ = Outcome(status, reason, text);
+        if (ended_.status == PLM_OK || status == PLM_CANCELLED)
+            ended_.status = status, ended_.reason = reason;
+        ended_.text += (ended_.text.empty() ? "" : "; ") + text;
     }
 
     HbmHandle &h_;

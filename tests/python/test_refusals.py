@@ -66,6 +66,7 @@ class Refusals(unittest.TestCase):
         self.refused(model.set_preload, [1, 2], kind=ValueError)
         self.refused(model.set_mass, numpy.eye(3), kind=ValueError)
         self.refused(plm.Model, kind=TypeError)
+        self.assertIn("n_dof=", str(self.refused(plm.Model, 13, kind=TypeError)))
 
     def test_not_positive_definite(self):
         mass, stiffness = models.matrices()

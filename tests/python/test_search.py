@@ -62,6 +62,12 @@ class Stops(unittest.TestCase):
         self.assertEqual(self.hbm.n_found, 3)
         self.assertEqual(self.hbm.force_scale, 1)
 
+    def test_levels_that_end_early(self):
+        """Each is named, and delivered as far as it goes."""
+        with self.assertWarnsRegex(plm.PlmWarning, "force_scale 1: max_points.*force_scale 0.5: max_points"):
+            curves = plm.Hbm(models.between_stops(), max_points=5).sweep_levels([0.5, 1])
+        self.assertEqual([len(curve) for curve in curves], [5, 5])
+
 
 class Carrier(unittest.TestCase):
     @classmethod

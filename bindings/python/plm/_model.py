@@ -54,6 +54,8 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
             given = [m for m in (mass, stiffness, damping) if m is not None]
             if not given:
                 raise TypeError("Model needs a matrix or n_dof")
+            if numpy.ndim(given[0]) == 0 and not scipy.sparse.issparse(given[0]):
+                raise TypeError(f"Model takes matrices, not {given[0]!r}; a number of DOFs alone is Model(n_dof=...)")
             n_dof = numpy.shape(given[0])[0]
         self.context.call("plm_model_create", self.context._h, n_dof, ctypes.byref(self._h))
         for which, matrix in ((_c.MASS, mass), (_c.STIFFNESS, stiffness), (_c.DAMPING, damping)):
