@@ -3,7 +3,6 @@
 #include "capi/barrier.hpp"
 #include "capi/branch_end.hpp"
 #include "capi/hbm_input.hpp"
-#include "linalg/scale.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,16 +10,6 @@
 
 namespace plm::capi {
 namespace {
-
-void check_levels(std::int64_t n, const double *force_scale) {
-    require_range(n, 1, 1 << 20, "n");
-    require_finite_array(force_scale, n, "force_scale");
-    for (std::int64_t i = 0; i < n; ++i)
-        if (!(std::abs(force_scale[i]) <= largest_scale))
-            bad_argument("force_scale", i,
-                         format("force_scale[%lld] is %g; its size must be at most %g",
-                                static_cast<long long>(i), force_scale[i], largest_scale));
-}
 
 /// What went wrong at one level, for whoever reads of all of them.
 std::string at_level(double force_scale, const std::string &text) {
@@ -107,7 +96,8 @@ plm_status plm_hbm_sweep_levels(plm_hbm *hbm, std::int64_t n, const double *forc
                                 std::int64_t *count) {
     return call<HbmHandle>("plm_hbm_sweep_levels", hbm, [&](HbmHandle &h) {
         require_current(*h.basis);
-        check_levels(n, force_scale);
+        require_range(n, 1, 1 << 20, "n");
+        require_finite_array(force_scale, n, "force_scale");
         require_pointer(count, "count");
         LevelSweep sweep(h, n, force_scale);
         sweep.run();

@@ -124,7 +124,7 @@ static void searches(void **state) {
     REFUSED(plm_hbm_sweep_levels(hbm, 2, bad_level, &count), PLM_ERR_ARGUMENT, levels, "force_scale", 1,
             "NaN");
     REFUSED(plm_hbm_sweep_levels(hbm, 2, huge_level, &count), PLM_ERR_ARGUMENT, levels, "force_scale", 1,
-            "at most");
+            "overflow");
     BAD(plm_hbm_sweep_levels(hbm, 2, level, NULL), levels, "count", "NULL");
 
     BAD(plm_hbm_find_by_marching(hbm, -1, known, 1, 0, &count), marching, "n_known", "n_known is -1");
