@@ -18,6 +18,7 @@ module plm_responses
         procedure :: create
         procedure :: destroy
         procedure :: sweep
+        procedure :: sweep_levels
         procedure :: solve
         procedure :: find_peak
         procedure :: estimate_error
@@ -205,6 +206,21 @@ contains
         call finish(self%context, plm_hbm_switch_branch(self%handle, branch%handle, int(point, int64) - 1, side, &
             other%handle), stat, errmsg)
     end subroutine switch_branch
+
+    ! A curve at each of these force scales, in their order, read by found; count: as many as have a first motion.
+    subroutine sweep_levels(self, force_scale, count, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        real(real64), intent(in) :: force_scale(:)
+        integer, intent(inout) :: count
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(int64) :: n
+        integer(plm_status) :: status
+        n = 0
+        status = plm_hbm_sweep_levels(self%handle, size(force_scale, kind=int64), force_scale, n)
+        if (status >= 0) count = int(n)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine sweep_levels
 
     ! Isolated branches beside the curve main_branch; force_max: largest force scale looked at (if absent eight times
     ! the option 'force_scale'); count: branches found, read by found.

@@ -337,7 +337,8 @@ static void print_whole_way(plm_model *model) {
 
 static void print_response(plm_model *model, plm_basis *basis) {
     plm_hbm *hbm = NULL;
-    plm_branch *curve = NULL, *top = NULL;
+    plm_branch *curve = NULL, *top = NULL, *lower = NULL;
+    const double level[] = {0.8, 0.5};
     double *x, peak[2];
     int64_t n = 0, n_points = 0;
     must(plm_hbm_create(basis, &hbm));
@@ -353,6 +354,11 @@ static void print_response(plm_model *model, plm_basis *basis) {
     reals("frequency_hz", n, x);
     must(plm_branch_get_amplitude(curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, n, x, &n));
     reals("amplitude", n, x);
+    must(plm_hbm_sweep_levels(hbm, 2, level, &n));
+    must(plm_hbm_get_found(hbm, n - 1, NULL, &lower));
+    must(plm_branch_get_int(lower, "n_points", &n));
+    heading("level_points"), whole(n);
+    must(plm_branch_destroy(&lower));
     free(x);
     must(plm_hbm_find_peak(hbm, curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, &peak[0], &peak[1], &top));
     reals("peak", 2, peak);

@@ -204,6 +204,7 @@ void print_response(const plm::Model &model, const plm::Basis &basis) {
     print("n_points", std::vector{curve.size()});
     print("frequency_hz", curve.frequency_hz());
     print("amplitude", curve.amplitude(watched));
+    print("level_points", std::vector{hbm.sweep_levels({0.8, 0.5}).back().size()});
     const plm::Peak peak = hbm.find_peak(curve, watched);
     print("peak", std::vector{peak.frequency_hz, peak.amplitude});
     const plm::Response whole = model.compute_response(watched, PLM_HALF_PEAK_TO_PEAK, 1e-4);

@@ -161,7 +161,7 @@ contains
         type(plm_model), intent(in) :: model
         type(plm_basis), intent(in) :: basis
         type(plm_hbm) :: hbm
-        type(plm_branch) :: curve, peak
+        type(plm_branch) :: curve, peak, lower
         real(real64), allocatable :: values(:)
         real(real64) :: hz, amplitude
         integer :: n
@@ -176,6 +176,10 @@ contains
         call show('frequency_hz', values)
         call curve%amplitude(watched, values, PLM_HALF_PEAK_TO_PEAK)
         call show('amplitude', values)
+        call hbm%sweep_levels([0.8_real64, 0.5_real64], n)
+        call hbm%found(n, lower)
+        call lower%get('n_points', n)
+        call show_integers('level_points', [n])
         call hbm%find_peak(curve, watched, hz, amplitude, PLM_HALF_PEAK_TO_PEAK, peak=peak)
         call show('peak', [hz, amplitude])
         call show_whole_way(model)

@@ -154,6 +154,7 @@ def show_response(basis):
     show("n_points", numpy.int64(len(curve)))
     show("frequency_hz", curve.frequency_hz)
     show("amplitude", curve.amplitude(WATCHED))
+    show("level_points", numpy.int64(len(hbm.sweep_levels([0.8, 0.5])[-1])))
     peak = hbm.find_peak(curve, WATCHED)
     show("peak", [peak.frequency_hz, peak.amplitude])
     whole = basis.model.compute_response(WATCHED, accuracy=1e-4)
