@@ -1261,8 +1261,8 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
         const plm_status s = plm_hbm_switch_branch(handle_, branch.handle_, point, mirrored, &b);
         return deliver(s, b, "switch_branch");
     }
-    /// A curve at each of these force scales, in their order; none where a level has no first motion. Where one
-    /// ended early a branch says so.
+    /// A curve at each of these force scales, in their order; none where a level has no first motion. Where
+    /// one ended early a branch says so.
     std::vector<Branch> sweep_levels(Reals force_scale) {
         std::int64_t n = 0;
         finished(plm_hbm_sweep_levels(handle_, force_scale.size(), force_scale.data(), &n), "sweep_levels");

@@ -167,27 +167,25 @@ class Audit {
         double preload = m_.has_preload() ? column_norms(m_.preload())[0] : 0;
         add(0, preload,
             m_.has_preload() ? format("static pre-load, norm %g", preload) : "no static pre-load");
-        double dynamic = 0;
-        std::map<int, double> growing; // by the power
+        std::map<int, double> dynamic; // by the power of the frequency
         for (const auto &[part, load] : m_.excitation()) {
             if (part.harmonic == 0) continue;
-            const double size = std::hypot(column_norms(load.real)[0], column_norms(load.imag)[0]);
-            double &sum = part.power == 0 ? dynamic : growing[part.power];
-            sum = std::hypot(sum, size);
+            double &sum = dynamic[part.power];
+            sum = std::hypot(sum, column_norms(load.real)[0], column_norms(load.imag)[0]);
         }
-        bool grows = false;
-        for (const auto &[power, size] : growing) {
-            if (size > 0) add(0, size, format("harmonic excitation, norm %g times omega^%d", size, power));
-            grows = grows || size > 0;
+        bool is_driven = false;
+        for (const auto &[power, size] : dynamic) {
+            if (!(size > 0)) continue;
+            is_driven = true;
+            const std::string growth = power == 0 ? std::string() : format(" times omega^%d", power);
+            add(0, size, format("harmonic excitation, norm %g%s", size, growth.c_str()));
         }
         double wall = 0;
         for (const auto &[harmonic, part] : m_.contact().motion)
             for (std::int64_t i = 0; harmonic > 0 && i < m_.n_pairs(); ++i)
                 wall = std::max(wall, std::abs(Contact::moved(part, i)));
         if (wall > 0) add(0, wall, format("gaps that move, by up to %g in one harmonic", wall));
-        if (dynamic > 0)
-            add(0, dynamic, format("harmonic excitation, norm %g", dynamic));
-        else if (!(wall > 0 || grows))
+        if (!(wall > 0 || is_driven))
             add(1, 0,
                 format("no harmonic excitation on the free DOFs: the response is zero; %s",
                        m_.excitation_on_supports() > 0

@@ -441,11 +441,11 @@ static void too_late(void **state) {
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(creation),   TEST(matrices),      TEST(damping_and_supports),
-        TEST(node_pairs), TEST(gap_rows),      TEST(constraints),
-        TEST(loads),      TEST(growing_loads), TEST(base_motion),
-        TEST(gap_motion), TEST(text_outputs),  TEST(version),
-        TEST(too_early),  TEST(too_late),      TEST(outputs),
+        TEST(creation),      TEST(matrices),      TEST(damping_and_supports),
+        TEST(node_pairs),    TEST(gap_rows),      TEST(constraints),
+        TEST(loads),         TEST(growing_loads), TEST(base_motion),
+        TEST(gap_motion),    TEST(text_outputs),  TEST(version),
+        TEST(too_early),     TEST(too_late),      TEST(outputs),
         TEST(changed_loads),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,9 +4,9 @@
 #include "support/test.hpp"
 
 using plm::CoupledNode;
+using plm::MeshSurface;
 using plm::Point;
 using plm::Tie;
-using plm::MeshSurface;
 using Nodes = plm::vector<CoupledNode>;
 
 namespace {
