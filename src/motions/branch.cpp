@@ -218,12 +218,10 @@ vector<double> Branch::history(std::int64_t point, std::int64_t dof, std::int64_
     if (p.motion) {
         vector<double> values =
             p.motion->history(reduced_->static_vectors().row(reduced_->model->terms(dof)), n);
-        for (const auto &[harmonic, u] : known_motion(point, dof))
-            for (std::int64_t k = 0; k < n; ++k)
-                values[static_cast<std::size_t>(k)] +=
-                    (u * std::polar(1.0, 2 * M_PI * static_cast<double>(harmonic * period_multiple_ * k) /
-                                             static_cast<double>(n)))
-                        .real();
+        const KnownMotion known = known_motion(point, dof);
+        for (std::int64_t k = 0; k < n; ++k)
+            values[k] += value_at(known, 2 * M_PI * static_cast<double>(period_multiple_ * k) /
+                                             static_cast<double>(n));
         return values;
     }
     const vector<double> c = coefficients(point, dof);

@@ -13,12 +13,12 @@ void Transient::advance_clock(std::int64_t periods, double part, double period) 
 void Transient::add_known_motion(const Model &model, const TransientOptions &options,
                                  TransientRun &run) const {
     const double omega = excitation_omega(options);
-    for (std::size_t j = 0; j < run.observed.size(); ++j)
-        for (const auto &[harmonic, u] : model.known_motion(run.observed[j], omega, options.force_scale))
-            for (std::size_t k = 0; k < run.time.size(); ++k) {
-                const double angle = 2 * M_PI * phase_ + omega * (run.time[k] - time_);
-                run.values[k * run.observed.size() + j] += (u * std::polar(1.0, harmonic * angle)).real();
-            }
+    for (std::size_t j = 0; j < run.observed.size(); ++j) {
+        const KnownMotion known = model.known_motion(run.observed[j], omega, options.force_scale);
+        for (std::size_t k = 0; k < run.time.size() && !known.empty(); ++k)
+            run.values[k * run.observed.size() + j] +=
+                value_at(known, 2 * M_PI * phase_ + omega * (run.time[k] - time_));
+    }
 }
 
 double excitation_omega(const TransientOptions &options) {

@@ -15,6 +15,12 @@ struct RowMotion {
 
 /// What is added to a result of a motion because it is known, Re(u exp(i h omega t)): u by the harmonic h.
 using KnownMotion = std::map<int, std::complex<double>>;
+/// At a phase of the excitation (rad).
+inline double value_at(const KnownMotion &known, double phase) {
+    double value = 0;
+    for (const auto &[harmonic, u] : known) value += (u * std::polar(1.0, harmonic * phase)).real();
+    return value;
+}
 
 /// u_s = omega^power Re(U exp(i h omega t)) at the fixed DOFs. The motion of the free ones is counted from L
 /// u_s, with which they follow at rest, L = -K_ff^-1 K_fs: relative to the base. What is left of the motion
