@@ -119,12 +119,19 @@ class Elimination {
     // end what few rows named from the start, and the mean rather than one of those it is taken of.
     Term choose(const Row &row) const {
         constexpr double not_small = 0.01;
-        const auto is_left = [](const Term &t) { return std::abs(t.value) > cancelled_as_printed * t.size; };
-        const auto is_kept = [&](const Term &t) { return !kept_.empty() && kept_[t.dof]; };
-        const bool all_kept =
-            std::all_of(row.begin(), row.end(), [&](const Term &t) { return is_kept(t) || !is_left(t); });
-        const auto may_go = [&](const Term &t) { return is_left(t) && (all_kept || !is_kept(t)); };
         const auto scaled = [&](const Term &t) { return std::abs(t.value) * scale_[t.dof]; };
+        const auto is_left = [](const Term &t) { return std::abs(t.value) > cancelled_as_printed * t.size; };
+        double most = 0;
+        for (const Term &t : row)
+            if (is_left(t)) most = std::max(most, scaled(t));
+        const auto is_small = [&](const Term &t) { return scaled(t) <= cancelled_as_printed * most; };
+        const auto is_kept = [&](const Term &t) { return !kept_.empty() && kept_[t.dof]; };
+        const bool all_kept = std::all_of(row.begin(), row.end(), [&](const Term &t) {
+            return is_kept(t) || !is_left(t) || is_small(t); // rounding of what is zero must not give a DOF
+        });
+        const auto may_go = [&](const Term &t) {
+            return is_left(t) && !is_small(t) && (all_kept || !is_kept(t));
+        };
         const auto cost = [&](const Term &t) {
             const double size = std::abs(t.value);
             return std::make_tuple(static_cast<double>(count_[t.dof] - 1) / size, named_[t.dof], -size);

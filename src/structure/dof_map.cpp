@@ -32,16 +32,32 @@ SparseMatrix mirrored(const SparseMatrix &upper) {
 } // namespace
 
 DofMap::DofMap(std::int64_t n_dof, const vector<std::int64_t> &fixed, const ConstraintRows &constraints,
-               const vector<char> &kept)
-    : place_(n_dof, 0) {
-    vector<char> is_fixed(n_dof, 0);
+               const vector<char> &kept, WideRows wide)
+    : n_dof_(n_dof), wide_(wide) {
+    if (wide == WideRows::in_groups) grouped_ = in_groups(constraints, n_dof);
+    const std::size_t all = static_cast<std::size_t>(n_dof) + grouped_.within.size();
+    vector<char> is_fixed(all, 0), stays(kept);
+    place_.assign(all, 0);
     for (std::int64_t dof : fixed) is_fixed[dof] = 1, place_[dof] = held;
-    elimination_ = eliminate(constraints, is_fixed, kept);
+    if (!grouped_.within.empty()) {
+        stays.resize(static_cast<std::size_t>(n_dof), 0);
+        stays.resize(all, 1); // or nothing is gained
+        elimination_ = eliminate(grouped_.rows, is_fixed, stays);
+        for (auto &d : elimination_.dependent) d.row = grouped_.given[d.row];
+        if (elimination_.missing_row >= 0)
+            elimination_.missing_row = grouped_.given[elimination_.missing_row];
+    } else {
+        elimination_ = eliminate(constraints, is_fixed, stays);
+    }
+    number_free();
+}
+
+void DofMap::number_free() {
     for (const auto &d : elimination_.dependent) place_[d.dof] = held;
-    for (std::int64_t i = 0; i < n_dof; ++i)
+    for (std::size_t i = 0; i < place_.size(); ++i)
         if (place_[i] != held) {
             place_[i] = n_free();
-            free_dof_.push_back(i);
+            free_dof_.push_back(static_cast<std::int64_t>(i));
         }
     dependent_.rows = n_free();
     dependent_.ptr.assign(1, 0);
@@ -81,13 +97,19 @@ DofTerms DofMap::terms(const DofTerms &sum) const {
     return terms;
 }
 
+vector<std::int64_t> DofMap::told_dofs() const {
+    vector<std::int64_t> dofs;
+    for (std::int64_t i = 0; i < n_free(); ++i) dofs.push_back(told(i));
+    return dofs;
+}
+
 bool DofMap::is_held(std::int64_t dof) const {
     return place_[dof] == held;
 }
 
 double DofMap::bytes() const {
     return 8.0 * static_cast<double>(place_.size() + free_dof_.size() + dependent_.ptr.size()) +
-           16.0 * static_cast<double>(dependent_.nnz());
+           16.0 * static_cast<double>(dependent_.nnz() + grouped_.rows.ptr.back());
 }
 
 void DofMap::expand(const double *free, double *all) const {
@@ -106,24 +128,34 @@ vector<double> DofMap::forces(const double *all) const {
 }
 
 vector<double> DofMap::free_part(const double *all) const {
-    vector<double> free;
-    for (std::int64_t dof : free_dof_) free.push_back(all[dof]);
+    vector<double> free, sums;
+    const auto value = [&](std::int64_t dof) { return dof < n_dof_ ? all[dof] : sums[dof - n_dof_]; };
+    const ConstraintRows &rows = grouped_.rows;
+    const std::int64_t n_sums = static_cast<std::int64_t>(grouped_.within.size());
+    for (std::int64_t i = rows.n_rows() - n_sums; i < rows.n_rows(); ++i) {
+        double sum = 0;
+        for (std::int64_t p = rows.ptr[i]; p + 1 < rows.ptr[i + 1]; ++p) // the last term is the sum itself
+            sum += rows.coefficient[p] * value(rows.dof[p]);
+        sums.push_back(sum);
+    }
+    for (std::int64_t dof : free_dof_) free.push_back(value(dof));
     return free;
 }
 
 // column(j, rows, sum, size) for each column of the upper triangle of T^T A T: the rows in which it has
-// terms, in no order, and by row their sum and that of their absolute values. dependents: T of the dependent
-// DOFs.
+// terms, in no order, and by row their sum and that of their absolute values; as long as it returns true.
+// dependents: T of the dependent DOFs.
 template <class F>
 void DofMap::for_upper(const SparseMatrix &a, const SparseMatrix &dependents, F column) const {
     vector<double> sum(n_free(), 0.0), size(n_free(), 0.0);
     vector<std::int64_t> seen(n_free(), -1), rows, dof_of(dependent_.cols);
-    for (std::int64_t i = 0; i < n_dof(); ++i)
-        if (place_[i] < held) dof_of[held - 1 - place_[i]] = i;
+    for (std::size_t i = 0; i < place_.size(); ++i)
+        if (place_[i] < held) dof_of[held - 1 - place_[i]] = static_cast<std::int64_t>(i);
     for (std::int64_t j = 0; j < n_free(); ++j) {
         rows.assign(1, j); // the diagonal is stored, zero or not
         seen[j] = j, sum[j] = size[j] = 0;
         const auto add = [&](std::int64_t dof, double factor) {
+            if (dof >= n_dof_) return; // nothing stands at a sum
             for (std::int64_t p = a.ptr[dof]; p < a.ptr[dof + 1]; ++p)
                 if (a.val[p] != 0)
                     for_terms(a.idx[p], [&](std::int64_t i, double c) {
@@ -136,28 +168,43 @@ void DofMap::for_upper(const SparseMatrix &a, const SparseMatrix &dependents, F 
         add(free_dof_[j], 1.0);
         for (std::int64_t p = dependents.ptr[j]; p < dependents.ptr[j + 1]; ++p)
             add(dof_of[dependents.idx[p]], dependents.val[p]);
-        column(j, rows, sum, size);
+        if (!column(j, rows, sum, size)) return;
     }
 }
 
-SparseMatrix DofMap::reduced(const char *name, const SparseMatrix &a) const {
+// Counted before anything is formed, and not much beyond the limit.
+std::int64_t DofMap::count_reduced(const SparseMatrix &a, const SparseMatrix &dependents,
+                                   std::int64_t limit) const {
+    std::int64_t upper = 0;
+    for_upper(
+        a, dependents,
+        [&](std::int64_t, const vector<std::int64_t> &rows, const vector<double> &, const vector<double> &) {
+            upper += static_cast<std::int64_t>(rows.size());
+            return 2 * upper <= limit;
+        });
+    return 2 * upper;
+}
+
+std::optional<SparseMatrix> DofMap::reduced(const char *name, const SparseMatrix &a) const {
     if (!has_dependent()) { // one entry for each that stays
         vector<std::int64_t> free(place_);
         return submatrix(a, free, n_free(), free, n_free());
     }
+    // A factorization of what is filled would take far more than of what it was; little is soon factored.
+    constexpr std::int64_t little = 1'000'000, times = 4, many = 50'000'000;
     constexpr double rounding = 1e-14; // of sums of a few terms: what would be noise where nothing is
     const SparseMatrix dependents = transpose(dependent_);
-    std::int64_t entries = 0; // counted first, before anything is formed
-    for_upper(
-        a, dependents,
-        [&](std::int64_t, const vector<std::int64_t> &rows, const vector<double> &, const vector<double> &) {
-            entries += static_cast<std::int64_t>(rows.size());
-            require_sparse(name, a, 2 * entries);
-        });
+    const bool is_whole = wide_ == WideRows::whole;
+    const std::int64_t most = std::max(is_whole ? little : many, times * a.nnz()),
+                       entries = count_reduced(a, dependents, most);
+    if (entries > most) {
+        if (is_whole) return std::nullopt;
+        refuse_filled(name, a, most);
+    }
     SparseMatrix upper;
     upper.rows = upper.cols = n_free();
     upper.ptr.assign(1, 0);
-    upper.idx.reserve(entries), upper.val.reserve(entries);
+    upper.idx.reserve(entries / 2), upper.val.reserve(entries / 2);
     for_upper(a, dependents,
               [&](std::int64_t j, vector<std::int64_t> &rows, const vector<double> &sum,
                   const vector<double> &size) {
@@ -169,27 +216,23 @@ SparseMatrix DofMap::reduced(const char *name, const SparseMatrix &a) const {
                       upper.val.push_back(is_zero ? 0.0 : sum[i]);
                   }
                   upper.ptr.push_back(upper.nnz());
+                  return true;
               });
     return mirrored(upper);
 }
 
-// What a factorization of it would need is far beyond.
-void DofMap::require_sparse(const char *name, const SparseMatrix &a, std::int64_t entries) const {
-    constexpr std::int64_t many = 50'000'000, times = 10;
-    if (entries <= many || entries <= times * a.nnz()) return;
+void DofMap::refuse_filled(const char *name, const SparseMatrix &a, std::int64_t most) const {
     const auto widest = std::max_element(
         elimination_.dependent.begin(), elimination_.dependent.end(),
         [&](const auto &x, const auto &y) { return terms(x.dof).size() < terms(y.dof).size(); });
     throw Error(
         status::memory,
         format("with the constraints eliminated the %s matrix would have more than %lld entries, where it "
-               "has %lld: row %lld (counted from 0, in the order they were added) makes DOF %lld a sum of "
-               "%lld others, and what stands at that DOF couples all of them. Couple fewer nodes; or, where "
-               "that "
-               "is the reference node of a distributing coupling, leave it without stiffness and mass of its "
-               "own (put them on the nodes), and do not fix it (hold some of the nodes)",
-               name, Int(many), Int(a.nnz()), Int(widest->row), Int(widest->dof),
-               Int(terms(widest->dof).size())))
+               "has %lld: "
+               "row %lld (counted from 0, in the order they were added) makes a DOF a sum of %lld others, "
+               "and what stands at that DOF couples all of them. Couple fewer nodes, or number the DOFs of "
+               "neighbouring nodes one after another",
+               name, Int(most), Int(a.nnz()), Int(widest->row), Int(terms(widest->dof).size())))
         .argument("dof")
         .index(widest->row);
 }

@@ -1,22 +1,33 @@
 // How the DOFs of the caller follow from those that are free: q = T q_r. A free DOF is itself, a fixed one
 // zero, a dependent one a sum of free ones by the constraints.
 #pragma once
-#include "structure/constraints.hpp"
 #include "structure/sparse.hpp"
+#include "structure/wide_rows.hpp"
+#include <optional>
 
 namespace plm {
+
+/// How constraint rows over very many DOFs are eliminated: as they are, which is best where nothing stands at
+/// the DOF that they give; or by way of sums over groups of them (wide_rows.hpp).
+enum class WideRows { whole, in_groups };
 
 class DofMap {
   public:
     DofMap() = default;
     /// Fixed DOFs, in any order, some perhaps twice. kept[dof]: stays if it can (constraints.hpp).
     DofMap(std::int64_t n_dof, const vector<std::int64_t> &fixed, const ConstraintRows &constraints,
-           const vector<char> &kept = {});
+           const vector<char> &kept = {}, WideRows wide = WideRows::whole);
 
-    std::int64_t n_dof() const { return static_cast<std::int64_t>(place_.size()); }
+    std::int64_t n_dof() const { return n_dof_; }
     std::int64_t n_free() const { return static_cast<std::int64_t>(free_dof_.size()); }
-    /// The free ones, ascending.
+    /// The free ones, ascending; sums over groups are numbered on from n_dof.
     const vector<std::int64_t> &free_dofs() const { return free_dof_; }
+    /// One of them to tell it by: of a sum, one that it is taken over.
+    std::int64_t told(std::int64_t free_index) const {
+        const std::int64_t dof = free_dof_[free_index];
+        return dof < n_dof_ ? dof : grouped_.within[dof - n_dof_];
+    }
+    vector<std::int64_t> told_dofs() const;
     /// Place among them, or -1.
     std::int64_t free_index(std::int64_t dof) const { return place_[dof] >= 0 ? place_[dof] : -1; }
     /// Its row of T over free indices, empty where it is held at zero.
@@ -33,21 +44,27 @@ class DofMap {
     void expand(const double *free, double *all) const;
     vector<double> forces(const double *all) const;
     vector<double> free_part(const double *all) const;
-    /// T^T A T of a symmetric matrix over all DOFs, symmetric to the last bit. PLM_ERR_MEMORY where
-    /// constraints would fill it.
-    SparseMatrix reduced(const char *name, const SparseMatrix &a) const;
+    /// T^T A T of a symmetric matrix over all DOFs, symmetric to the last bit. None where wide rows would
+    /// fill it and groups may not; PLM_ERR_MEMORY where these would, too.
+    std::optional<SparseMatrix> reduced(const char *name, const SparseMatrix &a) const;
     /// B T of the rows in these triplets.
     SparseMatrix reduced_rows(std::int64_t n_rows, const vector<std::int64_t> &row,
                               const vector<std::int64_t> &dof, const vector<double> &coefficient) const;
 
   private:
+    void number_free();
     template <class F> void for_terms(std::int64_t dof, F f) const;
     template <class F> void for_upper(const SparseMatrix &a, const SparseMatrix &dependents, F column) const;
-    void require_sparse(const char *name, const SparseMatrix &a, std::int64_t entries) const;
+    std::int64_t count_reduced(const SparseMatrix &a, const SparseMatrix &dependents,
+                               std::int64_t limit) const;
+    [[noreturn]] void refuse_filled(const char *name, const SparseMatrix &a, std::int64_t most) const;
 
     static constexpr std::int64_t held = -1; // below: column -2 - place of dependent_
-    vector<std::int64_t> free_dof_, place_;
-    SparseMatrix dependent_; // n_free x dependent DOFs, T^T of them
+    std::int64_t n_dof_ = 0;
+    GroupedRows grouped_; // none where rows are whole
+    WideRows wide_ = WideRows::whole;
+    vector<std::int64_t> free_dof_, place_; // place_: of the sums, too
+    SparseMatrix dependent_;                // n_free x dependent DOFs, T^T of them
     EliminatedConstraints elimination_;
 };
 

@@ -74,6 +74,9 @@ Structure::Structure(const StructureInput &input, GapSize gap, const Solver &sol
     assemble(input, gap);
     for (std::int64_t dof : input.elimination_order)
         if (parts_->dofs.free_index(dof) >= 0) parts_->solver.order.push_back(parts_->dofs.free_index(dof));
+    if (input.elimination_order.empty()) return;
+    for (std::int64_t i = 0; i < n_free(); ++i) // those that the host does not know, behind its own
+        if (parts_->dofs.free_dofs()[i] >= n_dof_) parts_->solver.order.push_back(i);
 }
 
 Structure::Structure(const StructureInput &input, GapSize gap, double largest_contact, const Solver &solver,
@@ -109,18 +112,25 @@ void Structure::assemble(const StructureInput &input, GapSize gap) {
     vector<std::int64_t> held = input.fixed;
     held.insert(held.end(), input.multipliers.begin(), input.multipliers.end());
     const ConstraintRows constraints = with_multipliers(input);
-    map_dofs(held, constraints);
     parts_->base = BaseMotion(input.base_motion, n_dof_, input.fixed, held, constraints);
-    assemble_parts(input, gap);
+    assemble_on(held, constraints, input, gap);
     parts_->still_dofs = find_still_dofs();
     if (parts_->still_dofs.dof.empty()) return;
     held.insert(held.end(), parts_->still_dofs.dof.begin(), parts_->still_dofs.dof.end());
-    map_dofs(held, constraints);
-    assemble_parts(input, gap);
+    assemble_on(held, constraints, input, gap);
 }
 
-void Structure::assemble_parts(const StructureInput &input, GapSize gap) {
-    assemble_matrices(input);
+void Structure::assemble_on(const vector<std::int64_t> &held, const ConstraintRows &constraints,
+                            const StructureInput &input, GapSize gap) {
+    for (const WideRows wide : {WideRows::whole, WideRows::in_groups}) {
+        map_dofs(held, constraints, wide);
+        if (assemble_parts(input, gap)) return;
+    }
+}
+
+// False where rows over many DOFs fill a matrix: to be done again with groups of them.
+bool Structure::assemble_parts(const StructureInput &input, GapSize gap) {
+    if (!assemble_matrices(input)) return false;
     require_scale("mass matrix", parts_->mass);
     require_scale("stiffness matrix", parts_->stiffness);
     if (!(trace(parts_->mass) > 0))
@@ -129,6 +139,7 @@ void Structure::assemble_parts(const StructureInput &input, GapSize gap) {
     require_scale("damping matrix", parts_->damping);
     assemble_gap(input, gap);
     assemble_loads(input);
+    return true;
 }
 
 // None where damping ratios count the modes, which would be others, nor where nothing else moves.
@@ -150,8 +161,9 @@ StillDofs Structure::find_still_dofs() const {
                        : StillDofs();
 }
 
-void Structure::map_dofs(const vector<std::int64_t> &fixed, const ConstraintRows &constraints) {
-    parts_->dofs = DofMap(n_dof_, fixed, constraints);
+void Structure::map_dofs(const vector<std::int64_t> &fixed, const ConstraintRows &constraints,
+                         WideRows wide) {
+    parts_->dofs = DofMap(n_dof_, fixed, constraints, {}, wide);
     if (n_free() == 0)
         throw Error(status::argument,
                     constraints.n_rows() > 0
@@ -171,7 +183,16 @@ void Structure::warn_of_printed_constraints(Watch watch) const {
                    Int(e.missing_row), e.largest_miss));
 }
 
-void Structure::assemble_matrices(const StructureInput &input) {
+bool Structure::reduce(const char *name, const SparseMatrix &all, BaseMotion::Through which,
+                       SparseMatrix &reduced) {
+    std::optional<SparseMatrix> sparse = parts_->dofs.reduced(name, all);
+    if (!sparse) return false;
+    reduced = std::move(*sparse);
+    parts_->base.act(which, all, parts_->dofs);
+    return true;
+}
+
+bool Structure::assemble_matrices(const StructureInput &input) {
     // one at a time: over all DOFs they are large
     SparseMatrix all = over_all_dofs("stiffness", *input.stiffness, n_dof_);
     parts_->translations = find_translations(all);
@@ -179,23 +200,20 @@ void Structure::assemble_matrices(const StructureInput &input) {
         parts_->translations.empty() ? without_negative_entries(all) : vector<Translation>();
     parts_->diagonal_twice = parts_->translations.empty() && is_diagonal_twice(all);
     require_nonnegative_diagonal("stiffness", all, parts_->dofs);
-    parts_->stiffness = parts_->dofs.reduced("stiffness", all);
-    parts_->base.act(BaseMotion::stiffness, all, parts_->dofs);
+    if (!reduce("stiffness", all, BaseMotion::stiffness, parts_->stiffness)) return false;
     // as many codes hand it over: with the pattern of the stiffness, two thirds zero
     all = without_zeros(over_all_dofs("mass", *input.mass, n_dof_));
     if (!mass_like.empty()) refuse_exchanged(mass_like, all);
     weigh(parts_->translations, all);
     require_none_at(input.multipliers, "mass", all);
     require_nonnegative_diagonal("mass", all, parts_->dofs);
-    parts_->mass = parts_->dofs.reduced("mass", all);
-    parts_->base.act(BaseMotion::mass, all, parts_->dofs);
+    if (!reduce("mass", all, BaseMotion::mass, parts_->mass)) return false;
     damping_options_ = input.damping;
     damping_options_.has_matrix = input.damping_matrix != nullptr;
-    if (!damping_options_.has_matrix) return;
+    if (!damping_options_.has_matrix) return true;
     all = over_all_dofs("damping", *input.damping_matrix, n_dof_);
     require_none_at(input.multipliers, "damping", all);
-    parts_->damping = parts_->dofs.reduced("damping", all);
-    parts_->base.act(BaseMotion::damping, all, parts_->dofs);
+    return reduce("damping", all, BaseMotion::damping, parts_->damping);
 }
 
 void Structure::assemble_gap(const StructureInput &input, GapSize size) {
@@ -253,7 +271,7 @@ void Structure::assemble_loads(const StructureInput &input) {
 void Structure::factor_stiffness(double largest_contact, Watch watch) {
     watch.step("factorization", 0.1);
     FactoredStiffness result = factor_with_rigid_modes(parts_->stiffness, parts_->mass, largest_contact,
-                                                       parts_->dofs.free_dofs(), parts_->solver, watch);
+                                                       parts_->dofs.told_dofs(), parts_->solver, watch);
     parts_->factor = std::move(result.factor);
     parts_->shift = result.shift;
     if (parts_->shift > 0) parts_->shifted = add(1.0, parts_->stiffness, parts_->shift, parts_->mass);

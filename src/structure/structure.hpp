@@ -92,8 +92,8 @@ class Structure {
 
     std::int64_t n_dof() const { return n_dof_; }
     std::int64_t n_free() const { return parts_->dofs.n_free(); }
-    /// DOF of a free index.
-    std::int64_t dof(std::int64_t free_index) const { return parts_->dofs.free_dofs()[free_index]; }
+    /// DOF of a free index, to tell it by.
+    std::int64_t dof(std::int64_t free_index) const { return parts_->dofs.told(free_index); }
     /// The DOFs of the caller, and the sums of them numbered on from there.
     std::int64_t n_outputs() const {
         return n_dof_ + (outputs_ ? static_cast<std::int64_t>(outputs_->size()) : 0);
@@ -206,11 +206,14 @@ class Structure {
         return Field(multiply_transposed(a, x.in_core()));
     }
     void assemble(const StructureInput &input, GapSize gap);
-    void assemble_parts(const StructureInput &input, GapSize gap);
+    void assemble_on(const vector<std::int64_t> &held, const ConstraintRows &constraints,
+                     const StructureInput &input, GapSize gap);
+    bool assemble_parts(const StructureInput &input, GapSize gap);
     StillDofs find_still_dofs() const;
-    void map_dofs(const vector<std::int64_t> &fixed, const ConstraintRows &constraints);
+    void map_dofs(const vector<std::int64_t> &fixed, const ConstraintRows &constraints, WideRows wide);
     void warn_of_printed_constraints(Watch watch) const;
-    void assemble_matrices(const StructureInput &input);
+    bool assemble_matrices(const StructureInput &input);
+    bool reduce(const char *name, const SparseMatrix &all, BaseMotion::Through which, SparseMatrix &reduced);
     void assemble_gap(const StructureInput &input, GapSize size);
     void assemble_loads(const StructureInput &input);
     void factor_stiffness(double largest_contact, Watch watch);

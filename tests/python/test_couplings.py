@@ -257,6 +257,42 @@ class Couplings(unittest.TestCase):
             model.add_rigid_link(dof[0], [0, 0, 0], dof[i], [1, 2, 3])
         self.assertLess(time.process_time() - before, 20)
 
+    def lowest_of(self, mass, stiffness, rows, shift, count):
+        """Of the structure under rows q = 0, by Lagrange multipliers: no elimination, no sums."""
+        zero = scipy.sparse.csc_matrix((len(rows), len(rows)))
+        K = scipy.sparse.bmat([[scipy.sparse.csc_matrix(stiffness), rows.T], [rows, None]], "csc")
+        M = scipy.sparse.block_diag([scipy.sparse.csc_matrix(mass), zero], "csc")
+        factor = scipy.sparse.linalg.splu(K + shift * M)
+        inverse = scipy.sparse.linalg.LinearOperator(K.shape, lambda x: factor.solve(M @ x))
+        value = scipy.sparse.linalg.eigs(inverse, count, return_eigenvectors=False, tol=1e-13).real
+        return numpy.sort(1 / value) - shift
+
+    def test_a_wide_mean_with_stiffness_and_mass_of_its_own(self):
+        """The reference of 441 nodes is an instrument on springs, is held, or floats with all that hangs at it: what
+        stands at it would couple 1,323 DOFs, and by way of sums over few nodes couples few."""
+        mass, stiffness, xyz, number = block((20, 20, 2), (0, 0, 0), (20, 20, 2))
+        n, top = len(mass), number[:, :, -1].ravel()
+        rows = numpy.zeros((6, n + 6))
+        G = fit(xyz[top], numpy.array([9, 12, 4]), numpy.ones(len(top)))
+        rows[:, (3 * top[:, None] + numpy.arange(3)).ravel()] = -G
+        rows[:, n:] = numpy.eye(6)
+        springs = numpy.diag([30, 40, 50, 900, 800, 700])
+        for own, held, shift in ((springs, False, 0), (springs, True, 0), (0 * springs, False, 0.01)):
+            M = scipy.linalg.block_diag(mass, numpy.diag([200, 200, 200, 5e3, 6e3, 7e3]))
+            K = scipy.linalg.block_diag(stiffness, own)
+            model = plm.Model(scipy.sparse.csc_matrix(M), scipy.sparse.csc_matrix(K))
+            model.add_distributing_coupling(numpy.arange(n, n + 6), [9, 12, 4], numpy.arange(n).reshape(-1, 3)[top], xyz[top])
+            kept = slice(0, n if held else n + 6)
+            if held:
+                model.fix_dofs(numpy.arange(n, n + 6))
+            model.build()
+            self.assertEqual(model.n_free, n - 6 if held else n)
+            hz, shapes = model.modes(12, shapes=True)
+            want = self.lowest_of(M[kept, kept], K[kept, kept], rows[:, kept], shift, 12)
+            scale = want[-1]
+            self.assertLess(numpy.abs((2 * numpy.pi * hz)**2 - want).max(), 1e-9 * scale)  # of ARPACK, here and there
+            self.assertLess(numpy.abs(rows @ shapes).max(), 1e-10 * numpy.abs(shapes).max())
+
     def test_refusals(self):
         mass, stiffness, xyz = body(6, 4, 1)
         model = plm.Model(mass, stiffness)

@@ -162,18 +162,52 @@ plm::SparseMatrix springs(std::int64_t n, double at_reference) {
     return plm::from_triplets(n + 1, n + 1, i, i, v);
 }
 
-// The mean of 20,000 nodes fills nothing as long as it has no stiffness of its own; where it has, that is
-// said before anything is formed.
-void a_wide_coupling_fills_nothing_or_is_refused(void **) {
+// The mean of 20,000 nodes fills nothing as long as it has no stiffness of its own. Where it has, sums over
+// groups keep the matrix sparse, and it is the same: its energy in motions that the constraint allows, of
+// which there are as many.
+void a_wide_coupling_fills_nothing(void **) {
     constexpr std::int64_t n = 20'000;
     const Coupling c = mean_of(n);
-    const DofMap map(n + 1, {}, c.rows);
-    assert_int_equal(map.free_index(n), -1);
-    assert_int_equal(map.reduced("stiffness", springs(n, 0)).nnz(), n);
-    const Caught refused = caught([&] { map.reduced("stiffness", springs(n, 1)); });
+    const DofMap whole(n + 1, {}, c.rows), groups(n + 1, {}, c.rows, {}, plm::WideRows::in_groups);
+    assert_int_equal(whole.free_index(n), -1);
+    assert_int_equal(whole.reduced("stiffness", springs(n, 0)).value().nnz(), n);
+    const plm::SparseMatrix a = springs(n, 3);
+    assert_false(whole.reduced("stiffness", a).has_value());
+    const plm::SparseMatrix reduced = groups.reduced("stiffness", a).value();
+    assert_int_equal(groups.n_free(), n);
+    assert_true(reduced.nnz() < 100 * n);
+    test::Random random(3);
+    plm::vector<double> q(n + 1), back(n + 1), f(static_cast<std::size_t>(n));
+    for (std::int64_t i = 0; i < n; ++i) q[i] = random(), q[n] += q[i] / static_cast<double>(n);
+    const plm::vector<double> free = groups.free_part(q.data());
+    groups.expand(free.data(), back.data());
+    double want = 0, got = 0;
+    for (std::int64_t i = 0; i <= n; ++i) {
+        assert_true(near(back[i], q[i], 1e-12));
+        want += 0.5 * q[i] * (i < n ? 2.0 : 3.0) * q[i];
+    }
+    plm::multiply(reduced, free.data(), f.data());
+    for (std::int64_t i = 0; i < n; ++i) got += 0.5 * free[i] * f[i];
+    assert_true(near(got, want, 1e-12 * want));
+}
+
+// DOFs far apart in their numbers have no groups in common: what fills is said before anything is formed.
+void what_groups_do_not_help_is_refused(void **) {
+    constexpr std::int64_t n = 10'000;
+    ConstraintRows rows;
+    for (std::int64_t i = 0; i < 70; ++i) { // row i: every 70th DOF
+        DofTerms terms{{70 * n + i, 1}};
+        for (std::int64_t k = 0; k < n; ++k) terms.push_back({70 * k + i, -1.0 / static_cast<double>(n)});
+        add(rows, terms);
+    }
+    const DofMap groups(70 * n + 70, {}, rows, {}, plm::WideRows::in_groups);
+    plm::vector<std::int64_t> i;
+    for (std::int64_t j = 0; j < 70 * n + 70; ++j) i.push_back(j);
+    const plm::vector<double> ones(i.size(), 1.0);
+    const plm::SparseMatrix a = plm::from_triplets(70 * n + 70, 70 * n + 70, i, i, ones);
+    const Caught refused = caught([&] { groups.reduced("stiffness", a); });
     assert_int_equal(refused.status, plm::status::memory);
-    assert_int_equal(refused.index, 0);
-    assert_true(refused.says("row 0") && refused.says("DOF 20000") && refused.says("stiffness matrix"));
+    assert_true(refused.says("stiffness matrix") && refused.says("10000 others"));
 }
 
 // T^T A T against the dense product, symmetric to the last bit, and zero where it is.
@@ -189,7 +223,7 @@ void matrices_are_reduced(void **) {
             if ((7 * (r + c) + r * c) % 3 == 0)
                 i.push_back(r), j.push_back(c), v.push_back(all(std::min(r, c), std::max(r, c)));
     const plm::SparseMatrix a = plm::from_triplets(n_dof, n_dof, i, j, v);
-    const Matrix t = dense_map(map), got = plm::to_dense(map.reduced("test", a)),
+    const Matrix t = dense_map(map), got = plm::to_dense(map.reduced("test", a).value()),
                  want = product('T', 'N', t, multiply(a, t));
     for (std::int64_t r = 0; r < got.rows(); ++r)
         for (std::int64_t c = 0; c < got.cols(); ++c) {
@@ -232,7 +266,8 @@ int main() {
         cmocka_unit_test(rows_that_only_zero_satisfies_hold_what_they_name),
         cmocka_unit_test(rows_that_repeat_others_as_printed),
         cmocka_unit_test(a_rotation_stays_though_its_coefficients_are_large),
-        cmocka_unit_test(a_wide_coupling_fills_nothing_or_is_refused),
+        cmocka_unit_test(a_wide_coupling_fills_nothing),
+        cmocka_unit_test(what_groups_do_not_help_is_refused),
         cmocka_unit_test(matrices_are_reduced),
         cmocka_unit_test(sums_of_dofs_by_the_free_ones),
     };

@@ -208,9 +208,42 @@ void wide_couplings_stay_sparse(void **) {
     const plm::DofMap link(n_dof, fixed, rigid_link(reference, nodes)),
         mean(n_dof, fixed, distributing_coupling(reference, nodes, plm::vector<double>(n, 1.0)));
     assert_int_equal(link.n_free(), 3 * n + 6);
-    assert_true(link.reduced("stiffness", springs).nnz() <= 3 * n + 2 * 3 * 3 * n + 36);
+    assert_true(link.reduced("stiffness", springs).value().nnz() <= 3 * n + 2 * 3 * 3 * n + 36);
     assert_int_equal(mean.n_free(), 6 * n);
-    assert_int_equal(mean.reduced("stiffness", springs).nnz(), 12 * n);
+    assert_int_equal(mean.reduced("stiffness", springs).value().nnz(), 12 * n);
+}
+
+// A mean of 361 nodes of a grid by way of sums over some twenty, as far as these go: in a row of the grid the
+// six of a coupling are not independent, and one node alone has fewer DOFs than there are sums. Whatever is
+// left free, all DOFs together are what the rows ask.
+void a_mean_by_sums_over_few_nodes(void **) {
+    constexpr std::int64_t side = 19, n = 3 * side * side;
+    const auto with_dofs = [](std::int64_t first, std::size_t count, Point at) {
+        CoupledNode with = node(0, at);
+        for (std::size_t k = 0; k < 6; ++k)
+            with.dof[k] = k < count ? first + static_cast<std::int64_t>(k) : plm::no_dof;
+        return with;
+    };
+    Nodes nodes;
+    for (std::int64_t i = 0; i < side; ++i)
+        for (std::int64_t j = 0; j < side; ++j)
+            nodes.push_back(
+                with_dofs(3 * (i * side + j), 3, {static_cast<double>(i), static_cast<double>(j), 2}));
+    const plm::vector<double> weight(nodes.size(), 1.0);
+    const ConstraintRows rows = distributing_coupling(with_dofs(n, 6, {7, 11, 4}), nodes, weight);
+    for (const plm::vector<std::int64_t> &fixed :
+         {plm::vector<std::int64_t>(), {n, n + 1, n + 2, n + 3, n + 4, n + 5}}) {
+        const plm::DofMap map(n + 6, fixed, rows, {}, plm::WideRows::in_groups);
+        assert_int_equal(map.n_free(), n - static_cast<std::int64_t>(fixed.size()));
+        test::Random random(3);
+        plm::vector<double> free(static_cast<std::size_t>(map.n_free()));
+        Motion q(n + 6);
+        for (double &f : free) f = random();
+        map.expand(free.data(), q.data());
+        assert_true(largest_value(rows, q) < 1e-14); // of means of random numbers
+        const Motion again = map.free_part(q.data());
+        for (std::size_t i = 0; i < free.size(); ++i) assert_true(below(std::abs(again[i] - free[i]), 1e-12));
+    }
 }
 
 } // namespace
@@ -223,6 +256,7 @@ int main() {
         cmocka_unit_test(links_of_nodes_with_fewer_dofs),
         cmocka_unit_test(a_chain_of_couplings),
         cmocka_unit_test(wide_couplings_stay_sparse),
+        cmocka_unit_test(a_mean_by_sums_over_few_nodes),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }
