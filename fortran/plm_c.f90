@@ -502,6 +502,28 @@ module plm_c
             real(c_double), intent(in) :: dependent_xyz(*)
             integer(plm_status) :: code
         end function plm_model_add_rigid_link_i64
+        function plm_model_set_coordinates_i32(model, index_base, n, per_node, dof, xyz) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), value :: per_node
+            integer(c_int32_t), intent(in) :: dof(*)
+            real(c_double), intent(in) :: xyz(*)
+            integer(plm_status) :: code
+        end function plm_model_set_coordinates_i32
+        function plm_model_set_coordinates_i64(model, index_base, n, per_node, dof, xyz) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), value :: per_node
+            integer(c_int64_t), intent(in) :: dof(*)
+            real(c_double), intent(in) :: xyz(*)
+            integer(plm_status) :: code
+        end function plm_model_set_coordinates_i64
         function plm_model_add_distributing_coupling_i32(model, index_base, per_reference, reference_dof, &
             reference_xyz, n, dof, xyz, weight) bind(c) result(code)
             import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
@@ -1966,6 +1988,9 @@ module plm_c
     end interface
     interface plm_model_add_rigid_link
         procedure :: plm_model_add_rigid_link_i32, plm_model_add_rigid_link_i64
+    end interface
+    interface plm_model_set_coordinates
+        procedure :: plm_model_set_coordinates_i32, plm_model_set_coordinates_i64
     end interface
     interface plm_model_add_distributing_coupling
         procedure :: plm_model_add_distributing_coupling_i32, plm_model_add_distributing_coupling_i64

@@ -361,6 +361,22 @@ subroutine plmmrl(handle, nref, irefd, refxyz, n, ndep, idepd, depxyz, ierr)
         int(n, int64), int(ndep, c_int32_t), idepd, depxyz))
 end subroutine plmmrl
 
+subroutine plmmxy(handle, n, nper, idof, xyz, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_set_coordinates
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    integer, intent(in) :: nper
+    integer, intent(in) :: idof(*)
+    real(real64), intent(in) :: xyz(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_set_coordinates(as_pointer(handle), int(1, c_int32_t), int(n, int64), int(nper, &
+        c_int32_t), idof, xyz))
+end subroutine plmmxy
+
 subroutine plmmdc(handle, nref, irefd, refxyz, n, idof, xyz, weight, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t
     use, intrinsic :: iso_fortran_env, only: int64, real64

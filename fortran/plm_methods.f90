@@ -181,7 +181,10 @@ contains
 
     ! Looks the built model over: mass per direction, rigid-body modes, symmetry, definiteness, gap signs, contact
     ! stiffness against local stiffness, units that look off, an excitation that moves no low mode, gaps that the
-    ! linear response never closes. count: number of findings, read one by one below.
+    ! linear response never closes. With coordinates (plm_model_set_coordinates_i32) also: the six motions of a
+    ! rigid body through K and the gap rows, mass, centre of gravity and moments of inertia, DOFs per node,
+    ! density and speed of waves, gaps and normals against where the nodes are. count: number of findings, read
+    ! one by one below.
     subroutine model_audit(self, count, stat, errmsg)
         class(plm_model_methods), intent(in) :: self
         integer, intent(inout) :: count

@@ -748,6 +748,19 @@ class Model : public detail::WithOptions<Model, plm_model> {
                                                   dependent_dof.narrow(), dependent_xyz.data()),
               verb);
     }
+    /// Where the DOFs are, for the audit: 3 or 6 of every node (base - 1: none); xyz: 3 x n.
+    void set_coordinates(Indices dof, Reals xyz, std::int32_t index_base = 0) {
+        const bool wide = dof.is_wide();
+        const char *verb = wide ? "set_coordinates_i64" : "set_coordinates_i32";
+        const std::int64_t n = xyz.size() / 3;
+        const std::int32_t per_node = dof.size() > 3 * n ? 6 : 3;
+        require_size(xyz.size(), 3 * n, verb, "xyz");
+        require_size(dof.size(), per_node * n, verb, "dof");
+        check(wide
+                  ? plm_model_set_coordinates_i64(handle_, index_base, n, per_node, dof.wide(), xyz.data())
+                  : plm_model_set_coordinates_i32(handle_, index_base, n, per_node, dof.narrow(), xyz.data()),
+              verb);
+    }
     /// RBE3: a reference node of 3 or 6 DOFs by the rigid motion that fits nodes best; dof, xyz: 3 x n;
     /// weight: n or {} (all alike).
     void add_distributing_coupling(Indices reference_dof, Reals reference_xyz, Indices dof, Reals xyz,

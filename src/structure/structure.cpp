@@ -196,6 +196,8 @@ bool Structure::assemble_matrices(const StructureInput &input) {
     // one at a time: over all DOFs they are large
     SparseMatrix all = over_all_dofs("stiffness", *input.stiffness, n_dof_);
     parts_->translations = find_translations(all);
+    parts_->geometry = Geometry(input.nodes, n_dof_);
+    parts_->geometry.take_stiffness(all, input.multipliers);
     const vector<Translation> mass_like =
         parts_->translations.empty() ? without_negative_entries(all) : vector<Translation>();
     parts_->diagonal_twice = parts_->translations.empty() && is_diagonal_twice(all);
@@ -205,6 +207,7 @@ bool Structure::assemble_matrices(const StructureInput &input) {
     all = without_zeros(over_all_dofs("mass", *input.mass, n_dof_));
     if (!mass_like.empty()) refuse_exchanged(mass_like, all);
     weigh(parts_->translations, all);
+    parts_->geometry.take_mass(all);
     require_none_at(input.multipliers, "mass", all);
     require_nonnegative_diagonal("mass", all, parts_->dofs);
     if (!reduce("mass", all, BaseMotion::mass, parts_->mass)) return false;

@@ -7,6 +7,7 @@
 #include "structure/dof_map.hpp"
 #include "structure/eigs.hpp"
 #include "structure/gap_rows.hpp"
+#include "structure/geometry.hpp"
 #include "structure/loads.hpp"
 #include "structure/mode_count.hpp"
 #include "structure/still_dofs.hpp"
@@ -40,6 +41,7 @@ struct StructureInput {
     // gap matrix by rows: B = [row; dof; coefficient] triplets
     vector<std::int64_t> gap_row, gap_dof;
     vector<double> gap_coefficient;
+    vector<CoupledNode> nodes;             // where the DOFs are; may be empty, or of some of them
     vector<double> preload;                // empty: none
     HarmonicLoads excitation, base_motion; // the latter of fixed DOFs (base_motion.hpp)
     /// What may be asked of motions beside the DOFs: sums over all of them, numbered on from n_dof. It may
@@ -177,6 +179,8 @@ class Structure {
     const vector<Translation> &translations() const { return parts_->translations; }
     /// Those held like fixed ones, which they were meant to be, since nothing moves them.
     const StillDofs &still_dofs() const { return parts_->still_dofs; }
+    /// What the coordinates of nodes tell, where they are known.
+    const Geometry &geometry() const { return parts_->geometry; }
     /// The stiffness matrix looks as if its diagonal was added up twice.
     bool diagonal_twice() const { return parts_->diagonal_twice; }
     /// Norm of the harmonic excitation on fixed DOFs, where it does nothing.
@@ -233,6 +237,7 @@ class Structure {
         SparseMatrix given_gap_rows; // over all DOFs, where some are dependent
         vector<std::int64_t> multipliers;
         vector<Translation> translations;
+        Geometry geometry;
         StillDofs still_dofs;
         bool diagonal_twice = false;
         BaseMotion base;

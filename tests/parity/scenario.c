@@ -112,9 +112,11 @@ static void print_coupled(void) {
     must(plm_model_add_surface_i32(model, 0, 3, no_dof, wall, NULL, 1, face_ptr, face_node, &master));
     must(plm_model_add_surface_contact(model, slave, master, PLM_SURFACE_SMOOTH, 50, 2, 0.1));
     must(plm_model_set_rest_force(model, 3, press));
+    must(plm_model_set_coordinates_i32(model, 0, 3, 3, face, corners));
     must(plm_model_build(model));
     must(plm_model_get_int(model, "n_free", &n));
     heading("coupled_n_free"), whole(n);
+    must(plm_model_audit(model, &n)), heading("coupled_findings"), whole(n);
     reals("tie_distance", 1, distance);
     must(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 4, hz, NULL));
     reals("coupled_hz", 4, hz);

@@ -73,8 +73,10 @@ void print_coupled(const plm::Context &context) {
     const auto master = model.add_surface(std::vector<std::int32_t>(9, -1), wall, {0, 3}, {0, 1, 2});
     model.add_surface_contact(slave, master, PLM_SURFACE_SMOOTH, 50, 2, 0.1);
     model.set_rest_force({3, PLM_KEEP_GAP, 0});
+    model.set_coordinates(face, corners);
     model.build();
     print("coupled_n_free", std::vector{model.get_int("n_free")});
+    print("coupled_findings", std::vector{static_cast<std::int64_t>(model.audit().size())});
     print("tie_distance", distance);
     print("coupled_hz", model.modes(PLM_SYSTEM_OPEN, 4).frequency_hz);
     model.solve_rest();

@@ -207,12 +207,18 @@ C     points count from 1 here.
       PRESS(3) = 0.0D0
       CALL PLMMRF(MODEL, 3, PRESS, IERR)
       CALL MUST(IERR)
+      CALL PLMMXY(MODEL, 3, 3, IFACE, CORNER, IERR)
+      CALL MUST(IERR)
       CALL PLMMBU(MODEL, IERR)
       CALL MUST(IERR)
       CALL PLMMGI(MODEL, 'n_free', NUMBER, IERR)
       CALL MUST(IERR)
       INTS(1) = NUMBER
       CALL SHOWI('coupled_n_free', 1, INTS)
+      CALL PLMMAU(MODEL, NUMBER, IERR)
+      CALL MUST(IERR)
+      INTS(1) = NUMBER
+      CALL SHOWI('coupled_findings', 1, INTS)
       CALL SHOW('tie_distance', 1, DIST)
       CALL PLMMFR(MODEL, PLMOPN, 4, HZ, IERR)
       CALL MUST(IERR)

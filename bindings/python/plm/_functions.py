@@ -48,6 +48,8 @@ FUNCTIONS = {
     "plm_model_add_constraints_i64": "piqppp model index_base n row_ptr dof coefficient",
     "plm_model_add_rigid_link_i32": "piippqipp model index_base per_reference reference_dof reference_xyz n per_dependent dependent_dof dependent_xyz",
     "plm_model_add_rigid_link_i64": "piippqipp model index_base per_reference reference_dof reference_xyz n per_dependent dependent_dof dependent_xyz",
+    "plm_model_set_coordinates_i32": "piqipp model index_base n per_node dof xyz",
+    "plm_model_set_coordinates_i64": "piqipp model index_base n per_node dof xyz",
     "plm_model_add_distributing_coupling_i32": "piippqppp model index_base per_reference reference_dof reference_xyz n dof xyz weight",
     "plm_model_add_distributing_coupling_i64": "piippqppp model index_base per_reference reference_dof reference_xyz n dof xyz weight",
     "plm_model_add_tie_i32": "piqppqppqppdp model index_base n dependent_dof dependent_xyz n_surface surface_dof surface_xyz n_faces face_ptr face_node tolerance distance",
