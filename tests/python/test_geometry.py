@@ -129,7 +129,7 @@ class Geometry(unittest.TestCase):
         model = plm.Model(numpy.eye(6), numpy.eye(6))
         with self.assertRaisesRegex(ValueError, "needed is 2 x 3 or 6"):
             model.set_coordinates([[0, 1, 2]], [[0, 0, 0], [1, 0, 0]])
-        model.set_coordinates([[0, 1, 2], [3, 4, 5]], [[0, 0, 0], [1, 0, 0]])
+        model.set_coordinates(numpy.arange(6, dtype=numpy.int32).reshape(2, 3), [[0, 0, 0], [1, 0, 0]])
 
 
 if __name__ == "__main__":
