@@ -37,7 +37,7 @@ class Matrix:
         self.rows, self.columns, self.real, self.imaginary, self.lines = [], [], [], [], []
 
     def whole(self, text, what, allowed):
-        if not text.isdigit() or int(text) not in allowed:
+        if not text.isdecimal() or int(text) not in allowed:
             raise FileError(self.path, self.line, f"{what} of matrix {self.name} is {text!r}; it must be one of "
                             f"{', '.join(map(str, allowed))}")
         return int(text)
@@ -77,7 +77,7 @@ class Matrix:
             key = known.get(pair)
             if key is None:
                 node, direction = pair[0].strip(), pair[1].strip() or "0"
-                if not node.isdigit() or not 0 < int(node) < LABEL_LIMIT or direction not in "0123456" or len(direction) != 1:
+                if not node.isdecimal() or not 0 < int(node) < LABEL_LIMIT or direction not in "0123456" or len(direction) != 1:
                     raise FileError(self.path, self.lines[k], f"{' '.join(p.strip() for p in pair)!r} where a point and a direction "
                                     "0 .. 6 are expected")
                 key = known[pair] = int(key_of(int(node), int(direction)))
@@ -86,6 +86,8 @@ class Matrix:
 
     def assembled(self, notes):
         """(whole matrix, its DOFs), by label."""
+        if not self.rows:
+            raise FileError(self.path, self.line, f"matrix {self.name} has no columns")
         rows, columns = self.keys(self.rows), self.keys(self.columns)
         values = self.numbers(self.real, "a number")
         if self.kind > 2:
