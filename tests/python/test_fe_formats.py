@@ -192,6 +192,15 @@ class Samples(unittest.TestCase):
         numpy.testing.assert_array_equal(found.mass.toarray(), M)
         found = read_matrices(self.broken / "lonely.sti", mass=self.good / "beam.mas")
         numpy.testing.assert_array_equal(found.mass.toarray(), M)
+        order = [[205, 1], [101, 2], [101, 1]]
+        found = read_matrices(self.good / "large.pch", dofs=numpy.array(order))
+        self.assertEqual(found.dofs.tolist(), order)
+        numpy.testing.assert_array_equal(found.stiffness.toarray(), K[::-1, ::-1])
+        numpy.testing.assert_array_equal(found.mass.toarray(), M[::-1, ::-1])
+        with self.assertRaisesRegex(FileError, "has node 205, direction 1, which the DOFs handed over have not"):
+            read_matrices(self.good / "large.pch", dofs=numpy.array(order[1:]))
+        with self.assertRaisesRegex(FileError, "does not name its DOFs, the stiffness matrix does"):
+            read_matrices(self.good / "job_STIF2.mtx", mass=self.good / "coordinates_MASS1.mtx")
         with self.assertRaisesRegex(FileError, "2 DOFs are listed for matrices of 3 rows"):
             read_matrices(self.good / "sparse.op4", dofs=listed[:2])
         with self.assertRaisesRegex(FileError, "has no matrix KXX; it has KAAX, KBBX, BAAX, PAX"):
