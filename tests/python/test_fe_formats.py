@@ -53,6 +53,8 @@ GOOD = {
     "wide.op4": {},
     "complex.op4": {"S": 0.02 * K, "notes": ["imaginary part", "0.02 times the stiffness"]},
     "whole.mtx": {},
+    "cms.mtx": {"dofs": [[101, 1], [101, 2], [-1, 1]], "notes": ["cms.mtx:12: substructure load case vectors were not read",
+                                                                 "cms.mtx:20: substructure recovery vectors were not read"]},
     "sparse.op4": {"dofs": [[-1, 0], [-2, 0], [-3, 0]], "notes": ["no list of DOFs"]},
     "dense_big_endian.op4": {"dofs": [[-1, 0], [-2, 0], [-3, 0]], "notes": ["no list of DOFs"]},
     "sparse_little_endian.op4": {"dofs": [[-1, 0], [-2, 0], [-3, 0]], "notes": ["no list of DOFs"]},
