@@ -96,12 +96,13 @@ class RoundTrips(unittest.TestCase):
                     self.assertGreater(abs(difference).max(), 0.0)  # else it belongs to the exact ones
 
     def test_every_format_gives_the_same_curve(self):
-        """1e-12 of the largest amplitude."""
+        """1e-12 of the largest amplitude; of OUTPUT4 one layout each, as all of them give the same matrices to the last digit."""
         labels = scattered_chain(True).dofs
         reference = {damped: curve(scattered_chain(damped), labels) for damped in (True, False)}
         for amplitudes in reference.values():
             self.assertGreater(amplitudes.max(), 3 * amplitudes.min())
-        for name, options in EXACT + [("dmig", {})]:
+        tried = [(name, o) for name, o in EXACT if o.get("layout", "bigmat") == "bigmat" and o.get("byteorder") != "<"]
+        for name, options in tried + [("dmig", {})]:
             with self.subTest(format=name, **options):
                 damped = name != "calculix"
                 amplitudes = curve(self.again(name, options, scattered_chain(damped)), labels)
