@@ -53,7 +53,7 @@ class Line:
         if not text and default is not None:
             return default
         value = whole(text)
-        if value is None or abs(value) > LARGEST_LABEL:
+        if value is None:
             self.fail(f"{name} is {shown(text)}; a whole number is needed")
         return value
 
@@ -140,16 +140,12 @@ def shown(text):
 
 
 def whole(text):
-    """The integer that a field says, also as 12. or 1.2e1 (which mesh tools write); None if none."""
+    """The integer that a field says, also as 12. or 1.2e1 (which mesh tools write); None if none, or far too large for a label."""
     try:
-        return int(text) if "_" not in text else None
-    except ValueError:
-        pass
-    try:
-        value = float(text)
+        value = float(text) if "_" not in text else numpy.nan
     except ValueError:
         return None
-    return int(value) if numpy.isfinite(value) and value == int(value) else None
+    return int(value) if abs(value) <= LARGEST_LABEL and value == int(value) else None
 
 
 def table(block, columns, name):
