@@ -5,6 +5,7 @@ import numpy
 
 from . import deck_elements
 from .deck_lines import shown, whole
+from .deck_mesh import is_in
 from .errors import FileError
 
 SYMMETRIES = {"XSYMM": (1, 5, 6), "YSYMM": (2, 4, 6), "ZSYMM": (3, 4, 5), "XASYMM": (2, 3, 4), "YASYMM": (1, 3, 5),
@@ -87,7 +88,7 @@ class RuleReader:
     def nodes(self, text, line, block):
         """Labels of defined nodes."""
         labels = self._mesh.node_sets.chosen(text, line, block.scope)
-        missing = labels[~numpy.isin(labels, self._mesh.labels)]
+        missing = labels[~is_in(labels, self._mesh.labels)]
         if missing.size:
             line.fail(f"node {missing[0]} is not defined")
         return labels
