@@ -7,11 +7,11 @@ import re
 
 import numpy
 
-from ..assembly import LABEL_LIMIT, dofs_of, in_order, key_of, places, symmetric
+from ..assembly import LABEL_LIMIT, Places, dofs_of, in_order, key_of, symmetric
 from ..errors import FileError
 from ..tables import read_table
 from . import companions, triplets
-from .market import read_companion_dofs
+from .dof_list import write_dof_list
 
 NAME = "abaqus"
 OUTPUT = re.compile(r"^(.*)_(stif|mass|dmpv|dmps)(\d+)$")  # job_STIF2.mtx
@@ -29,11 +29,12 @@ def data_line(head):
 
 def matches(path, head):
     line = data_line(head)
-    return bool(FIRST_LINE.match(line)) or (bool(COORDINATES.match(line)) and os.fspath(path).lower().endswith(".mtx"))
+    stem, suffix = os.path.splitext(os.path.basename(path).lower())
+    return bool(FIRST_LINE.match(line)) or bool(OUTPUT.match(stem)) or (bool(COORDINATES.match(line)) and suffix == ".mtx")
 
 
 def output_files(path, notes):
-    """{kind: path} of a job's matrices. Those of the same step go together; the only ones of another step do, too, and it is said."""
+    """{kind: path} of a job's matrices. Those of a step go together; the only ones of another step do, too, and it is said."""
     folder, name = os.path.split(os.fspath(path))
     stem, suffix = os.path.splitext(name.lower())
     own = OUTPUT.match(stem)
@@ -53,7 +54,8 @@ def output_files(path, notes):
             found[kind] = os.path.join(folder, file)
             notes.append(f"{found[kind]}: the {kind} matrix was taken from step {step}, {name} is of step {own.group(3)}")
         elif steps:
-            raise FileError(path, 0, f"{WORD[kind]} matrices of several steps lie beside it, none of step {own.group(3)}: say which to take")
+            raise FileError(path, 0, f"{WORD[kind]} matrices of several steps lie beside it, none of step {own.group(3)}: say "
+                            "which to take")
     return found
 
 
@@ -66,11 +68,12 @@ def read(path, request, found):
         else:
             table, rows, columns = labelled[kind]
             keys = in_order(numpy.concatenate([rows, columns]))
-            matrix = symmetric(len(keys), places(rows, keys), places(columns, keys), table.columns[4], table.fail, found.notes)
+            row_of = Places(keys)
+            matrix = symmetric(len(keys), row_of(rows), row_of(columns), table.columns[4], table.fail, found.notes)
             found.add(kind, matrix, dofs_of(keys), file)
     if all(entry is None for entry in labelled.values()):
         same_size(found, paths)
-        read_companion_dofs(paths, request, found)
+        companions.read_dofs_beside(paths["stiffness"], request, found)
 
 
 def same_size(found, paths):
@@ -88,8 +91,7 @@ def labelled_entries(path):
         line = data_line(file.read(1 << 16))
     if COORDINATES.match(line):
         return None
-    words = line.replace(",", " ").split()
-    if not FIRST_LINE.match(line) and len(words) != 5:
+    if not FIRST_LINE.match(line):
         raise FileError(path, 1, f"{line.strip()[:60]!r} is neither node, direction, node, direction, value nor row, column, value; "
                         "write the matrices by *MATRIX OUTPUT, FORMAT=MATRIX INPUT")
     table = read_table(path, "iiiif", separators=",", comments="*")
@@ -114,7 +116,6 @@ def write(path, matrices, coordinate=False):
         else:
             write_labelled(written[-1], matrix, matrices.dofs)
     if coordinate:
-        from .dof_list import write_dof_list
         written.append(stem + ".dof")
         write_dof_list(written[-1], matrices.dofs)
     return written

@@ -7,21 +7,23 @@ import re
 
 import numpy
 
-from ..assembly import LABEL_LIMIT, dofs_of, in_order, key_of, places, symmetric
+from ..assembly import LABEL_LIMIT, Places, dofs_of, in_order, key_of, symmetric
 from ..errors import FileError
-from ..tables import number
+from ..tables import content, number
 from . import bulk
 
 NAME = "dmig"
 # By the names that Nastran, its superelement export and people use; the first kind whose pattern fits.
 NAMES = [("structural_damping", re.compile(r"^K4")), ("stiffness", re.compile(r"^(K|STIF)")), ("mass", re.compile(r"^M")),
          ("damping", re.compile(r"^(B|DAMP|C)"))]
+EXPONENT = re.compile(r"(?<=[0-9.])(?=[+-])")  # where 1.5+3 leaves out the letter
 OWN = {"stiffness": "KAAX", "mass": "MAAX", "damping": "BAAX", "structural_damping": "K4AAX"}
 
 
 def matches(path, head):
-    return bool(re.search(rb"^DMIG[ *,\t]", head, re.I | re.M)) or (
-        os.fspath(path).lower().endswith((".pch", ".bdf", ".dat", ".nas", ".blk")) and b"\nDMIG" in open(path, "rb").read())
+    entry = re.compile(rb"^DMIG[ *,\t]", re.I | re.M)  # behind a mesh, perhaps
+    behind = os.fspath(path).lower().endswith((".pch", ".bdf", ".dat", ".nas", ".blk"))
+    return bool(entry.search(head)) or behind and bool(entry.search(content(path)))
 
 
 class Matrix:
@@ -31,12 +33,14 @@ class Matrix:
         self.path, self.line = path, entry.line
         data = [field.strip() for field in entry.fields] + [""] * 8
         self.name = data[0].upper()
-        self.form, self.kind, self.polar = self.whole(data[2], "IFO", (1, 2, 6, 9)), self.whole(data[3], "TIN", (1, 2, 3, 4)), data[5]
+        self.form, self.kind = self.whole(data[2], "IFO", (1, 2, 6, 9)), self.whole(data[3], "TIN", (1, 2, 3, 4))
+        self.polar = data[5]
         self.rows, self.columns, self.real, self.imaginary, self.lines = [], [], [], [], []
 
     def whole(self, text, what, allowed):
-        if not text.isdigit() or int(text) not in allowed:
-            raise FileError(self.path, self.line, f"{what} of matrix {self.name} is {text!r}; it must be one of {', '.join(map(str, allowed))}")
+        if not text.isdecimal() or int(text) not in allowed:
+            raise FileError(self.path, self.line, f"{what} of matrix {self.name} is {text!r}; it must be one of "
+                            f"{', '.join(map(str, allowed))}")
         return int(text)
 
     def add_column(self, entry):
@@ -55,7 +59,16 @@ class Matrix:
             self.lines.append(entry.lines[min(k, len(entry.lines) - 1)])
 
     def numbers(self, texts, what, blank=None):
-        """Floats of texts; the line of the first that is none."""
+        """Floats of texts, converted together where all are plain; else one by one, and the line of the first that is none."""
+        try:
+            joined = ",".join(texts)
+            if "_" not in joined:
+                joined = EXPONENT.sub("E", joined.replace("D", "E").replace("d", "e"))
+                values = numpy.array(joined.split(",")).astype(float)
+                if len(values) == len(texts) and numpy.isfinite(values).all():
+                    return values
+        except ValueError:
+            pass
         values = numpy.empty(len(texts))
         for k, text in enumerate(texts):
             text = text.strip()
@@ -74,14 +87,17 @@ class Matrix:
             key = known.get(pair)
             if key is None:
                 node, direction = pair[0].strip(), pair[1].strip() or "0"
-                if not node.isdigit() or not 0 < int(node) < LABEL_LIMIT or direction not in "0123456" or len(direction) != 1:
-                    raise FileError(self.path, self.lines[k], f"{' '.join(p.strip() for p in pair)!r} where a point and a direction 0 .. 6 are expected")
+                if not node.isdecimal() or not 0 < int(node) < LABEL_LIMIT or direction not in "0123456" or len(direction) != 1:
+                    raise FileError(self.path, self.lines[k], f"{' '.join(p.strip() for p in pair)!r} where a point and a direction "
+                                    "0 .. 6 are expected")
                 key = known[pair] = int(key_of(int(node), int(direction)))
             keys[k] = key
         return keys
 
     def assembled(self, notes):
         """(whole matrix, its DOFs), by label."""
+        if not self.rows:
+            raise FileError(self.path, self.line, f"matrix {self.name} has no columns")
         rows, columns = self.keys(self.rows), self.keys(self.columns)
         values = self.numbers(self.real, "a number")
         if self.kind > 2:
@@ -92,7 +108,8 @@ class Matrix:
 
         def fail(k, text):
             raise FileError(self.path, self.lines[k] if k is not None else self.line, f"matrix {self.name}: {text}")
-        matrix = symmetric(len(keys), places(rows, keys), places(columns, keys), values, fail, notes, whole=self.form == 1)
+        row_of = Places(keys)
+        matrix = symmetric(len(keys), row_of(rows), row_of(columns), values, fail, notes, whole=self.form == 1)
         return matrix, dofs_of(keys)
 
 
@@ -148,7 +165,8 @@ def by_kind(path, matrices, request, found):
         if matrix.name in used or kind in request.names or kind in request.paths:
             continue
         if kind is None or matrix.form in (2, 9):
-            found.note(path, matrix.line, f"matrix {matrix.name} was not read: {'its name says no kind' if kind is None else 'it is rectangular'}")
+            reason = "its name says no kind" if kind is None else "it is rectangular"
+            found.note(path, matrix.line, f"matrix {matrix.name} was not read: {reason}")
             continue
         if kind in result:
             raise FileError(path, matrix.line, f"{result[kind].name} and {matrix.name} could both be the {kind} matrix: say which, by "

@@ -11,7 +11,6 @@ from ..errors import FileError
 from ..tables import fixed_fields, text_lines
 from . import companions, dof_list
 from .found import refuse
-from .market import read_companion_dofs
 
 NAME = "harwell-boeing"
 FORMAT = re.compile(r"^\s*(?:\d+P\s*,?\s*)?(\d*)\s*([IEDFG])\s*(\d+)(?:\.\d+)?(?:E\d+)?\s*$", re.I)
@@ -55,7 +54,7 @@ def read(path, request, found):
         known = next(keys for keys in found.keys.values() if keys is not None)
         found.keys = {kind: known if keys is None else keys for kind, keys in found.keys.items()}
     else:
-        read_companion_dofs(paths, request, found)
+        companions.read_dofs_beside(paths["stiffness"], request, found)
 
 
 def mapping_of(path):
@@ -89,7 +88,7 @@ def by_title(path):
     if several:
         named = companions.by_name(path)
         for kind in several:
-            if kind not in named:
+            if named.get(kind) not in found[kind]:
                 raise FileError(path, 0, f"several {kind} matrices lie beside it ({', '.join(found[kind])}): say which to take")
             found[kind] = [named[kind]]
     return {kind: files[0] for kind, files in found.items()}
@@ -103,7 +102,8 @@ def read_header(path, lines):
             if min(numbers) < 0 or len(numbers) < (4 if line == 1 else count):
                 raise ValueError
         except ValueError:
-            raise FileError(path, line + 1, f"{' '.join(words)[:60]!r} where {count} whole numbers of the header are expected") from None
+            raise FileError(path, line + 1, f"{' '.join(words)[:60]!r} where {count} whole numbers of the header are "
+                            "expected") from None
         return numbers + [0]
     _, n_pointers, n_indices, n_values, n_rhs_lines = whole(1, 5)[:5]
     kind = lines[2][:3].upper() if len(lines) > 2 else ""
@@ -113,11 +113,12 @@ def read_header(path, lines):
     if n != columns:
         raise FileError(path, 3, f"{n} rows but {columns} columns; the matrices of a structure are square")
     if kind[0] == "P" or kind[1] not in "SU" or kind[2] != "A":
-        raise FileError(path, 3, f"a matrix of type {kind}; assembled real or complex, symmetric or square ones are read (RSA, RUA, CSA, CUA)")
+        raise FileError(path, 3, f"a matrix of type {kind}; assembled real or complex, symmetric or square ones are read (RSA, RUA, "
+                        "CSA, CUA)")
     rhs, n_rhs = "", 0
     if n_rhs_lines:
         words = lines[4].split() if len(lines) > 4 else []
-        if len(words) < 2 or not words[1].isdigit():
+        if len(words) < 2 or not words[1].isdecimal():
             raise FileError(path, 5, f"{' '.join(words)[:60]!r} where kind and number of right-hand sides are expected")
         rhs, n_rhs = words[0].upper(), int(words[1])
     return Header(lines[0][:72].strip(), kind, n, n_entries, formats(path, lines[3] if len(lines) > 3 else "", bool(n_rhs_lines)),
@@ -231,7 +232,7 @@ def write_one(path, matrix, title, key, loads: Optional[numpy.ndarray] = None):
     with open(path, "w", encoding="ascii") as file:
         file.write(f"{title[:72]:<72s}{key:<8s}\n" + f"{sum(counts):14d}" + "".join(f"{c:14d}" for c in counts) + "\n")
         file.write(f"RSA           {n:14d}{n:14d}{n_entries:14d}{0:14d}\n")
-        file.write(f"{'(6I12)':<16s}{'(6I12)':<16s}{'(1P,3E25.16)':<20s}{'(1P,3E25.16)':<20s}\n")
+        file.write(f"{'(6I12)':<16s}{'(6I12)':<16s}{'(1P,3E25.16)':<20s}{'(1P,3E25.16)' if rhs else '':<20s}\n")
         if rhs:
             file.write(f"F             {numpy.asarray(loads).shape[1]:14d}{0:14d}\n")
         for block in (pointers, rows, values, rhs):
