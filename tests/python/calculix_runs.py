@@ -32,7 +32,7 @@ class Case(unittest.TestCase):
         """The text of the .dat file."""
         with open(os.path.join(self.folder, "job.inp"), "w", encoding="ascii") as file:
             file.write("\n".join(lines) + "\n")
-        done = subprocess.run(["ccx", "job"], cwd=self.folder, capture_output=True, text=True, timeout=120,
+        done = subprocess.run(["ccx", "job"], cwd=self.folder, capture_output=True, text=True, timeout=600,
                               env={**os.environ, "OMP_NUM_THREADS": "1"}, check=False)
         self.assertNotIn("*ERROR", done.stdout)
         with open(os.path.join(self.folder, "job.dat"), encoding="ascii") as file:

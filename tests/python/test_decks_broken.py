@@ -15,8 +15,10 @@ import unittest
 from plm.fe import FileError, read_deck
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-PIECES = ["*", "**", ",", "=", "\n", '"', "'", "-1", "0", "1e308", "nan", "99999999999999999999", "1.5", " ", "\t", "\0", "ü", "*STEP\n", "*END STEP\n",
-          "*INCLUDE, INPUT=", "GENERATE", "E", "S1", "ALL", ".", "*NODE\n", "*PART, NAME=P\n", "*END PART\n", "1,", "*EQUATION\n", "_"]
+PIECES = ["*", "**", ",", "=", "\n", '"', "'", "-1", "0", "1e308", "nan", "99999999999999999999", "1.5", " ",
+          "\t", "\0", "ü", "*STEP\n", "*END STEP\n",
+          "*INCLUDE, INPUT=", "GENERATE", "E", "S1", "ALL", ".", "*NODE\n",
+          "*PART, NAME=P\n", "*END PART\n", "1,", "*EQUATION\n", "_"]
 EXTRA = """*PART, NAME=P
 *NODE, NSET=N
 1, 0., 0., 0.
@@ -163,7 +165,8 @@ def damaged(text, chance):
             lines.insert(chance.randrange(len(lines)), lines.pop(chance.randrange(len(lines))))
             text = "\n".join(lines)
         else:
-            text = text[:at] if chance.random() < 0.2 else re.sub(r"\d+", lambda m: chance.choice((m.group(), "7")), text[:200]) + text[200:]
+            text = text[:at] if chance.random() < 0.2 else re.sub(r"\d+", lambda m: chance.choice((m.group(), "7")),
+                                                                  text[:200]) + text[200:]
     return text
 
 

@@ -3,7 +3,6 @@ import os
 import sys
 
 import numpy
-import plm
 
 import calculix_runs
 from plm.fe import read_deck
@@ -19,7 +18,8 @@ TIE = ["*TIE, NAME=T, POSITION TOLERANCE=0.1", "UNDER, OVER"]
 def blocks():
     """The lower one clamped at its bottom, the upper one loose."""
     below = [LOWER.node(i, j, 0) for i in range(5) for j in range(3)]
-    return (LOWER.lines("LOWER") + UPPER.lines("UPPER") + ["*NODE, NSET=REFERENCES", "1001, 2., 1., 1.", "1002, 2., 1., 1.", "1003, 2., 1., 3."]
+    return (LOWER.lines("LOWER") + UPPER.lines("UPPER")
+            + ["*NODE, NSET=REFERENCES", "1001, 2., 1., 1.", "1002, 2., 1., 1.", "1003, 2., 1., 3."]
             + ["*ELSET, ELSET=BOTH", "LOWER, UPPER", *STEEL, "*SOLID SECTION, ELSET=BOTH, MATERIAL=STEEL"]
             + labels("BOTTOM", "NSET", below)
             + labels("UNDERNODES", "NSET", [UPPER.node(i, j, 0) for i in range(4) for j in range(3)])

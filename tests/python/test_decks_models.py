@@ -44,7 +44,8 @@ class Models(unittest.TestCase):
             warnings.simplefilter("error", plm.PlmWarning)
             return self.made.model(**options)
 
-    CONTACT = "*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n4000.\n*CONTACT PAIR, INTERACTION=I{}\nSLAVE, MASTER\n"
+    CONTACT = ("*SURFACE INTERACTION, NAME=I\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n4000.\n"
+               "*CONTACT PAIR, INTERACTION=I{}\nSLAVE, MASTER\n")
 
     def test_rows(self):
         deck = self.deck("")
@@ -69,13 +70,13 @@ class Models(unittest.TestCase):
 
     def test_rest_of_two_masses(self):
         """A force that closes the gap: k x = f - N, N = k_n (2 x - gap) for either side, by hand."""
-        step = "*STEP\n*STATIC\n*CLOAD\n{0}1, 3, 400.\n2, 3, 400.\n3, 3, 400.\n4, 3, 400.\n5, 3, -400.\n6, 3, -400.\n7, 3, -400.\n8, 3, -400.\n*END STEP\n"
-        model = self.model(self.CONTACT.format("") + step.format(""), force=[(5, 3, 1.0)]).solve_rest()
+        step = ("*STEP\n*STATIC\n*CLOAD\n" + "".join(f"{n}, 3, {400 if n < 5 else -400}.\n" for n in range(1, 9)) + "*END STEP\n")
+        model = self.model(self.CONTACT.format("") + step, force=[(5, 3, 1.0)]).solve_rest()
         kn = 1000.0
         x = (400 + kn * GAP) / (STIFFNESS + 2 * kn)
         numpy.testing.assert_allclose(model.rest_displacement[[self.made.dof(n, 3) for n in range(1, 9)]], [x] * 4 + [-x] * 4, rtol=1e-10)
         numpy.testing.assert_allclose(model.rest_force, kn * (2 * x - GAP), rtol=1e-10)
-        self.assertEqual(self.model(self.CONTACT.format("") + step.format(""), preload=False).solve_rest().rest_n_closed, 0)
+        self.assertEqual(self.model(self.CONTACT.format("") + step, preload=False).solve_rest().rest_n_closed, 0)
 
     def curve(self, model, low, high):
         """Of the linear structure: no contact closes."""
@@ -130,6 +131,10 @@ class Models(unittest.TestCase):
             w = 2 * numpy.pi * curve.frequency_hz
             c = 0.3 * MASS + 1e-3 * STIFFNESS if want == "rayleigh" else 2 * 0.03 * numpy.sqrt(STIFFNESS * MASS)
             numpy.testing.assert_allclose(curve.amplitude(0), 1 / abs(STIFFNESS - w * w * MASS + 1j * w * c), rtol=1e-6)
+
+        deck = self.deck("*MATERIAL, NAME=M\n*DAMPING, ALPHA=0.3\n*MATERIAL, NAME=N\n*DAMPING, ALPHA=0.4\n")
+        self.assertEqual((deck.rayleigh, deck.unread[0][1:]),
+                         (None, (21, "*DAMPING differs between the materials; it is left out, set it on the model")))
 
     def test_beam_of_a_line_of_nodes(self):
         """Nodes 1 and 2 follow 9 with levers along one axis; its idle rotation about it is held, the others move. What is left: three

@@ -113,6 +113,7 @@ class MaterialReader:
     def __init__(self, unread):
         self._unread = unread
         self.materials, self.damping, self.property_blocks, self._open = {}, {}, [], None
+        self._last_damping = None
         self.handlers = {"MATERIAL": self._material, "ELASTIC": self._elastic, "DENSITY": self._density, "DAMPING": self._damping}
         self.handlers.update({key: self.property_blocks.append for key in PASSED_ON - set(self.handlers)})
 
@@ -150,6 +151,7 @@ class MaterialReader:
         self._of_material(block)
         if "STRUCTURAL" in block or "COMPOSITE" in block:
             self._unread.append((block.file, block.number, "*DAMPING: ALPHA and BETA are read, the others are left out"))
+        self._last_damping = block
         self.damping[self._open] = block.real("ALPHA", 0.0), block.real("BETA", 0.0)
         if min(self.damping[self._open]) < 0:
             block.fail("a damping below 0")
@@ -159,7 +161,8 @@ class MaterialReader:
         given = {self.damping.get(name, (0.0, 0.0)) for name in self.materials}
         if len(given) != 1:
             if given:
-                self._unread.append(("", 0, "*DAMPING differs between the materials; it is left out, set it on the model"))
+                block = self._last_damping
+                self._unread.append((block.file, block.number, "*DAMPING differs between the materials; it is left out, set it on the model"))
             return None
         alpha, beta = given.pop()
         return (alpha, beta) if alpha or beta else None

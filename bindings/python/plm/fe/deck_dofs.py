@@ -15,7 +15,8 @@ class DofMap:
         self._row = {}
         for row, (node, direction) in zip(numpy.flatnonzero(named).tolist(), dofs[named].tolist()):
             if self._row.setdefault((node, direction), row) != row:
-                raise ValueError(f"the matrices have two rows for node {node} in direction {direction}: {self._row[node, direction]} and {row}")
+                raise ValueError(f"the matrices have two rows for node {node} in direction {direction}: "
+                                 f"{self._row[node, direction]} and {row}")
         known = set(deck.node_labels.tolist())
         if self._row and not any(node in known for node, _ in self._row):
             raise ValueError(f"no node of the matrices is in {deck.path}; do the two belong together?")

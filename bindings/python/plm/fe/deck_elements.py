@@ -111,10 +111,10 @@ def shape(n, s, t):
 
 
 _THIRD = ((1 / 6, 1 / 6), (2 / 3, 1 / 6), (1 / 6, 2 / 3))
-_GAUSS = numpy.sqrt(0.6)
+_LINE = ((-numpy.sqrt(0.6), 5 / 9), (0.0, 8 / 9), (numpy.sqrt(0.6), 5 / 9))
 POINTS = {  # places and weights that integrate a shape function times the area of its face
     3: [(*p, 1 / 6) for p in _THIRD], 6: [(*p, 1 / 6) for p in _THIRD],
-    4: [(s, t, a * b) for s, a in ((-_GAUSS, 5 / 9), (0.0, 8 / 9), (_GAUSS, 5 / 9)) for t, b in ((-_GAUSS, 5 / 9), (0.0, 8 / 9), (_GAUSS, 5 / 9))],
+    4: [(s, t, a * b) for s, a in _LINE for t, b in _LINE],
 }
 POINTS[8] = POINTS[4]
 
