@@ -29,7 +29,6 @@ class NodeMotion:
         self._rows = rows_of(mesh)
         self._has_rotations = bool((self._rows[:, 3:] >= 0).any())
         self._contact = branch.contact(self._point, n_times) if branch.n_pairs else None
-        self._pair, self._node = _pairs_at_nodes(mesh, branch.n_pairs)
         self._coefficients = None
 
     @property
@@ -38,14 +37,13 @@ class NodeMotion:
 
     def frame(self, k):
         """A dict of arrays with a row for each node at time k: displacement, velocity (n x 3), with rotations rotation (n x 3);
-        with contact pairs at nodes penetration (the largest of the node's pairs, NaN without one), contact_force (their sum)
-        and contact_status (1 closed, 0 open, -1: no pair)."""
+        with contact pairs at nodes what contact_at_nodes gives."""
         q = self._whole(self._branch.field(self._point, self.fraction[k]))
         data = {"displacement": self._at_nodes(q, 0), "velocity": self._at_nodes(self._velocity(k), 0)}
         if self._has_rotations:
             data["rotation"] = self._at_nodes(q, 3)
-        if self._pair.size:
-            data.update(self._contact_at_nodes(k))
+        if self._contact is not None:
+            data.update(contact_at_nodes(self._mesh, *self.pairs(k).values()))
         return data
 
     def pairs(self, k):
@@ -77,14 +75,19 @@ class NodeMotion:
                              f"mesh, but the motion has {len(q)} DOFs: the mesh is not that of the model")
         return numpy.where(rows >= 0, q[rows.clip(0)], 0.0)
 
-    def _contact_at_nodes(self, k):
-        penetration = numpy.full(self.n_nodes, numpy.nan)
-        numpy.fmax.at(penetration, self._node, self._contact.penetration[self._pair, k])
-        force = numpy.zeros(self.n_nodes)
-        numpy.add.at(force, self._node, self._contact.force[self._pair, k])
-        status = numpy.full(self.n_nodes, -1, dtype=numpy.int32)
-        numpy.maximum.at(status, self._node, self._contact.closed[self._pair, k])
-        return {"penetration": penetration, "contact_force": force, "contact_status": status}
+
+def contact_at_nodes(mesh, penetration, force, closed):
+    """Arrays with a value for each node from those of all pairs (n_pairs): penetration (the largest of the node's pairs, NaN
+    without one), contact_force (their sum), contact_status (1 closed, 0 open, -1: no pair); {} where no pair is at a node."""
+    n, (pair, node) = len(mesh.node_labels), _pairs_at_nodes(mesh, len(penetration))
+    if not pair.size:
+        return {}
+    data = {"penetration": numpy.full(n, numpy.nan), "contact_force": numpy.zeros(n),
+            "contact_status": numpy.full(n, -1, dtype=numpy.int32)}
+    numpy.fmax.at(data["penetration"], node, penetration[pair])
+    numpy.add.at(data["contact_force"], node, force[pair])
+    numpy.maximum.at(data["contact_status"], node, closed[pair])
+    return data
 
 
 def rows_of(mesh):
