@@ -1,4 +1,6 @@
-"""Other codes' files in, results out to viewers."""
+"""Files of other codes: matrices in, what a model needs beside them, and results out to viewers."""
+from .errors import FileError
 from .hdf5 import write_hdf5
+from .matrices import Matrices, read_matrices, write_matrices
 from .vtkhdf import write_vtkhdf
 from .vtu import write_vtu, write_vtu_series

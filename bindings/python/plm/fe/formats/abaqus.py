@@ -1,0 +1,128 @@
+"""Text matrices of Abaqus' *MATRIX GENERATE: matrix input form (node, direction, node, direction, value) and coordinate form.
+
+Labels below one are internal nodes (Lagrange multipliers, hybrid and contact elements); they stay rows of their own.
+"""
+import os
+import re
+
+import numpy
+
+from ..assembly import LABEL_LIMIT, dofs_of, in_order, key_of, places, symmetric
+from ..errors import FileError
+from ..tables import read_table
+from . import companions, triplets
+from .market import read_companion_dofs
+
+NAME = "abaqus"
+OUTPUT = re.compile(r"^(.*)_(stif|mass|dmpv|dmps)(\d+)$")  # job_STIF2.mtx
+KIND = {"stif": "stiffness", "mass": "mass", "dmpv": "damping", "dmps": "structural_damping"}
+WORD = {kind: word.upper() for word, kind in KIND.items()}
+FIRST_LINE = re.compile(r"^\s*(-?\d+)[\s,]+(\d+)[\s,]+(-?\d+)[\s,]+(\d+)[\s,]+[-+.\dEeDd]+[\s,]*$")
+COORDINATES = re.compile(r"^\s*\d+[\s,]+\d+[\s,]+[-+.\dEeDd]+[\s,]*$")
+
+
+def data_line(head):
+    """The first line of numbers, as text."""
+    lines = head.decode("latin-1").split("\n")
+    return next((line for line in lines if line.strip() and not line.startswith("*")), "")
+
+
+def matches(path, head):
+    line = data_line(head)
+    return bool(FIRST_LINE.match(line)) or (bool(COORDINATES.match(line)) and os.fspath(path).lower().endswith(".mtx"))
+
+
+def output_files(path, notes):
+    """{kind: path} of a job's matrices. Those of the same step go together; the only ones of another step do, too, and it is said."""
+    folder, name = os.path.split(os.fspath(path))
+    stem, suffix = os.path.splitext(name.lower())
+    own = OUTPUT.match(stem)
+    if not own:
+        return companions.by_name(path)
+    found = {}
+    files = companions.beside(folder)
+    for word, kind in KIND.items():
+        steps = {m.group(3): files[file] for file in files if file.endswith(suffix)
+                 and (m := OUTPUT.match(os.path.splitext(file)[0])) and m.group(1, 2) == (own.group(1), word)}
+        if own.group(2) == word:
+            found[kind] = os.fspath(path)
+        elif own.group(3) in steps:
+            found[kind] = os.path.join(folder, steps[own.group(3)])
+        elif len(steps) == 1:
+            (step, file), = steps.items()
+            found[kind] = os.path.join(folder, file)
+            notes.append(f"{found[kind]}: the {kind} matrix was taken from step {step}, {name} is of step {own.group(3)}")
+        elif steps:
+            raise FileError(path, 0, f"{WORD[kind]} matrices of several steps lie beside it, none of step {own.group(3)}: say which to take")
+    return found
+
+
+def read(path, request, found):
+    paths = companions.chosen(path, request, output_files(path, found.notes))
+    labelled = {kind: labelled_entries(file) for kind, file in paths.items()}
+    for kind, file in paths.items():
+        if labelled[kind] is None:  # coordinate form: numbers of rows, no labels
+            found.add(kind, triplets.read_one(file, found.notes, None, 0, ",", "*"), None, file)
+        else:
+            table, rows, columns = labelled[kind]
+            keys = in_order(numpy.concatenate([rows, columns]))
+            matrix = symmetric(len(keys), places(rows, keys), places(columns, keys), table.columns[4], table.fail, found.notes)
+            found.add(kind, matrix, dofs_of(keys), file)
+    if all(entry is None for entry in labelled.values()):
+        same_size(found, paths)
+        read_companion_dofs(paths, request, found)
+
+
+def same_size(found, paths):
+    """Coordinate form leaves out what is zero, so that a mass matrix may end early: it is made as large as the stiffness matrix."""
+    n = found.matrices["stiffness"].shape[0]
+    for kind, matrix in found.matrices.items():
+        if matrix.shape[0] > n:
+            raise FileError(paths[kind], 0, f"has row {matrix.shape[0]}, the stiffness matrix only {n}")
+        matrix.resize((n, n))
+
+
+def labelled_entries(path):
+    """(table, key of each row, key of each column), or None for coordinate form."""
+    with open(path, "rb") as file:
+        line = data_line(file.read(1 << 16))
+    if COORDINATES.match(line):
+        return None
+    words = line.replace(",", " ").split()
+    if not FIRST_LINE.match(line) and len(words) != 5:
+        raise FileError(path, 1, f"{line.strip()[:60]!r} is neither node, direction, node, direction, value nor row, column, value; "
+                        "write the matrices by *MATRIX OUTPUT, FORMAT=MATRIX INPUT")
+    table = read_table(path, "iiiif", separators=",", comments="*")
+    keys = []
+    for node, direction in (table.columns[:2], table.columns[2:4]):
+        table.check(abs(node) < LABEL_LIMIT, "a node label that is too large")
+        table.check((direction >= 0) & (direction <= 15), lambda k: f"direction {direction[k]} where 1 .. 6 is expected")
+        keys.append(key_of(node, direction))
+    return table, keys[0], keys[1]
+
+
+def write(path, matrices, coordinate=False):
+    """job_STIF1.mtx, job_MASS1.mtx, ... path: job, or any of them. coordinate: row, column, value, and job.dof beside them."""
+    stem = os.path.splitext(os.fspath(path))[0]
+    output = OUTPUT.match(stem.lower())
+    stem = stem[:len(output.group(1))] if output else stem
+    written = []
+    for kind, matrix in matrices.by_kind():
+        written.append(f"{stem}_{WORD[kind]}1.mtx")
+        if coordinate:
+            triplets.write_one(written[-1], matrix)
+        else:
+            write_labelled(written[-1], matrix, matrices.dofs)
+    if coordinate:
+        from .dof_list import write_dof_list
+        written.append(stem + ".dof")
+        write_dof_list(written[-1], matrices.dofs)
+    return written
+
+
+def write_labelled(path, matrix, dofs):
+    entries = matrix.tocoo()
+    keep = entries.row >= entries.col
+    rows, columns = dofs[entries.row[keep]], dofs[entries.col[keep]]
+    numpy.savetxt(path, numpy.rec.fromarrays([rows[:, 0], rows[:, 1], columns[:, 0], columns[:, 1], entries.data[keep]]),
+                  fmt="%d,%d, %d,%d, %.16e")
