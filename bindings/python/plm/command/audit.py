@@ -1,12 +1,13 @@
 """plm audit: what is probably not meant so."""
-from .structure import prepare
+from .structure import assemble
 
 _WORDS = ("", "look at   ", "wrong     ")
 
 
 def run(settings, console):
     with console.listening(with_log=True):
-        structure = prepare(settings, console)
+        structure = assemble(settings, console)
+        structure.model.build(progress=console.progress)
         findings = structure.model.audit()
     for finding in sorted(findings, key=lambda one: -one.severity):  # what matters first, else as the library has them
         console.say(f"{_WORDS[finding.severity] or 'fact      '}{finding.text}")

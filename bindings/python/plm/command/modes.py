@@ -7,13 +7,14 @@ import numpy
 from ..fe.node_motion import rows_of
 from ..fe.replacing import replacing
 from ..fe.vtu import write_vtu
-from .structure import prepare
+from .structure import assemble
 
 
 def run(settings, console):
     n, system, folder = settings["count"], settings["system"], settings["out"]
     with console.listening():
-        structure = prepare(settings, console)
+        structure = assemble(settings, console)
+        structure.model.build(progress=console.progress)
         n = min(n, structure.model.n_free)
         result = structure.model.modes(n, system, shapes=folder is not None)
     frequencies = result[0] if folder else result

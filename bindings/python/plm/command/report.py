@@ -30,7 +30,7 @@ class Report:
                 file.write(f"\n## {title}\n\n| | |\n|---|---|\n")
                 file.writelines(f"| {name} | {_escaped(text)} |\n" for name, text in facts)
             for title, texts in (("Warnings", console.warnings), ("Notes", console.notes),
-                                 ("Log", [text for level, text in console.log if level == 1])):
+                                 ("Log", [("warning: " if level > 1 else "") + text for level, text in console.log if level])):
                 file.write(f"\n## {title}\n\n" + ("".join(f"* {text}\n" for text in texts) or "None.\n"))
             if files:
                 file.write("\n## Files\n\n" + "".join(f"* [{name}]({name})\n" for name in files))

@@ -9,7 +9,7 @@ from .._response import Hbm
 from .report import Report, number_text
 from .response_files import write_files
 from .settings import Wrong, settings_text
-from .structure import prepare
+from .structure import assemble, require_pairs
 
 
 class Found(NamedTuple):
@@ -24,9 +24,11 @@ class Found(NamedTuple):
 
 def run(settings, console):
     with console.listening(with_log=True):
-        structure = prepare(settings, console, assume_damping=True)
-        dof = output_dof(structure, settings)
-        found = compute(structure.model, dof, settings, console.progress)
+        structure = assemble(settings, console, assume_damping=True)
+        dof, (low, high) = output_dof(structure, settings), range_of(structure.model, settings)
+        structure.model.build(progress=console.progress)
+    with console.listening():  # what the log says of curves on the way, the call repeats if it still holds at the end
+        found = compute(structure.model, dof, low, high, settings, console.progress)
     if found.curve.status in (NOT_CONVERGED, TRUNCATED):
         console.matters = True
     if not found.error <= settings["accuracy"]:
@@ -52,9 +54,8 @@ def output_dof(structure, settings):
     return structure.first_load
 
 
-def compute(model, dof, settings, progress):
-    """Found of a built model: around the resonance that the library chooses, or in the range given."""
-    low, high = range_of(model, settings)
+def compute(model, dof, low, high, settings, progress):
+    """Found of a built model: in the range given, or around the resonance that the library chooses."""
     if low is None:
         return _around_resonance(model, dof, settings, progress)
     return _in_range(model, dof, low, high, settings, progress)
@@ -67,8 +68,7 @@ def range_of(model, settings):
         raise Wrong("frequency_min_hz and frequency_max_hz belong together; give both or none")
     if low is not None and not low < high:
         raise Wrong(f"frequency_min_hz, {low:g}, must be below frequency_max_hz, {high:g}")
-    if not model.n_pairs:
-        raise Wrong("the model has no contact pairs: --contact FILE names a table of them (in a deck: *CONTACT PAIR)")
+    require_pairs(model)
     return low, high
 
 

@@ -8,17 +8,15 @@ from ..fe.node_motion import contact_at_nodes, rows_of
 from ..fe.replacing import replacing
 from ..fe.vtu import write_vtu
 from .report import number_text
-from .settings import Wrong
-from .structure import prepare
+from .structure import assemble, require_pairs
 
 
 def run(settings, console):
     with console.listening():
-        structure = prepare(settings, console)
+        structure = assemble(settings, console)
         model = structure.model
-        if not model.n_pairs:
-            raise Wrong("the model has no contact pairs: --contact FILE names a table of them (in a deck: *CONTACT PAIR)")
-        model.solve_rest(progress=console.progress)
+        require_pairs(model)
+        model.build(progress=console.progress).solve_rest(progress=console.progress)
     force, displacement = model.rest_force, model.rest_displacement
     console.say(f"closed        {model.rest_n_closed} of {model.n_pairs} pairs")
     console.say(f"force         {number_text(force.sum())} of all pairs together, {number_text(force.max())} at most")

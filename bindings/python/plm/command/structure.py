@@ -17,7 +17,7 @@ ASSUMED_DAMPING = 0.01
 
 
 class Structure:
-    """A model (built by `build`), the nodes it belongs to, and what was noted while they were read.
+    """A model, the nodes it belongs to, and what was noted while they were read.
 
     mesh: as plm.fe takes it; its coordinates are None where nothing tells them."""
 
@@ -85,8 +85,8 @@ def read_structure(settings, context):
     return _of_matrices(files, settings, context)
 
 
-def prepare(settings, console, assume_damping=False):
-    """The structure with all that the settings say, built."""
+def assemble(settings, console, assume_damping=False):
+    """The structure with all that the settings say, ready to be built."""
     structure = read_structure(settings, console.context)
     model = structure.model
     for given in settings["fix"]:
@@ -98,14 +98,19 @@ def prepare(settings, console, assume_damping=False):
     if settings.get("force"):
         model.set_excitation(structure.force(settings["force"], "force"))
         structure.is_loaded = True
-    if not _damp(structure, settings) and assume_damping:
+    if not _damp(structure, settings) and assume_damping and structure.is_loaded:
         model.set_modal_damping(ASSUMED_DAMPING)
         structure.notes.append(f"no damping was given: {100 * ASSUMED_DAMPING:g} % of critical in every mode is assumed; --damping-ratio "
                                "sets it")
     for note in structure.notes:
         console.note(note)
-    model.build(progress=console.progress)
     return structure
+
+
+def require_pairs(model):
+    """Refuses a model without contact."""
+    if not model.n_pairs:
+        raise Wrong("the model has no contact pairs: --contact FILE names a table of them (in a deck: *CONTACT PAIR)")
 
 
 def _fixed(structure, node, direction):
@@ -138,10 +143,13 @@ def _of_matrices(files, settings, context):
     matrices = read_matrices(files[0], *files[1:], dofs=dofs)
     if not (matrices.dofs[:, 0] > 0).any():
         raise Wrong(f"{files[0]} comes without a list of DOFs: --dofs names one")
+    notes = list(matrices.notes)
+    if matrices.loads is not None:
+        notes.append(f"{files[0]}: {matrices.loads.shape[1]} load vectors came with the matrices and are not used; --force sets the load")
     coordinates = read_coordinates(settings["coordinates"]) if settings["coordinates"] else None
     mesh = NodeCloud(matrices.dofs, coordinates)
     model = Model(matrices.mass, matrices.stiffness, matrices.damping, context=context)
-    structure = Structure(model, mesh, matrices.notes, is_damped=matrices.damping is not None)
+    structure = Structure(model, mesh, notes, is_damped=matrices.damping is not None)
     _add_pairs(structure, read_pairs(settings["contact"]))
     return structure
 

@@ -8,16 +8,18 @@ from .._response import Hbm
 from .._study import Study
 from ..fe.replacing import replacing
 from .response import output_dof, range_of, window_options
-from .structure import prepare
+from .structure import assemble
 
 
 def run(settings, console):
     with console.listening(with_log=True):
-        structure = prepare(settings, console, assume_damping=True)
-        dof = output_dof(structure, settings)
+        structure = assemble(settings, console, assume_damping=True)
+        dof, (low, high) = output_dof(structure, settings), range_of(structure.model, settings)
+        structure.model.build(progress=console.progress)
+    with console.listening():
         study = Study(structure.model, repeats=settings["repeats"], accuracy=settings["accuracy"])
         study.set_output(dof, settings["measure"])
-        _add_methods(study, structure.model, settings)
+        _add_methods(study, structure.model, low, high, settings)
         study.run(progress=console.progress)
     _show(study, console)
     if study.status != OK:
@@ -28,9 +30,9 @@ def run(settings, console):
         console.say(f"files: {', '.join(files)} and a curve of each method in {settings['out']}")
 
 
-def _add_methods(study, model, settings):
+def _add_methods(study, model, low, high, settings):
     """Piecewise-linear modes of every number of samples and harmonics, the last of them refined, and two rivals."""
-    window = window_options(*range_of(model, settings))
+    window = window_options(low, high)
 
     def hbm(kind, n_harmonics, sampler):
         return Hbm(Basis(model, sampler, kind=kind), n_harmonics=n_harmonics, stability="off")
@@ -44,6 +46,8 @@ def _add_methods(study, model, settings):
     study.add_refined(f"for {settings['accuracy']:g}", hbm("plm", most, sampler), settings["accuracy"])
     for name, kind in (("Craig-Bampton", "craig_bampton"), ("bilinear modes", "bilinear")):
         study.add_response(name, hbm(kind, most, sampler))
+    # as accurate as the library can, not with the harmonics of the first method
+    study.set_reference(Hbm(Basis(model, sampler, kind="full"), stability="off"))
 
 
 def _show(study, console):
