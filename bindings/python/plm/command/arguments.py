@@ -59,6 +59,9 @@ def _make_parser():
 
 
 def _add(parser, setting):
+    if setting.kind == "flag":
+        parser.add_argument("--" + setting.name, action="store_true", default=None, help=setting.text)
+        return
     help_text = setting.text + (f" (default {_words(setting.default)})" if setting.default not in (None, []) else "")
     if setting.name == "model":
         parser.add_argument("model", nargs="+", metavar="FILE", help=setting.text + "; or a case file (.toml), which may have every "

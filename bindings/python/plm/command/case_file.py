@@ -5,7 +5,7 @@ import re
 from ..fe.errors import FileError
 from .settings import BY_NAME, Wrong, nearest, value_of
 
-_FILES = ("model", "matrices", "dofs", "coordinates", "contact")
+_FILES = ("model", "matrices", "dofs", "mesh", "coordinates", "contact")
 
 
 def read_case(path):

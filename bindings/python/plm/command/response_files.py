@@ -19,7 +19,7 @@ def write_files(folder, structure, dof, found, settings, report, console):
         console.note("no .vtu files: the nodes have no coordinates; --coordinates FILE names a table of them")
     else:
         files.append(write_vtu_series(folder, found.peak, 0, structure.mesh, settings["frames"], "peak").name)
-    report.write(folder / "report.md", console, files)
+    report.write(folder / "report.md", console, structure.unread, files)
     return ["report.md", *files]
 
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 MEASURES = ("half_peak_to_peak", "peak", "rms")
 SYSTEMS = ("open", "sliding", "rest")
 ALL = ("response", "modes", "audit", "rest", "study")
-LOADED = ("response", "audit", "study")  # what needs, or looks at, an excitation
+LOADED = ("response", "audit", "study")  # what looks at an excitation
 
 
 class Wrong(Exception):
@@ -27,12 +27,18 @@ SETTINGS = (
     Setting("model", "paths", None, "FILE", ALL, "a deck (.inp), or files with mass and stiffness matrices"),
     Setting("matrices", "paths", [], "FILE", ALL, "files with the matrices of a deck; without them CalculiX (ccx) makes them"),
     Setting("dofs", "path", None, "FILE", ALL, "CSV with the columns node, direction: what each row of the matrices is"),
+    Setting("mesh", "path", None, "FILE", ALL, "mesh of the nodes of matrices: Gmsh, VTU, MED, Nastran, ...; nodes count from 1"),
     Setting("coordinates", "path", None, "FILE", ALL, "CSV with the columns node, x, y, z, for matrices without a mesh"),
     Setting("contact", "pairs", [], "FILE", ALL, "CSV of contact pairs: node, direction, to_node, to_direction, gap, stiffness"),
+    Setting("contact_stiffness", "positive", None, "K", ALL, "of the contact in a deck, by area; else the deck's or the library's"),
+    Setting("search", "positive", None, "LENGTH", ALL, "how far partners in a deck's contact may be apart"),
+    Setting("closed", "not_negative", None, "LENGTH", ALL, "gaps and interferences of a deck's contact up to this are none"),
+    Setting("symmetric", "flag", False, None, ALL, "contact of a deck both ways, each side's nodes against the other's faces"),
+    Setting("smooth", "flag", False, None, ALL, "normals and gaps of a deck's contact as of curved surfaces"),
     Setting("fix", "dofs", [], ("NODE", "DIRECTION"), ALL, "a support; DIRECTION all: every DOF of the node"),
-    Setting("preload", "loads", [], ("NODE", "DIRECTION", "FORCE"), ALL, "a static force"),
+    Setting("preload", "loads", [], ("NODE", "DIRECTION", "FORCE"), ALL, "a static force; in place of the deck's"),
     Setting("force", "loads", [], ("NODE", "DIRECTION", "AMPLITUDE"), LOADED,
-            "a harmonic force AMPLITUDE cos(2 pi f t); in a case file a phase in degrees may stand behind it"),
+            "a harmonic force AMPLITUDE cos(2 pi f t), in place of the deck's; in a case file its phase in degrees may stand behind it"),
     Setting("output", "dof", None, ("NODE", "DIRECTION"), ("response", "study"), "what is looked at; else where the first force acts"),
     Setting("measure", "words " + " ".join(MEASURES), MEASURES[0], "MEASURE", ("response", "study"),
             "of the amplitude: " + ", ".join(MEASURES)),
@@ -179,6 +185,12 @@ def _pairs(name, value):
     return value
 
 
-_READERS = {"path": _path, "paths": _paths, "count": _count, "counts": _list(_count), "positive": _positive, "pair": _pair,
+def _flag(name, value):
+    if not isinstance(value, bool):
+        raise Wrong(f"{name} is {value!r}; it must be true or false")
+    return value
+
+
+_READERS = {"flag": _flag, "path": _path, "paths": _paths, "count": _count, "counts": _list(_count), "positive": _positive, "pair": _pair,
             "share": _bounded(0, 0.999, "from 0 to below 1"), "accuracy": _bounded(1e-8, 0.5, "from 1e-8 to 0.5"),
             "not_negative": _bounded(0, math.inf, "0 or above"), "dof": _dof, "dofs": _dofs, "loads": _loads, "pairs": _pairs}

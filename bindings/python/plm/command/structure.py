@@ -6,8 +6,12 @@ import scipy.sparse
 
 from .._c import AUTO_STIFFNESS
 from .._model import Model
+from ..fe import deck_loads
+from ..fe.deck import read_deck
 from ..fe.matrices import read_matrices
+from ..fe.mesh import read_mesh
 from ..fe.node_motion import DIRECTIONS as N_DIRECTIONS
+from ..fe.pair_nodes import pair_nodes_of
 from .nodes import NodeCloud, direction_of, read_coordinates, read_dofs
 from .pairs import read_pairs
 from .settings import Wrong
@@ -19,12 +23,12 @@ ASSUMED_DAMPING = 0.01
 class Structure:
     """A model, the nodes it belongs to, and what was noted while they were read.
 
-    mesh: as plm.fe takes it; its coordinates are None where nothing tells them."""
+    mesh: as plm.fe takes it; its coordinates are None where nothing tells them. unread: texts, what of a deck was not taken.
+    is_loaded, is_damped: whether the files say so themselves; first_load: a DOF on which the excitation acts, or None."""
 
-    def __init__(self, model, mesh, notes, is_loaded=False, is_damped=False):
-        self.model, self.mesh, self.notes = model, mesh, list(notes)
-        self.is_loaded, self.is_damped = is_loaded, is_damped
-        self.first_load = None  # DOF
+    def __init__(self, model, mesh, notes, unread=(), is_loaded=False, is_damped=False, first_load=None):
+        self.model, self.mesh, self.notes, self.unread = model, mesh, list(notes), list(unread)
+        self.is_loaded, self.is_damped, self.first_load = is_loaded, is_damped, first_load
 
     def nodes(self, given, what):
         """Labels of nodes: of one, or of a set of the deck by its name."""
@@ -56,10 +60,10 @@ class Structure:
                     return f"node {node} {word}"
         return f"DOF {dof}"
 
-    def one_dof(self, given, what):
-        """The DOF of [node, direction]."""
+    def one_dof(self, given, what, first=False):
+        """The DOF of [node, direction]; first: of the first node of a set."""
         nodes = self.nodes(given[0], what)
-        if len(nodes) != 1:
+        if not nodes or len(nodes) != 1 and not first:
             raise Wrong(f"{what}: the set {given[0]} has {len(nodes)} nodes; one is needed")
         return self.dof(nodes[0], direction_of(given[1], what), what)
 
@@ -70,14 +74,13 @@ class Structure:
             for label in self.nodes(node, what):
                 row = self.dof(label, direction_of(direction, what), what)
                 force[row] += amplitude * numpy.exp(1j * numpy.radians(phase))
-                self.first_load = row if self.first_load is None else self.first_load
         return force if numpy.iscomplexobj(force) and force.imag.any() else force.real
 
 
 def read_structure(settings, context):
     """A structure, not built yet, without loads and supports of the settings."""
     files = settings["model"]
-    for path in [*files, *settings["matrices"]]:
+    for path in [*files, *settings["matrices"], *([settings["mesh"]] if settings["mesh"] else [])]:
         if not pathlib.Path(path).is_file():
             raise Wrong(f"{path} is no file")
     if pathlib.Path(files[0]).suffix.lower() in DECKS:
@@ -94,10 +97,9 @@ def assemble(settings, console, assume_damping=False):
             model.fix_dofs(_fixed(structure, node, given[1]))
     if settings["preload"]:
         model.set_preload(structure.force(settings["preload"], "preload").real)
-        structure.first_load = None
-    if settings.get("force"):
+    if settings["force"]:
         model.set_excitation(structure.force(settings["force"], "force"))
-        structure.is_loaded = True
+        structure.is_loaded, structure.first_load = True, structure.one_dof(settings["force"][0][:2], "force", first=True)
     if not _damp(structure, settings) and assume_damping and structure.is_loaded:
         model.set_modal_damping(ASSUMED_DAMPING)
         structure.notes.append(f"no damping was given: {100 * ASSUMED_DAMPING:g} % of critical in every mode is assumed; --damping-ratio "
@@ -124,30 +126,60 @@ def _fixed(structure, node, direction):
 
 
 def _damp(structure, settings):
-    """Sets the damping given; whether there is any."""
+    """Sets the damping given, in place of that of a deck; whether there is any."""
     model = structure.model
+    given = any(settings[name] is not None for name in ("damping_ratio", "loss_factor", "rayleigh"))
+    if given:
+        model.set_rayleigh_damping(0, 0)
+        model.set_modal_damping([])
     if settings["damping_ratio"] is not None:
         model.set_modal_damping(settings["damping_ratio"])
     if settings["loss_factor"] is not None:
         model.set_structural_damping(settings["loss_factor"])
     if settings["rayleigh"] is not None:
         model.set_rayleigh_damping(*settings["rayleigh"])
-    return structure.is_damped or any(settings[name] is not None for name in ("damping_ratio", "loss_factor", "rayleigh"))
+    return structure.is_damped or given
+
+
+def _of_deck(files, settings, context):
+    if len(files) > 1:
+        raise Wrong(f"{files[1]} is too much behind a deck; its matrices are named by --matrices")
+    deck = read_deck(files[0])
+    if settings["matrices"]:
+        deck.set_matrices(_matrices_of(settings["matrices"], settings))
+    contact = {name: settings[name] for name in ("contact_stiffness", "search", "closed", "symmetric", "smooth")}
+    model = deck.model(context, build=False, **contact)
+    deck.pair_nodes, notes = pair_nodes_of(deck, model, settings["symmetric"])
+    load, step = deck_loads.excitation(deck), deck_loads.harmonic_step(deck)
+    shaken = any(boundary.value and boundary.step == step for boundary in deck.boundaries) and step is not None
+    structure = Structure(model, deck, [*deck.notes, *deck.matrices.notes, *notes], [f"{file}:{line}: {text}" for file, line, text in
+                          deck.unread], is_loaded=load is not None or shaken,
+                          is_damped=bool(deck.rayleigh or deck.modal_damping or deck.matrices.damping is not None),
+                          first_load=None if load is None else int(numpy.argmax(numpy.abs(load))))
+    _add_pairs(structure, read_pairs(settings["contact"]))
+    return structure
+
+
+def _matrices_of(files, settings):
+    """Stiffness, or one file with all, then mass, then damping."""
+    if len(files) > 3:
+        raise Wrong(f"{files[3]} is too much: matrices are stiffness, mass and damping")
+    return read_matrices(*files, dofs=read_dofs(settings["dofs"]) if settings["dofs"] else None)
 
 
 def _of_matrices(files, settings, context):
-    """files: the stiffness matrix, or one with both, then mass, then damping."""
-    if len(files) > 3:
-        raise Wrong(f"{files[3]} is too much: matrices are stiffness, mass and damping")
-    dofs = read_dofs(settings["dofs"]) if settings["dofs"] else None
-    matrices = read_matrices(files[0], *files[1:], dofs=dofs)
+    matrices = _matrices_of(files, settings)
     if not (matrices.dofs[:, 0] > 0).any():
         raise Wrong(f"{files[0]} comes without a list of DOFs: --dofs names one")
     notes = list(matrices.notes)
     if matrices.loads is not None:
         notes.append(f"{files[0]}: {matrices.loads.shape[1]} load vectors came with the matrices and are not used; --force sets the load")
-    coordinates = read_coordinates(settings["coordinates"]) if settings["coordinates"] else None
-    mesh = NodeCloud(matrices.dofs, coordinates)
+    if settings["mesh"]:
+        mesh = read_mesh(settings["mesh"], matrices)
+        mesh.pair_nodes = None
+        notes += mesh.notes
+    else:
+        mesh = NodeCloud(matrices.dofs, read_coordinates(settings["coordinates"]) if settings["coordinates"] else None)
     model = Model(matrices.mass, matrices.stiffness, matrices.damping, context=context)
     structure = Structure(model, mesh, notes, is_damped=matrices.damping is not None)
     _add_pairs(structure, read_pairs(settings["contact"]))
@@ -167,4 +199,4 @@ def _add_pairs(structure, pairs):
         nodes.append((pair.node, pair.to[0]) if pair.to and pair.to[0] != pair.node else (pair.node,))
     stiffness = [AUTO_STIFFNESS if pair.stiffness is None else pair.stiffness for pair in pairs]
     structure.model.add_gap_rows(rows.tocsr(), stiffness, [pair.gap for pair in pairs])
-    structure.mesh.pair_nodes = nodes
+    structure.mesh.pair_nodes = [*(structure.mesh.pair_nodes or ()), *nodes]  # behind those of a deck
