@@ -129,7 +129,7 @@ def _read_mesh(deck, blocks):
     deck.node_labels, deck.coordinates = reader.nodes()
     if not len(deck.node_labels):
         raise FileError(deck.path, 0, "the deck defines no nodes (*NODE)")
-    reader.labels = deck.node_labels
+    reader.labels, reader.coordinates = deck.node_labels, deck.coordinates
     reader.check_elements(deck.node_labels)
     deck.elements = [elements for elements, _ in reader.blocks]
     deck.node_sets, deck.element_sets = reader.finish_sets(deck.node_labels)
@@ -156,6 +156,7 @@ def _read_others(deck, mesh, blocks):
                                 + (f"; {len(block.lines)} lines" if block.lines else "")))
     steps.finish()
     contact.finish()
+    rules.check_transformed(steps.loads)
     for boundary in rules.boundaries:
         procedure = steps.procedures[boundary.step] if boundary.step >= 0 else ""
         if boundary.value and procedure != "STEADYSTATEDYNAMICS":

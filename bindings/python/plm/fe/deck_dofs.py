@@ -42,7 +42,7 @@ class DofMap:
             self.extra.append((node, direction))
 
     def _add_references(self, deck):
-        used = _named_rotations(deck)
+        used = self.asked_rotations = _named_rotations(deck)
         for coupling in deck.couplings:
             node = coupling.reference
             for direction in (1, 2, 3):

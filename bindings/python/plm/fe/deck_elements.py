@@ -128,3 +128,15 @@ def area_vectors(xyz):
         along = slope.T @ xyz
         result += weight * N[:, None] * numpy.cross(along[0], along[1])
     return result
+
+
+def shares(xyz):
+    """n: what each node stands for of the area of a face with nodes at xyz (n x 3). With middle nodes by the squares of the shape
+    functions: their integrals are not positive at corners."""
+    vectors = area_vectors(xyz)
+    area = numpy.linalg.norm(vectors.sum(axis=0))
+    if len(xyz) in (3, 4):
+        size = numpy.linalg.norm(vectors, axis=1)
+    else:
+        size = sum(weight * shape(len(xyz), s, t)[0]**2 for s, t, weight in POINTS[len(xyz)])
+    return area * size / size.sum()

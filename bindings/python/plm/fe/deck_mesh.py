@@ -22,6 +22,7 @@ class MeshReader:
         self.node_sets, self.element_sets = SetTable("node"), SetTable("element")
         self.blocks, self.surface_blocks, self.nodes_of_elements, self.unread = [], [], [], []
         self._nodes, self._systems = [], {}
+        self.labels, self.coordinates = None, None  # of all nodes, once they are read
         self._of_elements = {"NODE": self._node, "ELEMENT": self._element, "NSET": self._nset, "ELSET": self._elset,
                              "SURFACE": self.surface_blocks.append, "SYSTEM": self._system}
 

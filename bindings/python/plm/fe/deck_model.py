@@ -113,6 +113,7 @@ def _add_constraints(deck, model, surfaces):
     for coupling in deck.couplings:
         with _naming(coupling):
             _add_coupling(deck, model, coupling)
+    _hold_idle_rotations(deck, model)
     for tie in deck.ties:
         with _naming(tie):
             slave = deck.surfaces[tie.slave].nodes
@@ -151,6 +152,38 @@ def _add_coupling(deck, model, coupling):
         if direction not in coupling.directions:
             nodes[:, direction - 1] = -1
     model.add_rigid_link(reference, at, nodes, xyz)
+
+
+def _hold_idle_rotations(deck, model):
+    """Nodes on a line through their reference, or at it, leave open its rotation about that line. Where nothing else in the deck
+    asks for it, it is held: it has neither stiffness nor mass."""
+    dofs, rows = deck._dofs(), []
+    extra, levers = set(dofs.extra), {}
+    for coupling in deck.couplings:
+        if coupling.kind != "distributing" and coupling.rotation is None and (coupling.reference, 4) in extra:
+            arms = deck.coordinates[deck.node_rows(coupling.nodes)] - deck.coordinates[deck.node_rows([coupling.reference])]
+            turned = dofs.rows(coupling.nodes, (4, 5, 6)).max() >= 0
+            levers.setdefault(coupling.reference, []).append(numpy.full((2, 3), numpy.inf) if turned else arms)
+    for node, arms in levers.items():
+        arms = numpy.vstack(arms)
+        if node in dofs.asked_rotations or not numpy.all(numpy.isfinite(arms)):
+            continue
+        for axis in _idle_axes(arms):
+            row = numpy.zeros(deck.n_dof)
+            row[dofs.rows([node], (4, 5, 6))[0]] = axis
+            rows.append(scipy.sparse.csr_matrix(row))
+    if rows:
+        model.add_constraints(scipy.sparse.vstack(rows))
+
+
+def _idle_axes(arms):
+    """Axes (0, 1 or 3 rows) about which a turn does not move the ends of arms (n x 3)."""
+    length = numpy.linalg.norm(arms, axis=1)
+    if length.max() == 0:
+        return numpy.eye(3)
+    axis = arms[length.argmax()] / length.max()
+    across = arms - numpy.outer(arms @ axis, axis)
+    return axis[None] if numpy.linalg.norm(across, axis=1).max() < 1e-6 * length.max() else numpy.empty((0, 3))
 
 
 def mean_side(xyz, faces):

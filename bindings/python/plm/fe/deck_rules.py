@@ -3,7 +3,9 @@ from typing import NamedTuple
 
 import numpy
 
+from . import deck_elements
 from .deck_lines import shown, whole
+from .errors import FileError
 
 SYMMETRIES = {"XSYMM": (1, 5, 6), "YSYMM": (2, 4, 6), "ZSYMM": (3, 4, 5), "XASYMM": (2, 3, 4), "YASYMM": (1, 3, 5),
               "ZASYMM": (1, 2, 6), "PINNED": (1, 2, 3), "ENCASTRE": (1, 2, 3, 4, 5, 6)}
@@ -60,8 +62,8 @@ class RuleReader:
     def __init__(self, mesh, surfaces, steps, unread):
         self._mesh, self._surfaces, self._steps, self._unread = mesh, surfaces, steps, unread
         self.ties, self.couplings, self.equations, self.boundaries = [], [], [], []
-        self._open_coupling = None
-        self.handlers = {"TIE": self._tie, "COUPLING": self._coupling, "KINEMATIC": self._kinematic,
+        self._open_coupling, self.transformed = None, {}
+        self.handlers = {"TRANSFORM": self._transform, "TIE": self._tie, "COUPLING": self._coupling, "KINEMATIC": self._kinematic,
                          "DISTRIBUTING": self._distributing, "DISTRIBUTINGCOUPLING": self._distributing_coupling,
                          "RIGIDBODY": self._rigid_body, "EQUATION": self._equation, "MPC": self._mpc,
                          "BOUNDARY": self._boundary}
@@ -122,7 +124,17 @@ class RuleReader:
                 self._skip(block, f"{parameter}= is not read; the coupling is left out")
                 return
         reference = self.node(block.needed("REFNODE"), block, block)
-        self._open_coupling = block, reference, nodes[nodes != reference]
+        kept = nodes != reference
+        weights = self._tributary(self._surfaces[full])[kept] if full and self._surfaces[full].faces else None
+        self._open_coupling = block, reference, nodes[kept], weights
+
+    def _tributary(self, surface):
+        """The area that each node of a surface stands for: the weights of distributing couplings in both codes."""
+        weights = numpy.zeros(len(surface.nodes))
+        for face in surface.faces:
+            xyz = self._mesh.coordinates[numpy.searchsorted(self._mesh.labels, face)]
+            numpy.add.at(weights, numpy.searchsorted(surface.nodes, face), deck_elements.shares(xyz))
+        return weights
 
     def _directions(self, block):
         """Directions on data lines: first, last."""
@@ -150,14 +162,15 @@ class RuleReader:
             if not self._unread or not self._unread[-1][2].startswith("*COUPLING"):
                 block.fail(f"*{block.key} does not stand below *COUPLING")
             return
-        of, reference, nodes = self._open_coupling
+        of, reference, nodes, weights = self._open_coupling
         self._open_coupling = None
         directions = self._directions(block)
         if not len(nodes):
             of.fail("a coupling has no nodes beside its reference node")
         if kind == "distributing" and not {1, 2, 3} <= set(directions):
             block.fail("a distributing coupling of some directions only; give 1 to 3, or 1 to 6")
-        self.couplings.append(Coupling(kind, reference, None, nodes, None, directions, of.file, of.number))
+        self.couplings.append(Coupling(kind, reference, None, nodes, weights if kind == "distributing" else None, directions,
+                                       of.file, of.number))
 
     def _distributing_coupling(self, block):
         """Below it nodes (or sets) and their weights; the reference is the node of a DCOUP3D element."""
@@ -256,6 +269,21 @@ class RuleReader:
                                                    line.file, line.number))
 
     # ---- supports ----
+
+    def _transform(self, block):
+        """Axes of nodes of their own: kept, to refuse what would count in them."""
+        for node in self.nodes(block.needed("NSET"), block, block).tolist():
+            self.transformed[node] = block
+
+    def check_transformed(self, loads):
+        """Directions in axes of a node's own are not followed, and must not be taken for those of the whole."""
+        for record in (*self.boundaries, *loads, *self.equations):
+            nodes = [node for node, _, _ in record.terms] if isinstance(record, Equation) else getattr(record, "nodes", ())
+            for node in nodes:
+                if int(node) in self.transformed:
+                    where = self.transformed[int(node)]
+                    raise FileError(record.file, record.line, f"node {node} has axes of its own (*TRANSFORM on line {where.number}), in "
+                                    "which this would count; they are not read, write it in the axes of the whole as *EQUATION")
 
     def _boundary(self, block):
         clears = block.word("OP", "MOD") == "NEW"
