@@ -33,6 +33,8 @@ def symmetric(n, rows, columns, values, fail, notes=None, whole=False):
     both = lower.astype(bool).multiply(upper.T.astype(bool)).nnz
     if both == 0 and not whole:  # each entry once, on whichever side
         return mirrored(given)
+    if not lower.nnz or not upper.nnz:
+        fail(None, "is said to be square, or general, but has entries in one triangle only; if it is symmetric, its header must say so")
     worst = difference.tocoo()
     k = int(numpy.argmax(worst.data))
     i, j = int(worst.row[k]), int(worst.col[k])

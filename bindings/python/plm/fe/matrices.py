@@ -133,6 +133,8 @@ def reader_of(path, format):
     for reader in READERS:
         if reader.matches(path, head):
             return reader
+    if not head:
+        raise FileError(path, 0, "is empty")
     line = head.split(b"\n")[0][:60].decode("latin-1")
     raise FileError(path, 1, f"is of no format that is known; it begins with {line!r}. Known are {', '.join(by_name)}")
 
@@ -141,7 +143,8 @@ def finished(path, found, request):
     """All matrices on one list of DOFs."""
     for kind in ("stiffness", "mass"):
         if kind not in found.matrices:
-            raise FileError(path, 0, f"no {kind} matrix was found here or beside it; hand over its path or its name")
+            passed = f" (passed over: {'; '.join(found.notes[:3])})" if found.notes else ""
+            raise FileError(path, 0, f"no {kind} matrix was found here or beside it; hand over its path or its name{passed}")
     kinds = list(found.matrices)
     sizes = {kind: found.matrices[kind].shape[0] for kind in kinds}
     keys = {kind: found.keys[kind] for kind in kinds}

@@ -24,10 +24,10 @@ def content(path):
         raise FileError(path, 0, f"cannot be read: {error.strerror or error}") from None
 
 
-def text_lines(path):
+def text_lines(path, names_with_zeros=False):
     """The lines of a text, without their ends. Bytes beyond ASCII do no harm: they stand where no number can be read."""
     data = content(path)
-    if b"\0" in data[:4096]:
+    if b"\0" in data[:4096] and not names_with_zeros:
         raise FileError(path, 0, "is binary where a text was expected")
     return data.decode("latin-1").replace("\r\n", "\n").replace("\r", "\n").split("\n")
 
@@ -72,7 +72,8 @@ class Table:
         return next((line for k, (line, _) in enumerate(self.rows()) if k == row), 0)
 
     def fail(self, row, text):
-        raise FileError(self.path, self.line(row), text)
+        """Refuses a row, or all of the file where row is None."""
+        raise FileError(self.path, 0 if row is None else self.line(row), text)
 
     def check(self, good, text):
         """Refuses the first row where good is False. text: its words, or a function of the row."""
@@ -151,6 +152,8 @@ def fixed_fields(path, lines, first, per_line, width, count, kind):
     if len(lines) < needed:
         raise FileError(path, first + len(lines), f"the file ends after {len(lines)} of {needed} lines of numbers")
     room = per_line * width
+    if needed * room > 4 * sum(map(len, lines)) + room:
+        raise FileError(path, first + 1, f"the lines are shorter than {per_line} numbers of {width} characters")
     joined = "".join(line[:room].ljust(room) for line in lines[:needed])
     fields = numpy.frombuffer(joined.encode("latin-1", "replace"), f"S{width}")[:count]
     try:

@@ -29,7 +29,8 @@ def data_line(head):
 
 def matches(path, head):
     line = data_line(head)
-    return bool(FIRST_LINE.match(line)) or (bool(COORDINATES.match(line)) and os.fspath(path).lower().endswith(".mtx"))
+    stem, suffix = os.path.splitext(os.path.basename(path).lower())
+    return bool(FIRST_LINE.match(line)) or bool(OUTPUT.match(stem)) or (bool(COORDINATES.match(line)) and suffix == ".mtx")
 
 
 def output_files(path, notes):
@@ -88,8 +89,7 @@ def labelled_entries(path):
         line = data_line(file.read(1 << 16))
     if COORDINATES.match(line):
         return None
-    words = line.replace(",", " ").split()
-    if not FIRST_LINE.match(line) and len(words) != 5:
+    if not FIRST_LINE.match(line):
         raise FileError(path, 1, f"{line.strip()[:60]!r} is neither node, direction, node, direction, value nor row, column, value; "
                         "write the matrices by *MATRIX OUTPUT, FORMAT=MATRIX INPUT")
     table = read_table(path, "iiiif", separators=",", comments="*")

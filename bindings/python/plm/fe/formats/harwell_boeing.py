@@ -89,7 +89,7 @@ def by_title(path):
     if several:
         named = companions.by_name(path)
         for kind in several:
-            if kind not in named:
+            if named.get(kind) not in found[kind]:
                 raise FileError(path, 0, f"several {kind} matrices lie beside it ({', '.join(found[kind])}): say which to take")
             found[kind] = [named[kind]]
     return {kind: files[0] for kind, files in found.items()}
@@ -231,7 +231,7 @@ def write_one(path, matrix, title, key, loads: Optional[numpy.ndarray] = None):
     with open(path, "w", encoding="ascii") as file:
         file.write(f"{title[:72]:<72s}{key:<8s}\n" + f"{sum(counts):14d}" + "".join(f"{c:14d}" for c in counts) + "\n")
         file.write(f"RSA           {n:14d}{n:14d}{n_entries:14d}{0:14d}\n")
-        file.write(f"{'(6I12)':<16s}{'(6I12)':<16s}{'(1P,3E25.16)':<20s}{'(1P,3E25.16)':<20s}\n")
+        file.write(f"{'(6I12)':<16s}{'(6I12)':<16s}{'(1P,3E25.16)':<20s}{'(1P,3E25.16)' if rhs else '':<20s}\n")
         if rhs:
             file.write(f"F             {numpy.asarray(loads).shape[1]:14d}{0:14d}\n")
         for block in (pointers, rows, values, rhs):

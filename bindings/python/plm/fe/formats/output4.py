@@ -16,7 +16,7 @@ from .market import read_companion_dofs
 from .output4_block import Block, dense_of, strings_of
 
 NAME = "output4"
-HEADER = re.compile(r"^\s*\d+\s*-?\d+\s+\d+\s+\d\s*[A-Z]", re.I)
+HEADER = re.compile(r"^\s*\d+\s*-?\d+\s+\d+\s+\d\s*\S")
 DIGITS = re.compile(r"(\d*)P?,?(\d+)([ED])(\d+)\.(\d+)", re.I)
 
 
@@ -24,7 +24,7 @@ def matches(path, head):
     if output4_binary.byte_order(head):
         return True
     line = head.split(b"\n")[0].decode("latin-1")
-    return bool(HEADER.match(line[:41])) and bool(DIGITS.search(line[40:]))
+    return bool(HEADER.match(line)) and (bool(DIGITS.search(line[40:])) or os.fspath(path).lower().endswith(".op4"))
 
 
 def read(path, request, found):
@@ -41,8 +41,13 @@ def read(path, request, found):
 
 def whole(block, notes):
     """The symmetric matrix of a block."""
+    if block.form not in (1, 6) or block.kind not in (1, 2, 3, 4):
+        raise FileError(block.path, block.line, f"matrix {block.name} has form {block.form} and type {block.kind}; square and symmetric "
+                        "ones (1, 6) of types 1 .. 4 are read")
     if block.n_rows != block.n_columns:
         raise FileError(block.path, block.line, f"matrix {block.name} has {block.n_rows} rows and {block.n_columns} columns; it must be square")
+    if block.n_rows > 64 + 16 * os.path.getsize(block.path):
+        raise FileError(block.path, block.line, f"matrix {block.name} of {block.n_rows} rows does not fit into the file")
     rows, columns, values = block.entries()
     good = numpy.isfinite(values)
     if not good.all():
@@ -61,43 +66,54 @@ def blocks(path):
 
 
 def ascii_blocks(path):
-    lines = text_lines(path)
-    result, at = [], 0
+    lines, at, result = text_lines(path, names_with_zeros=True), 0, []
     while at < len(lines) and lines[at].strip():
         block, at = ascii_block(path, lines, at)
         result.append(block)
     return result
 
 
-def ascii_block(path, lines, at):
-    """(block, the line behind it)."""
-    def whole_numbers(row, count):
-        text = lines[row] if row < len(lines) else ""
-        words = text.split() if count < 4 else [text[k:k + 8] for k in range(0, 32, 8)]
-        try:
-            return [int(word) for word in words[:count]] if len(words) == count else int("none")
-        except ValueError:
-            raise FileError(path, row + 1, f"{text.strip()[:60]!r} where {count} whole numbers are expected" if row < len(lines) else
-                            "the file ends before its last matrix does") from None
-    header = at
-    digits = DIGITS.search(lines[at][40:])
+def whole_numbers(path, lines, row, count, widths=None):
+    """The whole numbers of a line: so many words, or fields of these widths."""
+    text = lines[row] if row < len(lines) else ""
+    ends = numpy.cumsum(widths) if widths else ()
+    words = [text[end - width:end] for end, width in zip(ends, widths)] if widths else text.split()
+    try:
+        if len(words) != count or not all(len(word) < 19 for word in words):
+            raise ValueError
+        return [int(word) for word in words]
+    except ValueError:
+        raise FileError(path, row + 1, f"{text.strip()[:60]!r} where {count} whole numbers are expected" if row < len(lines) else
+                        "the file ends before its last matrix does") from None
+
+
+def header_of(path, lines, at):
+    """(block, numbers on a line, width of a number) of the header in a line."""
+    wide = lines[at].rstrip().endswith("|I16")  # more than 9,999,999 rows or columns: 16 characters for each
+    widths = [16, 16, 8, 8] if wide else [8, 8, 8, 8]
+    name = sum(widths)
+    digits = DIGITS.search(lines[at][name + 8:] if lines[at][name + 8:].strip() else "1P,5E16.9")
     if not digits or not 0 < int(digits.group(4)) < 60 or not 0 < int(digits.group(2)) < 60:
         raise FileError(path, at + 1, f"{lines[at].strip()[:60]!r} where the header of a matrix with its format (1P,3E23.16) is expected")
-    per_line, width = int(digits.group(2)), int(digits.group(4))
-    block = Block(path, at + 1, *whole_numbers(at, 4), lines[at][32:40])
+    return (Block(path, at + 1, *whole_numbers(path, lines, at, 4, widths), lines[at][name:name + 8]),
+            int(digits.group(2)), int(digits.group(4)))
+
+
+def ascii_block(path, lines, at):
+    """(block, the line behind it)."""
+    block, per_line, width = header_of(path, lines, at)
     at, parts = at + 1, []
     while True:
-        column, row, n_words = whole_numbers(at, 3)
+        column, row, n_words = whole_numbers(path, lines, at, 3)
         at += 1
         if column > block.n_columns:  # the column behind the last ends a matrix
             at += -(-max(n_words, 1) // per_line)
             break
-        if not 0 <= n_words <= 8 * block.n_rows * 4 + 8:
+        if not 0 <= n_words <= 32 * block.n_rows + 8:
             raise FileError(path, at, f"{n_words} words in a column of {block.n_rows} rows")
         at = dense_column(block, path, lines, at, column, row, n_words, per_line, parts) if row > 0 else \
-            sparse_column(block, path, lines, at, column, n_words, per_line, parts, whole_numbers)
+            sparse_column(block, path, lines, at, column, n_words, per_line, parts)
     block.values = numbers_of(path, lines, parts, per_line, width)
-    block.line = header + 1
     return block, at
 
 
@@ -107,15 +123,15 @@ def dense_column(block, path, lines, at, column, row, n_reals, per_line, parts):
     return at + -(-n_reals // per_line)
 
 
-def sparse_column(block, path, lines, at, column, n_words, per_line, parts, whole_numbers):
+def sparse_column(block, path, lines, at, column, n_words, per_line, parts):
     """Strings of a column; each has a header: length and row in two words, or both in one where the matrix is small."""
     words_of_real = 2 if block.kind in (2, 4) else 1
     while n_words > 0:
         if block.bigmat:
-            length, row = whole_numbers(at, 2)
+            length, row = whole_numbers(path, lines, at, 2)
             length, used = length - 1, length + 1
         else:
-            packed, = whole_numbers(at, 1)
+            packed, = whole_numbers(path, lines, at, 1)
             length, row = packed // 65536 - 1, packed % 65536
             used = length + 1
         at += 1

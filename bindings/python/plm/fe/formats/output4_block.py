@@ -10,10 +10,10 @@ class Block:
     """What the header of a matrix says, its strings and their numbers."""
 
     def __init__(self, path, line, n_columns, n_rows, form, kind, name):
-        self.path, self.line, self.name, self.form, self.kind = path, line, name.strip().upper(), form, kind
+        self.path, self.line, self.name, self.form, self.kind = path, line, name.replace("\0", " ").strip().upper(), form, kind
         self.n_columns, self.n_rows, self.bigmat = n_columns, abs(n_rows), n_rows < 0
-        if form not in (1, 2, 6) or kind not in (1, 2, 3, 4):
-            raise FileError(path, line, f"matrix {self.name} has form {form} and type {kind}; forms 1, 2, 6 and types 1 .. 4 are read")
+        if not (0 < n_columns < 2**40 and 0 < abs(n_rows) < 2**40 and 1 <= kind <= 4):
+            raise FileError(path, line, f"matrix {self.name} of {n_rows} rows, {n_columns} columns, type {kind}: no header of OUTPUT4")
         self.per_number = 2 if kind > 2 else 1  # reals in a number
         self.strings = []  # (column, row, count of numbers), from 0
         self.values = None
