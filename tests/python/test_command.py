@@ -86,7 +86,7 @@ class Response(Folder):
     def check_table(self, folder, amplitude):
         with open(folder / "response.csv", newline="") as file:
             rows = list(csv.DictReader(file))
-        values = numpy.array([[float(row["frequency_hz"]), float(row["half_peak_to_peak"])] for row in rows])
+        values = numpy.array([[float(row["frequency_hz"]), float(row["amplitude"])] for row in rows])
         highest = values[numpy.argmax(values[:, 1])]
         # a point of the curve: not above the peak, and with 39 points over 10 % of the frequency not far below
         self.assertTrue(0.95 * amplitude < highest[1] < 1.001 * amplitude)

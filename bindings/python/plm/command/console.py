@@ -1,6 +1,8 @@
 """What is said to the user: results on the standard output, messages on the standard error."""
 import contextlib
+import shutil
 import sys
+import textwrap
 import warnings
 
 from .. import _functions as constants
@@ -9,6 +11,13 @@ from .._errors import PlmWarning
 
 # what is worth knowing and takes nothing from the result
 _HARMLESS = {constants.REASON_ROUNDED, constants.REASON_NO_SWITCHING}
+
+
+def _to_stderr(text):
+    """One line, for programs that read it; on a terminal as many as it takes."""
+    if sys.stderr.isatty():
+        text = textwrap.fill(text, max(shutil.get_terminal_size().columns - 1, 40), subsequent_indent="     ", break_on_hyphens=False)
+    print(text, file=sys.stderr)
 
 
 class Console:
@@ -29,14 +38,14 @@ class Console:
         """Something the command did by itself."""
         self.notes.append(text)
         if not self.quiet:
-            print(f"plm: {text}", file=sys.stderr)
+            _to_stderr(f"plm: {text}")
 
     def warn(self, text, matters=True):
         """Something that should be looked at; every text once."""
         self.matters = self.matters or matters
         if text not in self.warnings:
             self.warnings.append(text)
-            print(f"plm: warning: {text}", file=sys.stderr)
+            _to_stderr(f"plm: warning: {text}")
 
     @contextlib.contextmanager
     def listening(self, with_log=False):

@@ -24,12 +24,14 @@ def write_files(folder, structure, dof, found, settings, report, console):
 
 
 def _write_curve(path, curve, dof, measure):
+    columns = {"frequency_hz": curve.frequency_hz, "amplitude": curve.amplitude(dof, measure), "arclength": curve.arclength,
+               "force_scale": curve.point_force_scale, "stable": curve.stable, "bifurcation": curve.bifurcation,
+               "residual": curve.residual, "iterations": curve.iterations, "n_harmonics": curve.point_harmonics,
+               "harmonic_error": curve.harmonic_error, "n_switching": curve.n_switching}
     with replacing(path) as beside, open(beside, "w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(["frequency_hz", measure, "stable", "bifurcation", "n_switching", "residual"])
-        rows = zip(curve.frequency_hz, curve.amplitude(dof, measure), curve.stable, curve.bifurcation, curve.n_switching,
-                   curve.residual)
-        table.writerows([repr(float(value)) if isinstance(value, float) else int(value) for value in row] for row in rows)
+        table.writerow(columns)
+        table.writerows(zip(*(values.tolist() for values in columns.values())))  # all digits of a double
 
 
 def _draw(folder, found, dof, measure, name, console):
