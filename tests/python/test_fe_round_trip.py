@@ -141,9 +141,10 @@ class RoundTrips(unittest.TestCase):
         internal.dofs[0] = -1, 1
         with_loss = scattered_chain(False)
         with_loss.structural_damping = 0.01 * with_loss.stiffness
-        for words, name, matrices in (("no place for a damping matrix", "calculix", damped), ("no place for DOFs without a node", "ansys", internal),
-                                      ("label above zero", "abaqus-substructure", internal), ("no place for structural damping", "market", with_loss),
-                                      ("format is 'x'", "x", damped)):
+        for words, name, matrices in (("no place for a damping matrix", "calculix", damped),
+                                      ("no place for DOFs without a node", "ansys", internal),
+                                      ("label above zero", "abaqus-substructure", internal),
+                                      ("no place for structural damping", "market", with_loss), ("format is 'x'", "x", damped)):
             with self.assertRaisesRegex(ValueError, words):
                 write_matrices(os.path.join(self.folder, "model"), matrices, name)
 

@@ -34,7 +34,8 @@ def symmetric(n, rows, columns, values, fail, notes=None, whole=False):
     if both == 0 and not whole:  # each entry once, on whichever side
         return mirrored(given)
     if not lower.nnz or not upper.nnz:
-        fail(None, "is said to be square, or general, but has entries in one triangle only; if it is symmetric, its header must say so")
+        fail(None, "is said to be square, or general, but has entries in one triangle only; if it is symmetric, its header must "
+             "say so")
     worst = difference.tocoo()
     k = int(numpy.argmax(worst.data))
     i, j = int(worst.row[k]), int(worst.col[k])

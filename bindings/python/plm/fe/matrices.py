@@ -148,10 +148,11 @@ def finished(path, found, request):
     kinds = list(found.matrices)
     sizes = {kind: found.matrices[kind].shape[0] for kind in kinds}
     keys = {kind: found.keys[kind] for kind in kinds}
-    n, dofs = sizes["stiffness"], found.__dict__.get("listed") if request.dofs is None else request.dofs
+    n, dofs = sizes["stiffness"], found.listed if request.dofs is None else request.dofs
     if dofs is None and all(k is not None for k in keys.values()):
         stiff = keys["stiffness"]
-        onto = stiff if all(len(k) == n and (k == stiff).all() for k in keys.values()) else in_order(numpy.concatenate(list(keys.values())))
+        same = all(len(k) == n and (k == stiff).all() for k in keys.values())
+        onto = stiff if same else in_order(numpy.concatenate(list(keys.values())))
         matrices = {kind: spread(found.matrices[kind], keys[kind], onto) for kind in kinds}
         if found.loads is not None:
             loads = numpy.zeros((len(onto), found.loads.shape[1]))
@@ -182,20 +183,22 @@ def remark(path, matrices):
     notes, dofs = matrices.notes, matrices.dofs
     filled = numpy.diff(stiffness.indptr) > 0
     zero = (stiffness.diagonal() == 0) & (mass.diagonal() == 0)
-    for rows, text in ((zero & filled, "rows with zero on the diagonals, coupled to others: taken to be Lagrange multipliers, kept as rows"),
-                       (zero & ~filled, "rows without stiffness and mass")):
+    multipliers = "rows with zero on the diagonals, coupled to others: taken to be Lagrange multipliers, kept as rows"
+    for rows, text in ((zero & filled, multipliers), (zero & ~filled, "rows without stiffness and mass")):
         if rows.any():
             labels = ", ".join(f"{node}.{direction}" for node, direction in dofs[rows][:5].tolist())
             notes.append(f"{path}: {rows.sum()} {text} ({labels}{', ...' if rows.sum() > 5 else ''})")
     negative = stiffness.diagonal() < 0
     if negative.any():
         node, direction = dofs[numpy.argmax(negative)].tolist()
-        notes.append(f"{path}: {negative.sum()} diagonal entries of the stiffness matrix are below zero, the first at {node}.{direction}")
+        notes.append(f"{path}: {negative.sum()} diagonal entries of the stiffness matrix are below zero, the first at "
+                     f"{node}.{direction}")
     if matrices.structural_damping is not None:
         scale = matrices.structural_damping.diagonal().sum() / (stiffness.diagonal().sum() or 1.0)
         same = abs(matrices.structural_damping - scale * stiffness).max() <= 1e-9 * abs(scale) * abs(stiffness).max()
-        notes.append(f"{path}: structural damping is " + (f"{scale:.9g} times the stiffness matrix: set it as that loss factor" if same
-                     else "not a multiple of the stiffness matrix; no loss factor stands for it"))
+        notes.append(f"{path}: structural damping is " + (
+            f"{scale:.9g} times the stiffness matrix: set it as that loss factor" if same else
+            "not a multiple of the stiffness matrix; no loss factor stands for it"))
 
 
 def write_matrices(path, matrices, format, **options):

@@ -11,7 +11,7 @@ from ..assembly import LABEL_LIMIT, dofs_of, in_order, key_of, places, symmetric
 from ..errors import FileError
 from ..tables import read_table
 from . import companions, triplets
-from .market import read_companion_dofs
+from .dof_list import write_dof_list
 
 NAME = "abaqus"
 OUTPUT = re.compile(r"^(.*)_(stif|mass|dmpv|dmps)(\d+)$")  # job_STIF2.mtx
@@ -34,7 +34,7 @@ def matches(path, head):
 
 
 def output_files(path, notes):
-    """{kind: path} of a job's matrices. Those of the same step go together; the only ones of another step do, too, and it is said."""
+    """{kind: path} of a job's matrices. Those of a step go together; the only ones of another step do, too, and it is said."""
     folder, name = os.path.split(os.fspath(path))
     stem, suffix = os.path.splitext(name.lower())
     own = OUTPUT.match(stem)
@@ -54,7 +54,8 @@ def output_files(path, notes):
             found[kind] = os.path.join(folder, file)
             notes.append(f"{found[kind]}: the {kind} matrix was taken from step {step}, {name} is of step {own.group(3)}")
         elif steps:
-            raise FileError(path, 0, f"{WORD[kind]} matrices of several steps lie beside it, none of step {own.group(3)}: say which to take")
+            raise FileError(path, 0, f"{WORD[kind]} matrices of several steps lie beside it, none of step {own.group(3)}: say "
+                            "which to take")
     return found
 
 
@@ -71,7 +72,7 @@ def read(path, request, found):
             found.add(kind, matrix, dofs_of(keys), file)
     if all(entry is None for entry in labelled.values()):
         same_size(found, paths)
-        read_companion_dofs(paths, request, found)
+        companions.read_dofs_beside(paths["stiffness"], request, found)
 
 
 def same_size(found, paths):
@@ -114,7 +115,6 @@ def write(path, matrices, coordinate=False):
         else:
             write_labelled(written[-1], matrix, matrices.dofs)
     if coordinate:
-        from .dof_list import write_dof_list
         written.append(stem + ".dof")
         write_dof_list(written[-1], matrices.dofs)
     return written

@@ -3,6 +3,7 @@ import os
 import re
 
 from ..errors import FileError
+from .dof_list import read_dof_list
 from .found import KINDS
 
 # What the names of the three matrices differ in, by the habits of codes and people.
@@ -41,12 +42,13 @@ def by_name(path):
 
 
 def dof_list(path):
-    """The file that lists the DOFs of a matrix, by its name: x.mapping, x.dof, ... beside x.matrix or x_K.mtx; None: there is none."""
+    """The file that lists the DOFs of a matrix, by its name: x.mapping, x.dof, ... beside x.matrix or x_K.mtx. None: no file."""
     folder, name = os.path.split(os.fspath(path))
     stem = os.path.splitext(name.lower())[0]
     files = beside(folder)
-    stems = [stem, re.sub(r"_(stif|mass|dmpv|dmps)\d+$", "", stem)] + [rest for word in ("stiffness", "stiff", "stif", "k", "mass", "m", "damping", "damp", "c")
-                      if (rest := (with_word(stem, word, "") or "").strip("_.- "))]
+    words = sorted({word for style in STYLES for word in style}, key=len, reverse=True)
+    without = [(with_word(stem, word, "") or "").strip("_.- ") for word in words]
+    stems = [stem, re.sub(r"_(stif|mass|dmpv|dmps)\d+$", "", stem)] + [rest for rest in without if rest]
     for candidate in stems:
         for suffix in DOF_SUFFIXES:
             if candidate + suffix in files and candidate + suffix != name.lower():
@@ -61,3 +63,15 @@ def chosen(path, request, guess):
     if "stiffness" not in paths:
         raise FileError(path, 0, "is no stiffness matrix, and none was found beside it: hand its path over")
     return paths
+
+
+def read_dofs_beside(path, request, found):
+    """The list of DOFs that lies beside a stiffness matrix whose file has none, unless the caller handed one over."""
+    listed = dof_list(path)
+    if request.dofs is None and listed:
+        found.listed, notes = read_dof_list(listed)
+        n = found.matrices["stiffness"].shape[0]
+        if len(found.listed) != n:
+            raise FileError(listed, 0, f"lists {len(found.listed)} DOFs for a matrix of {n} rows")
+        found.notes += notes
+        found.read_from(listed)

@@ -9,7 +9,7 @@ import numpy
 
 from ..assembly import LABEL_LIMIT, dofs_of, in_order, key_of, places, symmetric
 from ..errors import FileError
-from ..tables import number
+from ..tables import content, number
 from . import bulk
 
 NAME = "dmig"
@@ -20,8 +20,9 @@ OWN = {"stiffness": "KAAX", "mass": "MAAX", "damping": "BAAX", "structural_dampi
 
 
 def matches(path, head):
-    return bool(re.search(rb"^DMIG[ *,\t]", head, re.I | re.M)) or (
-        os.fspath(path).lower().endswith((".pch", ".bdf", ".dat", ".nas", ".blk")) and b"\nDMIG" in open(path, "rb").read())
+    entry = re.compile(rb"^DMIG[ *,\t]", re.I | re.M)  # behind a mesh, perhaps
+    behind = os.fspath(path).lower().endswith((".pch", ".bdf", ".dat", ".nas", ".blk"))
+    return bool(entry.search(head)) or behind and bool(entry.search(content(path)))
 
 
 class Matrix:
@@ -31,12 +32,14 @@ class Matrix:
         self.path, self.line = path, entry.line
         data = [field.strip() for field in entry.fields] + [""] * 8
         self.name = data[0].upper()
-        self.form, self.kind, self.polar = self.whole(data[2], "IFO", (1, 2, 6, 9)), self.whole(data[3], "TIN", (1, 2, 3, 4)), data[5]
+        self.form, self.kind = self.whole(data[2], "IFO", (1, 2, 6, 9)), self.whole(data[3], "TIN", (1, 2, 3, 4))
+        self.polar = data[5]
         self.rows, self.columns, self.real, self.imaginary, self.lines = [], [], [], [], []
 
     def whole(self, text, what, allowed):
         if not text.isdigit() or int(text) not in allowed:
-            raise FileError(self.path, self.line, f"{what} of matrix {self.name} is {text!r}; it must be one of {', '.join(map(str, allowed))}")
+            raise FileError(self.path, self.line, f"{what} of matrix {self.name} is {text!r}; it must be one of "
+                            f"{', '.join(map(str, allowed))}")
         return int(text)
 
     def add_column(self, entry):
@@ -75,7 +78,8 @@ class Matrix:
             if key is None:
                 node, direction = pair[0].strip(), pair[1].strip() or "0"
                 if not node.isdigit() or not 0 < int(node) < LABEL_LIMIT or direction not in "0123456" or len(direction) != 1:
-                    raise FileError(self.path, self.lines[k], f"{' '.join(p.strip() for p in pair)!r} where a point and a direction 0 .. 6 are expected")
+                    raise FileError(self.path, self.lines[k], f"{' '.join(p.strip() for p in pair)!r} where a point and a direction "
+                                    "0 .. 6 are expected")
                 key = known[pair] = int(key_of(int(node), int(direction)))
             keys[k] = key
         return keys
@@ -148,7 +152,8 @@ def by_kind(path, matrices, request, found):
         if matrix.name in used or kind in request.names or kind in request.paths:
             continue
         if kind is None or matrix.form in (2, 9):
-            found.note(path, matrix.line, f"matrix {matrix.name} was not read: {'its name says no kind' if kind is None else 'it is rectangular'}")
+            reason = "its name says no kind" if kind is None else "it is rectangular"
+            found.note(path, matrix.line, f"matrix {matrix.name} was not read: {reason}")
             continue
         if kind in result:
             raise FileError(path, matrix.line, f"{result[kind].name} and {matrix.name} could both be the {kind} matrix: say which, by "

@@ -63,7 +63,8 @@ def one_line(path, number, words, equations, notes):
         if ANSYS[name] > 6:
             notes.append(f"{path}:{number}: {name} of node {words[1]} is no displacement; it has direction {ANSYS[name]}")
         return [(whole(words[1], -LABEL_LIMIT, LABEL_LIMIT), ANSYS[name])]
-    raise FileError(path, number, f"{' '.join(words)[:60]!r} names no DOF: node.direction, node direction, or equation node UX is expected")
+    raise FileError(path, number, f"{' '.join(words)[:60]!r} names no DOF: node.direction, node direction, or equation node UX is "
+                    "expected")
 
 
 def write_dof_list(path, dofs):

@@ -28,6 +28,7 @@ class Found:
     def __init__(self):
         self.matrices, self.keys, self.files = {}, {}, {}
         self.loads, self.name = None, ""
+        self.listed = None  # (n, 2) DOFs of a list beside files that have none
         self.source, self.notes = [], []
 
     def add(self, kind, matrix, dofs, path):

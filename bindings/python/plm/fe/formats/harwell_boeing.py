@@ -11,7 +11,6 @@ from ..errors import FileError
 from ..tables import fixed_fields, text_lines
 from . import companions, dof_list
 from .found import refuse
-from .market import read_companion_dofs
 
 NAME = "harwell-boeing"
 FORMAT = re.compile(r"^\s*(?:\d+P\s*,?\s*)?(\d*)\s*([IEDFG])\s*(\d+)(?:\.\d+)?(?:E\d+)?\s*$", re.I)
@@ -55,7 +54,7 @@ def read(path, request, found):
         known = next(keys for keys in found.keys.values() if keys is not None)
         found.keys = {kind: known if keys is None else keys for kind, keys in found.keys.items()}
     else:
-        read_companion_dofs(paths, request, found)
+        companions.read_dofs_beside(paths["stiffness"], request, found)
 
 
 def mapping_of(path):
@@ -103,7 +102,8 @@ def read_header(path, lines):
             if min(numbers) < 0 or len(numbers) < (4 if line == 1 else count):
                 raise ValueError
         except ValueError:
-            raise FileError(path, line + 1, f"{' '.join(words)[:60]!r} where {count} whole numbers of the header are expected") from None
+            raise FileError(path, line + 1, f"{' '.join(words)[:60]!r} where {count} whole numbers of the header are "
+                            "expected") from None
         return numbers + [0]
     _, n_pointers, n_indices, n_values, n_rhs_lines = whole(1, 5)[:5]
     kind = lines[2][:3].upper() if len(lines) > 2 else ""
@@ -113,7 +113,8 @@ def read_header(path, lines):
     if n != columns:
         raise FileError(path, 3, f"{n} rows but {columns} columns; the matrices of a structure are square")
     if kind[0] == "P" or kind[1] not in "SU" or kind[2] != "A":
-        raise FileError(path, 3, f"a matrix of type {kind}; assembled real or complex, symmetric or square ones are read (RSA, RUA, CSA, CUA)")
+        raise FileError(path, 3, f"a matrix of type {kind}; assembled real or complex, symmetric or square ones are read (RSA, RUA, "
+                        "CSA, CUA)")
     rhs, n_rhs = "", 0
     if n_rhs_lines:
         words = lines[4].split() if len(lines) > 4 else []

@@ -21,26 +21,12 @@ def read(path, request, found):
     paths = companions.chosen(path, request, companions.by_name(path))
     for kind, file in paths.items():
         found.add(kind, read_one(file, found.notes), None, file)
-    read_companion_dofs(paths, request, found)
-
-
-def read_companion_dofs(paths, request, found):
-    """The list of DOFs of files that name none, where one lies beside the stiffness matrix."""
-    listed = companions.dof_list(paths["stiffness"])
-    if request.dofs is None and listed:
-        dofs, notes = dof_list.read_dof_list(listed)
-        n = found.matrices["stiffness"].shape[0]
-        if len(dofs) != n:
-            raise FileError(listed, 0, f"lists {len(dofs)} DOFs for a matrix of {n} rows")
-        found.keys = {kind: None for kind in found.keys}
-        found.listed = dofs
-        found.notes += notes
-        found.read_from(listed)
+    companions.read_dofs_beside(paths["stiffness"], request, found)
 
 
 def read_one(path, notes):
-    """The whole matrix of one file. SciPy's reader takes half a minute for what these columns take seconds for (1.10), and does not
-    return from a file that ends within its header; it is used to write."""
+    """The whole matrix of one file. SciPy's reader (1.10) takes twice the time, and does not return from a file that ends within
+    its header; it is used to write."""
     layout, is_complex, symmetry, sizes, first = header(path)
     n, columns = sizes[:2]
     if n != columns:

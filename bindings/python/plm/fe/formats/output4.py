@@ -8,11 +8,10 @@ import scipy.sparse
 from ..assembly import symmetric
 from ..errors import FileError
 from ..tables import fixed_fields, text_lines
-from . import output4_binary
+from . import companions, output4_binary
 from .dmig import OWN, by_kind
 from .dof_list import write_dof_list
 from .found import refuse
-from .market import read_companion_dofs
 from .output4_block import Block, dense_of, strings_of
 
 NAME = "output4"
@@ -36,16 +35,18 @@ def read(path, request, found):
             wanted = {kind: wanted[kind]}
         for own, block in wanted.items():
             found.add(own, whole(block, found.notes), None, file)
-    read_companion_dofs({"stiffness": path}, request, found)
+    if "stiffness" in found.matrices:
+        companions.read_dofs_beside(path, request, found)
 
 
 def whole(block, notes):
     """The symmetric matrix of a block."""
     if block.form not in (1, 6) or block.kind not in (1, 2, 3, 4):
-        raise FileError(block.path, block.line, f"matrix {block.name} has form {block.form} and type {block.kind}; square and symmetric "
-                        "ones (1, 6) of types 1 .. 4 are read")
+        raise FileError(block.path, block.line, f"matrix {block.name} has form {block.form} and type {block.kind}; square and "
+                        "symmetric ones (1, 6) of types 1 .. 4 are read")
     if block.n_rows != block.n_columns:
-        raise FileError(block.path, block.line, f"matrix {block.name} has {block.n_rows} rows and {block.n_columns} columns; it must be square")
+        raise FileError(block.path, block.line, f"matrix {block.name} has {block.n_rows} rows and {block.n_columns} columns; it must "
+                        "be square")
     if block.n_rows > 64 + 16 * os.path.getsize(block.path):
         raise FileError(block.path, block.line, f"matrix {block.name} of {block.n_rows} rows does not fit into the file")
     rows, columns, values = block.entries()
@@ -94,7 +95,8 @@ def header_of(path, lines, at):
     name = sum(widths)
     digits = DIGITS.search(lines[at][name + 8:] if lines[at][name + 8:].strip() else "1P,5E16.9")
     if not digits or not 0 < int(digits.group(4)) < 60 or not 0 < int(digits.group(2)) < 60:
-        raise FileError(path, at + 1, f"{lines[at].strip()[:60]!r} where the header of a matrix with its format (1P,3E23.16) is expected")
+        raise FileError(path, at + 1, f"{lines[at].strip()[:60]!r} where the header of a matrix with its format (1P,3E23.16) is "
+                        "expected")
     return (Block(path, at + 1, *whole_numbers(path, lines, at, 4, widths), lines[at][name:name + 8]),
             int(digits.group(2)), int(digits.group(4)))
 

@@ -141,6 +141,7 @@ def write_block(file, name, matrix, kind, layout, order):
         pieces = []
         for row, values in strings_of(matrix, j):
             length = kind * len(values) + 1
-            pieces += [integers(length, row + 1) if layout == "bigmat" else integers(65536 * length + row + 1), values.astype(real).tobytes()]
+            head = (length, row + 1) if layout == "bigmat" else (65536 * length + row + 1,)
+            pieces += [integers(*head), values.astype(real).tobytes()]
         record(integers(j + 1, 0, sum(map(len, pieces)) // 4), *pieces)
     record(integers(n + 1, 1, kind), numpy.ones(1, real).tobytes())

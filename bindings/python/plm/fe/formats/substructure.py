@@ -16,7 +16,7 @@ NAMES = {"stiffness": "STIFFNESS", "mass": "MASS", "damping": "VISCOUS DAMPING",
 
 
 def matches(path, head):
-    return bool(re.search(rb"^\*MATRIX\s*,\s*TYPE\s*=", head, re.I | re.M)) and bool(re.search(rb"^\*USER ELEMENT", head, re.I | re.M))
+    return all(re.search(pattern, head, re.I | re.M) for pattern in (rb"^\*USER ELEMENT", rb"^\*MATRIX\s*,\s*TYPE\s*="))
 
 
 def read(path, request, found):
@@ -97,7 +97,8 @@ def dense(path, entries, n, notes):
             lines.append(row)
     values = numpy.array(values)
     if len(values) not in (n * (n + 1) // 2, n * n):
-        raise FileError(path, entries[0], f"{len(values)} numbers for a matrix of {n} rows, which has {n * (n + 1) // 2} in its triangle")
+        raise FileError(path, entries[0], f"{len(values)} numbers for a matrix of {n} rows, which has {n * (n + 1) // 2} in its "
+                        "triangle")
     if not numpy.isfinite(values).all():
         raise FileError(path, lines[int(numpy.argmin(numpy.isfinite(values)))], "a value that is no finite number")
     if len(values) == n * n and n > 1:
