@@ -44,9 +44,12 @@ class Shell(Folder):
         self.assertEqual(err, "")
 
     def test_ctrl_c(self):
-        with subprocess.Popen([sys.executable, "-m", "plm", "study", "case.toml", "--repeats", "1000"], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, cwd=self.folder, text=True) as process:
-            time.sleep(2)
+        with subprocess.Popen([sys.executable, "-m", "plm", "study", "case.toml", "--repeats", "1000", "--out", "study"],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=self.folder, text=True) as process:
+            end = time.monotonic() + 60
+            while not (self.folder / "study").exists() and time.monotonic() < end:  # made before the work begins
+                time.sleep(0.05)
+            time.sleep(0.5)
             self.assertIsNone(process.poll())
             process.send_signal(signal.SIGINT)
             out, err = process.communicate(timeout=30)

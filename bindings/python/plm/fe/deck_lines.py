@@ -5,6 +5,7 @@ stands, so that whoever reads it can say which one is wrong.
 """
 import os
 import re
+import warnings
 
 import numpy
 
@@ -153,10 +154,7 @@ def whole(text):
 def table(block, columns, name):
     """Data lines of numbers as an array, lines x columns of double: at least the first column, missing ones 0. Fast where all
     lines are plain; else line by line, which finds the one at fault."""
-    try:
-        values = numpy.loadtxt([line.text for line in block.lines], delimiter=",", ndmin=2, comments=None)
-    except (ValueError, OverflowError):
-        values = None
+    values = plain_numbers([line.text for line in block.lines], float)
     if values is not None and values.shape[1] == columns and numpy.all(numpy.isfinite(values)):
         return values
     values = numpy.zeros((len(block.lines), columns))
@@ -166,6 +164,16 @@ def table(block, columns, name):
         for i in range(max(len(line.fields), 1)):
             row[i] = line.real(i, f"field {i + 1} of {name}", None if i == 0 else 0.0)
     return values
+
+
+def plain_numbers(texts, kind):
+    """Lines of numbers between commas as an array, by NumPy's fast reader; None where it does not take them as they are."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # it warns where there are none, and where it would cut 1.5 down to an integer
+        try:
+            return numpy.loadtxt(texts, delimiter=",", ndmin=2, comments=None, dtype=kind)
+        except (ValueError, OverflowError, Warning):
+            return None
 
 
 def read_blocks(path):

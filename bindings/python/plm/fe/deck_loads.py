@@ -107,10 +107,12 @@ def _vector(deck, acting):
 
 
 def _weight(deck, acceleration):
-    """M times a rigid translation: the shares that the elements themselves give."""
+    """M times a rigid translation: the shares that the elements give to nodes. Inner nodes (of incompatible modes) neither move
+    with it nor are loaded, as in the codes themselves."""
     dofs = numpy.asarray(deck.matrices.dofs)
+    of_nodes = numpy.isin(dofs[:, 0], deck.node_labels)
     motion, force = numpy.zeros(len(dofs)), numpy.zeros(deck.n_dof)
     for i in range(3):
-        motion[dofs[:, 1] == i + 1] = acceleration[i]
-    force[:len(dofs)] = deck.matrices.mass @ motion
+        motion[of_nodes & (dofs[:, 1] == i + 1)] = acceleration[i]
+    force[:len(dofs)] = numpy.where(of_nodes, deck.matrices.mass @ motion, 0.0)
     return force

@@ -4,7 +4,7 @@ from typing import NamedTuple
 import numpy
 
 from . import deck_elements
-from .deck_lines import LARGEST_LABEL, shown, table
+from .deck_lines import LARGEST_LABEL, plain_numbers, shown, table
 from .deck_sets import Names, SetTable
 
 
@@ -38,8 +38,8 @@ class MeshReader:
         if not block.lines:
             return
         values = table(block, 4, "a node (label, x, y, z)")
-        label = values[:, 0].astype(numpy.int64)
-        for i in numpy.flatnonzero((label != values[:, 0]) | (label < 1) | (label > LARGEST_LABEL))[:1]:
+        label = numpy.clip(values[:, 0], 0, LARGEST_LABEL).astype(numpy.int64)
+        for i in numpy.flatnonzero((label != values[:, 0]) | (label < 1))[:1]:
             block.lines[i].fail(f"a node has the label {shown(block.lines[i].field(0))}; a whole number from 1 on is needed")
         xyz = self._from_system(block, values[:, 1:])
         label = label + block.scope.shift
@@ -118,12 +118,8 @@ class MeshReader:
     @staticmethod
     def _plain_elements(block, n):
         """Elements of one line each, all at once; None where they are not."""
-        try:
-            values = numpy.loadtxt([line.text.rstrip(", ") for line in block.lines], delimiter=",", ndmin=2, comments=None,
-                                   dtype=numpy.int64)
-        except (ValueError, OverflowError):
-            return None, None
-        if values.shape[1:] != (n + 1,) or values.min(initial=1) < 1 or values.max(initial=1) > LARGEST_LABEL:
+        values = plain_numbers([line.text.rstrip(", ") for line in block.lines], numpy.int64)
+        if values is None or values.shape[1:] != (n + 1,) or values.min(initial=1) < 1 or values.max(initial=1) > LARGEST_LABEL:
             return None, None
         return values[:, 0], values[:, 1:]
 
