@@ -127,6 +127,12 @@ class Response(Folder):
         self.assertIn("10.5 .. 12.5 Hz", out)
         self.assertNotIn("files", out)
 
+    def test_a_range_without_a_peak(self):
+        """What is highest there is no peak, and its error no error of one."""
+        out, err = self.here("response", self.path("case.toml"), "--frequency-min-hz", "12", "--frequency-max-hz", "13", status=1)
+        self.assertRegex(out, r"\nerror +not known\n")
+        self.assertRegex(err, "warning: .*the highest point stands at an end of the curve, 12 Hz")
+
     def test_options_go_before_the_case_file(self):
         """Half the force, half the motion: contact without gap and pre-load is homogeneous."""
         out, _ = self.here("response", self.path("case.toml"), "--force", "20", "x", "0.5", "--measure", "peak")

@@ -5,6 +5,8 @@ import os
 import pathlib
 import re
 import shutil
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -22,6 +24,14 @@ try:
     from vtk.util.numpy_support import vtk_to_numpy
 except ImportError:
     vtk = None
+try:
+    import meshio
+except ImportError:
+    meshio = None
+try:
+    import matplotlib.image
+except ImportError:
+    matplotlib = None
 
 FORCE, BETA, STIFFNESS_BY_AREA = 20.0, 2e-6, 2e6
 N_HARMONICS, N_TIMES = 24, 512
@@ -153,6 +163,11 @@ class Deck(unittest.TestCase):
         self.assertIn("4 of 4 pairs open and close", out)
         if vtk:
             self.check_files(amplitude)
+        if meshio and matplotlib:
+            picture = self.folder / "open.png"
+            script = pathlib.Path(__file__).parents[2] / "examples" / "plot" / "plot_motion.py"
+            subprocess.run([sys.executable, script, self.folder / "out" / "peak.pvd", picture], check=True, timeout=60)
+            self.assertGreater(numpy.ptp(matplotlib.image.imread(picture)[..., :3]), 0.9)  # black lines on white
 
     def check_files(self, amplitude):
         place = {label: i for i, label in enumerate(self.deck.node_labels.tolist())}

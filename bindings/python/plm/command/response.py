@@ -1,8 +1,10 @@
 """plm response: from the files to the curve, its peak and the motion there."""
+import contextlib
 import math
 import warnings
 from typing import NamedTuple
 
+from .._errors import PlmError
 from .._functions import NOT_CONVERGED, TRUNCATED
 from .._reduction import Basis, Sampler
 from .._response import Hbm
@@ -87,15 +89,41 @@ def _around_resonance(model, dof, settings, progress):
 
 
 def _in_range(model, dof, low, high, settings, progress):
-    """Basis from the mode nearest to the middle of the range, refined to the accuracy; curve and peak on it."""
+    """On the basis from the mode nearest to the middle of the range; where its error is too large, on a refined one."""
     sampler = Sampler(model, **window_options(low, high)).run(progress)
-    first = Hbm(Basis(model, sampler).build(progress), accuracy=settings["accuracy"])
-    refined = first.refine_basis(dof, settings["accuracy"], settings["measure"], progress=progress)
-    hbm = Hbm(refined.basis, accuracy=settings["accuracy"], frequency_min_hz=low, frequency_max_hz=high)
-    curve = hbm.sweep(progress)
-    peak = hbm.find_peak(curve, dof, settings["measure"], progress=progress)
-    error = refined.error if math.isfinite(refined.error) else math.nan
-    return Found(peak.frequency_hz, peak.amplitude, error, curve, peak.branch, None)
+    basis = Basis(model, sampler).build(progress)
+    found, told = _on_basis(basis, dof, low, high, settings, progress)
+    if not found.error <= settings["accuracy"] and _is_inside(found.frequency_hz, found.curve):
+        with contextlib.suppress(PlmError):  # then the first answer stands, with its error
+            first = Hbm(basis, accuracy=settings["accuracy"], frequency_min_hz=low, frequency_max_hz=high)
+            refined = first.refine_basis(dof, settings["accuracy"], settings["measure"], progress=progress)
+            better, of_better = _on_basis(refined.basis, dof, low, high, settings, progress)
+            if better.error <= found.error or math.isnan(found.error):
+                found, told = better, of_better
+    for one in told:
+        warnings.warn(one, stacklevel=2)
+    return found
+
+
+def _is_inside(frequency_hz, curve):
+    """Whether the highest point is a peak, not an end of the curve."""
+    return curve.frequency_hz.min() < frequency_hz < curve.frequency_hz.max()
+
+
+def _on_basis(basis, dof, low, high, settings, progress):
+    """(Found of this basis between these frequencies, what the library warned of meanwhile)."""
+    measure, error = settings["measure"], math.nan
+    with warnings.catch_warnings(record=True) as issued:
+        warnings.simplefilter("always")
+        hbm = Hbm(basis, accuracy=settings["accuracy"], frequency_min_hz=low, frequency_max_hz=high)
+        curve = hbm.sweep(progress)
+        peak = hbm.find_peak(curve, dof, measure, progress=progress)
+        if peak.amplitude > 0 and _is_inside(peak.frequency_hz, curve):
+            with contextlib.suppress(PlmError):
+                parts = hbm.estimate_error(peak.branch, 0, dof, measure, progress=progress)
+                error = max(abs(parts.amplitude.total) / peak.amplitude, abs(parts.frequency_hz.total) / peak.frequency_hz)
+    told = [one.message for one in issued]
+    return Found(peak.frequency_hz, peak.amplitude, error, curve, peak.branch, None), told
 
 
 def _report(structure, dof, found, settings):
