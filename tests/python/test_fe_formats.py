@@ -66,6 +66,7 @@ BROKEN = {
     "huge_K.mtx": (3, "does not fit into a file"),
     "rectangular_K.mtx": (3, "3 rows but 4 columns"),
     "skew_K.mtx": (1, "skew-symmetric"),
+    "superscript_K.mtx": (2, "where the sizes of the matrix are expected"),
     "half_K.mtx": (0, "one triangle only"),
     "unsymmetric_K.mtx": (5, "not symmetric: 0.125 in row 2, column 1, but 0.25"),
     "empty_K.mtx": (0, "is empty"),
@@ -95,6 +96,7 @@ BROKEN = {
     "value.pch": (8, "'-1.5000O0000D+04' where a number"),
     "form.pch": (2, "IFO of matrix KAAX is '7'"),
     "direction.pch": (8, "'205 8' where a point and a direction"),
+    "nocolumns.pch": (2, "matrix KAAX has no columns"),
     "orphan.pch": (1, "continues an entry"),
     "two.pch": (11, "KAAX and KBBX could both be the stiffness matrix"),
     "nomass.pch": (0, "no mass matrix was found here or beside it; hand over its path or its name (passed over:"),
@@ -190,6 +192,15 @@ class Samples(unittest.TestCase):
         numpy.testing.assert_array_equal(found.mass.toarray(), M)
         found = read_matrices(self.broken / "lonely.sti", mass=self.good / "beam.mas")
         numpy.testing.assert_array_equal(found.mass.toarray(), M)
+        order = [[205, 1], [101, 2], [101, 1]]
+        found = read_matrices(self.good / "large.pch", dofs=numpy.array(order))
+        self.assertEqual(found.dofs.tolist(), order)
+        numpy.testing.assert_array_equal(found.stiffness.toarray(), K[::-1, ::-1])
+        numpy.testing.assert_array_equal(found.mass.toarray(), M[::-1, ::-1])
+        with self.assertRaisesRegex(FileError, "has node 205, direction 1, which the DOFs handed over have not"):
+            read_matrices(self.good / "large.pch", dofs=numpy.array(order[1:]))
+        with self.assertRaisesRegex(FileError, "does not name its DOFs, the stiffness matrix does"):
+            read_matrices(self.good / "job_STIF2.mtx", mass=self.good / "coordinates_MASS1.mtx")
         with self.assertRaisesRegex(FileError, "2 DOFs are listed for matrices of 3 rows"):
             read_matrices(self.good / "sparse.op4", dofs=listed[:2])
         with self.assertRaisesRegex(FileError, "has no matrix KXX; it has KAAX, KBBX, BAAX, PAX"):

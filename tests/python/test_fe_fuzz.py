@@ -12,6 +12,7 @@ import time
 import warnings
 
 from plm.fe import FileError, read_matrices
+from plm.fe.matrices import READERS
 from test_fe_formats import FORMATS, GOOD, unpacked
 
 MEMORY = 3 << 30  # bytes of address space: a size that was believed unchecked shows as a MemoryError
@@ -55,10 +56,10 @@ def mutated(data, rng):
     return bytes(data)
 
 
-def tried(path):
+def tried(path, format):
     """True if matrices came out, False for a FileError. Anything else is the failure that is looked for."""
     try:
-        found = read_matrices(path)
+        found = read_matrices(path, format=format)
     except FileError as error:
         assert error.text and error.file and error.line >= 0
         return False
@@ -83,7 +84,7 @@ def main():
             data = mutated(originals[victim], rng)
             victim.write_bytes(data)
             try:
-                read += tried(opened)
+                read += tried(opened, rng.choice(READERS).NAME if rng.random() < 0.1 else None)
             except Exception as error:
                 kept = pathlib.Path(tempfile.gettempdir(), f"fe_fuzz_{seed}_{victim.name}")
                 kept.write_bytes(data)

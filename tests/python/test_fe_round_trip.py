@@ -35,6 +35,13 @@ def scattered_chain(damped):
     return Matrices(stiffness, mass, 0.3 * mass + 1.1e-4 * stiffness if damped else None, dofs, "chain", loads=loads if damped else None)
 
 
+def relabelled(matrices, rows, labels):
+    """The same with other labels in some rows."""
+    dofs = matrices.dofs.copy()
+    dofs[rows] = labels
+    return Matrices(matrices.stiffness, matrices.mass, matrices.damping, dofs)
+
+
 def curve(matrices, labels):
     """Amplitudes of the forced response of the chain across a resonance, its contacts and loads placed by label."""
     row = [matrices.rows(node, direction) for node, direction in labels]
@@ -137,8 +144,7 @@ class RoundTrips(unittest.TestCase):
             self.assertEqual(abs(found.stiffness - stiffness).max(), 0.0)
 
     def test_what_a_format_has_no_place_for_is_refused(self):
-        damped, internal = scattered_chain(True), scattered_chain(False)
-        internal.dofs[0] = -1, 1
+        damped, internal = scattered_chain(True), relabelled(scattered_chain(False), [0], [[-1, 1]])
         with_loss = scattered_chain(False)
         with_loss.structural_damping = 0.01 * with_loss.stiffness
         for words, name, matrices in (("no place for a damping matrix", "calculix", damped),
@@ -150,8 +156,7 @@ class RoundTrips(unittest.TestCase):
 
     def test_rows_without_a_node(self):
         """Internal nodes keep their labels where a format has labels below one, and become scalar points in bulk data."""
-        matrices = scattered_chain(True)
-        matrices.dofs[[4, 9]] = [[-1, 1], [-2, 1]]
+        matrices = relabelled(scattered_chain(True), [4, 9], [[-1, 1], [-2, 1]])
         for name in ("abaqus", "market", "output4"):
             found = self.again(name, {}, matrices)
             self.assertEqual(abs(found.stiffness[found.rows(-2, 1), :] - 0).sum(), abs(matrices.stiffness[9, :]).sum())

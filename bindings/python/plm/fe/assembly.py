@@ -73,19 +73,25 @@ def in_order(keys):
     return keys[numpy.lexsort((direction, numpy.abs(node), node < 1))]
 
 
-def places(keys, among):
-    """Where each key stands in the list `among`; -1: nowhere."""
-    order = numpy.argsort(among, kind="stable")
-    at = numpy.searchsorted(among, keys, sorter=order)
-    at = order[numpy.minimum(at, len(among) - 1)] if len(among) else numpy.zeros(len(keys), numpy.int64)
-    return numpy.where(among[at] == keys, at, -1) if len(among) else at - 1
+class Places:
+    """Where keys stand in a list of distinct ones; -1: nowhere."""
+
+    def __init__(self, among):
+        self._order = numpy.argsort(among, kind="stable")
+        self._sorted = numpy.asarray(among)[self._order]
+
+    def __call__(self, keys):
+        if not len(self._sorted):
+            return numpy.full(len(keys), -1)
+        at = numpy.minimum(numpy.searchsorted(self._sorted, keys), len(self._sorted) - 1)
+        return numpy.where(self._sorted[at] == keys, self._order[at], -1)
 
 
 def spread(matrix, keys, onto):
     """The matrix on the DOFs `keys` as one on the DOFs `onto`, which hold them all."""
     if len(keys) == len(onto) and (keys == onto).all():
         return matrix
-    entries, at = matrix.tocoo(), places(keys, onto)
+    entries, at = matrix.tocoo(), Places(onto)(keys)
     return clean(scipy.sparse.coo_matrix((entries.data, (at[entries.row], at[entries.col])), shape=(len(onto), len(onto))))
 
 

@@ -4,10 +4,11 @@ import os
 import numpy
 import scipy.sparse
 
-from .assembly import check_labels, in_order, key_of, places, spread, dofs_of
+from .assembly import Places, dofs_of, key_of
 from .errors import FileError
 from .formats import abaqus, dmig, dof_list, harwell_boeing, market, output4, substructure, triplets
 from .formats.found import KINDS, Found, Request
+from .one_list import one_list, remarks
 
 READERS = (market, output4, substructure, dmig, harwell_boeing, triplets, abaqus)  # the first whose mark a file bears reads it
 WRITERS = {
@@ -51,7 +52,8 @@ class Matrices:
             raise ValueError(f"{len(self.dofs)} DOFs for matrices of {n} rows")
         self.loads = None if loads is None else numpy.asarray(loads, float).reshape(n, -1)
         self.name, self.source, self.notes = name, list(source), list(notes)
-        self._keys = key_of(self.dofs[:, 0], self.dofs[:, 1])
+        self.dofs.flags.writeable = False  # rows() has looked at them
+        self._places = Places(key_of(self.dofs[:, 0], self.dofs[:, 1]))
 
     @property
     def n_dof(self):
@@ -61,7 +63,7 @@ class Matrices:
     def rows(self, node, direction):
         """The row of a node and direction, or the rows of arrays of them. LookupError where there is none."""
         wanted = numpy.atleast_1d(key_of(node, direction))
-        at = places(wanted, self._keys)
+        at = self._places(wanted)
         if (at < 0).any():
             missing, = dofs_of(wanted[at < 0][:1])
             there = sorted(self.dofs[self.dofs[:, 0] == missing[0], 1].tolist())
@@ -107,7 +109,11 @@ def read_matrices(path, mass=None, damping=None, structural_damping=None, dofs=N
     found = Found()
     found.name = os.path.splitext(os.path.basename(path))[0]
     reader_of(path, format).read(path, request, found)
-    return finished(path, found, request)
+    matrices, dofs, loads = one_list(path, found, request)
+    result = Matrices(matrices["stiffness"], matrices["mass"], matrices.get("damping"), dofs, found.name, found.source, found.notes,
+                      matrices.get("structural_damping"), loads)
+    result.notes += remarks(path, result)
+    return result
 
 
 def located(path):
@@ -137,68 +143,6 @@ def reader_of(path, format):
         raise FileError(path, 0, "is empty")
     line = head.split(b"\n")[0][:60].decode("latin-1")
     raise FileError(path, 1, f"is of no format that is known; it begins with {line!r}. Known are {', '.join(by_name)}")
-
-
-def finished(path, found, request):
-    """All matrices on one list of DOFs."""
-    for kind in ("stiffness", "mass"):
-        if kind not in found.matrices:
-            passed = f" (passed over: {'; '.join(found.notes[:3])})" if found.notes else ""
-            raise FileError(path, 0, f"no {kind} matrix was found here or beside it; hand over its path or its name{passed}")
-    kinds = list(found.matrices)
-    sizes = {kind: found.matrices[kind].shape[0] for kind in kinds}
-    keys = {kind: found.keys[kind] for kind in kinds}
-    n, dofs = sizes["stiffness"], found.listed if request.dofs is None else request.dofs
-    if dofs is None and all(k is not None for k in keys.values()):
-        stiff = keys["stiffness"]
-        same = all(len(k) == n and (k == stiff).all() for k in keys.values())
-        onto = stiff if same else in_order(numpy.concatenate(list(keys.values())))
-        matrices = {kind: spread(found.matrices[kind], keys[kind], onto) for kind in kinds}
-        if found.loads is not None:
-            loads = numpy.zeros((len(onto), found.loads.shape[1]))
-            loads[places(stiff, onto)] = found.loads
-            found.loads = loads
-        dofs = dofs_of(onto)
-    else:
-        for kind in kinds:
-            if sizes[kind] != n:
-                raise FileError(found.files[kind], 0, f"has {sizes[kind]} rows, the stiffness matrix {n}")
-        matrices = found.matrices
-        if dofs is None:
-            found.note(path, 0, "no list of DOFs was found: rows are known by their number alone (row i has the label -(i + 1)); "
-                       "hand one over by dofs=")
-        elif len(dofs) != n:
-            raise FileError(path, 0, f"{len(dofs)} DOFs are listed for matrices of {n} rows")
-        else:
-            check_labels(path, dofs)
-    result = Matrices(matrices["stiffness"], matrices["mass"], matrices.get("damping"), dofs, found.name, found.source, found.notes,
-                      matrices.get("structural_damping"), found.loads)
-    remark(path, result)
-    return result
-
-
-def remark(path, matrices):
-    """Notes on what a reader of the matrices should know: rows without stiffness and mass, multipliers, structural damping."""
-    stiffness, mass = matrices.stiffness, matrices.mass
-    notes, dofs = matrices.notes, matrices.dofs
-    filled = numpy.diff(stiffness.indptr) > 0
-    zero = (stiffness.diagonal() == 0) & (mass.diagonal() == 0)
-    multipliers = "rows with zero on the diagonals, coupled to others: taken to be Lagrange multipliers, kept as rows"
-    for rows, text in ((zero & filled, multipliers), (zero & ~filled, "rows without stiffness and mass")):
-        if rows.any():
-            labels = ", ".join(f"{node}.{direction}" for node, direction in dofs[rows][:5].tolist())
-            notes.append(f"{path}: {rows.sum()} {text} ({labels}{', ...' if rows.sum() > 5 else ''})")
-    negative = stiffness.diagonal() < 0
-    if negative.any():
-        node, direction = dofs[numpy.argmax(negative)].tolist()
-        notes.append(f"{path}: {negative.sum()} diagonal entries of the stiffness matrix are below zero, the first at "
-                     f"{node}.{direction}")
-    if matrices.structural_damping is not None:
-        scale = matrices.structural_damping.diagonal().sum() / (stiffness.diagonal().sum() or 1.0)
-        same = abs(matrices.structural_damping - scale * stiffness).max() <= 1e-9 * abs(scale) * abs(stiffness).max()
-        notes.append(f"{path}: structural damping is " + (
-            f"{scale:.9g} times the stiffness matrix: set it as that loss factor" if same else
-            "not a multiple of the stiffness matrix; no loss factor stands for it"))
 
 
 def write_matrices(path, matrices, format, **options):

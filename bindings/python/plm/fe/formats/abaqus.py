@@ -7,7 +7,7 @@ import re
 
 import numpy
 
-from ..assembly import LABEL_LIMIT, dofs_of, in_order, key_of, places, symmetric
+from ..assembly import LABEL_LIMIT, Places, dofs_of, in_order, key_of, symmetric
 from ..errors import FileError
 from ..tables import read_table
 from . import companions, triplets
@@ -68,7 +68,8 @@ def read(path, request, found):
         else:
             table, rows, columns = labelled[kind]
             keys = in_order(numpy.concatenate([rows, columns]))
-            matrix = symmetric(len(keys), places(rows, keys), places(columns, keys), table.columns[4], table.fail, found.notes)
+            row_of = Places(keys)
+            matrix = symmetric(len(keys), row_of(rows), row_of(columns), table.columns[4], table.fail, found.notes)
             found.add(kind, matrix, dofs_of(keys), file)
     if all(entry is None for entry in labelled.values()):
         same_size(found, paths)

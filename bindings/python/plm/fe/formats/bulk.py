@@ -15,7 +15,7 @@ class Entry:
 
 
 def split_line(text):
-    """(first field, fields, is large) of a line: 8 of 8 characters, 4 of 16, or free with commas."""
+    """(first field, fields) of a line: 8 of 8 characters, 4 of 16, or free with commas."""
     if "\t" in text:
         text = text.expandtabs(8)
     if "," in text:
@@ -23,23 +23,21 @@ def split_line(text):
         first = words[0].strip()
         count = 4 if first.endswith("*") or first.startswith("*") else 8
         fields = [word.strip() for word in words[1:1 + count]]
-        return first, fields + [""] * (count - len(fields)), count == 4
+        return first, fields + [""] * (count - len(fields))
     first = text[:8].strip()
     if first.endswith("*") or first.startswith("*"):
-        text = text[:72].ljust(72)
-        return first, [text[8:24], text[24:40], text[40:56], text[56:72]], True
-    text = text[:72].ljust(72)
-    return first, [text[k:k + 8] for k in range(8, 72, 8)], False
+        return first, [text[8:24], text[24:40], text[40:56], text[56:72]]
+    return first, [text[k:k + 8] for k in range(8, 72, 8)]
 
 
 def entries(path):
     """The entries of a file, until ENDDATA. Comments ($) and empty lines are left out."""
     current = None
     for number, line in enumerate(text_lines(path), 1):
-        text = line.partition("$")[0].rstrip()
-        if not text:
+        text = line.partition("$")[0]
+        if not text or text.isspace():
             continue
-        first, fields, _ = split_line(text)
+        first, fields = split_line(text)
         if first == "" or first[0] in "+*":
             if current is None:
                 raise FileError(path, number, f"{text[:40]!r} continues an entry, but none is before it")

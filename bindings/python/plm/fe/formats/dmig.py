@@ -7,7 +7,7 @@ import re
 
 import numpy
 
-from ..assembly import LABEL_LIMIT, dofs_of, in_order, key_of, places, symmetric
+from ..assembly import LABEL_LIMIT, Places, dofs_of, in_order, key_of, symmetric
 from ..errors import FileError
 from ..tables import content, number
 from . import bulk
@@ -16,6 +16,7 @@ NAME = "dmig"
 # By the names that Nastran, its superelement export and people use; the first kind whose pattern fits.
 NAMES = [("structural_damping", re.compile(r"^K4")), ("stiffness", re.compile(r"^(K|STIF)")), ("mass", re.compile(r"^M")),
          ("damping", re.compile(r"^(B|DAMP|C)"))]
+EXPONENT = re.compile(r"(?<=[0-9.])(?=[+-])")  # where 1.5+3 leaves out the letter
 OWN = {"stiffness": "KAAX", "mass": "MAAX", "damping": "BAAX", "structural_damping": "K4AAX"}
 
 
@@ -37,7 +38,7 @@ class Matrix:
         self.rows, self.columns, self.real, self.imaginary, self.lines = [], [], [], [], []
 
     def whole(self, text, what, allowed):
-        if not text.isdigit() or int(text) not in allowed:
+        if not text.isdecimal() or int(text) not in allowed:
             raise FileError(self.path, self.line, f"{what} of matrix {self.name} is {text!r}; it must be one of "
                             f"{', '.join(map(str, allowed))}")
         return int(text)
@@ -58,7 +59,16 @@ class Matrix:
             self.lines.append(entry.lines[min(k, len(entry.lines) - 1)])
 
     def numbers(self, texts, what, blank=None):
-        """Floats of texts; the line of the first that is none."""
+        """Floats of texts, converted together where all are plain; else one by one, and the line of the first that is none."""
+        try:
+            joined = ",".join(texts)
+            if "_" not in joined:
+                joined = EXPONENT.sub("E", joined.replace("D", "E").replace("d", "e"))
+                values = numpy.array(joined.split(",")).astype(float)
+                if len(values) == len(texts) and numpy.isfinite(values).all():
+                    return values
+        except ValueError:
+            pass
         values = numpy.empty(len(texts))
         for k, text in enumerate(texts):
             text = text.strip()
@@ -77,7 +87,7 @@ class Matrix:
             key = known.get(pair)
             if key is None:
                 node, direction = pair[0].strip(), pair[1].strip() or "0"
-                if not node.isdigit() or not 0 < int(node) < LABEL_LIMIT or direction not in "0123456" or len(direction) != 1:
+                if not node.isdecimal() or not 0 < int(node) < LABEL_LIMIT or direction not in "0123456" or len(direction) != 1:
                     raise FileError(self.path, self.lines[k], f"{' '.join(p.strip() for p in pair)!r} where a point and a direction "
                                     "0 .. 6 are expected")
                 key = known[pair] = int(key_of(int(node), int(direction)))
@@ -86,6 +96,8 @@ class Matrix:
 
     def assembled(self, notes):
         """(whole matrix, its DOFs), by label."""
+        if not self.rows:
+            raise FileError(self.path, self.line, f"matrix {self.name} has no columns")
         rows, columns = self.keys(self.rows), self.keys(self.columns)
         values = self.numbers(self.real, "a number")
         if self.kind > 2:
@@ -96,7 +108,8 @@ class Matrix:
 
         def fail(k, text):
             raise FileError(self.path, self.lines[k] if k is not None else self.line, f"matrix {self.name}: {text}")
-        matrix = symmetric(len(keys), places(rows, keys), places(columns, keys), values, fail, notes, whole=self.form == 1)
+        row_of = Places(keys)
+        matrix = symmetric(len(keys), row_of(rows), row_of(columns), values, fail, notes, whole=self.form == 1)
         return matrix, dofs_of(keys)
 
 

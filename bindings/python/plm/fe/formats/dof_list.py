@@ -44,7 +44,7 @@ def read_dof_list(path):
 def one_line(path, number, words, equations, notes):
     """The DOFs of a line."""
     def whole(word, low, high):
-        if not word.lstrip("+-").isdigit() or not low <= int(word) <= high:
+        if not word.lstrip("+-").isdecimal() or not low <= int(word) <= high:
             raise FileError(path, number, f"{word[:40]!r} where a whole number of {low} .. {high} is expected")
         return int(word)
     if len(words) == 1 and words[0].count(".") == 1:  # 102.3

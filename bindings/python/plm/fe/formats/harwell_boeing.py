@@ -118,7 +118,7 @@ def read_header(path, lines):
     rhs, n_rhs = "", 0
     if n_rhs_lines:
         words = lines[4].split() if len(lines) > 4 else []
-        if len(words) < 2 or not words[1].isdigit():
+        if len(words) < 2 or not words[1].isdecimal():
             raise FileError(path, 5, f"{' '.join(words)[:60]!r} where kind and number of right-hand sides are expected")
         rhs, n_rhs = words[0].upper(), int(words[1])
     return Header(lines[0][:72].strip(), kind, n, n_entries, formats(path, lines[3] if len(lines) > 3 else "", bool(n_rhs_lines)),

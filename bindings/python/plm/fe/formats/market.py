@@ -50,7 +50,7 @@ def header(path):
         for number, line in enumerate(file, 2):
             words = line.split()
             if words and not words[0].startswith("%"):
-                if len(words) != (3 if layout == "coordinate" else 2) or not all(word.isdigit() and len(word) < 19 for word in words):
+                if len(words) != (3 if layout == "coordinate" else 2) or not all(word.isdecimal() and len(word) < 19 for word in words):
                     raise FileError(path, number, f"{shown(words)} where the sizes of the matrix are expected")
                 return layout, field == "complex", symmetry, [int(word) for word in words], number
     raise FileError(path, 0, "ends before the sizes of the matrix")
