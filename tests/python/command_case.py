@@ -15,10 +15,10 @@ from plm.command import main
 # two masses on springs, the second one beside a stop: kg, N, m, s
 STIFFNESS, MASS, STOP, BETA = numpy.array([[2e4, -1e4], [-1e4, 1e4]]), numpy.eye(2), 5e3, 2e-4
 FILES = {
-    "dofs.csv": "node,direction\n10,x\n20,x\n",
+    "dofs.txt": "10.1\n20.1\n",
     "pairs.csv": "node,direction,stiffness\n20,x,5000\n",
     "xyz.csv": "node,x,y,z\n20,1,0,0\n10,0,0,0\n",
-    "case.toml": 'model = ["K.mtx", "M.mtx"]\ndofs = "dofs.csv"\ncoordinates = "xyz.csv"\ncontact = "pairs.csv"\n'
+    "case.toml": 'model = ["K.mtx", "M.mtx"]\ndofs = "dofs.txt"\ncoordinates = "xyz.csv"\ncontact = "pairs.csv"\n'
                  'force = [20, "x", 1.0]\nrayleigh = [0, 2e-4]\nframes = 12\n',
 }
 
@@ -32,7 +32,7 @@ class Folder(unittest.TestCase):
             scipy.io.mmwrite(self.folder / name, scipy.sparse.coo_matrix(matrix), symmetry="symmetric", precision=17)
         for name, text in FILES.items():
             self.write(name, text)
-        self.matrices = [self.path("K.mtx"), self.path("M.mtx"), "--dofs", self.path("dofs.csv")]
+        self.matrices = [self.path("K.mtx"), self.path("M.mtx"), "--dofs", self.path("dofs.txt")]
 
     def path(self, name):
         return str(self.folder / name)

@@ -89,7 +89,7 @@ class WrongUsage(Folder):
         self.refused("measure is 'peek'; did you mean peak", "response", case, "--measure", "peek")
         self.refused("belong together", "response", case, "--frequency-min-hz", "3")
         self.refused("must be below", "response", case, "--frequency-min-hz", "3", "--frequency-max-hz", "2")
-        self.refused("is too much: matrices are", "response", *self.matrices[:2], *self.matrices[:2], "--dofs", self.path("dofs.csv"))
+        self.refused("is too much: matrices are", "response", *self.matrices[:2], *self.matrices[:2], "--dofs", self.path("dofs.txt"))
 
     def test_nodes_and_directions(self):
         case = self.path("case.toml")
@@ -119,7 +119,7 @@ class WrongUsage(Folder):
                             ("[contact]\nnode = 3\n", "t.toml:1: contact is .*tables"),
                             ("frames = \n", "t.toml:1: no TOML"), ("frames = true\n", "t.toml:1: frames is True; it must be a number"),
                             ("model = 3\n", "t.toml:1: model is 3; it must be the name of a file")):
-            head = "" if "model" in text else "model = ['K.mtx', 'M.mtx']\ndofs = 'dofs.csv'\n"
+            head = "" if "model" in text else "model = ['K.mtx', 'M.mtx']\ndofs = 'dofs.txt'\n"
             text = text + head if "[" not in text.split("\n")[0] else text  # keys of the top stand before tables
             if not head or head not in text:
                 text = text if "model" in text else head + text
@@ -130,13 +130,14 @@ class WrongUsage(Folder):
 
     def test_tables(self):
         for name, option, text, words in (
-                ("dofs.csv", None, "node,axis\n10,x\n", r"dofs.csv:1: column 'axis' is unknown"),
-                ("dofs.csv", None, "node\n10\n", r"dofs.csv:1: there is no column direction; the first line must name"),
-                ("dofs.csv", None, "", r"dofs.csv:1: there is no column node"),
-                ("dofs.csv", None, "node,direction\n10,x\n20,u\n", r"dofs.csv:3: direction: 'u' is no direction"),
-                ("dofs.csv", None, "node,direction\n10,x\nten,x\n", r"dofs.csv:3: node is 'ten'; it must be a whole number"),
-                ("dofs.csv", None, "node,direction\n10,x\n20,x,1\n", r"dofs.csv:3: 3 fields for 2 columns"),
-                ("dofs.csv", None, "node,direction\n10,x\n20,x\n30,x\n", r"3 DOFs are listed for matrices of 2 rows"),
+                ("dofs.txt", None, "10.1\nten.1\n", r"dofs.txt:2: "),
+                ("dofs.txt", None, "10.1\n20.1\n30.1\n", r"3 DOFs are listed for matrices of 2 rows"),
+                ("pairs.csv", "--contact", "node,side\n20,x\n", r"pairs.csv:1: column 'side' is unknown"),
+                ("pairs.csv", "--contact", "node\n20\n", r"pairs.csv:1: there is no column direction; the first line must name"),
+                ("pairs.csv", "--contact", "", r"pairs.csv:1: there is no column node"),
+                ("pairs.csv", "--contact", "node,direction\n20,u\n", r"pairs.csv:2: contact: 'u' is no direction"),
+                ("pairs.csv", "--contact", "node,direction\n20,x\n20,x,1\n", r"pairs.csv:3: 3 fields for 2 columns"),
+                ("xyz.csv", "--coordinates", "node,x,y,z\nten,0,0,0\n", r"xyz.csv:2: node is 'ten'; it must be a whole number"),
                 ("pairs.csv", "--contact", "node,direction,gap\n20,x,wide\n", r"pairs.csv:2: contact: gap is 'wide'"),
                 ("pairs.csv", "--contact", "node,direction,stiffness\n20,x,-3\n", r"pairs.csv:2: contact: stiffness is -3; it must be above 0"),
                 ("pairs.csv", "--contact", "node,direction\n25,x\n", r"contact pair 1: there is no node 25"),

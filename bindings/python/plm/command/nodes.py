@@ -44,18 +44,6 @@ class NodeCloud:
         return self._rows.get((node, direction))
 
 
-def read_dofs(path):
-    """n x 2 of a table with the columns node, direction: one line for each row of the matrices, in their order."""
-    dofs = []
-    for line, row in read_table(path, ("node", "direction")):
-        try:
-            direction = 0 if row["direction"] == "0" else direction_of(row["direction"], "direction")
-        except Wrong as wrong:
-            raise FileError(path, line, str(wrong)) from None
-        dofs.append((number(path, line, row, "node", whole=True), direction))
-    return numpy.array(dofs, dtype=numpy.int64).reshape((-1, 2))
-
-
 def read_coordinates(path):
     """{node: (x, y, z)} of a table with the columns node, x, y, z."""
     found = {}

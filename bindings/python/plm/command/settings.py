@@ -26,7 +26,7 @@ class Setting(NamedTuple):
 SETTINGS = (
     Setting("model", "paths", None, "FILE", ALL, "a deck (.inp), or files with mass and stiffness matrices"),
     Setting("matrices", "paths", [], "FILE", ALL, "files with the matrices of a deck; without them CalculiX (ccx) makes them"),
-    Setting("dofs", "path", None, "FILE", ALL, "CSV with the columns node, direction: what each row of the matrices is"),
+    Setting("dofs", "path", None, "FILE", ALL, "what each row of the matrices is, for formats that do not say: a line node.direction for each"),
     Setting("mesh", "path", None, "FILE", ALL, "mesh of the nodes of matrices: Gmsh, VTU, MED, Nastran, ...; nodes count from 1"),
     Setting("coordinates", "path", None, "FILE", ALL, "CSV with the columns node, x, y, z, for matrices without a mesh"),
     Setting("contact", "pairs", [], "FILE", ALL, "CSV of contact pairs: node, direction, to_node, to_direction, gap, stiffness"),
@@ -91,7 +91,7 @@ def value_of(setting, value):
 def _number(name, value):
     try:
         number = float(value) if not isinstance(value, bool) else math.nan
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if not math.isfinite(number):
         raise Wrong(f"{name} is {value!r}; it must be a number")

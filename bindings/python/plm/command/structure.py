@@ -12,7 +12,7 @@ from ..fe.matrices import read_matrices
 from ..fe.mesh import read_mesh
 from ..fe.node_motion import DIRECTIONS as N_DIRECTIONS
 from ..fe.pair_nodes import pair_nodes_of
-from .nodes import NodeCloud, direction_of, read_coordinates, read_dofs
+from .nodes import NodeCloud, direction_of, read_coordinates
 from .pairs import read_pairs
 from .settings import Wrong
 
@@ -164,7 +164,7 @@ def _matrices_of(files, settings):
     """Stiffness, or one file with all, then mass, then damping."""
     if len(files) > 3:
         raise Wrong(f"{files[3]} is too much: matrices are stiffness, mass and damping")
-    return read_matrices(*files, dofs=read_dofs(settings["dofs"]) if settings["dofs"] else None)
+    return read_matrices(*files, dofs=settings["dofs"])
 
 
 def _of_matrices(files, settings, context):

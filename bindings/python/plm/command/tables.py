@@ -1,5 +1,8 @@
 """Small tables in CSV, with a line of names above."""
+import contextlib
 import csv
+import math
+import re
 
 from ..fe.errors import FileError
 from .settings import nearest
@@ -35,7 +38,9 @@ def number(path, line, row, name, default=None, whole=False):
     text = row.get(name, "")
     if text == "" and default is not None:
         return default
-    try:
-        return int(text) if whole else float(text)
-    except ValueError:
-        raise FileError(path, line, f"{name} is {text!r}; it must be a {'whole ' if whole else ''}number") from None
+    if whole and re.fullmatch(r"[-+]?[0-9]{1,15}", text):
+        return int(text)
+    with contextlib.suppress(ValueError):
+        if not whole and math.isfinite(float(text)):
+            return float(text)
+    raise FileError(path, line, f"{name} is {text[:40]!r}; it must be a {'whole ' if whole else ''}number")

@@ -3,7 +3,7 @@ import copy
 
 import numpy
 
-from .deck_lines import LARGEST_LABEL, whole
+from .deck_lines import whole
 from .errors import FileError
 
 DEFINES_LABELS = ("NODE", "ELEMENT")
@@ -122,8 +122,7 @@ def _shift_labels(flat, top):
         if block.key in DEFINES_LABELS:
             for line in block.lines:
                 label = whole(line.text.split(",")[0])
-                if label is not None and label <= LARGEST_LABEL:
-                    largest = max(largest, label)
+                largest = max(largest, label or 0)
     step = 10 ** len(str(largest))
     if step * len(scopes) > 10**17:
         raise FileError(flat[0].file, 0, f"labels up to {largest} in {len(scopes)} instances do not fit 64 bits")

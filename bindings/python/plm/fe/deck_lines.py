@@ -12,6 +12,7 @@ import numpy
 from .errors import FileError
 
 INCLUDES_DEEP = 16
+LARGEST_NUMBER = 1e100  # beyond, squares overflow, and nothing is that large
 LARGEST_LABEL = 10**12  # labels beyond are damaged numbers; shifts of instances still fit 64 bits
 
 
@@ -43,8 +44,8 @@ class Line:
             value = float(text.replace("D", "E").replace("d", "e")) if "_" not in text else None
         except ValueError:
             value = None
-        if value is None or not numpy.isfinite(value):
-            self.fail(f"{name} is {shown(text)}; a number is needed")
+        if value is None or not abs(value) < LARGEST_NUMBER:
+            self.fail(f"{name} is {shown(text)}; a number is needed (below {LARGEST_NUMBER:g})")
         return value
 
     def integer(self, index, name, default=None):
@@ -52,7 +53,7 @@ class Line:
         if not text and default is not None:
             return default
         value = whole(text)
-        if value is None or abs(value) > LARGEST_LABEL:
+        if value is None:
             self.fail(f"{name} is {shown(text)}; a whole number is needed")
         return value
 
@@ -100,8 +101,8 @@ class Block:
             value = float(text.replace("D", "E").replace("d", "e"))
         except ValueError:
             value = numpy.nan
-        if not numpy.isfinite(value):
-            self.fail(f"{parameter}= is {shown(text)}; a number is needed")
+        if not abs(value) < LARGEST_NUMBER:
+            self.fail(f"{parameter}= is {shown(text)}; a number is needed (below {LARGEST_NUMBER:g})")
         return value
 
     def fail(self, text):
@@ -139,23 +140,19 @@ def shown(text):
 
 
 def whole(text):
-    """The integer that a field says, also as 12. or 1.2e1 (which mesh tools write); None if none."""
+    """The integer that a field says, also as 12. or 1.2e1 (which mesh tools write); None if none, or far too large for a label."""
     try:
-        return int(text) if "_" not in text else None
-    except ValueError:
-        pass
-    try:
-        value = float(text)
+        value = float(text) if "_" not in text else numpy.nan
     except ValueError:
         return None
-    return int(value) if numpy.isfinite(value) and value == int(value) else None
+    return int(value) if abs(value) <= LARGEST_LABEL and value == int(value) else None
 
 
 def table(block, columns, name):
     """Data lines of numbers as an array, lines x columns of double: at least the first column, missing ones 0. Fast where all
     lines are plain; else line by line, which finds the one at fault."""
     values = plain_numbers([line.text for line in block.lines], float)
-    if values is not None and values.shape[1] == columns and numpy.all(numpy.isfinite(values)):
+    if values is not None and values.shape[1] == columns and numpy.all(numpy.abs(values) < LARGEST_NUMBER):
         return values
     values = numpy.zeros((len(block.lines), columns))
     for row, line in zip(values, block.lines):

@@ -42,9 +42,6 @@ class SetTable:
         for line in block.lines:
             labels = [whole(field) for field in line.fields]
             known = [label for label in labels if label is not None]
-            for label in known:
-                if abs(label) > 10**12:
-                    line.fail(f"the label {label} is no label")
             if known:
                 self.add(name, numpy.array(known, dtype=numpy.int64) + scope.shift, line)
             for label, field in zip(labels, line.fields):

@@ -23,8 +23,9 @@ def read_mesh(path, matrices=None):
 
     Nodes have the labels 1, 2, ... in the order of the file (meshio does not keep others). Where there are solids, groups of
     triangles and quadrilaterals become surfaces whose normals point out of the solids, and no elements of their own."""
-    mesh = _read(path)
     deck = Deck(path)
+    mesh, warnings = _read(path)
+    deck.unread += [(deck.path, 0, f"meshio: {warning}") for warning in warnings]
     points = numpy.asarray(mesh.points, dtype=float)
     if not len(points) or points.ndim != 2 or points.shape[1] not in (2, 3) or not numpy.all(numpy.isfinite(points)):
         raise FileError(path, 0, f"the mesh has no points in space (an array of shape {points.shape}, of finite numbers)")
@@ -39,6 +40,7 @@ def read_mesh(path, matrices=None):
 
 
 def _read(path):
+    """(mesh, lines that meshio printed about it)."""
     try:
         import meshio
     except ImportError:
@@ -48,10 +50,13 @@ def _read(path):
     said = io.StringIO()
     try:  # it prints, and ends the program where no reader takes the file
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-            return meshio.read(path)
+            mesh = meshio.read(path)
     except (Exception, SystemExit) as error:  # of any kind: the file is at fault, or its format unknown
         words = str(error) if str(error) not in ("", "1") else " ".join(said.getvalue().split()) or type(error).__name__
         raise FileError(path, 0, f"meshio does not read this mesh: {words}") from None
+    if not any(len(cells.data) for cells in mesh.cells):
+        raise FileError(path, 0, "the mesh has no cells; is the file complete? " + " ".join(said.getvalue().split()))
+    return mesh, [line.strip() for line in said.getvalue().splitlines() if line.strip()]
 
 
 class _MeshParts:
@@ -70,6 +75,9 @@ class _MeshParts:
             if nodes.size and not (1 <= nodes.min() and nodes.max() <= len(self.deck.node_labels)):
                 raise FileError(self.deck.path, 0, f"cells of type {cells.type} have points that are not there")
             kind = self._element_type(cells.type)
+            if kind and nodes.shape[1:] != (deck_elements.n_nodes(kind),):
+                raise FileError(self.deck.path, 0, f"cells of type {cells.type} have {nodes.shape[1:]} points, where "
+                                f"{deck_elements.n_nodes(kind)} are needed; is the file complete?")
             self.first.append(label if kind else 0)
             if kind and len(nodes):
                 self.deck.elements.append(Elements(kind, numpy.arange(label, label + len(nodes)), nodes))
