@@ -50,6 +50,11 @@ GOOD = {
     "large.pch": {"C": C, "notes": ["matrix PAX was not read: its name says no kind"]},
     "free.dat": {"S": 0.02 * K, "notes": ["imaginary part", "0.02 times the stiffness"]},
     "dense.op4": {},
+    "wide.op4": {},
+    "complex.op4": {"S": 0.02 * K, "notes": ["imaginary part", "0.02 times the stiffness"]},
+    "whole.mtx": {},
+    "cms.mtx": {"dofs": [[101, 1], [101, 2], [-1, 1]], "notes": ["cms.mtx:12: substructure load case vectors were not read",
+                                                                 "cms.mtx:20: substructure recovery vectors were not read"]},
     "sparse.op4": {"dofs": [[-1, 0], [-2, 0], [-3, 0]], "notes": ["no list of DOFs"]},
     "dense_big_endian.op4": {"dofs": [[-1, 0], [-2, 0], [-3, 0]], "notes": ["no list of DOFs"]},
     "sparse_little_endian.op4": {"dofs": [[-1, 0], [-2, 0], [-3, 0]], "notes": ["no list of DOFs"]},
@@ -59,6 +64,7 @@ GOOD = {
 # file: line (0: the file as a whole), words of the refusal, and the file at fault where it is another
 BROKEN = {
     "letters_K.mtx": (6, "'25k00' where a number"),
+    "half_index_K.mtx": (6, "'2.5' where a whole number"),
     "short_line_K.mtx": (6, "2 values where 3"),
     "column_outside_K.mtx": (6, "column 7 of a matrix of 3 rows"),
     "not_finite_K.mtx": (6, "no finite number"),
@@ -112,6 +118,7 @@ BROKEN = {
     "place.mtx": (7, "'3, 1' where one of 2 places"),
     "count.mtx": (12, "5 numbers for a matrix of 3 rows"),
     "word.mtx": (17, "'x.' where a number"),
+    "whole.mtx": (0, "not symmetric: -10000 in row 2, column 1, but -10001 in row 1, column 2"),
     "text.txt": (1, "no format that is known"),
 }
 
@@ -234,6 +241,20 @@ class Samples(unittest.TestCase):
         wanted = bordered(M, [0, 0, 0])
         wanted[2, 2] = 0
         numpy.testing.assert_array_equal(found.mass.toarray(), wanted)
+
+    def test_amplitude_and_phase(self):
+        """DMIG with POLAR: amplitude and phase in degrees. 1e-15: a sine and a cosine."""
+        path = self.good / "polar.bdf"
+        path.write_text("DMIG,KAAX,0,6,3,0,1\nDMIG,KAAX,5,3,,5,3,2.0+4,60.\n+,6,0,1.,-90.\nDMIG,KAAX,6,0,,6,0,300.,0.\n"
+                        "DMIG,MAAX,0,6,1\nDMIG,MAAX,5,3,,5,3,2.\nDMIG,MAAX,6,0,,6,0,1.\n")
+        found = read_matrices(path)
+        self.assertEqual(found.dofs.tolist(), [[5, 3], [6, 0]])
+        numpy.testing.assert_allclose(found.stiffness.toarray(), [[1e4, 0], [0, 300]], rtol=1e-15, atol=1e-15)
+        numpy.testing.assert_allclose(found.structural_damping.toarray(), [[1e4 * 3**0.5, -1], [-1, 0]], rtol=1e-15)
+        self.assertIn("no loss factor stands for it", found.notes[-1])
+        path.write_text(path.read_text().replace("DMIG,MAAX,0,6,1", "DMIG,MAAX,0,6,3").replace("5,3,2.\n", "5,3,2.,1.\n"))
+        with self.assertRaisesRegex(FileError, "the mass matrix is complex"):
+            read_matrices(path)
 
     def test_matrices_of_unequal_size_are_no_model(self):
         with self.assertRaisesRegex(ValueError, "mass is 2 x 2, the stiffness has 3 rows"):

@@ -16,6 +16,7 @@ from plm.fe.matrices import READERS
 from test_fe_formats import FORMATS, GOOD, unpacked
 
 MEMORY = 3 << 30  # bytes of address space: a size that was believed unchecked shows as a MemoryError
+SECONDS_EACH = 1.0  # of processor time for a file of a few hundred bytes; it takes a thousandth of that
 NUMBERS = [b"0", b"-1", b"1", b"7", b"99999", b"2147483648", b"-9223372036854775808", b"1e999", b"nan", b"4294967296", b"16777216",
            b"1_0"]
 
@@ -58,11 +59,14 @@ def mutated(data, rng):
 
 def tried(path, format):
     """True if matrices came out, False for a FileError. Anything else is the failure that is looked for."""
+    begin = time.process_time()
     try:
         found = read_matrices(path, format=format)
     except FileError as error:
         assert error.text and error.file and error.line >= 0
+        assert time.process_time() - begin < SECONDS_EACH, error
         return False
+    assert time.process_time() - begin < SECONDS_EACH
     assert found.stiffness.shape == found.mass.shape == (len(found.dofs),) * 2
     assert abs(found.stiffness - found.stiffness.T).max() <= 1e-9 * abs(found.stiffness).max()
     return True

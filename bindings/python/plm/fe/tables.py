@@ -115,8 +115,9 @@ def read_table(path, kinds, first=0, separators="", comments=None, lines=None):
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of a file without numbers: said below
+            warnings.simplefilter("error", DeprecationWarning)  # 2.5 read as the whole number 2
             found = load(path, dtype, first, separators, comments, lines)
-    except (ValueError, OverflowError, IndexError, UnicodeDecodeError) as error:
+    except (ValueError, OverflowError, DeprecationWarning) as error:
         table.find_fault(str(error).splitlines()[0] if str(error) else type(error).__name__)
     table.columns = tuple(numpy.ascontiguousarray(found[name]) for name, _ in dtype)
     if not len(table):
@@ -134,7 +135,7 @@ def load(path, dtype, first, separators, comments, lines):
         try:
             return numpy.atleast_1d(numpy.loadtxt(os.fspath(path), skiprows=first, encoding="latin-1",
                                                   delimiter=separators[:1] or None, **options))
-        except ValueError:  # letters or separators that it does not know, or a fault
+        except (ValueError, DeprecationWarning):  # letters or separators that it does not know, or a fault
             lines = text_lines(path)[first:]
     text = "\n".join(lines)
     for mark in separators:

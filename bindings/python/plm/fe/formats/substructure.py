@@ -1,4 +1,7 @@
-"""Superelements as Abaqus (and CalculiX) write them: *SUBSTRUCTURE MATRIX OUTPUT, a *USER ELEMENT with its dense matrices."""
+"""Superelements as Abaqus (and CalculiX) write them: *SUBSTRUCTURE MATRIX OUTPUT, a *USER ELEMENT with its dense matrices.
+
+Nodes with labels below one are modal coordinates.
+"""
 import os
 import re
 
@@ -33,7 +36,7 @@ def read(path, request, found):
 def read_one(path, found):
     """({kind: whole matrix}, (n, 2) DOFs)."""
     lines = text_lines(path)
-    nodes, changes, matrices, state, dofs = [], [], {}, "", None
+    nodes, changes, matrices, state, dofs, passed = [], [], {}, "", None, []
     for row, line in enumerate(lines, 1):
         text = line.strip()
         upper = text.upper()
@@ -49,8 +52,12 @@ def read_one(path, found):
             state = "element"
         elif re.match(r"\*\* *ELEMENT NODES", upper):
             state = "nodes"
-        elif state == "nodes" and upper.startswith("**") and re.fullmatch(r"[\d\s,]+", text[2:]):
-            nodes += [int(word) for word in text[2:].replace(",", " ").split()]
+        elif state == "nodes" and upper.startswith("**") and (labels := labels_of(text[2:])):
+            nodes += labels
+        elif (also := re.match(r"\*\* *(SUBSTRUCTURE (LOAD CASE|RECOVERY)) ", upper)):
+            if also.group(1) not in passed:
+                passed.append(also.group(1))
+                found.note(path, row, f"{also.group(1).lower()} vectors were not read")
         elif upper.startswith("*"):
             if not upper.startswith("**"):
                 found.note(path, row, f"{text[:60]!r} was not read")
@@ -64,9 +71,15 @@ def read_one(path, found):
     return {kind: dense(path, entries, len(dofs), found.notes) for kind, entries in matrices.items()}, dofs
 
 
+def labels_of(text):
+    """The labels of nodes in a line; below one are modal coordinates. None where it is a comment of another kind."""
+    words = text.replace(",", " ").split()
+    return [int(word) for word in words] if all(word.lstrip("-").isdecimal() and len(word) < 16 for word in words) else None
+
+
 def user_element_dofs(path, line, nodes, changes):
     """(n, 2): the directions of each node; a line names a place among the nodes and what directions it and those after it have."""
-    if not nodes or not changes or max(nodes) > LABEL_LIMIT:
+    if not nodes or not changes or max(map(abs, nodes)) > LABEL_LIMIT:
         raise FileError(path, line, "the nodes ('** ELEMENT NODES') or their directions are missing before this matrix")
     directions = {}
     for k, (row, text) in enumerate(changes):
@@ -112,8 +125,6 @@ def write(path, matrices):
     """path (x.mtx): nodes, directions, and the lower triangle of each matrix by rows, 17 digits."""
     path = os.path.splitext(path)[0] + ".mtx"
     dofs, n = matrices.dofs, matrices.n_dof
-    if (dofs[:, 0] < 1).any():
-        raise ValueError("a superelement names its nodes: give each row a label above zero")
     with open(path, "w", encoding="ascii") as file:
         file.write(f"**\n** GENERATION OF SUBSTRUCTURE\n*USER ELEMENT,NODES={n:10d},LINEAR\n** ELEMENT NODES\n")
         for k in range(0, n, 10):
