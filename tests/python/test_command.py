@@ -5,7 +5,9 @@ import re
 import unittest
 
 import numpy
+import scipy.io
 import scipy.optimize
+import scipy.sparse
 
 from command_case import BETA, FILES, MASS, STIFFNESS, STOP, Folder
 
@@ -166,6 +168,21 @@ class Response(Folder):
         self.write("far.csv", "node,direction,gap,stiffness\n20,x,1.0,5000\n")
         out, _ = self.here("response", self.path("case.toml"), "--contact", self.path("far.csv"))
         self.assertIn("0 of 1 pairs open and close", out)
+
+
+    def test_a_larger_motion_beside_the_curve(self):
+        """A pre-loaded oscillator that carries a light one: an isolated branch lies beside its curve, is said and is written."""
+        for name, matrix in (("K.mtx", [[3.048, -2.048], [-2.048, 2.048]]), ("M.mtx", numpy.diag([1, 0.2]))):
+            scipy.io.mmwrite(self.folder / name, scipy.sparse.coo_matrix(matrix), symmetry="symmetric", precision=17)
+        self.write("pairs.csv", "node,direction,stiffness\n10,x,1\n")
+        out, err = self.here("response", *self.matrices, "--contact", self.path("pairs.csv"), "--preload", "10", "x", "0.5", "--force",
+                             "10", "x", "0.006", "--rayleigh", "0", "0.004", "--out", self.path("result"), status=1)
+        self.assertRegex(err, "warning: .*there is a stable motion of")
+        peak, larger = (float(re.search(rf"{word}(\S+) at", out, re.M)[1]) for word in (r"^peak +", "a stable motion of "))
+        self.assertGreater(larger, 2 * peak)
+        with open(self.folder / "result" / "larger.csv", newline="") as file:
+            highest = max(float(row["amplitude"]) for row in csv.DictReader(file) if row["stable"] == "1")
+        self.assertTrue(0.98 * larger < highest < 1.001 * larger)  # a point of the curve near its peak
 
 
 class Others(Folder):

@@ -13,6 +13,9 @@ def write_files(folder, structure, dof, found, settings, report, console):
     folder = pathlib.Path(folder)
     files = ["response.csv"]
     _write_curve(folder / files[0], found.curve, dof, settings["measure"])
+    if found.larger:
+        files.append("larger.csv")  # the curve of the larger motion
+        _write_curve(folder / files[1], found.larger.branch, dof, settings["measure"])
     files += _draw(folder, found, dof, settings["measure"], structure.name_of(dof), console)
     files += _hdf5(folder, found.curve, dof, console)
     if structure.mesh.coordinates is None:
@@ -45,7 +48,8 @@ def _draw(folder, found, dof, measure, name, console):
     figure = figures.Figure(figsize=(11, 4.5), layout="constrained")  # not pyplot's: no window, whatever the backend
     agg.FigureCanvasAgg(figure)
     curve, contact = figure.subplots(1, 2)
-    plot.response(found.curve, dof, measure, ax=curve)
+    beside = [found.larger.branch] if found.larger else []
+    plot.response([found.curve, *beside], dof, measure, labels=["curve", "beside it"] if beside else None, ax=curve)
     curve.plot(found.frequency_hz, found.amplitude, "k+", markersize=9)
     curve.set_title(f"{found.amplitude:.5g} at {found.frequency_hz:.5g} Hz")
     curve.set_ylabel(f"{measure.replace('_', ' ')} of {name}")
