@@ -43,8 +43,8 @@ def main():
         "*CONTACT PAIR, INTERACTION=RUB, TYPE=NODE TO SURFACE", "TIPFACE, INNER",
         "*STEP, NAME=SPIN", "*STATIC", "*CLOAD", "TIPNODES, 3, 400.", "*END STEP",
         "*STEP, NAME=MODES", "*FREQUENCY, STORAGE=YES", "10", "*END STEP",
-        "*STEP, NAME=DRIVE", "*STEADY STATE DYNAMICS", "100., 3000., 20, 3.", "*MODAL DAMPING", "1, 10, 0.005",
-        "*CLOAD", "EDGE, 1, 100.", "*END STEP"])
+        "*STEP, NAME=DRIVE", "*STEADY STATE DYNAMICS", "100., 3000., 20, 3.", "*MODAL DAMPING", "1, 10, 0.01",
+        "*CLOAD", "EDGE, 1, 10.", "*END STEP"])
 
 
 if __name__ == "__main__":

@@ -41,8 +41,8 @@ def main():
         "*CONTACT PAIR, INTERACTION=LIPS, TYPE=NODE TO SURFACE", "NEARLIP, FARLIP",
         "*STEP, NAME=PINCH", "*STATIC", "*CLOAD", *loads, "*END STEP",
         "*STEP, NAME=MODES", "*FREQUENCY, STORAGE=YES", "10", "*END STEP",
-        "*STEP, NAME=DRIVE", "*STEADY STATE DYNAMICS", "100., 1000., 20, 3.", "*MODAL DAMPING", "1, 10, 0.005",
-        "*CLOAD", "TIP, 2, 50.", "*END STEP"])
+        "*STEP, NAME=DRIVE", "*STEADY STATE DYNAMICS", "100., 1000., 20, 3.", "*MODAL DAMPING", "1, 10, 0.01",
+        "*CLOAD", "TIP, 2, 10.", "*END STEP"])
 
 
 if __name__ == "__main__":

@@ -84,15 +84,18 @@ class Syntax(Case):
         self.assertTrue(all(file == os.path.join(self.folder, "deck.inp") for file, _, _ in deck.unread))
 
     def test_large_decks_are_read_in_seconds(self):
-        """A hundred thousand nodes and elements; a reader of one line at a time in Python takes twice this limit."""
+        """A hundred thousand nodes and elements, and lists as long: half a second here, and the machine may be busy."""
         import time
         n = 100_000
         nodes = "".join(f"{i}, {i}.5, 2., 3.\n" for i in range(1, n + 1))
         elements = "".join(f"{i}, {i}, {i + 1}, {i + 2}, {i + 3}\n" for i in range(1, n - 2))
-        path = self.write("*NODE\n" + nodes + "*ELEMENT, TYPE=C3D4\n" + elements)
+        lists = "*NSET, NSET=A\n" + "".join(f"{i}, {i + 1}\n" for i in range(1, n, 2)) + "*BOUNDARY\n" + "".join(
+            f"{i}, 1, 3\n" for i in range(1, n, 10)) + "*EQUATION\n" + "".join(f"2\n{i}, 1, 1., {i + 1}, 1, -1.\n" for i in range(1, n, 10))
+        path = self.write("*NODE\n" + nodes + "*ELEMENT, TYPE=C3D4\n" + elements + lists)
         begin = time.process_time()
         deck = read_deck(path)
         self.assertLess(time.process_time() - begin, 8)
+        self.assertEqual((len(deck.node_sets["A"]), len(deck.boundaries), len(deck.equations)), (n, n // 10, n // 10))
         self.assertEqual((deck.node_labels[-1], deck.coordinates[-1, 0], deck.elements[0].connectivity[-1, -1]), (n, n + 0.5, n))
 
 

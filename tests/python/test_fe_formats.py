@@ -91,6 +91,7 @@ BROKEN = {
     "kind.rsa": (1, "no format that is known"),
     "pointers_K.rsa": (6, "column 3 begins at entry 3, before"),
     "last_pointer_K.rsa": (6, "the columns end at entry 8, but there are 5"),
+    "rhs_K.rsa": (5, "where kind and number of right-hand sides are expected"),
     "row_K.rsa": (7, "row 4 of a matrix of 3 rows"),
     "value_K.rsa": (9, "'-1.50000000x00000E+04' where a number"),
     "format_K.rsa": (4, "the format (8Z5)"),

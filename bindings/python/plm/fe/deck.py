@@ -64,12 +64,12 @@ class Deck:
         return at
 
     def faces(self, surface):
-        """Node rows (places in node_labels) of the faces of a surface, by its name or itself: n x k; a list of n arrays where faces
-        have different numbers of nodes. Corners first, normals out of the body."""
+        """Node rows (places in node_labels) of the faces of a surface, by its name or itself: n x k; a list of arrays where faces
+        have different numbers of nodes, an empty one for nodes alone. Corners first, normals out of the body."""
         if isinstance(surface, str):
             surface = self.surfaces[surface]
         rows = [self.node_rows(face) for face in surface.faces]
-        return numpy.array(rows, dtype=numpy.int64).reshape(len(rows), -1) if len({len(row) for row in rows}) <= 1 else rows
+        return numpy.array(rows, dtype=numpy.int64) if len({len(row) for row in rows}) == 1 else rows
 
     def dof(self, node, direction):
         """Row of a node's DOF (direction 1 to 6) in the model; None where it has none."""

@@ -139,4 +139,4 @@ def shares(xyz):
         size = numpy.linalg.norm(vectors, axis=1)
     else:
         size = sum(weight * shape(len(xyz), s, t)[0]**2 for s, t, weight in POINTS[len(xyz)])
-    return area * size / size.sum()
+    return area * size / size.sum() if size.sum() > 0 else size

@@ -5,7 +5,7 @@ import numpy
 
 from . import deck_elements
 from .deck_lines import LARGEST_LABEL, plain_numbers, shown, table
-from .deck_sets import Names, SetTable
+from .deck_sets import SetTable
 
 
 class Elements(NamedTuple):
@@ -148,17 +148,18 @@ class MeshReader:
 
     def check_elements(self, node_labels):
         """Each label once, and nodes that are there."""
-        seen = numpy.empty(0, dtype=numpy.int64)
         for elements, block in self.blocks:
-            missing = ~numpy.isin(elements.connectivity, node_labels)
+            missing = ~is_in(elements.connectivity, node_labels)
             if missing.any():
                 i = numpy.flatnonzero(missing.any(axis=1))[0]
                 block.fail(f"element {elements.labels[i]} of this block has the node {elements.connectivity[i][missing[i]][0]}, "
                            "which the deck does not define")
-            seen = numpy.concatenate([seen, elements.labels])
-            unique, count = numpy.unique(seen, return_counts=True)
-            if len(unique) < len(seen):
-                block.fail(f"element {unique[count > 1][0]} of this block is defined twice")
+        labels = [elements.labels for elements, _ in self.blocks] or [numpy.empty(0, dtype=numpy.int64)]
+        unique, count = numpy.unique(numpy.concatenate(labels), return_counts=True)
+        twice = unique[count > 1]
+        if twice.size:
+            block = [block for elements, block in self.blocks if twice[0] in elements.labels][-1]
+            block.fail(f"element {twice[0]} of this block is defined twice")
 
     # ---- sets ----
 
@@ -188,16 +189,24 @@ class MeshReader:
             if full is None:
                 block.fail(f"there is no element set {shown(block.get('ELSET'))}")
             self.node_sets.add(block.scope.full(block.get("NSET")), self.nodes_of(elements[full]), block)
-        for full, parts in self.node_sets.items.items():
-            for i, (item, line) in enumerate(parts):
-                missing = () if isinstance(item, tuple) else item[~numpy.isin(item, node_labels)]
-                if len(missing):
-                    self.unread.append((line.file, line.number, f"{len(missing)} nodes of the set {full} are not defined, the "
-                                        f"first is {missing[0]}; left out"))
-                    parts[i] = item[numpy.isin(item, node_labels)], line
-        return Names(self.node_sets.resolve()), Names(elements)
+        nodes = self.node_sets.resolve()
+        for full, labels in list(nodes.items()):
+            missing = labels[~is_in(labels, node_labels)]
+            if len(missing):
+                line = next((line for item, line in self.node_sets.items[full] if not isinstance(item, tuple) and missing[0] in item),
+                            self.node_sets.items[full][0][1])
+                self.unread.append((line.file, line.number, f"{len(missing)} nodes of the set {full} are not defined, the "
+                                    f"first is {missing[0]}; left out"))
+                nodes[full] = labels[is_in(labels, node_labels)]
+        return nodes, elements
 
     def nodes_of(self, elements):
         """Labels of the nodes of elements, sorted."""
         parts = [block.connectivity[numpy.isin(block.labels, elements)].ravel() for block, _ in self.blocks]
         return numpy.unique(numpy.concatenate(parts)) if parts else numpy.empty(0, dtype=numpy.int64)
+
+
+def is_in(labels, known):
+    """Which labels are among the known ones, which are sorted; by the logarithm of their number, also for one label of a million."""
+    at = numpy.minimum(numpy.searchsorted(known, labels), max(len(known) - 1, 0))
+    return known[at] == labels if len(known) else numpy.zeros(numpy.shape(labels), dtype=bool)

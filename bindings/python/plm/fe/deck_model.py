@@ -64,6 +64,9 @@ def _with_matrices(deck, context, options):
         if matrix is not None:
             given[i] = scipy.sparse.csr_matrix(matrix, copy=True)
             given[i].resize((n, n))
+    if getattr(deck.matrices, "structural_damping", None) is not None:
+        warnings.warn(PlmWarning("the matrices have structural damping, which a model takes as one loss factor: set_structural_damping; "
+                                 "left out here"), stacklevel=4)
     model = Model(*given, context=context, **options)
     if deck.rayleigh:
         model.set_rayleigh_damping(*deck.rayleigh)

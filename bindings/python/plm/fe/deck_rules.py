@@ -5,6 +5,7 @@ import numpy
 
 from . import deck_elements
 from .deck_lines import shown, whole
+from .deck_mesh import is_in
 from .errors import FileError
 
 SYMMETRIES = {"XSYMM": (1, 5, 6), "YSYMM": (2, 4, 6), "ZSYMM": (3, 4, 5), "XASYMM": (2, 3, 4), "YASYMM": (1, 3, 5),
@@ -87,7 +88,7 @@ class RuleReader:
     def nodes(self, text, line, block):
         """Labels of defined nodes."""
         labels = self._mesh.node_sets.chosen(text, line, block.scope)
-        missing = labels[~numpy.isin(labels, self._mesh.labels)]
+        missing = labels[~is_in(labels, self._mesh.labels)]
         if missing.size:
             line.fail(f"node {missing[0]} is not defined")
         return labels
@@ -125,15 +126,17 @@ class RuleReader:
                 return
         reference = self.node(block.needed("REFNODE"), block, block)
         kept = nodes != reference
-        weights = self._tributary(self._surfaces[full])[kept] if full and self._surfaces[full].faces else None
+        weights = self._tributary(self._surfaces[full], block)[kept] if full and self._surfaces[full].faces else None
         self._open_coupling = block, reference, nodes[kept], weights
 
-    def _tributary(self, surface):
+    def _tributary(self, surface, block):
         """The area that each node of a surface stands for: the weights of distributing couplings in both codes."""
         weights = numpy.zeros(len(surface.nodes))
         for face in surface.faces:
             xyz = self._mesh.coordinates[numpy.searchsorted(self._mesh.labels, face)]
             numpy.add.at(weights, numpy.searchsorted(surface.nodes, face), deck_elements.shares(xyz))
+        if not weights.min() > 0:
+            block.fail(f"node {surface.nodes[weights.argmin()]} of the surface {surface.name} stands for no area: its faces are flat lines")
         return weights
 
     def _directions(self, block):

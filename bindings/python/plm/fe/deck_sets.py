@@ -4,7 +4,7 @@ import numpy
 from .deck_lines import shown, whole
 from .errors import FileError
 
-LARGEST_SET = 10**8  # labels that one line may generate
+LARGEST_SET = 10**7  # labels that one line may generate
 SETS_DEEP = 100
 
 
