@@ -64,7 +64,7 @@ def read(path, request, found):
     labelled = {kind: labelled_entries(file) for kind, file in paths.items()}
     for kind, file in paths.items():
         if labelled[kind] is None:  # coordinate form: numbers of rows, no labels
-            found.add(kind, triplets.read_one(file, found.notes, None, 0, ",", "*"), None, file)
+            found.add(kind, triplets.read_one(file, found.notes, None, 0, separators_in(file), "*"), None, file)
         else:
             table, rows, columns = labelled[kind]
             keys = in_order(numpy.concatenate([rows, columns]))
@@ -85,16 +85,25 @@ def same_size(found, paths):
         matrix.resize((n, n))
 
 
+def first_data_line(path):
+    with open(path, "rb") as file:
+        return data_line(file.read(1 << 16))
+
+
+def separators_in(path):
+    """What to expect between numbers beside blanks: reading is fastest where the first line tells it."""
+    return "," if "," in first_data_line(path) else ""
+
+
 def labelled_entries(path):
     """(table, key of each row, key of each column), or None for coordinate form."""
-    with open(path, "rb") as file:
-        line = data_line(file.read(1 << 16))
+    line = first_data_line(path)
     if COORDINATES.match(line):
         return None
     if not FIRST_LINE.match(line):
         raise FileError(path, 1, f"{line.strip()[:60]!r} is neither node, direction, node, direction, value nor row, column, value; "
                         "write the matrices by *MATRIX OUTPUT, FORMAT=MATRIX INPUT")
-    table = read_table(path, "iiiif", separators=",", comments="*")
+    table = read_table(path, "iiiif", separators=separators_in(path), comments="*")
     keys = []
     for node, direction in (table.columns[:2], table.columns[2:4]):
         table.check(abs(node) < LABEL_LIMIT, "a node label that is too large")
