@@ -26,7 +26,7 @@ class Setting(NamedTuple):
 SETTINGS = (
     Setting("model", "paths", None, "FILE", ALL, "a deck (.inp), or files with mass and stiffness matrices"),
     Setting("matrices", "paths", [], "FILE", ALL, "files with the matrices of a deck; without them CalculiX (ccx) makes them"),
-    Setting("dofs", "path", None, "FILE", ALL, "what each row of the matrices is, for formats that do not say: a line node.direction for each"),
+    Setting("dofs", "path", None, "FILE", ALL, "what each row of the matrices is, where they do not say: lines node.direction"),
     Setting("mesh", "path", None, "FILE", ALL, "mesh of the nodes of matrices: Gmsh, VTU, MED, Nastran, ...; nodes count from 1"),
     Setting("coordinates", "path", None, "FILE", ALL, "CSV with the columns node, x, y, z, for matrices without a mesh"),
     Setting("contact", "pairs", [], "FILE", ALL, "CSV of contact pairs: node, direction, to_node, to_direction, gap, stiffness"),
