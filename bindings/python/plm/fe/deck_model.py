@@ -37,9 +37,25 @@ def build_model(deck, context=None, *, force=None, preload=True, contact_stiffne
     for pair in deck.contact_pairs:
         with _naming(pair):
             add_contact(deck, model, surfaces, pair, contact_stiffness, search, closed, symmetric, smooth)
+    _add_coordinates(deck, model)
     _add_loads(deck, model, force, preload)
     _tell_unread(deck)
     return model.build() if build else model
+
+
+def _add_coordinates(deck, model):
+    """For the audit. The directions of a node that stands for rotations of another one are rotations there."""
+    rows = deck._dofs().rows(deck.node_labels, range(1, 7))
+    stand_in = [coupling.rotation for coupling in deck.couplings if coupling.rotation is not None]
+    rows[numpy.isin(deck.node_labels, stand_in), :3] = -1
+    flat = rows.ravel()
+    first = numpy.zeros(flat.size, dtype=bool)
+    first[numpy.unique(flat, return_index=True)[1]] = True
+    flat[~first] = -1
+    has_dof = (rows >= 0).any(axis=1)
+    if has_dof.any():
+        turns = (rows[:, 3:] >= 0).any()
+        model.set_coordinates(numpy.ascontiguousarray(rows[has_dof, :6 if turns else 3]), deck.coordinates[has_dof])
 
 
 class _naming:
