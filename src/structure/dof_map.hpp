@@ -6,6 +6,9 @@
 
 namespace plm {
 
+class ByteReader;
+class ByteWriter;
+
 class DofMap {
   public:
     DofMap() = default;
@@ -28,6 +31,9 @@ class DofMap {
     /// What became of the constraints; the terms of the dependent DOFs are here, no longer there.
     const EliminatedConstraints &elimination() const { return elimination_; }
     double bytes() const;
+    /// Its bytes (linalg/bytes.hpp), and from them: what was eliminated in which row is not among them.
+    void write(ByteWriter &bytes) const;
+    void read(ByteReader &bytes);
 
     /// q = T q_r; T^T F; and the free DOFs of a motion, by which the others are given.
     void expand(const double *free, double *all) const;
@@ -41,6 +47,7 @@ class DofMap {
                               const vector<std::int64_t> &dof, const vector<double> &coefficient) const;
 
   private:
+    template <class Map, class Bytes> static void pass(Map &map, Bytes &bytes);
     template <class F> void for_terms(std::int64_t dof, F f) const;
     template <class F> void for_upper(const SparseMatrix &a, const SparseMatrix &dependents, F column) const;
     void require_sparse(const char *name, const SparseMatrix &a, std::int64_t entries) const;
