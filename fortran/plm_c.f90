@@ -1338,34 +1338,6 @@ module plm_c
             type(c_ptr), intent(inout) :: branch
             integer(plm_status) :: code
         end function plm_hbm_sweep
-        function plm_branch_write(branch, capacity, bytes, needed) bind(c) result(code)
-            import :: c_int64_t, c_ptr, plm_status
-            implicit none
-            type(c_ptr), value :: branch
-            integer(c_int64_t), value :: capacity
-            type(c_ptr), value :: bytes
-            integer(c_int64_t), intent(inout) :: needed
-            integer(plm_status) :: code
-        end function plm_branch_write
-        function plm_branch_read(basis, n, bytes, branch) bind(c) result(code)
-            import :: c_int64_t, c_ptr, plm_status
-            implicit none
-            type(c_ptr), value :: basis
-            integer(c_int64_t), value :: n
-            type(c_ptr), value :: bytes
-            type(c_ptr), intent(inout) :: branch
-            integer(plm_status) :: code
-        end function plm_branch_read
-        function plm_branch_write_csv(branch, dof, measure, harmonic, path) bind(c) result(code)
-            import :: c_char, c_int32_t, c_int64_t, c_ptr, plm_status
-            implicit none
-            type(c_ptr), value :: branch
-            integer(c_int64_t), value :: dof
-            integer(c_int32_t), value :: measure
-            integer(c_int32_t), value :: harmonic
-            character(kind=c_char), intent(in) :: path(*)
-            integer(plm_status) :: code
-        end function plm_branch_write_csv
         function plm_hbm_sweep_levels(hbm, n, force_scale, count) bind(c) result(code)
             import :: c_double, c_int64_t, c_ptr, plm_status
             implicit none
@@ -1644,6 +1616,34 @@ module plm_c
             real(c_double), intent(inout) :: relative_residual
             integer(plm_status) :: code
         end function plm_branch_get_full_residual
+        function plm_branch_write(branch, capacity, bytes, needed) bind(c) result(code)
+            import :: c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: capacity
+            type(c_ptr), value :: bytes
+            integer(c_int64_t), intent(inout) :: needed
+            integer(plm_status) :: code
+        end function plm_branch_write
+        function plm_branch_read(basis, n, bytes, branch) bind(c) result(code)
+            import :: c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: basis
+            integer(c_int64_t), value :: n
+            type(c_ptr), value :: bytes
+            type(c_ptr), intent(inout) :: branch
+            integer(plm_status) :: code
+        end function plm_branch_read
+        function plm_branch_write_csv(branch, dof, measure, harmonic, path) bind(c) result(code)
+            import :: c_char, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: dof
+            integer(c_int32_t), value :: measure
+            integer(c_int32_t), value :: harmonic
+            character(kind=c_char), intent(in) :: path(*)
+            integer(plm_status) :: code
+        end function plm_branch_write_csv
         function plm_transient_create(model, basis, transient) bind(c) result(code)
             import :: c_ptr, plm_status
             implicit none

@@ -31,7 +31,8 @@ plm_status plm_branch_write_csv(plm_branch *branch, std::int64_t dof, std::int32
     return call<BranchHandle>("plm_branch_write_csv", branch, [&](BranchHandle &b) {
         require_measure(*b.core, dof, measure, harmonic);
         require_pointer(path, "path");
-        plm::write_whole_file(path, plm::csv_of(*b.core, {dof, static_cast<plm::Measure>(measure), harmonic}));
+        plm::write_whole_file(path,
+                              plm::csv_of(*b.core, {dof, static_cast<plm::Measure>(measure), harmonic}));
         return PLM_OK;
     });
 }

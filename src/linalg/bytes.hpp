@@ -60,7 +60,8 @@ class ByteReader {
   public:
     static constexpr bool reads = true;
 
-    ByteReader(const void *bytes, std::int64_t n) : next_(static_cast<const unsigned char *>(bytes)), left_(n) {}
+    ByteReader(const void *bytes, std::int64_t n)
+        : next_(static_cast<const unsigned char *>(bytes)), left_(n) {}
     std::int64_t left() const { return left_; }
     std::int64_t version = 0; // of the frame
 
@@ -110,11 +111,11 @@ void pass_list(Bytes &bytes, List &list, std::int64_t least, Pass pass) {
 }
 
 /// Shapes as they must be, where they were read.
-template <class Bytes> void require_shape(Bytes &bytes, const Matrix &a, std::int64_t rows, std::int64_t cols) {
+template <class Bytes>
+void require_shape(Bytes &bytes, const Matrix &a, std::int64_t rows, std::int64_t cols) {
     bytes.require(a.rows() == rows && a.cols() == cols, "a matrix of another shape than belongs there");
 }
-template <class Bytes, class T>
-void require_length(Bytes &bytes, const vector<T> &x, std::int64_t n) {
+template <class Bytes, class T> void require_length(Bytes &bytes, const vector<T> &x, std::int64_t n) {
     bytes.require(static_cast<std::int64_t>(x.size()) == n, "an array of another length than belongs there");
 }
 

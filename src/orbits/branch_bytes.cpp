@@ -9,7 +9,7 @@ namespace plm {
 namespace {
 
 constexpr std::int64_t most_periods = 1 << 20, least_point = 200; // bytes of a point at least
-constexpr int most_beside = 4; // closed curves beside curves beside ...
+constexpr int most_beside = 4;                                    // closed curves beside curves beside ...
 
 // The flows of the points that were read: they share the contact sets that they pass.
 class ReadMotions {
@@ -23,7 +23,8 @@ class ReadMotions {
         bytes(kept.tolerance);
         bytes(kept.closed_shares);
         bytes.require(reduced_->same_static, "an exact motion on a model that has none");
-        bytes.require(point.omega > 0 && kept.tolerance >= 0 && kept.tolerance < 1, "an exact motion of no period");
+        bytes.require(point.omega > 0 && kept.tolerance >= 0 && kept.tolerance < 1,
+                      "an exact motion of no period");
         if (!flow_ || reduced_->structural != 0) { // which is of one frequency
             flow_ = std::make_shared<const FlowModel>(reduced_, point.omega);
             modes_ = std::make_shared<ContactModesKept>(flow_);
@@ -45,7 +46,8 @@ template <class Bytes, class P> void pass_coordinates(Bytes &bytes, const Reduce
     bytes(p.eta_0);
     bytes(p.eta);
     require_length(bytes, p.eta_0, m.static_size());
-    bytes.require(p.omega > 0 && p.eta.rows() == m.size() && p.eta.cols() % 2 == 0, "a motion of another basis");
+    bytes.require(p.omega > 0 && p.eta.rows() == m.size() && p.eta.cols() % 2 == 0,
+                  "a motion of another basis");
     bytes.integer(p.n_harmonics, 0, p.eta.cols() / 2);
     bytes(p.contact_motion);
     bool has_stiffness = p.contact_stiffness != nullptr;

@@ -1,8 +1,8 @@
 // A basis as bytes: the reduced equations with P, the contact space in its small matrices (it judges curves)
 // and the structure without its matrices. What is read sweeps without any of these; attached to the model
 // it is again all that it was.
-#include "reduction/basis_kind.hpp"
 #include "reduction/basis.hpp"
+#include "reduction/basis_kind.hpp"
 #include "reduction/reduced_model_bytes.hpp"
 #include "space/model_bytes.hpp"
 #include <algorithm>
@@ -104,9 +104,11 @@ Basis::Basis(const Basis &read, std::shared_ptr<const Model> model)
       window_min_hz_(read.window_min_hz_), window_max_hz_(read.window_max_hz_),
       estimated_min_(read.estimated_min_), estimated_max_(read.estimated_max_) {
     if (read.model_->has_matrices())
-        throw Error(status::state, "the basis has its model already; only one that was read from bytes is attached")
+        throw Error(status::state,
+                    "the basis has its model already; only one that was read from bytes is attached")
             .argument("basis");
-    if (model_->fingerprint() != read.model_->fingerprint() || model_->contact().stiffness != read.model_->contact().stiffness ||
+    if (model_->fingerprint() != read.model_->fingerprint() ||
+        model_->contact().stiffness != read.model_->contact().stiffness ||
         model_->contact().initial_gap != read.model_->contact().initial_gap)
         throw Error(status::argument,
                     "the model is another one than the basis was made of: its matrices, supports, "

@@ -67,7 +67,8 @@ template <class Bytes, class M> void pass_pairs(Bytes &bytes, M &m) {
     fits(all.gap, whole, r);
     fits(all.gap_0, whole, r_0);
     require_length(bytes, m.carried, z);
-    for (std::int64_t pair : m.carried) bytes.require(pair >= 0 && pair < whole, "a pair that does not exist");
+    for (std::int64_t pair : m.carried)
+        bytes.require(pair >= 0 && pair < whole, "a pair that does not exist");
     if constexpr (Bytes::reads) m.all_pairs = std::make_shared<const AllPairs>(std::move(all));
 }
 

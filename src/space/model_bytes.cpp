@@ -87,8 +87,8 @@ std::shared_ptr<const Space> Space::read(ByteReader &bytes, std::shared_ptr<cons
     vector<double> row;
     bytes(row);
     require_length(bytes, row, space->size());
-    space->vectors =
-        SpaceVectors::absent(space->model->n_free(), {{first_dof(*space->model), std::move(row)}}, space->size());
+    space->vectors = SpaceVectors::absent(space->model->n_free(),
+                                          {{first_dof(*space->model), std::move(row)}}, space->size());
     return space;
 }
 

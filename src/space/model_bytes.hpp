@@ -26,7 +26,8 @@ template <class Bytes, class Loads> void pass_loads(Bytes &bytes, Loads &loads) 
 inline void require_loads(ByteReader &bytes, const HarmonicLoads &loads, std::int64_t r, std::int64_t r_0) {
     for (const auto &[part, load] : loads)
         for (const vector<double> *x : {&load.real, &load.imag})
-            bytes.require(x->empty() || static_cast<std::int64_t>(x->size()) == (part.harmonic == 0 ? r_0 : r),
+            bytes.require(x->empty() ||
+                              static_cast<std::int64_t>(x->size()) == (part.harmonic == 0 ? r_0 : r),
                           "a load in other coordinates");
 }
 

@@ -52,8 +52,7 @@ class GapRows {
     const SparseMatrix &matrix() const { return matrix_; }
 
   private:
-    template <class Rows, class Bytes>
-    static void pass(Rows &rows, std::int64_t n_free, Bytes &bytes);
+    template <class Rows, class Bytes> static void pass(Rows &rows, std::int64_t n_free, Bytes &bytes);
     vector<std::int64_t> dofs_where(const vector<char> &chosen) const;
 
     SparseMatrix matrix_; // n_rows() x n_free

@@ -87,7 +87,9 @@ class Structure {
     bool has_matrices() const { return parts_->factor != nullptr; }
     /// Of its matrices, supports, constraints and gap rows, and of its loads and its damping: those of one
     /// model built twice are the same.
-    std::uint64_t fingerprint() const { return parts_->fingerprint ? parts_->fingerprint : fingerprint_of_parts(); }
+    std::uint64_t fingerprint() const {
+        return parts_->fingerprint ? parts_->fingerprint : fingerprint_of_parts();
+    }
     std::uint64_t fingerprint_of_loads() const;
 
     /// Checks the input as a whole, but factors nothing.
@@ -210,8 +212,10 @@ class Structure {
         const SparseMatrix &mass, &stiffness, &damping; // damping: 0 x 0 without an explicit one
         const Solver &solver;
     };
-    Matrices matrices() const { const Parts &p = whole();
-        return {p.mass, p.stiffness, p.damping, p.solver}; }
+    Matrices matrices() const {
+        const Parts &p = whole();
+        return {p.mass, p.stiffness, p.damping, p.solver};
+    }
 
   private:
     Structure(const StructureInput &input, GapSize gap, const Solver &solver);

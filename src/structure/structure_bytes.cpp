@@ -127,8 +127,7 @@ void GapRows::read(ByteReader &bytes, std::int64_t n_free) {
 
 template <class Motion, class Bytes>
 void BaseMotion::pass(Motion &motion, std::int64_t n_dof, std::int64_t n_free, Bytes &bytes) {
-    const std::int64_t count =
-        bytes.size(static_cast<std::int64_t>(motion.parts_.size()), least_list_item);
+    const std::int64_t count = bytes.size(static_cast<std::int64_t>(motion.parts_.size()), least_list_item);
     for (std::int64_t k = 0; k < count; ++k) {
         LoadPart part(0);
         if constexpr (!Bytes::reads) part = motion.parts_[static_cast<std::size_t>(k)];
@@ -195,9 +194,10 @@ Structure::Structure(ByteReader &bytes) : parts_(std::make_shared<Parts>()) {
 }
 
 void Structure::throw_without_matrices() {
-    throw Error(status::state,
-                "this needs the matrices of the structure, which are not in the bytes that the basis was read "
-                "from: attach the model that it was made of, or build the basis on one")
+    throw Error(
+        status::state,
+        "this needs the matrices of the structure, which are not in the bytes that the basis was read "
+        "from: attach the model that it was made of, or build the basis on one")
         .argument("basis");
 }
 

@@ -335,6 +335,33 @@ static void print_whole_way(plm_model *model) {
     must(plm_hbm_destroy(&hbm));
 }
 
+/* Basis and curve through their bytes. */
+static void print_read(plm_model *model, plm_basis *basis, plm_branch *curve) {
+    plm_basis *again = NULL;
+    plm_branch *read = NULL;
+    int64_t size[2] = {0, 0}, n = 0;
+    char *bytes[2];
+    double *x;
+    must(plm_basis_write(basis, 0, NULL, &size[0]));
+    must(plm_branch_write(curve, 0, NULL, &size[1]));
+    for (int k = 0; k < 2; ++k)
+        if (!(bytes[k] = malloc((size_t)size[k]))) exit(1);
+    must(plm_basis_write(basis, size[0], bytes[0], &size[0]));
+    must(plm_branch_write(curve, size[1], bytes[1], &size[1]));
+    must(plm_basis_read(ctx, size[0], bytes[0], &again));
+    must(plm_basis_attach(again, model));
+    must(plm_branch_read(again, size[1], bytes[1], &read));
+    must(plm_branch_get_int(read, "n_points", &n));
+    if (!(x = malloc((size_t)n * sizeof *x))) exit(1);
+    must(plm_branch_get_amplitude(read, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, n, x, &n));
+    reals("read_amplitude", n, x);
+    must(plm_branch_get_full_residual(read, 3, x));
+    reals("read_residual", 1, x);
+    must(plm_branch_destroy(&read));
+    must(plm_basis_destroy(&again));
+    free(x), free(bytes[0]), free(bytes[1]);
+}
+
 static void print_response(plm_model *model, plm_basis *basis) {
     plm_hbm *hbm = NULL;
     plm_branch *curve = NULL, *top = NULL, *lower = NULL;
@@ -362,6 +389,7 @@ static void print_response(plm_model *model, plm_basis *basis) {
     free(x);
     must(plm_hbm_find_peak(hbm, curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, &peak[0], &peak[1], &top));
     reals("peak", 2, peak);
+    print_read(model, basis, curve);
     print_whole_way(model);
     print_estimate(model, basis, hbm, curve, top);
     print_point(top, 0);
