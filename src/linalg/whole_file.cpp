@@ -17,7 +17,7 @@ namespace {
         .argument("path");
 }
 
-// Closed, and where it never got its name, removed.
+// Given back, and where it never got its name, removed.
 class NewFile {
   public:
     explicit NewFile(const std::string &path) : path_(path) {
@@ -44,9 +44,9 @@ class NewFile {
         constexpr mode_t readable = 0644; // mkstemp's own is for the user alone
         const bool synced = fchmod(file_, readable) == 0 && fsync(file_) == 0;
         const int code = errno;
-        const bool closed = close(file_) == 0;
+        const bool released = close(file_) == 0;
         file_ = -1;
-        if (!synced || !closed) refuse(path_, synced ? errno : code);
+        if (!synced || !released) refuse(path_, synced ? errno : code);
         if (std::rename(name_.data(), path_.c_str()) != 0) refuse(path_, errno);
         done_ = true;
     }

@@ -21,7 +21,7 @@ class ReadMotions {
         bytes(kept.start.y);
         bytes(kept.start.v);
         bytes(kept.tolerance);
-        bytes(kept.closed_shares);
+        bytes(kept.shares);
         bytes.require(reduced_->same_static, "an exact motion on a model that has none");
         bytes.require(point.omega > 0 && kept.tolerance >= 0 && kept.tolerance < 1,
                       "an exact motion of no period");
@@ -31,7 +31,7 @@ class ReadMotions {
         }
         require_length(bytes, kept.start.y, flow_->size());
         require_length(bytes, kept.start.v, flow_->size());
-        require_length(bytes, kept.closed_shares, reduced_->n_pairs());
+        require_length(bytes, kept.shares, reduced_->n_pairs());
         point.motion = motion_of(flow_, modes_, point, std::move(kept));
     }
 
@@ -109,7 +109,7 @@ void write_curve(ByteWriter &bytes, const Branch &branch) {
         bytes(kept.start.y);
         bytes(kept.start.v);
         bytes(kept.tolerance);
-        bytes(kept.closed_shares);
+        bytes(kept.shares);
     }
     pass_ending(bytes, branch);
     bytes(branch.beside != nullptr);

@@ -205,7 +205,7 @@ std::shared_ptr<const PointMotion> motion_of(std::shared_ptr<const FlowModel> mo
                                              const BranchPoint &point, KeptOrbit kept) {
     const OrbitConditions conditions{point.omega, point.force_scale, point.period_multiple, kept.tolerance};
     return std::make_shared<OrbitMotion>(std::move(model), std::move(modes), std::move(kept.start),
-                                         conditions, std::move(kept.closed_shares));
+                                         conditions, std::move(kept.shares));
 }
 
 PointStart start_of(const Branch &branch, std::int64_t point) {

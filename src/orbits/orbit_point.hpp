@@ -25,7 +25,7 @@ BranchPoint orbit_point(const OrbitEquations &equations, const MotionOptions &op
 struct KeptOrbit {
     FlowState start; // y, v at the beginning of the period
     double tolerance = 0;
-    vector<double> closed_shares;
+    vector<double> shares; // of the period, of each pair
 };
 bool kept_orbit(const BranchPoint &point, KeptOrbit &kept);
 /// The motion from that.

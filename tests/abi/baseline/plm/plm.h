@@ -769,19 +769,6 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
  * twice; then PLM_NOT_CONVERGED with PLM_REASON_CROSSED_OVER. A structure in free flight, or free along a rail: mean
  * position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
-/* The branch as bytes, as plm_basis_write() gives those of a basis: its points with all their digits, what they need to be
- * asked for amplitudes, fields and contact, how it ended. Not the basis that it was computed on. */
-PLM_API plm_status plm_branch_write(plm_branch *branch, int64_t capacity, void *bytes, int64_t *needed);
-/* The branch in n bytes, on the basis that it was computed on or on one read from the bytes of that: it is what it was to
- * every function that takes a branch. Points are the same to the last digit; extrema of exact motions, which are found
- * anew, to rounding. PLM_ERR_ARGUMENT for bytes that are damaged, and for another basis, told by a fingerprint. */
-PLM_API plm_status plm_branch_read(plm_basis *basis, int64_t n, const void *bytes, plm_branch **branch);
-/* The branch as comma-separated text: a header of keys, then a line a point with 17 digits and a decimal point whatever
- * the locale: frequency_hz, amplitude (of this DOF, as plm_branch_get_amplitude), arclength, force_scale, stable,
- * bifurcation, residual, iterations, n_harmonics, harmonic_error, n_switching. The file is replaced as a whole: it is
- * written under another name beside, brought to the disk and renamed. PLM_ERR_ARGUMENT where that cannot be. */
-PLM_API plm_status plm_branch_write_csv(plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
-                                        const char *path);
 /* The same at several levels of the excitation, force_scale[n] in place of the option "force_scale", in any order. count:
  * curves found, read by plm_hbm_get_found in the order of their levels; each says its "force_scale", its warnings and how it
  * ended, and may cost what plm_context_set_effort allows a sweep. The largest level is followed first, and where many
@@ -918,6 +905,19 @@ PLM_API plm_status plm_branch_get_periodicity_defect(plm_branch *branch, int64_t
 /* How well the recovered field satisfies the full (unreduced) harmonic-balance equations: the residual in the norm of
  * the inverse stiffness over the energy norm of the field. One solve per harmonic with the full matrices. */
 PLM_API plm_status plm_branch_get_full_residual(plm_branch *branch, int64_t point, double *relative_residual);
+/* The branch as bytes, as plm_basis_write() gives those of a basis: its points with all their digits, what they need to be
+ * asked for amplitudes, fields and contact, how it ended. Not the basis that it was computed on. */
+PLM_API plm_status plm_branch_write(plm_branch *branch, int64_t capacity, void *bytes, int64_t *needed);
+/* The branch in n bytes, on the basis that it was computed on or on one read from the bytes of that: it is what it was to
+ * every function that takes a branch. Points are the same to the last digit; extrema of exact motions, which are found
+ * anew, to rounding. PLM_ERR_ARGUMENT for bytes that are damaged, and for another basis, told by a fingerprint. */
+PLM_API plm_status plm_branch_read(plm_basis *basis, int64_t n, const void *bytes, plm_branch **branch);
+/* The branch as comma-separated text: a header of keys, then a line a point with 17 digits and a decimal point whatever
+ * the locale: frequency_hz, amplitude (of this DOF, as plm_branch_get_amplitude), arclength, force_scale, stable,
+ * bifurcation, residual, iterations, n_harmonics, harmonic_error, n_switching. The file is replaced as a whole: it is
+ * written under another name beside, brought to the disk and renamed. PLM_ERR_ARGUMENT where that cannot be. */
+PLM_API plm_status plm_branch_write_csv(plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
+                                        const char *path);
 
 /* ---- Transient: motion in time ----------------------------------------------------------------------------------
  * Of a reduced model by its exact piecewise-linear flow (nothing is discretised), or of the full model by Newmark's
