@@ -62,7 +62,7 @@ bool shows_the_basis(const Branch &branch) {
 
 // A basis that was read from bytes, without its model: what would be compared with the structure is not.
 bool has_structure(Watch watch, Branch &branch) {
-    if (branch.reduced().model->has_matrices()) return true;
+    if (branch.reduced().model->is_whole()) return true;
     watch.keeping(branch.warnings)
         .warn(reason::unverified,
               "the response was not compared with the equations of the whole structure, since the basis was "

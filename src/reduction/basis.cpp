@@ -65,7 +65,7 @@ SelectionRule make_rule(const BasisOptions &o, const Sampler *sampler) {
 
 // A space that was read from bytes has no vectors: it does where there are no matrices to make one of.
 bool serves(const Space &space, const Model &model) {
-    return !space.vectors.is_absent() || !model.has_matrices();
+    return !space.vectors.is_absent() || !model.is_whole();
 }
 
 std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &model, const Sampler *sampler,

@@ -103,7 +103,7 @@ Basis::Basis(const Basis &read, std::shared_ptr<const Model> model)
     : model_(std::move(model)), options_(read.options_), report_(read.report_), space_(read.space_),
       window_min_hz_(read.window_min_hz_), window_max_hz_(read.window_max_hz_),
       estimated_min_(read.estimated_min_), estimated_max_(read.estimated_max_) {
-    if (read.model_->has_matrices())
+    if (read.model_->is_whole())
         throw Error(status::state,
                     "the basis has its model already; only one that was read from bytes is attached")
             .argument("basis");

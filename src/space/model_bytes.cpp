@@ -1,5 +1,6 @@
 #include "space/model_bytes.hpp"
 #include "space/space.hpp"
+#include "structure/field_bytes.hpp"
 
 namespace plm {
 namespace {
@@ -65,14 +66,11 @@ void Model::write(ByteWriter &bytes) const {
 }
 
 void write_formed(ByteWriter &bytes, const SpaceVectors &vectors) {
-    bytes(vectors.formed().in_core());
+    write_field(bytes, vectors.formed());
 }
 
 SpaceVectors read_formed(ByteReader &bytes, const Model &model, std::int64_t cols) {
-    Matrix all;
-    bytes(all);
-    require_shape(bytes, all, model.n_free(), cols);
-    return SpaceVectors(Field(std::move(all)));
+    return SpaceVectors(read_field(bytes, model.n_free(), cols));
 }
 
 void Space::write(ByteWriter &bytes) const {

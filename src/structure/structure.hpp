@@ -84,7 +84,7 @@ class Structure {
     /// answers PLM_ERR_STATE.
     explicit Structure(ByteReader &bytes);
     void write(ByteWriter &bytes) const;
-    bool has_matrices() const { return parts_->factor != nullptr; }
+    bool is_whole() const { return parts_->factor != nullptr; }
     /// Of its matrices, supports, constraints and gap rows, and of its loads and its damping: those of one
     /// model built twice are the same.
     std::uint64_t fingerprint() const {

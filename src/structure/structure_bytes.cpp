@@ -1,6 +1,7 @@
 // A structure as bytes: all but its matrices, their factors and modes. Maps from DOFs to free ones, gap rows
 // and loads are few numbers; who needs more attaches the model (its fingerprint tells that it is the same).
 #include "linalg/bytes.hpp"
+#include "structure/field_bytes.hpp"
 #include "structure/structure.hpp"
 #include <utility>
 
@@ -82,6 +83,17 @@ std::uint64_t crc_of(const Field &x, std::uint64_t crc) {
 }
 
 } // namespace
+
+void write_field(ByteWriter &bytes, const Field &field) {
+    bytes(field.in_core());
+}
+
+Field read_field(ByteReader &bytes, std::int64_t rows, std::int64_t cols) {
+    Matrix all;
+    bytes(all);
+    require_shape(bytes, all, rows, cols);
+    return Field(std::move(all));
+}
 
 template <class Map, class Bytes> void DofMap::pass(Map &map, Bytes &bytes) {
     bytes(map.free_dof_);
@@ -214,7 +226,7 @@ std::uint64_t Structure::fingerprint_of_parts() const {
 }
 
 std::uint64_t Structure::fingerprint_of_loads() const {
-    if (!has_matrices()) return parts_->fingerprint_of_loads;
+    if (!is_whole()) return parts_->fingerprint_of_loads;
     const double numbers[] = {damping_options_.alpha, damping_options_.beta, damping_options_.structural};
     std::uint64_t crc = crc64(numbers, sizeof numbers);
     const vector<double> &ratios = damping_options_.modal_ratio;

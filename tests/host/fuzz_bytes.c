@@ -1,5 +1,6 @@
-/* libFuzzer over bases and branches as bytes, begun with the files of tests/formats. Length and checksum are made
- * right first, so that what stands behind them is reached; what is read must be written again, and asked. */
+/* libFuzzer over bases and branches as bytes, begun with the files of tests/formats. Length and checksum are
+ * made right first, so that what stands behind them is reached; what is read must be written again, and
+ * asked. */
 #include "plm/plm.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -337,29 +337,20 @@ static void print_whole_way(plm_model *model) {
 
 /* Basis and curve through their bytes. */
 static void print_read(plm_model *model, plm_basis *basis, plm_branch *curve) {
+    static char bytes[1 << 23];
+    static double x[4096];
     plm_basis *again = NULL;
     plm_branch *read = NULL;
-    int64_t size[2] = {0, 0}, n = 0;
-    char *bytes[2];
-    double *x;
-    must(plm_basis_write(basis, 0, NULL, &size[0]));
-    must(plm_branch_write(curve, 0, NULL, &size[1]));
-    for (int k = 0; k < 2; ++k)
-        if (!(bytes[k] = malloc((size_t)size[k]))) exit(1);
-    must(plm_basis_write(basis, size[0], bytes[0], &size[0]));
-    must(plm_branch_write(curve, size[1], bytes[1], &size[1]));
-    must(plm_basis_read(ctx, size[0], bytes[0], &again));
+    int64_t n = 0;
+    must(plm_basis_write(basis, sizeof bytes, bytes, &n));
+    must(plm_basis_read(ctx, n, bytes, &again));
     must(plm_basis_attach(again, model));
-    must(plm_branch_read(again, size[1], bytes[1], &read));
-    must(plm_branch_get_int(read, "n_points", &n));
-    if (!(x = malloc((size_t)n * sizeof *x))) exit(1);
-    must(plm_branch_get_amplitude(read, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, n, x, &n));
+    must(plm_branch_write(curve, sizeof bytes, bytes, &n));
+    must(plm_branch_read(again, n, bytes, &read));
+    must(plm_branch_get_amplitude(read, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, 4096, x, &n));
     reals("read_amplitude", n, x);
     must(plm_branch_get_full_residual(read, 3, x));
     reals("read_residual", 1, x);
-    must(plm_branch_destroy(&read));
-    must(plm_basis_destroy(&again));
-    free(x), free(bytes[0]), free(bytes[1]);
 }
 
 static void print_response(plm_model *model, plm_basis *basis) {
