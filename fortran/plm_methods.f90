@@ -33,6 +33,7 @@ module plm_methods
     contains
         procedure :: set_sampler => basis_set_sampler
         procedure :: set_parent => basis_set_parent
+        procedure :: attach => basis_attach
     end type plm_basis_methods
 
     type, abstract, extends(plm_settable) :: plm_hbm_methods
@@ -224,6 +225,20 @@ contains
         status = plm_basis_set_parent(self%handle, c_parent)
         call finish(self%context, status, stat, errmsg)
     end subroutine basis_set_parent
+
+    ! Gives a basis that was read the model that it was made of, built, with its loads and damping as they were:
+    ! all that the structure is asked for works again. PLM_ERR_ARGUMENT for another model, told by a fingerprint
+    ! of matrices, supports, constraints and contact. Branches computed before stay without it: write them and
+    ! read them again.
+    subroutine basis_attach(self, model, stat, errmsg)
+        class(plm_basis_methods), intent(in) :: self
+        class(plm_model_methods), intent(in) :: model
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(plm_status) :: status
+        status = plm_basis_attach(self%handle, model%handle)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine basis_attach
 
     ! Motion of a DOF at n_times equidistant times from 0 over the period of the response: q[n_times], n_times up
     ! to 1048576. Of an exact motion itself, not of its harmonics.

@@ -337,6 +337,24 @@ static void print_whole_way(plm_model *model) {
     must(plm_hbm_destroy(&hbm));
 }
 
+/* Basis and curve through their bytes. */
+static void print_read(plm_model *model, plm_basis *basis, plm_branch *curve) {
+    static char bytes[1 << 23];
+    static double x[4096];
+    plm_basis *again = NULL;
+    plm_branch *read = NULL;
+    int64_t n = 0;
+    must(plm_basis_write(basis, sizeof bytes, bytes, &n));
+    must(plm_basis_read(ctx, n, bytes, &again));
+    must(plm_basis_attach(again, model));
+    must(plm_branch_write(curve, sizeof bytes, bytes, &n));
+    must(plm_branch_read(again, n, bytes, &read));
+    must(plm_branch_get_amplitude(read, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, 4096, x, &n));
+    reals("read_amplitude", n, x);
+    must(plm_branch_get_full_residual(read, 3, x));
+    reals("read_residual", 1, x);
+}
+
 static void print_response(plm_model *model, plm_basis *basis) {
     plm_hbm *hbm = NULL;
     plm_branch *curve = NULL, *top = NULL, *lower = NULL;
@@ -364,6 +382,7 @@ static void print_response(plm_model *model, plm_basis *basis) {
     free(x);
     must(plm_hbm_find_peak(hbm, curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, &peak[0], &peak[1], &top));
     reals("peak", 2, peak);
+    print_read(model, basis, curve);
     print_whole_way(model);
     print_estimate(model, basis, hbm, curve, top);
     print_point(top, 0);

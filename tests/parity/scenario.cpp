@@ -199,7 +199,16 @@ void print_study(const plm::Model &model, const plm::Basis &basis, plm::Hbm &hbm
     print("study_amplitude", points.amplitude);
 }
 
-void print_response(const plm::Model &model, const plm::Basis &basis) {
+void print_read(const plm::Context &context, const plm::Model &model, const plm::Basis &basis,
+                const plm::Branch &curve) {
+    plm::Basis again = plm::Basis::from_bytes(context, basis.to_bytes());
+    again.attach(model);
+    const plm::Branch read = again.read_branch(curve.to_bytes());
+    print("read_amplitude", read.amplitude(watched));
+    print("read_residual", std::vector{read.full_residual(3)});
+}
+
+void print_response(const plm::Context &context, const plm::Model &model, const plm::Basis &basis) {
     plm::Hbm hbm(basis);
     hbm.set("n_harmonics", n_harmonics).set("unknowns", "modal").set("max_step", 0.05);
     const plm::Branch curve = hbm.sweep();
@@ -209,6 +218,7 @@ void print_response(const plm::Model &model, const plm::Basis &basis) {
     print("level_points", std::vector{hbm.sweep_levels({0.8, 0.5}).back().size()});
     const plm::Peak peak = hbm.find_peak(curve, watched);
     print("peak", std::vector{peak.frequency_hz, peak.amplitude});
+    print_read(context, model, basis, curve);
     const plm::Response whole = model.compute_response(watched, PLM_HALF_PEAK_TO_PEAK, 1e-4);
     print("response", std::vector{whole.frequency_hz, whole.amplitude, whole.error});
     print("accuracy", std::vector{whole.hbm.get_double("accuracy")});
@@ -224,10 +234,11 @@ void print_response(const plm::Model &model, const plm::Basis &basis) {
 
 int main() {
     try {
-        plm::Model model = make_model(plm::Context());
+        const plm::Context context;
+        plm::Model model = make_model(context);
         print_model(model);
         print_coupled(plm::Context());
-        print_response(model, make_basis(model));
+        print_response(context, model, make_basis(model));
     } catch (const plm::Error &e) {
         std::fprintf(stderr, "%s\n", e.what());
         return 1;
