@@ -1,5 +1,4 @@
 """What plm response leaves in its folder."""
-import csv
 import importlib
 import pathlib
 
@@ -12,10 +11,10 @@ def write_files(folder, structure, dof, found, settings, report, console):
     """The curve as table, picture and HDF5, the motion of the peak for viewers, the report. Returns the names."""
     folder = pathlib.Path(folder)
     files = ["response.csv"]
-    _write_curve(folder / files[0], found.curve, dof, settings["measure"])
+    found.curve.write_csv(folder / files[0], dof, settings["measure"])
     if found.larger:
         files.append("larger.csv")  # the curve of the larger motion
-        _write_curve(folder / files[1], found.larger.branch, dof, settings["measure"])
+        found.larger.branch.write_csv(folder / files[1], dof, settings["measure"])
     files += _draw(folder, found, dof, settings["measure"], structure.name_of(dof), console)
     files += _hdf5(folder, found.curve, dof, console)
     if structure.mesh.coordinates is None:
@@ -24,17 +23,6 @@ def write_files(folder, structure, dof, found, settings, report, console):
         files.append(write_vtu_series(folder, found.peak, 0, structure.mesh, settings["frames"], "peak").name)
     report.write(folder / "report.md", console, structure.unread, files)
     return ["report.md", *files]
-
-
-def _write_curve(path, curve, dof, measure):
-    columns = {"frequency_hz": curve.frequency_hz, "amplitude": curve.amplitude(dof, measure), "arclength": curve.arclength,
-               "force_scale": curve.point_force_scale, "stable": curve.stable, "bifurcation": curve.bifurcation,
-               "residual": curve.residual, "iterations": curve.iterations, "n_harmonics": curve.point_harmonics,
-               "harmonic_error": curve.harmonic_error, "n_switching": curve.n_switching}
-    with replacing(path) as beside, open(beside, "w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(columns)
-        table.writerows(zip(*(values.tolist() for values in columns.values())))  # all digits of a double
 
 
 def _draw(folder, found, dof, measure, name, console):
