@@ -1,5 +1,6 @@
-"""index.py: writes README.md beside it, the overview of the reports, and the table of the project's README, from the
-reports' own tables. With --check it compares instead, and ends with 1 when a page is not what the reports say."""
+"""index.py: writes README.md beside it, the overview of the reports, the table of docs/benchmarks.md, and table and picture of
+the project's README, from the reports' own tables. With --check it compares the pages instead, and ends with 1 when one is not
+what the reports say. The picture needs matplotlib."""
 import pathlib
 import re
 import statistics
@@ -16,6 +17,10 @@ LEVELS = ("4 samples", "compressed to 12", "compressed to 24", "refined", "snaps
 REACHED = ("1 sample", "2 samples", "4 samples", "8 samples", "4 samples, bands", "snapshots", "bilinear modes",
            "updated LELSM", "compressed to 10", "refined", "Craig-Bampton", "full order")
 REACHED_COLUMNS = ("method", "r", "iteration (ms)", "curve (s)", "frequency", "peak", "curve, L2")
+FRONT = {"1 sample": "libplm, coarsest basis", "2 samples": "libplm, coarse basis", "4 samples": "libplm, default basis",
+         "refined": "libplm, basis made for 0.1 %", "Craig-Bampton": "Craig-Bampton, all contact points kept",
+         "full order": "no reduction"}  # the README's table, in words that need no explanation
+FRONT_HEAD = ("way to the curve", "equations", "first curve (s)", "each further one (s)", "error of frequency", "error of amplitude")
 COLUMNS = ("method", "front", "r", "set-up (s)", "curve (s)", "frequency", "peak", "curve, L2", "effectivity")
 LEFT = ("method", "front")  # columns of words
 
@@ -150,20 +155,75 @@ def overview(_):
     return "\n".join(lines()) + "\n"
 
 
+def between(page, mark, rows):
+    """The page with these rows between its two marks."""
+    return re.sub(f"(<!-- {mark} -->\n).*?(<!-- end -->)", lambda m: m[1] + "\n".join(rows) + "\n" + m[2], page, flags=re.S)
+
+
+def benchmarks(page):
+    return between(page, "index.py", table("cracked_plate_preload", "## The methods", REACHED, REACHED_COLUMNS))
+
+
+def percent(text):
+    """1.6e-02 as 1.6 %, two digits."""
+    value = 100 * float(text)
+    return "0" if value == 0 else f"{float(f'{value:.1e}'):.7f}".rstrip("0").rstrip(".") + " %"
+
+
+def front_rows():
+    """Of the README's table: words, and the numbers as the report has them."""
+    rows = {row["method"]: row for row in tables(section("cracked_plate_preload", "## The methods"))}
+    return [(words, rows[method]) for method, words in FRONT.items()]
+
+
 def project(page):
-    """The project's README with the table between its two marks."""
-    rows = "\n".join(table("cracked_plate_preload", "## The methods", REACHED, REACHED_COLUMNS))
-    return re.sub("(<!-- index.py -->\n).*?(\n<!-- end -->)", lambda m: m[1] + rows + m[2], page, flags=re.S)
+    """The project's README with its table."""
+    lines = ["| " + " | ".join(FRONT_HEAD) + " |", "|---|" + "--:|" * (len(FRONT_HEAD) - 1)]
+    for words, row in front_rows():
+        numbers = (row["r"], row["both (s)"], row["curve (s)"], percent(row["frequency"]), percent(row["peak"]))
+        lines.append("| " + " | ".join((words, *numbers)) + " |")
+    return between(page, "index.py: front", lines)
+
+
+def draw(path):
+    """The README's picture: error of the peak over time, a point for each row of its table."""
+    import matplotlib
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+    figure, ax = pyplot.subplots(figsize=(7.2, 3.6), layout="constrained")
+    for words, row in front_rows():
+        seconds, error = float(row["both (s)"]), 100 * float(row["peak"])
+        own = words.startswith("libplm")
+        if error == 0:  # what the others are compared with: a line at its time, for it has no place on the axis
+            ax.axvline(seconds, color="0.4", ls="--", lw=1)
+            ax.annotate("no reduction:\nthe reference", (seconds, 0.012), xytext=(5, 0), textcoords="offset points", fontsize=9)
+            continue
+        ax.loglog(seconds, error, "o" if own else "s", color="C0" if own else "C1", markersize=8, mfc=None if own else "white", mew=1.5)
+        left = seconds > 3
+        ax.annotate(words.replace(", all", ",\nall"), (seconds, error), xytext=(-8 if left else 8, 0), textcoords="offset points",
+                    ha="right" if left else "left", va="center", fontsize=9)
+    ax.set_xlim(1, 14)
+    ax.set_ylim(5e-4, 4)
+    ax.set_xticks([1, 2, 5, 10], ["1", "2", "5", "10"])
+    ax.minorticks_off()
+    ax.set_yticks([0.001, 0.01, 0.1, 1], ["0.001", "0.01", "0.1", "1"])
+    ax.set_xlabel("time of the first curve, set-up included (s)")
+    ax.set_ylabel("error of the peak's amplitude (%)")
+    ax.grid(alpha=0.3)
+    figure.savefig(path, dpi=150)
 
 
 def main():
-    for path, make in ((FOLDER / "README.md", overview), (FOLDER.parent.parent / "README.md", project)):
+    root = FOLDER.parent.parent
+    for path, make in ((FOLDER / "README.md", overview), (root / "docs/benchmarks.md", benchmarks), (root / "README.md", project)):
         now = path.read_text(encoding="utf-8") if path.exists() else ""
         wanted = make(now)
         if sys.argv[1:] != ["--check"]:
             path.write_text(wanted, encoding="utf-8")
         elif now != wanted:
             sys.exit(f"{path} is not what the reports say; run {__file__}")
+    if sys.argv[1:] != ["--check"]:
+        draw(root / "docs/images/error_against_time.png")
 
 
 main()

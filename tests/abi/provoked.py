@@ -164,14 +164,16 @@ scenario = build / "tests/parity/scenario.txt"
 refused("parity.*", "the last bit of one number in one language", "line 90 .*in the reference", python,
         tests / "parity/compare.py", scenario, "--", "awk",
         r'NR == 90 { printf "%.17g\n", $0 * (1 + 2.3e-16); next } { print }', scenario)
-refused("install.readme", "a recipe that lost its mark", "marks the files", python, tests / "install/recipes.py",
-        changed(source / "README.md", "<!-- run: make -->", ""), folder, folder)
+refused("install.readme", "a recipe that lost its mark", "mark the files", python, tests / "install/recipes.py",
+        source / "README.md", changed(source / "docs/embedding.md", "<!-- run: make -->", ""), folder, folder)
 lister = build / "examples/c/list_keys"
 if lister.exists():
     refused("examples.keys", "a page of keys that lags behind", "out of date; renew it", python, tests / "examples/keys.py",
             lister, changed(source / "docs/keys.md", "`n_samples`", "`samples`"))
 shutil.copytree(source / "examples/reports", folder / "pages/examples/reports")
 shutil.copy(source / "README.md", folder / "pages")
+(folder / "pages/docs").mkdir()
+shutil.copy(source / "docs/benchmarks.md", folder / "pages/docs")
 changed(source / "examples/reports/README.md", r"^\| refined .*", "| refined | yes | 1 |", "pages/examples/reports/README.md")
 refused("docs.reports", "figures that are in no report", "README.md is not what the reports say", python,
         folder / "pages/examples/reports/index.py", "--check")

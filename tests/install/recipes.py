@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""recipes.py README PREFIX FOLDER: what README.md prints is what runs. Its files (<!-- file: NAME --> before a block) are
-written, then each of its recipes (<!-- run: NAME -->) is run in a folder of its own with the installed library in $PREFIX.
-Every line the programs print must stand in README.md, and they must print one each. With a stop that is
-out of reach they say so."""
+"""recipes.py README EMBEDDING PREFIX FOLDER: what the pages print is what runs. The programs of README.md and the files of
+docs/embedding.md (<!-- file: NAME --> before a block) are written, then each recipe of the latter (<!-- run: NAME -->) is run in a
+folder of its own with the installed library in $PREFIX. Every line the programs print must stand in README.md, and they must
+print one each. With a stop that is out of reach they say so."""
 import os
 import pathlib
 import re
@@ -10,14 +10,17 @@ import shutil
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "docs"))
+import page  # noqa: E402
+
 readme = pathlib.Path(sys.argv[1]).read_text(encoding="utf-8")
-prefix, folder = (pathlib.Path(argument).resolve() for argument in sys.argv[2:4])
-BLOCK = r"<!-- {}: (\S+) -->\n```\w+\n(.*?)```"
-files = dict(re.findall(BLOCK.format("file"), readme, re.S))
-recipes = dict(re.findall(BLOCK.format("run"), readme, re.S))
+prefix, folder = (pathlib.Path(argument).resolve() for argument in sys.argv[3:5])
+files = {**page.named_blocks(sys.argv[1], "file"), **page.named_blocks(sys.argv[2], "file")}
+files.pop("host.py", None)  # which needs no recipe; docs.programs_readme runs it
+recipes = page.named_blocks(sys.argv[2], "run")
 expected = {"host.c", "host.f90", "CMakeLists.txt", "Makefile"}, {"CMake", "pkg-config", "make"}
 if (set(files), set(recipes)) != expected:
-    sys.exit(f"{sys.argv[1]} marks the files {sorted(files)} and the recipes {sorted(recipes)}, not {expected}")
+    sys.exit(f"{sys.argv[1]} and {sys.argv[2]} mark the files {sorted(files)} and the recipes {sorted(recipes)}, not {expected}")
 
 failures = []
 for name in ("host.c", "host.f90"):
