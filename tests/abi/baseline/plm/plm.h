@@ -313,9 +313,9 @@ PLM_API plm_status plm_model_fix_dofs_i64(plm_model *model, int32_t index_base, 
  * the model, dependent ones among them, which may be loaded, looked at and in contact. Terms of fixed DOFs drop out; a row
  * that leaves one DOF alone holds it at zero. Rows that repeat others, to 1e-6 of their terms, are left out and counted
  * ("n_redundant_constraints"), with PLM_WARNING and PLM_REASON_ROUNDED beyond 1e-10. Where a state is set
- * (plm_transient_set_state) the free DOFs of it count, and the others follow from them. A row over thousands of DOFs
- * couples all of them with what stands at its dependent DOF: PLM_ERR_MEMORY of the build names the row where that would
- * fill the matrices. */
+ * (plm_transient_set_state) the free DOFs of it count, and the others follow from them. A row over thousands of DOFs, with
+ * something at the DOF that it gives, is taken by way of sums over few of them, which keep the matrices sparse;
+ * PLM_ERR_MEMORY of the build names the row where these DOFs are too far apart in their numbers for that. */
 PLM_API plm_status plm_model_add_constraints_i32(plm_model *model, int32_t index_base, int64_t n,
                                                  const int32_t *row_ptr, const int32_t *dof,
                                                  const double *coefficient);
@@ -339,14 +339,23 @@ PLM_API plm_status plm_model_add_rigid_link_i64(plm_model *model, int32_t index_
                                                 int32_t per_dependent, const int64_t *dependent_dof,
                                                 const double *dependent_xyz);
 
+/* Where the DOFs are, so that the audit can tell more: n nodes with per_node DOFs each, 3 (x, y, z) or 6 (and the rotations
+ * about x, y, z), in global axes. dof: per_node x n (base - 1: no such DOF), xyz: 3 x n, in the unit of length of the
+ * matrices. DOFs without a node, as modal ones, may be left out. Results do not depend on it. Given again it replaces what
+ * was given before; n = 0 takes it away. */
+PLM_API plm_status plm_model_set_coordinates_i32(plm_model *model, int32_t index_base, int64_t n, int32_t per_node,
+                                                 const int32_t *dof, const double *xyz);
+PLM_API plm_status plm_model_set_coordinates_i64(plm_model *model, int32_t index_base, int64_t n, int32_t per_node,
+                                                 const int64_t *dof, const double *xyz);
+
 /* Distributing coupling (RBE3): the reference node moves as the rigid body that fits the translations of n nodes best, by
  * least squares with a weight for each; its forces and moments go to them in these shares. The nodes stay free to move
  * against one another. reference_dof, reference_xyz as for a rigid link; dof and xyz: 3 x n, weight[n] > 0 or NULL (all
  * alike). Nodes on a line, or one alone, leave open the rotation about it: PLM_ERR_ARGUMENT where the reference node has
  * that rotation, or stands off the line; with 3 DOFs on the line it is a mean. The DOFs of the reference node follow from
  * those of all the nodes: without stiffness and mass of its own, tens of thousands of nodes cost nothing. With any, or
- * held, it couples each of them with all others, a dense part of the matrices of three DOFs a node: nothing for a hundred
- * nodes, much time and memory for a thousand, and PLM_ERR_MEMORY of the build, with the row, for several thousands. */
+ * held, it would couple each of them with all others, and is taken by way of sums over some twenty of them instead: 10,000
+ * nodes cost about what as many nodes of a plate do. */
 PLM_API plm_status plm_model_add_distributing_coupling_i32(plm_model *model, int32_t index_base, int32_t per_reference,
                                                            const int32_t *reference_dof, const double *reference_xyz,
                                                            int64_t n, const int32_t *dof, const double *xyz,
@@ -621,7 +630,9 @@ PLM_API plm_status plm_model_count_modes(plm_model *model, double frequency_hz, 
 
 /* Looks the built model over: mass per direction, rigid-body modes, symmetry, definiteness, gap signs, contact
  * stiffness against local stiffness, units that look off, an excitation that moves no low mode, gaps that the linear
- * response never closes. count: number of findings, read one by one below. */
+ * response never closes. With coordinates (plm_model_set_coordinates_i32) also: the six motions of a rigid body through K
+ * and the gap rows, mass, centre of gravity and moments of inertia, DOFs per node, density and speed of waves, gaps and
+ * normals against where the nodes are. count: number of findings, read one by one below. */
 PLM_API plm_status plm_model_audit(plm_model *model, int64_t *count);
 /* severity: 0 fact, 1 worth a look, 2 probably wrong. value: the number the finding is about. */
 PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_t *severity, double *value,
