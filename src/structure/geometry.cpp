@@ -12,6 +12,14 @@ double median(vector<double> &values) { // 0 of none
     return *middle;
 }
 
+// The six of every DOF: a matrix has some eighty entries to a row.
+template <class Value> vector<std::array<double, 6>> motions_by(std::int64_t n, Value value) {
+    vector<std::array<double, 6>> all(static_cast<std::size_t>(n));
+    for (std::int64_t dof = 0; dof < n; ++dof)
+        for (std::size_t motion = 0; motion < 6; ++motion) all[dof][motion] = value(dof, motion);
+    return all;
+}
+
 } // namespace
 
 Geometry::Geometry(const vector<CoupledNode> &nodes, std::int64_t n_dof)
@@ -50,6 +58,8 @@ void Geometry::take_stiffness(const SparseMatrix &k, const vector<std::int64_t> 
     stiffness_.assign(nodes_.size(), 0.0);
     nearest_.assign(nodes_.size(), INFINITY);
     strains_ = {};
+    const auto moves =
+        motions_by(k.cols, [&](std::int64_t dof, std::size_t motion) { return value(dof, motion); });
     for (std::int64_t j = 0; j < k.cols; ++j) {
         const Place &place = places_[j];
         if (is_multiplier[j] || place.node < 0) continue;
@@ -58,7 +68,7 @@ void Geometry::take_stiffness(const SparseMatrix &k, const vector<std::int64_t> 
             const std::int64_t i = k.idx[p];
             if (is_multiplier[i] || places_[i].node < 0 || k.val[p] == 0) continue;
             for (std::size_t motion = 0; motion < 6; ++motion) {
-                const double term = k.val[p] * value(i, motion);
+                const double term = k.val[p] * moves[i][motion];
                 force[motion] += term, size[motion] += std::abs(term);
             }
             if (places_[i].node == place.node || place.component >= 3) continue;
@@ -70,7 +80,7 @@ void Geometry::take_stiffness(const SparseMatrix &k, const vector<std::int64_t> 
                 stiffness_[place.node] = std::max(stiffness_[place.node], k.val[p]);
         for (std::size_t motion = 0; motion < 6; ++motion) {
             Strain &s = strains_[motion];
-            s.moves = s.moves || value(j, motion) != 0;
+            s.moves = s.moves || moves[j][motion] != 0;
             if (std::abs(force[motion]) <= rounding * size[motion]) continue;
             if (s.count++ == 0) s.first = j;
             s.largest = std::max(s.largest, std::abs(force[motion]) / size[motion]);
@@ -83,6 +93,8 @@ void Geometry::take_stiffness(const SparseMatrix &k, const vector<std::int64_t> 
 void Geometry::take_mass(const SparseMatrix &m) {
     if (!is_known()) return;
     inertia_.reset(6, 6);
+    const auto moves =
+        motions_by(m.cols, [&](std::int64_t dof, std::size_t motion) { return value(dof, motion); });
     vector<double> mass(nodes_.size(), 0.0);
     for (std::int64_t j = 0; j < m.cols; ++j) {
         const Place &place = places_[j];
@@ -91,12 +103,12 @@ void Geometry::take_mass(const SparseMatrix &m) {
         double sum = 0;
         for (std::int64_t p = m.ptr[j]; p < m.ptr[j + 1]; ++p) {
             for (std::size_t motion = 0; motion < 6; ++motion)
-                force[motion] += m.val[p] * value(m.idx[p], motion);
+                force[motion] += m.val[p] * moves[m.idx[p]][motion];
             const Place &other = places_[m.idx[p]];
             if (other.node >= 0 && other.component == place.component) sum += m.val[p];
         }
         for (std::size_t a = 0; a < 6; ++a)
-            for (std::size_t b = 0; b < 6; ++b) inertia_(a, b) += value(j, a) * force[b];
+            for (std::size_t b = 0; b < 6; ++b) inertia_(a, b) += moves[j][a] * force[b];
         if (place.component < 3) mass[place.node] = std::max(mass[place.node], sum);
     }
     vector<double> speeds, densities;
