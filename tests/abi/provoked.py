@@ -200,7 +200,7 @@ refused("house.texts", "the same in capi", r"capi/sampler\.cpp:[0-9]+: a text na
         tests / "house/texts.py", rooms)
 for n in range(31):
     (rooms / f"space/knows_{n}.cpp").write_text("bool all() { return states.n_closed() == z; }\n", encoding="utf-8")
-refused("house.counts", "states of a pair known in 31 more files", "[0-9]+ files outside contact know the states of a pair: more than 30",
+refused("house.counts", "states of a pair known in 31 more files", "[0-9]+ files outside contact know the states of a pair: more than 32",
         python, tests / "house/counts.py", rooms)
 (rooms / "hbm/tall.cpp").write_text("SparseMatrix k;\n", encoding="utf-8")
 refused("house.counts", "a full-size matrix outside structure", "1 files outside structure use full-size matrices", python,
