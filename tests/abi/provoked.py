@@ -196,6 +196,8 @@ refused("docs.sources", "a source file that moved", "Rest: space/rest.hpp is not
 changed(source / "README.md", "^Both want Debian", "Both " + "and both " * 30 + "want Debian", "tree/README.md")
 refused("docs.words", "a sentence of more than 35 words", r"README.md:\d+: \d+ words: Both and", python, tests / "docs/words.py", tree,
         tree / "README.md")
+refused("docs.citation", "a version that went on", "CITATION.cff is of version .*, the project of 99.0.0", python,
+        tests / "docs/citation.py", tree, "99.0.0")
 doxyfile = build / "docs/Doxyfile"
 if doxyfile.exists() and shutil.which("doxygen"):
     text = doxyfile.read_text(encoding="utf-8") + f"\nINPUT = {grown}\nOUTPUT_DIRECTORY = {folder}\n"
