@@ -9,7 +9,7 @@ set(PLM_FORTRAN_SOURCE_DIR ${CMAKE_CURRENT_LIST_DIR})
 set(PLM_FORTRAN_MODULE_SOURCES plm_c.f90 plm_errors.f90 plm_context.f90 plm_keys.f90 plm_methods.f90
     plm_model.f90 plm_branch.f90 plm_reduction.f90 plm_response.f90 plm_motion.f90 plm_study.f90 plm_facts.f90 plm.f90)
 set(PLM_FORTRAN_MODULE_INCLUDES plm_model_int64.inc plm_motion_int64.inc)
-set(PLM_FORTRAN_77_SOURCES plm_c.f90 plm_f77.f90 plm_f77_calls.f90 plm_f77_keys.f90)
+set(PLM_FORTRAN_77_SOURCES plm_c.f90 plm_f77.f90 plm_f77_calls.f90 plm_f77_keys.f90 plm_f77_bytes.f90)
 
 function(plm_fortran_library target)
     list(TRANSFORM ARGN PREPEND ${PLM_FORTRAN_SOURCE_DIR}/)

@@ -1,7 +1,7 @@
 ! plm_branch.f90: the response curves that harmonic balance follows. DOFs, points and pairs count from 1.
 module plm_branches
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t
-    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t, c_loc, c_null_char, c_null_ptr
+    use, intrinsic :: iso_fortran_env, only: int8, int64, real64
     use plm_constants
     use plm_c
     use plm_errors, only: finish
@@ -21,6 +21,8 @@ module plm_branches
         procedure :: closed_share
         procedure :: energy
         procedure :: multipliers
+        procedure :: to_bytes => branch_to_bytes
+        procedure :: write_csv
     end type plm_branch
 
 contains
@@ -43,6 +45,36 @@ contains
         character(len=*), intent(inout), optional :: errmsg
         call finish(self%context, plm_branch_destroy(self%handle), stat, errmsg)
     end subroutine branch_destroy
+
+    ! Points and ending, to be kept in a file (open it with access='stream') and read by read_branch of the basis.
+    subroutine branch_to_bytes(self, bytes, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        integer(int8), allocatable, target, intent(inout) :: bytes(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(int64) :: needed
+        integer(plm_status) :: status
+        status = plm_branch_write(self%handle, 0_int64, c_null_ptr, needed)
+        if (status >= 0) then
+            if (allocated(bytes)) deallocate (bytes)
+            allocate (bytes(needed))
+            status = plm_branch_write(self%handle, needed, c_loc(bytes), needed)
+        end if
+        call finish(self%context, status, stat, errmsg)
+    end subroutine branch_to_bytes
+
+    ! The curve as a file of comma-separated text, replaced as a whole.
+    subroutine write_csv(self, path, dof, measure, harmonic, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        character(len=*), intent(in) :: path
+        integer, intent(in) :: dof
+        integer(plm_status), intent(in), optional :: measure
+        integer, intent(in), optional :: harmonic
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_branch_write_csv(self%handle, int(dof, int64) - 1, measure_of(measure), &
+            harmonic_of(harmonic), trim(path)//c_null_char), stat, errmsg)
+    end subroutine write_csv
 
     ! value(n_points); measure: PLM_PEAK (if absent), PLM_HALF_PEAK_TO_PEAK, PLM_RMS, PLM_HARMONIC (of `harmonic`, 1 if
     ! absent)

@@ -502,6 +502,28 @@ module plm_c
             real(c_double), intent(in) :: dependent_xyz(*)
             integer(plm_status) :: code
         end function plm_model_add_rigid_link_i64
+        function plm_model_set_coordinates_i32(model, index_base, n, per_node, dof, xyz) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), value :: per_node
+            integer(c_int32_t), intent(in) :: dof(*)
+            real(c_double), intent(in) :: xyz(*)
+            integer(plm_status) :: code
+        end function plm_model_set_coordinates_i32
+        function plm_model_set_coordinates_i64(model, index_base, n, per_node, dof, xyz) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            integer(c_int32_t), value :: index_base
+            integer(c_int64_t), value :: n
+            integer(c_int32_t), value :: per_node
+            integer(c_int64_t), intent(in) :: dof(*)
+            real(c_double), intent(in) :: xyz(*)
+            integer(plm_status) :: code
+        end function plm_model_set_coordinates_i64
         function plm_model_add_distributing_coupling_i32(model, index_base, per_reference, reference_dof, &
             reference_xyz, n, dof, xyz, weight) bind(c) result(code)
             import :: c_double, c_int32_t, c_int64_t, c_ptr, plm_status
@@ -1243,6 +1265,31 @@ module plm_c
             real(c_double), intent(inout) :: r
             integer(plm_status) :: code
         end function plm_basis_get_residual
+        function plm_basis_write(basis, capacity, bytes, needed) bind(c) result(code)
+            import :: c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: basis
+            integer(c_int64_t), value :: capacity
+            type(c_ptr), value :: bytes
+            integer(c_int64_t), intent(inout) :: needed
+            integer(plm_status) :: code
+        end function plm_basis_write
+        function plm_basis_read(ctx, n, bytes, basis) bind(c) result(code)
+            import :: c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: ctx
+            integer(c_int64_t), value :: n
+            type(c_ptr), value :: bytes
+            type(c_ptr), intent(inout) :: basis
+            integer(plm_status) :: code
+        end function plm_basis_read
+        function plm_basis_attach(basis, model) bind(c) result(code)
+            import :: c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: basis
+            type(c_ptr), value :: model
+            integer(plm_status) :: code
+        end function plm_basis_attach
         function plm_hbm_create(basis, hbm) bind(c) result(code)
             import :: c_ptr, plm_status
             implicit none
@@ -1591,6 +1638,34 @@ module plm_c
             real(c_double), intent(inout) :: relative_residual
             integer(plm_status) :: code
         end function plm_branch_get_full_residual
+        function plm_branch_write(branch, capacity, bytes, needed) bind(c) result(code)
+            import :: c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: capacity
+            type(c_ptr), value :: bytes
+            integer(c_int64_t), intent(inout) :: needed
+            integer(plm_status) :: code
+        end function plm_branch_write
+        function plm_branch_read(basis, n, bytes, branch) bind(c) result(code)
+            import :: c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: basis
+            integer(c_int64_t), value :: n
+            type(c_ptr), value :: bytes
+            type(c_ptr), intent(inout) :: branch
+            integer(plm_status) :: code
+        end function plm_branch_read
+        function plm_branch_write_csv(branch, dof, measure, harmonic, path) bind(c) result(code)
+            import :: c_char, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: dof
+            integer(c_int32_t), value :: measure
+            integer(c_int32_t), value :: harmonic
+            character(kind=c_char), intent(in) :: path(*)
+            integer(plm_status) :: code
+        end function plm_branch_write_csv
         function plm_transient_create(model, basis, transient) bind(c) result(code)
             import :: c_ptr, plm_status
             implicit none
@@ -1966,6 +2041,9 @@ module plm_c
     end interface
     interface plm_model_add_rigid_link
         procedure :: plm_model_add_rigid_link_i32, plm_model_add_rigid_link_i64
+    end interface
+    interface plm_model_set_coordinates
+        procedure :: plm_model_set_coordinates_i32, plm_model_set_coordinates_i64
     end interface
     interface plm_model_add_distributing_coupling
         procedure :: plm_model_add_distributing_coupling_i32, plm_model_add_distributing_coupling_i64

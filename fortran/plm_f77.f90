@@ -1,4 +1,4 @@
-! plm_f77.f90: the library for FORTRAN 77. Compile it, plm_c.f90, plm_f77_calls.f90 and plm_f77_keys.f90 with the flags of
+! plm_f77.f90: the library for FORTRAN 77. Compile it, plm_c.f90, plm_f77_calls.f90, _keys and _bytes with the flags of
 ! the host (default integers, underscores). Every subroutine, with its arguments, is listed in plmf.inc. Here stand what
 ! they share, and the few that do not follow from src/capi/api.txt; each says why.
 !

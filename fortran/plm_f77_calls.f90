@@ -361,6 +361,22 @@ subroutine plmmrl(handle, nref, irefd, refxyz, n, ndep, idepd, depxyz, ierr)
         int(n, int64), int(ndep, c_int32_t), idepd, depxyz))
 end subroutine plmmrl
 
+subroutine plmmxy(handle, n, nper, idof, xyz, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use plm_c, only: plm_model_set_coordinates
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: n
+    integer, intent(in) :: nper
+    integer, intent(in) :: idof(*)
+    real(real64), intent(in) :: xyz(*)
+    integer, intent(out) :: ierr
+    ierr = int(plm_model_set_coordinates(as_pointer(handle), int(1, c_int32_t), int(n, int64), int(nper, &
+        c_int32_t), idof, xyz))
+end subroutine plmmxy
+
 subroutine plmmdc(handle, nref, irefd, refxyz, n, idof, xyz, weight, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t
     use, intrinsic :: iso_fortran_env, only: int64, real64
@@ -933,6 +949,17 @@ subroutine plmbre(handle, istat, imass, ndof, q, r, ierr)
         int64), q, r))
 end subroutine plmbre
 
+subroutine plmbat(handle, model, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_basis_attach
+    use plm_f77_support, only: as_pointer
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer(int64), intent(in) :: model
+    integer, intent(out) :: ierr
+    ierr = int(plm_basis_attach(as_pointer(handle), as_pointer(model)))
+end subroutine plmbat
+
 subroutine plmhcr(parent, handle, ierr)
     use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
     use, intrinsic :: iso_fortran_env, only: int64
@@ -1348,6 +1375,22 @@ subroutine plmrfr(handle, ipoint, r, ierr)
     integer, intent(out) :: ierr
     ierr = int(plm_branch_get_full_residual(as_pointer(handle), int(ipoint - 1, int64), r))
 end subroutine plmrfr
+
+subroutine plmrcv(handle, idof, imeas, iharm, path, ierr)
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_branch_write_csv
+    use plm_f77_support, only: as_pointer, c_text
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: idof
+    integer, intent(in) :: imeas
+    integer, intent(in) :: iharm
+    character(len=*), intent(in) :: path
+    integer, intent(out) :: ierr
+    ierr = int(plm_branch_write_csv(as_pointer(handle), int(idof - 1, int64), int(imeas, c_int32_t), int(iharm, &
+        c_int32_t), c_text(path)))
+end subroutine plmrcv
 
 subroutine plmtcr(parent, basis, handle, ierr)
     use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr

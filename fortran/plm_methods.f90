@@ -33,6 +33,7 @@ module plm_methods
     contains
         procedure :: set_sampler => basis_set_sampler
         procedure :: set_parent => basis_set_parent
+        procedure :: attach => basis_attach
     end type plm_basis_methods
 
     type, abstract, extends(plm_settable) :: plm_hbm_methods
@@ -181,7 +182,10 @@ contains
 
     ! Looks the built model over: mass per direction, rigid-body modes, symmetry, definiteness, gap signs, contact
     ! stiffness against local stiffness, units that look off, an excitation that moves no low mode, gaps that the
-    ! linear response never closes. count: number of findings, read one by one below.
+    ! linear response never closes. With coordinates (plm_model_set_coordinates_i32) also: the six motions of a
+    ! rigid body through K and the gap rows, mass, centre of gravity and moments of inertia, DOFs per node,
+    ! density and speed of waves, gaps and normals against where the nodes are. count: number of findings, read
+    ! one by one below.
     subroutine model_audit(self, count, stat, errmsg)
         class(plm_model_methods), intent(in) :: self
         integer, intent(inout) :: count
@@ -221,6 +225,20 @@ contains
         status = plm_basis_set_parent(self%handle, c_parent)
         call finish(self%context, status, stat, errmsg)
     end subroutine basis_set_parent
+
+    ! Gives a basis that was read the model that it was made of, built, with its loads and damping as they were:
+    ! all that the structure is asked for works again. PLM_ERR_ARGUMENT for another model, told by a fingerprint
+    ! of matrices, supports, constraints and contact. Branches computed before stay without it: write them and
+    ! read them again.
+    subroutine basis_attach(self, model, stat, errmsg)
+        class(plm_basis_methods), intent(in) :: self
+        class(plm_model_methods), intent(in) :: model
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(plm_status) :: status
+        status = plm_basis_attach(self%handle, model%handle)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine basis_attach
 
     ! Motion of a DOF at n_times equidistant times from 0 over the period of the response: q[n_times], n_times up
     ! to 1048576. Of an exact motion itself, not of its harmonics.

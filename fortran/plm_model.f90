@@ -28,6 +28,7 @@ module plm_models
         procedure, private :: add_outputs_int32, add_outputs_int64
         procedure, private :: add_rigid_link_int32, add_rigid_link_int64
         procedure, private :: add_distributing_coupling_int32, add_distributing_coupling_int64
+        procedure, private :: set_coordinates_int32, set_coordinates_int64
         procedure, private :: add_tie_int32, add_tie_int64
         procedure, private :: add_surface_int32, add_surface_int64
         procedure, private :: set_multipliers_int32, set_multipliers_int64
@@ -46,6 +47,7 @@ module plm_models
         generic :: add_constraints => add_constraints_int32, add_constraints_int64
         generic :: add_outputs => add_outputs_int32, add_outputs_int64
         generic :: add_rigid_link => add_rigid_link_int32, add_rigid_link_int64
+        generic :: set_coordinates => set_coordinates_int32, set_coordinates_int64
         generic :: set_multipliers => set_multipliers_int32, set_multipliers_int64
         generic :: add_surface => add_surface_int32, add_surface_int64
         generic :: add_tie => add_tie_int32, add_tie_int64
@@ -215,6 +217,21 @@ contains
             reference_dof, reference_xyz, size(dependent_dof, 2, kind=int64), size(dependent_dof, 1, kind=int32), &
             dependent_dof, dependent_xyz), stat, errmsg)
     end subroutine add_rigid_link_int32
+
+    ! Where the DOFs are, for the audit: dof(3, n) or (6, n), 0 for no such DOF; xyz(3, n)
+    subroutine set_coordinates_int32(self, dof, xyz, stat, errmsg)
+        class(plm_model), intent(inout) :: self
+        integer(int32), intent(in), contiguous :: dof(:, :)
+        real(real64), intent(in), contiguous :: xyz(:, :)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        if (size(xyz, 1) /= 3 .or. size(dof, 2) /= size(xyz, 2)) then
+            call refuse('set_coordinates: the shapes of the arrays do not fit', stat, errmsg)
+            return
+        end if
+        call finish(self%context, plm_model_set_coordinates_i32(self%handle, 1_c_int32_t, size(dof, 2, kind=int64), &
+            size(dof, 1, kind=int32), dof, xyz), stat, errmsg)
+    end subroutine set_coordinates_int32
 
     ! RBE3: a reference node (3 or 6 DOFs) by the rigid motion that fits the nodes best; dof(3, n), xyz(3, n), weight(n),
     ! absent: all alike

@@ -1,11 +1,12 @@
 ! plm_reduction.f90: the sampler of contact sets, and the bases made from it.
 module plm_reductions
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t
-    use, intrinsic :: iso_fortran_env, only: int64, real64
+    use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t, c_loc, c_null_ptr
+    use, intrinsic :: iso_fortran_env, only: int8, int64, real64
     use plm_constants
     use plm_c
     use plm_errors, only: finish
     use plm_methods, only: plm_sampler_methods, plm_basis_methods
+    use plm_contexts, only: plm_context
     use plm_models, only: plm_model
     use plm_branches, only: plm_branch, get_handles
     implicit none
@@ -28,6 +29,9 @@ module plm_reductions
         procedure :: build
         procedure :: vectors
         procedure :: residual
+        procedure :: to_bytes => basis_to_bytes
+        procedure :: read => basis_read
+        procedure :: read_branch
     end type plm_basis
 
 contains
@@ -128,6 +132,49 @@ contains
         call finish(self%context, plm_basis_get_residual(self%handle, flag(static), flag(use_mass), &
             size(q, kind=int64), q, r), stat, errmsg)
     end subroutine residual
+
+    ! All that curves need of the basis, to be kept in a file (open it with access='stream').
+    subroutine basis_to_bytes(self, bytes, stat, errmsg)
+        class(plm_basis), intent(in) :: self
+        integer(int8), allocatable, target, intent(inout) :: bytes(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        integer(int64) :: needed
+        integer(plm_status) :: status
+        status = plm_basis_write(self%handle, 0_int64, c_null_ptr, needed)
+        if (status >= 0) then
+            if (allocated(bytes)) deallocate (bytes)
+            allocate (bytes(needed))
+            status = plm_basis_write(self%handle, needed, c_loc(bytes), needed)
+        end if
+        call finish(self%context, status, stat, errmsg)
+    end subroutine basis_to_bytes
+
+    ! In the place of create and build: the basis that to_bytes gave, without its model until attach.
+    subroutine basis_read(self, context, bytes, stat, errmsg)
+        class(plm_basis), intent(inout) :: self
+        type(plm_context), intent(in) :: context
+        integer(int8), contiguous, target, intent(in) :: bytes(:)
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        self%context = context%handle
+        self%kind = PLM_KIND_BASIS
+        call finish(self%context, plm_basis_read(context%handle, size(bytes, kind=int64), c_loc(bytes), self%handle), &
+            stat, errmsg)
+    end subroutine basis_read
+
+    ! A branch from what its to_bytes gave, on this basis, which it was computed on.
+    subroutine read_branch(self, bytes, branch, stat, errmsg)
+        class(plm_basis), intent(in) :: self
+        integer(int8), contiguous, target, intent(in) :: bytes(:)
+        type(plm_branch), intent(inout) :: branch
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        branch%context = self%context
+        branch%kind = PLM_KIND_BRANCH
+        call finish(self%context, plm_branch_read(self%handle, size(bytes, kind=int64), c_loc(bytes), branch%handle), &
+            stat, errmsg)
+    end subroutine read_branch
 
     pure integer(c_int32_t) function flag(given)
         logical, intent(in), optional :: given

@@ -27,6 +27,13 @@ def _project():
     return f"{entry['name']}-{entry['version']}", "\n".join(lines) + "\n"
 
 
+def _scripts():
+    """The commands that pip makes."""
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    section = text.split("[project.scripts]")[1].split("[")[0]
+    return "[console_scripts]\n" + "".join(f"{name} = {target}\n" for name, target in re.findall(r'^(\w+) = "(.+)"$', section, re.M))
+
+
 def _sources():
     return sorted(path for path in (ROOT / "plm").rglob("*.py"))
 
@@ -36,6 +43,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     files = {str(path.relative_to(ROOT)): path.read_bytes() for path in _sources()}
     info = f"{name}.dist-info"
     files[f"{info}/METADATA"] = metadata.encode()
+    files[f"{info}/entry_points.txt"] = _scripts().encode()
     files[f"{info}/WHEEL"] = b"Wheel-Version: 1.0\nGenerator: libplm\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
     record = [f"{path},sha256={base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b'=').decode()},{len(data)}"
               for path, data in files.items()]

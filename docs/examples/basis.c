@@ -1,8 +1,42 @@
 /* basis.c: the columns a structure is reduced to. */
 #include "example.h"
 #include <stdio.h>
+#include <stdlib.h>
 
-static int build(plm_model *model, plm_sampler *sampler) {
+/* Kept as bytes, and read again, here in the same program; a host writes them to a file between. */
+static int keep(plm_context *ctx, plm_model *model, plm_basis *basis) {
+    plm_basis *read = NULL;
+    plm_hbm *hbm = NULL;
+    plm_branch *curve = NULL;
+    double residual;
+    /* [plm_basis_write] */
+    int64_t size;
+    void *bytes;
+    TRY(plm_basis_write(basis, 0, NULL, &size)); /* how many? */
+    bytes = malloc((size_t)size);
+    EXPECT(bytes);
+    TRY(plm_basis_write(basis, size, bytes, &size));
+    /* [plm_basis_write] */
+
+    /* [plm_basis_read] */
+    TRY(plm_basis_read(ctx, size, bytes, &read)); /* in another process, say */
+    free(bytes);
+    TRY(plm_hbm_create(read, &hbm));
+    EXPECT(plm_hbm_sweep(hbm, &curve) >=
+           0); /* PLM_WARNING: not compared with the structure, which is not there */
+    /* [plm_basis_read] */
+    EXPECT(plm_branch_get_full_residual(curve, 0, &residual) == PLM_ERR_STATE);
+
+    /* [plm_basis_attach] */
+    TRY(plm_basis_attach(read, model)); /* now it is */
+    TRY(plm_hbm_sweep(hbm, &curve));
+    TRY(plm_branch_get_full_residual(curve, 0, &residual));
+    /* [plm_basis_attach] */
+    EXPECT(residual < 1e-6);
+    return 0;
+}
+
+static int build(plm_context *ctx, plm_model *model, plm_sampler *sampler) {
     /* [plm_basis_create] [plm_basis_destroy] */
     plm_basis *basis = NULL, *full = NULL;
     TRY(plm_basis_create(model, &basis));
@@ -67,7 +101,7 @@ static int build(plm_model *model, plm_sampler *sampler) {
     printf("the basis misses %.2g of this deflection\n", r);
     /* [plm_basis_get_residual] */
     EXPECT(r < 1e-9 && hz[0] > 0 && kept[0] == 1);
-    return 0;
+    return keep(ctx, model, basis);
 }
 
 /* Of a basis and a curve on it a smaller one with nearly the same curve. */
@@ -103,6 +137,6 @@ int example(plm_context *ctx) {
     TRY(plm_model_build(model));
     TRY(plm_sampler_create(model, &sampler));
     TRY(plm_sampler_run(sampler));
-    line = build(model, sampler);
+    line = build(ctx, model, sampler);
     return line ? line : compress(ctx);
 }

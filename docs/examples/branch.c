@@ -78,6 +78,33 @@ static int one_point(plm_branch *peak) {
     return 0;
 }
 
+static int kept(plm_basis *basis, plm_branch *curve) {
+    plm_branch *read = NULL;
+    double before, after;
+    /* [plm_branch_write] */
+    int64_t size;
+    void *bytes;
+    TRY(plm_branch_write(curve, 0, NULL, &size)); /* how many? */
+    bytes = malloc((size_t)size);
+    EXPECT(bytes);
+    TRY(plm_branch_write(curve, size, bytes, &size));
+    /* [plm_branch_write] */
+
+    /* [plm_branch_read] */
+    TRY(plm_branch_read(basis, size, bytes, &read)); /* or a basis that was read from its own bytes */
+    free(bytes);
+    /* [plm_branch_read] */
+    TRY(plm_branch_get_full_residual(curve, 5, &before));
+    TRY(plm_branch_get_full_residual(read, 5, &after));
+    EXPECT(before == after);
+
+    /* [plm_branch_write_csv] */
+    TRY(plm_branch_write_csv(read, 1, PLM_HALF_PEAK_TO_PEAK, 0, "example_branch.csv"));
+    /* [plm_branch_write_csv] */
+    EXPECT(remove("example_branch.csv") == 0);
+    return 0;
+}
+
 static int in_time(plm_branch *curve, int64_t point) {
     /* [plm_branch_get_multipliers] */
     double real[MULTIPLIERS], imag[MULTIPLIERS]; /* two for each column of the basis */
@@ -96,7 +123,7 @@ static int in_time(plm_branch *curve, int64_t point) {
     return 0;
 }
 
-static int show(plm_hbm *hbm) {
+static int show(plm_hbm *hbm, plm_basis *basis) {
     plm_branch *curve = NULL, *peak = NULL;
     double hz, amplitude;
     int line;
@@ -105,6 +132,7 @@ static int show(plm_hbm *hbm) {
     line = whole_curve(curve);
     if (!line) line = one_point(peak);
     if (!line) line = in_time(curve, 5);
+    if (!line) line = kept(basis, curve);
     if (line) return line;
     /* [plm_branch_destroy] */
     TRY(plm_branch_destroy(&curve)); /* its points are gone, the peak is a branch of its own */
@@ -119,5 +147,5 @@ int example(plm_context *ctx) {
     TRY(start_basis(ctx, &basis));
     TRY(plm_hbm_create(basis, &hbm));
     TRY(plm_hbm_set_int(hbm, "n_harmonics", H));
-    return show(hbm);
+    return show(hbm, basis);
 }

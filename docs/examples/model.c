@@ -172,6 +172,19 @@ static int couplings(plm_context *ctx) {
     TRY(plm_model_destroy(&model));
 
     TRY(plm_model_create(ctx, 15, &model));
+    /* [plm_model_set_coordinates_i32] */
+    /* three nodes of a plane, without DOFs along z */
+    const int32_t in_plane[] = {0, 1, -1, 2, 3, -1, 4, 5, -1};
+    const double in_plane_at[] = {0, 0, 0, 100, 0, 0, 0, 100, 0};
+    TRY(plm_model_set_coordinates_i32(model, 0, 3, 3, in_plane, in_plane_at));
+    /* [plm_model_set_coordinates_i32] */
+    /* [plm_model_set_coordinates_i64] */
+    const int64_t shell_node[] = {1, 2, 3, 4, 5, 6}; /* counted from 1, with rotations */
+    TRY(plm_model_set_coordinates_i64(model, 1, 1, 6, shell_node, in_plane_at));
+    /* [plm_model_set_coordinates_i64] */
+    TRY(plm_model_destroy(&model));
+
+    TRY(plm_model_create(ctx, 15, &model));
     /* [plm_model_add_distributing_coupling_i32] */
     /* a load at the middle of three nodes, DOFs 9 to 14, goes to them as a force and a moment would */
     const int32_t middle[] = {9, 10, 11, 12, 13, 14}, nodes[] = {0, 1, 2, 3, 4, 5, 6, 7, 8};

@@ -22,7 +22,8 @@
  *     destroying what is gone already does nothing: any order is right. For any other use, a stale handle gives
  *     PLM_ERR_HANDLE, as a foreign or wrong-kind one always does.
  *   - The library never prints, exits, throws, or changes the floating-point environment, signals, locale, environment
- *     or working directory of its host, and opens no file but those plm_study_write is asked for.
+ *     or working directory of its host, and opens no file but those plm_study_write and
+ *     plm_branch_write_csv are asked for.
  *   - One context belongs to one thread at a time (another one gets PLM_ERR_BUSY meanwhile); different contexts may
  *     run at once.
  *   - Dense arrays are column-major. DOFs and pairs are numbered from 0 unless the function takes an `index_base`.
@@ -312,9 +313,9 @@ PLM_API plm_status plm_model_fix_dofs_i64(plm_model *model, int32_t index_base, 
  * the model, dependent ones among them, which may be loaded, looked at and in contact. Terms of fixed DOFs drop out; a row
  * that leaves one DOF alone holds it at zero. Rows that repeat others, to 1e-6 of their terms, are left out and counted
  * ("n_redundant_constraints"), with PLM_WARNING and PLM_REASON_ROUNDED beyond 1e-10. Where a state is set
- * (plm_transient_set_state) the free DOFs of it count, and the others follow from them. A row over thousands of DOFs
- * couples all of them with what stands at its dependent DOF: PLM_ERR_MEMORY of the build names the row where that would
- * fill the matrices. */
+ * (plm_transient_set_state) the free DOFs of it count, and the others follow from them. A row over thousands of DOFs, with
+ * something at the DOF that it gives, is taken by way of sums over few of them, which keep the matrices sparse;
+ * PLM_ERR_MEMORY of the build names the row where these DOFs are too far apart in their numbers for that. */
 PLM_API plm_status plm_model_add_constraints_i32(plm_model *model, int32_t index_base, int64_t n,
                                                  const int32_t *row_ptr, const int32_t *dof,
                                                  const double *coefficient);
@@ -338,14 +339,23 @@ PLM_API plm_status plm_model_add_rigid_link_i64(plm_model *model, int32_t index_
                                                 int32_t per_dependent, const int64_t *dependent_dof,
                                                 const double *dependent_xyz);
 
+/* Where the DOFs are, so that the audit can tell more: n nodes with per_node DOFs each, 3 (x, y, z) or 6 (and the rotations
+ * about x, y, z), in global axes. dof: per_node x n (base - 1: no such DOF), xyz: 3 x n, in the unit of length of the
+ * matrices. DOFs without a node, as modal ones, may be left out. Results do not depend on it. Given again it replaces what
+ * was given before; n = 0 takes it away. */
+PLM_API plm_status plm_model_set_coordinates_i32(plm_model *model, int32_t index_base, int64_t n, int32_t per_node,
+                                                 const int32_t *dof, const double *xyz);
+PLM_API plm_status plm_model_set_coordinates_i64(plm_model *model, int32_t index_base, int64_t n, int32_t per_node,
+                                                 const int64_t *dof, const double *xyz);
+
 /* Distributing coupling (RBE3): the reference node moves as the rigid body that fits the translations of n nodes best, by
  * least squares with a weight for each; its forces and moments go to them in these shares. The nodes stay free to move
  * against one another. reference_dof, reference_xyz as for a rigid link; dof and xyz: 3 x n, weight[n] > 0 or NULL (all
  * alike). Nodes on a line, or one alone, leave open the rotation about it: PLM_ERR_ARGUMENT where the reference node has
  * that rotation, or stands off the line; with 3 DOFs on the line it is a mean. The DOFs of the reference node follow from
  * those of all the nodes: without stiffness and mass of its own, tens of thousands of nodes cost nothing. With any, or
- * held, it couples each of them with all others, a dense part of the matrices of three DOFs a node: nothing for a hundred
- * nodes, much time and memory for a thousand, and PLM_ERR_MEMORY of the build, with the row, for several thousands. */
+ * held, it would couple each of them with all others, and is taken by way of sums over some twenty of them instead: 10,000
+ * nodes cost about what as many nodes of a plate do. */
 PLM_API plm_status plm_model_add_distributing_coupling_i32(plm_model *model, int32_t index_base, int32_t per_reference,
                                                            const int32_t *reference_dof, const double *reference_xyz,
                                                            int64_t n, const int32_t *dof, const double *xyz,
@@ -620,7 +630,9 @@ PLM_API plm_status plm_model_count_modes(plm_model *model, double frequency_hz, 
 
 /* Looks the built model over: mass per direction, rigid-body modes, symmetry, definiteness, gap signs, contact
  * stiffness against local stiffness, units that look off, an excitation that moves no low mode, gaps that the linear
- * response never closes. count: number of findings, read one by one below. */
+ * response never closes. With coordinates (plm_model_set_coordinates_i32) also: the six motions of a rigid body through K
+ * and the gap rows, mass, centre of gravity and moments of inertia, DOFs per node, density and speed of waves, gaps and
+ * normals against where the nodes are. count: number of findings, read one by one below. */
 PLM_API plm_status plm_model_audit(plm_model *model, int64_t *count);
 /* severity: 0 fact, 1 worth a look, 2 probably wrong. value: the number the finding is about. */
 PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_t *severity, double *value,
@@ -722,6 +734,21 @@ PLM_API plm_status plm_basis_get_vectors(plm_basis *basis, int32_t is_static, in
  * over free DOFs; is_static: P_0 instead of P. q: n_dof. */
 PLM_API plm_status plm_basis_get_residual(plm_basis *basis, int32_t is_static, int32_t use_mass, int64_t n,
                                           const double *q, double *r);
+/* The built basis as bytes, to be kept by the host and read by plm_basis_read() in this process or another, on any
+ * machine, by this version of the library or a later one (docs/format.md). They hold the reduced equations and P, about
+ * 8 n_dof (columns of P and P_0) bytes, not the matrices of the structure; P is formed for it. needed: their number, with
+ * bytes = NULL and capacity = 0 all that is asked for; PLM_ERR_ARGUMENT where capacity is smaller. */
+PLM_API plm_status plm_basis_write(plm_basis *basis, int64_t capacity, void *bytes, int64_t *needed);
+/* The basis in n bytes, built: it sweeps, solves, finds peaks and other branches at once, with the numbers of the one it
+ * was written from to the last digit, amplitudes of all DOFs included. What asks the structure itself (full residual,
+ * error estimates of harmonic balance, refinement) answers PLM_ERR_STATE until plm_basis_attach(); a curve that would
+ * have been compared with it is PLM_WARNING with PLM_REASON_UNVERIFIED. PLM_ERR_ARGUMENT for bytes that were cut,
+ * damaged, of something else or of a later format version; nothing in them is believed unchecked. */
+PLM_API plm_status plm_basis_read(plm_context *ctx, int64_t n, const void *bytes, plm_basis **basis);
+/* Gives a basis that was read the model that it was made of, built, with its loads and damping as they were: all that
+ * the structure is asked for works again. PLM_ERR_ARGUMENT for another model, told by a fingerprint of matrices, supports,
+ * constraints and contact. Branches computed before stay without it: write them and read them again. */
+PLM_API plm_status plm_basis_attach(plm_basis *basis, plm_model *model);
 
 /* ---- HBM: the periodic response (paper, 2.2, eq. (10)) -------------------------------------------------------- */
 
@@ -889,6 +916,19 @@ PLM_API plm_status plm_branch_get_periodicity_defect(plm_branch *branch, int64_t
 /* How well the recovered field satisfies the full (unreduced) harmonic-balance equations: the residual in the norm of
  * the inverse stiffness over the energy norm of the field. One solve per harmonic with the full matrices. */
 PLM_API plm_status plm_branch_get_full_residual(plm_branch *branch, int64_t point, double *relative_residual);
+/* The branch as bytes, as plm_basis_write() gives those of a basis: its points with all their digits, what they need to be
+ * asked for amplitudes, fields and contact, how it ended. Not the basis that it was computed on. */
+PLM_API plm_status plm_branch_write(plm_branch *branch, int64_t capacity, void *bytes, int64_t *needed);
+/* The branch in n bytes, on the basis that it was computed on or on one read from the bytes of that: it is what it was to
+ * every function that takes a branch. Points are the same to the last digit; extrema of exact motions, which are found
+ * anew, to rounding. PLM_ERR_ARGUMENT for bytes that are damaged, and for another basis, told by a fingerprint. */
+PLM_API plm_status plm_branch_read(plm_basis *basis, int64_t n, const void *bytes, plm_branch **branch);
+/* The branch as comma-separated text: a header of keys, then a line a point with 17 digits and a decimal point whatever
+ * the locale: frequency_hz, amplitude (of this DOF, as plm_branch_get_amplitude), arclength, force_scale, stable,
+ * bifurcation, residual, iterations, n_harmonics, harmonic_error, n_switching. The file is replaced as a whole: it is
+ * written under another name beside, brought to the disk and renamed. PLM_ERR_ARGUMENT where that cannot be. */
+PLM_API plm_status plm_branch_write_csv(plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
+                                        const char *path);
 
 /* ---- Transient: motion in time ----------------------------------------------------------------------------------
  * Of a reduced model by its exact piecewise-linear flow (nothing is discretised), or of the full model by Newmark's

@@ -440,6 +440,13 @@ template <class C> class Handle {
   protected:
     Handle(StatePtr state, C *handle) : state_(std::move(state)), handle_(handle) {}
 
+    std::vector<char> bytes(plm_status (*write)(C *, std::int64_t, void *, std::int64_t *)) const {
+        std::int64_t needed = 0;
+        check(write(handle_, 0, nullptr, &needed), "write");
+        std::vector<char> all(index(needed));
+        check(write(handle_, needed, all.data(), &needed), "write");
+        return all;
+    }
     void check(plm_status status, const char *verb) const {
         if (status != PLM_OK || (state_ && state_->thrown)) living().check(status, full_name(verb).c_str());
     }
@@ -748,6 +755,19 @@ class Model : public detail::WithOptions<Model, plm_model> {
                                                   dependent_dof.narrow(), dependent_xyz.data()),
               verb);
     }
+    /// Where the DOFs are, for the audit: 3 or 6 of every node (base - 1: none); xyz: 3 x n.
+    void set_coordinates(Indices dof, Reals xyz, std::int32_t index_base = 0) {
+        const bool wide = dof.is_wide();
+        const char *verb = wide ? "set_coordinates_i64" : "set_coordinates_i32";
+        const std::int64_t n = xyz.size() / 3;
+        const std::int32_t per_node = dof.size() > 3 * n ? 6 : 3;
+        require_size(xyz.size(), 3 * n, verb, "xyz");
+        require_size(dof.size(), per_node * n, verb, "dof");
+        check(wide
+                  ? plm_model_set_coordinates_i64(handle_, index_base, n, per_node, dof.wide(), xyz.data())
+                  : plm_model_set_coordinates_i32(handle_, index_base, n, per_node, dof.narrow(), xyz.data()),
+              verb);
+    }
     /// RBE3: a reference node of 3 or 6 DOFs by the rigid motion that fits nodes best; dof, xyz: 3 x n;
     /// weight: n or {} (all alike).
     void add_distributing_coupling(Indices reference_dof, Reals reference_xyz, Indices dof, Reals xyz,
@@ -1047,6 +1067,13 @@ template <class Curves> std::vector<plm_branch *> handles_of(const Curves &curve
 class Basis : public detail::WithOptions<Basis, plm_basis> {
   public:
     explicit Basis(const Model &model);
+    /// What to_bytes() gave, built; without its model until attach().
+    static Basis from_bytes(const Context &context, const std::vector<char> &bytes);
+    std::vector<char> to_bytes() const { return bytes(plm_basis_write); }
+    /// The model that it was made of.
+    void attach(const Model &model) { check(plm_basis_attach(handle_, model.c_handle()), "attach"); }
+    /// What Branch::to_bytes() gave, of a curve computed on this basis.
+    Branch read_branch(const std::vector<char> &bytes) const;
     void set_sampler(const Sampler &sampler) {
         check(plm_basis_set_sampler(handle_, sampler.c_handle()), "set_sampler");
     }
@@ -1169,6 +1196,12 @@ class Branch : public detail::Handle<plm_branch> {
         finished(plm_branch_get_periodicity_defect(handle_, point, &defect), "get_periodicity_defect");
         return defect;
     }
+    std::vector<char> to_bytes() const { return bytes(plm_branch_write); }
+    /// The curve as comma-separated text, with the amplitude of this DOF.
+    void write_csv(const std::string &path, std::int64_t dof, std::int32_t measure = PLM_HALF_PEAK_TO_PEAK,
+                   std::int32_t harmonic = 0) const {
+        check(plm_branch_write_csv(handle_, dof, measure, harmonic, path.c_str()), "write_csv");
+    }
     double full_residual(std::int64_t point) const {
         double r = 0;
         finished(plm_branch_get_full_residual(handle_, point, &r), "get_full_residual");
@@ -1177,6 +1210,7 @@ class Branch : public detail::Handle<plm_branch> {
 
   private:
     friend class Model;
+    friend class Basis;
     friend class Hbm;
     friend class Study;
     template <class Curves> friend std::vector<plm_branch *> detail::handles_of(const Curves &);
@@ -1528,6 +1562,21 @@ inline Sampler::Sampler(const Model &model) : WithOptions(detail::Access<plm_mod
 inline Basis::Basis(const Model &model)
     : WithOptions(detail::Access<plm_model>::state(model), nullptr), n_dof_(model.n_dof()) {
     check(plm_basis_create(model.c_handle(), &handle_), "create");
+}
+inline Basis Basis::from_bytes(const Context &context, const std::vector<char> &bytes) {
+    const detail::StatePtr &state = context.state();
+    plm_basis *read = nullptr;
+    state->check(plm_basis_read(state->context, static_cast<std::int64_t>(bytes.size()), bytes.data(), &read),
+                 "plm_basis_read");
+    Basis basis(state, read, 0);
+    basis.n_dof_ = basis.get_int("n_dof");
+    return basis;
+}
+inline Branch Basis::read_branch(const std::vector<char> &bytes) const {
+    plm_branch *read = nullptr;
+    check(plm_branch_read(handle_, static_cast<std::int64_t>(bytes.size()), bytes.data(), &read),
+          "plm_branch_read");
+    return Branch(state_, read, PLM_OK);
 }
 inline Hbm::Hbm(const Basis &basis)
     : WithOptions(detail::Access<plm_basis>::state(basis), nullptr), n_dof_(basis.n_dof_) {

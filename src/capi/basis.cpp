@@ -98,6 +98,10 @@ plm_status plm_basis_set_responses(plm_basis *basis, std::int64_t n, plm_branch 
 
 plm_status plm_basis_build(plm_basis *basis) {
     return call<BasisHandle>("plm_basis_build", basis, [&](BasisHandle &b) {
+        if (b.is_read)
+            throw plm::Error(PLM_ERR_STATE, "the basis was read from bytes, and is built; to build it anew "
+                                            "attach its model first")
+                .argument("basis");
         const std::shared_ptr<const plm::Model> &model = built(*b.model);
         if (b.parent)
             require_current(b.parent->model(), *b.model, "parent",

@@ -78,6 +78,7 @@ struct BasisHandle final : HandleOf<plm_basis, Kind::basis> {
     BasisOptions basis_options;
     double work = 0; // that it and its sampler took, flops
     std::shared_ptr<const Basis> core;
+    bool is_read = false; // from bytes: there is no model to build it on again
 };
 
 /// A curve found by a search, and the force scales between which it exists (NaN: unknown).

@@ -60,12 +60,22 @@ bool shows_the_basis(const Branch &branch) {
     return !branch.sampled && !branch.is_mode && !(damping.has_matrix && !damping.modal_ratio.empty());
 }
 
+// A basis that was read from bytes, without its model: what would be compared with the structure is not.
+bool has_structure(Watch watch, Branch &branch) {
+    if (branch.reduced().model->is_whole()) return true;
+    watch.keeping(branch.warnings)
+        .warn(reason::unverified,
+              "the response was not compared with the equations of the whole structure, since the basis was "
+              "read from bytes and its model is not attached; attach it to have that done");
+    return false;
+}
+
 } // namespace
 
 void check_window(const SweepRange &window, Watch watch, Branch &branch) {
     if (!(window.max_hz > 0) || !branch.reduced().model) return;
     const std::int64_t worst = largest_outside(window, branch);
-    if (worst < 0) return;
+    if (worst < 0 || !has_structure(watch, branch)) return;
     const double residual = branch.full_residual(worst);
     if (residual <= missed && is_beside_the_point(window, branch))
         watch.keeping(branch.warnings)
@@ -112,6 +122,7 @@ void check_basis(const SweepRange &window, const std::function<double()> &error,
     const std::int64_t top = largest_response(branch);
     const BranchPoint &p = branch.points()[static_cast<std::size_t>(top)];
     if (window.max_hz > 0 && !is_inside(window, p)) return; // check_window() speaks of that
+    if (!has_structure(watch, branch)) return;
     const double residual = branch.full_residual(top);
     if (residual <= missed) return;
     if (error() <= missed) return; // which NaN is not

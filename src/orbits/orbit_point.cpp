@@ -25,6 +25,7 @@ class OrbitMotion final : public PointMotion {
           conditions_(conditions), closed_shares_(std::move(closed_shares)) {}
 
     const FlowState &start() const { return start_; }
+    double tolerance() const { return conditions_.tolerance; }
 
     ValueRange range(std::int64_t dof) const override {
         if (dof != known_dof_) {
@@ -191,6 +192,20 @@ void put_harmonics(const FlowModel &model, const RecordedMotion &motion, const M
 FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_t period_multiple) {
     if (const auto *motion = dynamic_cast<const OrbitMotion *>(point.motion.get())) return motion->start();
     return model.state(point.eta_0, point.eta, point.omega / static_cast<double>(period_multiple), 0.0);
+}
+
+bool kept_orbit(const BranchPoint &point, KeptOrbit &kept) {
+    const auto *motion = dynamic_cast<const OrbitMotion *>(point.motion.get());
+    if (motion) kept = {motion->start(), motion->tolerance(), motion->closed_shares()};
+    return motion != nullptr;
+}
+
+std::shared_ptr<const PointMotion> motion_of(std::shared_ptr<const FlowModel> model,
+                                             std::shared_ptr<ContactModesKept> modes,
+                                             const BranchPoint &point, KeptOrbit kept) {
+    const OrbitConditions conditions{point.omega, point.force_scale, point.period_multiple, kept.tolerance};
+    return std::make_shared<OrbitMotion>(std::move(model), std::move(modes), std::move(kept.start),
+                                         conditions, std::move(kept.shares));
 }
 
 PointStart start_of(const Branch &branch, std::int64_t point) {

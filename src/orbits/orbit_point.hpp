@@ -21,4 +21,16 @@ vector<double> orbit_unknowns(const OrbitEquations &equations, const BranchPoint
 BranchPoint orbit_point(const OrbitEquations &equations, const MotionOptions &options, const PathState &at,
                         double residual, std::int64_t iterations);
 
+/// What an exact motion follows from, beside the point that carries it. False: the point has none.
+struct KeptOrbit {
+    FlowState start; // y, v at the beginning of the period
+    double tolerance = 0;
+    vector<double> shares; // of the period, of each pair
+};
+bool kept_orbit(const BranchPoint &point, KeptOrbit &kept);
+/// The motion from that.
+std::shared_ptr<const PointMotion> motion_of(std::shared_ptr<const FlowModel> model,
+                                             std::shared_ptr<ContactModesKept> modes,
+                                             const BranchPoint &point, KeptOrbit kept);
+
 } // namespace plm

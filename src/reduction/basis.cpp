@@ -63,6 +63,11 @@ SelectionRule make_rule(const BasisOptions &o, const Sampler *sampler) {
     return rule;
 }
 
+// A space that was read from bytes has no vectors: it does where there are no matrices to make one of.
+bool serves(const Space &space, const Model &model) {
+    return !space.vectors.is_absent() || !model.is_whole();
+}
+
 std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &model, const Sampler *sampler,
                                           const Basis *parent, const BasisOptions &o, double highest_hz,
                                           Watch watch, std::shared_ptr<const Space> known) {
@@ -77,7 +82,7 @@ std::shared_ptr<const Space> choose_space(const std::shared_ptr<const Model> &mo
                     parent->space()->highest_frequency / (2 * M_PI), highest_hz));
         return parent->space();
     }
-    if (parent && parent->space()->is_contact_space &&
+    if (parent && parent->space()->is_contact_space && serves(*parent->space(), *model) &&
         parent->space()->highest_frequency >= highest * (1 - 1e-9))
         return parent->space();
     if (sampler && sampler->space()->highest_frequency >= highest * (1 - 1e-9)) return sampler->space();

@@ -33,6 +33,12 @@ class Basis {
           std::shared_ptr<const Basis> parent, const BasisOptions &options, Watch watch,
           const Responses *responses = nullptr, std::shared_ptr<const Space> known = nullptr);
 
+    /// From the bytes of another one: on a model without matrices, whose vectors are all there.
+    explicit Basis(ByteReader &bytes);
+    void write(ByteWriter &bytes) const;
+    /// One that was read, on the model that it was made of: PLM_ERR_ARGUMENT for any other.
+    Basis(const Basis &read, std::shared_ptr<const Model> model);
+
     const BasisOptions &options() const { return options_; }
     const BasisReport &report() const { return report_; }
     /// Paper, eq. (12): q_PS against P, L2 norm over the free DOFs; 0 without pre-load. Computed when first
@@ -48,6 +54,7 @@ class Basis {
     SweepRange sweep_range() const;
 
   private:
+    template <class Self, class Bytes> static void pass(Self &self, Bytes &bytes);
     void compress_parent(const Basis *parent, const Responses *responses);
     void choose_pairs();
 

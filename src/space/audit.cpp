@@ -1,4 +1,5 @@
 #include "space/audit.hpp"
+#include "space/geometry_audit.hpp"
 #include "space/modal_audit.hpp"
 #include "space/row_audit.hpp"
 #include <algorithm>
@@ -22,6 +23,7 @@ class Audit {
         conditioning();
         rounding();
         units();
+        for (Finding &f : geometry_audit(m_)) findings_.push_back(std::move(f));
         if (!quick)
             for (Finding &f : modal_audit(m_)) findings_.push_back(std::move(f));
         damping();
@@ -52,6 +54,7 @@ class Audit {
                 "mass matrix, too");
             return;
         }
+        if (m_.geometry().is_known()) return; // which knows more
         if (m_.translations().empty()) {
             add(0, m_.trace_of_mass(),
                 format("which DOFs are translations cannot be told from K (it holds supports already, or the "

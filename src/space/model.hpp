@@ -16,6 +16,10 @@ class Model : public Structure {
     /// is known of the first one, with all that was made of it, stays as it is.
     Model(const Model &built, const ModelInput &loads, Watch watch);
 
+    /// From the bytes of another one, without its matrices (structure.hpp).
+    explicit Model(ByteReader &bytes);
+    void write(ByteWriter &bytes) const;
+
     std::int64_t n_pairs() const { return contact_.n_pairs(); }
     const Contact &contact() const { return contact_; }
     const vector<double> &contact_stiffness() const { return contact_.stiffness; } // k_n, resolved
@@ -42,6 +46,7 @@ class Model : public Structure {
     KnownMotion known_motion(std::int64_t output, double omega, double scale) const;
 
   private:
+    template <class Self, class Bytes> static void pass(Self &self, Bytes &bytes);
     Model(const ModelInput &input, const SpaceOptions &options, const Solver &solver, Watch watch);
     void move_gaps();
     std::shared_ptr<const ExactModes> modes_at_hand(Watch watch) const;

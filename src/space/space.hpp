@@ -35,6 +35,10 @@ struct Space {
     Kept<RestState> rest;    // rest_of()
     std::string description; // "78 open modes below 20.1 kHz + 2 x 92 attachment vectors, error 3e-8"
 
+    /// All but its vectors, of which one row is written; what asks for others answers PLM_ERR_STATE.
+    void write(ByteWriter &bytes) const;
+    static std::shared_ptr<const Space> read(ByteReader &bytes, std::shared_ptr<const Model> model);
+
     std::int64_t size() const { return static_cast<std::int64_t>(lambda.size()); }
     std::int64_t n_massive() const { return size() - n_massless; }
     double mass(std::int64_t j) const { return j < n_massive() ? 1.0 : 0.0; }

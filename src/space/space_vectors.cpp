@@ -69,7 +69,28 @@ SpaceVectors::SpaceVectors(Field vectors) : recovered_(std::make_shared<Recovere
     recovered_->all = parts_.further;
 }
 
+SpaceVectors SpaceVectors::absent(std::int64_t n_free, std::map<DofTerms, vector<double>> rows,
+                                  std::int64_t m) {
+    Parts p;
+    p.further = std::make_shared<const Field>(n_free, 0);
+    p.of_further = Matrix(0, m);
+    SpaceVectors v(std::move(p));
+    v.recovered_ = std::make_shared<Recovered>();
+    v.recovered_->rows = std::move(rows);
+    v.recovered_->absent = true;
+    return v;
+}
+
+void SpaceVectors::require_present() const {
+    if (is_absent())
+        throw Error(status::state,
+                    "this needs vectors of the contact space, which are not in the bytes that the basis was "
+                    "read from: attach the model that it was made of, or build the basis on one")
+            .argument("basis");
+}
+
 SpaceVectors SpaceVectors::times(const Matrix &y) const {
+    require_present();
     Parts p;
     if (recovered_ && recovered_->all) { // nothing is left to solve
         p.further = recovered_->all;
@@ -102,6 +123,7 @@ std::int64_t SpaceVectors::bytes() const {
 }
 
 const Field &SpaceVectors::formed() const {
+    require_present();
     if (!recovered_) throw Error(status::internal, "the vectors of a space are not formed as a whole");
     if (!recovered_->all) {
         recovered_->all = std::make_shared<const Field>(recover(parts_, unit_columns(cols(), 0, cols())));
@@ -112,6 +134,7 @@ const Field &SpaceVectors::formed() const {
 
 bool SpaceVectors::worth_forming(std::int64_t more) const {
     if (!recovered_) return false;
+    require_present();
     if (recovered_->all) return true;
     recovered_->asked += more;
     if (recovered_->asked <= cols()) return false;

@@ -23,6 +23,10 @@ class SpaceVectors {
     /// Of a space: too many to be formed as a whole.
     explicit SpaceVectors(Parts parts) : parts_(std::move(parts)) {}
 
+    /// m vectors of which these rows alone are known: what asks for others answers PLM_ERR_STATE.
+    static SpaceVectors absent(std::int64_t n_free, std::map<DofTerms, vector<double>> rows, std::int64_t m);
+    bool is_absent() const { return recovered_ && recovered_->absent; }
+
     /// V Y, as a basis: few enough to be formed as a whole, which is done where more vectors were asked for
     /// than there are.
     SpaceVectors times(const Matrix &y) const;
@@ -47,11 +51,13 @@ class SpaceVectors {
     const Parts &parts() const { return parts_; }
 
   private:
+    void require_present() const;
     // Of a basis.
     struct Recovered {
         std::shared_ptr<const Field> all;
         std::map<DofTerms, vector<double>> rows; // before there were all
         std::int64_t asked = 0;
+        bool absent = false; // there are rows only
     };
 
     Parts parts_;

@@ -56,8 +56,13 @@ class BaseMotion {
     std::vector<RowMotion> row_motions(std::int64_t n_rows, const vector<std::int64_t> &row,
                                        const vector<std::int64_t> &dof, const vector<double> &coefficient,
                                        const DofMap &dofs) const;
+    /// What of() needs.
+    void write(ByteWriter &bytes) const;
+    void read(ByteReader &bytes, std::int64_t n_dof, std::int64_t n_free);
 
   private:
+    template <class Motion, class Bytes>
+    static void pass(Motion &motion, std::int64_t n_dof, std::int64_t n_free, Bytes &bytes);
     std::int64_t columns() const { return moved_.cols(); }
     void carry(const vector<char> &moves, const vector<std::int64_t> &held,
                const ConstraintRows &constraints);

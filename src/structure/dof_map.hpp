@@ -7,6 +7,8 @@
 
 namespace plm {
 
+class ByteReader;
+class ByteWriter;
 /// How constraint rows over very many DOFs are eliminated: as they are, which is best where nothing stands at
 /// the DOF that they give; or by way of sums over groups of them (wide_rows.hpp).
 enum class WideRows { whole, in_groups };
@@ -39,6 +41,9 @@ class DofMap {
     /// What became of the constraints; the terms of the dependent DOFs are here, no longer there.
     const EliminatedConstraints &elimination() const { return elimination_; }
     double bytes() const;
+    /// Its bytes (linalg/bytes.hpp), and from them: what was eliminated in which row is not among them.
+    void write(ByteWriter &bytes) const;
+    void read(ByteReader &bytes);
 
     /// q = T q_r; T^T F; and the free DOFs of a motion, by which the others are given.
     void expand(const double *free, double *all) const;
@@ -52,6 +57,9 @@ class DofMap {
                               const vector<std::int64_t> &dof, const vector<double> &coefficient) const;
 
   private:
+    template <class Map, class Bytes> static void pass(Map &map, Bytes &bytes);
+    template <class Groups, class Bytes>
+    static void pass_groups(Groups &groups, std::int64_t n_dof, Bytes &bytes);
     void number_free();
     template <class F> void for_terms(std::int64_t dof, F f) const;
     template <class F> void for_upper(const SparseMatrix &a, const SparseMatrix &dependents, F column) const;

@@ -6,6 +6,9 @@
 
 namespace plm {
 
+class ByteReader;
+class ByteWriter;
+
 /// The rows of a pair follow one another, its normal first.
 struct GapSize {
     std::int64_t n_pairs = 0, n_directions = 1;
@@ -42,10 +45,14 @@ class GapRows {
     vector<std::int64_t> dofs_of(const vector<std::int64_t> &pairs) const;
     vector<std::int64_t> dofs() const;
 
+    void write(ByteWriter &bytes) const;
+    void read(ByteReader &bytes, std::int64_t n_free);
+
     /// The terms alone: for this room, and for tests.
     const SparseMatrix &matrix() const { return matrix_; }
 
   private:
+    template <class Rows, class Bytes> static void pass(Rows &rows, std::int64_t n_free, Bytes &bytes);
     vector<std::int64_t> dofs_where(const vector<char> &chosen) const;
 
     SparseMatrix matrix_; // n_rows() x n_free

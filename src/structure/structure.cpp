@@ -196,6 +196,8 @@ bool Structure::assemble_matrices(const StructureInput &input) {
     // one at a time: over all DOFs they are large
     SparseMatrix all = over_all_dofs("stiffness", *input.stiffness, n_dof_);
     parts_->translations = find_translations(all);
+    parts_->geometry = Geometry(input.nodes, n_dof_);
+    parts_->geometry.take_stiffness(all, input.multipliers);
     const vector<Translation> mass_like =
         parts_->translations.empty() ? without_negative_entries(all) : vector<Translation>();
     parts_->diagonal_twice = parts_->translations.empty() && is_diagonal_twice(all);
@@ -205,6 +207,7 @@ bool Structure::assemble_matrices(const StructureInput &input) {
     all = without_zeros(over_all_dofs("mass", *input.mass, n_dof_));
     if (!mass_like.empty()) refuse_exchanged(mass_like, all);
     weigh(parts_->translations, all);
+    parts_->geometry.take_mass(all);
     require_none_at(input.multipliers, "mass", all);
     require_nonnegative_diagonal("mass", all, parts_->dofs);
     if (!reduce("mass", all, BaseMotion::mass, parts_->mass)) return false;
@@ -276,6 +279,7 @@ void Structure::factor_stiffness(double largest_contact, Watch watch) {
     parts_->shift = result.shift;
     if (parts_->shift > 0) parts_->shifted = add(1.0, parts_->stiffness, parts_->shift, parts_->mass);
     parts_->rigid_modes = std::move(result.rigid_modes);
+    parts_->n_rigid = parts_->rigid_modes.cols();
     parts_->uncertainty = result.uncertainty;
 }
 
@@ -290,7 +294,7 @@ bool Structure::multiply_responses(const Field &loads, Matrix &energy, Matrix &i
         f.ptr.push_back(f.nnz());
         ++f.cols;
     }
-    return parts_->factor->multiply_responses(f, parts_->mass, energy, inertia);
+    return whole().factor->multiply_responses(f, parts_->mass, energy, inertia);
 }
 
 StructureModes lowest_modes(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
@@ -311,7 +315,7 @@ StructureModes lowest_modes(const SparseMatrix &k, const SparseMatrix &m, const 
 }
 
 StructureModes Structure::lowest_modes(std::int64_t n, const ModeSearch &search) const {
-    return plm::lowest_modes(parts_->stiffness, parts_->mass, *parts_->factor, -parts_->shift, n, search);
+    return plm::lowest_modes(whole().stiffness, parts_->mass, *parts_->factor, -parts_->shift, n, search);
 }
 
 // Inverse iteration, and the Rayleigh quotient of what it comes to.
@@ -336,17 +340,17 @@ double Structure::rough_lowest_elastic() const {
 }
 
 std::int64_t Structure::count_modes_below(double omega) const {
-    return count_modes(parts_->stiffness, parts_->mass, omega, parts_->solver);
+    return count_modes(whole().stiffness, parts_->mass, omega, parts_->solver);
 }
 
 std::int64_t Structure::count_modes_near(double &omega, Watch watch) const {
-    return plm::count_modes_near(parts_->stiffness, parts_->mass, omega, parts_->solver, "open modes",
+    return plm::count_modes_near(whole().stiffness, parts_->mass, omega, parts_->solver, "open modes",
                                  "cutoff_factor", watch);
 }
 
 std::int64_t Structure::n_massless_dofs() const {
     std::int64_t count = n_free();
-    for (double m : diagonal(parts_->mass)) count -= m > 0;
+    for (double m : diagonal(whole().mass)) count -= m > 0;
     return count;
 }
 

@@ -7,6 +7,7 @@
 #include "structure/dof_map.hpp"
 #include "structure/eigs.hpp"
 #include "structure/gap_rows.hpp"
+#include "structure/geometry.hpp"
 #include "structure/loads.hpp"
 #include "structure/mode_count.hpp"
 #include "structure/still_dofs.hpp"
@@ -24,6 +25,9 @@ struct Damping {
     bool has_matrix = false;    // an explicit C is present (Structure::damping_times)
 };
 
+class ByteReader;
+class ByteWriter;
+
 /// One matrix as the caller gave it: what to read, checked at the entry. Borrowed arrays stay the caller's.
 struct MatrixInput; // structure/matrix_input.hpp
 
@@ -40,6 +44,7 @@ struct StructureInput {
     // gap matrix by rows: B = [row; dof; coefficient] triplets
     vector<std::int64_t> gap_row, gap_dof;
     vector<double> gap_coefficient;
+    vector<CoupledNode> nodes;             // where the DOFs are; may be empty, or of some of them
     vector<double> preload;                // empty: none
     HarmonicLoads excitation, base_motion; // the latter of fixed DOFs (base_motion.hpp)
     /// What may be asked of motions beside the DOFs: sums over all of them, numbered on from n_dof. It may
@@ -77,6 +82,18 @@ struct StructureEstimate {
 
 class Structure {
   public:
+    /// From the bytes of another one: all but its matrices and what follows from them. What needs these
+    /// answers PLM_ERR_STATE.
+    explicit Structure(ByteReader &bytes);
+    void write(ByteWriter &bytes) const;
+    bool is_whole() const { return parts_->factor != nullptr; }
+    /// Of its matrices, supports, constraints and gap rows, and of its loads and its damping: those of one
+    /// model built twice are the same.
+    std::uint64_t fingerprint() const {
+        return parts_->fingerprint ? parts_->fingerprint : fingerprint_of_parts();
+    }
+    std::uint64_t fingerprint_of_loads() const;
+
     /// Checks the input as a whole, but factors nothing.
     static StructureEstimate estimate(const StructureInput &input, GapSize gap, const Solver &solver);
 
@@ -107,30 +124,30 @@ class Structure {
     std::int64_t n_redundant_constraints() const { return parts_->dofs.elimination().n_redundant; }
 
     /// M X, K X, C X (the explicit part of the damping only) and (K + shift() M) X.
-    Field mass_times(const Field &x) const { return times(parts_->mass, x); }
-    Field stiffness_times(const Field &x) const { return times(parts_->stiffness, x); }
-    Field damping_times(const Field &x) const { return times(parts_->damping, x); }
+    Field mass_times(const Field &x) const { return times(whole().mass, x); }
+    Field stiffness_times(const Field &x) const { return times(whole().stiffness, x); }
+    Field damping_times(const Field &x) const { return times(whole().damping, x); }
     Field shifted_times(const Field &x) const {
-        return times(parts_->shift > 0 ? parts_->shifted : parts_->stiffness, x);
+        return times(parts_->shift > 0 ? whole().shifted : whole().stiffness, x);
     }
     /// y = M x and y = K x, one column each.
     void mass_times(const Field &x, Field &y) const {
-        multiply_transposed(parts_->mass, x.in_core().data(), y.in_core().data());
+        multiply_transposed(whole().mass, x.in_core().data(), y.in_core().data());
     }
     void stiffness_times(const Field &x, Field &y) const {
-        multiply_transposed(parts_->stiffness, x.in_core().data(), y.in_core().data());
+        multiply_transposed(whole().stiffness, x.in_core().data(), y.in_core().data());
     }
     /// X becomes (K + shift() M)^-1 X; shift() is 0 when K is positive definite.
-    void solve(Field &x) const { parts_->factor->solve(x.in_core()); }
+    void solve(Field &x) const { whole().factor->solve(x.in_core()); }
     double shift() const { return parts_->shift; }
     /// For the static responses X = (K + shift() M)^-1 F to F = [B^T loads]: F^T X and X^T M X, without
     /// keeping X and for less than a solution each. False where that is not to be had.
     bool multiply_responses(const Field &loads, Matrix &energy, Matrix &inertia) const;
     /// Rough, from the pivots of that factor.
-    double reciprocal_condition() const { return parts_->factor->reciprocal_condition(); }
+    double reciprocal_condition() const { return whole().factor->reciprocal_condition(); }
 
     /// Whether modes can be counted.
-    bool tells_inertia() const { return parts_->solver.tells_inertia(); }
+    bool tells_inertia() const { return whole().solver.tells_inertia(); }
     /// The n lowest modes, fewer when there are fewer of finite frequency.
     StructureModes lowest_modes(std::int64_t n, const ModeSearch &search = {}) const;
     /// About the lowest elastic frequency (rad/s), from above, for a few solutions; 0 where there is none.
@@ -139,11 +156,11 @@ class Structure {
     std::int64_t count_modes_below(double omega) const;
     std::int64_t count_modes_near(double &omega, Watch watch) const;
     /// M-orthonormal rigid-body modes (may have no column).
-    const Field &rigid_modes() const { return parts_->rigid_modes; }
-    std::int64_t n_rigid() const { return parts_->rigid_modes.cols(); }
+    const Field &rigid_modes() const { return whole().rigid_modes; }
+    std::int64_t n_rigid() const { return parts_->n_rigid; }
     /// Rigid-body motions that no gap row holds, among them (unheld_motion.hpp): rows and loads that miss
     /// them by rounding do not act on them, which is warned of.
-    std::int64_t n_unheld() const { return parts_->unheld.cols(); }
+    std::int64_t n_unheld() const { return parts_->n_unheld; }
     /// Of the pre-load and of the mean of the excitation along them, more than rounding, so that they have
     /// nothing to rest on: what to read; empty where there is none.
     const std::string &preload_resultant() const { return preload_resultant_; }
@@ -177,11 +194,13 @@ class Structure {
     const vector<Translation> &translations() const { return parts_->translations; }
     /// Those held like fixed ones, which they were meant to be, since nothing moves them.
     const StillDofs &still_dofs() const { return parts_->still_dofs; }
+    /// What the coordinates of nodes tell, where they are known.
+    const Geometry &geometry() const { return parts_->geometry; }
     /// The stiffness matrix looks as if its diagonal was added up twice.
     bool diagonal_twice() const { return parts_->diagonal_twice; }
     /// Norm of the harmonic excitation on fixed DOFs, where it does nothing.
     double excitation_on_supports() const { return excitation_on_supports_; }
-    double trace_of_mass() const { return trace(parts_->mass); }
+    double trace_of_mass() const { return trace(whole().mass); }
     std::int64_t n_massless_dofs() const;
 
     /// Column j over all DOFs (n_dof numbers), fixed ones zero; and a motion of all DOFs, one column, by its
@@ -197,10 +216,14 @@ class Structure {
         const SparseMatrix &mass, &stiffness, &damping; // damping: 0 x 0 without an explicit one
         const Solver &solver;
     };
-    Matrices matrices() const { return {parts_->mass, parts_->stiffness, parts_->damping, parts_->solver}; }
+    Matrices matrices() const {
+        const Parts &p = whole();
+        return {p.mass, p.stiffness, p.damping, p.solver};
+    }
 
   private:
     Structure(const StructureInput &input, GapSize gap, const Solver &solver);
+    template <class Self, class Bytes> static void pass(Self &self, Bytes &bytes);
     /// The matrices are symmetric: the form that gathers is the faster one.
     static Field times(const SparseMatrix &a, const Field &x) {
         return Field(multiply_transposed(a, x.in_core()));
@@ -233,6 +256,7 @@ class Structure {
         SparseMatrix given_gap_rows; // over all DOFs, where some are dependent
         vector<std::int64_t> multipliers;
         vector<Translation> translations;
+        Geometry geometry;
         StillDofs still_dofs;
         bool diagonal_twice = false;
         BaseMotion base;
@@ -242,7 +266,17 @@ class Structure {
         Field rigid_modes, unheld, unheld_momenta; // R, R_0, M R_0
         RowMiss miss;                              // of the gap rows along R_0
         Solver solver;
+        std::int64_t n_rigid = 0, n_unheld = 0;
+        // of the structure that bytes were written of; 0: this is one
+        std::uint64_t fingerprint = 0, fingerprint_of_loads = 0;
     };
+    /// PLM_ERR_STATE where its matrices are not here.
+    const Parts &whole() const {
+        if (!parts_->factor) throw_without_matrices();
+        return *parts_;
+    }
+    [[noreturn]] static void throw_without_matrices();
+    std::uint64_t fingerprint_of_parts() const;
 
     std::int64_t n_dof_ = 0;
     std::shared_ptr<const std::vector<DofTerms>> outputs_;

@@ -61,7 +61,8 @@ void Structure::add_base_forces() {
 void Structure::leave_out_rounding() {
     constexpr double eps = 1e-15;
     parts_->unheld = unheld_motion(parts_->gap_rows, parts_->rigid_modes);
-    if (parts_->unheld.cols() == 0) return;
+    parts_->n_unheld = parts_->unheld.cols();
+    if (parts_->n_unheld == 0) return;
     parts_->unheld_momenta = mass_times(parts_->unheld);
     const RowMiss &miss = parts_->miss = largest_miss(parts_->gap_rows, parts_->unheld, parts_->rigid_modes);
     if (miss.size > eps) parts_->gap_rows.leave_out(parts_->unheld, parts_->unheld_momenta);

@@ -1,4 +1,4 @@
-// The files of a study: the only ones the library ever writes.
+// The files of a study: of a folder of its own.
 #include "study/report.hpp"
 #include <cerrno>
 #include <cstring>

@@ -153,7 +153,7 @@ lay(header)
 changed(source / "fortran/plm_model.f90", r"plm_model_fix_dofs\(", "plm_model_fix_dofs_i32(", "layered/fortran/plm_model.f90")
 refused("abi.generated", "twins that lag behind", "not what plm.h and api.txt ask for: fortran/plm_model_int64.inc", python,
         layered / "src/capi/api/generate.py", "--check")
-layer = [source / "fortran" / name for name in ("plm_f77.f90", "plm_f77_calls.f90", "plm_f77_keys.f90")]
+layer = [source / "fortran" / name for name in ("plm_f77.f90", "plm_f77_calls.f90", "plm_f77_keys.f90", "plm_f77_bytes.f90")]
 refused("fortran.include_file", "a handle named like an INTEGER", r"PLMHSO: ISTART is INTEGER by the rule .*INTEGER\*8 in", python,
         tests / "fortran/include_file.py", changed(source / "fortran/plmf.inc", "FREQ, START, IPOINT", "FREQ, ISTART, IPOINT"), *layer)
 refused("docs.every_function_has_an_example", "a function without an example", "plm_model_forget: no example", python,

@@ -75,6 +75,27 @@ static void rigid_links(void **state) {
         refused(ctx, LINK(0, 6, hub, origin, 2, 3, rim, at), PLM_ERR_STATE, f, "", -1, "make a new one"));
 }
 
+static void coordinates(void **state) {
+    const char *f = "plm_model_set_coordinates_i32";
+    const int32_t twice[] = {0, 1, 2, 3, 4, 0};
+    (void)state;
+#define PLACE(base, n, per_node, d, x) plm_model_set_coordinates_i32(model, base, n, per_node, d, x)
+    BAD(PLACE(2, 3, 3, rim, at), f, "index_base", -1, "0 (C)");
+    BAD(PLACE(0, -1, 3, rim, at), f, "n", -1, "n is -1");
+    BAD(PLACE(0, 3, 2, rim, at), f, "per_node", -1, "per_node is 2");
+    BAD(PLACE(0, 3, 3, NULL, at), f, "dof", -1, "NULL");
+    BAD(PLACE(0, 3, 3, rim, NULL), f, "xyz", -1, "NULL");
+    BAD(PLACE(0, 1, 3, rim, nan_origin), f, "xyz", 2, "infinite");
+    BAD(PLACE(0, 2, 3, outside, at), f, "dof", 5, "0..23");
+    BAD(PLACE(0, 2, 3, twice, at), f, "dof", 5, "stands at dof[0] already");
+    BAD(plm_model_set_coordinates_i64(model, 1, 2, 3, rim64, at), "plm_model_set_coordinates_i64", "dof", 5,
+        "1..24");
+    assert_int_equal(PLACE(0, 3, 3, rim, at), PLM_OK);
+    assert_int_equal(PLACE(0, 0, 3, NULL, NULL), PLM_OK);
+    assert_int_equal(n_free_of(), 24);
+    assert_true(refused(ctx, PLACE(0, 3, 3, rim, at), PLM_ERR_STATE, f, "", -1, "make a new one"));
+}
+
 static void distributing_couplings(void **state) {
     const char *f = "plm_model_add_distributing_coupling_i32";
     const double zero[] = {1, 0, 1}, nan_weight[] = {1, NAN, 1}, weight[] = {1, 2, 3};
@@ -207,7 +228,7 @@ static void multipliers(void **state) {
 
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
-    const struct CMUnitTest tests[] = {TEST(rigid_links), TEST(distributing_couplings), TEST(ties),
-                                       TEST(multipliers)};
+    const struct CMUnitTest tests[] = {TEST(rigid_links), TEST(coordinates), TEST(distributing_couplings),
+                                       TEST(ties), TEST(multipliers)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-# libFuzzer, by clang: the fuzz target over the shared library. PLM_FUZZ_SECONDS in the environment of ctest goes before
+# libFuzzer, by clang: the fuzz targets over the shared library. PLM_FUZZ_SECONDS in the environment of ctest goes before
 # the option (tests/run.sh --all: 60 in preset dev).
 set(PLM_FUZZ_SECONDS 20 CACHE STRING "Seconds of fuzzing in the test host.fuzz")
 option(PLM_FUZZ_INSTRUMENTED "host.fuzz follows the branches of the library, too: clang builds it once more, instrumented" OFF)
@@ -15,9 +15,13 @@ if(PLM_CLANG AND PLM_CLANGXX)
     endif()
 endif()
 if(PLM_SANITIZE)
-    add_skipped_host_test(fuzz "the sanitizer runtimes of clang and gcc do not mix")
+    foreach(name fuzz fuzz_bytes)
+        add_skipped_host_test(${name} "the sanitizer runtimes of clang and gcc do not mix")
+    endforeach()
 elseif(NOT PLM_CLANG_FUZZES)
-    add_skipped_host_test(fuzz "no clang with libFuzzer (Debian: clang, libclang-rt-dev)")
+    foreach(name fuzz fuzz_bytes)
+        add_skipped_host_test(${name} "no clang with libFuzzer (Debian: clang, libclang-rt-dev)")
+    endforeach()
 else()
     set(fuzzed $<TARGET_FILE:plm>)
     if(PLM_FUZZ_INSTRUMENTED)
@@ -32,5 +36,7 @@ else()
         add_dependencies(plm_fuzz_library plm) # one after the other
     endif()
     add_host_test(fuzz sh ${here}/fuzz.sh ${PLM_CLANG} ${PROJECT_SOURCE_DIR}/include ${fuzzed}
-                  ${CMAKE_CURRENT_BINARY_DIR}/fuzz ${PLM_FUZZ_SECONDS})
+                  ${CMAKE_CURRENT_BINARY_DIR}/fuzz ${PLM_FUZZ_SECONDS} fuzz 700)
+    add_host_test(fuzz_bytes sh ${here}/fuzz.sh ${PLM_CLANG} ${PROJECT_SOURCE_DIR}/include ${fuzzed}
+                  ${CMAKE_CURRENT_BINARY_DIR}/fuzz_bytes ${PLM_FUZZ_SECONDS} fuzz_bytes 20000 ${PROJECT_SOURCE_DIR}/tests/formats)
 endif()

@@ -19,7 +19,7 @@ RULES = [
         # has in whatever states there may be: a force, a spring, whether it acts at all, whether its tangent varies.
         "words": r"closed|closing|open|opened|opening|switching|PairState|ContactLaw",
         "outside": "contact",
-        "limit": 30,
+        "limit": 32,  # with what bytes and tables hand on of a point: how many pairs switch
         "other_senses": [
             (r"\bLinearSystem::open\b", r".*", LINEAR_SYSTEMS),
             (r"\bopen = 0, sliding = 1\b", r"sampling/sampler_options\.hpp", LINEAR_SYSTEMS),

@@ -112,9 +112,11 @@ static void print_coupled(void) {
     must(plm_model_add_surface_i32(model, 0, 3, no_dof, wall, NULL, 1, face_ptr, face_node, &master));
     must(plm_model_add_surface_contact(model, slave, master, PLM_SURFACE_SMOOTH, 50, 2, 0.1));
     must(plm_model_set_rest_force(model, 3, press));
+    must(plm_model_set_coordinates_i32(model, 0, 3, 3, face, corners));
     must(plm_model_build(model));
     must(plm_model_get_int(model, "n_free", &n));
     heading("coupled_n_free"), whole(n);
+    must(plm_model_audit(model, &n)), heading("coupled_findings"), whole(n);
     reals("tie_distance", 1, distance);
     must(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 4, hz, NULL));
     reals("coupled_hz", 4, hz);
@@ -335,6 +337,24 @@ static void print_whole_way(plm_model *model) {
     must(plm_hbm_destroy(&hbm));
 }
 
+/* Basis and curve through their bytes. */
+static void print_read(plm_model *model, plm_basis *basis, plm_branch *curve) {
+    static char bytes[1 << 23];
+    static double x[4096];
+    plm_basis *again = NULL;
+    plm_branch *read = NULL;
+    int64_t n = 0;
+    must(plm_basis_write(basis, sizeof bytes, bytes, &n));
+    must(plm_basis_read(ctx, n, bytes, &again));
+    must(plm_basis_attach(again, model));
+    must(plm_branch_write(curve, sizeof bytes, bytes, &n));
+    must(plm_branch_read(again, n, bytes, &read));
+    must(plm_branch_get_amplitude(read, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, 4096, x, &n));
+    reals("read_amplitude", n, x);
+    must(plm_branch_get_full_residual(read, 3, x));
+    reals("read_residual", 1, x);
+}
+
 static void print_response(plm_model *model, plm_basis *basis) {
     plm_hbm *hbm = NULL;
     plm_branch *curve = NULL, *top = NULL, *lower = NULL;
@@ -362,6 +382,7 @@ static void print_response(plm_model *model, plm_basis *basis) {
     free(x);
     must(plm_hbm_find_peak(hbm, curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, &peak[0], &peak[1], &top));
     reals("peak", 2, peak);
+    print_read(model, basis, curve);
     print_whole_way(model);
     print_estimate(model, basis, hbm, curve, top);
     print_point(top, 0);

@@ -73,8 +73,10 @@ void print_coupled(const plm::Context &context) {
     const auto master = model.add_surface(std::vector<std::int32_t>(9, -1), wall, {0, 3}, {0, 1, 2});
     model.add_surface_contact(slave, master, PLM_SURFACE_SMOOTH, 50, 2, 0.1);
     model.set_rest_force({3, PLM_KEEP_GAP, 0});
+    model.set_coordinates(face, corners);
     model.build();
     print("coupled_n_free", std::vector{model.get_int("n_free")});
+    print("coupled_findings", std::vector{static_cast<std::int64_t>(model.audit().size())});
     print("tie_distance", distance);
     print("coupled_hz", model.modes(PLM_SYSTEM_OPEN, 4).frequency_hz);
     model.solve_rest();
@@ -197,7 +199,16 @@ void print_study(const plm::Model &model, const plm::Basis &basis, plm::Hbm &hbm
     print("study_amplitude", points.amplitude);
 }
 
-void print_response(const plm::Model &model, const plm::Basis &basis) {
+void print_read(const plm::Context &context, const plm::Model &model, const plm::Basis &basis,
+                const plm::Branch &curve) {
+    plm::Basis again = plm::Basis::from_bytes(context, basis.to_bytes());
+    again.attach(model);
+    const plm::Branch read = again.read_branch(curve.to_bytes());
+    print("read_amplitude", read.amplitude(watched));
+    print("read_residual", std::vector{read.full_residual(3)});
+}
+
+void print_response(const plm::Context &context, const plm::Model &model, const plm::Basis &basis) {
     plm::Hbm hbm(basis);
     hbm.set("n_harmonics", n_harmonics).set("unknowns", "modal").set("max_step", 0.05);
     const plm::Branch curve = hbm.sweep();
@@ -207,6 +218,7 @@ void print_response(const plm::Model &model, const plm::Basis &basis) {
     print("level_points", std::vector{hbm.sweep_levels({0.8, 0.5}).back().size()});
     const plm::Peak peak = hbm.find_peak(curve, watched);
     print("peak", std::vector{peak.frequency_hz, peak.amplitude});
+    print_read(context, model, basis, curve);
     const plm::Response whole = model.compute_response(watched, PLM_HALF_PEAK_TO_PEAK, 1e-4);
     print("response", std::vector{whole.frequency_hz, whole.amplitude, whole.error});
     print("accuracy", std::vector{whole.hbm.get_double("accuracy")});
@@ -222,10 +234,11 @@ void print_response(const plm::Model &model, const plm::Basis &basis) {
 
 int main() {
     try {
-        plm::Model model = make_model(plm::Context());
+        const plm::Context context;
+        plm::Model model = make_model(context);
         print_model(model);
         print_coupled(plm::Context());
-        print_response(model, make_basis(model));
+        print_response(context, model, make_basis(model));
     } catch (const plm::Error &e) {
         std::fprintf(stderr, "%s\n", e.what());
         return 1;

@@ -1,6 +1,6 @@
 ! scenario.f90: the scene of scenario.c in modern Fortran. DOFs, pairs and points count from 1 here.
 program scenario
-    use, intrinsic :: iso_fortran_env, only: real64, output_unit
+    use, intrinsic :: iso_fortran_env, only: int8, real64, output_unit
     use plm
     implicit none
     integer, parameter :: n_masses = 10, n_harmonics = 5, n_times = 8, watched = 8
@@ -96,9 +96,12 @@ contains
             0.5_real64, 1.5_real64, 0.5_real64, 1.5_real64, 0.5_real64], [3, 3]), [1, 4], [1, 2, 3], master)
         call model%add_surface_contact(slave, master, int(PLM_SURFACE_SMOOTH), 50.0_real64, 2.0_real64, 0.1_real64)
         call model%set_rest_force([3.0_real64, PLM_KEEP_GAP, 0.0_real64])
+        call model%set_coordinates(face, corners)
         call model%build()
         call model%get('n_free', n)
         call show_integers('coupled_n_free', [n])
+        call model%audit(n)
+        call show_integers('coupled_findings', [n])
         call show('tie_distance', distance)
         call model%modes(PLM_SYSTEM_OPEN, hz)
         call show('coupled_hz', hz)
@@ -182,6 +185,7 @@ contains
         call show_integers('level_points', [n])
         call hbm%find_peak(curve, watched, hz, amplitude, PLM_HALF_PEAK_TO_PEAK, peak=peak)
         call show('peak', [hz, amplitude])
+        call show_read(model, basis, curve)
         call show_whole_way(model)
         call show_estimate(model, basis, hbm, curve, peak)
         call show_point(peak, 1)
@@ -189,6 +193,29 @@ contains
         call show_motion(model, basis, curve, 6)
         call show_study(model, basis, hbm)
     end subroutine show_response
+
+    ! basis and curve through their bytes
+    subroutine show_read(model, basis, curve)
+        type(plm_model), intent(in) :: model
+        type(plm_basis), intent(in) :: basis
+        type(plm_branch), intent(in) :: curve
+        type(plm_basis) :: again
+        type(plm_branch) :: read
+        integer(int8), allocatable :: bytes(:)
+        real(real64), allocatable :: values(:)
+        real(real64) :: residual
+        call basis%to_bytes(bytes)
+        call again%read(context, bytes)
+        call again%attach(model)
+        call curve%to_bytes(bytes)
+        call again%read_branch(bytes, read)
+        call read%amplitude(watched, values, PLM_HALF_PEAK_TO_PEAK)
+        call show('read_amplitude', values)
+        call read%full_residual(4, residual)
+        call show('read_residual', [residual])
+        call read%destroy()
+        call again%destroy()
+    end subroutine show_read
 
     subroutine show_whole_way(model)
         type(plm_model), intent(in) :: model

@@ -13,6 +13,7 @@ env PIP_NO_INDEX=1 PIP_DISABLE_PIP_VERSION_CHECK=1 "$work/env/bin/python" -m pip
 cd "$work"
 try='import plm; print(plm.version(), plm._c.lib.path, plm.__file__)'
 PLM_LIBRARY=$library env/bin/python -c "$try" | grep "$work/env"
+PLM_LIBRARY=$library env/bin/plm --version | grep '^plm, libplm ' # the command is installed, too
 installed=$(dirname "$(PLM_LIBRARY=$library env/bin/python -c 'import plm; print(plm.__file__)')")
 ln -s "$library" "$installed/libplm.so.0"
 env/bin/python -c "$try" | grep "$installed/libplm.so.0"

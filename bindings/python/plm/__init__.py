@@ -17,6 +17,8 @@
     study.set_output(dof=12)
     study.add_response("4 samples", hbm)
     plm.plot.study_errors(study.run())
+    deck = plm.fe.read_deck("blade.inp")                 # files of other codes, and results for viewers:
+    plm.fe.write_vtu_series("blade", peak.branch, 0, deck)
 
 Options and results are attributes; help(plm.Sampler) lists those of a sampler. What a function computes is said in plm.h.
 """
@@ -35,7 +37,7 @@ from ._study import Study, StudyPoints
 __version__ = "0.1.0"
 __all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Transient", "Study", "Peak", "Isolated", "Larger", "Bifurcation",
            "Energy", "ErrorEstimate", "ErrorParts", "Refined", "Response", "Contact", "MotionState", "StudyPoints", "Finding", "Key",
-           "PlmError", "PlmKeyError", "PlmCancelled", "PlmWarning", "build_info", "default_context", "keys", "plot", "status_text", "version"]
+           "PlmError", "PlmKeyError", "PlmCancelled", "PlmWarning", "build_info", "default_context", "fe", "keys", "plot", "status_text", "version"]
 
 _constants = [name for name, value in vars(_functions).items() if name.isupper() and isinstance(value, (int, float))]
 globals().update({name: getattr(_functions, name) for name in _constants})  # plm.ERR_KEY, plm.REASON_SINGULAR, ...
@@ -43,9 +45,9 @@ __all__ += _constants
 
 
 def __getattr__(name):
-    """matplotlib is loaded with the first use of plm.plot."""
-    if name == "plot":
-        return importlib.import_module(".plot", __name__)
+    """matplotlib is loaded with the first use of plm.plot, what reads and writes files with that of plm.fe."""
+    if name in ("plot", "fe"):
+        return importlib.import_module(f".{name}", __name__)
     raise AttributeError(f"module 'plm' has no attribute {name!r}")
 
 

@@ -110,6 +110,14 @@ class Handle:
         if getattr(self, "_h", None):
             self.context.destroy(getattr(_c.lib, f"plm_{self._noun}_destroy"), self._h)
 
+    def _bytes(self):
+        """The state of a basis or a branch."""
+        needed = ctypes.c_int64()
+        self._call("write", 0, None, ctypes.byref(needed))
+        data = ctypes.create_string_buffer(needed.value)
+        self._call("write", needed.value, data, ctypes.byref(needed))
+        return data.raw
+
     def __setattr__(self, name, value):
         if name.startswith("_") or hasattr(type(self), name):
             object.__setattr__(self, name, value)

@@ -135,6 +135,15 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         self._call("add_rigid_link" + width, 0, reference.size, address(reference), address(at), len(xyz), nodes.shape[1],
                    address(nodes), address(xyz))
 
+    def set_coordinates(self, dof, xyz):
+        """Where the DOFs are, so that the audit can tell more. dof: n x 3 or n x 6 (-1: none); xyz: n x 3, in the unit of length
+        of the matrices. DOFs in no node, as modal ones, may be left out. Results do not depend on it."""
+        xyz = self._points(xyz, "xyz")
+        (nodes,), width = alike(numpy.atleast_2d(integers(dof, "dof")))
+        if nodes.ndim != 2 or len(nodes) != len(xyz) or nodes.shape[1] not in (3, 6):
+            raise ValueError(f"dof has shape {nodes.shape}; needed is {len(xyz)} x 3 or 6: a row for each node")
+        self._call("set_coordinates" + width, 0, len(xyz), nodes.shape[1], address(nodes), address(xyz))
+
     def add_distributing_coupling(self, reference_dof, reference_xyz, dof, xyz, weight=None):
         """RBE3: a reference node (3 or 6 DOFs) moves as the rigid body that fits the translations of nodes best, by least
         squares with these weights (n, or one number; None: all alike). dof: n x 3 (-1: none); xyz: n x 3."""

@@ -4,7 +4,8 @@ import ctypes
 import numpy
 
 from . import _c
-from ._handle import Handle, address, branch_array, context_of, reals
+from ._context import default_context
+from ._handle import Handle, address, branch_array, context_of, handle_of, reals
 from ._methods import BasisMethods, SamplerMethods
 from ._model import SYSTEMS, choice
 
@@ -72,9 +73,33 @@ class Basis(BasisMethods, Handle, noun="basis", kind=_c.KIND_BASIS):
         basis._model = model
         return basis
 
+    @classmethod
+    def from_bytes(cls, data, context=None):
+        """The basis that to_bytes() gave, built: it sweeps at once, in this process or another. Without its model (.model is
+        None) until attach(); what asks the structure itself raises plm.PlmError. context: where it is to be (default: that
+        of all models without one)."""
+        basis = cls.__new__(cls)
+        Handle.__init__(basis, default_context() if context is None else context)
+        basis._model = None
+        data = bytes(data)
+        basis.context.call("plm_basis_read", basis.context._h, len(data), data, ctypes.byref(basis._h))
+        return basis
+
+    def to_bytes(self):
+        """All that curves need of it, to be kept in a file, and read by from_bytes(): about 8 n_dof (columns of P and P_0)
+        bytes."""
+        return self._bytes()
+
+    def attach(self, model):
+        """Gives a basis that was read the model that it was made of: full residual, error estimates and refinement work
+        again. plm.PlmError for another one. Returns the basis."""
+        self._call("attach", handle_of(model, "model", "model"))
+        self._model = model
+        return self
+
     @property
     def model(self):
-        """The model it was made of."""
+        """The model it was made of; None: it was read from bytes, and none is attached."""
         return self._model
 
     def set_responses(self, branches):
@@ -90,20 +115,20 @@ class Basis(BasisMethods, Handle, noun="basis", kind=_c.KIND_BASIS):
 
     def vectors(self, static=False):
         """P, or P_0 if static: n_dof x size."""
-        n_dof, n = self._model.n_dof, self.static_size if static else self.size
+        n_dof, n = self.n_dof, self.static_size if static else self.size
         vectors = numpy.empty((n_dof, n), order="F")
         self._call("get_vectors", int(static), 0, n, address(vectors), n_dof)
         return vectors
 
     def residual(self, q, static=False, mass=False):
         """|q - P eta| / |q|, eta by least squares; mass: in the norm of M."""
-        q = reals(q, (self._model.n_dof,), "q")
+        q = reals(q, (self.n_dof,), "q")
         value = ctypes.c_double()
         self._call("get_residual", int(static), int(mass), q.size, address(q), ctypes.byref(value))
         return value.value
 
     def _n_pairs(self):
-        return self._model.n_pairs
+        return self.n_pairs
 
     def _summary(self):
         return f"{self.kind}, {self.size} columns, static ones: {self.static_size}"

@@ -1,5 +1,6 @@
 """Hbm and Branch: the periodic response."""
 import ctypes
+import os
 from typing import NamedTuple
 
 import numpy
@@ -234,6 +235,23 @@ class Branch(BranchMethods, Handle, noun="branch", kind=_c.KIND_BRANCH):
     def __init__(self, hbm):
         super().__init__(hbm.context)
         self._status = _c.OK
+
+    @classmethod
+    def from_bytes(cls, basis, data):
+        """The branch that to_bytes() gave, on the basis that it was computed on, or on that one read from its bytes."""
+        handle_of(basis, "basis", "basis")
+        branch, data = cls(basis), bytes(data)
+        basis.context.call("plm_branch_read", basis._h, len(data), data, ctypes.byref(branch._h))
+        return branch
+
+    def to_bytes(self):
+        """Its points and how it ended, to be kept in a file, and read by from_bytes()."""
+        return self._bytes()
+
+    def write_csv(self, path, dof, measure="half_peak_to_peak", harmonic=0):
+        """The curve as a file of comma-separated text, replaced as a whole: frequency_hz, amplitude of the DOF, arclength,
+        force_scale, stable, bifurcation, residual, iterations, n_harmonics, harmonic_error, n_switching."""
+        self._call("write_csv", dof, choice(measure, MEASURES, "measure"), harmonic, os.fsencode(path))
 
     def __len__(self):
         return self.n_points

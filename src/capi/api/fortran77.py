@@ -35,7 +35,7 @@ def type_of(api, argument):
         return HANDLE
     if api.is_callback(argument):
         return EXTERNAL
-    return {"double": REAL, "char": TEXT}.get(argument.base, INTEGER)
+    return {"double": REAL, "char": TEXT, "void": TEXT}.get(argument.base, INTEGER)
 
 
 def passed_handle(argument, name, dummies):

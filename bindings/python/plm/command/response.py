@@ -1,0 +1,157 @@
+"""plm response: from the files to the curve, its peak and the motion there."""
+import contextlib
+import math
+import warnings
+from typing import NamedTuple
+
+from .._errors import PlmError
+from .._functions import NOT_CONVERGED, TRUNCATED
+from .._reduction import Basis, Sampler
+from .._response import Hbm
+from .report import Report, number_text
+from .response_files import write_files
+from .settings import Wrong, settings_text
+from .structure import assemble, require_pairs
+
+
+class Found(NamedTuple):
+    """What a response is made of; error: estimated bound, relative; peak: the branch of one point; larger: or None."""
+    frequency_hz: float
+    amplitude: float
+    error: float
+    curve: object
+    peak: object
+    larger: object
+
+
+def run(settings, console):
+    with console.listening(with_log=True):
+        structure = assemble(settings, console, assume_damping=True)
+        dof, (low, high) = output_dof(structure, settings), range_of(structure.model, settings)
+        structure.model.build(progress=console.progress)
+    with console.listening():  # what the log says of curves on the way, the call repeats if it still holds at the end
+        found = compute(structure.model, dof, low, high, settings, console.progress)
+    if found.curve.status in (NOT_CONVERGED, TRUNCATED):
+        console.matters = True
+    if not found.error <= settings["accuracy"]:
+        console.warn("the error of the peak is " + (f"estimated to be {found.error:.1e}, more than the accuracy asked for, "
+                     f"{settings['accuracy']:g}" if math.isfinite(found.error) else "not known"))
+    report = _report(structure, dof, found, settings)
+    for line in report.summary(without="Asked for"):
+        console.say(line)
+    if settings["out"]:
+        with console.listening():
+            files = write_files(settings["out"], structure, dof, found, settings, report, console)
+        console.say(f"files         {', '.join(files)} in {settings['out']}")
+
+
+def output_dof(structure, settings):
+    """The DOF that is looked at."""
+    if not structure.is_loaded:
+        raise Wrong("nothing excites the model: --force NODE DIRECTION AMPLITUDE does")
+    if settings["output"]:
+        return structure.one_dof(settings["output"], "output")
+    if structure.first_load is None:
+        raise Wrong("--output NODE DIRECTION is needed: it says what is looked at")
+    return structure.first_load
+
+
+def compute(model, dof, low, high, settings, progress):
+    """Found of a built model: in the range given, or around the resonance that the library chooses."""
+    if low is None:
+        return _around_resonance(model, dof, settings, progress)
+    return _in_range(model, dof, low, high, settings, progress)
+
+
+def range_of(model, settings):
+    """(low, high) in Hz as they were given, None where the library is to find them; of a model that has contact."""
+    low, high = settings["frequency_min_hz"], settings["frequency_max_hz"]
+    if (low is None) != (high is None):
+        raise Wrong("frequency_min_hz and frequency_max_hz belong together; give both or none")
+    if low is not None and not low < high:
+        raise Wrong(f"frequency_min_hz, {low:g}, must be below frequency_max_hz, {high:g}")
+    require_pairs(model)
+    return low, high
+
+
+def window_options(low, high):
+    """Of a sampler for this range; none for a range that the library is to find."""
+    return {} if low is None else {"mode_frequency_hz": math.sqrt(low * high), "window_min_hz": low, "window_max_hz": high}
+
+
+def _around_resonance(model, dof, settings, progress):
+    response = model.compute_response(dof, settings["accuracy"], settings["measure"], progress=progress)
+    larger = response.larger
+    with warnings.catch_warnings():  # the call above has warned of all of it
+        warnings.simplefilter("ignore")
+        peak = response.hbm.find_peak(response.curve, dof, settings["measure"], progress=progress)
+    return Found(response.frequency_hz, response.amplitude, response.error, response.curve, peak.branch, larger)
+
+
+def _in_range(model, dof, low, high, settings, progress):
+    """On the basis from the mode nearest to the middle of the range; where its error is too large, on a refined one."""
+    sampler = Sampler(model, **window_options(low, high)).run(progress)
+    basis = Basis(model, sampler).build(progress)
+    found, told = _on_basis(basis, dof, low, high, settings, progress)
+    if not found.error <= settings["accuracy"] and _is_inside(found.frequency_hz, found.curve):
+        with contextlib.suppress(PlmError):  # then the first answer stands, with its error
+            first = Hbm(basis, accuracy=settings["accuracy"], frequency_min_hz=low, frequency_max_hz=high)
+            refined = first.refine_basis(dof, settings["accuracy"], settings["measure"], progress=progress)
+            better, of_better = _on_basis(refined.basis, dof, low, high, settings, progress)
+            if better.error <= found.error or math.isnan(found.error):
+                found, told = better, of_better
+    for one in told:
+        warnings.warn(one, stacklevel=2)
+    return found
+
+
+def _is_inside(frequency_hz, curve):
+    """Whether the highest point is a peak, not an end of the curve."""
+    return curve.frequency_hz.min() < frequency_hz < curve.frequency_hz.max()
+
+
+def _on_basis(basis, dof, low, high, settings, progress):
+    """(Found of this basis between these frequencies, what the library warned of meanwhile)."""
+    measure, error = settings["measure"], math.nan
+    with warnings.catch_warnings(record=True) as issued:
+        warnings.simplefilter("always")
+        hbm = Hbm(basis, accuracy=settings["accuracy"], frequency_min_hz=low, frequency_max_hz=high)
+        curve = hbm.sweep(progress)
+        peak = hbm.find_peak(curve, dof, measure, progress=progress)
+        if peak.amplitude > 0 and _is_inside(peak.frequency_hz, curve):
+            with contextlib.suppress(PlmError):
+                parts = hbm.estimate_error(peak.branch, 0, dof, measure, progress=progress)
+                error = max(abs(parts.amplitude.total) / peak.amplitude, abs(parts.frequency_hz.total) / peak.frequency_hz)
+    told = [one.message for one in issued]
+    return Found(peak.frequency_hz, peak.amplitude, error, curve, peak.branch, None), told
+
+
+def _report(structure, dof, found, settings):
+    model, peak, curve = structure.model, found.peak, found.curve
+    report = Report("Forced response")
+    report.add("Asked for", settings_text("response", settings))
+    report.add("Model", [("DOFs", f"{model.n_dof}, {model.n_free} of them free"), ("contact", f"{model.n_pairs} pairs"),
+                         ("nodes", len(structure.mesh.node_labels))])
+    what = f"{settings['measure'].replace('_', ' ')} of {structure.name_of(dof)}"
+    report.add("Response", [
+        ("peak", f"{number_text(found.amplitude)} at {number_text(found.frequency_hz)} Hz ({what})"),
+        ("error", _error_text(found.error, settings["accuracy"])),
+        ("curve", f"{len(curve)} points, {curve.frequency_hz.min():.6g} .. {curve.frequency_hz.max():.6g} Hz, {curve.end_text}"),
+        ("contact", _contact_text(peak)),
+        ("stability", {1: "the motion of the peak is stable", 0: "the motion of the peak is not stable"}.get(
+            int(peak.stable[0]), "not computed")),
+    ])
+    if found.larger:
+        report.add("Beside the curve", [("larger", f"a stable motion of {number_text(found.larger.amplitude)} at "
+                                         f"{number_text(found.larger.frequency_hz)} Hz exists at the same force")])
+    return report
+
+
+def _error_text(error, accuracy):
+    return f"{error:.1e} of the peak at most, as estimated; asked for: {accuracy:g}" if math.isfinite(error) else "not known"
+
+
+def _contact_text(peak):
+    share = peak.closed_share(0)
+    return (f"{int(peak.n_switching[0])} of {peak.n_pairs} pairs open and close at the peak; on average {100 * share.mean():.1f} % are "
+            "closed")

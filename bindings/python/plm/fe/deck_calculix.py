@@ -1,0 +1,107 @@
+"""Stiffness and mass of a deck by CalculiX: mesh, materials and sections, and nothing that the library does itself."""
+import os
+import shutil
+import subprocess
+import tempfile
+
+from . import deck_elements
+from .deck_sets import Names
+from .errors import FileError
+
+TIME_LIMIT = 3600.0  # s
+POINTS = ("MASS", "SPRING1", "SPRING2", "SPRINGA")  # elements beside solids whose matrices CalculiX writes as they are
+SECTIONS = {"SOLIDSECTION": "SOLID SECTION", "SPRING": "SPRING", "MASS": "MASS"}
+NAME = "matrices"
+
+
+def matrices_of(deck, folder=None, program="ccx"):
+    """plm.fe.matrices.Matrices of the deck. folder: where the files go and stay; None: a temporary one."""
+    found = shutil.which(program)
+    if found is None:
+        raise FileError(deck.path, 0, f"the deck has no matrices, and {program} is not installed to make them (Debian: calculix-ccx); "
+                        "hand them over: read_deck(path, matrices)")
+    lines = derived_lines(deck)
+    if folder is None:
+        with tempfile.TemporaryDirectory(prefix="plm-") as temporary:
+            return _run(deck, temporary, found, lines)
+    os.makedirs(folder, exist_ok=True)
+    return _run(deck, folder, found, lines)
+
+
+def _run(deck, folder, program, lines):
+    from .matrices import read_matrices
+    for ending in (".sti", ".mas", ".dof"):
+        if os.path.exists(os.path.join(folder, NAME + ending)):
+            os.remove(os.path.join(folder, NAME + ending))
+    with open(os.path.join(folder, NAME + ".inp"), "w", encoding="ascii", errors="replace") as file:
+        file.write("\n".join(lines) + "\n")
+    try:
+        done = subprocess.run([program, NAME], cwd=folder, capture_output=True, text=True, errors="replace", timeout=TIME_LIMIT,
+                              check=False)
+    except subprocess.TimeoutExpired:
+        raise FileError(deck.path, 0, f"{program} took more than {TIME_LIMIT:g} s for the matrices") from None
+    said = done.stdout + done.stderr
+    wrong = [line.strip() for line in said.splitlines() if "*ERROR" in line]
+    if wrong or not os.path.exists(os.path.join(folder, NAME + ".sti")):
+        last = said.strip().splitlines()[-1:] or [f"status {done.returncode}"]
+        raise FileError(deck.path, 0, f"{program} made no matrices of this deck: {(wrong or last)[0]}")
+    return read_matrices(os.path.join(folder, NAME + ".sti"))
+
+
+def derived_lines(deck):
+    """The lines of the deck that CalculiX gets."""
+    groups = _check_elements(deck)
+    lines = ["*NODE, NSET=ALLNODES"]
+    lines += [f"{n},{x:.17g},{y:.17g},{z:.17g}" for n, (x, y, z) in zip(deck.node_labels.tolist(), deck.coordinates.tolist())]
+    for i, block in enumerate(groups):
+        lines.append(f"*ELEMENT, TYPE={block.type}, ELSET=BLOCK{i}")
+        for label, nodes in zip(block.labels.tolist(), block.connectivity.tolist()):
+            row = [label, *nodes]
+            lines += [",".join(map(str, row[k:k + 12])) + ("," if k + 12 < len(row) else "") for k in range(0, len(row), 12)]
+    lines += _properties(deck)
+    return lines + ["*STEP", "*FREQUENCY, SOLVER=MATRIXSTORAGE", "*END STEP"]
+
+
+def _check_elements(deck):
+    """The elements that CalculiX shall have."""
+    groups = []
+    for block in deck.elements:
+        if block.type in ("DCOUP3D", "GAPUNI"):
+            continue
+        if not (deck_elements.SOLID.match(block.type) and block.type.startswith("C3D")) and block.type not in POINTS:
+            raise FileError(deck.path, 0, f"elements of type {block.type}: CalculiX makes solids with nodes of their own of these, and no "
+                            "matrices in the deck's own DOFs; hand over matrices from the code that the deck is for")
+        groups.append(block)
+    if not groups:
+        raise FileError(deck.path, 0, "the deck has no elements to make matrices of")
+    return groups
+
+
+def _properties(deck):
+    """Materials and sections as they stand in the deck; their element sets under short names, which CalculiX limits."""
+    lines, sets, seen = [], Names(), set()
+    for block in deck.property_blocks:
+        if (block.file, block.number) in seen and block.key not in SECTIONS:
+            continue
+        seen.add((block.file, block.number))
+        text = block.text
+        if block.key in SECTIONS:
+            name = _set_name(deck, block)
+            if name not in sets:
+                sets[name.upper()] = f"PART{len(sets)}"
+                lines.append(f"*ELSET, ELSET={sets[name]}")
+                lines += [f"{label}," for label in deck.element_sets[name].tolist()]
+            rest = "".join(f", {key}={value}" for key, value in block.parameters.items() if key in ("MATERIAL", "ORIENTATION"))
+            text = f"*{SECTIONS[block.key]}, ELSET={sets[name]}{rest}"
+        lines.append(text)
+        lines += [line.text for line in block.lines]
+    if not sets:
+        raise FileError(deck.path, 0, "the deck has no sections (*SOLID SECTION), so CalculiX can make no matrices of it")
+    return lines
+
+
+def _set_name(deck, block):
+    for name in (block.scope.full(block.needed("ELSET")), block.get("ELSET").upper()):
+        if name in deck.element_sets:
+            return name
+    block.fail(f"there is no element set {block.get('ELSET')}")

@@ -1,0 +1,15 @@
+// States as bytes at the border: the host's arrays and functions that take or give them.
+#pragma once
+#include "capi/arguments.hpp"
+#include "capi/handles.hpp"
+#include "linalg/bytes.hpp"
+
+namespace plm::capi {
+
+/// A whole state, counted or written, by the rules of plm.h: bytes NULL with capacity 0 asks for the length.
+plm_status put_bytes(BytesOf kind, const std::function<void(ByteWriter &)> &body, std::int64_t capacity,
+                     void *bytes, std::int64_t *needed);
+/// The body of one that the host hands over.
+ByteReader given_bytes(BytesOf kind, std::int64_t n, const void *bytes);
+
+} // namespace plm::capi
