@@ -177,6 +177,27 @@ shutil.copy(source / "docs/benchmarks.md", folder / "pages/docs")
 changed(source / "examples/reports/README.md", r"^\| refined .*", "| refined | yes | 1 |", "pages/examples/reports/README.md")
 refused("docs.reports", "figures that are in no report", "README.md is not what the reports say", python,
         folder / "pages/examples/reports/index.py", "--check")
+tree = folder / "tree"  # pages beside the files that they lead to
+for name in ("docs", "examples", "include", "src", "fortran", "tests", "bindings"):
+    shutil.copytree(source / name, tree / name, ignore=shutil.ignore_patterns("__pycache__"))
+for path in [*source.glob("*.md"), source / "LICENSE", source / "CITATION.cff"]:
+    shutil.copy(path, tree)
+changed(source / "docs/tutorial.md", r"\(choosing\.md#contact-stiffness\)", "(choosing.md#stiffness)", "tree/docs/tutorial.md")
+refused("docs.links", "a link to a heading that was renamed", "tutorial.md:.*choosing.md has no heading #stiffness", python,
+        tests / "docs/links.py", tree)
+changed(source / "docs/choosing.md", r"^\| `PLM_REASON_TIE`.*\n", "", "tree/docs/choosing.md")
+refused("docs.reasons", "a reason without a row", "PLM_REASON_TIE: no row", python, tests / "docs/reasons.py", tree)
+changed(source / "docs/choosing.md", "may be on another branch", "may lie on another branch", "tree/docs/choosing.md")
+refused("docs.reasons", "words that no text has", "no text of the library says 'may lie on another branch'", python,
+        tests / "docs/reasons.py", tree)
+(tree / "src/space/rest.hpp").unlink()
+refused("docs.sources", "a source file that moved", "Rest: space/rest.hpp is not at src/space/rest.hpp", python,
+        tests / "docs/sources.py", tree)
+changed(source / "README.md", "^Both want Debian", "Both " + "and both " * 30 + "want Debian", "tree/README.md")
+refused("docs.words", "a sentence of more than 35 words", r"README.md:\d+: \d+ words: Both and", python, tests / "docs/words.py", tree,
+        tree / "README.md")
+refused("docs.citation", "a version that went on", "CITATION.cff is of version .*, the project of 99.0.0", python,
+        tests / "docs/citation.py", tree, "99.0.0")
 doxyfile = build / "docs/Doxyfile"
 if doxyfile.exists() and shutil.which("doxygen"):
     text = doxyfile.read_text(encoding="utf-8") + f"\nINPUT = {grown}\nOUTPUT_DIRECTORY = {folder}\n"
