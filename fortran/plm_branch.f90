@@ -29,7 +29,7 @@ contains
 
     pure integer(c_int32_t) function measure_of(measure)
         integer(plm_status), intent(in), optional :: measure
-        measure_of = PLM_PEAK
+        measure_of = PLM_HALF_PEAK_TO_PEAK ! as in C++ and Python
         if (present(measure)) measure_of = measure
     end function measure_of
 
@@ -76,7 +76,7 @@ contains
             harmonic_of(harmonic), trim(path)//c_null_char), stat, errmsg)
     end subroutine write_csv
 
-    ! value(n_points); measure: PLM_PEAK (if absent), PLM_HALF_PEAK_TO_PEAK, PLM_RMS, PLM_HARMONIC (of `harmonic`, 1 if
+    ! value(n_points); measure: PLM_HALF_PEAK_TO_PEAK (if absent), PLM_PEAK, PLM_RMS, PLM_HARMONIC (of `harmonic`, 1 if
     ! absent)
     subroutine amplitude(self, dof, value, measure, harmonic, stat, errmsg)
         class(plm_branch), intent(in) :: self

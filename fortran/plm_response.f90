@@ -35,7 +35,7 @@ module plm_responses
 contains
 
     ! The whole way in one call, for a built model with an excitation: curve around the resonance that the excitation drives
-    ! most, and its peak. measure: PLM_PEAK (if absent), PLM_HALF_PEAK_TO_PEAK, PLM_RMS; accuracy: relative error that the
+    ! most, and its peak. measure: PLM_HALF_PEAK_TO_PEAK (if absent), PLM_PEAK, PLM_RMS; accuracy: relative error that the
     ! peak may have (if absent 1d-3); error: its estimate, NaN where there is none; hbm: what computed it.
     subroutine plm_compute_response(model, dof, frequency_hz, amplitude, curve, accuracy, measure, error, hbm, stat, errmsg)
         type(plm_model), intent(in) :: model
@@ -126,7 +126,7 @@ contains
         call finish(self%context, plm_hbm_solve(self%handle, frequency_hz, guess, at, branch%handle), stat, errmsg)
     end subroutine solve
 
-    ! The highest amplitude of a DOF on the exact curve. measure: PLM_PEAK (if absent), PLM_HALF_PEAK_TO_PEAK, PLM_RMS,
+    ! The highest amplitude of a DOF on the exact curve. measure: PLM_HALF_PEAK_TO_PEAK (if absent), PLM_PEAK, PLM_RMS,
     ! PLM_HARMONIC (of `harmonic`, 1 if absent); peak: that point as a branch.
     subroutine find_peak(self, branch, dof, frequency_hz, amplitude, measure, harmonic, peak, stat, errmsg)
         class(plm_hbm), intent(inout) :: self

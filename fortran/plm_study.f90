@@ -52,7 +52,7 @@ contains
         call finish(self%context, plm_study_destroy(self%handle), stat, errmsg)
     end subroutine destroy
 
-    ! The amplitude looked at; must be set. measure: PLM_PEAK (if absent), PLM_HALF_PEAK_TO_PEAK, PLM_RMS, PLM_HARMONIC (of
+    ! The amplitude looked at; must be set. measure: PLM_HALF_PEAK_TO_PEAK (if absent), PLM_PEAK, PLM_RMS, PLM_HARMONIC (of
     ! `harmonic`, 1 if absent).
     subroutine set_output(self, dof, measure, harmonic, stat, errmsg)
         class(plm_study), intent(inout) :: self
