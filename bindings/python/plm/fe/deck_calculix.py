@@ -20,7 +20,7 @@ def matrices_of(deck, folder=None, program="ccx"):
     found = shutil.which(program)
     if found is None:
         raise FileError(deck.path, 0, f"the deck has no matrices, and {program} is not installed to make them (Debian: calculix-ccx); "
-                        "hand them over: read_deck(path, matrices)")
+                        "hand them over: read_deck(path, matrices), plm ... --matrices FILE")
     lines = derived_lines(deck)
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="plm-") as temporary:
