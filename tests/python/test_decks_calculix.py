@@ -82,6 +82,15 @@ class Calculix(calculix_runs.Case):
             with self.assertRaisesRegex(FileError, words):
                 self.deck(base + more).matrices_by_calculix()
 
+    def test_sets_without_nodes_are_listed(self):
+        """A support or load of an empty set does nothing, which is not what its writer thinks."""
+        deck = self.deck(BAR.lines("BAR") + ["*NSET, NSET=NOBODY", "*ELSET, ELSET=NOTHING", "*BOUNDARY", "NOBODY, 1, 3", "*STEP", "*STATIC",
+                                             "*CLOAD", "NOBODY, 1, 5.", "*DLOAD", "NOTHING, P1, 5.", "*END STEP"])
+        at = len(BAR.lines("BAR"))
+        self.assertEqual([(line, text.split(",")[0]) for _, line, text in deck.unread],
+                         [(at + 4, "*BOUNDARY: the set 'NOBODY' has no nodes"), (at + 8, "*CLOAD: the set 'NOBODY' has no nodes"),
+                          (at + 10, "*DLOAD: the set 'NOTHING' has no elements")])
+
     def test_its_errors_say_where(self):
         """CalculiX tells the element on the line below its error."""
         lines = BAR.lines("BAR") + SECTION
