@@ -29,6 +29,17 @@ class Mistakes(Folder):
         self.refused("p.csv:3: contact: gap is 'nan'", "rest", *self.matrices, "--contact",
                      self.write("p.csv", "node,direction,gap\n20,x,0\n20,x,nan\n"))
 
+    def test_mass_and_stiffness_exchanged(self):
+        """Files in the wrong order: K and M by name, where M leads to K; and names that say nothing. Nothing is said of the right one."""
+        stiffness, mass, *rest = self.matrices
+        self.refused("K.mtx: would be stiffness and mass: give the file of the stiffness first", "modes", mass, stiffness, *rest)
+        for name, path in (("one.mtx", stiffness), ("two.mtx", mass)):
+            (self.folder / name).write_bytes((self.folder / path).read_bytes())
+        _, err = self.here("modes", self.path("two.mtx"), self.path("one.mtx"), *rest, status=1)  # 1e-3 Hz is a warning, too
+        self.assertIn("are the two exchanged?", err)
+        _, err = self.here("modes", self.path("one.mtx"), self.path("two.mtx"), *rest)
+        self.assertEqual(err, "")
+
     def test_a_column_twice(self):
         self.refused("p.csv:1: column 'gap' comes twice", "rest", *self.matrices, "--contact",
                      self.write("p.csv", "node,direction,gap,gap\n20,x,1,2\n"))
