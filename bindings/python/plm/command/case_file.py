@@ -24,6 +24,8 @@ def read_case(path):
 
 
 def _text(path):
+    if not pathlib.Path(path).is_file():
+        raise Wrong(f"{path} is no file")
     try:
         return pathlib.Path(path).read_text(encoding="utf-8")
     except UnicodeDecodeError as error:

@@ -1,5 +1,6 @@
 """What is said to the user: results on the standard output, messages on the standard error."""
 import contextlib
+import re
 import shutil
 import sys
 import textwrap
@@ -18,6 +19,20 @@ def _to_stderr(text):
     if sys.stderr.isatty():
         text = textwrap.fill(text, max(shutil.get_terminal_size().columns - 1, 40), subsequent_indent="     ", break_on_hyphens=False)
     print(text, file=sys.stderr)
+
+
+# what the library calls its options, in the words of the command
+_WORDS = (("raise the effort of the context", "raise --effort (0: no limit)"),
+          (r"spent before there was a result; raise effort", "spent before there was a result; raise --effort (0: no limit)"),
+          (r"window_min_hz and window_max_hz of a sampler|\(frequency_min_hz, frequency_max_hz\)",
+           "--frequency-min-hz and --frequency-max-hz"))
+
+
+def in_words_of_the_command(text):
+    """A message of the library, with the options that its reader has."""
+    for library, command in _WORDS:
+        text = re.sub(library, command, text)
+    return text
 
 
 class Console:
@@ -42,6 +57,7 @@ class Console:
 
     def warn(self, text, matters=True):
         """Something that should be looked at; every text once."""
+        text = in_words_of_the_command(text)
         self.matters = self.matters or matters
         if text not in self.warnings:
             self.warnings.append(text)
@@ -64,5 +80,5 @@ class Console:
 
     def _tell_logged(self):
         for level, text in self.log:
-            if level >= 2 and not any(text in told for told in self.warnings):
+            if level >= 2 and not any(in_words_of_the_command(text) in told for told in self.warnings):
                 self.warn(text, matters=False)

@@ -3,7 +3,7 @@ from typing import NamedTuple
 
 from ..fe.errors import FileError
 from .nodes import direction_of
-from .settings import Wrong, nearest
+from .settings import Wrong, finite, nearest
 from .tables import read_table
 
 COLUMNS = ("node", "direction", "to_node", "to_direction", "gap", "stiffness")
@@ -56,15 +56,14 @@ def _pair(row):
 
 def _node(value):
     try:
-        return int(value)
-    except (TypeError, ValueError):
-        raise Wrong(f"contact: {value!r} is no node; a whole number is needed") from None
+        if isinstance(value, str) or isinstance(value, int) and not isinstance(value, bool):
+            return int(value)
+    except ValueError:
+        pass
+    raise Wrong(f"contact: {value!r} is no node; a whole number is needed")
 
 
 def _number(row, name, default):
     if name not in row:
         return default
-    try:
-        return float(row[name])
-    except (TypeError, ValueError):
-        raise Wrong(f"contact: {name} is {row[name]!r}; it must be a number") from None
+    return finite(f"contact: {name}", row[name])

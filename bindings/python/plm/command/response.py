@@ -8,6 +8,7 @@ from .._errors import PlmError
 from .._functions import NOT_CONVERGED, TRUNCATED
 from .._reduction import Basis, Sampler
 from .._response import Hbm
+from .console import in_words_of_the_command
 from .report import Report, number_text
 from .response_files import write_files
 from .settings import Wrong, settings_text
@@ -136,7 +137,7 @@ def _report(structure, dof, found, settings):
     report.add("Response", [
         ("peak", f"{number_text(found.amplitude)} at {number_text(found.frequency_hz)} Hz ({what})"),
         ("error", _error_text(found.error, settings["accuracy"])),
-        ("curve", f"{len(curve)} points, {curve.frequency_hz.min():.6g} .. {curve.frequency_hz.max():.6g} Hz, {curve.end_text}"),
+        ("curve", f"{len(curve)} points, {curve.frequency_hz.min():.6g} .. {curve.frequency_hz.max():.6g} Hz, {in_words_of_the_command(curve.end_text)}"),
         ("contact", _contact_text(peak)),
         ("stability", {1: "the motion of the peak is stable", 0: "the motion of the peak is not stable"}.get(
             int(peak.stable[0]), "not computed")),

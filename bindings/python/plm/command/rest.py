@@ -17,6 +17,9 @@ def run(settings, console):
         model = structure.model
         require_pairs(model)
         model.build(progress=console.progress).solve_rest(progress=console.progress)
+        if not structure.is_preloaded and not (model.initial_gap < 0).any():
+            console.note("no pre-load acts and no gap is below 0, so that nothing moves: --preload NODE DIRECTION FORCE sets a force (in a "
+                         "deck: a *STATIC step)")
     force, displacement = model.rest_force, model.rest_displacement
     console.say(f"closed        {model.rest_n_closed} of {model.n_pairs} pairs")
     console.say(f"force         {number_text(force.sum())} of all pairs together, {number_text(force.max())} at most")

@@ -88,7 +88,8 @@ def value_of(setting, value):
     return _READERS[kind](setting.name, value)
 
 
-def _number(name, value):
+def finite(name, value):
+    """The number that a text or a value of a case file is."""
     try:
         number = float(value) if not isinstance(value, bool) else math.nan
     except (TypeError, ValueError, OverflowError):
@@ -100,7 +101,7 @@ def _number(name, value):
 
 def _bounded(low, high, words):
     def read(name, value):
-        number = _number(name, value)
+        number = finite(name, value)
         if not low <= number <= high:
             raise Wrong(f"{name} is {number:g}; it must be {words}")
         return number
@@ -108,14 +109,14 @@ def _bounded(low, high, words):
 
 
 def _positive(name, value):
-    number = _number(name, value)
+    number = finite(name, value)
     if number <= 0:
         raise Wrong(f"{name} is {number:g}; it must be above 0")
     return number
 
 
 def _count(name, value):
-    number = _number(name, value)
+    number = finite(name, value)
     if number != int(number) or not 1 <= number <= 10**6:
         raise Wrong(f"{name} is {value!r}; it must be a whole number from 1 on")
     return int(number)
@@ -169,9 +170,9 @@ def _loads(name, value):
     loads = []
     for row in _rows(value):
         node, direction, *numbers = _row(name, row, 3, 4, "a node, a direction and an amplitude, as 12 z 0.5, and may have a phase")
-        amplitude, phase = [_number(f"the amplitude of {name}", numbers[0]), 0.0]
+        amplitude, phase = [finite(f"the amplitude of {name}", numbers[0]), 0.0]
         if len(numbers) == 2:
-            phase = _number(f"the phase of {name}", numbers[1])
+            phase = finite(f"the phase of {name}", numbers[1])
         loads.append((node, direction, amplitude, phase))
     return loads
 

@@ -1,5 +1,6 @@
 """From the files and settings to a built model with its nodes."""
 import pathlib
+import re
 
 import numpy
 import scipy.sparse
@@ -24,23 +25,25 @@ class Structure:
     """A model, the nodes it belongs to, and what was noted while they were read.
 
     mesh: as plm.fe takes it; its coordinates are None where nothing tells them. unread: texts, what of a deck was not taken.
-    is_loaded, is_damped: whether the files say so themselves; first_load: a DOF on which the excitation acts, or None."""
+    is_loaded, is_damped, is_preloaded: whether the files say so themselves; first_load: a DOF on which the excitation acts, or None."""
 
-    def __init__(self, model, mesh, notes, unread=(), is_loaded=False, is_damped=False, first_load=None):
+    def __init__(self, model, mesh, notes, unread=(), is_loaded=False, is_damped=False, first_load=None,
+                 is_preloaded=False):
         self.model, self.mesh, self.notes, self.unread = model, mesh, list(notes), list(unread)
         self.is_loaded, self.is_damped, self.first_load = is_loaded, is_damped, first_load
+        self.is_preloaded = is_preloaded
 
     def nodes(self, given, what):
         """Labels of nodes: of one, or of a set of the deck by its name."""
-        try:
+        if isinstance(given, int) and not isinstance(given, bool) or re.fullmatch(r"\s*[-+]?[0-9]{1,15}\s*", str(given)):
             return [int(given)]
-        except (TypeError, ValueError):
-            pass
         sets = getattr(self.mesh, "node_sets", {})
         found = next((labels for name, labels in sets.items() if name.upper() == str(given).upper()), None)
         if found is None:
             known = f"; there are the sets {', '.join(sorted(sets))}" if sets else ""
             raise Wrong(f"{what}: {given!r} is neither a node nor a set of nodes{known}")
+        if not len(found):
+            raise Wrong(f"{what}: the set {given} has no nodes")
         return [int(label) for label in found]
 
     def dof(self, node, direction, what):
@@ -63,7 +66,7 @@ class Structure:
     def one_dof(self, given, what, first=False):
         """The DOF of [node, direction]; first: of the first node of a set."""
         nodes = self.nodes(given[0], what)
-        if not nodes or len(nodes) != 1 and not first:
+        if len(nodes) != 1 and not first:
             raise Wrong(f"{what}: the set {given[0]} has {len(nodes)} nodes; one is needed")
         return self.dof(nodes[0], direction_of(given[1], what), what)
 
@@ -97,6 +100,7 @@ def assemble(settings, console, assume_damping=False):
             model.fix_dofs(_fixed(structure, node, given[1]))
     if settings["preload"]:
         model.set_preload(structure.force(settings["preload"], "preload").real)
+        structure.is_preloaded = True
     if settings["force"]:
         model.set_excitation(structure.force(settings["force"], "force"))
         structure.is_loaded, structure.first_load = True, structure.one_dof(settings["force"][0][:2], "force", first=True)
@@ -155,7 +159,8 @@ def _of_deck(files, settings, context):
     structure = Structure(model, deck, [*deck.notes, *deck.matrices.notes, *notes], [f"{file}:{line}: {text}" for file, line, text in
                           deck.unread], is_loaded=load is not None or shaken,
                           is_damped=bool(deck.rayleigh or deck.modal_damping or deck.matrices.damping is not None),
-                          first_load=None if load is None else int(numpy.argmax(numpy.abs(load))))
+                          first_load=None if load is None else int(numpy.argmax(numpy.abs(load))),
+                          is_preloaded=deck_loads.preload(deck) is not None)
     _add_pairs(structure, read_pairs(settings["contact"]))
     return structure
 

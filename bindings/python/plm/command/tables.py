@@ -18,6 +18,8 @@ def read_table(path, required, optional=()):
             for name in names:
                 if name not in known:
                     raise FileError(path, 1, f"column {name!r} is unknown{nearest(name, known)}")
+                if names.count(name) > 1:
+                    raise FileError(path, 1, f"column {name!r} comes twice")
             for name in required:
                 if name not in names:
                     raise FileError(path, 1, f"there is no column {name}; the first line must name the columns {', '.join(known)}")

@@ -71,6 +71,13 @@ class Deck:
         rows = [self.node_rows(face) for face in surface.faces]
         return numpy.array(rows, dtype=numpy.int64) if len({len(row) for row in rows}) == 1 else rows
 
+    def section_set(self, block):
+        """Name of the element set that a section, *SPRING or *MASS is for."""
+        for name in (block.scope.full(block.needed("ELSET")), block.get("ELSET").upper()):
+            if name in self.element_sets:
+                return name
+        block.fail(f"there is no element set {block.get('ELSET')}")
+
     def dof(self, node, direction):
         """Row of a node's DOF (direction 1 to 6) in the model; None where it has none."""
         return self._dofs().row(node, direction)
@@ -97,7 +104,8 @@ class Deck:
 
     def matrices_by_calculix(self, folder=None, program="ccx"):
         """Stiffness and mass by CalculiX from mesh, materials and sections; constraints, supports and contact stay the library's. A
-        temporary folder unless one is given, in which the files then stay. Returns the matrices, which are the deck's from now."""
+        temporary folder unless one is given, in which the files then stay (without the point masses of *MASS, which are added to what
+        CalculiX writes). Returns the matrices, which are the deck's from now."""
         from .deck_calculix import matrices_of
         self.set_matrices(matrices_of(self, folder, program))
         return self.matrices

@@ -1,16 +1,17 @@
 """Stiffness and mass of a deck by CalculiX: mesh, materials and sections, and nothing that the library does itself."""
+import itertools
 import os
 import shutil
 import subprocess
 import tempfile
 
-from . import deck_elements
+from . import deck_elements, deck_masses
 from .deck_sets import Names
 from .errors import FileError
 
 TIME_LIMIT = 3600.0  # s
-POINTS = ("MASS", "SPRING1", "SPRING2", "SPRINGA")  # elements beside solids whose matrices CalculiX writes as they are
-SECTIONS = {"SOLIDSECTION": "SOLID SECTION", "SPRING": "SPRING", "MASS": "MASS"}
+POINTS = ("SPRING1", "SPRING2", "SPRINGA")  # elements beside solids whose matrices CalculiX writes as they are
+SECTIONS = {"SOLIDSECTION": "SOLID SECTION", "SPRING": "SPRING"}
 NAME = "matrices"
 
 
@@ -19,7 +20,7 @@ def matrices_of(deck, folder=None, program="ccx"):
     found = shutil.which(program)
     if found is None:
         raise FileError(deck.path, 0, f"the deck has no matrices, and {program} is not installed to make them (Debian: calculix-ccx); "
-                        "hand them over: read_deck(path, matrices)")
+                        "hand them over: read_deck(path, matrices), plm ... --matrices FILE")
     lines = derived_lines(deck)
     if folder is None:
         with tempfile.TemporaryDirectory(prefix="plm-") as temporary:
@@ -41,18 +42,37 @@ def _run(deck, folder, program, lines):
     except subprocess.TimeoutExpired:
         raise FileError(deck.path, 0, f"{program} took more than {TIME_LIMIT:g} s for the matrices") from None
     said = done.stdout + done.stderr
-    wrong = [line.strip() for line in said.splitlines() if "*ERROR" in line]
-    if wrong or not os.path.exists(os.path.join(folder, NAME + ".sti")):
+    stiffness = os.path.join(folder, NAME + ".sti")
+    wrong = _first_error(said.splitlines())
+    if wrong or not os.path.exists(stiffness):
         last = said.strip().splitlines()[-1:] or [f"status {done.returncode}"]
-        raise FileError(deck.path, 0, f"{program} made no matrices of this deck: {(wrong or last)[0]}")
-    return read_matrices(os.path.join(folder, NAME + ".sti"))
+        raise FileError(deck.path, 0, f"{program} made no matrices of this deck: {wrong or last[0]}")
+    matrices = read_matrices(stiffness)
+    # the file is gone when the note is read
+    matrices.notes[:] = [note.replace(stiffness, f"{deck.path}, matrices by CalculiX") for note in matrices.notes]
+    return deck_masses.with_point_masses(deck, matrices)
+
+
+def _first_error(lines):
+    """The first error that CalculiX tells, with the lines that go with it: which card, which element. '' without any."""
+    at = next((i for i, line in enumerate(lines) if "*ERROR" in line), None)
+    if at is None:
+        return ""
+    with_it = itertools.takewhile(lambda line: line.strip() and "*ERROR" not in line, lines[at + 1:at + 4])
+    return " ".join(line.strip() for line in [lines[at], *with_it])
+
+
+def card_number(value):
+    """A number on a card of CalculiX, which reads 20 characters of it: what stands behind them, of 1.2345678901234567e-05 all but the
+    first digit of the exponent, would be lost without a word. Twenty hold 14 digits of any number and 17 of most."""
+    return next(text for text in (f"{value:.{digits}g}" for digits in range(17, 0, -1)) if len(text) <= 20)
 
 
 def derived_lines(deck):
     """The lines of the deck that CalculiX gets."""
     groups = _check_elements(deck)
     lines = ["*NODE, NSET=ALLNODES"]
-    lines += [f"{n},{x:.17g},{y:.17g},{z:.17g}" for n, (x, y, z) in zip(deck.node_labels.tolist(), deck.coordinates.tolist())]
+    lines += [f"{n},{card_number(x)},{card_number(y)},{card_number(z)}" for n, (x, y, z) in zip(deck.node_labels.tolist(), deck.coordinates.tolist())]
     for i, block in enumerate(groups):
         lines.append(f"*ELEMENT, TYPE={block.type}, ELSET=BLOCK{i}")
         for label, nodes in zip(block.labels.tolist(), block.connectivity.tolist()):
@@ -66,7 +86,7 @@ def _check_elements(deck):
     """The elements that CalculiX shall have."""
     groups = []
     for block in deck.elements:
-        if block.type in ("DCOUP3D", "GAPUNI"):
+        if block.type in ("DCOUP3D", "GAPUNI", deck_masses.ELEMENT):
             continue
         if not (deck_elements.SOLID.match(block.type) and block.type.startswith("C3D")) and block.type not in POINTS:
             raise FileError(deck.path, 0, f"elements of type {block.type}: CalculiX makes solids with nodes of their own of these, and no "
@@ -81,12 +101,12 @@ def _properties(deck):
     """Materials and sections as they stand in the deck; their element sets under short names, which CalculiX limits."""
     lines, sets, seen = [], Names(), set()
     for block in deck.property_blocks:
-        if (block.file, block.number) in seen and block.key not in SECTIONS:
+        if block.key == "MASS" or (block.file, block.number) in seen and block.key not in SECTIONS:
             continue
         seen.add((block.file, block.number))
         text = block.text
         if block.key in SECTIONS:
-            name = _set_name(deck, block)
+            name = deck.section_set(block)
             if name not in sets:
                 sets[name.upper()] = f"PART{len(sets)}"
                 lines.append(f"*ELSET, ELSET={sets[name]}")
@@ -98,10 +118,3 @@ def _properties(deck):
     if not sets:
         raise FileError(deck.path, 0, "the deck has no sections (*SOLID SECTION), so CalculiX can make no matrices of it")
     return lines
-
-
-def _set_name(deck, block):
-    for name in (block.scope.full(block.needed("ELSET")), block.get("ELSET").upper()):
-        if name in deck.element_sets:
-            return name
-    block.fail(f"there is no element set {block.get('ELSET')}")

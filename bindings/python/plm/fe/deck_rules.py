@@ -91,6 +91,8 @@ class RuleReader:
         missing = labels[~is_in(labels, self._mesh.labels)]
         if missing.size:
             line.fail(f"node {missing[0]} is not defined")
+        if not labels.size:
+            self._unread.append((line.file, line.number, f"*{block.key}: the set {shown(text)} has no nodes, so that it does nothing"))
         return labels
 
     def node(self, text, line, block):

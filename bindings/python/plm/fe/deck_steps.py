@@ -116,6 +116,9 @@ class StepReader:
                 self._gravity(block, line, flags)
             elif label[:1] == "P" and (label[1:].isdigit() or label == "P"):
                 elements = self._mesh.element_sets.chosen(line.field(0), line, block.scope)
+                if not elements.size:
+                    self._unread.append((line.file, line.number, f"*DLOAD: the set {shown(line.field(0))} has no elements, so that it does "
+                                         "nothing"))
                 faces = [face for element in elements for face in self._pressed(element, label, line)]
                 self.loads.append(Pressure(faces, line.real(2, "the pressure"), *flags, line.file, line.number))
             else:

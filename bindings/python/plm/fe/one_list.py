@@ -74,6 +74,9 @@ def remarks(path, matrices):
         node, direction = dofs[numpy.argmax(negative)].tolist()
         notes.append(f"{path}: {negative.sum()} diagonal entries of the stiffness matrix are below zero, the first at "
                      f"{node}.{direction}")
+    if _balances(mass) and not _balances(stiffness):
+        notes.append(f"{path}: most rows of the mass matrix sum up to zero, as those of a stiffness matrix do, which does not resist a "
+                     "rigid motion: are the two exchanged?")
     if matrices.structural_damping is not None:
         scale = matrices.structural_damping.diagonal().sum() / (stiffness.diagonal().sum() or 1.0)
         same = abs(matrices.structural_damping - scale * stiffness).max() <= 1e-9 * abs(scale) * abs(stiffness).max()
@@ -81,3 +84,11 @@ def remarks(path, matrices):
             f"{scale:.9g} times the stiffness matrix: set it as that loss factor" if same else
             "not a multiple of the stiffness matrix; no loss factor stands for it"))
     return notes
+
+
+def _balances(matrix):
+    """Whether at least half of the rows with entries beside the diagonal sum up to nothing."""
+    size = abs(matrix) @ numpy.ones(matrix.shape[1])
+    coupled = size > abs(matrix.diagonal())
+    sums = abs(matrix @ numpy.ones(matrix.shape[1]))[coupled]
+    return bool(sums.size) and 2 * numpy.count_nonzero(sums <= 1e-6 * size[coupled]) >= sums.size

@@ -62,6 +62,9 @@ def chosen(path, request, guess):
     paths.update(request.paths)
     if "stiffness" not in paths:
         raise FileError(path, 0, "is no stiffness matrix, and none was found beside it: hand its path over")
+    if "mass" in paths and os.path.realpath(paths["mass"]) == os.path.realpath(paths["stiffness"]):
+        # M and K in this order: the name M leads to K beside it
+        raise FileError(paths["mass"], 0, "would be stiffness and mass: give the file of the stiffness first, then that of the mass")
     return paths
 
 
