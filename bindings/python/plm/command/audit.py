@@ -5,7 +5,7 @@ _WORDS = ("", "look at   ", "wrong     ")
 
 
 def run(settings, console):
-    with console.listening(with_log=True):
+    with console.listening():  # what the log has of the model are the findings
         structure = assemble(settings, console)
         structure.model.build(progress=console.progress)
         findings = structure.model.audit()
