@@ -140,7 +140,11 @@ static void a_table_of_the_curve(void **state) {
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
-        TEST(writing), TEST(reading), TEST(without_the_model), TEST(another_basis), TEST(a_table_of_the_curve),
+        TEST(writing),
+        TEST(reading),
+        TEST(without_the_model),
+        TEST(another_basis),
+        TEST(a_table_of_the_curve),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
