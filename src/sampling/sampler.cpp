@@ -32,6 +32,20 @@ std::int64_t harmonics_within_reach(const Space &space, double window_max_hz, in
                         std::clamp(n, static_cast<double>(least), static_cast<double>(most_harmonics)));
 }
 
+// Exact modes of a first basis: with more, each of its points costs more than it tells, where what more of
+// them change is estimated and they are added at need.
+constexpr std::int64_t many_modes = 200;
+
+double reach_of(std::int64_t n_harmonics, double window_max_hz) {
+    return 2 * M_PI * space_margin * static_cast<double>(n_harmonics) * window_max_hz;
+}
+
+// As many of the harmonics proposed as a space reaches that was limited to many_modes.
+std::int64_t harmonics_reached(const Space &space, double window_max_hz, int driven) {
+    const double n = space.highest_frequency / reach_of(driven, window_max_hz);
+    return driven * std::max<std::int64_t>(1, static_cast<std::int64_t>(n));
+}
+
 // Highest frequency (rad/s) that one can tell before the dominant mode is known; 0: none.
 double first_guess(const SamplerOptions &o) {
     const double n = static_cast<double>(o.n_harmonics > 0 ? o.n_harmonics : least_harmonics),
@@ -92,22 +106,33 @@ Sampler::Sampler(std::shared_ptr<const Model> model, const SamplerOptions &optio
     const bool homogeneous = is_homogeneous(*model);
     Watch watch = host;
     double highest = first_guess(options);
+    SpaceLimits limits;
+    limits.provisional = highest == 0;
+    if (options.n_harmonics == 0) {
+        limits.most_modes = many_modes;
+        limits.least_frequency = std::max(highest / least_harmonics, 2 * M_PI * options.search_max_hz);
+    }
     for (int round = 0; round < 4; ++round) {
         watch.step("sampler", 0.25 * round);
         warnings_ = Warnings(); // those of the last round stand
         watch = host.keeping(warnings_);
-        space_ = make_contact_space(model, highest, least_modes(options), watch, space_, highest == 0);
+        space_ = make_contact_space(model, highest, least_modes(options), watch, space_, limits);
         rest_ = rest_of(*space_);
         dominant_ = find_dominant_modes(*space_, *rest_, homogeneous, options, watch);
         sweeps_.clear();
         for (const DominantMode &d : dominant_)
             sweeps_.push_back(sweep_of(*space_, *rest_, homogeneous, d, watch));
         window_ = find_window(*space_, dominant_.front(), sweeps_.front(), *rest_, options, watch);
+        const int driven = dominant_.front().harmonic;
         if (n_harmonics_ == 0)
-            n_harmonics_ = harmonics_within_reach(*space_, window_.max_hz, dominant_.front().harmonic);
-        const double needed = 2 * M_PI * space_margin * static_cast<double>(n_harmonics_) * window_.max_hz;
-        if (space_->highest_frequency >= needed) break;
-        highest = 1.01 * needed; // the frequencies move a little in the better space
+            n_harmonics_ = harmonics_within_reach(*space_, window_.max_hz, driven);
+        else if (options.n_harmonics == 0 && space_->highest_frequency < highest)
+            n_harmonics_ = harmonics_reached(*space_, window_.max_hz, driven);
+        if (space_->highest_frequency >= reach_of(n_harmonics_, window_.max_hz)) break;
+        constexpr double room = 1.01; // the frequencies move a little in the better space
+        highest = room * reach_of(n_harmonics_, window_.max_hz);
+        limits.provisional = false;
+        limits.least_frequency = room * reach_of(driven, window_.max_hz);
     }
     samples_ = select_samples(sweeps_, options.n_samples, options.include_ends, options.complements,
                               options.include_rest);

@@ -26,9 +26,9 @@ constexpr double most_at_once = 0.1;    // from one measurement to the next
 class ContactSpaceBuilder {
   public:
     ContactSpaceBuilder(std::shared_ptr<const Model> model, double highest, std::int64_t least_modes,
-                        Watch watch, const Space *previous, bool provisional)
+                        Watch watch, const Space *previous, const SpaceLimits &limits)
         : model_(std::move(model)), previous_(previous), space_(std::make_shared<Space>()), highest_(highest),
-          least_modes_(least_modes), provisional_(provisional), watch_(watch), sigma_(model_->shift()) {
+          least_modes_(least_modes), limits_(limits), watch_(watch), sigma_(model_->shift()) {
         space_->model = model_;
         space_->highest_frequency = highest;
         space_->is_contact_space = true;
@@ -83,23 +83,22 @@ class ContactSpaceBuilder {
     }
 
     void exact_modes() {
-        const double cutoff = highest_ * model_->space_options().cutoff_factor;
         watch_.step("open modes", 0.0);
-        double checked = cutoff;
         responses_ = previous_ ? previous_->responses : model_->responses(watch_);
         std::shared_ptr<const ExactModes> modes = responses_->modes;
         const bool far_enough = highest_ > 0 && modes->count() > 0 && modes->count() >= least_modes_ &&
-                                modes->values.back() >= cutoff * cutoff;
+                                modes->values.back() >= cutoff() * cutoff();
         if (far_enough) forget_search(*modes); // the count takes the most memory of all
-        const std::int64_t count = verified_count(checked);
+        double checked = cutoff();
+        const std::int64_t count = limited_count(checked);
         std::int64_t guess = std::max<std::int64_t>(least_modes_, count >= 0 ? count : 20);
         guess = std::max(guess, model_->n_rigid() + 1);
         const bool reach_far =
-            modes->count() >= guess && modes->count() > 0 && modes->values.back() >= cutoff * cutoff;
+            modes->count() >= guess && modes->count() > 0 && modes->values.back() >= cutoff() * cutoff();
         if (!reach_far && !modes->are_all) modes = more_modes(*modes, guess, count);
         if (count >= 0)
             modes = complete(std::move(modes), checked, count);
-        else if (modes->may_miss_copies && !modes->are_all && !provisional_)
+        else if (modes->may_miss_copies && !modes->are_all && !limits_.provisional)
             modes = model_->looked_over(*modes, watch_);
         if (highest_ > 0) forget_search(*modes); // hardly ever more are asked for
         if (modes != responses_->modes)
@@ -108,6 +107,8 @@ class ContactSpaceBuilder {
         space_->responses = responses_;
         leave_out_followers();
     }
+
+    double cutoff() const { return highest_ * model_->space_options().cutoff_factor; }
 
     static void forget_search(const ExactModes &modes) {
         if (modes.rest) *modes.rest = SearchRest();
@@ -120,8 +121,7 @@ class ContactSpaceBuilder {
         ModeSearch search;
         search.known = &known;
         search.look_for_missed = !counted;
-        const double cutoff = highest_ * model_->space_options().cutoff_factor;
-        return model_->exact_modes_up_to(wanted, counted ? 0.0 : cutoff, watch_, search);
+        return model_->exact_modes_up_to(wanted, counted ? 0.0 : cutoff(), watch_, search);
     }
 
     // As many modes below the frequency as are counted there, give or take those at it; where some were
@@ -143,6 +143,19 @@ class ContactSpaceBuilder {
                        static_cast<long long>(count)));
         space_->counts_verified = true;
         return modes;
+    }
+
+    // Of a space that may reach less far; modes of a solid are some square of the frequency.
+    std::int64_t limited_count(double &frequency) {
+        std::int64_t count = verified_count(frequency);
+        while (count > limits_.most_modes && highest_ > limits_.least_frequency) {
+            const double share = 0.95 * std::sqrt(static_cast<double>(limits_.most_modes) / count);
+            highest_ = std::max(limits_.least_frequency, share * highest_);
+            space_->highest_frequency = highest_;
+            frequency = cutoff();
+            count = verified_count(frequency);
+        }
+        return count;
     }
 
     // What the modes found have to agree with; `frequency` moves a little where it hits a mode.
@@ -301,7 +314,7 @@ class ContactSpaceBuilder {
     std::shared_ptr<Space> space_;
     double highest_;
     std::int64_t least_modes_;
-    bool provisional_;
+    SpaceLimits limits_;
     Watch watch_;
     double sigma_;
     std::shared_ptr<const StaticResponses> responses_; // outside the exact modes of the space
@@ -315,15 +328,16 @@ class ContactSpaceBuilder {
 
 std::shared_ptr<const Space> make_contact_space(std::shared_ptr<const Model> model, double highest_frequency,
                                                 std::int64_t least_modes, Watch watch,
-                                                std::shared_ptr<const Space> previous, bool provisional) {
+                                                std::shared_ptr<const Space> previous,
+                                                const SpaceLimits &limits) {
     const std::int64_t least = std::min(least_modes, model->n_free());
     if (previous && previous->highest_frequency >= highest_frequency && previous->n_exact_modes >= least &&
-        (provisional || previous->counts_verified || !previous->responses->modes->may_miss_copies))
+        (limits.provisional || previous->counts_verified || !previous->responses->modes->may_miss_copies))
         return previous;
     const auto begin = std::chrono::steady_clock::now();
-    const std::shared_ptr<Space> space = ContactSpaceBuilder(std::move(model), highest_frequency, least_modes,
-                                                             watch, previous.get(), provisional)
-                                             .build();
+    const std::shared_ptr<Space> space =
+        ContactSpaceBuilder(std::move(model), highest_frequency, least_modes, watch, previous.get(), limits)
+            .build();
     space->seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() +
                      (previous ? previous->seconds : 0);
     return space;

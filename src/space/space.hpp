@@ -10,6 +10,7 @@
 #include "space/linear_contact.hpp"
 #include "space/model.hpp"
 #include "space/space_vectors.hpp"
+#include <limits>
 
 namespace plm {
 
@@ -52,14 +53,21 @@ void project_onto(Space &space);
 /// when upper is infinite.
 SpaceModes modes_of_contact_set(const Space &space, const PairStates &states, double upper);
 
+/// How far a contact space goes that is to be a first one.
+struct SpaceLimits {
+    bool provisional = false; // another one with a highest frequency follows, which verifies the modes
+    /// Where more exact modes are counted, it reaches less far, but to this frequency (rad/s).
+    std::int64_t most_modes = std::numeric_limits<std::int64_t>::max();
+    double least_frequency = 0;
+};
+
 /// The contact space: exact open modes up to cutoff_factor x highest_frequency, and contact attachment
 /// vectors block by block until the receptance error at highest_frequency (rad/s) is below the model's
 /// tolerance. previous: an earlier contact space of the same model or null; it is returned when it already
 /// serves, and its exact modes are used again when they reach far enough.
-/// provisional: another one with a highest frequency follows, which verifies the modes.
 std::shared_ptr<const Space> make_contact_space(std::shared_ptr<const Model> model, double highest_frequency,
                                                 std::int64_t least_modes, Watch watch,
                                                 std::shared_ptr<const Space> previous = nullptr,
-                                                bool provisional = false);
+                                                const SpaceLimits &limits = {});
 
 } // namespace plm
