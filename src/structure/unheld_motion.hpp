@@ -6,9 +6,10 @@
 
 namespace plm {
 
-/// Of what counts as none, relative to its terms before they cancel: what double precision leaves, and what
-/// may still be meant as zero. Beyond that the model means what it says.
-constexpr double exactly_zero = 1e-10, meant_as_zero = 1e-3;
+/// Of what counts as none, relative to its terms before they cancel: what double precision leaves (of
+/// rigid-body modes of a solid of thousands of DOFs, 2e-10), and what may still be meant as zero. Beyond that
+/// the model means what it says.
+constexpr double exactly_zero = 2e-9, meant_as_zero = 1e-3;
 
 /// Its directions R_0 among the rigid-body modes R, M-orthonormal as they are.
 Field unheld_motion(const GapRows &rows, const Field &rigid_modes);
