@@ -87,6 +87,8 @@ class Chain {
                 break;
             const auto basis = basis_for(h);
             if (basis->reduced()->size() <= best.basis->reduced()->size()) continue; // it knows no more
+            if (is_exact(best) && !prefers_exact(widened(basis->reduced()), options_))
+                break; // its harmonics would lack more than this basis does
             // if that on the next basis has as many, the contact of the structure itself bounces
             const Follow how = is_cut(best) ? Follow::to_the_end : Follow::few_points;
             if (!take_better(best, [&](ComputedResponse &next) { follow(basis, how, next); })) break;
@@ -128,6 +130,7 @@ class Chain {
     bool is_met(const ComputedResponse &r) const { return r.error <= accuracy_; }
     // Given up for its many points: there is no peak yet.
     static bool is_cut(const ComputedResponse &r) { return !r.peak.branch; }
+    static bool is_exact(const ComputedResponse &r) { return r.curve && r.curve->points().front().motion; }
     // No other basis knows more.
     bool is_complete(const Basis &basis) const { return basis.reduced()->size() >= model_->n_free(); }
     // A larger basis helps where the curve is whole and has its peak inside, and it can be told by how much.
@@ -275,15 +278,26 @@ class Chain {
         return change <= accuracy_ ? change : INFINITY;
     }
 
+    // Of the basis, the harmonics and the path: NaN where one of them is not known.
+    static double whole_error(const ComputedResponse &r) {
+        return r.error + (r.peak.harmonic_error < 0 ? NAN : r.peak.harmonic_error) + r.peak.above;
+    }
+
+    static bool is_better(const ComputedResponse &next, const ComputedResponse &best) {
+        const bool larger = next.basis->reduced()->size() > best.basis->reduced()->size();
+        if (larger && !std::isfinite(best.error)) return true;
+        const double of_next = whole_error(next), of_best = whole_error(best);
+        if (std::isnan(of_next) && std::isnan(of_best)) return next.error < best.error;
+        return std::isnan(of_best) || of_next < of_best;
+    }
+
     // False: the attempt failed, or a larger basis brought nothing, or no longer a whole curve of motions.
     template <class Attempt> bool take_better(ComputedResponse &best, Attempt attempt) const {
         try {
             ComputedResponse next;
             attempt(next);
             if (!std::isfinite(next.error)) next.error = change_if_settled(best, next);
-            const bool larger = next.basis->reduced()->size() > best.basis->reduced()->size(),
-                       better = (next.error < best.error || (larger && !std::isfinite(best.error))) &&
-                                (is_whole(*next.curve) || !is_whole(*best.curve));
+            const bool better = is_better(next, best) && (is_whole(*next.curve) || !is_whole(*best.curve));
             if (better) best = std::move(next);
             return better;
         } catch (const Error &e) { // what is there already is an answer
@@ -296,10 +310,8 @@ class Chain {
     // An upper bound, or no number: no less than what the space and the solution leave open.
     void finish(ComputedResponse &r) const {
         tell(r);
-        r.error = std::max(r.error, r.options.tolerance + r.basis->space()->error_estimate) +
-                  model_->space_options().reduction_error;
-        r.error += r.peak.harmonic_error < 0 ? NAN : r.peak.harmonic_error;
-        r.error += r.peak.above;
+        r.error = std::max(r.error, r.options.tolerance + r.basis->space()->error_estimate);
+        r.error = whole_error(r) + model_->space_options().reduction_error;
         // what was not followed may be higher by any amount
         const bool is_known = is_whole(*r.curve) || (spans(*r.curve) && r.peak.seen_in_time);
         if (!std::isfinite(r.error) || !is_known || r.peak.branch->warnings.has(reason::no_peak))

@@ -12,9 +12,12 @@ namespace {
 
 constexpr std::int64_t looked_at = 16; // points of a curve whose error is estimated, besides its highest
 constexpr std::int64_t corrected = 60; // points whose corrected motions make the next basis
-constexpr std::int64_t most_without_number = 3; // curves in a row on which the estimate does not converge
-constexpr double compression = 0.2;             // of the tolerance, at first
-constexpr double next_compression = 0.3;        // of the last one, when it was not enough
+// Rounds in a row that bring nothing: an estimate that does not converge, or none that is clearly smaller.
+// What is left then is not in the motions, as where the estimate itself is no nearer.
+constexpr std::int64_t most_in_vain = 2;
+constexpr double clearly_smaller = 0.7;
+constexpr double compression = 0.2;      // of the tolerance, at first
+constexpr double next_compression = 0.3; // of the last one, when it was not enough
 
 class Refiner {
   public:
@@ -32,7 +35,8 @@ class Refiner {
   private:
     void refine(std::shared_ptr<const Branch> known, Refinement &best) {
         std::shared_ptr<const Basis> basis = start_;
-        std::int64_t without_number = 0;
+        std::int64_t in_vain = 0;
+        double least = INFINITY;
         for (std::int64_t round = 1;; ++round) {
             const auto branch = round == 1 && known ? std::move(known) : sweep(*basis);
             const double error = largest_error(*branch);
@@ -40,6 +44,8 @@ class Refiner {
                                  static_cast<long long>(round),
                                  static_cast<long long>(basis->reduced()->size()), error));
             const bool compressed = basis->options().kind->is_compressed();
+            in_vain = error < clearly_smaller * least ? 0 : in_vain + 1;
+            least = std::min(least, error);
             // the first basis is never the answer: the point is to have a small one
             if (compressed && (!best.basis || error < best.error))
                 best = {basis, branch, error, round, false};
@@ -50,8 +56,7 @@ class Refiner {
                 return;
             }
             best.rounds = round;
-            without_number = std::isfinite(error) ? 0 : without_number + 1;
-            if (round >= options_.max_rounds || without_number >= most_without_number) return;
+            if (round >= options_.max_rounds || in_vain >= most_in_vain) return;
             if (compressed) pod_tolerance_ *= next_compression;
             basis = compress(*branch);
         }
