@@ -3,7 +3,6 @@
 // 256 bit, for which the loop asks at run time.
 #pragma once
 #include <cstdint>
-#include <cstring>
 
 namespace plm {
 
@@ -79,13 +78,21 @@ template <int width> struct Lanes {
     using Vector = typename VectorOf<width>::Real;
     using Mask = LaneMask<width>;
     Vector v[n];
+    // Where memcpy copies a vector, gcc takes it through the stack in halves, and reading those as one waits
+    // ten times as long as the arithmetic; a vector type that says it is not aligned loses that in a template
+    // of clang's.
+    struct __attribute__((packed, may_alias)) Unaligned {
+        Vector v;
+    };
 
     PLM_IN_LANES static Lanes load(const double *p) {
         Lanes r;
-        std::memcpy(r.v, p, sizeof r.v); // not aligned; a type that says so loses it in a template of clang's
+        for (int i = 0; i < n; ++i) r.v[i] = reinterpret_cast<const Unaligned *>(p + i * width)->v;
         return r;
     }
-    PLM_IN_LANES void store(double *p) const { std::memcpy(p, v, sizeof v); }
+    PLM_IN_LANES void store(double *p) const {
+        for (int i = 0; i < n; ++i) reinterpret_cast<Unaligned *>(p + i * width)->v = v[i];
+    }
     PLM_IN_LANES static Lanes all(double value) {
         Lanes r;
         for (int i = 0; i < n; ++i) r.v[i] = value - Vector{};

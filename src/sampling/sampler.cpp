@@ -17,7 +17,7 @@ constexpr double space_margin = 1.1; // accurate this far beyond the highest har
 
 // The paper's harmonics at least. A motion in time has more of them, which cost nothing where few modes reach
 // that far, and little where the structure is small enough for more modes.
-constexpr std::int64_t least_harmonics = 5, least_of_small = 10, most_harmonics = 15;
+constexpr std::int64_t least_harmonics = 5, least_of_small = 5, most_harmonics = 15;
 constexpr std::int64_t small_structure = 10000; // DOFs
 
 // Of the harmonic that drives the resonance, whatever else is known of the structure, so that the answer does
