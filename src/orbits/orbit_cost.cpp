@@ -30,7 +30,7 @@ bool decays_hopelessly(const ReducedModel &m) {
         rate = std::max(rate, m.damping.empty() ? m.damping_diagonal[j] : m.damping(j, j));
     const double n = static_cast<double>(m.size()), z = static_cast<double>(m.n_pairs()),
                  pieces = rate * 2 * M_PI / std::sqrt(*slowest) / radians;
-    return pieces * terms * 2 * n * (n + z) > hopeless_period;
+    return in_series * pieces * terms * 2 * n * (n + z) > hopeless_period;
 }
 
 } // namespace plm

@@ -5,6 +5,9 @@
 
 namespace plm {
 
+/// Of a flop, what one of a series takes: products with a vector, in lanes.
+constexpr double in_series = 0.25;
+
 /// What a step of Newton's method for an exact motion costs, estimated.
 double exact_step_flops(const ReducedModel &model, const MotionOptions &options);
 
