@@ -13,7 +13,7 @@ from text import Linker
 
 LANGUAGES = {"fortran": "Fortran", "fortran77": "FORTRAN 77", "cpp": "C++", "python": "Python"}
 PAGES = {"status": "library", "keys": "by-key"}  # of sections whose page is not called as they are
-OWNERS = {"plm_settable": "handle", "plm_readable": "handle", "Handle": "handle"}
+OWNERS = {"plm_settable": "handle", "plm_readable": "handle", "Handle": "handle"}  # what all handles have
 
 # What a language has in place of a function, in its own way.
 DESTROYED = {"cpp": "By the destructor, in any order.", "python": "When the object is collected, in any order."}
@@ -77,6 +77,8 @@ class Book:
         self.forms = {language: by_function(forms, self.functions) for language, forms in self.all_forms.items()}
         self.f77 = fortran_forms.f77_types()
         self.snippets = snippets()
+        self.help = python_forms.what_help_adds()
+        self.examples = self.help.examples()
         places = {item_name(item): f"{self.page_of(section)}.md#{item_name(item)}" for section, item in self.items("function")}
         places.update({item.names[0]: f"{self.page_of(section)}.md#{item.names[0]}" for section, item in self.items("callback")})
         self.linker = Linker(places, {name: f"{noun}-{name}" for noun, name, _ in reversed(keys())})

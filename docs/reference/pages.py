@@ -5,6 +5,7 @@ from book import LANGUAGES, item_name
 from fortran77 import visible
 from header import described
 from modules import parts_of_modules
+from python_forms import argument_names
 from text import cell, code, first_sentence, table
 
 TITLES = {"library": "The library", "by-key": "Options and results by key"}
@@ -128,7 +129,16 @@ def form_part(book, language, form):
         plain = re.match(r"[a-z]+[ ,]", form.words)  # "mean mechanical energy ...", and not "value(n_points): ..."
         words = form.words[0].upper() + form.words[1:] if plain else form.words
         parts.append(code("text", words) if "\n\n" in words else book.linker.prose(words, f"{language}.md"))
-    return "\n\n".join(parts)
+    return "\n\n".join(parts + (python_parts(book, form) if language == "python" else []))
+
+
+def python_parts(book, form):
+    """What help() adds: the arguments, and an example."""
+    rows = [[f"`{name}`", cell(book.linker.prose(book.help.meaning(form.owner, form.name, name), "python.md"))] for name in argument_names(form.code)]
+    known = form.owner if form.name == "__init__" else form.title
+    example = book.examples.get(known) or book.examples.get(f"Handle.{form.name}")
+    parts = [table(["argument", ""], rows)] if rows else []
+    return parts + (["Example:", code("python", example)] if example else [])
 
 
 def sizes_line(book, name, shown):

@@ -1,11 +1,31 @@
 """The package plm: classes, methods and functions, from its sources (nothing is imported: the library need not be there)."""
 import ast
+import importlib.util
 
 from forms import Form
 from header import described
 from plm_header import ROOT
 
 PACKAGE = ROOT / "bindings/python/plm"
+
+
+def what_help_adds():
+    """The module of the package that has the meaning of arguments and the examples; it needs nothing of the rest."""
+    found = importlib.util.spec_from_file_location("plm_help", PACKAGE / "_help.py")
+    module = importlib.util.module_from_spec(found)
+    found.loader.exec_module(module)
+    return module
+
+
+def argument_names(code):
+    """Of a form's code: "hbm.solve(frequency_hz, start=None)"."""
+    inner = code[code.index("(") + 1:-1] if "(" in code else ""
+    return [argument.arg for argument in arguments_of(inner)] if inner else []
+
+
+def arguments_of(inner):
+    parsed = ast.parse(f"def f({inner}): pass").body[0].args
+    return [*parsed.args, *parsed.kwonlyargs]
 
 
 def signature(node, is_method):

@@ -38,7 +38,7 @@ def _end_of_command(missing):
 
 
 try:
-    from . import _functions
+    from . import _functions, _help
     from ._context import Context, build_info, default_context, status_text, version
     from ._errors import PlmCancelled, PlmError, PlmKeyError, PlmWarning
     from ._handle import Key, keys
@@ -70,3 +70,6 @@ def __getattr__(name):
 
 def __dir__():
     return sorted(set(globals()) | set(__all__))
+
+
+_help.attach((Context, Model, Sampler, Basis, Hbm, Branch, Transient, Study), (build_info, default_context, keys, status_text, version))
