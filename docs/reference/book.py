@@ -122,6 +122,12 @@ class Book:
                 letter = self.api.description.letters.get(noun, "")
                 yield subroutine.name.replace("X", letter, 1) if "_X_" in name else subroutine.name, subroutine.text
 
+    def arguments_of(self, six):
+        """[(argument, type, is array, intent)] of a subroutine of FORTRAN 77."""
+        if six not in self.f77:
+            raise SystemExit(f"{six} is in none of fortran/plm_f77*.f90; run python3 src/capi/api/generate.py")
+        return self.f77[six]
+
     def own_names(self):
         """{described name: method names that lead to it alone}."""
         used = {}

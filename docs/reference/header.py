@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from plm_header import PATH
 
 GENERIC = [  # of functions that every handle has, which plm.h does not comment one by one
-    (r"_create$", "Makes a {noun}; destroy it by plm_{noun}_destroy, or let the context do it."),
+    (r"_create$", "Makes {article} {noun}; destroy it by plm_{noun}_destroy, or let the context do it."),
     (r"_destroy$", "Destroys the {noun}; NULL and *{noun} == NULL are accepted; *{noun} becomes NULL."),
     (r"_set_(int|double|string)$", "Sets an option of a handle by its key. plm_<handle> stands for each kind of handle that has options."),
     (r"_get_(int|double|string)$", "Reads an option or a result of a handle by its key."),
@@ -50,7 +50,7 @@ def generic(name):
     for pattern, words in GENERIC:
         if re.search(pattern, name):
             noun = "handle" if "_X_" in name else name.split("_")[1]
-            return words.format(noun=noun, noun_of_error=name.rsplit("_", 1)[1])
+            return words.format(noun=noun, noun_of_error=name.rsplit("_", 1)[1], article="an" if noun == "hbm" else "a")
     return ""
 
 

@@ -154,7 +154,7 @@ def in_words(size, shown):
 
 
 def f77_call(book, six):
-    arguments = book.f77[six]
+    arguments = book.arguments_of(six)
     rows = [f"      {kind:<17} {argument}{'(*)' if is_array else ''}" for argument, kind, is_array, _ in arguments if argument != "IERR"]
     return code("fortran", "\n".join(rows + ["      INTEGER           IERR", f"      CALL {six} ({', '.join(argument for argument, *_ in arguments)})"]))
 
@@ -178,7 +178,7 @@ def f77_parts(book, name):
     subroutines, by_key = list(book.subroutines(name)), "_X_" in name
     parts = []
     for six, text in subroutines[:1] if by_key else subroutines:
-        outputs = [f"`{argument}`" for argument, _, _, way in book.f77[six] if way in ("inout", "out") and argument != "IERR"]
+        outputs = [f"`{argument}`" for argument, _, _, way in book.arguments_of(six) if way in ("inout", "out") and argument != "IERR"]
         note = f"Written: {', '.join(outputs)}, and `IERR`." if outputs else ""
         said = book.linker.prose(sentence(text), "fortran77.md") if text else ""
         parts += [f77_call(book, six), " ".join(filter(None, [said, note]))]
