@@ -95,18 +95,15 @@ class OrbitEquations final : public Residual {
     OrbitConditions conditions_;
     FlowParameter parameter_;
     std::shared_ptr<ContactModesKept> modes_;
-    vector<double> weight_; // of each unknown in the energy: x = weight times displacement or velocity
-    vector<double> share_;  // see weights()
-    Run run_, remembered_;  // the last one; the one that recall() brings back
-    /// A monodromy that was computed, and where.
+    vector<double> weight_, share_; // of the unknowns
+    Run run_, remembered_;
     struct Known {
         vector<double> x;
         double p = 0;
         Matrix monodromy;
     };
-    Known before_,
-        last_; // of the last two linearize(), where it takes long: the next one is guessed from them
-    bool guessed_ = false; // since the last of these
+    Known before_, last_;  // of the last two linearize(), where it takes long
+    bool guessed_ = false; // since then
 };
 
 } // namespace plm
