@@ -1,11 +1,10 @@
 """What Python has beyond the functions of C: results with names, pictures, files."""
 import ast
 
-from plm_header import ROOT
 from python_forms import PACKAGE, signature
 from text import code
 
-MODULES = {"plm.plot": ["plot.py"], "plm.fe": ["fe/__init__.py"]}
+MODULES = ("plot", "fe")
 
 
 def named_functions(path):
@@ -24,13 +23,13 @@ def named_functions(path):
 
 def parts_of_modules(book):
     parts = []
-    for module, files in MODULES.items():
+    for name in MODULES:
+        alone, module = PACKAGE / f"{name}.py", f"plm.{name}"
         parts.append(f"## {module}")
-        for file in files:
-            for node in named_functions(PACKAGE / file):
-                parts += [f"### `{module}.{node.name}`", code("python", f"{module}.{node.name}({signature(node, False)})")]
-                words = ast.get_docstring(node) or ""
-                parts.append(code("text", words) if "\n\n" in words else book.linker.prose(words, "python.md"))
+        for node in named_functions(alone if alone.exists() else PACKAGE / name / "__init__.py"):
+            parts += [f"### `{module}.{node.name}`", code("python", f"{module}.{node.name}({signature(node, False)})")]
+            words = ast.get_docstring(node) or ""
+            parts.append(code("text", words) if "\n\n" in words else book.linker.prose(words, "python.md"))
     parts.append("## Results with names")
     for path in sorted(PACKAGE.glob("_*.py")):
         for node in ast.parse(path.read_text(encoding="utf-8")).body:
