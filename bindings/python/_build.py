@@ -42,6 +42,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     name, metadata = _project()
     files = {str(path.relative_to(ROOT)): path.read_bytes() for path in _sources()}
     info = f"{name}.dist-info"
+    files[f"{name}.data/data/share/man/man1/plm.1"] = (ROOT / "plm.1").read_bytes()
     files[f"{info}/METADATA"] = metadata.encode()
     files[f"{info}/entry_points.txt"] = _scripts().encode()
     files[f"{info}/WHEEL"] = b"Wheel-Version: 1.0\nGenerator: libplm\nRoot-Is-Purelib: true\nTag: py3-none-any\n"
@@ -59,7 +60,7 @@ def build_sdist(sdist_directory, config_settings=None):
     name, metadata = _project()
     archive = f"{name}.tar.gz"
     with tarfile.open(pathlib.Path(sdist_directory) / archive, "w:gz") as tar:
-        for path in [ROOT / "pyproject.toml", ROOT / "_build.py", *_sources()]:
+        for path in [ROOT / "pyproject.toml", ROOT / "_build.py", ROOT / "plm.1", *_sources()]:
             tar.add(path, f"{name}/{path.relative_to(ROOT)}")
         info = pathlib.Path(sdist_directory) / "PKG-INFO"
         info.write_text(metadata, encoding="utf-8")

@@ -81,12 +81,15 @@ class ContactModes {
     Load load_of(const FlowModel &model, const vector<double> &force, const vector<double> &gap) const;
 
     ContactSet set_;
-    std::int64_t moving_, massive_;
+    std::int64_t moving_, massive_; // coordinates that move, the first ones; of them those with mass
     bool usable_ = false;
-    double condition_ = 0, free_speed_ = 0; // reciprocal, of the eigenvectors
-    vector<double> root_;                   // of what moves
+    double condition_ = 0; // reciprocal, of the eigenvectors
+    double free_speed_ = 0;
+    vector<double> root_; // of the stiffness of each coordinate that moves: y enters x times this
     std::vector<Mode> modes_;
-    Matrix free_, to_state_, from_state_, displacement_, gap_by_pair_, reach_;
+    Matrix free_;                  // see free_block()
+    Matrix to_state_, from_state_; // W, and its inverse
+    Matrix displacement_, gap_by_pair_, reach_;
     vector<double> gap_size_;
     Load constant_;
     std::vector<Harmonic> loads_;
@@ -121,11 +124,13 @@ class ContactModesKept {
 
   private:
     struct Entry {
-        std::int64_t effort = 0, last_use = 0;
+        std::int64_t effort = 0;                   // pieces of series that visits have taken so far
+        std::int64_t last_use = 0;                 // by clock_: what was used longest ago makes room first
         std::shared_ptr<const ContactModes> modes; // null: not made, or not usable
-        bool tried = false;
+        bool tried = false;                        // made once: usable, or never
         Stay stay;
     };
+    /// Forgets modes and transitions until so many bytes fit.
     void make_room(double bytes);
 
     std::shared_ptr<const FlowModel> model_;
@@ -134,8 +139,8 @@ class ContactModesKept {
     template <class Real> std::map<Way, vector<Real>> &transitions();
     std::map<Way, vector<double>> transitions_;
     std::map<Way, vector<float>> single_transitions_;
-    std::int64_t clock_ = 0;
-    double bytes_ = 0;
+    std::int64_t clock_ = 0; // counts uses
+    double bytes_ = 0;       // that all of it takes
 };
 
 } // namespace plm

@@ -49,6 +49,7 @@ class ExactFlow {
     std::int64_t n_steps() const { return n_steps_; }
 
   private:
+    // A piece ends at the next event, or where its series or its modes do not reach further.
     void check(const FlowState &state, double t_end) const;
     void guess_contact(const FlowState &state);
     void fill_massless(FlowState &state); // in the present contact set
@@ -88,29 +89,46 @@ class ExactFlow {
     void take_set();
 
     std::shared_ptr<const FlowModel> model_;
-    double omega_, force_scale_, fastest_force_ = 0;
+    double omega_, force_scale_;
+    double fastest_force_ = 0; // rad/s, of the highest harmonic of the excitation
     Watch watch_;
+
+    // The linear system of the present contact set: one whose modes are kept, or else the own one.
     ContactSet own_set_;
     std::shared_ptr<const ContactModes> taken_;
-    const ContactSet *set_ = &own_set_; // of the last take_set(): that of taken_, or the own one
-    PieceEvents events_;
+    const ContactSet *set_ = &own_set_; // of the last take_set()
+    PieceEvents events_;                // which pair opens or closes next, and the states until then
     std::shared_ptr<ContactModesKept> modes_;
-    FlowParameter parameter_ = FlowParameter::none;
+
+    FlowParameter parameter_ = FlowParameter::none; // that change_ is a derivative by
     FlowState change_;
-    Series motion_, derivative_;
-    Matrix contact_force_, shortened_, known_;
+    Series motion_, derivative_; // of the present piece, and of change_ on it
+
+    // Working memory of a piece by its series: no piece allocates.
+    Matrix contact_force_; // of the pairs
+    Matrix shortened_;     // the series up to the event, as a recorder takes it
+    Matrix known_;         // the first powers of the penetrations, by one pass over the gap rows
     const Matrix nothing_;
-    vector<double> following_, ways_, now_,
-        travel_; // now_: penetrations at the beginning of a piece, travel_: how far they may go
+    vector<double> following_; // forces on the coordinates
+    vector<double> ways_;      // how far the coordinates may go on the piece
+    vector<double> now_;       // penetrations at its beginning
+    vector<double> travel_;    // how far they may go
     std::unique_ptr<ModalPieces> modal_;
     bool may_use_modes_ = false;
-    bool fresh_ = true, dense_ = true; // an event has just been passed; soon after the one before
-    double last_event_ = 0, shortest_series_ = 0;
-    double truncation_ = 1e-17;
-    std::int64_t n_terms_ = 0, n_events_ = 0, n_steps_ = 0, event_limit_ = 0, stalled_ = 0;
-    Matrix here_, there_; // penetrations and rates at the ends of a stay
+
+    bool fresh_ = true; // an event has just been passed,
+    bool dense_ = true; // and soon after the one before: modes do not pay for pieces so short
+    double last_event_ = 0, shortest_series_ = 0; // times: of that event; of the longest step of a series
+    double truncation_ = 1e-17;                   // see truncate()
+    std::int64_t n_terms_ = 0;                    // of the series
+    std::int64_t n_events_ = 0, n_steps_ = 0;
+    std::int64_t event_limit_ = 0; // events that one period may have,
+    std::int64_t stalled_ = 0;     // and how many in a row came without time going on: both end in an error
+    Matrix here_, there_;          // penetrations and rates at the two ends of a stay in a contact set
+    // Stays that were right at once, and those that an event cut short: where these are more, none is tried.
     std::int64_t n_stays_ = 0, n_lost_stays_ = 0;
-    double events_left_ = 0, tried_ = 0; // tried_: longest duration of the next piece
+    double events_left_ = 0; // of event_limit_ in this advance()
+    double tried_ = 0;       // longest duration of the next piece
 };
 
 /// Keeps the sequence of contact sets, as monodromy() takes it.

@@ -61,13 +61,17 @@ class CurveCompression {
         std::vector<vector<double>> springs; // in the place of the pairs, at their mean over a period
     };
 
+    /// Points spread over a curve, among them the highest one; all its motions go to needs_.
     std::vector<Point> points_of(const Branch &look);
+    /// Whether a model is so much smaller than the whole one that a curve on it is worth its making.
     bool saves(const ReducedModel &smaller, const std::vector<Point> &points) const;
     double tolerance() const;
     bool is_dear(const ReducedModel &model) const;
     bool is_last_not_dear(const ReducedModel &model) const;
     /// last: the one that this one grows from; null: none.
     std::shared_ptr<const ReducedModel> compressed_after(const ReducedModel *last) const;
+    /// Solves the exact motions beside the points on this model, and adds them, and what the whole basis
+    /// answers to their contact forces, to `needs`. Returns the largest change of an amplitude over the peak.
     double settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points,
                   Needs &needs) const;
     void grow_beside(std::vector<Point> &highest);
@@ -80,20 +84,24 @@ class CurveCompression {
     bool agrees_on_better(const Branch &curve, std::int64_t point);
     double amplitude(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &point) const;
 
-    std::shared_ptr<const ReducedModel> whole_, model_, better_;
+    std::shared_ptr<const ReducedModel> whole_;  // what the basis spans
+    std::shared_ptr<const ReducedModel> model_;  // the compressed one that the curve is followed on
+    std::shared_ptr<const ReducedModel> better_; // a larger one that its highest motion is compared with
     HbmOptions options_;
-    double highest_, left_out_, omega_ = 0;
+    double highest_;   // angular frequency where the range ends
+    double left_out_;  // share of the motions that the compression may drop
+    double omega_ = 0; // of the highest motion of the first look
     Watch watch_;
     Needs needs_;
-    double scale_ = 0;
-    Output output_;
+    double scale_ = 0; // norm of the largest motion: others are taken as shares of it
+    Output output_;    // the DOF that the curve is judged by, and its highest amplitude
     double peak_ = 0;
-    double change_ = INFINITY; // of the highest motion, on better_
+    double change_ = INFINITY; // of the highest motion, from the curve to better_, relative
     std::int64_t top_ = 0;     // which of the curve's points that is
     BranchPoint top_on_better_;
-    std::shared_ptr<const OrbitEquations>
-        on_whole_;         // while the curve is confirmed: they know its contact sets
-    std::string doubtful_; // where stability is not as on the curve
+    // While the curve is confirmed, for they know its contact sets.
+    std::shared_ptr<const OrbitEquations> on_whole_;
+    std::string doubtful_; // where stability is not as on the curve; empty: nowhere
 };
 
 } // namespace plm

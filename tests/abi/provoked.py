@@ -198,11 +198,13 @@ refused("docs.words", "a sentence of more than 35 words", r"README.md:\d+: \d+ w
         tree / "README.md")
 refused("docs.citation", "a version that went on", "CITATION.cff is of version .*, the project of 99.0.0", python,
         tests / "docs/citation.py", tree, "99.0.0")
-doxyfile = build / "docs/Doxyfile"
-if doxyfile.exists() and shutil.which("doxygen"):
-    text = doxyfile.read_text(encoding="utf-8") + f"\nINPUT = {grown}\nOUTPUT_DIRECTORY = {folder}\n"
-    (folder / "Doxyfile").write_text(text, encoding="utf-8")
-    refused("docs.reference", "a function without an example", "plm_model_forget", "doxygen", folder / "Doxyfile")
+for name in ("reference", "examples"):
+    shutil.copytree(source / "docs" / name, layered / "docs" / name)
+for page in (source / "docs").glob("*.md"):
+    shutil.copy(page, layered / "docs" / page.name)
+lay(grown, *DESCRIBED)
+refused("docs.reference", "a function that no language has", "PLMMFO is in none of fortran/plm_f77", python,
+        tests / "docs/reference.py", layered)
 
 # ---- the house
 rooms = folder / "rooms"

@@ -55,7 +55,8 @@ for path, page in pages.items():
             failures.append(f"{path.relative_to(folder)}: {target} leads nowhere")
         elif parts.fragment and at in pages and parts.fragment not in pages[at].anchors:
             failures.append(f"{path.relative_to(folder)}: {target}: no such heading")
-words = json.loads((folder / "search/search_index.json").read_text(encoding="utf-8"))["docs"]
+script = (folder / "search/index.js").read_text(encoding="utf-8")
+words = json.loads(script.partition("=")[2].rstrip().rstrip(";"))["docs"]
 found = {entry["location"].partition("#")[0] for entry in words}
 failures += [f"the search does not know {page.name}" for page in sorted((root / "docs").glob("*.md"))
              if page.with_suffix(".html").name not in found]

@@ -14,6 +14,7 @@ cd "$work"
 try='import plm; print(plm.version(), plm._c.lib.path, plm.__file__)'
 PLM_LIBRARY=$library env/bin/python -c "$try" | grep "$work/env"
 PLM_LIBRARY=$library env/bin/plm --version | grep '^plm, libplm ' # the command is installed, too
+test -s env/share/man/man1/plm.1 # and its manual page
 installed=$(dirname "$(PLM_LIBRARY=$library env/bin/python -c 'import plm; print(plm.__file__)')")
 ln -s "$library" "$installed/libplm.so.0"
 env/bin/python -c "$try" | grep "$installed/libplm.so.0"

@@ -237,6 +237,13 @@ class Others(Folder):
         self.assertRegex(out, r"^look at   no gap closes under the excitation")  # what matters stands first
         self.assertRegex(out, r"0 findings are probably wrong, 1 are worth a look, \d+ are facts\n$")
 
+    def test_audit_tells_in_one_place(self):
+        """What is probably wrong is a result of the audit, and no message beside it; the build warns of the same."""
+        self.write("soft.csv", "node,direction,stiffness\n20,x,1e-9\n")
+        out, err = self.here("audit", self.path("case.toml"), "--contact", self.path("soft.csv"), status=1)
+        self.assertRegex(out, r"^wrong     contact stiffness 1e-09")
+        self.assertEqual(err, "")
+
     def test_study(self):
         out, _ = self.here("study", self.path("case.toml"), "--harmonics", "1,5", "--samples", "2", "--out", self.path("study"))
         names = re.findall(r"^(.*\S) +-?\d+ +[0-9.]+ +[0-9.]+ s", out, re.M)

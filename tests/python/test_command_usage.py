@@ -67,6 +67,15 @@ class Shell(Folder):
         _, err = self.here("rest", *self.matrices, "--contact", self.path("pairs.csv"), "--preload", "20", "x", "-7.5", status=3)
         self.assertRegex(err, r"^plm: plm_model_\w+: .*")
 
+    def test_without_the_library(self):
+        """One line and a status for the command; for any other program a failed import."""
+        nowhere = {**os.environ, "PLM_LIBRARY": "/nowhere"}
+        out, err = self.shell("audit", "case.toml", status=3, env=nowhere)
+        self.assertEqual(out, "")
+        self.assertRegex(err, r"^plm: libplm was not found; [^\n]*PLM_LIBRARY[^\n]*/nowhere[^\n]*\n$")
+        other = subprocess.run([sys.executable, "-c", "import plm"], capture_output=True, text=True, env=nowhere, check=False)
+        self.assertRegex(other.stderr, r"ImportError: libplm was not found")
+
     def test_folder_that_cannot_be(self):
         self.write("file", "")
         self.refused("file", "response", self.path("case.toml"), "--out", self.path("file"))

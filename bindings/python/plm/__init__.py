@@ -23,16 +23,33 @@
 Options and results are attributes; help(plm.Sampler) lists those of a sampler. What a function computes is said in plm.h.
 """
 import importlib
+import os
+import sys
 
-from . import _functions
-from ._context import Context, build_info, default_context, status_text, version
-from ._errors import PlmCancelled, PlmError, PlmKeyError, PlmWarning
-from ._handle import Key, keys
-from ._model import Finding, Model
-from ._motion import MotionState, Transient
-from ._reduction import Basis, Sampler
-from ._response import Bifurcation, Branch, Contact, Energy, ErrorEstimate, ErrorParts, Hbm, Isolated, Larger, Peak, Refined, Response
-from ._study import Study, StudyPoints
+
+def _end_of_command(missing):
+    """The command plm, or python -m plm, ends with one line where the library or NumPy is missing; any other program hears of it as of
+    any failed import."""
+    words = getattr(sys, "orig_argv", [])
+    module = words[words.index("-m") + 1:][:1] if "-m" in words else []
+    if module == ["plm"] or os.path.basename(sys.argv[0] if sys.argv else "") == "plm":
+        print(f"plm: {missing}", file=sys.stderr)
+        sys.exit(3)
+
+
+try:
+    from . import _functions, _help
+    from ._context import Context, build_info, default_context, status_text, version
+    from ._errors import PlmCancelled, PlmError, PlmKeyError, PlmWarning
+    from ._handle import Key, keys
+    from ._model import Finding, Model
+    from ._motion import MotionState, Transient
+    from ._reduction import Basis, Sampler
+    from ._response import Bifurcation, Branch, Contact, Energy, ErrorEstimate, ErrorParts, Hbm, Isolated, Larger, Peak, Refined, Response
+    from ._study import Study, StudyPoints
+except ImportError as missing:
+    _end_of_command(missing)
+    raise
 
 __version__ = "0.1.0"
 __all__ = ["Context", "Model", "Sampler", "Basis", "Hbm", "Branch", "Transient", "Study", "Peak", "Isolated", "Larger", "Bifurcation",
@@ -53,3 +70,6 @@ def __getattr__(name):
 
 def __dir__():
     return sorted(set(globals()) | set(__all__))
+
+
+_help.attach((Context, Model, Sampler, Basis, Hbm, Branch, Transient, Study), (build_info, default_context, keys, status_text, version))

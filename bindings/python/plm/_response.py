@@ -131,8 +131,8 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
 
     def solve(self, frequency_hz, start=None, point=0, progress=None):
         """The response at one frequency, from a point of the branch `start` or from rest."""
-        branch = Branch(self)
-        return self._deliver("solve", branch, frequency_hz, handle_of(start, "branch", "start", None), point,
+        branch, first_guess = Branch(self), handle_of(start, "branch", "start", None)
+        return self._deliver("solve", branch, frequency_hz, first_guess, point if start is None else start._from_end(point),
                              ctypes.byref(branch._h), progress=progress)
 
     def find_peak(self, branch, dof, measure="half_peak_to_peak", harmonic=0, progress=None):

@@ -47,6 +47,7 @@ class Description:
     def __init__(self, path):
         self.file = pathlib.Path(path).name
         self.dimensions, self.positions, self.letters, self.everywhere = [], [], {}, {}
+        self.basic = {}  # noun: options that most users need, which the reference shows first
         self.functions = {}  # name: Entry
         self.sections = []
         self.entry = None  # the one that the indented lines below it belong to
@@ -83,6 +84,8 @@ class Description:
             self.letters = dict(word.split() for word in words)
         elif name == "everywhere":
             self.everywhere = self.read_arguments(rest)
+        elif name.startswith("basic ") and name[6:] in self.letters:
+            self.basic[name[6:]] = words
         else:
             self.fail(f"'{name}' is neither a function nor a constant")
 

@@ -43,7 +43,7 @@ class _Version(argparse.Action):
         parser.exit()
 
 
-def _make_parser():
+def make_parser():
     main = _Parser(prog="plm", description="Forced vibration of structures whose parts touch and separate, from the files of a "
                    "finite-element code to the curve.", epilog=f"example: {COMMANDS['response'][1]}\n\n{_STATUS}")
     main.add_argument("--version", action=_Version, nargs=0, help="the library, its parts and its licence")
@@ -82,7 +82,7 @@ def _words(default):
 
 def read_arguments(arguments):
     """(command, settings, quiet): the defaults, then the case file, then the options."""
-    main, parsers = _make_parser()
+    main, parsers = make_parser()
     given, unknown = main.parse_known_args(arguments)
     if unknown:
         parsers.get(given.command, main).refuse_unknown(unknown)

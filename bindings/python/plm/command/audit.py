@@ -5,10 +5,11 @@ _WORDS = ("", "look at   ", "wrong     ")
 
 
 def run(settings, console):
-    with console.listening():  # what the log has of the model are the findings
+    findings = []  # they are results, on the standard output alone: the build warns of the same
+    with console.listening(findings=findings):
         structure = assemble(settings, console)
         structure.model.build(progress=console.progress)
-        findings = structure.model.audit()
+        findings += structure.model.audit()
     for finding in sorted(findings, key=lambda one: -one.severity):  # what matters first, else as the library has them
         console.say(f"{_WORDS[finding.severity] or 'fact      '}{finding.text}")
     worst = [sum(finding.severity == severity for finding in findings) for severity in (2, 1)]

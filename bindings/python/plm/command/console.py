@@ -35,6 +35,12 @@ def in_words_of_the_command(text):
     return text
 
 
+def _says_nothing_but(findings, text):
+    for finding in findings:
+        text = text.replace(finding.text, "")
+    return bool(findings) and not re.sub(r"^plm_\w+:", "", text).strip(" ;")
+
+
 class Console:
     """Collects what the library says in a run: `warnings` (texts), `log` (of level, text), and whether one of them matters."""
 
@@ -64,9 +70,10 @@ class Console:
             _to_stderr(f"plm: warning: {text}")
 
     @contextlib.contextmanager
-    def listening(self, with_log=False):
+    def listening(self, with_log=False, findings=()):
         """Warnings that are issued inside become messages, and none is lost when the work fails. with_log: also those of the log
-        that no call repeats, which are worth a look where a response is computed."""
+        that no call repeats, which are worth a look where a response is computed. findings: a list that may be filled inside, of
+        what is printed as a result: a warning that says nothing else is no message."""
         with warnings.catch_warnings(record=True) as issued:
             warnings.simplefilter("always")
             try:
@@ -74,6 +81,8 @@ class Console:
             finally:
                 for one in issued:
                     is_own = isinstance(one.message, PlmWarning)
+                    if is_own and _says_nothing_but(findings, str(one.message)):
+                        continue
                     self.warn(str(one.message), not (is_own and one.message.reason in _HARMLESS))
                 if with_log:
                     self._tell_logged()
