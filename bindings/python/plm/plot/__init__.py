@@ -13,7 +13,7 @@ Every function draws into `ax` (None: a new figure) and returns it. `save` write
     plm.plot.save(ax, "curve")                      # curve.png, curve.pdf, curve.svg
 
 units: what the model counts lengths in, "m" (the default), "mm" or "um"; pictures show them in m, mm or um by their size. A pair
-says both: units=("m", "mm"). "": the model has no units, and the axes say so. Frequencies are in Hz, forces in N.
+says both: units=("m", "mm"). "": numbers as the model has them, axes without a unit. Frequencies are in Hz, forces in N.
 """
 from .contact import contact_area_over_cycle, contact_map, contact_over_cycle, contact_over_frequency
 from .curves import backbone, levels, multipliers, response
