@@ -44,7 +44,7 @@ std::shared_ptr<plm::CurveFindings> findings_of(const plm::ComputedResponse &r, 
     found->error = r.error;
     found->accuracy = accuracy;
     found->warnings = warnings;
-    found->of_one_call = true;
+
     found->looked_beside = r.looked_beside;
     found->larger = r.larger;
     return found;

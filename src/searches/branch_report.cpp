@@ -231,7 +231,7 @@ void add_warnings(Page &page, const Branch &branch, const CurveFindings *found) 
     Warnings all;
     if (found) all.add(found->warnings);
     // of one call the warnings are those that its estimate of the error leaves
-    if (!found || !found->of_one_call) all.add(branch.warnings);
+    if (!found || found->accuracy == 0) all.add(branch.warnings);
     for (const Warning &w : all.list()) page.line("* " + w.text);
     if (all.empty()) page.line("none");
 }

@@ -14,8 +14,7 @@ struct CurveFindings {
     double error = NAN;       // of the peak, relative: the larger of amplitude and frequency; NaN: not known
     double accuracy = 0;      // asked for; 0: by no call
     Warnings warnings;        // of the call that found it
-    bool of_one_call = false; // that did all of it, and whose warnings leave out what its estimate outweighs
-    bool looked_beside = false; // for a larger motion
+    bool looked_beside = false; // by the one call that does all of it
     std::optional<LargerMotion> larger;
 };
 

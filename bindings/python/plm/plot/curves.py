@@ -95,7 +95,7 @@ def backbone(branches, dof, measure="half_peak_to_peak", harmonic=0, over="force
     amplitudes = [branch.amplitude(dof, measure, harmonic) for branch in branches]
     unit = length_unit(units, numpy.concatenate(amplitudes))
     xlabel = "frequency (Hz)" if over == "frequency" else "force scale" if force is None else "force (N)"
-    ax = axes(ax, xlabel, unit.label(f"amplitude of {f'DOF {dof}' if name is None else name} at resonance"))
+    ax = axes(ax, xlabel, unit.label(f"{f'DOF {dof}' if name is None else name} at resonance"))
     for i, (branch, amplitude) in enumerate(zip(branches, amplitudes)):
         x = branch.frequency_hz if over == "frequency" else (force or 1.0) * branch.point_force_scale
         look = {"color": COLOURS[i % len(COLOURS)], "marker": MARKERS[i % len(MARKERS)] if len(branches) > 1 else None}

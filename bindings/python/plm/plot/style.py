@@ -107,6 +107,7 @@ def axes(ax, xlabel, ylabel):
     return ax
 
 
+@styled
 def legend_above(ax, columns=None):
     """The legend above the axes, where it covers nothing, in as many columns as fit it (None: by the length of its texts)."""
     handles, labels = ax.get_legend_handles_labels()
