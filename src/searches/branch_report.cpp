@@ -1,5 +1,6 @@
 #include "searches/branch_report.hpp"
 #include "linalg/status.hpp"
+#include "motions/branch_csv.hpp"
 #include <algorithm>
 #include <cmath>
 #include <locale>
@@ -139,16 +140,9 @@ void add_peak(Page &page, const Model &model, const CurveFindings *found) {
         return;
     }
     const Peak &peak = found->peak;
-    const BranchPoint &top = peak.branch->points().front();
     page.line(number(peak.amplitude) + " at " + number(peak.frequency_hz) +
               " Hz: " + words_for(found->output, model));
-    double mean = 0;
-    const vector<double> shares = peak.branch->closed_share(0);
-    for (double share : shares) mean += share / static_cast<double>(shares.size());
-    page.line(number(static_cast<double>(top.n_switching)) + " of " +
-              count(static_cast<std::int64_t>(shares.size()), "pair opens", "pairs open") +
-              (shares.size() == 1 ? " and closes; closed for " : " and close; closed on average for ") +
-              number(100 * mean, 3) + " % of the period");
+    page.line(contact_in_words(*peak.branch, 0));
 }
 
 // "6.1 .. 6.4 Hz, ..." where the motions are not stable.
