@@ -149,7 +149,12 @@ def draw_curves(axes, study):
     if exact.exists():
         curve = np.genfromtxt(exact, delimiter=",", names=True)
         axes.plot(*smooth_line(curve["frequency_hz"], study.length * curve["amplitude"]), color=BLACK, linewidth=1.1,
-                  marker="o", markersize=3, mfc="white", markevery=0.12, label="nothing set: as many harmonics as needed", zorder=1.5)
+                  marker="o", markersize=3, mfc="white", markevery=0.12, label="nothing set: exact motions", zorder=1.5)
+    peak = study.folder / "nothing_set.csv"
+    if peak.exists():
+        (row,) = rows_of(peak)
+        axes.plot(float(row["peak_hz"]), study.length * float(row["peak_amplitude"]), "k+", markersize=9, mew=1.2, ls="",
+                  label="nothing set: peak")
     return truth["frequency_hz"], study.length * truth["amplitude"]
 
 
@@ -161,6 +166,7 @@ def plot_curves(study, path):
         axes.grid(alpha=0.3)
         axes.set_ylim(bottom=0, top=1.08 * axes.get_ylim()[1])
         f_low, f_high, a_low, a_high = region_of_peak(f, a)
+        a_high = max([a_high, *(1.02 * line.get_ydata()[0] for line in axes.lines if line.get_marker() == "+")])
         left = 0.5 * (f_low + f_high) > 0.5 * sum(axes.get_xlim())  # the emptier side
         inset = axes.inset_axes([0.1 if left else 0.66, 0.48, 0.31, 0.44])
         draw_curves(inset, study)
