@@ -25,10 +25,6 @@ try:
 except ImportError:
     vtk = None
 try:
-    import meshio
-except ImportError:
-    meshio = None
-try:
     import matplotlib.image
 except ImportError:
     matplotlib = None
@@ -163,10 +159,10 @@ class Deck(unittest.TestCase):
         self.assertIn("4 of 4 pairs open and close", out)
         if vtk:
             self.check_files(amplitude)
-        if meshio and matplotlib:
+        if vtk and matplotlib and (os.environ.get("DISPLAY") or shutil.which("xvfb-run")):
             picture = self.folder / "open.png"
             script = pathlib.Path(__file__).parents[2] / "examples" / "plot" / "plot_motion.py"
-            subprocess.run([sys.executable, script, self.folder / "out" / "peak.pvd", picture], check=True, timeout=60)
+            subprocess.run([sys.executable, script, self.folder / "out" / "peak.pvd", picture], check=True, timeout=200)
             self.assertGreater(numpy.ptp(matplotlib.image.imread(picture)[..., :3]), 0.9)  # black lines on white
 
     def check_files(self, amplitude):
