@@ -21,13 +21,13 @@ begin=$(date +%s)
 # A Python that can plot; the default one may be another than the one of the system's packages.
 find_python() {
     for python in python3 /usr/bin/python3; do
-        "$python" -c 'import numpy, matplotlib' 2>/dev/null && return
+        "$python" -c 'import numpy, scipy, matplotlib' 2>/dev/null && return
     done
     return 1
 }
 
 packages=$plm_build_packages
-find_python || packages="$packages python3-numpy python3-matplotlib"
+find_python || packages="$packages python3-numpy python3-scipy python3-matplotlib"
 # shellcheck disable=SC2086,SC2154
 need_packages $packages
 
@@ -40,14 +40,14 @@ echo
 # One thread for OpenBLAS: the dense systems here have a few hundred unknowns, too few to share. Threads that wait for
 # each other cost more than they bring.
 mkdir -p "$output"
-rm -f "$output"/*.csv "$output"/*.png "$output"/*/*.csv
+rm -f "$output"/*.csv "$output"/*.png "$output"/*.pdf "$output"/*.svg "$output"/*/*.csv
 OPENBLAS_NUM_THREADS=1 "$build/examples/c/plm-study" --size paper --study short --samples 1,2,4 --repeats 0 "$@" --output "$output"
 
 echo
 if find_python; then
-    "$python" examples/plot/plot_study.py "$output"
+    PYTHONPATH=bindings/python PLM_LIBRARY="$build/src/libplm.so" "$python" examples/plot/plot_study.py "$output"
 else
-    echo "No pictures: no Python with numpy and matplotlib was found." >&2
+    echo "No pictures: no Python with numpy, scipy and matplotlib was found." >&2
 fi
 end=$(date +%s)
 echo "Report: $root/$output/report.md, with curves, contact and tables as CSV beside it"

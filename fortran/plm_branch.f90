@@ -1,10 +1,10 @@
 ! plm_branch.f90: the response curves that harmonic balance follows. DOFs, points and pairs count from 1.
 module plm_branches
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t, c_loc, c_null_char, c_null_ptr
+    use, intrinsic :: iso_c_binding, only: c_char, c_ptr, c_int32_t, c_loc, c_null_char, c_null_ptr
     use, intrinsic :: iso_fortran_env, only: int8, int64, real64
     use plm_constants
     use plm_c
-    use plm_errors, only: finish
+    use plm_errors, only: finish, f_text
     use plm_methods, only: plm_branch_methods
     use plm_models, only: plm_model
     implicit none
@@ -23,6 +23,7 @@ module plm_branches
         procedure :: multipliers
         procedure :: to_bytes => branch_to_bytes
         procedure :: write_csv
+        procedure :: describe
     end type plm_branch
 
 contains
@@ -75,6 +76,25 @@ contains
         call finish(self%context, plm_branch_write_csv(self%handle, int(dof, int64) - 1, measure_of(measure), &
             harmonic_of(harmonic), trim(path)//c_null_char), stat, errmsg)
     end subroutine write_csv
+
+    ! A page of text about the curve: peak, stability, error, warnings and the rest; lines end with new_line('a').
+    subroutine describe(self, value, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        character(len=:), allocatable, intent(inout) :: value
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        character(kind=c_char, len=:), allocatable :: buffer
+        integer(plm_status) :: status
+        integer(int64) :: needed
+        needed = 0
+        status = plm_branch_describe(self%handle, 0_int64, needed=needed)
+        if (status >= 0) then
+            allocate (character(kind=c_char, len=needed) :: buffer)
+            status = plm_branch_describe(self%handle, needed, buffer, needed)
+        end if
+        if (status >= 0) value = f_text(buffer)
+        call finish(self%context, status, stat, errmsg)
+    end subroutine describe
 
     ! value(n_points); measure: PLM_HALF_PEAK_TO_PEAK (if absent), PLM_PEAK, PLM_RMS, PLM_HARMONIC (of `harmonic`, 1 if
     ! absent)

@@ -1666,6 +1666,15 @@ module plm_c
             character(kind=c_char), intent(in) :: path(*)
             integer(plm_status) :: code
         end function plm_branch_write_csv
+        function plm_branch_describe(branch, capacity, buffer, needed) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: capacity
+            character(kind=c_char), intent(inout), optional :: buffer(*)
+            integer(c_int64_t), intent(inout), optional :: needed
+            integer(plm_status) :: code
+        end function plm_branch_describe
         function plm_transient_create(model, basis, transient) bind(c) result(code)
             import :: c_ptr, plm_status
             implicit none

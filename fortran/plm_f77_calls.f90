@@ -1392,6 +1392,20 @@ subroutine plmrcv(handle, idof, imeas, iharm, path, ierr)
         c_int32_t), c_text(path)))
 end subroutine plmrcv
 
+subroutine plmrds(handle, text, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_branch_describe
+    use plm_f77_support, only: as_pointer, to_blanks
+    implicit none
+    integer(int64), intent(in) :: handle
+    character(len=*), intent(inout) :: text
+    integer, intent(out) :: ierr
+    character(len=len(text) + 1) :: buffer
+    ierr = int(plm_branch_describe(as_pointer(handle), len(buffer, int64), buffer))
+    if (ierr < 0) return
+    call to_blanks(buffer, text)
+end subroutine plmrds
+
 subroutine plmtcr(parent, basis, handle, ierr)
     use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
     use, intrinsic :: iso_fortran_env, only: int64

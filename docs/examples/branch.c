@@ -2,6 +2,7 @@
 #include "example.h"
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { H = 5, N_DOF = 2, N_PAIRS = 1, TIMES = 8, MULTIPLIERS = 8 };
 
@@ -102,6 +103,13 @@ static int kept(plm_basis *basis, plm_branch *curve) {
     TRY(plm_branch_write_csv(read, 1, PLM_HALF_PEAK_TO_PEAK, 0, "example_branch.csv"));
     /* [plm_branch_write_csv] */
     EXPECT(remove("example_branch.csv") == 0);
+
+    /* [plm_branch_describe] */
+    char page[4096]; /* a longer text would be cut; the last argument tells how many bytes it needs */
+    TRY(plm_branch_describe(read, sizeof page, page, NULL));
+    fputs(page, stdout);
+    /* [plm_branch_describe] */
+    EXPECT(strstr(page, "Stability") != NULL);
     return 0;
 }
 

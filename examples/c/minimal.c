@@ -17,10 +17,6 @@ static int find_peak(plm_context *ctx, double *hz, double *amplitude) {
     const int32_t row_start[] = {0, 1}, stop_dof[] = {1};
     const double coefficient[] = {1}, stop_stiffness[] = {5000}, gap[] = {0};
     plm_model *model = NULL;
-    plm_sampler *sampler = NULL;
-    plm_basis *basis = NULL;
-    plm_hbm *hbm = NULL;
-    plm_branch *curve = NULL;
 
     TRY(plm_model_create(ctx, 2, &model));
     TRY(plm_model_set_matrix_i32(model, PLM_MASS, PLM_TRIPLETS, PLM_LOWER, 0, PLM_COPY, 2, diagonal, diagonal,
@@ -32,17 +28,8 @@ static int find_peak(plm_context *ctx, double *hz, double *amplitude) {
     TRY(plm_model_set_excitation(model, 1, 2, force, NULL));
     TRY(plm_model_build(model));
 
-    TRY(plm_sampler_create(model, &sampler));
-    TRY(plm_sampler_set_int(sampler, "mode", 1));
-    TRY(plm_sampler_run(sampler));
-
-    TRY(plm_basis_create(model, &basis));
-    TRY(plm_basis_set_sampler(basis, sampler));
-    TRY(plm_basis_build(basis));
-
-    TRY(plm_hbm_create(basis, &hbm));
-    TRY(plm_hbm_sweep(hbm, &curve));
-    TRY(plm_hbm_find_peak(hbm, curve, 1, PLM_HALF_PEAK_TO_PEAK, 0, hz, amplitude, NULL));
+    /* nothing is set: basis, harmonics and range follow from the accuracy */
+    TRY(plm_model_compute_response(model, 1, PLM_HALF_PEAK_TO_PEAK, 1e-3, hz, amplitude, NULL, NULL, NULL));
     return 0;
 }
 

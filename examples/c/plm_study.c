@@ -41,12 +41,17 @@ static int write_contacts(study_case *c, const study_result *one) {
 static int run(study_case *c) {
     static study_result one, levels;
     static study_steps steps;
-    study_findings found = {NULL, NULL, NULL};
+    static study_exact exact;
+    study_findings found = {NULL, NULL, NULL, NULL};
     const study_options *o = c->options;
     if (study_write_facts(c)) return 1;
     if (groups_of(o)) {
         if (study_run(c, groups_of(o), 1, "one_level", &one) || write_contacts(c, &one)) return 1;
         found.one = &one;
+    }
+    if (found.one && (study_wants(o, "short") || study_wants(o, "methods")) && !study_stopped()) {
+        if (study_run_exact(c, &exact)) return 1;
+        found.exact = &exact;
     }
     if (study_wants(o, "levels") && !study_stopped()) {
         if (study_run(c, STUDY_LEVELS, o->n_levels, "levels", &levels)) return 1;

@@ -157,9 +157,26 @@ int study_write_contact(study_case *c, plm_branch *curve, const char *file);
 
 /* ---- the report: study_report.c, study_tables.c ---- */
 
+/* ---- the same response with nothing set: study_exact.c ---- */
+
+/* Of plm_model_compute_response(): a curve of exact motions where that is affordable, else of harmonics with
+ * a peak that is closed in upon. */
+typedef struct study_exact {
+    double hz, amplitude, error, seconds;
+    int64_t columns;
+    int is_exact;
+} study_exact;
+
+/* Computes it and writes its peak to nothing_set.csv, a curve of exact motions to curve_exact.csv. 0, or 1
+ * with the reason on stderr. */
+int study_run_exact(study_case *c, study_exact *exact);
+/* What it says of the H that all others have. */
+void study_write_exact(const study_case *c, const study_result *one, const study_exact *exact, FILE *to);
+
 typedef struct study_findings {
     const study_result *one, *levels; /* NULL: not asked for */
     const study_steps *steps;
+    const study_exact *exact;
 } study_findings;
 
 int study_write_report(study_case *c, const study_findings *found);

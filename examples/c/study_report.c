@@ -138,6 +138,7 @@ int study_write_report(study_case *c, const study_findings *f) {
     write_legend(to);
     if (study_wants(o, "methods") || study_wants(o, "short"))
         write_methods(f->one, study_wants(o, "methods"), to);
+    if (f->exact) study_write_exact(c, f->one, f->exact, to);
     if (f->levels) write_levels(f->levels, to);
     if (study_wants(o, "convergence") && f->steps) write_convergence(f, to);
     if (study_wants(o, "left-out")) write_left_out(f, o->n_harmonics, to);

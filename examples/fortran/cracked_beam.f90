@@ -1,5 +1,6 @@
 ! cracked_beam.f90: a finite-element host in modern Fortran. It assembles its beam, hands it to libplm in process, and
-! writes the response of the tip around the first bending resonance, where the crack opens and closes in every cycle.
+! writes the response of the tip around the first bending resonance, where the crack opens and closes in every cycle. One
+! call, and no option: basis, harmonics and range follow from the accuracy, 1e-3.
 !
 !     cracked_beam [file.csv]
 program cracked_beam
@@ -11,19 +12,14 @@ program cracked_beam
     type(beam_structure) :: structure
     type(plm_context) :: context
     type(plm_model) :: model
-    type(plm_sampler) :: sampler
-    type(plm_basis) :: basis
-    type(plm_hbm) :: hbm
-    type(plm_branch) :: curve, peak
+    type(plm_branch) :: curve
+    real(real64) :: hz, amplitude
     character(len=256) :: path
 
     call build_beam(parameters, structure)
     call context%create()
     call hand_over(structure, model)
-    call reduce(model, sampler, basis)
-    call hbm%create(basis)
-    call hbm%set('n_harmonics', 7) ! the default chooses them point by point, which takes its time on a surface
-    call hbm%sweep(curve)
+    call plm_compute_response(model, structure%tip, hz, amplitude, curve, measure=PLM_HALF_PEAK_TO_PEAK)
     call report()
     path = 'cracked_beam.csv'
     if (command_argument_count() > 0) call get_command_argument(1, path)
@@ -51,47 +47,17 @@ contains
         call model%build()
     end subroutine hand_over
 
-    subroutine reduce(model, sampler, basis)
-        type(plm_model), intent(in) :: model
-        type(plm_sampler), intent(inout) :: sampler
-        type(plm_basis), intent(inout) :: basis
-        call sampler%create(model)
-        call sampler%set('search_max_hz', 2000.0_real64)
-        call sampler%set('n_samples', 4)
-        call sampler%run()
-        call basis%create(model)
-        call basis%set_sampler(sampler)
-        call basis%build()
-    end subroutine reduce
-
     subroutine report()
-        character(len=:), allocatable :: system, ending
-        integer :: n_dof, n_pairs, mode, basis_size, n_points
-        real(real64) :: open_hz(3), sliding_hz(3), blf, hz, amplitude, residual
-        real(real64), allocatable :: share(:)
-        call model%get('n_dof', n_dof)
-        call model%get('n_pairs', n_pairs)
+        character(len=:), allocatable :: page
+        real(real64) :: open_hz(3), sliding_hz(3)
         call model%modes(PLM_SYSTEM_OPEN, open_hz)
         call model%modes(PLM_SYSTEM_SLIDING, sliding_hz)
-        call sampler%get('dominant_system', system)
-        call sampler%get('dominant_mode', mode)
-        call sampler%get('blf_hz', blf)
-        call basis%get('size', basis_size)
-        call curve%get('n_points', n_points)
-        call curve%get('end_text', ending)
-        call hbm%find_peak(curve, structure%tip, hz, amplitude, PLM_HALF_PEAK_TO_PEAK, peak=peak)
-        call peak%full_residual(1, residual)
-        call peak%closed_share(1, share)
-        print '(a, i0, a, i0, a)', 'beam: ', n_dof, ' DOFs, ', n_pairs, ' contact pairs'
         print '(a, 3f10.3)', 'open_hz   ', open_hz
         print '(a, 3f10.3)', 'sliding_hz', sliding_hz
-        print '(a, i0, a)', 'dominant: mode ', mode, ' of the '//system//' system'
-        print '(a, f10.3)', 'bilinear_hz', blf
-        print '(a, i0, a, i0, a)', 'basis of ', basis_size, ', curve of ', n_points, ' points: '//ending
         print '(a, f12.6)', 'peak_hz', hz
         print '(a, es14.6)', 'peak_mm', amplitude
-        print '(a, es10.2)', 'full_residual', residual
-        print '(a, 2f8.4)', 'closed_share', minval(share), maxval(share)
+        call curve%describe(page)
+        print '(a)', page
     end subroutine report
 
     subroutine write_curve(path)

@@ -117,7 +117,12 @@ C     The two lowest frequencies, all stops away and all closed
   100 FORMAT (A, T20, 1PE24.16E3)
       END
 
-C     Samples, basis, response curve; progress is counted by WATCH
+C     Samples, basis, response curve; progress is counted by WATCH.
+C     Step by step, and with options, because this is compared with a C
+C     program digit by digit, and each call is to be seen once: seven
+C     harmonics in place of exact motions, a range that has one peak.
+C     PLMMRP does all of it in one call, with no option, as the first
+C     program of docs/getting-started.md shows.
       SUBROUTINE FOLLOW(MODEL, CURVE)
       INCLUDE 'plmf.inc'
       INTEGER*8 MODEL, CURVE, ISAMPL, IBASIS

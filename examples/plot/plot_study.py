@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Pictures of what plm-study computed: plot_study.py FOLDER [--to FOLDER] [--dpi N].
+"""Pictures of what plm-study computed: plot_study.py FOLDER [--to FOLDER].
 
-Draws what the folder has figures for: error_against_time.png, levels.png, curves.png, contact_over_cycle.png,
-convergence.png.
+Draws what the folder has figures for: error_against_time, levels, curves, contact_over_cycle, convergence, each as .png, .pdf and
+.svg, in the style of plm.plot (PYTHONPATH: bindings/python; PLM_LIBRARY: the library).
 """
 import argparse
 import csv
@@ -13,29 +13,29 @@ import re
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import matplotlib.ticker as ticker  # noqa: E402
 import numpy as np  # noqa: E402
+from matplotlib import ticker  # noqa: E402
+from plm import plot  # noqa: E402
+from plm.plot.errors import stairs  # noqa: E402
+from plm.plot.style import COLOURS, FAINT, MARKERS, REFERENCE, round_ticks, smooth_line  # noqa: E402
 
-from labels import Labels  # noqa: E402
-
-GREY = "0.35"
+BLUE, ORANGE, GREEN, PINK, BLACK, YELLOW, SKY = COLOURS
 FAMILIES = {  # colour and marker
-    "piecewise-linear modes": ("tab:green", "o"),
-    "the paper's bands rule": ("tab:orange", "X"),
-    "published rivals": ("tab:red", "D"),
-    "unreduced, all or fewer pairs": ("0.45", "P"),
-    "static contact snapshots": ("tab:purple", "v"),
-    "compressed and refined": ("tab:blue", "s"),
+    "piecewise-linear modes": (GREEN, "o"),
+    "the paper's bands rule": (YELLOW, "X"),
+    "published rivals": (ORANGE, "D"),
+    "unreduced, fewer pairs": (BLACK, "P"),
+    "static contact snapshots": (PINK, "v"),
+    "compressed and refined": (BLUE, "s"),
 }
 SHOWN = {  # curves of the picture of curves: colour and line
-    "1 sample": ("tab:orange", "-"),
-    "4 samples": ("tab:green", "-"),
-    "bilinear modes": ("tab:red", (0, (4, 2))),
-    "updated LELSM": ("tab:brown", (0, (1, 1))),
-    "Craig-Bampton": ("tab:pink", (0, (3, 1, 1, 1))),
-    "snapshots": ("tab:purple", (0, (5, 1))),
-    "compressed to 12": ("tab:blue", (0, (6, 3))),
+    "1 sample": (YELLOW, "-"),
+    "4 samples": (GREEN, "-"),
+    "bilinear modes": (ORANGE, (0, (4, 2))),
+    "updated LELSM": (BLACK, (0, (1, 1))),
+    "Craig-Bampton": (SKY, (0, (3, 1, 1, 1))),
+    "snapshots": (PINK, (0, (5, 1))),
+    "compressed to 12": (BLUE, (0, (6, 3))),
 }
 
 
@@ -52,7 +52,7 @@ def family_of(name, way):
     if name == "snapshots":
         return "static contact snapshots"
     if name.startswith(("full", "half")):
-        return "unreduced, all or fewer pairs"
+        return "unreduced, fewer pairs"
     if re.match(r"\d+ sample|sampled|marching", name):
         return "piecewise-linear modes"
     return "published rivals"
@@ -91,7 +91,7 @@ class Study:
                                  for name in ("one_level", "levels"))
         self.n_pairs = int(self.facts["n_pairs"])
         oscillator = self.facts["scene"] == "bilinear_oscillator"  # the one scene without units
-        self.unit, self.length = ("", 1.0) if oscillator else (" in µm", 1e3)
+        self.unit, self.length = ("", 1.0) if oscillator else (" (µm)", 1e3)
 
     def title(self):
         f = self.facts
@@ -105,14 +105,19 @@ def number(row, column):
     return float(row[column]) if row[column] else math.nan
 
 
-def save(figure, path, dpi):
-    figure.savefig(path, dpi=dpi)
-    plt.close(figure)
-
-
-def legend_below(figure, axes, columns):
+def head(figure, axes, title, columns):
+    """The title and the legend of the axes above all, where they cover nothing."""
     handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncol=columns, frameon=False)
+    with plot.style():
+        legend = figure.legend(handles, labels, title=title, loc="upper left", ncol=columns, columnspacing=1.2)
+        legend._legend_box.align = "left"
+        inches = 0.17 * (-(-len(labels) // columns) + title.count("\n") + 1) + 0.1
+        figure.get_layout_engine().set(rect=(0, 0, 1, 1 - inches / figure.get_figheight()))
+
+
+def save(figure, axes, title, columns, path):
+    head(figure, axes, title, columns)
+    return plot.save(figure, path)
 
 
 # ---- response curves ----
@@ -133,36 +138,43 @@ def region_of_peak(f, a):
 def draw_curves(axes, study):
     run = study.one
     truth = run.curve(run.reference)
-    axes.plot(truth["frequency_hz"], study.length * truth["amplitude"], color="0.75", linewidth=5,
-              label=f"reference, {run.reference['basis_size']}", zorder=1)
+    axes.plot(truth["frequency_hz"], study.length * truth["amplitude"], color=REFERENCE, linewidth=4,
+              label=f"reference, r = {run.reference['basis_size']}", zorder=1)
     for name, (color, style) in SHOWN.items():
         if name in run.rows:
             curve = run.curve(run.rows[name])
             axes.plot(curve["frequency_hz"], study.length * curve["amplitude"], color=color, linestyle=style,
-                      linewidth=1.3, label=f"{name}, r = {run.rows[name]['basis_size']}")
+                      linewidth=1.1, label=f"{name}, r = {run.rows[name]['basis_size']}")
+    exact = study.folder / "curve_exact.csv"
+    if exact.exists():
+        curve = np.genfromtxt(exact, delimiter=",", names=True)
+        axes.plot(*smooth_line(curve["frequency_hz"], study.length * curve["amplitude"]), color=BLACK, linewidth=1.1,
+                  marker="o", markersize=3, mfc="white", markevery=0.12, label="nothing set: exact motions", zorder=1.5)
+    peak = study.folder / "nothing_set.csv"
+    if peak.exists():
+        (row,) = rows_of(peak)
+        axes.plot(float(row["peak_hz"]), study.length * float(row["peak_amplitude"]), "k+", markersize=9, mew=1.2, ls="",
+                  label="nothing set: peak")
     return truth["frequency_hz"], study.length * truth["amplitude"]
 
 
-def plot_curves(study, path, dpi):
-    figure, axes = plt.subplots(figsize=(9, 5.8))
-    f, a = draw_curves(axes, study)
-    axes.set(xlabel="excitation frequency in Hz", ylabel=f"half peak-to-peak displacement{study.unit}")
-    axes.set_title(study.title(), fontsize=11)
-    axes.grid(alpha=0.3)
-    axes.set_ylim(bottom=0, top=1.08 * axes.get_ylim()[1])
-    f_low, f_high, a_low, a_high = region_of_peak(f, a)
-    left = 0.5 * (f_low + f_high) > 0.5 * sum(axes.get_xlim())  # the emptier side
-    inset = axes.inset_axes([0.1 if left else 0.66, 0.5, 0.31, 0.44])
-    draw_curves(inset, study)
-    inset.set(xlim=(f_low, f_high), ylim=(a_low, a_high))
-    inset.set_title("around the peak", fontsize=9)
-    inset.tick_params(labelsize=8)
-    inset.xaxis.set_major_locator(ticker.MaxNLocator(4))
-    inset.grid(alpha=0.3)
-    axes.indicate_inset_zoom(inset, edgecolor=GREY)
-    figure.tight_layout(rect=(0, 0.12, 1, 1))
-    legend_below(figure, axes, 4)
-    save(figure, path, dpi)
+def plot_curves(study, path):
+    figure, axes = plot.figure(width=plot.PAGE, height=4.4, window=False)
+    with plot.style():
+        f, a = draw_curves(axes, study)
+        axes.set(xlabel="excitation frequency (Hz)", ylabel=f"half peak-to-peak displacement{study.unit}")
+        axes.grid(alpha=0.3)
+        axes.set_ylim(bottom=0, top=1.08 * axes.get_ylim()[1])
+        f_low, f_high, a_low, a_high = region_of_peak(f, a)
+        a_high = max([a_high, *(1.02 * line.get_ydata()[0] for line in axes.lines if line.get_marker() == "+")])
+        left = 0.5 * (f_low + f_high) > 0.5 * sum(axes.get_xlim())  # the emptier side
+        inset = axes.inset_axes([0.1 if left else 0.66, 0.48, 0.31, 0.44])
+        draw_curves(inset, study)
+        inset.set(xlim=(f_low, f_high), ylim=(a_low, a_high), title="around the peak")
+        inset.xaxis.set_major_locator(ticker.MaxNLocator(3))
+        inset.grid(alpha=0.3)
+        axes.indicate_inset_zoom(inset, edgecolor=FAINT)
+    return save(figure, axes, study.title(), 3, path)
 
 
 # ---- error against time ----
@@ -170,107 +182,91 @@ def plot_curves(study, path, dpi):
 def front_of(points):
     """Those that no other beats in one of time and error without losing in the other, by time."""
     front, best = [], math.inf
-    for time, error in sorted(points):
-        if error < best:
-            front.append((time, error))
-            best = error
+    for point in sorted(points):
+        if point[1] < best:
+            front.append(point)
+            best = point[1]
     return front
 
 
-def set_round_ticks(axes):
-    """Round numbers, also where the axis spans less than a decade."""
-    low, high = axes.get_xlim()
-    if high / low < 8:
-        ticks = ticker.MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(low, high)
-    else:
-        ticks = [m * 10.0 ** e for e in range(-6, 6) for m in ((1, 2, 5) if high / low < 200 else (1,))]
-    axes.xaxis.set_major_locator(ticker.FixedLocator([t for t in ticks if low <= t <= high]))
-    axes.xaxis.set_minor_locator(ticker.NullLocator())
-    axes.xaxis.set_major_formatter(ticker.FuncFormatter(lambda v, _: f"{v:g}"))
-
-
-def draw_errors(axes, rows, column, whole):
-    labels, points = Labels(axes), []
-    for row in rows:
-        seconds = number(row, "curve_seconds") + (number(row, "setup_seconds") if whole else 0)
-        error = number(row, column)
-        if not seconds > 0 or math.isnan(error):
-            continue
-        error = max(error, 1e-9)  # the solver's tolerance
-        points.append((seconds, error))
-        color, marker = FAMILIES[row["family"]]
-        axes.plot([seconds], [error], linestyle="none", marker=marker, markersize=6, color=color, zorder=3)
-        labels.add(seconds, error, f"{row['name']} ({row['basis_size']})", color)
+def draw_errors(axes, run, rows, column, whole):
+    """Points of the families, the front as stairs, the reference as a line at its time; returns what is to be named."""
+    def seconds_of(row):
+        return number(row, "curve_seconds") + (number(row, "setup_seconds") if whole else 0)
+    points = [(seconds_of(row), number(row, column), f"{row['name']} ({row['basis_size']})", row["family"]) for row in rows]
+    points = [point for point in points if point[0] > 0 and point[1] > 1e-9]  # below: the reference itself
+    for seconds, error, _, family in points:
+        colour, marker = FAMILIES[family]
+        axes.plot([seconds], [error], ls="none", marker=marker, color=colour, zorder=3)
     front = front_of(points)
-    axes.plot([p[0] for p in front], [p[1] for p in front], color="0.8", linewidth=3, zorder=1)
+    lines = [stairs([point[:2] for point in front])]
+    axes.plot(*lines[0], color=FAINT, lw=0.8, zorder=1)
     axes.set(xscale="log", yscale="log")
     axes.margins(0.13)
     axes.autoscale_view()
-    set_round_ticks(axes)
+    reference = seconds_of(run.reference)
+    if reference > 0:
+        axes.axvline(reference, color=FAINT, ls="--", lw=1)
+        lines.append(([reference, reference], axes.get_ylim()))
+    round_ticks(axes.xaxis, *axes.get_xlim())
     axes.grid(alpha=0.3)
-    return labels
+    ordered = front + [point for point in points if point not in front]  # names of the front have the first choice
+    return [(x, y, name, FAMILIES[family][0]) for x, y, name, family in ordered], lines
 
 
-def plot_errors(study, rows, what, path, dpi):
-    columns = [("curve_seconds", "time of the curve in s", False),
-               ("both", "time of set-up (contact space, samples, basis) and curve in s", True)]
-    names = [("frequency_error", "relative error of the\nresonance frequency"),
-             ("amplitude_error", "relative error of the\npeak amplitude"),
-             ("curve_error_l2", "error of the whole curve\n(L2 over its arc length)")]
-    figure, axes = plt.subplots(3, 2, figsize=(14, 14.5), sharey="row")
-    labels = []
-    for i, (column, name) in enumerate(names):
-        for j, (_, text, whole) in enumerate(columns):
-            labels.append(draw_errors(axes[i, j], rows, column, whole))
-            if i == 2:
-                axes[i, j].set_xlabel(text)
-        axes[i, 0].set_ylabel(name)
-    present = {row["family"] for row in rows}
-    for family, (color, marker) in FAMILIES.items():
-        if family in present:
-            axes[0, 0].plot([], [], linestyle="none", marker=marker, color=color, label=family)
-    axes[0, 0].plot([], [], color="0.8", linewidth=3, label="front: none faster and nearer")
-    figure.suptitle(f"{study.title()}\n{what}; in brackets: size of the basis", fontsize=11)
-    figure.tight_layout(rect=(0, 0.05, 1, 1))
-    legend_below(figure, axes[0, 0], 4)
-    figure.canvas.draw()
-    for group in labels:
-        group.place()
-    save(figure, path, dpi)
+def plot_errors(study, run, rows, what, path):
+    columns = [("time of the curve (s)", False), ("time of set-up and curve (s)", True)]
+    names = [("frequency_error", "error of the frequency"), ("amplitude_error", "error of the amplitude"),
+             ("curve_error_l2", "error of the curve (rms)")]
+    figure, axes = plot.figure(3, 2, width=plot.PAGE, height=9.4, window=False, sharey="row")
+    named = []
+    with plot.style():
+        for i, (column, name) in enumerate(names):
+            for j, (text, whole) in enumerate(columns):
+                named.append((axes[i, j], *draw_errors(axes[i, j], run, rows, column, whole)))
+                if i == 2:
+                    axes[i, j].set_xlabel(text)
+            axes[i, 0].set_ylabel(name)
+        present = {row["family"] for row in rows}
+        for family, (colour, marker) in FAMILIES.items():
+            if family in present:
+                axes[0, 0].plot([], [], ls="none", marker=marker, color=colour, label=family)
+        axes[0, 0].plot([], [], color=FAINT, lw=0.8, label="front: none faster and nearer")
+        axes[0, 0].plot([], [], color=FAINT, ls="--", lw=1, label="time of the reference")
+    head(figure, axes[0, 0], f"{study.title()}\n{what}; in brackets: size of the basis", 3)
+    for place, points, lines in named:
+        plot.name_points(place, points, lines)
+    return plot.save(figure, path)
 
 
 # ---- contact ----
 
-CONTACTS = {"reference": ("0.72", 5), "1_sample": ("tab:orange", 1.3), "4_samples": ("tab:green", 1.3),
-            "compressed_12": ("tab:blue", 1.3)}
+CONTACTS = {"reference": (REFERENCE, 4, "-"), "1_sample": (YELLOW, 1.1, "-"), "4_samples": (GREEN, 1.1, "--"),
+            "compressed_12": (BLUE, 1.1, (0, (1, 1)))}
 
 
-def plot_contact(study, path, dpi):
-    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 5.2))
+def plot_contact(study, path):
+    figure, (left, right) = plot.figure(1, 2, width=plot.PAGE, window=False)
     scale = 100 / study.n_pairs
-    for name, (color, width) in CONTACTS.items():
-        file = study.folder / f"contact_cycle_{name}.csv"
-        if not file.exists():
-            continue
-        cycle = np.genfromtxt(file, delimiter=",", names=True)
-        left.step(cycle["time_fraction"], 100 * cycle["closed_share"], where="post", color=color, linewidth=width,
-                  label=name.replace("_", " "))
-        curve = np.genfromtxt(study.folder / f"contact_curve_{name}.csv", delimiter=",", names=True)
-        right.plot(curve["frequency_hz"], scale * curve["closed_mean"], color=color, linewidth=width)
-        if name == "reference":
-            for column in ("closed_min", "closed_max"):
-                right.plot(curve["frequency_hz"], scale * curve[column], color="0.55", linewidth=1, zorder=1)
-    left.set(xlabel="time in periods", ylabel="closed pairs in %", ylim=(-3, 103), xlim=(0, 1))
-    left.set_title("over the cycle at the peak", fontsize=10)
-    right.set(xlabel="excitation frequency in Hz", ylabel="closed pairs in %", ylim=(-3, 112))
-    right.set_yticks(range(0, 101, 20))
-    right.set_title("mean over the cycle, along the curve (thin: most and fewest)", fontsize=10)
-    for axes in (left, right):
-        axes.grid(alpha=0.3)
-    figure.suptitle(study.title(), fontsize=11)
-    figure.tight_layout(rect=(0, 0.08, 1, 1))
-    legend_below(figure, left, 4)
-    save(figure, path, dpi)
+    with plot.style():
+        for name, (colour, width, dashes) in CONTACTS.items():
+            file = study.folder / f"contact_cycle_{name}.csv"
+            if not file.exists():
+                continue
+            cycle = np.genfromtxt(file, delimiter=",", names=True)
+            left.step(cycle["time_fraction"], 100 * cycle["closed_share"], where="post", color=colour, lw=width, ls=dashes,
+                      label=name.replace("_", " "))
+            curve = np.genfromtxt(study.folder / f"contact_curve_{name}.csv", delimiter=",", names=True)
+            right.plot(curve["frequency_hz"], scale * curve["closed_mean"], color=colour, lw=width, ls=dashes)
+            if name == "reference":
+                for column in ("closed_min", "closed_max"):
+                    right.plot(curve["frequency_hz"], scale * curve[column], color=FAINT, lw=0.8, ls=":", zorder=1)
+        left.plot([], [], color=FAINT, lw=0.8, ls=":", label="most and fewest, reference")
+        left.set(xlabel="time / period, at the peak", ylabel="closed pairs (%)", ylim=(-3, 103), xlim=(0, 1))
+        right.set(xlabel="excitation frequency (Hz)", ylabel="closed pairs, mean (%)", ylim=(-3, 103))
+        for axes in (left, right):
+            axes.grid(alpha=0.3)
+    return save(figure, left, study.title(), 3, path)
 
 
 # ---- convergence ----
@@ -286,8 +282,9 @@ def errors_of_steps(rows):
 
 
 def draw_two(axes, x, frequency, amplitude, style="-", suffix=""):
-    axes.plot(x, np.maximum(frequency, 1e-12), style, marker="o", color="tab:blue", label="frequency" + suffix)
-    axes.plot(x, np.maximum(amplitude, 1e-12), style, marker="s", color="tab:red", label="peak amplitude" + suffix)
+    for n, (error, label) in enumerate(((frequency, "frequency"), (amplitude, "peak amplitude"))):
+        shown = [(place, e) for place, e in zip(x, error) if e > 1e-12]
+        axes.plot(*np.transpose(shown) if shown else ([], []), style, marker=MARKERS[n], color=COLOURS[n], mfc="white", label=label + suffix)
 
 
 def samples_of(run, ending):
@@ -303,13 +300,13 @@ def draw_samples(axes, times, run):
             x = [n for n, _ in rows]
             draw_two(axes, x, [number(r, "frequency_error") for _, r in rows],
                      [number(r, "amplitude_error") for _, r in rows], style, suffix)
-            times.plot(x, [1e3 * number(r, "iteration_seconds") for _, r in rows], style, marker="o", color="tab:green",
+            times.plot(x, [1e3 * number(r, "iteration_seconds") for _, r in rows], style, marker="o", color=GREEN,
                        label="piecewise-linear modes" + suffix)
     if "Craig-Bampton" in run.rows:
-        times.axhline(1e3 * number(run.rows["Craig-Bampton"], "iteration_seconds"), color="tab:red",
+        times.axhline(1e3 * number(run.rows["Craig-Bampton"], "iteration_seconds"), color=ORANGE,
                       label="Craig-Bampton")
-    axes.set(xscale="log", yscale="log", xlabel="contact samples", title="samples")
-    times.set(xscale="log", yscale="log", xlabel="contact samples", ylabel="ms", title="time of a Newton iteration")
+    axes.set(xscale="log", yscale="log", xlabel="contact samples")
+    times.set(xscale="log", yscale="log", xlabel="contact samples", ylabel="Newton iteration (ms)")
 
 
 def draw_svd(axes, run):
@@ -320,58 +317,55 @@ def draw_svd(axes, run):
              [number(r, "amplitude_error") for _, r in rows])
     for tolerance, row in rows:
         axes.annotate(row["basis_size"], (tolerance, max(number(row, "amplitude_error"), 1e-12)), fontsize=8,
-                      textcoords="offset points", xytext=(4, 4), color=GREY)
-    axes.set(xscale="log", yscale="log", xlabel="svd_tolerance (with the size of the basis)",
-             title="tolerance of the singular values")
+                      textcoords="offset points", xytext=(4, 4), color=FAINT)
+    axes.set(xscale="log", yscale="log", xlabel="svd_tolerance (and size)")
 
 
-def plot_convergence(study, path, dpi):
-    figure, axes = plt.subplots(2, 3, figsize=(13, 7.6))
-    draw_samples(axes[0, 0], axes[0, 1], study.one)
-    draw_svd(axes[0, 2], study.one)
-    for place, file, name in ((axes[1, 0], "harmonics.csv", "harmonics"),
-                              (axes[1, 1], "time_samples.csv", "time samples in a period")):
-        steps = rows_of(study.folder / file)
-        draw_two(place, *errors_of_steps(steps))
-        place.set(xscale="log", yscale="log", xlabel=name, title=name)
-    steps = [row for row in rows_of(study.folder / "harmonics.csv") if int(row["number"]) > 0]
-    axes[1, 2].plot([int(r["number"]) for r in steps], [float(r["seconds"]) for r in steps], marker="o", color="tab:green")
-    axes[1, 2].set(xscale="log", yscale="log", xlabel="harmonics", ylabel="s", title="time of the curve")
-    for place in axes.flat:
-        if place is not axes[0, 2]:
-            set_round_ticks(place)
-        place.grid(alpha=0.3)
-        if place.get_legend_handles_labels()[0]:
-            place.legend(fontsize=8)
-    figure.suptitle(study.title() + "\nrelative errors", fontsize=11)
-    figure.tight_layout()
-    save(figure, path, dpi)
+def plot_convergence(study, path):
+    figure, axes = plot.figure(2, 3, width=plot.PAGE, height=5.4, window=False)
+    with plot.style():
+        draw_samples(axes[0, 0], axes[0, 1], study.one)
+        draw_svd(axes[0, 2], study.one)
+        for place, file, name in ((axes[1, 0], "harmonics.csv", "harmonics"),
+                                  (axes[1, 1], "time_samples.csv", "time samples in a period")):
+            draw_two(place, *errors_of_steps(rows_of(study.folder / file)))
+            place.set(xscale="log", yscale="log", xlabel=name)
+        steps = [row for row in rows_of(study.folder / "harmonics.csv") if int(row["number"]) > 0]
+        axes[1, 2].plot([int(r["number"]) for r in steps], [float(r["seconds"]) for r in steps], marker="o", color=GREEN, mfc="white")
+        axes[1, 2].set(xscale="log", yscale="log", xlabel="harmonics", ylabel="time of the curve (s)")
+        for place in axes.flat:
+            if place is not axes[0, 2]:
+                round_ticks(place.xaxis, *place.get_xlim())
+            place.grid(alpha=0.3)
+        for place in axes[:, 0]:
+            place.set_ylabel("relative error")
+        axes[0, 1].legend(fontsize=8)
+    return save(figure, axes[0, 0], study.title(), 4, path)
 
 
-def draw_all(study, to, dpi):
+def draw_all(study):
+    """(name, function of the path that draws it)."""
     one = "errors against the unreduced structure at the same H"
     if study.one and study.one.group("methods"):
-        yield "error_against_time", lambda p: plot_errors(study, study.one.group("methods"), one, p, dpi)
-        yield "curves", lambda p: plot_curves(study, p, dpi)
-        yield "contact_over_cycle", lambda p: plot_contact(study, p, dpi)
+        yield "error_against_time", lambda p: plot_errors(study, study.one, study.one.group("methods"), one, p)
+        yield "curves", lambda p: plot_curves(study, p)
+        yield "contact_over_cycle", lambda p: plot_contact(study, p)
     if study.levels:
         what = f"{study.facts['levels']} force levels, worst errors, sum of times"
-        yield "levels", lambda p: plot_errors(study, study.levels.group("levels"), what, p, dpi)
+        yield "levels", lambda p: plot_errors(study, study.levels, study.levels.group("levels"), what, p)
     if study.one and (study.folder / "harmonics.csv").exists():
-        yield "convergence", lambda p: plot_convergence(study, p, dpi)
+        yield "convergence", lambda p: plot_convergence(study, p)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", help="where plm-study wrote its files")
     parser.add_argument("--to", help="folder of the pictures (the same)")
-    parser.add_argument("--dpi", type=int, default=80)
     arguments = parser.parse_args()
     study = Study(arguments.folder)
     to = pathlib.Path(arguments.to or arguments.folder)
-    for name, draw in draw_all(study, to, arguments.dpi):
-        draw(to / f"{name}.png")
-        print(to / f"{name}.png")
+    for name, draw in draw_all(study):
+        print(*draw(to / name))
 
 
 if __name__ == "__main__":

@@ -4,7 +4,8 @@
 
 Euler beam elements (m, kg, N, s): deflection w and rotation r per node. At the crack the rotations of the two faces are
 joined by a weak spring (the ligament); where the faces meet, a contact pair carries the moment: it closes when the crack
-is bent shut. Printed: the modes, the peak from the piecewise-linear modes, and the peak without reduction.
+is bent shut. Printed: the modes, the library's page about the response, and the peak without reduction, 1e-3 away at most.
+It takes a second.
 """
 import sys
 
@@ -63,37 +64,28 @@ def make_model():
     return model.build(), tip
 
 
-def peak_of(basis, dof, name):
-    hbm = plm.Hbm(basis, n_harmonics=7)
-    curve = hbm.sweep(progress=sys.stderr.isatty())
-    peak = hbm.find_peak(curve, dof)
-    print(f"{name:22s} {basis.size:3d} columns, {len(curve):3d} points: peak {1e3 * peak.amplitude:.4f} mm "
-          f"at {peak.frequency_hz:.4f} Hz")
-    return curve, peak
-
-
-def draw(curve, peak, dof, path):
-    from matplotlib import pyplot
-    figure, ax = pyplot.subplots(1, 3, figsize=(15, 4.5), layout="constrained")
-    plm.plot.response(curve, dof, peaks=[peak], ax=ax[0])
-    plm.plot.contact_over_frequency(curve, ax=ax[1])
-    plm.plot.harmonics(peak.branch, 0, dof, labels=["tip"], ax=ax[2])
-    figure.savefig(path)
+def draw(response, peak, dof, path):
+    figure, (curve, contact) = plm.plot.figure(1, 2, width=plm.plot.PAGE)
+    plm.plot.response(response.curve, dof, peaks=[response], name="the tip", ax=curve)
+    plm.plot.harmonics(peak.branch, 0, dof, labels=["the tip"], ax=contact)
+    print("pictures:", *plm.plot.save(figure, path))
 
 
 def main():
     model, tip = make_model()
     print("crack open:   ", model.modes(3), "Hz")
     print("crack closed: ", model.modes(3, "sliding"), "Hz")
-    sampler = plm.Sampler(model, system="open", mode=1).run()
-    print(f"bilinear frequency: {sampler.blf_hz:.4f} Hz ({sampler.window_why})")
-    curve, peak = peak_of(plm.Basis(model, sampler, n_harmonics=7).build(), tip, "piecewise-linear modes")
-    _, reference = peak_of(plm.Basis(model, sampler, kind="full", n_harmonics=7).build(), tip, "unreduced")
-    error = abs(peak.amplitude / reference.amplitude - 1)
-    print(f"error of the reduction at the peak: {100 * error:.3f} %")
+    response = model.compute_response(dof=tip)  # nothing is set: basis, harmonics and range follow from the accuracy, 1e-3
+    print(response.report())
+    peak = response.hbm.find_peak(response.curve, tip)
+    # kind "full": the structure without reduction, to compare with; all else as by default
+    whole = plm.Hbm(plm.Basis(model, plm.Sampler(model).run(), kind="full").build())
+    reference = whole.find_peak(whole.sweep(), tip)
+    error = abs(response.amplitude / reference.amplitude - 1)
+    print(f"without reduction: {reference.amplitude:.6g} at {reference.frequency_hz:.6g} Hz, {100 * error:.4f} % away")
     if len(sys.argv) > 1:
-        draw(curve, peak, tip, sys.argv[1])
-    return 0 if error < 0.05 else 1
+        draw(response, peak, tip, sys.argv[1])
+    return 0 if error < 1e-3 else 1
 
 
 if __name__ == "__main__":

@@ -46,25 +46,23 @@ def stays(basis, branch):
 
 
 def draw(curves, labels, backbone, mode, path):
-    from matplotlib import pyplot
-    figure, ax = pyplot.subplots(1, 2, figsize=(13, 4.6), layout="constrained")
-    plm.plot.response(curves, 0, labels=labels, ax=ax[0])
-    ax[0].plot(mode.frequency_hz, mode.amplitude(0), "k:", lw=1, label="nonlinear mode")
-    ax[0].set_xlim(17, 22)
-    ax[0].set_ylim(0, 1.2 * max(curve.amplitude(0).max() for curve in curves))
-    ax[0].legend()
-    ax[1].plot(backbone.point_force_scale, 1e3 * backbone.amplitude(0))
-    ax[1].axvline(FORCE, color="k", lw=0.8, ls=":")
-    ax[1].set_xlabel("force (N)")
-    ax[1].set_ylabel("amplitude at phase resonance (mm)")
-    ax[1].grid(alpha=0.3)
-    figure.savefig(path)
+    figure, (response, over_force) = plm.plot.figure(1, 2, width=plm.plot.PAGE)
+    plm.plot.response(curves, 0, labels=labels, name="mass 1", ax=response)
+    response.plot(mode.frequency_hz, 1e3 * mode.amplitude(0), "k:", lw=1, label="nonlinear mode")
+    response.set_xlim(17, 22)
+    response.set_ylim(0, 1.2e3 * max(curve.amplitude(0).max() for curve in curves))
+    plm.plot.legend_above(response)
+    plm.plot.backbone(backbone, 0, force=1.0, name="mass 1", ax=over_force)
+    over_force.axvline(FORCE, color="0.35", lw=1, ls="--", label=f"{FORCE:g} N, the force on the left")
+    plm.plot.legend_above(over_force)
+    print("pictures:", *plm.plot.save(figure, path))
 
 
 def main():
     model = make_model()
+    # two masses need no reduction, and a basis without a sampler needs a window
     basis = plm.Basis(model, kind="full", frequency_min_hz=WINDOW[0], frequency_max_hz=WINDOW[1]).build()
-    hbm = plm.Hbm(basis, force_scale=FORCE)
+    hbm = plm.Hbm(basis, force_scale=FORCE)  # the excitation is 1 N: so that the backbone's force is in N
     main_curve = hbm.sweep()
     print(f"main curve:      {len(main_curve):3d} points, amplitude up to {1e3 * main_curve.amplitude(0).max():.3f} mm")
     isolated = hbm.find_isolated(main_curve)

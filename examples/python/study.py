@@ -4,7 +4,9 @@
 
 Every method is run and timed beside the unreduced structure and compared with it: piecewise-linear modes with more and more
 harmonics, the same compressed, a basis for a tolerance, Craig-Bampton, bilinear modes, marching in time. Printed: the table.
-Into the folder, if one is named: the report (report.md, table.csv, the curves) and its pictures.
+Into the folder, if one is named: the report (report.md, table.csv, the curves) and its pictures. Harmonics are set, and
+stability is off, because their price is what is compared: with one harmonic the peak is 0.4 % off, with nine 0.03 %, and the
+curve takes several times as long. All of it takes about ten seconds on one core.
 """
 import os
 import sys
@@ -45,12 +47,11 @@ def show(study):
 
 
 def draw(study, folder):
-    from matplotlib import pyplot
-    figure, ax = pyplot.subplots(1, 3, figsize=(18, 5), layout="constrained")
+    figure, ax = plm.plot.figure(1, 3, width=1.5 * plm.plot.PAGE)
     plm.plot.study_errors(study, ax=ax[0])
     plm.plot.study_curves(study, methods=["modes, H = 1", "modes, H = 9", "for 1e-3", "marching"], ax=ax[1])
     plm.plot.study_convergence(study, HARMONICS, methods=range(len(HARMONICS)), xlabel="harmonics", ax=ax[2])
-    figure.savefig(os.path.join(folder, "study.png"))
+    plm.plot.save(figure, os.path.join(folder, "study"))
 
 
 def main():

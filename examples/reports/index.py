@@ -1,6 +1,6 @@
 """index.py: writes README.md beside it, the overview of the reports, the table of docs/benchmarks.md, and table and picture of
 the project's README, from the reports' own tables. With --check it compares the pages instead, and ends with 1 when one is not
-what the reports say. The picture needs matplotlib."""
+what the reports say. The picture needs matplotlib and the package plm (PYTHONPATH=bindings/python, PLM_LIBRARY)."""
 import pathlib
 import re
 import statistics
@@ -187,30 +187,33 @@ def project(page):
 
 def draw(path):
     """The README's picture: error of the peak over time, a point for each row of its table."""
-    import matplotlib
-    matplotlib.use("Agg")
-    from matplotlib import pyplot
-    figure, ax = pyplot.subplots(figsize=(7.2, 3.6), layout="constrained")
-    for words, row in front_rows():
-        seconds, error = float(row["both (s)"]), 100 * float(row["peak"])
-        own = words.startswith("libplm")
-        if error == 0:  # what the others are compared with: a line at its time, for it has no place on the axis
-            ax.axvline(seconds, color="0.4", ls="--", lw=1)
-            ax.annotate("no reduction:\nthe reference", (seconds, 0.012), xytext=(5, 0), textcoords="offset points", fontsize=9)
-            continue
-        ax.loglog(seconds, error, "o" if own else "s", color="C0" if own else "C1", markersize=8, mfc=None if own else "white", mew=1.5)
-        left = seconds > 3
-        ax.annotate(words.replace(", all", ",\nall"), (seconds, error), xytext=(-8 if left else 8, 0), textcoords="offset points",
-                    ha="right" if left else "left", va="center", fontsize=9)
-    ax.set_xlim(1, 14)
-    ax.set_ylim(5e-4, 4)
-    ax.set_xticks([1, 2, 5, 10], ["1", "2", "5", "10"])
-    ax.minorticks_off()
-    ax.set_yticks([0.001, 0.01, 0.1, 1], ["0.001", "0.01", "0.1", "1"])
-    ax.set_xlabel("time of the first curve, set-up included (s)")
-    ax.set_ylabel("error of the peak's amplitude (%)")
-    ax.grid(alpha=0.3)
-    figure.savefig(path, dpi=150)
+    from plm import plot
+    from plm.plot.errors import stairs
+    from plm.plot.style import COLOURS, FAINT, round_ticks
+    rows = [(words, float(row["both (s)"]), 100 * float(row["peak"])) for words, row in front_rows()]
+    figure, ax = plot.figure(width=1.4 * plot.COLUMN, height=2.8, window=False)
+    with plot.style():
+        front = stairs([(seconds, error) for words, seconds, error in rows if words.startswith("libplm")])
+        ax.loglog(*front, color=COLOURS[0], lw=1)
+        ax.plot([], [], "o-", color=COLOURS[0], lw=1, label="libplm: none faster and better")
+        for words, seconds, error in rows:
+            own = words.startswith("libplm")
+            if error == 0:  # what the others are compared with has no place on the axis
+                ax.axvline(seconds, color=FAINT, ls="--", lw=1, label=f"{words}, the reference: {seconds:.2f} s")
+                reference = ([seconds, seconds], [5e-4, 4])
+            else:
+                ax.loglog(seconds, error, "o" if own else "s", color=COLOURS[0 if own else 1], mfc=None if own else "white", ls="")
+        ax.set_xlim(1, 20)
+        ax.set_ylim(5e-4, 4)
+        round_ticks(ax.xaxis, 1, 20)
+        ax.set_yticks([0.001, 0.01, 0.1, 1], ["0.001", "0.01", "0.1", "1"])
+        ax.minorticks_off()
+        ax.set_xlabel("time of the first curve, set-up included (s)")
+        ax.set_ylabel("error of the peak's amplitude (%)")
+        ax.grid(True)
+        plot.legend_above(ax)
+        plot.name_points(ax, [(seconds, error, words.removeprefix("libplm, ").replace(", all", ",\nall")) for words, seconds, error in rows if error], [front, reference])
+    plot.save(figure, path, ["png"])
 
 
 def main():

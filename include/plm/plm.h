@@ -929,6 +929,12 @@ PLM_API plm_status plm_branch_read(plm_basis *basis, int64_t n, const void *byte
  * written under another name beside, brought to the disk and renamed. PLM_ERR_ARGUMENT where that cannot be. */
 PLM_API plm_status plm_branch_write_csv(plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                         const char *path);
+/* A page of text about the curve, to be printed or kept with the results: model and what was left out, basis, curve with
+ * its folds and bifurcations, peak, stability, other motions at this force, error and by what it was judged, warnings with
+ * their remedies, times. Peak, error and larger motions are those that earlier calls found of this curve:
+ * plm_model_compute_response(), else plm_hbm_find_peak(), and plm_hbm_estimate_error() at that peak; of what no call has
+ * looked for it says so. Lines end with a newline and have about a hundred characters at most; DOFs count from 0. */
+PLM_API plm_status plm_branch_describe(plm_branch *branch, int64_t capacity, char *buffer, int64_t *needed);
 
 /* ---- Transient: motion in time ----------------------------------------------------------------------------------
  * Of a reduced model by its exact piecewise-linear flow (nothing is discretised), or of the full model by Newmark's

@@ -1197,6 +1197,13 @@ class Branch : public detail::Handle<plm_branch> {
         return defect;
     }
     std::vector<char> to_bytes() const { return bytes(plm_branch_write); }
+    /// A page of text about the curve: peak, stability, error, warnings and the rest.
+    std::string describe() const {
+        std::string text;
+        check(detail::read_text([&](auto... a) { return plm_branch_describe(handle_, a...); }, text),
+              "describe");
+        return text;
+    }
     /// The curve as comma-separated text, with the amplitude of this DOF.
     void write_csv(const std::string &path, std::int64_t dof, std::int32_t measure = PLM_HALF_PEAK_TO_PEAK,
                    std::int32_t harmonic = 0) const {

@@ -206,3 +206,10 @@ plm_status plm_branch_get_full_residual(plm_branch *branch, std::int64_t point, 
         return PLM_OK;
     });
 }
+
+plm_status plm_branch_describe(plm_branch *branch, std::int64_t capacity, char *buffer,
+                               std::int64_t *needed) {
+    return call<BranchHandle>("plm_branch_describe", branch, [&](BranchHandle &b) {
+        return put_text(plm::report_of(*b.core, b.found.get()), capacity, buffer, needed);
+    });
+}

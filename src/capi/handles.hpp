@@ -7,6 +7,7 @@
 #include "orbits/transient.hpp"
 #include "reduction/basis.hpp"
 #include "sampling/sampler.hpp"
+#include "searches/branch_report.hpp"
 #include "searches/hbm.hpp"
 #include "searches/isolated.hpp"
 #include "searches/larger_motion.hpp"
@@ -104,6 +105,8 @@ struct BranchHandle final : HandleOf<plm_branch, Kind::branch> {
         : HandleOf(std::move(c)), core(std::move(b)) {}
 
     std::shared_ptr<const Branch> core;
+    /// By the calls that looked for its peak, shared with that; null: none has.
+    std::shared_ptr<CurveFindings> found;
 };
 
 struct TransientHandle final : HandleOf<plm_transient, Kind::transient> {

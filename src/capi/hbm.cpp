@@ -4,9 +4,11 @@
 #include "capi/branch_input.hpp"
 #include "capi/hbm_input.hpp"
 #include "linalg/scale.hpp"
+#include "reduction/basis_kind.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/error_estimate.hpp"
 #include "searches/refinement.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace plm::capi {
@@ -45,6 +47,41 @@ std::shared_ptr<BranchHandle> own_branch(const HbmHandle &h, const plm_branch *b
     return b;
 }
 
+namespace {
+
+bool is_same(const Output &a, const Output &b) {
+    return a.dof == b.dof && a.measure == b.measure &&
+           (a.measure != Measure::harmonic || a.harmonic == b.harmonic);
+}
+
+/// What is known of a curve with this peak of it: kept where the amplitude is that of an earlier call.
+std::shared_ptr<CurveFindings> with_peak(const HbmHandle &h, const BranchHandle &curve, const Peak &peak,
+                                         const Output &output) {
+    if (curve.found && is_same(curve.found->output, output)) {
+        const auto known = std::make_shared<CurveFindings>(*curve.found);
+        known->peak = peak;
+        return known;
+    }
+    const Basis &basis = *built(*h.basis);
+    const auto found = std::make_shared<CurveFindings>();
+    found->output = output;
+    found->peak = peak;
+    found->basis_kind = basis.options().kind->name;
+    found->setup_seconds = basis.report().setup_seconds;
+    found->warnings = peak.branch->warnings;
+    return found;
+}
+
+/// An estimate at the peak that was looked for is that of its curve, too.
+void keep_error(const BranchHandle &branch, const ErrorEstimate &e, const Output &output) {
+    if (!branch.found || branch.found->peak.branch != branch.core || !is_same(branch.found->output, output))
+        return;
+    const Peak &peak = branch.found->peak;
+    branch.found->error = std::max(std::abs(e.amplitude.sum()) / peak.amplitude,
+                                   std::abs(e.frequency_hz.sum()) / peak.frequency_hz);
+}
+
+} // namespace
 } // namespace plm::capi
 
 using namespace plm::capi;
@@ -92,12 +129,18 @@ plm_status plm_hbm_find_peak(plm_hbm *hbm, plm_branch *branch, std::int64_t dof,
         require_measure(*curve->core, dof, measure, harmonic);
         require_pointer(frequency_hz, "frequency_hz");
         require_pointer(amplitude, "amplitude");
-        plm::Peak found =
-            solver(h).find_peak(*curve->core, dof, static_cast<plm::Measure>(measure), harmonic);
+        const plm::Output output = {dof, static_cast<plm::Measure>(measure), harmonic};
+        const plm::Peak found = solver(h).find_peak(*curve->core, dof, output.measure, harmonic);
         const double highest[] = {found.frequency_hz, found.amplitude};
         plm::require_finite_result(highest, 2, "frequency_hz, amplitude");
         Outcome outcome = deliver(h, found.branch->warnings);
-        if (peak) *peak = publish_branch(h, std::move(found.branch));
+        const auto known = with_peak(h, *curve, found, output);
+        if (peak) {
+            const auto top = std::make_shared<BranchHandle>(h.owner, found.branch);
+            top->found = known;
+            *peak = publish(top);
+        }
+        curve->found = known;
         *frequency_hz = found.frequency_hz, *amplitude = found.amplitude;
         return outcome;
     });
@@ -112,8 +155,8 @@ plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, std::int64_t
         require_measure(*curve->core, dof, measure, harmonic);
         const plm::ErrorEstimator estimator(
             plm::unreduced_basis(built(*h.basis), h.owner->watch())->reduced(), *curve->core, h.hbm_options);
-        const plm::ErrorEstimate e =
-            estimator.estimate(point, dof, static_cast<plm::Measure>(measure), harmonic);
+        const plm::Output output = {dof, static_cast<plm::Measure>(measure), harmonic};
+        const plm::ErrorEstimate e = estimator.estimate(point, dof, output.measure, harmonic);
         const auto put = [](const plm::ErrorParts &parts, double *out) {
             if (out) out[0] = parts.basis, out[1] = parts.contact, out[2] = parts.harmonics;
         };
@@ -123,6 +166,7 @@ plm_status plm_hbm_estimate_error(plm_hbm *hbm, plm_branch *branch, std::int64_t
             plm::require_finite_result(all, 6, "amplitude, frequency_hz"); // else NaN where unknown
         put(e.amplitude, amplitude);
         put(e.frequency_hz, frequency_hz);
+        keep_error(*curve, e, output);
         plm::Warnings warnings;
         if (!e.complete())
             warnings.add(PLM_REASON_NO_CONTRACTION,

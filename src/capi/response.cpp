@@ -4,6 +4,7 @@
 #include "capi/handles.hpp"
 #include "capi/hbm_input.hpp"
 #include "capi/outcome.hpp"
+#include "reduction/basis_kind.hpp"
 #include "searches/computed_response.hpp"
 #include <cmath>
 
@@ -30,6 +31,23 @@ std::shared_ptr<HbmHandle> handles_of(const plm::ComputedResponse &r, const plm:
     hbm->larger = r.larger;
     if (r.larger) hbm->found.push_back({r.larger->curve, r.larger->force_low, r.larger->force_high});
     return hbm;
+}
+
+/// What plm_branch_describe() says of the curve beside its points.
+std::shared_ptr<plm::CurveFindings> findings_of(const plm::ComputedResponse &r, const plm::Output &output,
+                                                double accuracy, const plm::Warnings &warnings) {
+    auto found = std::make_shared<plm::CurveFindings>();
+    found->output = output;
+    found->peak = r.peak;
+    found->basis_kind = r.basis->options().kind->name;
+    found->setup_seconds = r.basis->report().setup_seconds;
+    found->error = r.error;
+    found->accuracy = accuracy;
+    found->warnings = warnings;
+
+    found->looked_beside = r.looked_beside;
+    found->larger = r.larger;
+    return found;
 }
 
 /// How the curve ended, where that is not as it should be, else what there is to look at.
@@ -69,9 +87,10 @@ plm_status plm_model_compute_response(plm_model *model, std::int64_t dof, std::i
             throw plm::Error(PLM_ERR_STATE, "the model has no contact pair: its response is linear, and a "
                                             "basis of kind full or craig_bampton gives it")
                 .argument("model");
+        const plm::Output output = {dof, static_cast<plm::Measure>(measure), 0};
         const plm::ComputedResponse r = within_effort(INFINITY, [&] {
-            return plm::compute_response(core, m.space, {dof, static_cast<plm::Measure>(measure), 0},
-                                         accuracy, m.owner->effort_beside(0), m.owner->watch());
+            return plm::compute_response(core, m.space, output, accuracy, m.owner->effort_beside(0),
+                                         m.owner->watch());
         });
         m.space = r.basis->sampler() ? r.basis->sampler()->space() : m.space; // the next one starts from it
         const double highest[] = {r.peak.frequency_hz, r.peak.amplitude};
@@ -80,7 +99,9 @@ plm_status plm_model_compute_response(plm_model *model, std::int64_t dof, std::i
         warnings.add(r.warnings);
         const Outcome outcome = outcome_of(r, warnings);
         plm_hbm *solver = hbm ? publish(handles_of(r, warnings, find<ModelHandle>(model))) : nullptr;
-        plm_branch *branch = curve ? publish(std::make_shared<BranchHandle>(m.owner, r.curve)) : nullptr;
+        const auto handle = std::make_shared<BranchHandle>(m.owner, r.curve);
+        handle->found = findings_of(r, output, accuracy, warnings);
+        plm_branch *branch = curve ? publish(handle) : nullptr;
         if (hbm) *hbm = solver;
         if (curve) *curve = branch;
         *frequency_hz = r.peak.frequency_hz, *amplitude = r.peak.amplitude;

@@ -25,4 +25,18 @@ std::string csv_of(const Branch &branch, const Output &of) {
     return text.str();
 }
 
+std::string contact_in_words(const Branch &branch, std::int64_t point) {
+    const vector<double> shares = branch.closed_share(point);
+    double mean = 0;
+    for (double share : shares) mean += share / static_cast<double>(shares.size());
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text.precision(3);
+    text << branch.points()[static_cast<std::size_t>(point)].n_switching << " of " << shares.size()
+         << (shares.size() == 1 ? " pair opens and closes; closed for "
+                                : " pairs open and close; closed on average for ")
+         << 100 * mean << " % of the period";
+    return text.str();
+}
+
 } // namespace plm

@@ -330,7 +330,8 @@ class Chain {
     }
 
     void look_beside(ComputedResponse &r) const {
-        if (!within(effort_left(), [&] { r.larger = find_larger_motion(known(r), watch_); }))
+        r.looked_beside = within(effort_left(), [&] { r.larger = find_larger_motion(known(r), watch_); });
+        if (!r.looked_beside)
             watch_.log(1, "the effort allowed was spent in the search for larger motions beside the curve");
     }
 

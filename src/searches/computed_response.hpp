@@ -12,6 +12,7 @@ struct ComputedResponse {
     std::shared_ptr<const Branch> curve;
     Peak peak;
     std::optional<LargerMotion> larger; // beside the curve
+    bool looked_beside = false;         // for one, to the end
     /// Of the peak, relative: by the basis, as estimated, and what the host states of its own reduction; NaN:
     /// not known, or the curve ended early.
     double error = 0;

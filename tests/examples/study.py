@@ -140,7 +140,7 @@ def check_stiffness(program, folder):
 def python_with_matplotlib():
     for python in (sys.executable, "/usr/bin/python3"):
         try:
-            if not subprocess.run([python, "-c", "import numpy, matplotlib"], stderr=subprocess.DEVNULL).returncode:
+            if not subprocess.run([python, "-c", "import numpy, scipy, matplotlib"], stderr=subprocess.DEVNULL).returncode:
                 return python
         except OSError:
             pass
@@ -150,7 +150,7 @@ def python_with_matplotlib():
 def check_pictures(plot, folder, report, count):
     python = python_with_matplotlib()
     if not python:
-        print("no Python with numpy and matplotlib: plot_study.py is not tried")
+        print("no Python with numpy, scipy and matplotlib: plot_study.py is not tried")
         return
     done = subprocess.run([python, plot, str(folder)], stdout=subprocess.DEVNULL, check=False)
     pictures = [path.name for path in folder.glob("*.png")]

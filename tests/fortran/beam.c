@@ -38,29 +38,15 @@ static int make_model(plm_context *ctx, const scene *s, plm_model **model) {
 
 static int run(plm_context *ctx, const scene *s) {
     plm_model *model = NULL;
-    plm_sampler *sampler = NULL;
-    plm_basis *basis = NULL;
-    plm_hbm *hbm = NULL;
-    plm_branch *curve = NULL, *peak = NULL;
-    double open[3], sliding[3], blf = 0, hz = 0, mm = 0;
+    double open[3], sliding[3], hz = 0, mm = 0;
     if (make_model(ctx, s, &model)) return 1;
     TRY(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 3, open, NULL));
     TRY(plm_model_get_modes(model, PLM_SYSTEM_SLIDING, NULL, 3, sliding, NULL));
-    TRY(plm_sampler_create(model, &sampler));
-    TRY(plm_sampler_set_double(sampler, "search_max_hz", 2000));
-    TRY(plm_sampler_set_int(sampler, "n_samples", 4));
-    TRY(plm_sampler_run(sampler));
-    TRY(plm_sampler_get_double(sampler, "blf_hz", &blf));
-    TRY(plm_basis_create(model, &basis));
-    TRY(plm_basis_set_sampler(basis, sampler));
-    TRY(plm_basis_build(basis));
-    TRY(plm_hbm_create(basis, &hbm));
-    TRY(plm_hbm_set_int(hbm, "n_harmonics", 7));
-    TRY(plm_hbm_sweep(hbm, &curve));
-    TRY(plm_hbm_find_peak(hbm, curve, s->output_dof, PLM_HALF_PEAK_TO_PEAK, 0, &hz, &mm, &peak));
+    TRY(plm_model_compute_response(model, s->output_dof, PLM_HALF_PEAK_TO_PEAK, 1e-3, &hz, &mm, NULL, NULL,
+                                   NULL));
     printf("open_hz %.9f %.9f %.9f\n", open[0], open[1], open[2]);
     printf("sliding_hz %.9f %.9f %.9f\n", sliding[0], sliding[1], sliding[2]);
-    printf("bilinear_hz %.9f\npeak_hz %.9f\npeak_mm %.9e\n", blf, hz, mm);
+    printf("peak_hz %.9f\npeak_mm %.9e\n", hz, mm);
     return 0;
 }
 

@@ -190,6 +190,8 @@ contains
         call check(size(frequency) == n64 .and. size(iterations) == n64, 'arrays have their lengths')
         call check(all(wide == iterations), 'integers of both kinds are the same')
         call hbm%find_peak(curve, n_dof, peak_hz, peak_m, PLM_HARMONIC, 1, peak)
+        call curve%describe(text)
+        call check(index(text, 'magnitude of one harmonic, number 1, of DOF') > 0, 'a page of text about the curve')
         call curve%amplitude(n_dof, value, PLM_HARMONIC, 1)
         call check(maxval(value) <= peak_m*1.01_real64, 'no point is above the peak, which has more harmonics')
         call peak%amplitude(n_dof, harmonic, PLM_HARMONIC, 1)

@@ -25,10 +25,6 @@ try:
 except ImportError:
     vtk = None
 try:
-    import meshio
-except ImportError:
-    meshio = None
-try:
     import matplotlib.image
 except ImportError:
     matplotlib = None
@@ -156,17 +152,17 @@ class Deck(unittest.TestCase):
         """From the deck alone to the peak, and what stands in the files for viewers."""
         out, err = self.run_plm("response", self.path, "--out", self.folder / "out", "--frames", "8")
         self.assertEqual(err, "")
-        found = re.search(r"^peak +(\S+) at (\S+) Hz", out, re.M)
+        found = re.search(r"^  (\S+) at (\S+) Hz: ", out, re.M)
         hz, amplitude = self.reference.peak()
         numpy.testing.assert_allclose(float(found[2]), hz, rtol=1e-4)
         numpy.testing.assert_allclose(float(found[1]), amplitude, rtol=2e-3)  # 1e-3 asked for; 24 harmonics are 1e-3 from 60
         self.assertIn("4 of 4 pairs open and close", out)
         if vtk:
             self.check_files(amplitude)
-        if meshio and matplotlib:
+        if vtk and matplotlib and (os.environ.get("DISPLAY") or shutil.which("xvfb-run")):
             picture = self.folder / "open.png"
             script = pathlib.Path(__file__).parents[2] / "examples" / "plot" / "plot_motion.py"
-            subprocess.run([sys.executable, script, self.folder / "out" / "peak.pvd", picture], check=True, timeout=60)
+            subprocess.run([sys.executable, script, self.folder / "out" / "peak.pvd", picture], check=True, timeout=200)
             self.assertGreater(numpy.ptp(matplotlib.image.imread(picture)[..., :3]), 0.9)  # black lines on white
 
     def check_files(self, amplitude):
@@ -200,7 +196,7 @@ class Deck(unittest.TestCase):
         """The same matrices handed over, and a force in place of the deck's: by the name of a set, twice as much."""
         once, _ = self.run_plm("response", self.path, "--matrices", self.folder / "matrices.sti")
         twice, _ = self.run_plm("response", self.path, "--matrices", self.folder / "matrices.sti", "--force", "tip", "z", 2 * FORCE)
-        (one, hz), (two, hz_two) = (map(float, re.search(r"^peak +(\S+) at (\S+) Hz", out, re.M).groups()) for out in (once, twice))
+        (one, hz), (two, hz_two) = (map(float, re.search(r"^  (\S+) at (\S+) Hz: ", out, re.M).groups()) for out in (once, twice))
         self.assertAlmostEqual(two / one, 2, 4)  # without gaps and pre-load contact is homogeneous
         self.assertEqual(hz, hz_two)
 

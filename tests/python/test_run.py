@@ -38,6 +38,10 @@ class Run(unittest.TestCase):
         self.assertLess(response.error, 1e-3)
         self.assertGreater(len(response.curve), 10)
         self.assertEqual((response.hbm.accuracy, response.curve.status), (1e-3, plm.OK))
+        page = response.report()
+        self.assertEqual(page, response.curve.describe())
+        self.assertIn(f"  {response.amplitude:.6g} at {response.frequency_hz:.6g} Hz: half peak-to-peak displacement of DOF", page)
+        self.assertIn(f"may be off by {response.error:.2g} of itself", page)
         again = response.hbm.find_peak(response.curve, models.WATCHED)
         self.assertEqual((again.frequency_hz, again.amplitude), (response.frequency_hz, response.amplitude))
         refined = response.hbm.refine_basis(models.WATCHED, 1e-2)  # which knows its model

@@ -167,6 +167,7 @@ FUNCTIONS = {
     "plm_branch_write": "pqpp branch capacity bytes needed",
     "plm_branch_read": "pqpp basis n bytes branch",
     "plm_branch_write_csv": "pqiis branch dof measure harmonic path",
+    "plm_branch_describe": "pqpp branch capacity buffer needed",
     "plm_transient_create": "ppp model basis transient",
     "plm_transient_destroy": "p transient",
     "plm_transient_set_int": "psq transient key value",

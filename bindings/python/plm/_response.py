@@ -85,6 +85,13 @@ class Response(NamedTuple):
     curve: "Branch"
     hbm: "Hbm"
 
+    def report(self):
+        """The page of text of Branch.describe.
+
+            print(model.compute_response(dof=12).report())
+        """
+        return self.curve.describe()
+
     @property
     def larger(self):
         """Larger(frequency_hz, amplitude, branch, force_range), where the curve is not all that the force allows, or None.
@@ -252,6 +259,17 @@ class Branch(BranchMethods, Handle, noun="branch", kind=_c.KIND_BRANCH):
         """The curve as a file of comma-separated text, replaced as a whole: frequency_hz, amplitude of the DOF, arclength,
         force_scale, stable, bifurcation, residual, iterations, n_harmonics, harmonic_error, n_switching."""
         self._call("write_csv", dof, choice(measure, MEASURES, "measure"), harmonic, os.fsencode(path))
+
+    def describe(self):
+        """A page of text about the curve: model, basis, peak, stability, other motions, error and by what it was judged,
+        warnings with remedies, times. Peak and error are those that Model.compute_response, or Hbm.find_peak and
+        Hbm.estimate_error at that peak, found of it.
+
+            print(hbm.sweep().describe())
+        """
+        needed = ctypes.c_int64()
+        self._call("describe", 0, None, ctypes.byref(needed))
+        return _c.text_of(_c.lib.plm_branch_describe, self._h)
 
     def __len__(self):
         return self.n_points

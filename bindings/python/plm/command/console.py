@@ -31,7 +31,7 @@ _WORDS = (("raise the effort of the context", "raise --effort (0: no limit)"),
 def in_words_of_the_command(text):
     """A message of the library, with the options that its reader has."""
     for library, command in _WORDS:
-        text = re.sub(library, command, text)
+        text = re.sub(library.replace(" ", r"\s+"), command, text)  # a page breaks its lines
     return text
 
 

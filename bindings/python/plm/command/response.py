@@ -1,6 +1,7 @@
 """plm response: from the files to the curve, its peak and the motion there."""
 import contextlib
 import math
+import pathlib
 import warnings
 from typing import NamedTuple
 
@@ -9,7 +10,7 @@ from .._functions import NOT_CONVERGED, TRUNCATED
 from .._reduction import Basis, Sampler
 from .._response import Hbm
 from .console import in_words_of_the_command
-from .report import Report, number_text
+from .report import write_report
 from .response_files import write_files
 from .settings import Wrong, settings_text
 from .structure import assemble, require_pairs
@@ -37,13 +38,19 @@ def run(settings, console):
     if not found.error <= settings["accuracy"]:
         console.warn("the error of the peak is " + (f"estimated to be {found.error:.1e}, more than the accuracy asked for, "
                      f"{settings['accuracy']:g}" if math.isfinite(found.error) else "not known"))
-    report = _report(structure, dof, found, settings)
-    for line in report.summary(without="Asked for"):
-        console.say(line)
+    page = page_of(found.curve, dof, structure.name_of(dof))
+    console.say(page.rstrip("\n"))
     if settings["out"]:
         with console.listening():
-            files = write_files(settings["out"], structure, dof, found, settings, report, console)
-        console.say(f"files         {', '.join(files)} in {settings['out']}")
+            files = write_files(settings["out"], structure, dof, found, settings, console)
+        write_report(pathlib.Path(settings["out"]) / "report.md", settings_text("response", settings), page, console, structure.unread,
+                     files)
+        console.say(f"\nFiles\n  report.md, {', '.join(files)} in {settings['out']}")
+
+
+def page_of(curve, dof, name):
+    """The library's page about a curve, in the words of the command and with the node in place of the DOF."""
+    return in_words_of_the_command(curve.describe()).replace(f"DOF {dof} (counted from 0)", name)
 
 
 def output_dof(structure, settings):
@@ -125,34 +132,3 @@ def _on_basis(basis, dof, low, high, settings, progress):
                 error = max(abs(parts.amplitude.total) / peak.amplitude, abs(parts.frequency_hz.total) / peak.frequency_hz)
     told = [one.message for one in issued]
     return Found(peak.frequency_hz, peak.amplitude, error, curve, peak.branch, None), told
-
-
-def _report(structure, dof, found, settings):
-    model, peak, curve = structure.model, found.peak, found.curve
-    report = Report("Forced response")
-    report.add("Asked for", settings_text("response", settings))
-    report.add("Model", [("DOFs", f"{model.n_dof}, {model.n_free} of them free"), ("contact", f"{model.n_pairs} pairs"),
-                         ("nodes", len(structure.mesh.node_labels))])
-    what = f"{settings['measure'].replace('_', ' ')} of {structure.name_of(dof)}"
-    report.add("Response", [
-        ("peak", f"{number_text(found.amplitude)} at {number_text(found.frequency_hz)} Hz ({what})"),
-        ("error", _error_text(found.error, settings["accuracy"])),
-        ("curve", f"{len(curve)} points, {curve.frequency_hz.min():.6g} .. {curve.frequency_hz.max():.6g} Hz, {in_words_of_the_command(curve.end_text)}"),
-        ("contact", _contact_text(peak)),
-        ("stability", {1: "the motion of the peak is stable", 0: "the motion of the peak is not stable"}.get(
-            int(peak.stable[0]), "not computed")),
-    ])
-    if found.larger:
-        report.add("Beside the curve", [("larger", f"a stable motion of {number_text(found.larger.amplitude)} at "
-                                         f"{number_text(found.larger.frequency_hz)} Hz exists at the same force")])
-    return report
-
-
-def _error_text(error, accuracy):
-    return f"{error:.1e} of the peak at most, as estimated; asked for: {accuracy:g}" if math.isfinite(error) else "not known"
-
-
-def _contact_text(peak):
-    share = peak.closed_share(0)
-    return (f"{int(peak.n_switching[0])} of {peak.n_pairs} pairs open and close at the peak; on average {100 * share.mean():.1f} % are "
-            "closed")

@@ -57,6 +57,8 @@ SETTINGS = (
     Setting("harmonics", "counts", [3, 5, 9], "N", ("study",), "numbers of harmonics that are compared"),
     Setting("samples", "counts", [4], "N", ("study",), "numbers of contact samples that are compared"),
     Setting("repeats", "count", 1, "N", ("study",), "timed runs of each method"),
+    Setting("length_unit", "words m mm um", "", "UNIT", ("response", "study"),
+            "what the model counts lengths in, for the axes of pictures: m, mm or um; without it they name no unit"),
     Setting("out", "path", None, "FOLDER", ("response", "modes", "rest", "study"), "folder for the files, made where it is not there"),
 )
 BY_NAME = {setting.name: setting for setting in SETTINGS}

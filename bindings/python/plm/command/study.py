@@ -1,13 +1,12 @@
 """plm study: error against run time of several ways to the response."""
-import importlib
 import pathlib
 
 from .._functions import OK
 from .._reduction import Basis, Sampler
 from .._response import Hbm
 from .._study import Study
-from ..fe.replacing import replacing
 from .response import output_dof, range_of, window_options
+from .response_files import plot_or_none
 from .structure import assemble
 
 
@@ -26,7 +25,7 @@ def run(settings, console):
         console.matters = True
     if settings["out"]:
         study.write(settings["out"])
-        files = ["report.md", "table.csv", *_draw(study, pathlib.Path(settings["out"]), console)]
+        files = ["report.md", "table.csv", *_draw(study, pathlib.Path(settings["out"]), settings, console)]
         console.say(f"files: {', '.join(files)} and a curve of each method in {settings['out']}")
 
 
@@ -64,18 +63,11 @@ def _show(study, console):
                 f"{study.reference_curve_seconds:8.3f} s, peak {study.reference_peak_amplitude:.6g} at {study.reference_peak_hz:.6g} Hz")
 
 
-def _draw(study, folder, console):
-    try:
-        figures, agg = importlib.import_module("matplotlib.figure"), importlib.import_module("matplotlib.backends.backend_agg")
-        plot = importlib.import_module("..plot", __package__)
-    except ImportError:
-        console.note("no picture: it needs matplotlib (pip install plm[plot])")
+def _draw(study, folder, settings, console):
+    plot = plot_or_none(console)
+    if plot is None:
         return []
-    figure = figures.Figure(figsize=(12, 5), layout="constrained")
-    agg.FigureCanvasAgg(figure)
-    errors, curves = figure.subplots(1, 2)
+    figure, (errors, curves) = plot.figure(1, 2, width=plot.PAGE, window=False)
     plot.study_errors(study, ax=errors)
-    plot.study_curves(study, ax=curves)
-    with replacing(folder / "study.png") as beside:
-        figure.savefig(beside, format="png")
-    return ["study.png"]
+    plot.study_curves(study, units=settings["length_unit"], ax=curves)
+    return [path.name for path in plot.save(figure, folder / "study")]
