@@ -65,6 +65,8 @@ static_assert(reason::larger_motion == PLM_REASON_LARGER_MOTION);
 static_assert(reason::tie == PLM_REASON_TIE);
 static_assert(reason::rounded == PLM_REASON_ROUNDED);
 static_assert(reason::effort == PLM_REASON_EFFORT);
+static_assert(reason::unfinished == PLM_REASON_UNFINISHED);
+static_assert(reason::not_saved == PLM_REASON_NOT_SAVED);
 static_assert(bifurcation::none == PLM_BIFURCATION_NONE);
 static_assert(bifurcation::fold == PLM_BIFURCATION_FOLD);
 static_assert(bifurcation::branch_point == PLM_BIFURCATION_BRANCH_POINT);
