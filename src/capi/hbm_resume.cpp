@@ -22,7 +22,7 @@ void require_can_go_on(const HbmHandle &h, const Branch &branch) {
             format("there is nothing to go on with: the curve %s", end_text(branch.end_reason).c_str()));
     if (!branch.record)
         bad_argument("branch", -1,
-                     "only a curve of plm_hbm_sweep, or of this function, can go on; sweep anew");
+                     "only a curve that was swept at one level, or resumed, can go on; sweep anew");
     const std::string now = options_text(h), before = branch.record->options;
     if (now != before)
         bad_argument(

@@ -66,9 +66,7 @@ enum : std::int32_t {
     larger_motion = 27,
     tie = 28,
     rounded = 29,
-    effort = 30,
-    unfinished = 31,
-    not_saved = 32
+    effort = 30
 };
 }
 

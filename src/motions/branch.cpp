@@ -1,4 +1,5 @@
 #include "motions/branch.hpp"
+#include "motions/curve_progress.hpp" // TEMPORARY
 #include "contact/contact_measures.hpp"
 #include "contact/trig_polynomial.hpp"
 #include "linalg/blas_lapack.hpp"
