@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t most_periods = 1 << 20, least_point = 200; // bytes of a point at least
 constexpr int most_beside = 4;                                    // closed curves beside curves beside ...
-constexpr std::int64_t least_curve = 56, most_curves = 64;        // of a record: bytes of each, and how many
+constexpr std::int64_t least_curve = 48, most_curves = 64;        // of a record: bytes of each, and how many
 
 // The flows of the points that were read: they share the contact sets that they pass.
 class ReadMotions {

@@ -151,7 +151,8 @@ static void going_on(void **state) {
     assert_int_equal(plm_hbm_resume(NULL, curve, &none), PLM_ERR_HANDLE);
     assert_int_equal(plm_hbm_resume(hbm, NULL, &none), PLM_ERR_HANDLE);
     BAD(plm_hbm_resume(hbm, curve, NULL), f, "resumed", "NULL");
-    BAD(plm_hbm_resume(hbm, curve, &none), f, "hbm", "max_points"); /* 4 points, which are all that it allows */
+    BAD(plm_hbm_resume(hbm, curve, &none), f, "hbm",
+        "max_points"); /* 4 points, which are all that it allows */
     assert_true(done(ctx, plm_hbm_set_int(hbm, "max_points", 100)));
     assert_true(done(ctx, plm_hbm_save_every(hbm, 3, path)));
     assert_true(plm_hbm_resume(hbm, curve, &whole) >= 0);
@@ -161,7 +162,8 @@ static void going_on(void **state) {
     assert_true(done(ctx, plm_hbm_save_every(hbm, 0, NULL)) && remove(path) == 0);
     assert_true(plm_hbm_sweep(hbm, &end) >= 0 && remove(path) != 0);
     assert_true(done(ctx, plm_hbm_create(basis, &other)));
-    BAD(plm_hbm_resume(other, curve, &none), f, "hbm", "n_harmonics = 3; those of this hbm are: the defaults");
+    BAD(plm_hbm_resume(other, curve, &none), f, "hbm",
+        "n_harmonics = 3; those of this hbm are: the defaults");
     assert_null(none);
 }
 

@@ -1,10 +1,12 @@
 // The continuation on curves that are known, with one unknown x: at corners, on the flank of a resonance, at
 // the end of its range, and what it does with test functions of the path's owner.
+#include "linalg/error.hpp"
 #include "paths/continuation.hpp"
 #include "paths/metric.hpp"
 #include "support/test.hpp"
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace {
