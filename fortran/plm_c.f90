@@ -58,6 +58,8 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_REASON_TIE = 28_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_ROUNDED = 29_c_int32_t
     integer(c_int32_t), parameter :: PLM_REASON_EFFORT = 30_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_UNFINISHED = 31_c_int32_t
+    integer(c_int32_t), parameter :: PLM_REASON_NOT_SAVED = 32_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_NONE = 0_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_FOLD = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_BIFURCATION_BRANCH_POINT = 2_c_int32_t
@@ -1397,6 +1399,22 @@ module plm_c
             type(c_ptr), intent(inout) :: branch
             integer(plm_status) :: code
         end function plm_hbm_sweep
+        function plm_hbm_save_every(hbm, n_points, path) bind(c) result(code)
+            import :: c_char, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: hbm
+            integer(c_int64_t), value :: n_points
+            character(kind=c_char), intent(in), optional :: path(*)
+            integer(plm_status) :: code
+        end function plm_hbm_save_every
+        function plm_hbm_resume(hbm, branch, resumed) bind(c) result(code)
+            import :: c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: hbm
+            type(c_ptr), value :: branch
+            type(c_ptr), intent(inout) :: resumed
+            integer(plm_status) :: code
+        end function plm_hbm_resume
         function plm_hbm_sweep_levels(hbm, n, force_scale, count) bind(c) result(code)
             import :: c_double, c_int64_t, c_ptr, plm_status
             implicit none

@@ -1007,6 +1007,35 @@ subroutine plmhsw(handle, branch, ierr)
     if (as_handle(c_branch) /= 0) branch = as_handle(c_branch)
 end subroutine plmhsw
 
+subroutine plmhsv(handle, npoint, path, ierr)
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_hbm_save_every
+    use plm_f77_support, only: as_pointer, c_text
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: npoint
+    character(len=*), intent(in) :: path
+    integer, intent(out) :: ierr
+    ierr = int(plm_hbm_save_every(as_pointer(handle), int(npoint, int64), c_text(path)))
+end subroutine plmhsv
+
+subroutine plmhrs(handle, branch, resumd, ierr)
+    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_hbm_resume
+    use plm_f77_support, only: as_pointer, as_handle
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer(int64), intent(in) :: branch
+    integer(int64), intent(inout) :: resumd
+    integer, intent(out) :: ierr
+    type(c_ptr) :: c_resumd
+    c_resumd = c_null_ptr
+    ierr = int(plm_hbm_resume(as_pointer(handle), as_pointer(branch), c_resumd))
+    if (ierr < 0) return
+    if (as_handle(c_resumd) /= 0) resumd = as_handle(c_resumd)
+end subroutine plmhrs
+
 subroutine plmhpk(handle, branch, idof, imeas, iharm, freq, ampl, peak, ierr)
     use, intrinsic :: iso_c_binding, only: c_int32_t, c_null_ptr, c_ptr
     use, intrinsic :: iso_fortran_env, only: int64, real64

@@ -1,6 +1,6 @@
 ! plm_response.f90: harmonic balance, which follows response curves. DOFs and points count from 1.
 module plm_responses
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_int32_t
+    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_null_char, c_int32_t
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_constants
     use plm_c
@@ -18,6 +18,8 @@ module plm_responses
         procedure :: create
         procedure :: destroy
         procedure :: sweep
+        procedure :: save_every
+        procedure :: resume
         procedure :: sweep_levels
         procedure :: solve
         procedure :: find_peak
@@ -106,6 +108,28 @@ contains
         call prepare(self, branch)
         call finish(self%context, plm_hbm_sweep(self%handle, branch%handle), stat, errmsg)
     end subroutine sweep
+
+    ! From now on sweep and resume write the curve to the file `path` after every n_points more points and at their end; 0: no
+    ! longer (path: any).
+    subroutine save_every(self, n_points, path, stat, errmsg)
+        class(plm_hbm), intent(in) :: self
+        integer, intent(in) :: n_points
+        character(len=*), intent(in) :: path
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call finish(self%context, plm_hbm_save_every(self%handle, int(n_points, int64), trim(path)//c_null_char), stat, errmsg)
+    end subroutine save_every
+
+    ! Goes on with a curve that was cancelled, ended by "max_points" or for want of effort, or was saved on its way.
+    subroutine resume(self, branch, resumed, stat, errmsg)
+        class(plm_hbm), intent(inout) :: self
+        type(plm_branch), intent(in) :: branch
+        type(plm_branch), intent(inout) :: resumed
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        call prepare(self, resumed)
+        call finish(self%context, plm_hbm_resume(self%handle, branch%handle, resumed%handle), stat, errmsg)
+    end subroutine resume
 
     ! One frequency; start, point: a branch whose point (1 if absent) is the first guess.
     subroutine solve(self, frequency_hz, branch, start, point, stat, errmsg)

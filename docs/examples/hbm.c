@@ -36,6 +36,21 @@ static int sweep(plm_basis *basis) {
     /* [plm_hbm_sweep] */
     EXPECT(ended == 0 && harmonics == 7);
 
+    /* [plm_hbm_save_every] */
+    TRY(plm_hbm_save_every(hbm, 10, "example_curve.plm")); /* a process that is killed leaves that */
+    /* [plm_hbm_save_every] */
+    TRY(plm_hbm_save_every(hbm, 0, NULL));
+
+    plm_branch *part = NULL, *whole = NULL;
+    TRY(plm_hbm_set_int(hbm, "max_points", 12));
+    EXPECT(plm_hbm_sweep(hbm, &part) == PLM_TRUNCATED);
+    TRY(plm_hbm_set_int(hbm, "max_points", 1000));
+    /* [plm_hbm_resume] */
+    const plm_status on = plm_hbm_resume(hbm, part, &whole); /* the points that it would have had */
+    if (on < 0) return __LINE__;
+    /* [plm_hbm_resume] */
+    EXPECT(on == ended);
+
     /* [plm_hbm_sweep_levels] */
     const double level[] = {0.25, 0.5, 0.75}; /* times the excitation */
     int64_t n_levels;

@@ -22,8 +22,8 @@
  *     destroying what is gone already does nothing: any order is right. For any other use, a stale handle gives
  *     PLM_ERR_HANDLE, as a foreign or wrong-kind one always does.
  *   - The library never prints, exits, throws, or changes the floating-point environment, signals, locale, environment
- *     or working directory of its host, and opens no file but those plm_study_write and
- *     plm_branch_write_csv are asked for.
+ *     or working directory of its host, and opens no file but those plm_study_write,
+ *     plm_branch_write_csv and plm_hbm_save_every are asked for.
  *   - One context belongs to one thread at a time (another one gets PLM_ERR_BUSY meanwhile); different contexts may
  *     run at once.
  *   - Dense arrays are column-major. DOFs and pairs are numbered from 0 unless the function takes an `index_base`.
@@ -121,6 +121,8 @@ typedef int32_t plm_status;
 #define PLM_REASON_TIE 28              /* another resonance is driven alike, or resembles the dominant mode alike */
 #define PLM_REASON_ROUNDED 29          /* rows or loads that miss rigid-body motion by rounding are taken to mean it */
 #define PLM_REASON_EFFORT 30           /* the work that the call may cost (plm_context_set_effort) is spent */
+#define PLM_REASON_UNFINISHED 31       /* branch: saved while it was followed; plm_hbm_resume goes on with it */
+#define PLM_REASON_NOT_SAVED 32        /* a curve could not be written to the file of plm_hbm_save_every */
 
 /* What a point of a branch is ("bifurcation" of a branch). */
 #define PLM_BIFURCATION_NONE 0
@@ -856,6 +858,21 @@ PLM_API plm_status plm_hbm_get_string(plm_hbm *hbm, const char *key, int64_t cap
  * twice; then PLM_NOT_CONVERGED with PLM_REASON_CROSSED_OVER. A structure in free flight, or free along a rail: mean
  * position zero; PLM_ERR_CONVERGENCE when the mean of the loads would carry it away. */
 PLM_API plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch);
+/* From now on plm_hbm_sweep and plm_hbm_resume write the curve to the file `path` after every n_points more points and at
+ * their end, as plm_branch_write gives it, so that a process that is killed leaves a branch to resume. The file is
+ * replaced as a whole: it is written under another name beside, brought to the disk and renamed. n_points 0: no longer
+ * (path may be NULL). PLM_ERR_ARGUMENT where no such file can be written. Where that fails later, as on a disk that is
+ * full, the curve goes on, with PLM_WARNING and PLM_REASON_NOT_SAVED. */
+PLM_API plm_status plm_hbm_save_every(plm_hbm *hbm, int64_t n_points, const char *path);
+/* Goes on with a curve of plm_hbm_sweep or of this function that was cancelled, ended by "max_points" or for want of effort,
+ * or was saved on its way (plm_hbm_save_every), in this process or from its bytes: resumed is the curve that the sweep
+ * would have delivered, with the same points to the last bit where the library, its BLAS and the machine are the same.
+ * branch stays as it is. hbm: with the options of the sweep; "max_points" alone may differ, and effort (plm_context_set_effort)
+ * counts as if the sweep had never stopped: one that spent it needs more. What came before the curve (first solutions, the
+ * model that a curve of many pairs is followed on) is made again, of the curve the ten steps or less since all had begun
+ * anew. PLM_ERR_ARGUMENT for a curve that came to its end, of another function, or swept with other options, which are
+ * named. Outcomes: as of plm_hbm_sweep. */
+PLM_API plm_status plm_hbm_resume(plm_hbm *hbm, plm_branch *branch, plm_branch **resumed);
 /* The same at several levels of the excitation, force_scale[n] in place of the option "force_scale", in any order. count:
  * curves found, read by plm_hbm_get_found in the order of their levels; each says its "force_scale", its warnings and how it
  * ended, and may cost what plm_context_set_effort allows a sweep. The largest level is followed first, and where many
@@ -993,7 +1010,8 @@ PLM_API plm_status plm_branch_get_periodicity_defect(plm_branch *branch, int64_t
  * the inverse stiffness over the energy norm of the field. One solve per harmonic with the full matrices. */
 PLM_API plm_status plm_branch_get_full_residual(plm_branch *branch, int64_t point, double *relative_residual);
 /* The branch as bytes, as plm_basis_write() gives those of a basis: its points with all their digits, what they need to be
- * asked for amplitudes, fields and contact, how it ended. Not the basis that it was computed on. */
+ * asked for amplitudes, fields and contact, how it ended, and what plm_hbm_resume goes on from where it did not come to its
+ * end. Not the basis that it was computed on. */
 PLM_API plm_status plm_branch_write(plm_branch *branch, int64_t capacity, void *bytes, int64_t *needed);
 /* The branch in n bytes, on the basis that it was computed on or on one read from the bytes of that: it is what it was to
  * every function that takes a branch. Points are the same to the last digit; extrema of exact motions, which are found

@@ -1267,6 +1267,16 @@ class Hbm : public detail::WithOptions<Hbm, plm_hbm> {
         const plm_status s = plm_hbm_sweep(handle_, &b);
         return deliver(s, b, "sweep");
     }
+    /// Sweeps write the curve to this file after every so many points, and at their end; 0: no longer.
+    void save_every(std::int64_t n_points, const std::string &path = "") {
+        check(plm_hbm_save_every(handle_, n_points, path.c_str()), "save_every");
+    }
+    /// Goes on with a curve that was cancelled, ended by "max_points" or effort, or was saved on its way.
+    Branch resume(const Branch &branch) {
+        plm_branch *b = nullptr;
+        const plm_status s = plm_hbm_resume(handle_, branch.handle_, &b);
+        return deliver(s, b, "resume");
+    }
     Branch solve(double frequency_hz) { return solve(frequency_hz, nullptr, 0); }
     /// First guess: point `point` of `start`.
     Branch solve(double frequency_hz, const Branch &start, std::int64_t point) {

@@ -24,6 +24,7 @@ plm_status end_status(std::int32_t reason) {
         return PLM_OK;
     case PLM_REASON_POINT_LIMIT:
     case PLM_REASON_EFFORT:
+    case PLM_REASON_UNFINISHED:
         return PLM_TRUNCATED;
     case PLM_REASON_CANCELLED:
         return PLM_CANCELLED;

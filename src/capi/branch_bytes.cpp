@@ -6,6 +6,18 @@
 #include "linalg/whole_file.hpp"
 #include "motions/branch_csv.hpp"
 
+namespace plm::capi {
+
+std::string branch_bytes(const Branch &branch) {
+    std::string all;
+    write_framed(
+        BytesOf::branch, [&](ByteWriter &to) { write_branch(to, branch); },
+        [&](const void *from, std::size_t n) { all.append(static_cast<const char *>(from), n); });
+    return all;
+}
+
+} // namespace plm::capi
+
 using namespace plm::capi;
 
 plm_status plm_branch_write(plm_branch *branch, std::int64_t capacity, void *bytes, std::int64_t *needed) {

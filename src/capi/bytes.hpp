@@ -9,6 +9,8 @@ namespace plm::capi {
 /// A whole state, counted or written, by the rules of plm.h: bytes NULL with capacity 0 asks for the length.
 plm_status put_bytes(BytesOf kind, const std::function<void(ByteWriter &)> &body, std::int64_t capacity,
                      void *bytes, std::int64_t *needed);
+/// The bytes of plm_branch_write.
+std::string branch_bytes(const Branch &branch);
 /// The body of one that the host hands over.
 ByteReader given_bytes(BytesOf kind, std::int64_t n, const void *bytes);
 

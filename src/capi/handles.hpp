@@ -95,6 +95,8 @@ struct HbmHandle final : HandleOf<plm_hbm, Kind::hbm> {
 
     std::shared_ptr<BasisHandle> basis;
     HbmOptions hbm_options;
+    std::int64_t save_every = 0; // points of a sweep, to save_path; 0: never
+    std::string save_path;
     std::vector<FoundBranch> found;     // by the last plm_hbm_find_..., or beside the curve of the one call
     std::optional<LargerMotion> larger; // beside that curve
     Warnings warnings;                  // of the last call that computed something

@@ -101,7 +101,8 @@ plm_status plm_hbm_destroy(plm_hbm **hbm) {
 plm_status plm_hbm_sweep(plm_hbm *hbm, plm_branch **branch) {
     return search_call("plm_hbm_sweep", hbm, [&](HbmHandle &h) {
         require_pointer(branch, "branch");
-        return deliver(h, solver(h).sweep(), branch);
+        plm::CurveRecorder recorder = curve_recorder(h, nullptr);
+        return deliver(h, solver(h).sweep(recorder), branch);
     });
 }
 

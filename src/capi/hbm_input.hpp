@@ -29,6 +29,8 @@ template <class Body> plm_status search_call(const char *function, plm_hbm *hbm,
 
 /// A solver with the options as they are now.
 Hbm solver(const HbmHandle &h);
+/// Of a sweep with these options, saved as the handle says; before: the branch that it goes on with, or null.
+CurveRecorder curve_recorder(const HbmHandle &h, BranchPtr before);
 plm_branch *publish_branch(const HbmHandle &h, BranchPtr core);
 /// The result of a call goes to its caller: how it ended, or PLM_WARNING when there is something to look at,
 /// which `h` keeps as that of its last call.

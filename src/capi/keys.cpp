@@ -100,7 +100,10 @@ std::string option_text(const Key &key, const void *options) {
     Value v;
     key.read_option(options, v);
     if (key.type == PLM_TYPE_INT) return std::to_string(v.integer);
-    if (key.type == PLM_TYPE_DOUBLE) return format("%g", v.real);
+    if (key.type == PLM_TYPE_DOUBLE) {
+        const std::string few = format("%g", v.real);
+        return std::strtod(few.c_str(), nullptr) == v.real ? few : format("%.17g", v.real);
+    }
     return split_words(key.choices)[static_cast<std::size_t>(v.integer)];
 }
 

@@ -1,6 +1,7 @@
 // The core's codes are those of plm.h.
 #include "linalg/status.hpp"
 #include "motions/branch.hpp"
+#include "motions/curve_progress.hpp" // TEMPORARY
 #include "plm/plm.h"
 #include "space/model_input.hpp"
 #include "structure/matrix_input.hpp"
@@ -65,6 +66,8 @@ static_assert(reason::larger_motion == PLM_REASON_LARGER_MOTION);
 static_assert(reason::tie == PLM_REASON_TIE);
 static_assert(reason::rounded == PLM_REASON_ROUNDED);
 static_assert(reason::effort == PLM_REASON_EFFORT);
+static_assert(reason::unfinished == PLM_REASON_UNFINISHED);
+static_assert(reason::not_saved == PLM_REASON_NOT_SAVED);
 static_assert(bifurcation::none == PLM_BIFURCATION_NONE);
 static_assert(bifurcation::fold == PLM_BIFURCATION_FOLD);
 static_assert(bifurcation::branch_point == PLM_BIFURCATION_BRANCH_POINT);

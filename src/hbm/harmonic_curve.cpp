@@ -14,8 +14,9 @@ constexpr std::int64_t most_failed_growths = 3; // in a row, from points that sa
 
 class HarmonicTracer final : public CurveTracer {
   public:
-    HarmonicTracer(const HbmOptions &options, const MultipliersOf &multipliers, Watch watch, Branch &branch)
-        : CurveTracer(nullptr, options, watch, branch),
+    HarmonicTracer(const HbmOptions &options, const MultipliersOf &multipliers, Watch watch, Branch &branch,
+                   CurveRecorder *recorder)
+        : CurveTracer(nullptr, options, watch, branch, recorder),
           asked_(with_affordable_harmonics(*branch.reduced_model(), options)), options_(asked_),
           reduced_(branch.reduced_model()), multipliers_(multipliers),
           fewest_(std::max<std::int64_t>(3, highest_excitation(*reduced_))) {}
@@ -30,6 +31,7 @@ class HarmonicTracer final : public CurveTracer {
         branch_.unknowns_used = modal_ ? "modal" : "gaps";
         branch_.sampled = options_.aft == AftKind::sampled;
         omega_ = start.point.omega;
+        if (known()) take(*known());
         system_ = make(options_);
         equations_ = system_.get();
         run(start);
@@ -49,23 +51,33 @@ class HarmonicTracer final : public CurveTracer {
         const bool grow = may_grow();
         rejects_ = grow && can_reject();
         if (!rejects_) n_kept_ = n_points();
-        if (since_change_ < patience) return grow;
-        choose_space();
-        return grow || wanted_harmonics_ < options_.n_harmonics || wants_modal_ != modal_;
+        changes_ = grow;
+        if (since_change_ >= patience) {
+            choose_space();
+            changes_ = grow || wanted_harmonics_ < options_.n_harmonics || wants_modal_ != modal_;
+        }
+        return CurveTracer::interrupt() || changes_;
     }
 
   protected:
     void follow_on(const PathOptions &range, const PathStart &start) override {
         PathOptions limits = range;
-        PathStart path = start;
+        if (known()) limits.max_points = asked_.max_points - (n_points() - known()->path.n_recorded);
+        PathOutcome out = known() ? go_on_with_path(*system_, limits, known()->path, *this)
+                                  : follow_path(*system_, limits, start, *this);
         for (;;) {
-            const PathOutcome out = follow_path(*system_, limits, path, *this);
-            count(out);
+            take_outcome(out, branch_);
             const bool ended = out.end_reason != reason::none;
             // its owner is not asked after the point at the range's end
             if (out.end_reason == reason::range_end) rejects_ = may_grow() && can_reject();
             if (ended && !(out.end_reason == reason::range_end && rejects_)) break;
-            path = resume(out);
+            if (!ended && !changes_) {
+                stand(out, choices());
+                out = go_on_with_path(*system_, limits, out, *this);
+                continue;
+            }
+            base_arclength_ += out.arclength;
+            PathStart path = resume(out);
             if (!change_system(out.orientation, path) && ended) break;
             if (failed_growths_ >= most_failed_growths) {
                 branch_.end_reason = reason::harmonics_too_few;
@@ -73,6 +85,7 @@ class HarmonicTracer final : public CurveTracer {
             }
             limits.max_points = asked_.max_points - n_points();
             limits.initial_step = out.step;
+            out = follow_path(*system_, limits, path, *this);
         }
     }
 
@@ -96,9 +109,22 @@ class HarmonicTracer final : public CurveTracer {
 
     std::int64_t n_points() const { return static_cast<std::int64_t>(branch_.points().size()); }
 
-    void count(const PathOutcome &out) {
-        take_outcome(out, branch_);
-        base_arclength_ += out.arclength;
+    HarmonicChoices choices() const {
+        return {options_.n_harmonics, modal_,        wants_modal_, rejects_,    n_kept_,
+                wanted_harmonics_,    since_change_, blocked_,     moved_most_, failed_growths_,
+                base_arclength_};
+    }
+
+    void take(const CurveProgress &known) {
+        const HarmonicChoices &c = known.harmonics;
+        options_.n_harmonics = std::min(std::max<std::int64_t>(c.n_harmonics, 1),
+                                        std::max(options_.n_harmonics, asked_.max_harmonics));
+        modal_ = c.modal, wants_modal_ = c.wants_modal, rejects_ = c.rejects;
+        n_kept_ = c.n_kept, wanted_harmonics_ = c.wanted_harmonics, since_change_ = c.since_change;
+        blocked_ = c.blocked, moved_most_ = c.moved_most, failed_growths_ = c.failed_growths;
+        base_arclength_ = c.base_arclength;
+        options_.unknowns = modal_ ? NonlinearUnknowns::modal : NonlinearUnknowns::gaps;
+        branch_.unknowns_used = known.unknowns_used;
     }
 
     void look_at_harmonics(const vector<double> &x, BranchPoint &point) {
@@ -306,6 +332,7 @@ class HarmonicTracer final : public CurveTracer {
     double omega_ = 0; // where the curve begins
     std::unique_ptr<HarmonicEquations> system_;
     bool compliant_ = false, modal_ = true, wants_modal_ = true;
+    bool changes_ = false;  // the last step: other harmonics or unknowns are wanted
     bool rejects_ = false;  // the last step: its points have too few harmonics and are solved again with more
     bool has_side_ = false; // the curve leaves its first point to a side given
     std::int64_t n_kept_ = 1; // points up to the last step that was kept
@@ -317,8 +344,9 @@ class HarmonicTracer final : public CurveTracer {
 } // namespace
 
 void trace_harmonic_curve(const HbmOptions &options, const CurveStart &start,
-                          const MultipliersOf &multipliers, Watch watch, Branch &branch) {
-    HarmonicTracer(options, multipliers, watch, branch).trace(start);
+                          const MultipliersOf &multipliers, Watch watch, Branch &branch,
+                          CurveRecorder *recorder) {
+    HarmonicTracer(options, multipliers, watch, branch, recorder).trace(start);
 }
 
 } // namespace plm

@@ -7,8 +7,10 @@
 namespace plm {
 
 /// n_harmonics of the options is the number to begin with when they are chosen by point (options.n_harmonics
-/// = 0: the start's). multipliers: of its points; null: not wanted.
+/// = 0: the start's). multipliers: of its points; null: not
+/// wanted. recorder: or null.
 void trace_harmonic_curve(const HbmOptions &options, const CurveStart &start,
-                          const MultipliersOf &multipliers, Watch watch, Branch &branch);
+                          const MultipliersOf &multipliers, Watch watch, Branch &branch,
+                          CurveRecorder *recorder);
 
 } // namespace plm

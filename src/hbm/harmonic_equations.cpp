@@ -52,11 +52,18 @@ vector<std::complex<double>> HarmonicEquations::multipliers(const vector<double>
     if (omega != known_omega_ || x != known_x_) {
         BranchPoint point;
         system_->to_point(x.data(), omega, point);
-        known_multipliers_ = multipliers_(point);
+        known_multipliers_ = multipliers_->multipliers(point);
         known_x_ = x;
         known_omega_ = omega;
     }
     return known_multipliers_;
+}
+
+EquationsMemory HarmonicEquations::settle() {
+    system_ = make_system(reduced_, options_);
+    known_omega_ = -1;
+    if (multipliers_) multipliers_->settle();
+    return {};
 }
 
 void HarmonicEquations::factor_bordered(const Border &border, std::unique_ptr<BorderedTangent> &out) {

@@ -4,12 +4,8 @@
 #include "hbm/system.hpp"
 #include "motions/periodic_equations.hpp"
 #include "reduction/reduced_model.hpp"
-#include <functional>
 
 namespace plm {
-
-/// Floquet multipliers of a point, which harmonic balance leaves to others.
-using MultipliersOf = std::function<vector<std::complex<double>>(const BranchPoint &)>;
 
 class HarmonicEquations final : public PeriodicEquations {
   public:
@@ -35,6 +31,9 @@ class HarmonicEquations final : public PeriodicEquations {
     vector<double> unknowns(const BranchPoint &point) const override;
     BranchPoint solved_point(const PathState &at, double residual, std::int64_t iterations) override;
     bool find(double omega, Watch watch, vector<double> &x, NewtonWork &work) override;
+    /// They begin anew, and keep nothing.
+    EquationsMemory settle() override;
+    void take(const EquationsMemory &) override {}
     bool has_multipliers() const override { return multipliers_ != nullptr; }
     /// Those of the last point asked for are kept: tests and records come in turn.
     vector<std::complex<double>> multipliers(const vector<double> &x, double omega) override;

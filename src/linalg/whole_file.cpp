@@ -60,6 +60,12 @@ class NewFile {
 
 } // namespace
 
+void require_writable(const std::string &path) {
+    struct stat there;
+    if (stat(path.c_str(), &there) == 0 && S_ISDIR(there.st_mode)) refuse(path, EISDIR);
+    const NewFile probe(path);
+}
+
 void write_whole_file(const std::string &path, const std::string &bytes) {
     NewFile file(path);
     file.write(bytes);

@@ -8,4 +8,7 @@ namespace plm {
 /// ("path") with what the system says.
 void write_whole_file(const std::string &path, const std::string &bytes);
 
+/// PLM_ERR_ARGUMENT ("path") where a file of this name could not be written now.
+void require_writable(const std::string &path);
+
 } // namespace plm

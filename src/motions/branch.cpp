@@ -1,4 +1,5 @@
 #include "motions/branch.hpp"
+#include "motions/curve_progress.hpp" // TEMPORARY
 #include "contact/contact_measures.hpp"
 #include "contact/trig_polynomial.hpp"
 #include "linalg/blas_lapack.hpp"
@@ -23,6 +24,8 @@ std::string end_text(std::int32_t reason, bool sampled) {
         return "came back to its first point";
     case reason::point_limit:
         return "max_points reached; raise it or max_step";
+    case reason::unfinished:
+        return "written while it was followed; resume goes on with it";
     case reason::cancelled:
         return "cancelled by the progress callback";
     case reason::effort:

@@ -30,6 +30,8 @@ struct DofInBasis {
     vector<double> of_dynamic, of_static; // r, r_0
 };
 
+struct SweepRecord; // curve_progress.hpp
+
 class Branch {
   public:
     Branch(std::shared_ptr<const ReducedModel> reduced, double force_scale, std::int64_t period_multiple = 1)
@@ -69,7 +71,8 @@ class Branch {
     bool sampled = false;      // contact forces from time samples
     Warnings warnings;         // what should be looked at before its points are used
     bool is_mode = false;      // a nonlinear mode: motions without excitation, each with a damping ratio
-    std::shared_ptr<const Branch> beside; // a closed curve that its sweep came upon first; or null
+    std::shared_ptr<const SweepRecord> record; // what its sweep goes on from where it was stopped; or null
+    std::shared_ptr<const Branch> beside;      // a closed curve that its sweep came upon first; or null
 
     // dof: of the full model, base 0, or an output of it numbered on from there (zeros when fixed)
     /// (2H + 1) coefficients a0, a1, b1, ... at a point.

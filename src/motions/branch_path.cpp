@@ -36,7 +36,7 @@ void put_place(const PathPoint &at, BranchPoint &point) {
 void take_outcome(const PathOutcome &outcome, Branch &branch) {
     branch.end_reason = outcome.end_reason;
     branch.newton_work += outcome.work;
-    branch.failed_steps += outcome.failed_steps;
+    branch.failed_steps += outcome.failed_now;
 }
 
 std::shared_ptr<Branch> joined(const Branch &before, const Branch &after) {

@@ -1,6 +1,7 @@
 // The seam between equations of periodic motions, of harmonic balance or of the exact flow, and what follows
 // their solutions: curves, folds, phase resonance.
 #pragma once
+#include "contact/pair_states.hpp"
 #include "linalg/dense.hpp"
 #include "linalg/monitor.hpp"
 #include "motions/branch_point.hpp"
@@ -39,6 +40,29 @@ struct MotionGradient {
 /// every pair.
 enum class PathParameter { force, stiffness };
 
+/// What equations keep of the points before, as far as the numbers of the next ones depend on it.
+struct EquationsMemory {
+    struct Tangent {
+        vector<double> x;
+        double parameter = 0;
+        Matrix change; // over a period
+    };
+    std::vector<PairStates> contact_sets; // whose modes are known, the last used ones last
+    Tangent before, last;                 // of no unknowns: none
+    bool guessed = false;                 // from these two
+};
+
+/// Floquet multipliers of points, which harmonic balance leaves to others.
+class PointMultipliers {
+  public:
+    virtual ~PointMultipliers() = default;
+    /// Empty: not known.
+    virtual vector<std::complex<double>> multipliers(const BranchPoint &point) = 0;
+    /// Forgets the points before.
+    virtual void settle() = 0;
+};
+using MultipliersOf = std::shared_ptr<PointMultipliers>;
+
 /// Their parameter is the frequency (rad/s, of the excitation).
 class PeriodicEquations : public Residual {
   public:
@@ -53,6 +77,11 @@ class PeriodicEquations : public Residual {
     /// A solution at omega by other means, where the equations cannot be followed there; x is the last one on
     /// entry. False: none.
     virtual bool find(double omega, Watch watch, vector<double> &x, NewtonWork &work) = 0;
+
+    /// Forgets all of the points before but what it returns: from then on others that take() it give the same
+    /// numbers, to the last bit. PLM_ERR_ARGUMENT where it is not of these equations.
+    virtual EquationsMemory settle() = 0;
+    virtual void take(const EquationsMemory &memory) = 0;
 
     /// Whether the options ask for Floquet multipliers.
     virtual bool has_multipliers() const = 0;

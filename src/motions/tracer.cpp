@@ -2,6 +2,12 @@
 #include <cmath>
 
 namespace plm {
+namespace {
+
+// What begins anew costs a factorization, and what a curve goes on from is followed once more.
+constexpr std::int64_t steps_between_stands = 10;
+
+} // namespace
 
 void Tracer::follow(Residual &system, const PathOptions &options, const PathStart &start) {
     keep_points([&] { take_outcome(follow_path(system, options, start, *this), branch_); });
@@ -27,6 +33,39 @@ void CurveTracer::run(const CurveStart &start) {
     if (start.away) scale_by(-1, path.direction);
     path.residual = start.point.residual;
     keep_points([&] { follow_on(range, path); });
+}
+
+void CurveTracer::follow_on(const PathOptions &range, const PathStart &start) {
+    if (known()) equations_->take(known()->memory);
+    PathOutcome out = known() ? go_on_with_path(*equations_, range, known()->path, *this)
+                              : follow_path(*equations_, range, start, *this);
+    for (;;) {
+        take_outcome(out, branch_);
+        if (out.end_reason != reason::none) return;
+        stand(out);
+        out = go_on_with_path(*equations_, range, out, *this);
+    }
+}
+
+bool CurveTracer::interrupt() {
+    if (++since_stand_ >= steps_between_stands) return true;
+    if (recorder_) recorder_->pass(branch_);
+    return false;
+}
+
+void CurveTracer::stand(const PathProgress &at, const HarmonicChoices &choices) {
+    since_stand_ = 0;
+    EquationsMemory memory = equations_->settle();
+    if (!recorder_) return;
+    CurveProgress now;
+    now.n_points = static_cast<std::int64_t>(branch_.points().size());
+    now.newton_work = branch_.newton_work;
+    now.failed_steps = branch_.failed_steps;
+    now.unknowns_used = branch_.unknowns_used;
+    now.path = at;
+    now.memory = std::move(memory);
+    now.harmonics = choices;
+    recorder_->stand(std::move(now), branch_);
 }
 
 PathStart CurveTracer::leaving(const BranchPoint &point, const BranchPoint &next) const {

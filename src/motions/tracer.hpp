@@ -1,6 +1,7 @@
 // From paths of periodic motions to the points of a branch: whoever follows one keeps its points here.
 #pragma once
 #include "motions/branch_path.hpp"
+#include "motions/curve_recorder.hpp"
 #include "motions/periodic_equations.hpp"
 #include <functional>
 
@@ -36,11 +37,15 @@ struct CurveStart {
     bool away = false; // the curve leaves on the other side: on past `point`, as one comes from towards[0]
 };
 
-/// Of a response curve over the frequency, with its folds and bifurcations.
+/// Of a response curve over the frequency, with its folds and bifurcations. At every tenth step all begins
+/// anew from where it stands, whether it is recorded or not, so that one that goes on from there later takes
+/// the same points.
 class CurveTracer : public Tracer {
   public:
-    CurveTracer(PeriodicEquations *equations, const MotionOptions &options, Watch watch, Branch &branch)
-        : Tracer("sweep", watch, branch), equations_(equations), limits_(options) {}
+    /// recorder: or null; where it knows how far the curve is, it goes on from there.
+    CurveTracer(PeriodicEquations *equations, const MotionOptions &options, Watch watch, Branch &branch,
+                CurveRecorder *recorder)
+        : Tracer("sweep", watch, branch), equations_(equations), recorder_(recorder), limits_(options) {}
     /// Appends the curve's points to the branch and sets its ending and its cost.
     void run(const CurveStart &start);
 
@@ -48,21 +53,26 @@ class CurveTracer : public Tracer {
     bool rescue(double omega, vector<double> &x) override;
     vector<std::int32_t> test_kinds() const override;
     void test(const vector<double> &x, double omega, vector<double> &values) override;
+    bool interrupt() override;
 
   protected:
-    virtual void follow_on(const PathOptions &range, const PathStart &start) {
-        follow(*equations_, range, start);
-    }
+    virtual void follow_on(const PathOptions &range, const PathStart &start);
+    /// Where the curve goes on; null: at its start.
+    const CurveProgress *known() const { return recorder_ ? recorder_->progress() : nullptr; }
+    /// All begins anew, and what goes on from here is recorded; choices: where harmonics are chosen.
+    void stand(const PathProgress &at, const HarmonicChoices &choices = {});
     /// At `point`, in the direction of `next`.
     PathStart leaving(const BranchPoint &point, const BranchPoint &next) const;
     BranchPoint point_of(const PathPoint &at);
 
     PeriodicEquations *equations_; // of now
+    CurveRecorder *recorder_;
 
   private:
     PathState state_of(const BranchPoint &point) const { return {equations_->unknowns(point), point.omega}; }
 
     const MotionOptions limits_;
+    std::int64_t since_stand_ = 0; // steps
 };
 
 } // namespace plm

@@ -1,4 +1,5 @@
 #include "orbits/branch_bytes.hpp"
+#include "orbits/curve_progress_bytes.hpp"
 #include "orbits/orbit_point.hpp"
 #include "reduction/compression.hpp"
 #include "reduction/reduced_model_bytes.hpp"
@@ -10,6 +11,7 @@ namespace {
 
 constexpr std::int64_t most_periods = 1 << 20, least_point = 200; // bytes of a point at least
 constexpr int most_beside = 4;                                    // closed curves beside curves beside ...
+constexpr std::int64_t least_curve = 48, most_curves = 64;        // of a record: bytes of each, and how many
 
 // The flows of the points that were read: they share the contact sets that they pass.
 class ReadMotions {
@@ -91,6 +93,21 @@ template <class Bytes, class B> void pass_ending(Bytes &bytes, B &b) {
     bytes(b.is_mode);
 }
 
+void write_curve(ByteWriter &bytes, const Branch &branch);
+
+void write_record(ByteWriter &bytes, const SweepRecord &record) {
+    bytes(record.options);
+    bytes.size(static_cast<std::int64_t>(record.curves.size()), least_curve);
+    for (const FollowedCurve &followed : record.curves) {
+        bytes(followed.curve != nullptr);
+        if (followed.curve) write_curve(bytes, *followed.curve);
+        pass_warnings(bytes, followed.warnings);
+        bytes(followed.allowed);
+        bytes(followed.work);
+        write_progress(bytes, followed.progress);
+    }
+}
+
 void write_curve(ByteWriter &bytes, const Branch &branch) {
     const ReducedModel &m = branch.reduced();
     bytes(static_cast<std::int64_t>(fingerprint(*uncompressed(branch.reduced_model()))));
@@ -114,6 +131,8 @@ void write_curve(ByteWriter &bytes, const Branch &branch) {
     pass_ending(bytes, branch);
     bytes(branch.beside != nullptr);
     if (branch.beside) write_curve(bytes, *branch.beside);
+    bytes(branch.record != nullptr);
+    if (branch.record) write_record(bytes, *branch.record);
 }
 
 // That of the basis, or with P_0 in the place of P, as exact motions have it.
@@ -125,6 +144,32 @@ std::shared_ptr<const ReducedModel> model_with(std::uint64_t print,
                 "the bytes are those of a branch on another basis, or on the basis before it was built anew; "
                 "read them with the basis that the branch was computed on")
         .argument("bytes");
+}
+
+std::shared_ptr<Branch> read_curve(ByteReader &bytes, const std::shared_ptr<const ReducedModel> &basis,
+                                   int depth);
+
+// n_points: of the curve that it goes with.
+std::shared_ptr<const SweepRecord>
+read_record(ByteReader &bytes, const std::shared_ptr<const ReducedModel> &basis, std::int64_t n_points) {
+    const auto record = std::make_shared<SweepRecord>();
+    bytes(record->options);
+    const std::int64_t n = bytes.size(0, least_curve);
+    bytes.require(n >= 1 && n <= most_curves, "a sweep of no curve, or of too many");
+    for (std::int64_t k = 0; k < n; ++k) {
+        FollowedCurve followed;
+        bool has_own = false;
+        bytes(has_own);
+        bytes.require(has_own || k == n - 1, "a curve that is not there");
+        if (has_own) followed.curve = read_curve(bytes, basis, most_beside);
+        pass_warnings(bytes, followed.warnings);
+        bytes(followed.allowed);
+        bytes.integer(followed.work, 0, most_work);
+        followed.progress = read_progress(
+            bytes, has_own ? static_cast<std::int64_t>(followed.curve->points().size()) : n_points);
+        record->curves.push_back(std::move(followed));
+    }
+    return record;
 }
 
 std::shared_ptr<Branch> read_curve(ByteReader &bytes, const std::shared_ptr<const ReducedModel> &basis,
@@ -156,6 +201,10 @@ std::shared_ptr<Branch> read_curve(ByteReader &bytes, const std::shared_ptr<cons
     bytes(beside);
     bytes.require(!beside || depth < most_beside, "curves beside curves without end");
     if (beside) branch->beside = read_curve(bytes, basis, depth + 1);
+    bool recorded = false;
+    bytes(recorded);
+    bytes.require(!recorded || depth == 0, "a sweep within a sweep");
+    if (recorded) branch->record = read_record(bytes, basis, n);
     return branch;
 }
 

@@ -321,6 +321,46 @@ void ContactModesKept::forget_transitions() {
     single_transitions_.clear();
 }
 
+std::vector<PairStates> ContactModesKept::settle() {
+    std::vector<std::pair<std::int64_t, Known>> used;
+    for (const auto &[states, entry] : entries_)
+        if (entry.modes) used.push_back({entry.last_use, {states, entry.modes}});
+    std::sort(used.begin(), used.end(), [](const auto &a, const auto &b) { return a.first < b.first; });
+    std::vector<Known> known;
+    std::vector<PairStates> sets;
+    for (auto &[when, one] : used) {
+        sets.push_back(one.first);
+        known.push_back(std::move(one));
+    }
+    begin_with(known);
+    return sets;
+}
+
+// What was worked for them once is not counted again.
+void ContactModesKept::take(const std::vector<PairStates> &sets) {
+    const WorkCount uncounted;
+    std::vector<Known> known;
+    for (const PairStates &states : sets) {
+        auto modes = std::make_shared<const ContactModes>(*model_, states);
+        if (modes->usable()) known.emplace_back(states, std::move(modes));
+    }
+    begin_with(known);
+}
+
+void ContactModesKept::begin_with(const std::vector<Known> &known) {
+    forget_transitions();
+    entries_.clear();
+    bytes_ = 0;
+    clock_ = 0;
+    for (const auto &[states, modes] : known) {
+        Entry &entry = entries_[states];
+        entry.last_use = ++clock_;
+        entry.tried = true;
+        entry.modes = modes;
+        bytes_ += modes->bytes();
+    }
+}
+
 // The sets not seen for the longest time go, half of them at once.
 void ContactModesKept::make_room(double bytes) {
     if (bytes_ + bytes < most_bytes && static_cast<double>(entries_.size()) < most_entries) return;

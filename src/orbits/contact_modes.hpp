@@ -121,6 +121,10 @@ class ContactModesKept {
     Stay &last_stay(const PairStates &states) { return entries_[states].stay; }
     /// Where single motions are looked at from now on.
     void forget_transitions();
+    /// Forgets all but the sets whose modes are known, which it returns, the last used ones last: what comes
+    /// depends on these alone, and is the same where others take() them.
+    std::vector<PairStates> settle();
+    void take(const std::vector<PairStates> &sets);
 
   private:
     struct Entry {
@@ -132,6 +136,8 @@ class ContactModesKept {
     };
     /// Forgets modes and transitions until so many bytes fit.
     void make_room(double bytes);
+    using Known = std::pair<PairStates, std::shared_ptr<const ContactModes>>;
+    void begin_with(const std::vector<Known> &known);
 
     std::shared_ptr<const FlowModel> model_;
     std::map<PairStates, Entry> entries_;

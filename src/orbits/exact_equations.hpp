@@ -34,6 +34,8 @@ class ExactEquations final : public PeriodicEquations {
     BranchPoint solved_point(const PathState &at, double residual, std::int64_t iterations) override;
     /// By marching: to a stable motion, where there is one.
     bool find(double omega, Watch watch, vector<double> &x, NewtonWork &work) override;
+    EquationsMemory settle() override { return orbits_.settle(); }
+    void take(const EquationsMemory &memory) override { orbits_.take(memory); }
     bool has_multipliers() const override { return options_.stability != StabilityKind::off; }
     vector<std::complex<double>> multipliers(const vector<double> &, double) override {
         return orbits_.multipliers();

@@ -150,6 +150,12 @@ Matrix MotionBeside::newton(ExactFlow &flow, const FlowState &start, FlowState n
     return safe;
 }
 
+void MotionBeside::forget() {
+    model_ = nullptr;
+    modes_ = nullptr;
+    correction_.clear();
+}
+
 void MotionBeside::keep_correction(const FlowModel &model, const FlowState &start, const FlowState &found) {
     correction_.clear();
     for (std::int64_t j = 0; j < model.n_moving(); ++j) correction_.push_back(found.y[j] - start.y[j]);

@@ -23,6 +23,9 @@ class MotionBeside {
     Matrix monodromy(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
                      const EventSequence &sequence, const Matrix &within);
 
+    /// The points before.
+    void forget();
+
   private:
     Matrix by_events(const ExactFlow &flow, const FlowState &start, EventSequence sequence,
                      const Matrix &within);

@@ -64,6 +64,27 @@ void OrbitEquations::set_other(double value) {
     other = value;
 }
 
+EquationsMemory OrbitEquations::settle() {
+    run_.known = remembered_.known = false;
+    return {modes_->settle(), before_, last_, guessed_};
+}
+
+void OrbitEquations::take(const EquationsMemory &memory) {
+    const std::int64_t n = size();
+    const auto fits = [&](const EquationsMemory::Tangent &t) {
+        return t.x.empty() ||
+               (static_cast<std::int64_t>(t.x.size()) == n && t.change.rows() == n && t.change.cols() == n);
+    };
+    bool fit =
+        fits(memory.before) && fits(memory.last) && (memory.before.x.empty() || !memory.last.x.empty());
+    for (const PairStates &states : memory.contact_sets) fit = fit && states.size() == model_->n_pairs();
+    if (!fit)
+        throw Error(status::argument, "what is known of where the curve stands is not of these equations");
+    run_.known = remembered_.known = false;
+    before_ = memory.before, last_ = memory.last, guessed_ = memory.guessed;
+    modes_->take(memory.contact_sets);
+}
+
 OrbitEquations OrbitEquations::beside(const OrbitConditions &conditions, FlowParameter parameter) const {
     OrbitEquations others(model_, rest_, conditions, parameter);
     others.modes_ = modes_;
@@ -161,9 +182,9 @@ bool OrbitEquations::guess_monodromy() {
     const double factor = along / square;
     if (!(std::abs(factor) <= farthest_guess)) return false;
     const std::int64_t n = size();
-    run_.monodromy = last_.monodromy;
+    run_.monodromy = last_.change;
     for (std::int64_t k = 0; k < n * n; ++k)
-        run_.monodromy.data()[k] += factor * (last_.monodromy.data()[k] - before_.monodromy.data()[k]);
+        run_.monodromy.data()[k] += factor * (last_.change.data()[k] - before_.change.data()[k]);
     factor_tangent();
     guessed_ = true;
     return true;

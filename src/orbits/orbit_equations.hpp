@@ -3,6 +3,7 @@
 // monodromy, so the multipliers of a solution come with it.
 #pragma once
 #include "linalg/lapack.hpp"
+#include "motions/periodic_equations.hpp"
 #include "orbits/exact_flow.hpp"
 #include "paths/residual.hpp"
 
@@ -46,6 +47,10 @@ class OrbitEquations final : public Residual {
         return remembered_.known;
     }
     std::int64_t piece() const override { return static_cast<std::int64_t>(run_.intervals.size()); }
+
+    /// As PeriodicEquations has them.
+    EquationsMemory settle();
+    void take(const EquationsMemory &memory);
 
     /// The one of frequency and force scale that is not the parameter, from the next residual() on.
     void set_other(double value);
@@ -97,13 +102,8 @@ class OrbitEquations final : public Residual {
     std::shared_ptr<ContactModesKept> modes_;
     vector<double> weight_, share_; // of the unknowns
     Run run_, remembered_;
-    struct Known {
-        vector<double> x;
-        double p = 0;
-        Matrix monodromy;
-    };
-    Known before_, last_;  // of the last two linearize(), where it takes long
-    bool guessed_ = false; // since then
+    EquationsMemory::Tangent before_, last_; // of the last two linearize(), where it takes long
+    bool guessed_ = false;                   // since then
 };
 
 } // namespace plm

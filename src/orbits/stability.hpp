@@ -2,6 +2,7 @@
 // their passage of the unit circle means.
 #pragma once
 #include "motions/options.hpp"
+#include "motions/periodic_equations.hpp"
 #include "orbits/exact_motion.hpp"
 #include "orbits/monodromy.hpp"
 
@@ -11,7 +12,7 @@ namespace plm {
 /// point of any.
 enum class StabilityOf { curve, point };
 
-class Stability {
+class Stability final : public PointMultipliers {
   public:
     Stability(std::shared_ptr<const ReducedModel> reduced, const MotionOptions &options,
               StabilityOf of = StabilityOf::curve);
@@ -20,7 +21,8 @@ class Stability {
     /// Of the perturbations over one period of the response, largest first: 2 n, n the coordinates of the
     /// flow. Empty: no exact motion was found beside the point. Structural damping counts as viscous damping
     /// that loses the same energy at the response frequency.
-    vector<std::complex<double>> multipliers(const BranchPoint &point);
+    vector<std::complex<double>> multipliers(const BranchPoint &point) override;
+    void settle() override { beside_.forget(); }
     /// What is said with points that have no multipliers.
     std::string unknown_text(std::int64_t n_unknown, std::int64_t n_points) const;
 

@@ -1,4 +1,5 @@
 #include "paths/continuation.hpp"
+#include "linalg/error.hpp"
 #include "paths/path_return.hpp"
 #include "paths/special_points.hpp"
 #include "paths/step_length.hpp"
@@ -45,24 +46,16 @@ class Continuation {
 
     PathOutcome run(const PathStart &start) {
         begin(start);
-        step_ = options_.initial_step > 0 ? options_.initial_step : first_step * options_.max_step;
-        while (out_.end_reason == reason::none && !interrupted_) {
-            if (n_recorded_ >= options_.max_points) {
-                end(reason::point_limit);
-            } else if (owner_.cancelled(progress())) {
-                end(reason::cancelled);
-            } else {
-                advance();
-            }
-        }
-        out_.at = walker_.now();
-        out_.direction = walker_.tangent();
-        out_.orientation = orientation_;
-        out_.scale = walker_.metric().scale;
-        out_.arclength = arclength_;
-        out_.step = step_;
-        out_.work = walker_.work;
-        return out_;
+        return run();
+    }
+
+    PathOutcome run(const PathProgress &from) {
+        if (!walker_.go_on(from))
+            throw Error(status::argument,
+                        "what is known of where the curve stands is not of these equations");
+        back_.go_on(from);
+        static_cast<PathProgress &>(out_) = from;
+        return run();
     }
 
   private:
@@ -74,9 +67,28 @@ class Continuation {
         const bool closes_here = start.end.x.empty();
         back_.begin(closes_here ? start.at : start.end, closes_here ? walker_.tangent() : start.end_direction,
                     closes_here);
-        orientation_ = walker_.orientation();
-        tests_ = walker_.tests();
+        out_.orientation = walker_.orientation();
+        out_.tests = walker_.tests();
         if (start.record) record(start.residual, 0, bifurcation::none);
+        out_.step = options_.initial_step > 0 ? options_.initial_step : first_step * options_.max_step;
+    }
+
+    PathOutcome run() {
+        while (out_.end_reason == reason::none && !interrupted_) {
+            if (out_.n_recorded >= options_.max_points) {
+                end(reason::point_limit);
+            } else if (owner_.cancelled(progress())) {
+                end(reason::cancelled);
+            } else {
+                advance();
+            }
+        }
+        out_.at = walker_.now();
+        out_.direction = walker_.tangent();
+        out_.scale = walker_.metric().scale;
+        back_.put(out_);
+        out_.work = walker_.work;
+        return out_;
     }
 
     void end(std::int32_t reason) { out_.end_reason = reason; }
@@ -91,8 +103,8 @@ class Continuation {
     PathState predict(double step) const {
         PathState p = walker_.now();
         add(step, walker_.tangent(), p);
-        if (last_step_ > 0 && !plain_predictor_)
-            add(0.5 * step * step / last_step_, difference(walker_.tangent(), last_tangent_), p);
+        if (out_.last_step > 0 && !out_.plain_predictor)
+            add(0.5 * step * step / out_.last_step, difference(walker_.tangent(), out_.last_direction), p);
         return p;
     }
 
@@ -102,13 +114,13 @@ class Continuation {
     }
 
     void advance() {
-        PathState next = predict(step_);
+        PathState next = predict(out_.step);
         const NewtonOutcome out =
             walker_.correct(next, walker_.tangent(), across_damping, walker_.is_factored());
         const double moved = out.converged ? walker_.metric().distance(next, walker_.now()) : 0;
-        if (!is_near(out, moved, step_)) return retry(out.reason);
+        if (!is_near(out, moved, out_.step)) return retry(out.reason);
         const PathState before = walker_.now(), old_tangent = walker_.tangent();
-        const vector<double> old_tests = tests_;
+        const vector<double> old_tests = out_.tests;
         walker_.move(std::move(next));
         walker_.set_factored(true);
         if (!(out.factored_away < std::min(PathWalker::at_the_point, share_of_step * moved)))
@@ -117,38 +129,39 @@ class Continuation {
         const double cosine = walker_.cosine_with_tangent(old_tangent),
                      angle = std::acos(std::min(1.0, std::max(-1.0, cosine)));
         if (angle > PathWalker::sharp_angle &&
-            step_ > shortenable * options_.min_step) { // a corner: closer first
+            out_.step > shortenable * options_.min_step) { // a corner: closer first
             walker_.move(before);
             walker_.set_tangent(old_tangent);
             return retry(reason::step_minimum);
         }
         // The steps cannot resolve this corner (contact that begins with a grazing touch bends the path like
         // the square root of the way): beyond a right angle the nearer of the two directions leads back.
-        if (angle > PathWalker::sharp_angle) walker_.orient(orientation_);
+        if (angle > PathWalker::sharp_angle) walker_.orient(out_.orientation);
         if (!accept(out, moved, old_tangent, before)) return retry(reason::step_minimum);
-        if (angle > PathWalker::sharp_angle) last_step_ = 0; // a corner is no bend
-        orientation_ = walker_.orientation();
-        step_ = std::min(way_to_change(old_tests, tests_, moved, options_.max_step),
-                         step_ * step_growth(angle, out));
-        step_ = std::min(options_.max_step, std::max(options_.min_step, step_));
+        if (angle > PathWalker::sharp_angle) out_.last_step = 0; // a corner is no bend
+        out_.orientation = walker_.orientation();
+        out_.step = std::min(way_to_change(old_tests, out_.tests, moved, options_.max_step),
+                             out_.step * step_growth(angle, out));
+        out_.step = std::min(options_.max_step, std::max(options_.min_step, out_.step));
     }
 
     // False: the step crossed to another curve, see find_special_points(); the path is back before it.
     bool accept(const NewtonOutcome &out, double moved, const PathState &old_tangent,
                 const PathState &before) {
-        last_step_ = moved;
-        last_tangent_ = old_tangent;
-        plain_predictor_ = false;
-        rescued_ = false;
+        out_.last_step = moved;
+        out_.last_direction = old_tangent;
+        out_.plain_predictor = false;
+        out_.rescued = false;
         const double p = walker_.now().parameter;
         if (p < options_.low || p > options_.high) return leave_range(before, old_tangent);
-        const vector<double> old_tests = tests_;
-        tests_ = walker_.tests();
-        for (std::size_t k = 0; k < std::min(tests_.size(), old_tests.size()); ++k)
-            if (std::isnan(tests_[k])) tests_[k] = old_tests[k]; // its sign is that of the last known value
+        const vector<double> old_tests = out_.tests;
+        out_.tests = walker_.tests();
+        for (std::size_t k = 0; k < std::min(out_.tests.size(), old_tests.size()); ++k)
+            if (std::isnan(out_.tests[k]))
+                out_.tests[k] = old_tests[k]; // its sign is that of the last known value
         if (!locate(before, old_tangent, moved, old_tests)) return false;
-        arclength_ += moved;
-        const std::int32_t came_back = back_.by_step(before, moved, n_recorded_);
+        out_.arclength += moved;
+        const std::int32_t came_back = back_.by_step(before, moved, out_.n_recorded);
         if (came_back == reason::loop_closed) {
             close_loop();
             return true;
@@ -160,8 +173,8 @@ class Continuation {
         record(out.residual, out.iterations, bifurcation::none);
         back_.pass();
         if (walker_.take_scale()) { // how the path bent, in the new metric
-            last_step_ = walker_.metric().distance(walker_.now(), before);
-            scale_by(1 / walker_.metric().length(last_tangent_), last_tangent_);
+            out_.last_step = walker_.metric().distance(walker_.now(), before);
+            scale_by(1 / walker_.metric().length(out_.last_direction), out_.last_direction);
         }
         interrupted_ = owner_.interrupt();
         return true;
@@ -179,31 +192,31 @@ class Continuation {
     // before it.
     bool locate(const PathState &before, const PathState &old_tangent, double moved,
                 const vector<double> &old_tests) {
-        if (!any_special_points(old_tests, tests_)) return true;
+        if (!any_special_points(old_tests, out_.tests)) return true;
         const PathState after = walker_.now(), new_tangent = walker_.tangent();
         walker_.remember();
         const SpecialPoints special =
             find_special_points(walker_, options_, {before, after, old_tangent, new_tangent, moved},
-                                orientation_, old_tests, tests_);
+                                out_.orientation, old_tests, out_.tests);
         if (special.jumped && moved > shortenable * options_.min_step) {
-            tests_ = old_tests;
+            out_.tests = old_tests;
             go_back(before, old_tangent);
             return false;
         }
-        const double base = arclength_;
+        const double base = out_.arclength;
         for (const SpecialPoint &point : special.found) {
             walker_.restore(point.at, new_tangent);
-            arclength_ = base + point.position * moved;
+            out_.arclength = base + point.position * moved;
             record(point.residual, 0, point.kind);
         }
-        arclength_ = base;
+        out_.arclength = base;
         walker_.come_back();
         return true;
     }
 
     // A step came to nothing.
     void go_back(const PathState &before, const PathState &tangent) {
-        last_step_ = 0;
+        out_.last_step = 0;
         walker_.restore(before, tangent);
     }
 
@@ -225,7 +238,7 @@ class Continuation {
         walker_.move(std::move(last));
         // a path that begins on the boundary and leaves at once has its last point already
         const bool is_new = moved >= options_.min_step,
-                   is_start = is_new && back_.target().parameter == edge && n_recorded_ > 1 &&
+                   is_start = is_new && back_.target().parameter == edge && out_.n_recorded > 1 &&
                               back_.is_target(walker_.now());
         if (is_new && !record_last(out, before, old_tangent, moved)) return false;
         end(is_start ? reason::turned_back : reason::range_end);
@@ -236,10 +249,10 @@ class Continuation {
                      double moved) {
         walker_.linearize_here();
         walker_.make_tangent(&old_tangent);
-        const vector<double> old_tests = tests_;
-        tests_ = walker_.tests();
+        const vector<double> old_tests = out_.tests;
+        out_.tests = walker_.tests();
         if (!locate(before, old_tangent, moved, old_tests)) return false;
-        arclength_ += moved;
+        out_.arclength += moved;
         record(out.residual, out.iterations, bifurcation::none);
         return true;
     }
@@ -248,13 +261,14 @@ class Continuation {
     // on.
     void retry(std::int32_t reason) {
         ++out_.failed_steps;
+        ++out_.failed_now;
         walker_.set_factored(false);
-        plain_predictor_ = out_.failed_steps % 2 == 0;
-        step_ *= after_failure;
-        if (step_ >= options_.min_step) return;
+        out_.plain_predictor = out_.failed_steps % 2 == 0;
+        out_.step *= after_failure;
+        if (out_.step >= options_.min_step) return;
         if (turn_corner()) return;
-        if (!rescued_ && n_rescues_ < most_rescues && rescue()) {
-            step_ = step_after_rescue * options_.max_step;
+        if (!out_.rescued && out_.n_rescues < most_rescues && rescue()) {
+            out_.step = step_after_rescue * options_.max_step;
             return;
         }
         end(reason == reason::none ? reason::step_minimum : reason);
@@ -282,10 +296,10 @@ class Continuation {
     // there, on the side that the orientation says.
     bool turns_ahead(double length, PathState &direction) {
         const PathState tangent = walker_.tangent();
-        last_step_ = 0;
+        out_.last_step = 0;
         walker_.linearize_at(predict(length));
         walker_.make_tangent(nullptr);
-        walker_.orient(orientation_);
+        walker_.orient(out_.orientation);
         direction = walker_.tangent();
         walker_.set_tangent(tangent);
         return walker_.cosine_with_tangent(direction) < std::cos(PathWalker::sharp_angle);
@@ -303,12 +317,12 @@ class Continuation {
         walker_.move(std::move(next));
         walker_.linearize_at_solution();
         walker_.make_tangent(nullptr);
-        walker_.orient(orientation_);
+        walker_.orient(out_.orientation);
         if (walker_.cosine_with_tangent(direction) > beyond_corner &&
             accept(out, moved, old_tangent, before)) {
-            last_step_ = 0;
+            out_.last_step = 0;
             walker_.set_factored(false);
-            step_ = length;
+            out_.step = length;
             return true;
         }
         walker_.move(before);
@@ -318,8 +332,8 @@ class Continuation {
 
     // A solution just beyond, found by the owner's own means; accepted only if it stays close.
     bool rescue() {
-        rescued_ = true;
-        ++n_rescues_;
+        out_.rescued = true;
+        ++out_.n_rescues;
         const double side = walker_.tangent().parameter < 0 ? -1 : 1;
         for (double ahead : rescue_distances) {
             PathState next = walker_.now();
@@ -328,13 +342,13 @@ class Continuation {
             const double moved = walker_.metric().distance(next, walker_.now());
             if (!found || moved > options_.max_step) continue;
             const PathState old_tangent = walker_.tangent();
-            arclength_ += moved;
+            out_.arclength += moved;
             walker_.move(std::move(next));
             walker_.linearize_here();
             walker_.make_tangent(&old_tangent);
-            orientation_ = walker_.orientation();
-            last_step_ = 0;
-            tests_ = walker_.tests();
+            out_.orientation = walker_.orientation();
+            out_.last_step = 0;
+            out_.tests = walker_.tests();
             record(0.0, 0, bifurcation::none);
             return true;
         }
@@ -342,22 +356,17 @@ class Continuation {
     }
 
     void record(double residual, std::int64_t iterations, std::int32_t bifurcation) {
-        ++n_recorded_;
+        ++out_.n_recorded;
         const PathState &now = walker_.now();
-        owner_.record({now.x, now.parameter, arclength_, residual, iterations, bifurcation});
+        owner_.record({now.x, now.parameter, out_.arclength, residual, iterations, bifurcation});
     }
 
     PathWalker walker_;
     const PathOptions &options_;
     PathOwner &owner_;
-    PathState last_tangent_;
-    double arclength_ = 0, last_step_ = 0, step_ = 0, orientation_ = 1;
-    bool plain_predictor_ = false, rescued_ = false, interrupted_ = false;
-    vector<double> tests_; // at the present point
     PathReturn back_;
-    std::int64_t n_recorded_ = 0;
-    int n_rescues_ = 0;
-    PathOutcome out_;
+    bool interrupted_ = false;
+    PathOutcome out_; // so far
 };
 
 } // namespace
@@ -365,6 +374,11 @@ class Continuation {
 PathOutcome follow_path(Residual &system, const PathOptions &options, const PathStart &start,
                         PathOwner &owner) {
     return Continuation(system, options, owner).run(start);
+}
+
+PathOutcome go_on_with_path(Residual &system, const PathOptions &options, const PathProgress &from,
+                            PathOwner &owner) {
+    return Continuation(system, options, owner).run(from);
 }
 
 } // namespace plm

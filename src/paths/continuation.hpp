@@ -5,6 +5,7 @@
 #pragma once
 #include "paths/newton.hpp"
 #include "paths/path.hpp"
+#include "paths/path_progress.hpp"
 
 namespace plm {
 
@@ -19,13 +20,9 @@ struct PathStart {
     PathState end = {}, end_direction = {};
 };
 
-struct PathOutcome {
+struct PathOutcome : PathProgress {
     std::int32_t end_reason = reason::none; // PLM_REASON_NONE: interrupted by its owner
-    PathState at;                           // the last point
-    PathState direction;                    // unit tangent there, in the direction travelled
-    double orientation = 1;                 // sign of det(dR/dx) times that of direction.parameter
-    double scale = 0, arclength = 0, step = 0;
-    std::int64_t failed_steps = 0;
+    std::int64_t failed_now = 0;            // of failed_steps: by this call
     NewtonWork work;
 };
 
@@ -35,5 +32,9 @@ struct PathOutcome {
 /// closed curve that does not begin at its start.
 PathOutcome follow_path(Residual &system, const PathOptions &options, const PathStart &start,
                         PathOwner &owner);
+/// The same path on from where its owner had interrupted it. PLM_ERR_ARGUMENT where that is not one of these
+/// equations.
+PathOutcome go_on_with_path(Residual &system, const PathOptions &options, const PathProgress &from,
+                            PathOwner &owner);
 
 } // namespace plm

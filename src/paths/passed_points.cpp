@@ -42,6 +42,20 @@ void PassedPoints::add(const Metric &metric, const PathState &at, const PathStat
     points_.push_back({shadow(metric, at), shadow(metric, tangent)});
 }
 
+vector<double> PassedPoints::numbers() const {
+    vector<double> all;
+    for (const Passed &p : points_)
+        for (const Shadow &shadow : {p.at, p.tangent}) all.insert(all.end(), shadow.begin(), shadow.end());
+    return all;
+}
+
+void PassedPoints::take(const vector<double> &numbers) {
+    points_.clear();
+    for (std::size_t i = 0; i + 6 <= numbers.size(); i += 6)
+        points_.push_back(
+            {{numbers[i], numbers[i + 1], numbers[i + 2]}, {numbers[i + 3], numbers[i + 4], numbers[i + 5]}});
+}
+
 std::int64_t PassedPoints::on_step(const Metric &metric, const PathState &before, const PathState &after,
                                    const PathState &tangent) const {
     const Shadow from = shadow(metric, before), chord = difference(shadow(metric, after), from),

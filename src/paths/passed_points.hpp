@@ -19,6 +19,9 @@ class PassedPoints {
     /// The first of them that a step came by in the same direction, -1: none.
     std::int64_t on_step(const Metric &metric, const PathState &before, const PathState &after,
                          const PathState &tangent) const;
+    /// All of them, six numbers each, to be handed to take() of others.
+    vector<double> numbers() const;
+    void take(const vector<double> &numbers);
     double parameter(std::int64_t k) const { return points_[static_cast<std::size_t>(k)].at[0]; }
     /// Whether a solution at the same parameter is that point.
     bool is(std::int64_t k, const Metric &metric, const PathState &solution) const;

@@ -16,6 +16,18 @@ void PathReturn::begin(const PathState &target, const PathState &tangent, bool f
     from_start_ = from_start;
 }
 
+void PathReturn::go_on(const PathProgress &from) {
+    begin(from.target, from.target_direction, from.closes_at_start);
+    passed_.take(from.passed);
+}
+
+void PathReturn::put(PathProgress &to) const {
+    to.target = target_;
+    to.target_direction = target_tangent_;
+    to.closes_at_start = from_start_;
+    to.passed = passed_.numbers();
+}
+
 bool PathReturn::is_target(const PathState &at) const {
     return walker_.metric().distance(at, target_) < same_solution;
 }

@@ -2,6 +2,7 @@
 // a point of its own, on a closed curve that a step has crossed over to.
 #pragma once
 #include "paths/passed_points.hpp"
+#include "paths/path_progress.hpp"
 #include "paths/path_walker.hpp"
 
 namespace plm {
@@ -12,6 +13,9 @@ class PathReturn {
 
     /// Where the path is closed, in which direction; the path itself begins there, or elsewhere.
     void begin(const PathState &target, const PathState &tangent, bool from_start);
+    /// What of a path's progress is known here, from there and to there.
+    void go_on(const PathProgress &from);
+    void put(PathProgress &to) const;
     const PathState &target() const { return target_; }
     bool is_target(const PathState &at) const;
     /// What the step from `before` to the present point came back to: PLM_REASON_LOOP_CLOSED,

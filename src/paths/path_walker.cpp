@@ -48,6 +48,19 @@ void PathWalker::linearize_here() {
     factored_ = stands_ = true;
 }
 
+bool PathWalker::go_on(const PathProgress &from) {
+    const auto fits = [&](const PathState &state) { return static_cast<std::int64_t>(state.x.size()) == n_; };
+    const bool known_test = from.tests.empty() || from.tests.size() >= own_tests;
+    if (!(fits(from.at) && fits(from.direction) && fits(from.target) && fits(from.target_direction)) ||
+        (from.last_step > 0 && !fits(from.last_direction)) || !known_test || !(from.scale > 0))
+        return false;
+    now_ = from.at;
+    tangent_ = from.direction;
+    metric_.scale = from.scale;
+    if (!system_.is_cheap_to_linearize()) linearize_here();
+    return true;
+}
+
 void PathWalker::make_tangent(const PathState *previous) {
     PathState t = tangent_at(system_);
     double sign = options_.upward ? 1 : -1;

@@ -3,6 +3,7 @@
 #pragma once
 #include "paths/newton.hpp"
 #include "paths/path.hpp"
+#include "paths/path_progress.hpp"
 #include <vector>
 
 namespace plm {
@@ -41,6 +42,9 @@ class PathWalker {
     /// that of now (PathOptions::scale_falls). True: it changed.
     bool take_scale(double least = 0);
     void linearize_here();
+    /// A path goes on: the system is linearised here where it is led by that of the last point. False: that
+    /// is no point of this system.
+    bool go_on(const PathProgress &from);
     /// Where a correction has just led: the system stands there.
     void linearize_at_solution();
     /// The system is (or is no longer) factored near the present point.

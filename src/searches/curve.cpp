@@ -8,10 +8,11 @@
 namespace plm {
 namespace {
 
-void trace_exact_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch) {
+void trace_exact_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch,
+                       CurveRecorder *recorder) {
     ExactEquations equations(branch.reduced_model(), options, start.point.omega);
     branch.unknowns_used = "state";
-    CurveTracer(&equations, options, watch, branch).run(start);
+    CurveTracer(&equations, options, watch, branch, recorder).run(start);
     equations.orbits().modes()->forget_transitions(); // the points of the branch keep the modes
 }
 
@@ -26,30 +27,37 @@ void warn_of_unverified(const HbmOptions &options, Branch &branch) {
                             Stability(branch.reduced_model(), options).unknown_text(unverified, n));
 }
 
-void trace_with_harmonics(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch) {
+void trace_with_harmonics(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch,
+                          CurveRecorder *recorder) {
     const MultipliersOf multipliers = multipliers_of(branch.reduced_model(), options);
-    trace_harmonic_curve(options, start, multipliers, watch, branch);
+    trace_harmonic_curve(options, start, multipliers, watch, branch, recorder);
     if (multipliers) warn_of_unverified(options, branch);
 }
 
 } // namespace
 
-void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch) {
+void trace_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch,
+                 CurveRecorder *recorder) {
     constexpr double shorter = 1.0 / 3; // steps
     constexpr int times_shorter = 2;
     const auto trace = start.point.motion ? trace_exact_curve : trace_with_harmonics;
     const auto known = static_cast<std::int64_t>(branch.points().size());
     const Warnings said = branch.warnings;
-    trace(options, start, watch, branch);
+    if (recorder && recorder->begin(options.max_points, branch)) return;
     HbmOptions finer = options;
-    for (int k = 0; k < times_shorter && branch.end_reason == reason::crossed_over; ++k) {
+    std::int64_t attempt = recorder && recorder->progress() ? recorder->progress()->attempt : 0;
+    for (std::int64_t k = 0; k < attempt; ++k) finer.max_step *= shorter;
+    trace(finer, start, watch, branch, recorder);
+    while (attempt++ < times_shorter && branch.end_reason == reason::crossed_over) {
         finer.max_step *= shorter;
         watch.log(
             1, format("the curve crossed over to a closed one; again with max_step = %.2g", finer.max_step));
         branch.truncate(known);
         branch.warnings = said;
-        trace(finer, start, watch, branch);
+        if (recorder) recorder->begin_again(attempt);
+        trace(finer, start, watch, branch, recorder);
     }
+    if (recorder) recorder->end(branch);
 }
 
 } // namespace plm

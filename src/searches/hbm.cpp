@@ -56,6 +56,12 @@ std::shared_ptr<const Branch> Hbm::sweep(const Output *asked,
     return judged(task);
 }
 
+std::shared_ptr<const Branch> Hbm::sweep(CurveRecorder &recorder) const {
+    SweepTask task = this->task();
+    task.recorder = &recorder;
+    return judged(task);
+}
+
 std::shared_ptr<const Branch> Hbm::sweep_with_few_harmonics() const {
     return plm::sweep_with_few_harmonics(task());
 }
@@ -66,6 +72,7 @@ std::shared_ptr<const Branch> Hbm::judged(const SweepTask &task) const {
     check_damping(watch_, *branch);
     judge(*branch);
     branch->seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (task.recorder) task.recorder->finish(*branch);
     return branch;
 }
 

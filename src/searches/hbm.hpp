@@ -40,6 +40,8 @@ class Hbm {
     /// asked, level_before: as in SweepTask.
     std::shared_ptr<const Branch> sweep(const Output *asked = nullptr,
                                         std::shared_ptr<CurveCompression> *level_before = nullptr) const;
+    /// The same, recorded, so that it can be stopped and go on later: with this recorder of that branch.
+    std::shared_ptr<const Branch> sweep(CurveRecorder &recorder) const;
     /// The first look at the range, see sweep_with_few_harmonics().
     std::shared_ptr<const Branch> sweep_with_few_harmonics() const;
     /// start may be null (cold start).

@@ -21,9 +21,9 @@ std::unique_ptr<PeriodicEquations> equations_of(std::shared_ptr<const ReducedMod
 
 MultipliersOf multipliers_of(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options,
                              StabilityOf of) {
-    const auto stability = std::make_shared<Stability>(std::move(reduced), options, of);
+    auto stability = std::make_shared<Stability>(std::move(reduced), options, of);
     if (!stability->wanted()) return nullptr;
-    return [stability](const BranchPoint &point) { return stability->multipliers(point); };
+    return stability;
 }
 
 vector<std::complex<double>> multipliers_at(PeriodicEquations &equations, const BranchPoint &point) {

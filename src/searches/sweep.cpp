@@ -35,7 +35,7 @@ std::shared_ptr<Branch> by_harmonics(const SweepTask &task, double omega) {
     if (!solve_by_harmonics(task.reduced, task.options, omega, nullptr, task.watch, task.only_looks, *branch,
                             start.point))
         return nullptr;
-    trace_curve(task.options, start, task.watch, *branch);
+    trace_curve(task.options, start, task.watch, *branch, task.recorder);
     return is_worthless(*branch) ? nullptr : branch;
 }
 
@@ -73,7 +73,7 @@ std::shared_ptr<Branch> follow_curve(const SweepTask &task) {
                    "with a smaller force_scale%s",
                    from / (2 * M_PI), drift_hint(*task.reduced).c_str()))
             .reason(reason::start_failed);
-    trace_curve(task.options, start, task.watch, *branch);
+    trace_curve(task.options, start, task.watch, *branch, task.recorder);
     if (task.exact && task.options.motion == MotionKind::automatic && is_stuck(*branch)) {
         const auto other = by_harmonics(task, start.point.omega);
         if (other && !is_stuck(*other)) {
@@ -82,7 +82,8 @@ std::shared_ptr<Branch> follow_curve(const SweepTask &task) {
             branch = other;
         }
     }
-    if (!was_stopped(*branch)) bring_peak_inside(task.options, task.reach, task.asked, task.watch, *branch);
+    if (!was_stopped(*branch))
+        bring_peak_inside(task.options, task.reach, task.asked, task.watch, *branch, task.recorder);
     finish(task.watch, begin, *branch);
     return branch;
 }
@@ -120,7 +121,7 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
             curve.reduced = compression.model();
             curve.options = options_on(*curve.reduced, task.options);
             const auto branch = follow_curve(curve);
-            if (!whole && was_stopped(*branch)) return branch;
+            if (branch->end_reason == reason::cancelled || (!whole && was_stopped(*branch))) return branch;
             require_unstopped(*branch);
             if (is_stuck(*branch)) return nullptr;
             whole = branch;
@@ -136,8 +137,11 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
     } catch (const Error &e) {
         if (e.status() == status::memory || e.status() == status::callback) throw;
         if (e.status() != status::cancelled) return nullptr;
-        if (!whole || e.reason() != reason::effort) throw;
-        kept->warn(*whole);
+        if (!whole) throw;
+        if (e.reason() == reason::effort)
+            kept->warn(*whole);
+        else
+            whole->end_reason = e.reason();
         return whole;
     }
     return nullptr;
@@ -212,6 +216,7 @@ std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task) {
     constexpr double share_of_accuracy = 1e-2; // what a few harmonics leave out is much more
     SweepTask look = task;
     look.exact = false;
+    look.recorder = nullptr; // made again in seconds
     look.options.motion = MotionKind::harmonics;
     look.options.tolerance = std::max(task.options.tolerance, share_of_accuracy * task.options.accuracy);
     look.options.max_points = std::min(few_points, task.options.max_points);

@@ -1,5 +1,6 @@
 // A whole response curve, from either end of its range, by exact motions or harmonics.
 #pragma once
+#include "motions/curve_recorder.hpp"
 #include "reduction/sweep_range.hpp"
 #include "searches/single_response.hpp"
 #include <chrono>
@@ -14,6 +15,7 @@ struct SweepTask : ResponseTask {
     /// The model that the curve of another force level was followed on: taken up, and left for the next
     /// level. Null: this curve is the only one.
     std::shared_ptr<CurveCompression> *level_before = nullptr;
+    CurveRecorder *recorder = nullptr; // of its curves; null: they are not recorded
 };
 
 /// At least one point, within the effort that is left. PLM_ERR_CONVERGENCE where no motion is found,

@@ -15,8 +15,9 @@ constexpr double still_high = 0.9;
 
 class Widening {
   public:
-    Widening(const HbmOptions &options, const SweepRange &range, Watch watch, Branch &branch)
-        : options_(options), range_(range), watch_(watch), branch_(branch),
+    Widening(const HbmOptions &options, const SweepRange &range, Watch watch, Branch &branch,
+             CurveRecorder *recorder)
+        : options_(options), range_(range), watch_(watch), branch_(branch), recorder_(recorder),
           part_(0.5 * (options.frequency_max_hz - options.frequency_min_hz)),
           asked_min_(options.frequency_min_hz), asked_max_(options.frequency_max_hz) {}
 
@@ -95,7 +96,7 @@ class Widening {
         HbmOptions options = options_;
         options.max_points -= static_cast<std::int64_t>(n) - 1; // the start is recorded once more
         Branch piece(branch_.reduced_model(), branch_.force_scale(), branch_.period_multiple());
-        trace_curve(options, start, watch_, piece);
+        trace_curve(options, start, watch_, piece, recorder_);
         add_cost(piece);
         if (piece.end_reason == reason::loop_closed) // what was known is a part of it
             take_loop(piece);
@@ -136,6 +137,7 @@ class Widening {
     const SweepRange range_;
     Watch watch_;
     Branch &branch_;
+    CurveRecorder *recorder_;
     const double part_, asked_min_, asked_max_;
     const Output *asked_ = nullptr;
 };
@@ -143,8 +145,8 @@ class Widening {
 } // namespace
 
 void bring_peak_inside(const HbmOptions &options, const SweepRange &range, const Output *asked, Watch watch,
-                       Branch &branch) {
-    if (branch.end_reason == reason::range_end) Widening(options, range, watch, branch).run(asked);
+                       Branch &branch, CurveRecorder *recorder) {
+    if (branch.end_reason == reason::range_end) Widening(options, range, watch, branch, recorder).run(asked);
 }
 
 } // namespace plm

@@ -137,6 +137,36 @@ static void a_table_of_the_curve(void **state) {
     BAD(plm_branch_write_csv(curve, 0, PLM_PEAK, 0, "no/such/folder/x.csv"), f, "path", "cannot be written");
 }
 
+static void going_on(void **state) {
+    const char *f = "plm_hbm_resume", *s = "plm_hbm_save_every", *path = "test_bytes_curve.plm";
+    plm_branch *whole = NULL, *end = NULL, *none = NULL;
+    plm_hbm *other = NULL;
+    int64_t few = 0, many = 0;
+    (void)state;
+    BAD(plm_hbm_save_every(hbm, -1, path), s, "n_points", "-1");
+    BAD(plm_hbm_save_every(hbm, 3, NULL), s, "path", "NULL");
+    BAD(plm_hbm_save_every(hbm, 3, "no/such/folder/curve.plm"), s, "path", "cannot be written");
+    BAD(plm_hbm_save_every(hbm, 3, "."), s, "path", "cannot be written");
+    assert_int_equal(plm_hbm_save_every(NULL, 3, path), PLM_ERR_HANDLE);
+    assert_int_equal(plm_hbm_resume(NULL, curve, &none), PLM_ERR_HANDLE);
+    assert_int_equal(plm_hbm_resume(hbm, NULL, &none), PLM_ERR_HANDLE);
+    BAD(plm_hbm_resume(hbm, curve, NULL), f, "resumed", "NULL");
+    BAD(plm_hbm_resume(hbm, curve, &none), f, "hbm",
+        "max_points"); /* 4 points, which are all that it allows */
+    assert_true(done(ctx, plm_hbm_set_int(hbm, "max_points", 100)));
+    assert_true(done(ctx, plm_hbm_save_every(hbm, 3, path)));
+    assert_true(plm_hbm_resume(hbm, curve, &whole) >= 0);
+    assert_true(done(ctx, plm_branch_get_int(curve, "n_points", &few)) &&
+                done(ctx, plm_branch_get_int(whole, "n_points", &many)) && few == 4 && many > 20);
+    BAD(plm_hbm_resume(hbm, whole, &none), f, "branch", "nothing to go on with");
+    assert_true(done(ctx, plm_hbm_save_every(hbm, 0, NULL)) && remove(path) == 0);
+    assert_true(plm_hbm_sweep(hbm, &end) >= 0 && remove(path) != 0);
+    assert_true(done(ctx, plm_hbm_create(basis, &other)));
+    BAD(plm_hbm_resume(other, curve, &none), f, "hbm",
+        "n_harmonics = 3; those of this hbm are: the defaults");
+    assert_null(none);
+}
+
 int main(void) {
 #define TEST(f) cmocka_unit_test_setup_teardown(f, set_up, tear_down)
     const struct CMUnitTest tests[] = {
@@ -145,6 +175,7 @@ int main(void) {
         TEST(without_the_model),
         TEST(another_basis),
         TEST(a_table_of_the_curve),
+        TEST(going_on),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

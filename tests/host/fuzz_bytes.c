@@ -1,6 +1,6 @@
 /* libFuzzer over bases and branches as bytes, begun with the files of tests/formats. Length and checksum are
  * made right first, so that what stands behind them is reached; what is read must be written again, and
- * asked. */
+ * asked, and a curve goes on. */
 #include "plm/plm.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -48,6 +48,13 @@ static void ask_basis(plm_basis *basis) {
     expect_known(plm_basis_write(basis, sizeof again, again, &n));
 }
 
+static void go_on(plm_context *ctx, plm_basis *basis, plm_branch *branch) {
+    plm_hbm *hbm = NULL;
+    plm_branch *resumed = NULL;
+    if (plm_context_set_effort(ctx, 0.02) || plm_hbm_create(basis, &hbm)) abort();
+    expect_known(plm_hbm_resume(hbm, branch, &resumed));
+}
+
 static void ask_branch(plm_branch *branch) {
     static char again[4 * MOST];
     double amplitude[64];
@@ -70,8 +77,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     put(bytes + size - 8, crc64(bytes, size - 8));
     expect_known(s = plm_basis_read(ctx, (int64_t)size, bytes, &basis));
     if (s >= 0) ask_basis(basis);
-    expect_known(s = plm_branch_read(kept_basis(ctx), (int64_t)size, bytes, &branch));
-    if (s >= 0) ask_branch(branch);
+    basis = kept_basis(ctx);
+    expect_known(s = plm_branch_read(basis, (int64_t)size, bytes, &branch));
+    if (s >= 0) ask_branch(branch), go_on(ctx, basis, branch);
     if (plm_context_destroy(&ctx)) abort();
     return 0;
 }

@@ -355,6 +355,24 @@ static void print_read(plm_model *model, plm_basis *basis, plm_branch *curve) {
     reals("read_residual", 1, x);
 }
 
+/* A curve that ends early, and goes on. */
+static void print_resumed(plm_hbm *hbm) {
+    static double x[4096];
+    plm_branch *part = NULL, *whole = NULL;
+    int64_t n = 0;
+    must(plm_hbm_set_int(hbm, "max_points", 12));
+    if (plm_hbm_sweep(hbm, &part) != PLM_TRUNCATED) exit(1);
+    must(plm_hbm_set_int(hbm, "max_points", 1000));
+    must(plm_hbm_save_every(hbm, 5, "parity_c.plm"));
+    must(plm_hbm_resume(hbm, part, &whole));
+    must(plm_hbm_save_every(hbm, 0, NULL));
+    if (remove("parity_c.plm")) exit(1);
+    must(plm_branch_get_amplitude(whole, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, 4096, x, &n));
+    reals("resumed_amplitude", n, x);
+    must(plm_branch_destroy(&part));
+    must(plm_branch_destroy(&whole));
+}
+
 static void print_response(plm_model *model, plm_basis *basis) {
     plm_hbm *hbm = NULL;
     plm_branch *curve = NULL, *top = NULL, *lower = NULL;
@@ -380,6 +398,7 @@ static void print_response(plm_model *model, plm_basis *basis) {
     heading("level_points"), whole(n);
     must(plm_branch_destroy(&lower));
     free(x);
+    print_resumed(hbm);
     must(plm_hbm_find_peak(hbm, curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, &peak[0], &peak[1], &top));
     reals("peak", 2, peak);
     print_read(model, basis, curve);

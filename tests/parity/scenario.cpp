@@ -1,5 +1,6 @@
 // The scene of scenario.c in C++.
 #include <cstdio>
+#include <cstdlib>
 #include <plm/plm.hpp>
 
 namespace {
@@ -208,6 +209,16 @@ void print_read(const plm::Context &context, const plm::Model &model, const plm:
     print("read_residual", std::vector{read.full_residual(3)});
 }
 
+void print_resumed(plm::Hbm &hbm) {
+    hbm.set("max_points", 12);
+    const plm::Branch part = hbm.sweep();
+    hbm.set("max_points", 1000);
+    hbm.save_every(5, "parity_cpp.plm");
+    print("resumed_amplitude", hbm.resume(part).amplitude(watched));
+    hbm.save_every(0);
+    if (std::remove("parity_cpp.plm")) std::exit(1);
+}
+
 void print_response(const plm::Context &context, const plm::Model &model, const plm::Basis &basis) {
     plm::Hbm hbm(basis);
     hbm.set("n_harmonics", n_harmonics).set("unknowns", "modal").set("max_step", 0.05);
@@ -216,6 +227,7 @@ void print_response(const plm::Context &context, const plm::Model &model, const 
     print("frequency_hz", curve.frequency_hz());
     print("amplitude", curve.amplitude(watched));
     print("level_points", std::vector{hbm.sweep_levels({0.8, 0.5}).back().size()});
+    print_resumed(hbm);
     const plm::Peak peak = hbm.find_peak(curve, watched);
     print("peak", std::vector{peak.frequency_hz, peak.amplitude});
     print_read(context, model, basis, curve);

@@ -377,6 +377,7 @@ C     points count from 1 here.
       CALL MUST(IERR)
       INTS(1) = NUMBER
       CALL SHOWI('level_points', 1, INTS)
+      CALL SHORSM(LHBM)
       CALL PLMHPK(LHBM, CURVE, IWATCH, PLMPPM, 0, X(1), X(2), PEAK,
      1            IERR)
       CALL MUST(IERR)
@@ -388,6 +389,36 @@ C     points count from 1 here.
       CALL SHOSTA(CURVE, 6)
       CALL SHOMOT(MODEL, IBASIS, CURVE, 6)
       CALL SHOSTU(MODEL, IBASIS, LHBM)
+      END
+
+      SUBROUTINE SHORSM(LHBM)
+      INCLUDE 'plmf.inc'
+      INTEGER*8 LHBM, IPART, IWHOLE
+      INTEGER IERR, NUMBER, MAXPTS, IWATCH
+      PARAMETER (MAXPTS = 2000, IWATCH = 8)
+      DOUBLE PRECISION X(MAXPTS)
+      IPART = 0
+      IWHOLE = 0
+      CALL PLMHSI(LHBM, 'max_points', 12, IERR)
+      CALL MUST(IERR)
+      CALL PLMHSW(LHBM, IPART, IERR)
+      CALL PLMHSI(LHBM, 'max_points', 1000, IERR)
+      CALL MUST(IERR)
+      CALL PLMHSV(LHBM, 5, 'parity_f77.plm', IERR)
+      CALL MUST(IERR)
+      CALL PLMHRS(LHBM, IPART, IWHOLE, IERR)
+      CALL MUST(IERR)
+      CALL PLMHSV(LHBM, 0, ' ', IERR)
+      CALL MUST(IERR)
+      OPEN (UNIT = 9, FILE = 'parity_f77.plm', STATUS = 'OLD')
+      CLOSE (UNIT = 9, STATUS = 'DELETE')
+      CALL PLMRAM(IWHOLE, IWATCH, PLMPPM, 0, MAXPTS, X, NUMBER, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('resumed_amplitude', NUMBER, X)
+      CALL PLMRDE(IPART, IERR)
+      CALL MUST(IERR)
+      CALL PLMRDE(IWHOLE, IERR)
+      CALL MUST(IERR)
       END
 
       SUBROUTINE SHOWAY(MODEL)

@@ -183,6 +183,7 @@ contains
         call hbm%found(n, lower)
         call lower%get('n_points', n)
         call show_integers('level_points', [n])
+        call show_resumed(hbm)
         call hbm%find_peak(curve, watched, hz, amplitude, PLM_HALF_PEAK_TO_PEAK, peak=peak)
         call show('peak', [hz, amplitude])
         call show_read(model, basis, curve)
@@ -193,6 +194,26 @@ contains
         call show_motion(model, basis, curve, 6)
         call show_study(model, basis, hbm)
     end subroutine show_response
+
+    ! a curve that ends early, and goes on
+    subroutine show_resumed(hbm)
+        type(plm_hbm), intent(inout) :: hbm
+        type(plm_branch) :: part, whole
+        real(real64), allocatable :: values(:)
+        integer :: stat, unit
+        call hbm%set('max_points', 12)
+        call hbm%sweep(part, stat=stat)
+        call hbm%set('max_points', 1000)
+        call hbm%save_every(5, 'parity_f90.plm')
+        call hbm%resume(part, whole)
+        call hbm%save_every(0, '')
+        open (newunit=unit, file='parity_f90.plm', status='old')
+        close (unit, status='delete')
+        call whole%amplitude(watched, values, PLM_HALF_PEAK_TO_PEAK)
+        call show('resumed_amplitude', values)
+        call part%destroy()
+        call whole%destroy()
+    end subroutine show_resumed
 
     ! basis and curve through their bytes
     subroutine show_read(model, basis, curve)

@@ -1,5 +1,7 @@
 """The scene of scenario.c in Python."""
+import os
 import sys
+import warnings
 
 import numpy
 import plm
@@ -150,6 +152,18 @@ def show_study(basis, hbm):
     show("study_amplitude", points.amplitude)
 
 
+def show_resumed(hbm):
+    hbm.max_points = 12
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        part = hbm.sweep()
+    hbm.max_points = 1000
+    hbm.save_every(5, "parity_py.plm")
+    show("resumed_amplitude", hbm.resume(part).amplitude(WATCHED))
+    hbm.save_every(0)
+    os.remove("parity_py.plm")
+
+
 def show_response(basis):
     hbm = plm.Hbm(basis, n_harmonics=H, unknowns="modal", max_step=0.05)
     curve = hbm.sweep()
@@ -157,6 +171,7 @@ def show_response(basis):
     show("frequency_hz", curve.frequency_hz)
     show("amplitude", curve.amplitude(WATCHED))
     show("level_points", numpy.int64(len(hbm.sweep_levels([0.8, 0.5])[-1])))
+    show_resumed(hbm)
     peak = hbm.find_peak(curve, WATCHED)
     show("peak", [peak.frequency_hz, peak.amplitude])
     again = plm.Basis.from_bytes(basis.to_bytes(), basis.context).attach(basis.model)

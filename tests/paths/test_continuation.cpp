@@ -1,10 +1,12 @@
 // The continuation on curves that are known, with one unknown x: at corners, on the flank of a resonance, at
 // the end of its range, and what it does with test functions of the path's owner.
+#include "linalg/error.hpp"
 #include "paths/continuation.hpp"
 #include "paths/metric.hpp"
 #include "support/test.hpp"
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace {
@@ -92,6 +94,7 @@ class Owner final : public plm::PathOwner {
         fold = p.parameter;
     }
     bool cancelled(double) override { return false; }
+    bool interrupt() override { return legs_of > 0 && ++n_steps % legs_of == 0; }
     bool rescue(double, vector<double> &) override { return false; }
     void test(const vector<double> &, double p, vector<double> &values) override {
         ++n_looks;
@@ -102,6 +105,7 @@ class Owner final : public plm::PathOwner {
         return {plm::bifurcation::neimark_sacker};
     }
     int n_points = 0, n_folds = 0, n_changes = 0, n_looks = 0;
+    int legs_of = 0, n_steps = 0; // interrupted after so many
     double fold = 0, change = 0;
     bool all_whole = true;
     std::vector<double> heights; // x of each point
@@ -129,6 +133,47 @@ Followed follow(plm::Residual &curve, plm::PathStart start = {{{0}, 0}}, const O
     Followed f{{}, owner};
     f.out = plm::follow_path(curve, options, start, f.owner);
     return f;
+}
+
+// Round the circle in legs: by one system, or each by one of its own, made of a path's progress alone.
+Owner in_legs(int steps, bool anew) {
+    plm::PathOptions options;
+    options.low = 0, options.high = 1, options.upward = true, options.locate = true;
+    Owner owner;
+    owner.legs_of = steps;
+    auto circle = std::make_unique<Circle>();
+    plm::PathOutcome out = plm::follow_path(*circle, options, {{{0.3}, 0.5}}, owner);
+    while (out.end_reason == plm::reason::none) {
+        const plm::PathProgress kept = out;
+        if (anew) circle = std::make_unique<Circle>();
+        out = plm::go_on_with_path(*circle, options, kept, owner);
+    }
+    owner.change = out.end_reason;
+    return owner;
+}
+
+// To the last bit; and the loop is closed at the first start, which no leg but the first has seen.
+void a_path_goes_on_with_the_points_it_would_have_had(void **) {
+    for (int steps : {1, 3, 10}) {
+        const Owner one = in_legs(steps, false), other = in_legs(steps, true);
+        assert_true(one.heights == other.heights && one.heights.size() > 20);
+        assert_int_equal(static_cast<int>(one.change), plm::reason::loop_closed);
+        assert_int_equal(one.n_folds, 2);
+    }
+}
+
+void a_path_of_another_system_does_not_go_on(void **) {
+    Circle circle;
+    Owner owner;
+    plm::PathProgress two;
+    two.at = two.direction = two.target = two.target_direction = {{0.3, 0}, 0.5};
+    two.scale = 1;
+    try {
+        plm::go_on_with_path(circle, plm::PathOptions(), two, owner);
+        fail();
+    } catch (const plm::Error &e) {
+        assert_int_equal(e.status(), plm::status::argument);
+    }
 }
 
 // Up to p = 1/2 the line p = x; beyond it p falls three times as fast: a turn of more than a right angle,
@@ -424,6 +469,8 @@ int main() {
         cmocka_unit_test(nothing_is_linearised_twice_beside_a_special_point),
         cmocka_unit_test(a_guessed_tangent_leads_no_longer_than_it_helps),
         cmocka_unit_test(the_null_direction_is_that_of_the_smallest_value),
+        cmocka_unit_test(a_path_goes_on_with_the_points_it_would_have_had),
+        cmocka_unit_test(a_path_of_another_system_does_not_go_on),
     };
     return cmocka_run_group_tests(tests, nullptr, nullptr);
 }

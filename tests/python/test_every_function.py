@@ -29,7 +29,7 @@ def main():
     left_out = api.left_out_of("Python")  # on purpose, api.txt tells why
     suite = unittest.defaultTestLoader.loadTestsFromNames(
         ["test_run", "test_constraints", "test_couplings", "test_geometry", "test_surfaces", "test_moving_walls",
-         "test_base_motion", "test_outputs", "test_changed_loads", "test_bytes", "test_refusals", "test_callbacks",
+         "test_base_motion", "test_outputs", "test_changed_loads", "test_bytes", "test_resume", "test_refusals", "test_callbacks",
          "test_search", "test_transient", "test_study"])
     passed = unittest.TextTestRunner(verbosity=0).run(suite).wasSuccessful()
     by_rule = {function.name for function in api.by_rule_in("Python")}  # the rule is tested where it is called

@@ -138,6 +138,8 @@ FUNCTIONS = {
     "plm_hbm_get_double": "psp hbm key value",
     "plm_hbm_get_string": "psqpp hbm key capacity buffer needed",
     "plm_hbm_sweep": "pp hbm branch",
+    "plm_hbm_save_every": "pqs hbm n_points path",
+    "plm_hbm_resume": "ppp hbm branch resumed",
     "plm_hbm_sweep_levels": "pqpp hbm n force_scale count",
     "plm_hbm_solve": "pdpqp hbm frequency_hz start point branch",
     "plm_hbm_find_peak": "ppqiippp hbm branch dof measure harmonic frequency_hz amplitude peak",
@@ -265,6 +267,8 @@ REASON_LARGER_MOTION = 27
 REASON_TIE = 28
 REASON_ROUNDED = 29
 REASON_EFFORT = 30
+REASON_UNFINISHED = 31
+REASON_NOT_SAVED = 32
 BIFURCATION_NONE = 0
 BIFURCATION_FOLD = 1
 BIFURCATION_BRANCH_POINT = 2

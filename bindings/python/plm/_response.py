@@ -136,6 +136,18 @@ class Hbm(HbmMethods, Handle, noun="hbm", kind=_c.KIND_HBM):
         branch = Branch(self)
         return self._deliver("sweep", branch, ctypes.byref(branch._h), progress=progress)
 
+    def save_every(self, n_points, path=None):
+        """From now on sweep() and resume() write the curve to the file `path` after every n_points more points and at their
+        end, as Branch.to_bytes() gives it; the file is replaced as a whole. 0: no longer."""
+        self._call("save_every", n_points, None if path is None else os.fsencode(path))
+
+    def resume(self, branch, progress=None):
+        """Goes on with a curve that was cancelled (KeyboardInterrupt.branch), ended by "max_points" or for want of effort, or
+        was saved on its way (save_every, Branch.from_bytes): the curve that sweep() would have returned, with the same
+        points. With the options of the sweep; max_points alone may differ."""
+        resumed = Branch(self)
+        return self._deliver("resume", resumed, handle_of(branch, "branch", "branch"), ctypes.byref(resumed._h), progress=progress)
+
     def solve(self, frequency_hz, start=None, point=0, progress=None):
         """The response at one frequency, from a point of the branch `start` or from rest."""
         branch, first_guess = Branch(self), handle_of(start, "branch", "start", None)

@@ -9,6 +9,8 @@ from .settings import SETTINGS, Wrong, settings_of, value_of
 COMMANDS = {
     "response": ("the response curve around a resonance, its peak with an error, and the motion there",
                  "plm response blade.inp --force 1204 z 2.5 --damping-ratio 0.002 --out blade"),
+    "resume": ("what plm response --save-every has left: goes on with the curve, with the arguments of the response",
+               "plm resume blade.inp --force 1204 z 2.5 --damping-ratio 0.002 --out blade"),
     "modes": ("natural frequencies of a linear system, and its shapes", "plm modes blade.inp --count 6 --out shapes"),
     "audit": ("what is probably not meant so in a model", "plm audit K.mtx M.mtx --dofs dofs.txt --contact pairs.csv"),
     "rest": ("contact at rest under the pre-load", "plm rest joint.inp --out rest"),

@@ -12,6 +12,7 @@ from .._response import Hbm
 from .console import in_words_of_the_command
 from .report import write_report
 from .response_files import write_files
+from .saving import SavedCurve
 from .settings import Wrong, settings_text
 from .structure import assemble, require_pairs
 
@@ -26,13 +27,14 @@ class Found(NamedTuple):
     larger: object
 
 
-def run(settings, console):
+def run(settings, console, resumes=False):
+    saved = SavedCurve(settings, resumes, console) if resumes or settings["save_every"] else None
     with console.listening(with_log=True):
         structure = assemble(settings, console, assume_damping=True)
         dof, (low, high) = output_dof(structure, settings), range_of(structure.model, settings)
         structure.model.build(progress=console.progress)
     with console.listening():  # what the log says of curves on the way, the call repeats if it still holds at the end
-        found = compute(structure.model, dof, low, high, settings, console.progress)
+        found = compute(structure.model, dof, low, high, settings, console.progress, saved)
     if found.curve.status in (NOT_CONVERGED, TRUNCATED):
         console.matters = True
     if not found.error <= settings["accuracy"]:
@@ -43,6 +45,7 @@ def run(settings, console):
     if settings["out"]:
         with console.listening():
             files = write_files(settings["out"], structure, dof, found, settings, console)
+        files += saved.files if saved else []
         write_report(pathlib.Path(settings["out"]) / "report.md", settings_text("response", settings), page, console, structure.unread,
                      files)
         console.say(f"\nFiles\n  report.md, {', '.join(files)} in {settings['out']}")
@@ -64,11 +67,12 @@ def output_dof(structure, settings):
     return structure.first_load
 
 
-def compute(model, dof, low, high, settings, progress):
-    """Found of a built model: in the range given, or around the resonance that the library chooses."""
-    if low is None:
+def compute(model, dof, low, high, settings, progress, saved=None):
+    """Found of a built model: in the range given, or around the resonance that the library chooses. A curve that is saved is
+    followed on one basis."""
+    if low is None and saved is None:
         return _around_resonance(model, dof, settings, progress)
-    return _in_range(model, dof, low, high, settings, progress)
+    return _in_range(model, dof, low, high, settings, progress, saved)
 
 
 def range_of(model, settings):
@@ -96,14 +100,16 @@ def _around_resonance(model, dof, settings, progress):
     return Found(response.frequency_hz, response.amplitude, response.error, response.curve, peak.branch, larger)
 
 
-def _in_range(model, dof, low, high, settings, progress):
-    """On the basis from the mode nearest to the middle of the range; where its error is too large, on a refined one."""
-    sampler = Sampler(model, **window_options(low, high)).run(progress)
-    basis = Basis(model, sampler).build(progress)
-    found, told = _on_basis(basis, dof, low, high, settings, progress)
+def _in_range(model, dof, low, high, settings, progress, saved):
+    """On the basis from the mode nearest to the middle of the range, or the dominant one; where its error is too large, on a
+    refined one."""
+    def make():
+        return Basis(model, Sampler(model, **window_options(low, high)).run(progress)).build(progress)
+    basis = saved.basis(model, make) if saved else make()
+    found, told = _on_basis(basis, dof, low, high, settings, progress, saved)
     if not found.error <= settings["accuracy"] and _is_inside(found.frequency_hz, found.curve):
         with contextlib.suppress(PlmError):  # then the first answer stands, with its error
-            first = Hbm(basis, accuracy=settings["accuracy"], frequency_min_hz=low, frequency_max_hz=high)
+            first = _solver(basis, low, high, settings)
             refined = first.refine_basis(dof, settings["accuracy"], settings["measure"], progress=progress)
             better, of_better = _on_basis(refined.basis, dof, low, high, settings, progress)
             if better.error <= found.error or math.isnan(found.error):
@@ -118,13 +124,18 @@ def _is_inside(frequency_hz, curve):
     return curve.frequency_hz.min() < frequency_hz < curve.frequency_hz.max()
 
 
-def _on_basis(basis, dof, low, high, settings, progress):
+def _solver(basis, low, high, settings):
+    limits = {} if low is None else {"frequency_min_hz": low, "frequency_max_hz": high}
+    return Hbm(basis, accuracy=settings["accuracy"], **limits)
+
+
+def _on_basis(basis, dof, low, high, settings, progress, saved=None):
     """(Found of this basis between these frequencies, what the library warned of meanwhile)."""
     measure, error = settings["measure"], math.nan
     with warnings.catch_warnings(record=True) as issued:
         warnings.simplefilter("always")
-        hbm = Hbm(basis, accuracy=settings["accuracy"], frequency_min_hz=low, frequency_max_hz=high)
-        curve = hbm.sweep(progress)
+        hbm = _solver(basis, low, high, settings)
+        curve = saved.sweep(hbm, basis, progress) if saved else hbm.sweep(progress)
         peak = hbm.find_peak(curve, dof, measure, progress=progress)
         if peak.amplitude > 0 and _is_inside(peak.frequency_hz, curve):
             with contextlib.suppress(PlmError):

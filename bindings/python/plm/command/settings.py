@@ -50,6 +50,7 @@ SETTINGS = (
     Setting("accuracy", "accuracy", 1e-3, "SHARE", ("response", "study"), "relative error that the peak may have"),
     Setting("effort", "not_negative", None, "SECONDS", ("response", "study"), "work that a search may cost; 0: no limit; else 10"),
     Setting("threads", "count", 1, "N", ALL, "threads that the library may use"),
+    Setting("save_every", "count", None, "N", ("response",), "points after which the curve is written to --out, for plm resume"),
     Setting("frames", "count", 24, "N", ("response",), "files of the .vtu series over the period"),
     Setting("count", "count", 10, "N", ("modes",), "natural frequencies"),
     Setting("system", "words " + " ".join(SYSTEMS), "open", "SYSTEM", ("modes",),
@@ -65,7 +66,8 @@ BY_NAME = {setting.name: setting for setting in SETTINGS}
 
 
 def settings_of(command):
-    """Those that a command knows, in the order of the table."""
+    """Those that a command knows, in the order of the table; what goes on with a response knows what that does."""
+    command = "response" if command == "resume" else command
     return [setting for setting in SETTINGS if command in setting.commands]
 
 

@@ -1,0 +1,47 @@
+"""plm response --save-every and plm resume: a response that was stopped ends with the curve that it would have had."""
+import unittest
+import warnings
+
+import numpy
+import plm
+from command_case import Folder
+
+
+class Resumed(Folder):
+    def stop_after(self, points):
+        """The folder as a process that was killed leaves it."""
+        basis = plm.Basis.from_bytes((self.folder / "out/basis.plm").read_bytes(), plm.Context())
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            part = plm.Hbm(basis, accuracy=1e-3, max_points=points).sweep()
+        (self.folder / "out/curve.plm").write_bytes(part.to_bytes())
+        (self.folder / "out/response.csv").unlink()
+
+    def test_the_same_table_as_without_a_stop(self):
+        out = self.path("out")
+        said, _ = self.here("response", self.path("case.toml"), "--save-every", "5", "--out", out)
+        self.assertIn("basis.plm, curve.plm", said)
+        table = (self.folder / "out/response.csv").read_text().splitlines()
+        self.stop_after(13)
+        again, told = self.here("resume", self.path("case.toml"), "--out", out)
+        self.assertIn("has 13 points; the curve goes on", told)
+        self.assertEqual(again, said)
+        one, other = (numpy.loadtxt(text, delimiter=",", skiprows=1) for text in (table, self.folder / "out/response.csv"))
+        self.assertTrue(numpy.array_equal(one[:, 0], other[:, 0]))
+        self.assertLess(abs(one[:, 1] / other[:, 1] - 1).max(), 1e-10)  # extrema of what was read are found anew
+        self.assertIn("has the whole curve", self.here("resume", self.path("case.toml"), "--out", out)[1])
+
+    def test_mistakes(self):
+        case, out = self.path("case.toml"), self.path("out")
+        self.refused("resume needs --out", "resume", case)
+        self.refused("save_every needs --out", "response", case, "--save-every", "5")
+        self.refused("plm response --save-every", "resume", case, "--out", out)
+        self.refused("save_every is '0'", "response", case, "--save-every", "0", "--out", out)
+        self.here("response", case, "--save-every", "5", "--out", out)
+        self.stop_after(13)
+        self.refused("accuracy = 0.01", "resume", case, "--out", out, "--accuracy", "0.01", "--quiet")
+        self.refused("another one than the basis was made of", "resume", case, "--out", out, "--fix", "10", "x")
+
+
+if __name__ == "__main__":
+    unittest.main()
