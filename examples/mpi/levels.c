@@ -1,5 +1,6 @@
-/* levels.c: force levels shared out over the ranks of an MPI program. Rank 0 makes the basis, its bytes go to the others by
- * the host's own broadcast, and every rank follows the curves of its levels. libplm knows nothing of MPI.
+/* levels.c: force levels shared out over the ranks of an MPI program. Rank 0 makes the basis, its bytes go to
+ * the others by the host's own broadcast, and every rank follows the curves of its levels. libplm knows
+ * nothing of MPI.
  *
  *     mpirun -n 4 levels [scene] [quick|paper]
  */
@@ -16,7 +17,8 @@ typedef struct curve {
     double force_scale, hz, amplitude, points;
 } curve;
 
-/* As must(); but what a basis of bytes cannot be asked is no news: it has no structure to compare its curves with. */
+/* As must(); but what a basis of bytes cannot be asked is no news: it has no structure to compare its curves
+ * with. */
 static void computed(plm_context *ctx, plm_status status, const char *what) {
     int32_t reason = PLM_REASON_NONE;
     plm_context_get_error_info(ctx, NULL, &reason, NULL, NULL);
@@ -30,7 +32,9 @@ static char *make_basis(plm_context *ctx, const scene *s, int64_t *n) {
     plm_basis *basis = NULL;
     must(ctx, scene_to_model(ctx, s, &model), "model");
     must(ctx, plm_sampler_create(model, &sampler), "sampler");
-    must(ctx, plm_sampler_set_string(sampler, "system", s->dominant_system == SCENE_OPEN ? "open" : "sliding"), "system");
+    must(ctx,
+         plm_sampler_set_string(sampler, "system", s->dominant_system == SCENE_OPEN ? "open" : "sliding"),
+         "system");
     must(ctx, plm_sampler_set_int(sampler, "mode", s->dominant_mode), "mode");
     must(ctx, plm_sampler_run(sampler), "sampler");
     must(ctx, plm_basis_create(model, &basis), "basis");
@@ -46,7 +50,8 @@ static char *make_basis(plm_context *ctx, const scene *s, int64_t *n) {
 static void broadcast(char *bytes, int64_t n) {
     for (int64_t done = 0; done < n; done += LARGEST_MESSAGE) {
         const int64_t left = n - done;
-        MPI_Bcast(bytes + done, (int)(left < LARGEST_MESSAGE ? left : LARGEST_MESSAGE), MPI_BYTE, 0, MPI_COMM_WORLD);
+        MPI_Bcast(bytes + done, (int)(left < LARGEST_MESSAGE ? left : LARGEST_MESSAGE), MPI_BYTE, 0,
+                  MPI_COMM_WORLD);
     }
 }
 
@@ -59,7 +64,8 @@ static curve follow(plm_context *ctx, plm_basis *basis, int64_t dof, double forc
     must(ctx, plm_hbm_create(basis, &hbm), "hbm");
     must(ctx, plm_hbm_set_double(hbm, "force_scale", force_scale), "force_scale");
     computed(ctx, plm_hbm_sweep(hbm, &branch), "sweep");
-    computed(ctx, plm_hbm_find_peak(hbm, branch, dof, PLM_HALF_PEAK_TO_PEAK, 0, &c.hz, &c.amplitude, NULL), "peak");
+    computed(ctx, plm_hbm_find_peak(hbm, branch, dof, PLM_HALF_PEAK_TO_PEAK, 0, &c.hz, &c.amplitude, NULL),
+             "peak");
     must(ctx, plm_branch_get_int(branch, "n_points", &points), "points");
     c.points = (double)points;
     plm_hbm_destroy(&hbm);
@@ -80,7 +86,8 @@ int main(int argc, char **argv) {
     if (plm_context_create(PLM_API_VERSION, &ctx) < 0) MPI_Abort(MPI_COMM_WORLD, 1);
     if (rank == 0) {
         scene *s = NULL;
-        if (scene_create(argc > 1 ? argv[1] : "cracked_plate", argc > 2 ? argv[2] : "quick", 1, &s)) MPI_Abort(MPI_COMM_WORLD, 1);
+        if (scene_create(argc > 1 ? argv[1] : "cracked_plate", argc > 2 ? argv[2] : "quick", 1, &s))
+            MPI_Abort(MPI_COMM_WORLD, 1);
         bytes = make_basis(ctx, s, &head[0]);
         head[1] = s->output_dof;
         plm_context_destroy(&ctx); /* the model has borrowed the scene's matrices */
@@ -102,7 +109,8 @@ int main(int argc, char **argv) {
     if (rank == 0) {
         printf("basis: %lld bytes\nforce scale  peak (Hz)    amplitude      points\n", (long long)head[0]);
         for (int level = 0; level < LEVELS; level++)
-            printf("%11.2f  %11.6f  %13.8g  %6.0f\n", all[level].force_scale, all[level].hz, all[level].amplitude, all[level].points);
+            printf("%11.2f  %11.6f  %13.8g  %6.0f\n", all[level].force_scale, all[level].hz,
+                   all[level].amplitude, all[level].points);
     }
     plm_context_destroy(&ctx);
     MPI_Finalize();

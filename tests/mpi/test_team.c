@@ -1,5 +1,5 @@
-/* A scene whose entries, supports, contact rows and loads are dealt out over the ranks, against the same scene as a model of
- * one process: modes, equilibrium and peak. Then misuse. */
+/* A scene whose entries, supports, contact rows and loads are dealt out over the ranks, against the same
+ * scene as a model of one process: modes, equilibrium and peak. Then misuse. */
 #include <math.h>
 #include <mpi.h>
 #include <stdio.h>
@@ -46,13 +46,17 @@ static plm_status hand_over(plm_team *team, const scene *s) {
         const int64_t first = s->col_ptr[c], n = s->col_ptr[c + 1] - first;
         int64_t *column = malloc((size_t)n * sizeof *column);
         for (int64_t k = 0; k < n; k++) column[k] = c;
-        status = plm_team_add_entries_i64(team, PLM_MASS, PLM_FULL, 0, n, s->row + first, column, s->m + first);
-        if (!status) status = plm_team_add_entries_i64(team, PLM_STIFFNESS, PLM_FULL, 0, n, s->row + first, column, s->k + first);
+        status =
+            plm_team_add_entries_i64(team, PLM_MASS, PLM_FULL, 0, n, s->row + first, column, s->m + first);
+        if (!status)
+            status = plm_team_add_entries_i64(team, PLM_STIFFNESS, PLM_FULL, 0, n, s->row + first, column,
+                                              s->k + first);
         free(column);
     }
     for (int64_t k = 0; k < s->n_fixed && !status; k++)
         if (draw(k, size) == rank) status = plm_team_fix_dofs_i64(team, 0, 1, s->fixed + k);
-    for (int64_t p = 0; p < s->n_pairs && !status; p++) { /* in order, so that they have the numbers of the scene */
+    for (int64_t p = 0; p < s->n_pairs && !status;
+         p++) { /* in order, so that they have the numbers of the scene */
         if (p * size / s->n_pairs != rank) continue;
         int64_t dof[6], ptr[2] = {0, 3};
         double coefficient[6];
@@ -61,12 +65,15 @@ static plm_status hand_over(plm_team *team, const scene *s) {
             if (s->dof_b[0] == SCENE_NO_DOF) continue;
             dof[3 + i] = s->dof_b[3 * p + i], coefficient[3 + i] = -s->normal[3 * p + i], ptr[1] = 6;
         }
-        status = plm_team_add_gap_rows_i64(team, 0, 1, ptr, dof, coefficient, s->contact_stiffness + p, s->gap + p);
+        status = plm_team_add_gap_rows_i64(team, 0, 1, ptr, dof, coefficient, s->contact_stiffness + p,
+                                           s->gap + p);
     }
     for (int64_t k = 0; k < s->n_dof && !status; k++) {
         if (draw(k + 9, size) != rank) continue;
-        if (s->preload && s->preload[k] != 0) status = plm_team_add_preload_i64(team, 0, 1, &k, s->preload + k);
-        if (!status && s->force[k] != 0) status = plm_team_add_excitation_i64(team, 1, 0, 1, &k, s->force + k, NULL);
+        if (s->preload && s->preload[k] != 0)
+            status = plm_team_add_preload_i64(team, 0, 1, &k, s->preload + k);
+        if (!status && s->force[k] != 0)
+            status = plm_team_add_excitation_i64(team, 1, 0, 1, &k, s->force + k, NULL);
     }
     return status;
 }
@@ -78,7 +85,8 @@ static plm_status compute(plm_model *model, const scene *s, results *r) {
     if (status < 0) return status;
     status = plm_model_get_modes(model, 0, NULL, MODES, r->hz, NULL);
     if (status < 0) return status;
-    status = plm_model_compute_response(model, s->output_dof, PLM_HALF_PEAK_TO_PEAK, 1e-3, &r->peak[0], &r->peak[1], NULL, &curve, &hbm);
+    status = plm_model_compute_response(model, s->output_dof, PLM_HALF_PEAK_TO_PEAK, 1e-3, &r->peak[0],
+                                        &r->peak[1], NULL, &curve, &hbm);
     if (status < 0) return status;
     r->field = calloc((size_t)s->n_dof, sizeof *r->field);
     return plm_branch_get_field(curve, 0, 0.25, s->n_dof, r->field);
@@ -148,7 +156,8 @@ static void scene_over_ranks(const char *name) {
     }
     double all[2] = {0, 0}, here[2] = {(double)mine.n, mine.sum};
     MPI_Reduce(here, all, 2, MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
-    if (rank == 0) expect((int64_t)all[0] == s->n_dof && all[1] != 0, "every DOF of a field is delivered once");
+    if (rank == 0)
+        expect((int64_t)all[0] == s->n_dof && all[1] != 0, "every DOF of a field is delivered once");
     expect(!plm_team_destroy(&team) && !team, "plm_team_destroy");
     scene_destroy(&s);
 }
@@ -189,21 +198,29 @@ static void misuse(void) {
     const int64_t both[2] = {0, 1}, one = 0, outside = 2, two[2] = {1, 1};
     const double nan_value = NAN, values[2] = {1, 2};
     plm_team *team = NULL, *stale;
-    expect(plm_team_create(MPI_Comm_c2f(MPI_COMM_WORLD), rank == size - 1 ? 0 : 2, &team) == PLM_ERR_ARGUMENT && !team, "n_dof");
+    expect(plm_team_create(MPI_Comm_c2f(MPI_COMM_WORLD), rank == size - 1 ? 0 : 2, &team) ==
+                   PLM_ERR_ARGUMENT &&
+               !team,
+           "n_dof");
     expect(text_has(NULL, "n_dof"), "the text");
     if (size > 1) {
-        expect(plm_team_create(MPI_Comm_c2f(MPI_COMM_WORLD), 2 + rank, &team) == PLM_ERR_ARGUMENT, "n_dof differs");
+        expect(plm_team_create(MPI_Comm_c2f(MPI_COMM_WORLD), 2 + rank, &team) == PLM_ERR_ARGUMENT,
+               "n_dof differs");
         expect(text_has(NULL, "not the same"), "the text");
     }
     team = two_dofs();
-    expect(plm_team_own_dofs_i64(team, 2, 1, &one) == PLM_ERR_ARGUMENT && text_has(team, "index_base"), "index_base");
+    expect(plm_team_own_dofs_i64(team, 2, 1, &one) == PLM_ERR_ARGUMENT && text_has(team, "index_base"),
+           "index_base");
     all_have(team, PLM_ERR_ARGUMENT, "index_base");
     team = two_dofs();
-    if (rank == size - 1) expect(plm_team_own_dofs_i64(team, 0, 1, &outside) == PLM_ERR_ARGUMENT, "a DOF outside");
+    if (rank == size - 1)
+        expect(plm_team_own_dofs_i64(team, 0, 1, &outside) == PLM_ERR_ARGUMENT, "a DOF outside");
     all_have(team, PLM_ERR_ARGUMENT, "dof[0] is 2");
     team = two_dofs();
     if (rank == size - 1)
-        expect(plm_team_add_entries_i64(team, PLM_MASS, PLM_FULL, 0, 1, &one, &one, &nan_value) == PLM_ERR_MATRIX, "NaN");
+        expect(plm_team_add_entries_i64(team, PLM_MASS, PLM_FULL, 0, 1, &one, &one, &nan_value) ==
+                   PLM_ERR_MATRIX,
+               "NaN");
     all_have(team, PLM_ERR_MATRIX, "not finite");
     team = two_dofs();
     if (rank == 0) plm_team_own_dofs_i64(team, 0, 1, &one);
@@ -223,8 +240,11 @@ static void misuse(void) {
     expect(plm_team_own_dofs_i64(stale, 0, 2, both) == PLM_ERR_HANDLE, "a stale handle");
     expect(plm_team_create_model(stale, NULL, NULL) == PLM_ERR_HANDLE, "a stale handle");
     team = two_dofs();
-    if (rank == 0) expect(plm_team_serve(team) == PLM_ERR_STATE && text_has(team, "rank 0"), "rank 0 does not serve");
-    else expect(plm_team_dismiss(team, 0) == PLM_ERR_STATE && text_has(team, "rank 0 alone"), "rank 0 alone dismisses");
+    if (rank == 0)
+        expect(plm_team_serve(team) == PLM_ERR_STATE && text_has(team, "rank 0"), "rank 0 does not serve");
+    else
+        expect(plm_team_dismiss(team, 0) == PLM_ERR_STATE && text_has(team, "rank 0 alone"),
+               "rank 0 alone dismisses");
     expect(!plm_team_destroy(&team), "plm_team_destroy");
 }
 
@@ -233,8 +253,10 @@ int main(int argc, char **argv) {
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
-    if (argc > 1) scene_over_ranks(argv[1]);
-    else misuse();
+    if (argc > 1)
+        scene_over_ranks(argv[1]);
+    else
+        misuse();
     MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
     if (rank == 0) printf("%d failures\n", all);
     MPI_Finalize();
