@@ -12,12 +12,15 @@ using namespace plm::mpi;
 
 namespace {
 
+static_assert(static_cast<std::int32_t>(Operation::end) == PLM_TALL_END);
+static_assert(static_cast<std::int32_t>(Operation::factor) == PLM_TALL_FACTOR);
+static_assert(static_cast<std::int32_t>(Operation::diagonal) == PLM_TALL_DIAGONAL);
+static_assert(status::matrix == PLM_ERR_MATRIX && status::callback == PLM_ERR_CALLBACK);
+
 struct Handle {
     Service service;
     std::string error;
     plm_context *context = nullptr; // rank 0: of the model
-    plm_team_field_fn field = nullptr;
-    void *field_user = nullptr;
 };
 
 /// Live teams by the number that their handles are: a stale one is recognised, and never dereferenced.
