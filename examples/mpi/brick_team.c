@@ -88,7 +88,7 @@ static plm_status hand_over(plm_team *team, int rank, int size) {
             const int64_t left = 3 * node_of(nx, nx / 2, y, z, 0), right = 3 * node_of(nx, nx / 2, y, z, 1);
             const int64_t pair[2] = {left, right}, ptr[2] = {0, 2},
                           other_face = 3 * ((nx + 1) * NODES + y * (NZ + 1) + z);
-            const double normal[2] = {1, -1}, stiffness = 1e6, gap = 0;
+            const double normal[2] = {1, -1}, stiffness = 1e5, gap = 0;
             if (left != right)
                 status = plm_team_add_gap_rows_i64(team, 0, 1, ptr, pair, normal, &stiffness, &gap);
             for (int64_t i = 0; i < 3 && left == right && !status;
@@ -104,7 +104,7 @@ static plm_status hand_over(plm_team *team, int rank, int size) {
 static plm_status find_peak(plm_team *team, plm_context *ctx, double peak[2]) {
     plm_model *model = NULL;
     plm_status status = plm_team_create_model(team, ctx, &model); /* from here on the serial program */
-    if (!status) status = plm_model_set_rayleigh_damping(model, 0, 2e-6);
+    if (!status) status = plm_model_set_rayleigh_damping(model, 0, 1e-5);
     if (!status) status = plm_model_build(model);
     if (status >= 0)
         status = plm_model_compute_response(model, (nx + 1) * CRACK - 1, PLM_HALF_PEAK_TO_PEAK, 1e-3,
