@@ -1,0 +1,115 @@
+// M, K and C by rows: each rank has those it owns, summed over all that the ranks assembled.
+#pragma once
+#include "mpi/exchange.hpp"
+#include <array>
+#include <cmath>
+
+namespace plm::mpi {
+
+/// m M + k K + c C.
+struct Weights {
+    double m = 0, k = 0, c = 0;
+};
+
+/// Part of an entry in the lower triangle, as one rank assembled it. Where a host gives both triangles each
+/// half counts half, and `skew` holds half their difference, which must sum up to nothing.
+struct Entry {
+    std::int64_t row, col;
+    double value, skew;
+};
+
+/// What the ranks handed over: entries of M, K, C; supports, perhaps of DOFs of other ranks.
+struct MatrixParts {
+    std::array<std::vector<Entry>, 3> entries;
+    std::vector<std::int64_t> fixed;
+    bool has_damping = false;
+};
+
+/// A sum with twice the digits: the rounded number and what rounding left of it.
+struct Exact {
+    double high = 0, low = 0;
+    void add(double x) {
+        const double s = high + x, part = s - high;
+        low += (high - (s - part)) + (x - part);
+        high = s;
+    }
+    void add_product(double a, double b) {
+        const double p = a * b;
+        low += std::fma(a, b, -p);
+        add(p);
+    }
+};
+
+class Matrices {
+  public:
+    Matrices() = default;
+    /// Collective.
+    Matrices(Team &team, const Rows &rows, const MatrixParts &parts);
+
+    std::int64_t rows() const { return static_cast<std::int64_t>(fixed_.size()); }
+    /// A support: the row and column are empty, and every tall column is zero there.
+    bool fixed(std::int64_t row) const { return fixed_[static_cast<std::size_t>(row)] != 0; }
+    bool has_damping() const { return has_damping_; }
+
+    double diagonal(std::int64_t row, const Weights &w) const;
+    bool row_of_stiffness_is_empty(std::int64_t row) const;
+    /// Largest absolute entry of this rank's rows.
+    double largest(const Weights &w) const;
+    /// Entries of the lower triangle in the rows of this rank: visit(row, column, value), DOFs base 0.
+    template <class Visit> void lower_entries(const Rows &rows, const Weights &w, Visit visit) const {
+        for (std::int64_t i = 0; i < this->rows(); ++i) {
+            const std::int64_t dof = rows.owned()[static_cast<std::size_t>(i)];
+            for (std::size_t p = start_[static_cast<std::size_t>(i)];
+                 p < start_[static_cast<std::size_t>(i) + 1]; ++p)
+                if (column_dof(rows, column_[p]) <= dof)
+                    visit(dof, column_dof(rows, column_[p]), entry(p, w));
+        }
+    }
+    std::int64_t entries_here() const { return static_cast<std::int64_t>(column_.size()); }
+
+    /// Collective, cannot fail for want of memory; cols at most Exchange::width. X = A Y.
+    void apply(Team &team, const Weights &w, std::int64_t cols, const double *y, std::int64_t ld_y, double *x,
+               std::int64_t ld_x);
+    /// Collective; sums over this rank's rows. Of each column x' A x in two numbers, high and low, with twice
+    /// the digits, and |x|' |A| |x|: 3 numbers a column.
+    void energy(Team &team, const Weights &w, std::int64_t cols, const double *x, std::int64_t ld,
+                double *sums);
+    /// Collective; sums over this rank's rows of max(0, |K x - lambda y| - rounding |K| |x|)^2.
+    void residual(Team &team, double rounding, std::int64_t cols, const double *x, const double *y,
+                  std::int64_t ld_x, std::int64_t ld_y, const double *lambda, double *squares);
+
+  private:
+    struct Element {
+        std::int64_t row, col;
+        double value[3], skew[3];
+    };
+    std::vector<Element> gather(Team &team, const Rows &rows, const MatrixParts &parts);
+    void require_symmetric(Team &team, const std::vector<Element> &elements) const;
+    void take_supports(Team &team, const Rows &rows, const std::vector<std::int64_t> &fixed);
+    void find_ghosts(Team &team, const Rows &rows, const std::vector<Element> &elements);
+    void store(const Rows &rows, const std::vector<Element> &elements);
+
+    double entry(std::size_t p, const Weights &w) const {
+        return w.m * value_[0][p] + w.k * value_[1][p] + (w.c != 0 ? w.c * value_[2][p] : 0);
+    }
+    std::int64_t column_dof(const Rows &rows, std::int64_t column) const {
+        return column < this->rows() ? rows.owned()[static_cast<std::size_t>(column)]
+                                     : ghosts_[static_cast<std::size_t>(column - this->rows())];
+    }
+    /// Value of a column's entry, own or of another rank.
+    const double &of(const double *y, std::int64_t ld, std::int64_t column, std::int64_t j) const {
+        return column < rows() ? y[column + j * ld] : ghost_[column - rows() + j * ghost_rows()];
+    }
+    std::int64_t ghost_rows() const { return static_cast<std::int64_t>(ghosts_.size()); }
+
+    bool has_damping_ = false;
+    std::vector<char> fixed_;
+    std::vector<std::int64_t> ghosts_; // DOFs of other ranks that rows here refer to, ascending
+    std::vector<double> ghost_;        // their values, Exchange::width columns
+    Exchange halo_;
+    std::vector<std::size_t> start_;
+    std::vector<std::int64_t> column_; // local row, or rows() + place among the ghosts
+    std::array<std::vector<double>, 3> value_;
+};
+
+} // namespace plm::mpi
