@@ -82,6 +82,23 @@ module plm_constants
     integer(c_int32_t), parameter :: PLM_MASS = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_STIFFNESS = 2_c_int32_t
     integer(c_int32_t), parameter :: PLM_DAMPING = 3_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_END = 0_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_FREE = 1_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_FACTS = 2_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_FILL = 3_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_COPY = 4_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_COMBINE = 5_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_GRAM = 6_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_APPLY = 7_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_FACTOR = 8_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_SOLVE = 9_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_RESPONSES = 10_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_ROWS = 11_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_SET_ROWS = 12_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_LOOK = 13_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_ENERGY = 14_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_RESIDUAL = 15_c_int32_t
+    integer(c_int32_t), parameter :: PLM_TALL_DIAGONAL = 16_c_int32_t
     integer(c_int32_t), parameter :: PLM_CSC = 1_c_int32_t
     integer(c_int32_t), parameter :: PLM_TRIPLETS = 2_c_int32_t
     integer(c_int32_t), parameter :: PLM_CSR = 3_c_int32_t
@@ -199,6 +216,18 @@ module plm_c
             type(c_ptr), value :: user
             integer(c_int32_t) :: code
         end function plm_recover_fn
+        function plm_tall_fn(ctx, operation, number, factor, small_in, small_out, user) bind(c) result(code)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: ctx
+            integer(c_int32_t), value :: operation
+            integer(c_int64_t), intent(in), optional :: number(*)
+            real(c_double), intent(in), optional :: factor(*)
+            real(c_double), intent(in), optional :: small_in(*)
+            real(c_double), intent(inout), optional :: small_out(*)
+            type(c_ptr), value :: user
+            integer(c_int32_t) :: code
+        end function plm_tall_fn
     end interface
 
     interface
@@ -610,6 +639,14 @@ module plm_c
             integer(c_int64_t), intent(in) :: dof(*)
             integer(plm_status) :: code
         end function plm_model_set_multipliers_i64
+        function plm_model_set_tall_operations(model, fn, user) bind(c) result(code)
+            import :: c_funptr, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: model
+            type(c_funptr), value :: fn
+            type(c_ptr), value :: user
+            integer(plm_status) :: code
+        end function plm_model_set_tall_operations
         function plm_model_set_elimination_order_i32(model, index_base, n, dof) bind(c) result(code)
             import :: c_int32_t, c_int64_t, c_ptr, plm_status
             implicit none

@@ -1,5 +1,7 @@
 /* model.c: from matrices to a built model, and what can be asked of it. */
 #include "example.h"
+#include "tall_host.h"
+#include <math.h>
 #include <stdio.h>
 
 /* the same two masses again and again, in every way to hand things over */
@@ -297,6 +299,25 @@ static int superelement(plm_context *ctx) {
     return 0;
 }
 
+/* A host that keeps matrices, vectors and factors to itself: tall_operation() of examples/c/tall_host.c does
+ * all operations on its own arrays. */
+static int behind_operations(plm_context *ctx) {
+    static const double m[] = {1, 0, 0, 1}, k[] = {20000, -10000, -10000, 10000};
+    static tall_host host;
+    plm_model *model = NULL;
+    TRY(plm_model_create(ctx, 2, &model));
+    /* [plm_model_set_tall_operations] */
+    host.n = 2, host.m = m, host.k = k, host.ctx = ctx;
+    TRY(plm_model_set_tall_operations(model, tall_operation,
+                                      &host)); /* host must live as long as the model */
+    TRY(plm_model_build(model));               /* with no matrix in the library */
+    /* [plm_model_set_tall_operations] */
+    double hz[2];
+    TRY(plm_model_get_modes(model, PLM_SYSTEM_OPEN, NULL, 2, hz, NULL));
+    EXPECT(fabs(hz[0] - 9.8363) < 1e-3); /* sqrt(1e4 (3 - sqrt 5) / 2) / 2 pi */
+    return 0;
+}
+
 static int loads_and_options(plm_model *model) {
     /* [plm_model_set_preload] */
     const double pressing[] = {0, 3};
@@ -420,6 +441,7 @@ int example(plm_context *ctx) {
     if (!line) line = contacts(ctx);
     if (!line) line = couplings(ctx);
     if (!line) line = superelement(ctx);
+    if (!line) line = behind_operations(ctx);
     if (!line) line = whole_way(ctx);
     if (line) return line;
     TRY(start_model(ctx, &model));

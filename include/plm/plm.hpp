@@ -851,6 +851,10 @@ class Model : public detail::WithOptions<Model, plm_model> {
     void set_rest_force(Reals force) {
         check(plm_model_set_rest_force(handle_, force.size(), force.data()), "set_rest_force");
     }
+    /// The host's operations in place of matrices; fn must not throw; nullptr removes it.
+    void set_tall_operations(plm_tall_fn fn, void *user) {
+        check(plm_model_set_tall_operations(handle_, fn, user), "set_tall_operations");
+    }
     /// DOFs of the matrices that are Lagrange multipliers: their rows of K become constraints.
     void set_multipliers(Indices dof, std::int32_t index_base = 0) {
         check(dof.is_wide() ? plm_model_set_multipliers_i64(handle_, index_base, dof.size(), dof.wide())

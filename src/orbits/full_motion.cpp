@@ -69,8 +69,8 @@ const FullState &FullMotion::present() {
 }
 
 void FullMotion::set_state(const double *q, const double *v) {
-    FullState state{q ? model_->restricted(q) : Field(size(), 1),
-                    v ? model_->restricted(v) : Field(size(), 1), 0};
+    FullState state{q ? model_->restricted(q) : model_->zeros(1),
+                    v ? model_->restricted(v) : model_->zeros(1), 0};
     state_ = std::move(state);
     restart_clock();
 }

@@ -90,8 +90,7 @@ void Newmark::find_flexibility() {
 }
 
 FullState rest_state(const std::shared_ptr<const Model> &model, Watch watch) {
-    const std::int64_t n = model->n_free();
-    FullState state{Field(n, 1), Field(n, 1), 0};
+    FullState state{model->zeros(1), model->zeros(1), 0};
     if (model->has_preload() || model->contact().has_interference())
         state.q = rest_of(model, watch)->displacement;
     return state;
@@ -130,7 +129,7 @@ void Newmark::start(const FullState &state) {
         refuse("start", format("the first state needs %lld finite displacements and velocities (free DOFs)",
                                static_cast<long long>(n)));
     state_ = state;
-    for (Field *x : {&a_, &rest_force_, &q_, &v_, &load_, &work_}) *x = Field(n, 1);
+    for (Field *x : {&a_, &rest_force_, &q_, &v_, &load_, &work_}) *x = model_->zeros(1);
     contact_force_.assign(z, 0.0);
     const Matrix u = model_->gap_rows().of(state_.q);
     u_free_.assign(u.data(), u.data() + z);

@@ -32,7 +32,7 @@ template <class Apply> Matrix projection(const Field &t, Apply apply, Watch watc
 
 // T Y.
 Field combined(const Field &t, const Matrix &y, Watch watch) {
-    Field out(t.rows(), y.cols());
+    Field out = t.zeros(y.cols());
     for (std::int64_t first = 0; first < y.cols(); first += column_block) {
         watch.step("Craig-Bampton", 0.9);
         out.put(first, combine(t, y.columns(first, std::min(column_block, y.cols() - first))));

@@ -58,7 +58,7 @@ constexpr double negligible = 1e-9;    // energy of a further vector beside that
 AttachmentBasis::AttachmentBasis(std::shared_ptr<const Structure> structure,
                                  std::shared_ptr<const StaticResponses> responses, double reach)
     : structure_(std::move(structure)), responses_(std::move(responses)), forces_(*structure_), reach_(reach),
-      frontier_(structure_->n_free(), 0), further_(structure_->n_free(), 0) {
+      frontier_(structure_->zeros(0)), further_(structure_->zeros(0)) {
     const std::int64_t n = forces_.count();
     works_ = coupling_ = Matrix(n, 0);
     orthonormalise_responses();

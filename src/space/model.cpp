@@ -111,7 +111,7 @@ std::shared_ptr<const ExactModes> Model::modes_at_hand(Watch watch) const {
     } catch (const Error &e) {
         if (e.status() != status::eigensolver) throw;
         StructureModes rigid{vector<double>(n_rigid(), 0.0), rigid_modes(), nullptr};
-        if (n_rigid() == 0) rigid.vectors = Field(n_free(), 0);
+        if (n_rigid() == 0) rigid.vectors = zeros(0);
         return std::make_shared<const ExactModes>(exact_modes(*this, std::move(rigid), false));
     }
 }

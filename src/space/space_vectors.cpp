@@ -23,7 +23,7 @@ bool has_responses(const SpaceVectors::Parts &p) {
 }
 
 Field recover_some(const SpaceVectors::Parts &p, const Matrix &y) {
-    Field x(p.further->rows(), y.cols());
+    Field x = p.further->zeros(y.cols());
     if (has_responses(p)) {
         x = ActingForces(*p.structure).combine(product('N', 'N', p.of_responses, y));
         p.modes->take_from_forces(x);
@@ -36,7 +36,7 @@ Field recover_some(const SpaceVectors::Parts &p, const Matrix &y) {
 
 Field recover(const SpaceVectors::Parts &p, const Matrix &y) {
     if (y.cols() <= solved_at_once) return recover_some(p, y);
-    Field x(p.further->rows(), y.cols());
+    Field x = p.further->zeros(y.cols());
     for (std::int64_t first = 0; first < y.cols(); first += solved_at_once)
         x.put(first, recover_some(p, y.columns(first, std::min(solved_at_once, y.cols() - first))));
     return x;
@@ -149,20 +149,17 @@ vector<double> SpaceVectors::row(const DofTerms &sum) const {
         if (known != recovered_->rows.end()) return known->second;
     }
     if (worth_forming(1)) return formed().row(sum);
-    Matrix unit(rows(), 1);
-    for (const DofTerm &t : sum) unit(t.dof, 0) += t.coefficient;
-    const Matrix found = products_with(parts_, Field(std::move(unit)));
+    const Matrix found = products_with(parts_, parts_.further->sums({sum}));
     vector<double> entries(found.data(), found.data() + found.rows());
     if (recovered_ && !recovered_->all) recovered_->rows[sum] = entries;
     return entries;
 }
 
 Matrix SpaceVectors::rows_at(const vector<std::int64_t> &chosen) const {
-    const std::int64_t count = static_cast<std::int64_t>(chosen.size());
-    if (worth_forming(count)) return formed().rows_at(chosen);
-    Matrix units(rows(), count);
-    for (std::int64_t k = 0; k < count; ++k) units(chosen[k], k) = 1;
-    return products_with(parts_, Field(std::move(units))).transposed();
+    if (worth_forming(static_cast<std::int64_t>(chosen.size()))) return formed().rows_at(chosen);
+    std::vector<DofTerms> units;
+    for (std::int64_t dof : chosen) units.push_back({{dof, 1.0}});
+    return products_with(parts_, parts_.further->sums(units)).transposed();
 }
 
 Field combine(const SpaceVectors &v, const Matrix &y) {

@@ -23,7 +23,7 @@ class Spaceless::Equations final : public RestEquations {
   public:
     explicit Equations(Spaceless &owner)
         : owner_(owner), model_(*owner.model_), contact_(model_.rest_forces().without_them(model_.contact())),
-          load_(load()), q_(model_.n_free(), 1), d_(model_.n_free(), 1) {}
+          load_(load()), q_(model_.zeros(1)), d_(model_.zeros(1)) {}
 
     vector<double> penetration() const override {
         vector<double> u(static_cast<std::size_t>(model_.n_pairs()));
@@ -170,7 +170,7 @@ std::unique_ptr<Spaceless> Spaceless::if_worth(std::shared_ptr<const Model> mode
 std::shared_ptr<const RestState> Spaceless::rest() {
     auto rest = std::make_shared<RestState>();
     rest->penetration = model_->contact().unloaded_penetration();
-    rest->displacement = Field(model_->n_free(), 1);
+    rest->displacement = model_->zeros(1);
     if (is_loaded_at_rest(*model_)) {
         watch_.step("rest", 0.0);
         Equations equations(*this);

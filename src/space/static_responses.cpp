@@ -64,7 +64,7 @@ bool has_lost_digits(const Matrix &before, const Matrix &after) {
 
 ActingForces::ActingForces(const Structure &structure)
     : structure_(structure),
-      loads_(load_columns(structure.preload(), structure.excitation(), structure.n_free())) {}
+      loads_(load_columns(structure.preload(), structure.excitation(), structure.zeros(0))) {}
 
 Field ActingForces::combine(const Matrix &t) const {
     const std::int64_t contact = n_contact(), loads = loads_.cols();

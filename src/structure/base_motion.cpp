@@ -135,30 +135,27 @@ void BaseMotion::act(Through which, const SparseMatrix &all, const DofMap &dofs)
     through_[which] = Field(std::move(free));
 }
 
-void BaseMotion::follow(const Factor &factor) {
+void BaseMotion::follow(const TallFactor &factor) {
     lift_ = through_[stiffness];
     lift_.scale(vector<double>(static_cast<std::size_t>(columns()), -1.0));
-    factor.solve(lift_.in_core());
+    factor.solve(lift_);
 }
 
 void BaseMotion::add_forces(const Matrices &m, HarmonicForces &excitation) const {
-    const auto times = [](const SparseMatrix &a, const Field &x) {
-        return Field(multiply_transposed(a, x.in_core()));
-    };
     vector<double> size(static_cast<std::size_t>(columns()), 0.0), of_loss(size), of_rest(size);
     Field inertia(lift_.rows(), columns()), loss(inertia), rest(inertia);
-    add_term(1, times(m.mass, lift_), inertia, size);
+    add_term(1, m.structure.mass().times(lift_), inertia, size);
     add_term(1, through_[mass], inertia, size);
     clear_rounding(size, inertia);
     if (m.shift > 0) { // it followed a structure that is held a little
-        add_term(1, times(m.stiffness, lift_), rest, of_rest);
+        add_term(1, m.structure.stiffness().times(lift_), rest, of_rest);
         add_term(1, through_[stiffness], rest, of_rest);
         clear_rounding(of_rest, rest);
     }
     add_term(m.alpha, inertia, loss, of_loss);
     add_term(m.beta, rest, loss, of_loss);
     if (!through_[damping].empty()) {
-        add_term(1, times(m.damping, lift_), loss, of_loss);
+        add_term(1, m.structure.damping()->times(lift_), loss, of_loss);
         add_term(1, through_[damping], loss, of_loss);
     }
     clear_rounding(of_loss, loss);
@@ -196,7 +193,7 @@ std::vector<RowMotion> BaseMotion::row_motions(std::int64_t n_rows, const vector
         bool moves = false;
         for (std::int64_t c = 0; c < 2; ++c) {
             const std::int64_t column = 2 * static_cast<std::int64_t>(k) + c;
-            dofs.expand(lift_.in_core().col(column), all.data());
+            dofs.expand(lift_.column(column).data(), all.data());
             for (std::size_t i = 0; i < all.size(); ++i)
                 all[i] += moved_(static_cast<std::int64_t>(i), column);
             const double largest = largest_of(all.data(), dofs.n_dof()); // a term may be rounding as a whole

@@ -2,7 +2,6 @@
 #pragma once
 #include "structure/dof_map.hpp"
 #include "structure/loads.hpp"
-#include "structure/solver/factor.hpp"
 #include <complex>
 
 namespace plm {
@@ -42,11 +41,10 @@ class BaseMotion {
     void mark_driven(vector<char> &moves) const;
 
     /// Once the stiffness has acted: L U by the factor of K and shift times M, before what follows is asked.
-    void follow(const Factor &factor);
-    /// The matrices on the free DOFs, damping 0 x 0 where there is none; C = alpha M + beta K + damping, K (1
-    /// + i structural).
+    void follow(const TallFactor &factor);
+    /// C = alpha M + beta K + damping, K (1 + i structural).
     struct Matrices {
-        const SparseMatrix &mass, &stiffness, &damping;
+        const Tall &structure;
         double shift, alpha, beta, structural;
     };
     void add_forces(const Matrices &m, HarmonicForces &excitation) const;

@@ -13,22 +13,20 @@ class Combination {
   public:
     Combination(const Structure &structure, MatrixWeights coefficients);
 
-    bool is_zero() const { return sum_.rows == 0; }
-    /// y = A x, one column.
-    void apply(const Field &x, Field &y) const {
-        multiply_transposed(sum_, x.in_core().data(), y.in_core().data());
-    }
+    bool is_zero() const { return !sum_; }
+    /// Y = A X, both of one column.
+    void apply(const Field &x, Field &y) const { sum_->times(x, y); }
     /// PLM_ERR_NOT_POSITIVE_DEFINITE where it is not.
-    void factor();
+    void factor() { factor_ = sum_->factor(solver_); }
     /// X becomes A^-1 X; after factor().
-    void solve(Field &x) const { factor_->solve(x.in_core()); }
+    void solve(Field &x) const { factor_->solve(x); }
 
   private:
-    void take(double factor, const SparseMatrix &a);
+    void take(double factor, const TallMatrix &a);
 
-    SparseMatrix sum_; // 0 x 0: zero
+    std::unique_ptr<TallMatrix> sum_; // null: zero
     Solver solver_;
-    std::unique_ptr<Factor> factor_;
+    std::unique_ptr<TallFactor> factor_;
 };
 
 } // namespace plm

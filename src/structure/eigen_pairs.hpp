@@ -1,6 +1,6 @@
 // What a search for eigenpairs is asked for and finds.
 #pragma once
-#include "linalg/dense.hpp"
+#include "structure/field.hpp"
 #include <functional>
 
 namespace plm {
@@ -8,7 +8,8 @@ namespace plm {
 /// What a search leaves beside its pairs X, for one that goes on to more of them: further Ritz vectors V and
 /// the next block W, M-orthonormal, with A^-1 M [X V] = [X V] diag(theta) + W B. Empty where there is none.
 struct SearchRest {
-    Matrix v, w, b;
+    Field v, w;
+    Matrix b;
     vector<double> theta; // of X and V: 1 / (lambda - shift)
 };
 
@@ -16,7 +17,7 @@ constexpr std::int64_t most_rest = 128; // columns of V
 
 struct EigenPairs {
     vector<double> values; // ascending
-    Matrix vectors;        // M-orthonormal columns
+    Field vectors;         // M-orthonormal columns
     SearchRest rest = {};
 };
 
@@ -25,7 +26,7 @@ constexpr std::int64_t eigs_too_few = -1;
 
 struct KnownPairs {
     const vector<double> *values = nullptr; // null: there are none
-    const Matrix *vectors = nullptr;
+    const Field *vectors = nullptr;
     SearchRest *rest = nullptr; // taken: empty afterwards
 };
 

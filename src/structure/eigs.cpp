@@ -12,17 +12,13 @@ namespace plm {
 
 namespace {
 
-Pencil make_pencil(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
+Pencil make_pencil(const TallMatrix &k, const TallMatrix &m, const TallFactor &factor, double shift,
                    const EigsOptions &options) {
-    require(k.rows == k.cols && m.rows == m.cols && k.cols == m.cols, "lowest_eigenpairs: shapes");
+    require(k.rows() == m.rows(), "lowest_eigenpairs: shapes");
     require(std::isfinite(shift), "lowest_eigenpairs: shift");
-    require_finite(m.val.data(), m.nnz(), "eigensolver, M");
-    require_finite(k.val.data(), k.nnz(), "eigensolver, K");
-    Pencil pencil{k, m, factor, shift, options, {}};
-    for (std::int64_t j = 0; j < m.cols; ++j)
-        for (std::int64_t p = m.ptr[j]; p < m.ptr[j + 1]; ++p)
-            if (m.idx[p] == j && m.val[p] > 0) pencil.massive.push_back(j);
-    return pencil;
+    m.require_finite_entries("eigensolver, M");
+    k.require_finite_entries("eigensolver, K");
+    return {k, m, factor, shift, options, m.n_positive(), k.none()};
 }
 
 /// The rest of the search goes with pairs that are all there in the order found.
@@ -34,27 +30,22 @@ void sort_and_cut(EigenPairs &pairs, std::int64_t count) {
                      [&](std::int64_t a, std::int64_t b) { return pairs.values[a] < pairs.values[b]; });
     order.resize(std::min(count, total));
     if (count < total || !std::is_sorted(order.begin(), order.end())) pairs.rest = SearchRest();
-    EigenPairs sorted{{}, Matrix(pairs.vectors.rows(), static_cast<std::int64_t>(order.size())), {}};
-    for (std::int64_t from : order) {
-        std::copy_n(pairs.vectors.col(from), pairs.vectors.rows(),
-                    sorted.vectors.col(static_cast<std::int64_t>(sorted.values.size())));
-        sorted.values.push_back(pairs.values[from]);
-    }
+    EigenPairs sorted{{}, pairs.vectors.columns(order), {}};
+    for (std::int64_t from : order) sorted.values.push_back(pairs.values[from]);
     sorted.rest = std::move(pairs.rest);
     pairs = std::move(sorted);
 }
 
 /// Where M has a lower rank than asked for, the noise found beside may pass for eigenvectors.
-bool are_dependent(const SparseMatrix &m, const Matrix &x) {
-    Matrix gram = product('T', 'N', x, multiply_transposed(m, x));
+bool are_dependent(const TallMatrix &m, const Field &x) {
+    Matrix gram = block_gram(x, m.times(x));
     return !DenseCholesky().factor(gram);
 }
 
 /// The same of one vector that a search found apart from others (M times them), and thinks of unit length.
-bool is_noise(const SparseMatrix &m, const Matrix &one, const Matrix &m_others) {
+bool is_noise(const TallMatrix &m, const Field &one, const Field &m_others) {
     constexpr double nearly = 1e-6; // eigenvectors are orthonormal to more digits, noise to none
-    const Matrix along = product('T', 'N', m_others, one),
-                 own = product('T', 'N', one, multiply_transposed(m, one));
+    const Matrix along = block_gram(m_others, one), own = block_gram(one, m.times(one));
     return !(norm2(along.rows(), along.data()) < nearly && std::abs(own(0, 0) - 1) < nearly);
 }
 
@@ -149,8 +140,8 @@ EigenPairs search(const Pencil &pencil, std::int64_t n_wanted) {
 /// rounding errors only, so that it may end without one. A search in the M-complement of what was found shows
 /// a missing one as an eigenvalue below the largest kept; it is put in, until nothing is missing. What is
 /// above need not be exact. Returns M X.
-Matrix add_missed(const Pencil &pencil, EigenPairs &pairs) {
-    Matrix m_vectors = orthonormalize(pencil.m, pairs.vectors);
+Field add_missed(const Pencil &pencil, EigenPairs &pairs) {
+    Field m_vectors = orthonormalize(pencil.m, pairs.vectors);
     const auto wanted = static_cast<std::int64_t>(pairs.values.size());
     KrylovRequest request{1, std::min<std::int64_t>(64, pencil.rank() - wanted), pencil.options.tolerance,
                           pencil.options.max_restarts, 2};
@@ -185,9 +176,16 @@ EigenPairs all_by_dense(const Pencil &pencil, std::int64_t n_wanted) {
 
 EigenPairs lowest_eigenpairs(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
                              std::int64_t n_wanted, const EigsOptions &options) {
+    require(k.rows == k.cols && m.rows == m.cols, "lowest_eigenpairs: shapes");
+    return lowest_eigenpairs(*tall_matrix(k), *tall_matrix(m), *tall_factor(factor), shift, n_wanted,
+                             options);
+}
+
+EigenPairs lowest_eigenpairs(const TallMatrix &k, const TallMatrix &m, const TallFactor &factor, double shift,
+                             std::int64_t n_wanted, const EigsOptions &options) {
     require(n_wanted >= 0, "lowest_eigenpairs: number wanted");
     const Pencil pencil = make_pencil(k, m, factor, shift, options);
-    if (n_wanted == 0 || pencil.rank() == 0) return {{}, Matrix(pencil.size(), 0), {}};
+    if (n_wanted == 0 || pencil.rank() == 0) return {{}, pencil.place, {}};
     if (needs_dense(pencil, n_wanted)) return all_by_dense(pencil, n_wanted);
     EigenPairs pairs = search(pencil, n_wanted);
     sort_and_cut(pairs, n_wanted);

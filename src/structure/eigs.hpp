@@ -10,6 +10,9 @@ namespace plm {
 /// semi-definite. Fewer are returned when the pencil has fewer finite eigenvalues. Multiple eigenvalues come
 /// with all their copies. Small, nearly mass-less or fully wanted problems are solved densely. Deterministic
 /// start vector. Problems run side by side, also one inside a callback of another.
+EigenPairs lowest_eigenpairs(const TallMatrix &k, const TallMatrix &m, const TallFactor &factor, double shift,
+                             std::int64_t n_wanted, const EigsOptions &options = {});
+/// The same in core.
 EigenPairs lowest_eigenpairs(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
                              std::int64_t n_wanted, const EigsOptions &options = {});
 

@@ -35,8 +35,8 @@ class Arpack {
     Arpack(const Pencil &pencil, const KrylovRequest &request)
         : pencil_(pencil), n_(to_blas(pencil.size())), nev_(to_blas(request.n_wanted)),
           ncv_(to_blas(request.n_lanczos)), lworkl_(to_blas(request.n_lanczos * (request.n_lanczos + 8))),
-          tol_(request.tolerance), v_(n_, ncv_), resid_(n_, 1), workd_(3 * static_cast<std::size_t>(n_)),
-          workl_(lworkl_), select_(ncv_), lambda_(nev_) {
+          tol_(request.tolerance), v_(n_, ncv_), resid_(n_, 1), moved_(n_, 1), answer_(n_, 1),
+          workd_(3 * static_cast<std::size_t>(n_)), workl_(lworkl_), select_(ncv_), lambda_(nev_) {
         pseudo_random(resid_, request.seed);
         iparam_[0] = 1; // exact shifts
         iparam_[2] = to_blas(request.max_restarts);
@@ -54,7 +54,7 @@ class Arpack {
         const std::int64_t converged = std::min<std::int64_t>(iparam_[4], nev_);
         lambda_.resize(converged);
         return {converged < nev_ ? KrylovEnd::too_few : KrylovEnd::converged,
-                {std::move(lambda_), v_.columns(0, converged)}};
+                {std::move(lambda_), Field(v_.columns(0, converged))}};
     }
 
   private:
@@ -72,16 +72,24 @@ class Arpack {
 
     void serve(blas_int ido) {
         double *x = slot(0), *y = slot(1);
-        if (ido == 2)
-            return multiply_transposed(pencil_.m, x, y); // M is symmetric: the gathering form is faster
+        if (ido == 2) return mass_times(x, y);
         require(ido == -1 || ido == 1, "dsaupd: unexpected request");
         if (ido == 1)
             std::copy_n(slot(2), n_, y); // M x is there already
         else
-            multiply_transposed(pencil_.m, x, y);
-        pencil_.factor.solve(y, 1, n_);
+            mass_times(x, y);
+        double *answer = answer_.in_core().data();
+        std::copy_n(y, n_, answer);
+        pencil_.factor.solve(answer_);
+        std::copy_n(answer, n_, y);
         if (!finite(y, n_)) // NaN in the Lanczos basis would go round until the last restart
             throw Error(status::eigensolver, "the factorization's solve returned NaN or Inf");
+    }
+
+    void mass_times(const double *x, double *y) {
+        std::copy_n(x, n_, moved_.in_core().data());
+        pencil_.m.times(moved_, answer_);
+        std::copy_n(answer_.in_core().data(), n_, y);
     }
 
     void extract(blas_int &info) {
@@ -96,6 +104,7 @@ class Arpack {
     blas_int n_, nev_, ncv_, lworkl_;
     double tol_;
     Matrix v_, resid_;
+    Field moved_, answer_; // a column each
     vector<double> workd_, workl_;
     vector<blas_int> select_;
     vector<double> lambda_;

@@ -1,7 +1,7 @@
 #include "structure/eigs_block.hpp"
-#include "linalg/blas_lapack.hpp"
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace plm {
 namespace {
@@ -14,7 +14,7 @@ Matrix identity(std::int64_t n) {
 
 } // namespace
 
-void LanczosBlock::orthonormalize(const SparseMatrix &m, const Matrix &v, const vector<double> &before) {
+void LanczosBlock::orthonormalize(const TallMatrix &m, const Field &v, const vector<double> &before) {
     constexpr double enough = 1e-2; // a tenth of the norm: what stays of V is ten roundings
     constexpr int most_passes = 12; // each frees a column of the others at least
     taken_.reset(v.cols(), width());
@@ -33,16 +33,18 @@ void LanczosBlock::orthonormalize(const SparseMatrix &m, const Matrix &v, const 
 }
 
 /// Takes from X what lies in V; then the Gram matrix of what is left.
-void LanczosBlock::project(const SparseMatrix &m, const Matrix &v) {
-    mx = multiply_transposed(m, x); // M is symmetric: the gathering form is faster
+void LanczosBlock::project(const TallMatrix &m, const Field &v) {
+    mx = m.times(x);
     Matrix overlap(v.cols(), width());
     if (v.cols() > 0) {
-        gemm('T', 'N', 1, v, mx, 0, overlap);
-        gemm('N', 'N', -1, v, overlap, 1, x);
+        overlap = block_gram(v, mx);
+        add_combination(-1, v, overlap, x);
         gemm('N', 'N', 1, overlap, rest_, 1, taken_);
-        mx = multiply_transposed(m, x);
+        mx = m.times(x);
     }
-    gram_ = product('T', 'N', x, mx);
+    gram_ = block_gram(x, mx);
+    order_.resize(width());
+    std::iota(order_.begin(), order_.end(), 0);
     entered_.assign(width(), 0.0);
     for (std::int64_t j = 0; j < width(); ++j)
         entered_[j] = std::max(0.0, gram_(j, j)) + dot(v.cols(), overlap.col(j), overlap.col(j));
@@ -89,11 +91,10 @@ void LanczosBlock::factor_gram() {
 
 /// X U^-1 for X and U rest for the rest, with the factor U.
 void LanczosBlock::divide_by_factor() {
-    const blas_int rows = to_blas(x.rows()), cols = to_blas(width());
-    const double one = 1;
-    if (rows == 0 || cols == 0) return;
-    for (Matrix *block : {&x, &mx})
-        dtrsm_("R", "U", "N", "N", &rows, &cols, &one, gram_.data(), &cols, block->data(), &rows, 1, 1, 1, 1);
+    if (x.empty()) return;
+    put_in_order();
+    x.divide('U', false, gram_);
+    mx.divide('U', false, gram_);
     for (std::int64_t j = 0; j < width(); ++j) {
         for (std::int64_t i = j + 1; i < width(); ++i) gram_(i, j) = 0; // what was below the factor
     }
@@ -102,10 +103,20 @@ void LanczosBlock::divide_by_factor() {
 
 void LanczosBlock::swap_columns(std::int64_t a, std::int64_t b) {
     if (a == b) return;
-    for (Matrix *block : {&x, &mx, &gram_}) std::swap_ranges(block->col(a), block->col(a + 1), block->col(b));
+    std::swap(order_[a], order_[b]);
+    std::swap_ranges(gram_.col(a), gram_.col(a + 1), gram_.col(b));
     for (Matrix *row : {&gram_, &rest_})
         for (std::int64_t j = 0; j < row->cols(); ++j) std::swap((*row)(a, j), (*row)(b, j));
     std::swap(entered_[a], entered_[b]);
+}
+
+/// The columns themselves, as the small matrices have them.
+void LanczosBlock::put_in_order() {
+    if (static_cast<std::int64_t>(order_.size()) == width() && std::is_sorted(order_.begin(), order_.end()))
+        return;
+    x = x.columns(order_);
+    mx = mx.columns(order_);
+    std::iota(order_.begin(), order_.end(), 0);
 }
 
 /// Drops the columns whose value is not above the limit.
@@ -120,8 +131,8 @@ void LanczosBlock::keep_where(const vector<double> &value, double above) {
         for (std::int64_t j = 0; j < kept; ++j) gram(i, j) = gram_(i, j);
         for (std::int64_t j = 0; j < rest.cols(); ++j) rest(i, j) = rest_(i, j);
     }
-    x.cut(kept);
-    mx.cut(kept);
+    order_.resize(static_cast<std::size_t>(kept));
+    put_in_order();
     gram_ = std::move(gram);
     rest_ = std::move(rest);
 }

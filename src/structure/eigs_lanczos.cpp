@@ -5,7 +5,6 @@
 // one object: problems run side by side, and one inside a callback of another.
 #include "linalg/blas_lapack.hpp"
 #include "linalg/lapack.hpp"
-#include "linalg/row_bands.hpp"
 #include "structure/eigs_block.hpp"
 #include "structure/eigs_internal.hpp"
 #include <algorithm>
@@ -22,8 +21,8 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 class Lanczos {
   public:
     Lanczos(const Pencil &pencil, const KrylovRequest &request)
-        : pencil_(pencil), request_(request), n_(pencil.size()), t_(request.n_lanczos, request.n_lanczos) {
-        v_.reserve(n_, request.n_lanczos);
+        : pencil_(pencil), request_(request), t_(request.n_lanczos, request.n_lanczos), v_(pencil.place) {
+        v_.reserve(request.n_lanczos);
     }
 
     KrylovResult run() {
@@ -45,12 +44,12 @@ class Lanczos {
     bool fits(std::int64_t more) const { return size() + more <= request_.n_lanczos; }
 
     /// X = A^-1 X in place, kept apart from the vectors named.
-    void apply_inverse(Matrix &x) {
+    void apply_inverse(Field &x) {
         pencil_.poll();
         pencil_.factor.solve(x);
         if (request_.apart) // X -= Y Y^T M X
-            gemm('N', 'N', -1, *request_.apart, product('T', 'N', *request_.m_apart, x), 1, x);
-        if (!finite(x.data(), n_ * x.cols())) // NaN in the basis would go round until the last restart
+            add_combination(-1, *request_.apart, block_gram(*request_.m_apart, x), x);
+        if (!x.is_finite()) // NaN in the basis would go round until the last restart
             throw Error(status::eigensolver, "the factorization's solve returned NaN or Inf");
     }
 
@@ -68,7 +67,7 @@ class Lanczos {
         v_.append(rest.v.columns(0, std::min(room, rest.v.cols())));
         for (std::int64_t j = 0; j < size(); ++j) t_(j, j) = rest.theta[j];
         w_.x = rest.w;
-        w_.mx = multiply_transposed(pencil_.m, w_.x);
+        w_.mx = pencil_.m.times(w_.x);
         b_ = rest.b.columns(0, size());
         return true;
     }
@@ -78,10 +77,9 @@ class Lanczos {
         // what a restart keeps and the block have room beside each other
         const std::int64_t room =
             std::min(request_.n_lanczos - request_.n_wanted, request_.n_lanczos - size());
-        Matrix start(n_, std::max<std::int64_t>(1, std::min(request_.width, room)));
+        const std::int64_t width = std::max<std::int64_t>(1, std::min(request_.width, room));
         for (int attempt = 0; attempt < 3; ++attempt) {
-            pseudo_random(start, request_.seed + 3 * size() + attempt);
-            w_.x = multiply_transposed(pencil_.m, start);
+            w_.x = pencil_.m.times(v_.filled(width, {0, 0, 1, request_.seed + 3 * size() + attempt}));
             apply_inverse(w_.x); // into the range of A^-1 M: M may be singular
             w_.orthonormalize(pencil_.m, v_, vector<double>(w_.width(), 0.0));
             if (w_.width() == 0) continue;
@@ -114,7 +112,7 @@ class Lanczos {
         std::swap(w_.mx, mv_);
         w_.x = mv_;
         apply_inverse(w_.x);
-        add_to_t(first, product('T', 'N', mv_, w_.x), 0);
+        add_to_t(first, block_gram(mv_, w_.x), 0);
         w_.orthonormalize(pencil_.m, v_, take_recurrence(first));
         add_to_t(first, w_.taken(), first);
         b_.reset(w_.width(), size());
@@ -133,15 +131,12 @@ class Lanczos {
     /// its squared M-norms.
     vector<double> take_recurrence(std::int64_t first) {
         const std::int64_t coupled = size() - coupled_from_, width = w_.width();
-        const double *t = t_.col(first) + coupled_from_;
-        const double flops = 2.0 * static_cast<double>(n_ * coupled) * static_cast<double>(width);
-        for_row_bands(n_, flops, [&](std::int64_t, std::int64_t begin, std::int64_t height) {
-            gemm('N', height, width, coupled, -1.0, v_.col(coupled_from_) + begin, n_, t, t_.rows(), 1.0,
-                 w_.x.data() + begin, n_);
-        });
-        vector<double> taken(w_.width());
-        for (std::int64_t j = 0; j < w_.width(); ++j)
-            taken[j] = dot(coupled, t + j * t_.rows(), t + j * t_.rows());
+        Matrix t(coupled, width);
+        for (std::int64_t j = 0; j < width; ++j)
+            std::copy_n(t_.col(first + j) + coupled_from_, coupled, t.col(j));
+        add_combination_of_columns(-1.0, v_, coupled_from_, t, w_.x);
+        vector<double> taken(width);
+        for (std::int64_t j = 0; j < width; ++j) taken[j] = dot(coupled, t.col(j), t.col(j));
         return taken;
     }
 
@@ -183,33 +178,11 @@ class Lanczos {
         std::int64_t kept = n_wanted() + std::min(n_converged_, (size() - n_wanted()) / 2);
         if (kept == 1) kept = size() >= 6 ? size() / 2 : 2;
         kept = std::min(kept, request_.n_lanczos - w_.width()); // less than there are: W did not fit
-        to_ritz_vectors(kept);
+        v_.replace_by_product(ritz_, kept);
         t_.reset(t_.rows(), t_.cols());
         for (std::int64_t j = 0; j < kept; ++j) t_(j, j) = theta_[j];
         b_ = residual_.columns(0, kept);
         coupled_from_ = 0;
-    }
-
-    /// The first `count` Ritz vectors in place of V, by rows that stay in the cache.
-    void to_ritz_vectors(std::int64_t count) {
-        const double flops = 2.0 * static_cast<double>(n_ * size()) * static_cast<double>(count);
-        for_row_bands(n_, flops, [&](std::int64_t, std::int64_t begin, std::int64_t height) {
-            rows_to_ritz_vectors(begin, begin + height, count);
-        });
-        v_.cut(count);
-    }
-    void rows_to_ritz_vectors(std::int64_t begin, std::int64_t end, std::int64_t count) {
-        constexpr std::int64_t panel = 256;
-        Matrix rows(panel, size());
-        for (std::int64_t first = begin; first < end; first += panel) {
-            const std::int64_t height = std::min(panel, end - first);
-            for (std::int64_t j = 0; j < size(); ++j) std::copy_n(v_.col(j) + first, height, rows.col(j));
-            const blas_int m = to_blas(height), n = to_blas(count), k = to_blas(size()), ld = to_blas(panel),
-                           ldv = to_blas(n_);
-            const double one = 1, zero = 0;
-            dgemm_("N", "N", &m, &n, &k, &one, rows.data(), &ld, ritz_.data(), &k, &zero, v_.data() + first,
-                   &ldv, 1, 1);
-        }
     }
 
     EigenPairs extract_with_rest() {
@@ -218,7 +191,7 @@ class Lanczos {
         SearchRest rest;
         rest.theta.assign(theta_.begin(), theta_.begin() + kept);
         rest.b = residual_.columns(0, kept);
-        to_ritz_vectors(kept);
+        v_.replace_by_product(ritz_, kept);
         rest.v = v_.columns(wanted, kept - wanted);
         EigenPairs pairs = extract_first(wanted);
         rest.w = std::move(w_.x);
@@ -227,8 +200,9 @@ class Lanczos {
     }
 
     EigenPairs extract() {
-        to_ritz_vectors(n_wanted());
-        return extract_first(n_wanted());
+        const std::int64_t wanted = n_wanted();
+        v_.replace_by_product(ritz_, wanted);
+        return extract_first(wanted);
     }
 
     /// Converged pairs of those wanted. A^-1 M x / theta in place of x frees them from what M does not see
@@ -237,10 +211,10 @@ class Lanczos {
         EigenPairs pairs;
         for (std::int64_t from = 0; from < wanted; ++from) {
             if (!converged(from)) continue;
-            double *x = v_.col(static_cast<std::int64_t>(pairs.values.size()));
-            if (x != v_.col(from)) std::copy_n(v_.col(from), n_, x);
+            const auto to = static_cast<std::int64_t>(pairs.values.size());
+            v_.copy_column(from, to);
             if (theta_[from] != 0 && residual(from) > 0)
-                gemv('N', 1 / theta_[from], w_.x, residual_.col(from), 1, x);
+                add_to_column(1 / theta_[from], w_.x, column_of(residual_, from), v_, to);
             pairs.values.push_back(pencil_.shift + 1 / theta_[from]); // infinite for theta = 0
         }
         v_.cut(static_cast<std::int64_t>(pairs.values.size()));
@@ -248,11 +222,15 @@ class Lanczos {
         return pairs;
     }
 
+    static vector<double> column_of(const Matrix &a, std::int64_t j) {
+        return vector<double>(a.col(j), a.col(j + 1));
+    }
+
     const Pencil &pencil_;
     const KrylovRequest &request_;
-    std::int64_t n_, n_converged_ = 0;
-    Matrix v_, t_, b_, mv_, ritz_,
-        residual_; // mv_: M times the last block of V; of the Ritz pairs: W residual_
+    std::int64_t n_converged_ = 0;
+    Matrix t_, b_, ritz_, residual_; // of the Ritz pairs: W residual_
+    Field v_, mv_;                   // mv_: M times the last block of V
     LanczosBlock w_;
     std::int64_t coupled_from_ = 0; // B is zero to the left of this column
     vector<double> theta_;

@@ -1,138 +1,152 @@
 #include "structure/field.hpp"
 #include "linalg/blas_lapack.hpp"
-#include "linalg/lapack.hpp"
 #include "linalg/scale.hpp"
 #include <algorithm>
-#include <cmath>
 
 namespace plm {
+namespace {
 
-Field::Field(const vector<double> &column) : columns_(static_cast<std::int64_t>(column.size()), 1) {
-    std::copy(column.begin(), column.end(), columns_.data());
+const Matrix &array_of(const Matrix *columns) {
+    if (!columns) throw Error(status::internal, "columns that are not in core were asked for as an array");
+    return *columns;
 }
 
-Field Field::columns(std::int64_t first, std::int64_t count) const {
-    return Field(columns_.columns(first, count));
+} // namespace
+
+const TallBlock &Field::nothing() {
+    static const std::unique_ptr<TallBlock> none = tall_block(Matrix());
+    return *none;
 }
 
-Field Field::columns(const vector<std::int64_t> &chosen) const {
-    Field some(rows(), static_cast<std::int64_t>(chosen.size()));
-    for (std::int64_t j = 0; j < some.cols(); ++j)
-        std::copy_n(columns_.col(chosen[j]), rows(), some.columns_.col(j));
-    return some;
+TallBlock &Field::block() {
+    if (!block_) block_ = tall_block(Matrix());
+    return *block_;
+}
+
+const Matrix &Field::in_core() const {
+    return array_of(block().matrix());
+}
+
+Matrix &Field::in_core() {
+    return const_cast<Matrix &>(array_of(block().matrix()));
+}
+
+Field::Field(const vector<double> &column) : Field(static_cast<std::int64_t>(column.size()), 1) {
+    std::copy(column.begin(), column.end(), in_core().data());
 }
 
 void Field::append(const Field &other) {
-    columns_.append(other.columns_);
+    if (!block_)
+        block_ = other.copy();
+    else if (other.block_)
+        block_->append(other.block());
 }
 
 void Field::put(std::int64_t first, const Field &other) {
     require(other.rows() == rows() && first >= 0 && first + other.cols() <= cols(), "Field::put: shape");
-    std::copy_n(other.columns_.data(), rows() * other.cols(), columns_.col(first));
+    block().put(first, other.block());
+}
+
+Field Field::sums(const std::vector<DofTerms> &sums) const {
+    Field some = zeros(static_cast<std::int64_t>(sums.size()));
+    some.block().add_sums(sums);
+    return some;
 }
 
 vector<double> Field::row(const DofTerms &sum) const {
-    vector<double> entries(cols());
-    for (std::int64_t j = 0; j < cols(); ++j) entries[j] = at(sum, j);
-    return entries;
+    vector<std::int64_t> dofs;
+    for (const DofTerm &t : sum) dofs.push_back(t.dof);
+    const Matrix entries = rows_at(dofs);
+    vector<double> values(cols(), 0.0);
+    for (std::int64_t j = 0; j < cols(); ++j)
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            values[j] += sum[i].coefficient * entries(static_cast<std::int64_t>(i), j);
+    return values;
 }
 
 double Field::at(const DofTerms &sum, std::int64_t column) const {
     double value = 0;
-    for (const DofTerm &t : sum) value += t.coefficient * columns_(t.dof, column);
+    for (const DofTerm &t : sum) value += t.coefficient * at(t.dof, column);
     return value;
 }
 
-void Field::scale(const vector<double> &factor) {
-    for (std::int64_t j = 0; j < cols(); ++j)
-        for (std::int64_t i = 0; i < rows(); ++i) columns_(i, j) *= factor[j];
-}
-
-void Field::clear() {
-    columns_.reset(rows(), cols());
-}
-
 Field combine(const Field &v, const Matrix &y) {
-    return Field(product('N', 'N', v.in_core(), y));
+    return Field(v.block().times(y));
 }
 
 Field combine(const Field &v, const vector<double> &y) {
     require(static_cast<std::int64_t>(y.size()) == v.cols(), "combine: shape");
-    Field x(v.rows(), 1);
-    if (v.cols() > 0) gemv('N', 1.0, v.in_core(), y.data(), 0.0, x.in_core().data());
-    return x;
+    return Field(v.block().times(y));
 }
 
 void add_combination(double factor, const Field &v, const Matrix &y, Field &x) {
-    gemm('N', 'N', factor, v.in_core(), y, 1.0, x.in_core());
+    x.block().add_product(factor, v.block(), y);
 }
 
 void add_combination(double factor, const Field &v, const vector<double> &y, Field &x) {
-    require(static_cast<std::int64_t>(y.size()) == v.cols() && x.cols() == 1, "add_combination: shape");
-    gemv('N', factor, v.in_core(), y.data(), 1.0, x.in_core().data());
+    require(x.cols() == 1, "add_combination: shape");
+    add_to_column(factor, v, y, x, 0);
+}
+
+void add_combination_of_columns(double factor, const Field &v, std::int64_t first, const Matrix &y,
+                                Field &x) {
+    require(first >= 0 && first + y.rows() <= v.cols() && y.cols() == x.cols(),
+            "add_combination_of_columns: shape");
+    x.block().add_product(factor, v.block(), first, y);
+}
+
+void add_to_column(double factor, const Field &v, const vector<double> &y, Field &x, std::int64_t column) {
+    require(static_cast<std::int64_t>(y.size()) == v.cols() && v.rows() == x.rows(), "add_to_column: shape");
+    x.block().add_product(factor, v.block(), y, column);
 }
 
 void add(double factor, const Field &v, Field &x) {
     require(v.rows() == x.rows() && v.cols() == x.cols(), "add: shape");
-    const double *from = v.in_core().data();
-    double *to = x.in_core().data();
-    for (std::int64_t k = 0; k < x.rows() * x.cols(); ++k) to[k] += factor * from[k];
+    x.block().add(factor, v.block());
 }
 
 void set_sum(std::initializer_list<Scaled> terms, Field &x) {
-    for (const Scaled &t : terms)
+    vector<double> factor;
+    vector<const TallBlock *> v;
+    for (const Scaled &t : terms) {
         require(t.field.rows() == x.rows() && t.field.cols() == x.cols(), "set_sum: shape");
-    double *to = x.in_core().data();
-    for (std::int64_t k = 0; k < x.rows() * x.cols(); ++k) {
-        double sum = 0;
-        for (const Scaled &t : terms) sum += t.factor * t.field.in_core().data()[k];
-        to[k] = sum;
+        factor.push_back(t.factor), v.push_back(&t.field.block());
     }
+    x.block().set_sum(factor, v);
 }
 
 Matrix gram(const Field &a, const Field &b) {
-    if (b.cols() != 1) return product('T', 'N', a.in_core(), b.in_core());
     require(a.rows() == b.rows(), "gram: shape");
-    Matrix c(a.cols(), 1);
-    if (a.cols() > 0) gemv('T', 1.0, a.in_core(), b.in_core().data(), 0.0, c.data());
-    return c;
+    return a.block().gram(b.block(), true);
+}
+
+Matrix block_gram(const Field &a, const Field &b) {
+    require(a.rows() == b.rows(), "block_gram: shape");
+    return a.block().gram(b.block(), false);
 }
 
 vector<double> column_products(const Field &a, const Field &b) {
     require(a.rows() == b.rows() && a.cols() == b.cols(), "column_products: shape");
-    vector<double> products(a.cols());
-    for (std::int64_t j = 0; j < a.cols(); ++j)
-        products[j] = dot(a.rows(), a.in_core().col(j), b.in_core().col(j));
-    return products;
+    return a.block().products(b.block());
 }
 
 vector<double> column_norms(const Field &a) {
-    vector<double> norms(a.cols());
-    for (std::int64_t j = 0; j < a.cols(); ++j) norms[j] = norm2(a.rows(), a.in_core().col(j));
-    return norms;
+    return a.block().norms();
 }
 
 LargestEntry largest_entry(const Field &v) {
-    LargestEntry largest;
-    for (std::int64_t i = 0; i < v.rows(); ++i) {
-        double size = 0;
-        for (std::int64_t j = 0; j < v.cols(); ++j) size = std::hypot(size, v.at(i, j));
-        if (size > largest.size) largest = {i, size};
-    }
-    return largest;
+    return v.block().largest();
 }
 
 void require_finite_result(const Field &x, const char *what) {
-    require_finite_result(x.in_core().data(), x.rows() * x.cols(), what);
+    if (const Matrix *columns = x.block().matrix())
+        return require_finite_result(columns->data(), x.rows() * x.cols(), what);
+    const double wrong = x.is_finite() ? 0 : NAN;
+    require_finite_result(&wrong, 1, what);
 }
 
 double euclidean_remainder(const Field &p, const Field &q) {
-    if (p.rows() <= p.cols()) return 0; // P spans everything
-    const double size = column_norms(q)[0];
-    if (!(size > 0)) return 0;
-    Field remainder = q;
-    add_combination(-1.0, p, least_squares(p.in_core(), q.in_core()), remainder);
-    return column_norms(remainder)[0] / size;
+    return p.block().remainder(q.block());
 }
 
 } // namespace plm

@@ -21,12 +21,11 @@ class FixedInterface {
 
   private:
     class Interior;
-    Field on_all_dofs(const Matrix &interior) const;
-    Matrix interior_loads() const;
+    Field interior_loads() const;
 
     const Structure &structure_;
-    vector<std::int64_t> boundary_dof_, interior_dof_; // free indices
-    std::unique_ptr<Interior> interior_;               // null without interior DOFs
+    vector<std::int64_t> boundary_dof_;  // free indices
+    std::unique_ptr<Interior> interior_; // null without interior DOFs
 };
 
 } // namespace plm

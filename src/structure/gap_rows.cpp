@@ -1,16 +1,15 @@
 #include "structure/gap_rows.hpp"
-#include <cmath>
 
 namespace plm {
 
 Matrix GapRows::of(const Field &v) const {
-    Matrix u = multiply(matrix_, v.in_core());
+    Matrix u = v.block().by_rows(matrix_);
     if (!momenta_.empty()) gemm('N', 'N', -1.0, left_out_, gram(momenta_, v), 1.0, u);
     return u;
 }
 
 void GapRows::of(const Field &v, vector<double> &u) const {
-    multiply(matrix_, v.in_core().data(), u.data());
+    v.block().by_rows(matrix_, u.data());
     if (!momenta_.empty()) gemv('N', -1.0, left_out_, gram(momenta_, v).data(), 1.0, u.data());
 }
 
@@ -20,24 +19,17 @@ void GapRows::leave_out(const Field &motions, Field momenta) {
 }
 
 Matrix GapRows::terms_of(const Field &v) const {
-    SparseMatrix sizes = matrix_;
-    for (double &b : sizes.val) b = std::abs(b);
-    Matrix motion = v.in_core();
-    for (std::int64_t k = 0; k < motion.rows() * motion.cols(); ++k)
-        motion.data()[k] = std::abs(motion.data()[k]);
-    return multiply(sizes, motion);
+    return v.block().terms_by_rows(matrix_);
 }
 
 Field GapRows::forces(const Matrix &f) const {
-    Field on_dofs(matrix_.cols, f.cols());
-    for (std::int64_t j = 0; j < f.cols(); ++j)
-        multiply_transposed(matrix_, f.col(j), on_dofs.in_core().col(j));
+    Field on_dofs(place_.block().from_rows(matrix_, f));
     if (!momenta_.empty()) add_combination(-1.0, momenta_, product('T', 'N', left_out_, f), on_dofs);
     return on_dofs;
 }
 
 Field GapRows::columns() const {
-    Field all(to_dense(transpose(matrix_)));
+    Field all(place_.block().from_rows(matrix_));
     if (!momenta_.empty()) add_combination(-1.0, momenta_, left_out_.transposed(), all);
     return all;
 }

@@ -19,8 +19,12 @@ struct GapSize {
 class GapRows {
   public:
     GapRows() = default;
-    /// n_rows() x n_free.
-    GapRows(SparseMatrix matrix, GapSize size) : matrix_(std::move(matrix)), size_(size) {}
+    /// n_rows() x n_free, in core. place: no columns, where those are that the rows are taken of.
+    GapRows(SparseMatrix matrix, GapSize size) : matrix_(std::move(matrix)), size_(size) {
+        place_ = Field(matrix_.cols, 0);
+    }
+    GapRows(SparseMatrix matrix, GapSize size, Field place)
+        : matrix_(std::move(matrix)), size_(size), place_(std::move(place)) {}
 
     std::int64_t n_rows() const { return size_.n_rows(); }
     const GapSize &size() const { return size_; }
@@ -58,7 +62,7 @@ class GapRows {
     SparseMatrix matrix_; // n_rows() x n_free
     GapSize size_;
     Matrix left_out_; // B R_0, and M R_0; both empty where nothing is
-    Field momenta_;
+    Field momenta_, place_;
 };
 
 } // namespace plm

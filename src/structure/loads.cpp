@@ -45,8 +45,7 @@ HarmonicLoads projected(const Field &v, const HarmonicForces &loads) {
     return reduced;
 }
 
-Field load_columns(const Field &preload, const HarmonicForces &excitation, std::int64_t n_free) {
-    Field all(n_free, 0);
+Field load_columns(const Field &preload, const HarmonicForces &excitation, Field all) {
     const auto take = [&](const Field &load) {
         if (!load.empty() && column_norms(load)[0] > 0) all.append(load);
     };

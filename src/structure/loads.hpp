@@ -47,7 +47,8 @@ using HarmonicForces = std::map<LoadPart, HarmonicForce>;
 vector<double> projected(const Field &v, const Field &load);
 HarmonicLoads projected(const Field &v, const HarmonicForces &loads);
 
-/// All that is not zero, side by side: of the pre-load and of the excitation.
-Field load_columns(const Field &preload, const HarmonicForces &excitation, std::int64_t n_free);
+/// All that is not zero, side by side behind `none`, which has no columns: of the pre-load and of the
+/// excitation.
+Field load_columns(const Field &preload, const HarmonicForces &excitation, Field none);
 
 } // namespace plm

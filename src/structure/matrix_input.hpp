@@ -8,6 +8,8 @@
 
 namespace plm {
 
+class TallOperations; // tall_operations.hpp
+
 /// How the caller's arrays are to be read: PLM_CSC ... and PLM_FULL ... of plm.h.
 namespace storage {
 enum : std::int32_t { csc = 1, triplets = 2, csr = 3 };
@@ -34,6 +36,8 @@ struct MatrixInput {
     template <class Index>
     MatrixInput(const MatrixFormat &format, const Index *a, const Index *b, const double *value);
 
+    explicit MatrixInput(std::shared_ptr<TallOperations> operations) : behind(std::move(operations)) {}
+
     /// Throws PLM_ERR_MATRIX with argument "a", "b" or "value" and the position in that array as index.
     void check() const;
     /// Full symmetric n x n; the upper triangle is the mirror of the lower (of the stored one, if one is
@@ -42,6 +46,8 @@ struct MatrixInput {
     SparseMatrix to_sparse() const;
 
     const MatrixFormat layout;
+    /// Null; or it is one of those that the host keeps behind these operations, and there is nothing to read.
+    const std::shared_ptr<TallOperations> behind;
 
   private:
     std::variant<IndexArrays<std::int32_t>, IndexArrays<std::int64_t>> index_;

@@ -1,21 +1,21 @@
 #include "structure/mode_count.hpp"
-#include "structure/solver/make_factor.hpp"
+#include "linalg/scale.hpp"
 #include <cmath>
 
 namespace plm {
 
-std::int64_t count_modes(const SparseMatrix &k, const SparseMatrix &m, double omega, const Solver &solver) {
+std::int64_t count_modes(const TallMatrix &k, const TallMatrix &m, double omega, const Solver &solver) {
     if (!solver.tells_inertia()) return cannot_tell_count;
     try {
-        return count_negative({k, -omega * omega, m}, solver);
+        return k.count_negative(-omega * omega, m, solver);
     } catch (const Error &e) {
         if (e.status() != status::singular) throw;
         return hit_a_mode;
     }
 }
 
-std::int64_t count_modes_near(const SparseMatrix &k, const SparseMatrix &m, double &omega,
-                              const Solver &solver, const char *which, const char *remedy, Watch watch) {
+std::int64_t count_modes_near(const TallMatrix &k, const TallMatrix &m, double &omega, const Solver &solver,
+                              const char *which, const char *remedy, Watch watch) {
     constexpr int attempts = 4;
     constexpr double aside = 1.003; // out of reach of the mode, and hardly another frequency
     std::int64_t count = hit_a_mode;

@@ -2,6 +2,7 @@
 #pragma once
 #include "linalg/monitor.hpp"
 #include "structure/solver/factor.hpp"
+#include "structure/tall.hpp"
 
 namespace plm {
 
@@ -13,11 +14,11 @@ constexpr std::int64_t cannot_tell_count = -1, hit_a_mode = -2;
 constexpr double count_rounding = 1e-8;
 
 /// Eigenvalues of K x = lambda M x below omega^2 (rad/s), or one of the two above.
-std::int64_t count_modes(const SparseMatrix &k, const SparseMatrix &m, double omega, const Solver &solver);
+std::int64_t count_modes(const TallMatrix &k, const TallMatrix &m, double omega, const Solver &solver);
 
 /// The same, where omega may move up a little out of a mode's way. Where it meets one all the same a warning
 /// says so: of which modes, and what to change.
-std::int64_t count_modes_near(const SparseMatrix &k, const SparseMatrix &m, double &omega,
-                              const Solver &solver, const char *which, const char *remedy, Watch watch);
+std::int64_t count_modes_near(const TallMatrix &k, const TallMatrix &m, double &omega, const Solver &solver,
+                              const char *which, const char *remedy, Watch watch);
 
 } // namespace plm

@@ -2,8 +2,7 @@
 #include "linalg/lapack.hpp"
 #include "structure/eigs.hpp"
 #include "structure/rigid_factor.hpp"
-#include "structure/solver/make_factor.hpp"
-#include "structure/still_dofs.hpp"
+#include "structure/sparse.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,30 +16,27 @@ using Int = long long; // for printf
 
 /// Does the factor reproduce a vector from K times it? A singular K loses its rigid part altogether, while an
 /// ill-conditioned one loses only digits. Every DOF counts: the loose body may be a small one.
-bool solves(const SparseMatrix &k, const Factor &factor) {
-    vector<double> x(k.cols), y(k.cols);
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = 1 + 0.5 * std::sin(static_cast<double>(i));
-    multiply_transposed(k, x.data(), y.data());
-    factor.solve(y.data(), 1, k.cols);
-    for (std::size_t i = 0; i < x.size(); ++i)
-        if (!(std::abs(y[i] - x[i]) < 1e-3)) return false;
-    return true;
+bool solves(const TallMatrix &k, const TallFactor &factor) {
+    const Field x = k.none().filled(1, {1, 0.5, 0, 0});
+    Field y = k.times(x);
+    factor.solve(y);
+    add(-1, x, y);
+    return y.is_finite() && largest_entry(y).size < 1e-3;
 }
 
 /// Factor of K, or null when K is singular to working precision, or may be: a host's solver has no other way
 /// to say so than to fail, and that failure is kept.
-std::unique_ptr<Factor> factor_regular(const SparseMatrix &k, const Solver &solver,
-                                       std::optional<Error> &of_host) {
-    for (double d : diagonal(k))
-        if (!(d > 0)) return nullptr; // no need to try
+std::unique_ptr<TallFactor> factor_regular(const TallMatrix &k, double least_stiffness, const Solver &solver,
+                                           std::optional<Error> &of_host) {
+    if (!(least_stiffness > 0)) return nullptr; // no need to try
     try {
-        std::unique_ptr<Factor> factor = make_factor(k, solver);
+        std::unique_ptr<TallFactor> factor = k.factor(solver);
         const double condition = factor->reciprocal_condition();
         if (condition < 1e-14) return nullptr;
-        if ((solver.serving_host() || condition < 1e-9) && !solves(k, *factor)) return nullptr;
+        if ((factor->calls_host() || condition < 1e-9) && !solves(k, *factor)) return nullptr;
         return factor;
     } catch (const Error &e) {
-        if (e.status() == status::callback)
+        if (e.status() == status::callback && solver.serving_host())
             of_host = e;
         else if (e.status() != status::not_positive_definite && e.status() != status::singular)
             throw;
@@ -55,18 +51,18 @@ struct LowModes {
     EigenPairs pairs;
     vector<double> rounding;
 
-    void take(EigenPairs found, const SparseMatrix &k, const SparseMatrix &m) {
+    void take(EigenPairs found, const TallMatrix &k, const TallMatrix &m) {
         pairs = std::move(found);
         if (pairs.values.empty()) return;
         // A shift far above the values leaves them no digits: again in the space of the vectors.
-        const Matrix stiffness = product('T', 'N', pairs.vectors, multiply_transposed(k, pairs.vectors));
-        const Matrix mass = product('T', 'N', pairs.vectors, multiply_transposed(m, pairs.vectors));
+        const Matrix stiffness = block_gram(pairs.vectors, k.times(pairs.vectors));
+        const Matrix mass = block_gram(pairs.vectors, m.times(pairs.vectors));
         SymmetricEigen ritz = symmetric_eigen_general(stiffness, mass);
-        pairs.vectors = product('N', 'N', pairs.vectors, ritz.vectors);
+        pairs.vectors = combine(pairs.vectors, ritz.vectors);
         rounding.assign(pairs.values.size(), 0.0);
         // beside large ones a small Ritz value has no digits
         for (std::size_t j = 0; j < rounding.size(); ++j) {
-            const Energy of = energy(k, pairs.vectors.col(static_cast<std::int64_t>(j)));
+            const Energy of = k.energy(pairs.vectors, static_cast<std::int64_t>(j));
             pairs.values[j] = of.sum;
             rounding[j] = 0.5 * std::numeric_limits<double>::epsilon() * of.terms;
         }
@@ -102,15 +98,17 @@ std::int64_t count_rigid(const LowModes &low, double scale) {
 
 class RigidModeSearch {
   public:
-    RigidModeSearch(const SparseMatrix &k, const SparseMatrix &m, double largest_contact,
+    RigidModeSearch(const Tall &structure, const TallFacts &facts, double largest_contact,
                     const vector<std::int64_t> &free_dof, const Solver &solver, Watch watch)
-        : k_(k), m_(m), largest_contact_(largest_contact), free_dof_(free_dof), solver_(solver),
-          watch_(watch), scale_(typical_eigenvalue()) {}
+        : k_(structure.stiffness()), m_(structure.mass()), facts_(facts), largest_contact_(largest_contact),
+          free_dof_(free_dof), solver_(solver), watch_(watch), scale_(facts.typical_eigenvalue) {}
 
     FactoredStiffness run() {
         refuse_free_massless_dofs();
         if (!(scale_ > 0))
-            return all_rigid(largest_contact_ > 0 ? largest_contact_ * k_.cols / trace(m_) : 1.0);
+            return all_rigid(largest_contact_ > 0
+                                 ? largest_contact_ * static_cast<double>(n()) / facts_.trace_of_mass
+                                 : 1.0);
         search();
         if (n_rigid_ == low_.size()) return all_rigid(scale_);
         const double flexible = low_.pairs.values[n_rigid_];
@@ -129,9 +127,8 @@ class RigidModeSearch {
         }
         // again with the better shift: the modes are as orthogonal to the flexible ones as K allows
         low_.take(lowest(*result.factor, result.shift, n_rigid_ + 1), k_, m_);
-        result.rigid_modes = Field(low_.pairs.vectors.columns(0, n_rigid_));
-        result.factor =
-            make_rigid_factor(std::move(result.factor), result.rigid_modes.in_core(), m_, result.shift);
+        result.rigid_modes = low_.pairs.vectors.columns(0, n_rigid_);
+        result.factor = make_rigid_factor(std::move(result.factor), result.rigid_modes, m_, result.shift);
         watch_.log(1,
                    format("the structure has %lld rigid-body modes while its contacts are open; K + %g M is "
                           "factored instead of K",
@@ -140,28 +137,18 @@ class RigidModeSearch {
     }
 
   private:
-    /// Median of K_ii / M_ii: no penalty and no unit of rotations moves it.
-    double typical_eigenvalue() const {
-        const vector<double> dk = diagonal(k_), dm = diagonal(m_);
-        vector<double> ratio;
-        for (std::int64_t i = 0; i < k_.cols; ++i)
-            if (dk[i] > 0 && dm[i] > 0) ratio.push_back(dk[i] / dm[i]);
-        if (ratio.empty()) return trace(k_) / trace(m_);
-        const auto middle = ratio.begin() + static_cast<std::ptrdiff_t>(ratio.size() / 2);
-        std::nth_element(ratio.begin(), middle, ratio.end());
-        return *middle;
-    }
+    std::int64_t n() const { return facts_.n_dof; }
 
     struct Effort {
         std::int64_t restarts, attempts;
     };
-    EigenPairs lowest(const Factor &factor, double shift, std::int64_t count,
+    EigenPairs lowest(const TallFactor &factor, double shift, std::int64_t count,
                       Effort effort = {300, 3}) const {
         EigsOptions options;
         options.max_restarts = effort.restarts;
         options.max_attempts = effort.attempts;
         options.cancelled = [this] { return watch_.cancelled("rigid-body modes", 0.4); };
-        return lowest_eigenpairs(k_, m_, factor, -shift, std::min(count, k_.cols), options);
+        return lowest_eigenpairs(k_, m_, factor, -shift, std::min(count, n()), options);
     }
 
     // Bodies without any stiffness: all modes are rigid, and only the contact gives sigma a scale.
@@ -169,8 +156,8 @@ class RigidModeSearch {
         FactoredStiffness result;
         result.shift = 1e-2 * scale;
         result.factor = factor_shifted(result.shift, result.shift);
-        EigenPairs all = lowest(*result.factor, result.shift, k_.cols);
-        result.rigid_modes = Field(std::move(all.vectors));
+        EigenPairs all = lowest(*result.factor, result.shift, n());
+        result.rigid_modes = std::move(all.vectors);
         return result;
     }
 
@@ -179,9 +166,10 @@ class RigidModeSearch {
     // is dear, so that it gives up soon where a lower shift may do.
     void search() {
         double shift = 1e-10 * scale_;
-        std::unique_ptr<Factor> factor = factor_shifted(shift, 1e-4 * scale_);
+        std::unique_ptr<TallFactor> factor = factor_shifted(shift, 1e-4 * scale_);
         while (!find_low_modes(*factor, shift, Effort{10, 1})) {
-            std::unique_ptr<Factor> lower = 1e-2 * shift > 1e-17 * scale_ ? factor_at(1e-2 * shift) : nullptr;
+            std::unique_ptr<TallFactor> lower =
+                1e-2 * shift > 1e-17 * scale_ ? factor_at(1e-2 * shift) : nullptr;
             if (!lower) {
                 if (find_low_modes(*factor, shift, Effort{40, 3})) return;
                 throw too_fine();
@@ -192,7 +180,7 @@ class RigidModeSearch {
     }
 
     // Null: not positive definite.
-    std::unique_ptr<Factor> factor_at(double shift) const {
+    std::unique_ptr<TallFactor> factor_at(double shift) const {
         try {
             return factor_shifted(shift, shift);
         } catch (const Error &e) {
@@ -203,8 +191,8 @@ class RigidModeSearch {
 
     // At most six rigid modes per body, but the number of bodies is not known: more are taken until there is
     // a flexible one. False: they do not come apart.
-    bool find_low_modes(const Factor &factor, double shift, Effort effort) {
-        for (std::int64_t count = std::min<std::int64_t>(8, k_.cols);; count = std::min(k_.cols, 2 * count)) {
+    bool find_low_modes(const TallFactor &factor, double shift, Effort effort) {
+        for (std::int64_t count = std::min<std::int64_t>(8, n());; count = std::min(n(), 2 * count)) {
             watch_.step("rigid-body modes", 0.3);
             try {
                 low_.take(lowest(factor, shift, count, effort), k_, m_);
@@ -214,16 +202,16 @@ class RigidModeSearch {
                 return false;
             }
             n_rigid_ = count_rigid(low_, scale_);
-            if (n_rigid_ < low_.size() || low_.size() < count || count == k_.cols) return true;
+            if (n_rigid_ < low_.size() || low_.size() < count || count == n()) return true;
         }
     }
 
     // Rounding of K may exceed a small shift (penalties): up to `largest` it grows until the factor exists.
-    std::unique_ptr<Factor> factor_shifted(double &shift, double largest) const {
+    std::unique_ptr<TallFactor> factor_shifted(double &shift, double largest) const {
         for (;; shift = std::min(100 * shift, largest)) {
             watch_.step("factorization", 0.2);
             try {
-                return make_factor(add(1.0, k_, shift, m_), solver_);
+                return k_.plus(shift, m_)->factor(solver_);
             } catch (const Error &e) {
                 if (e.status() != status::not_positive_definite && e.status() != status::singular) throw;
                 if (!(shift < largest)) throw not_positive_definite(e, shift);
@@ -233,7 +221,7 @@ class RigidModeSearch {
 
     Error not_positive_definite(const Error &e, double shift) const {
         const std::int64_t column = e.index();
-        const bool known = column >= 0 && column < k_.cols;
+        const bool known = column >= 0 && column < k_.rows();
         return Error(
                    status::not_positive_definite,
                    format("K + %g M is not positive definite%s: the stiffness has a negative eigenvalue, or "
@@ -249,28 +237,20 @@ class RigidModeSearch {
     }
 
     void refuse_free_massless_dofs() const {
-        const vector<double> dk = diagonal(k_), dm = diagonal(m_);
-        vector<char> coupled(k_.cols, 0);
-        mark_coupled(k_, coupled);
-        Int multipliers = 0;
-        std::int64_t first = -1;
-        for (std::int64_t i = 0; i < k_.cols; ++i) {
-            if (dk[i] > 0 || dm[i] > 0) continue;
-            if (!coupled[i])
-                throw unfit(i, format("DOF %lld (counted from 0) has neither stiffness nor mass; fix it or "
-                                      "give it one",
-                                      Int(free_dof_[i])));
-            if (multipliers++ == 0) first = i;
-        }
-        if (multipliers > 0)
+        if (facts_.loose >= 0)
+            throw unfit(facts_.loose,
+                        format("DOF %lld (counted from 0) has neither stiffness nor mass; fix it or "
+                               "give it one",
+                               Int(free_dof_[facts_.loose])));
+        if (facts_.n_multipliers > 0)
             throw unfit(
-                first,
+                facts_.multiplier,
                 format(
                     "%lld rows of the stiffness matrix (the first: DOF %lld, counted from 0) are "
                     "coupled to others, but have zero on the diagonal and no mass: they look like "
                     "Lagrange multipliers of constraints, which leave K indefinite. Hand their DOFs over as "
                     "multipliers of the model, and their rows become constraints",
-                    multipliers, Int(free_dof_[first])));
+                    Int(facts_.n_multipliers), Int(free_dof_[facts_.multiplier])));
     }
 
     Error unfit(std::int64_t column, const std::string &text) const {
@@ -310,7 +290,8 @@ class RigidModeSearch {
             .argument("K");
     }
 
-    const SparseMatrix &k_, &m_;
+    const TallMatrix &k_, &m_;
+    const TallFacts &facts_;
     double largest_contact_;
     const vector<std::int64_t> &free_dof_;
     const Solver &solver_;
@@ -322,13 +303,16 @@ class RigidModeSearch {
 
 } // namespace
 
-FactoredStiffness factor_with_rigid_modes(const SparseMatrix &k, const SparseMatrix &m,
-                                          double largest_contact, const vector<std::int64_t> &free_dof,
-                                          const Solver &solver, Watch watch) {
+FactoredStiffness factor_with_rigid_modes(const Tall &structure, double largest_contact,
+                                          const vector<std::int64_t> &free_dof, const Solver &solver,
+                                          Watch watch) {
     std::optional<Error> of_host;
-    if (std::unique_ptr<Factor> factor = factor_regular(k, solver, of_host))
+    const TallFacts facts = structure.facts();
+    if (std::unique_ptr<TallFactor> factor =
+            factor_regular(structure.stiffness(), facts.least_stiffness, solver, of_host))
         return {std::move(factor), 0.0, Field()};
-    FactoredStiffness found = RigidModeSearch(k, m, largest_contact, free_dof, solver, watch).run();
+    FactoredStiffness found =
+        RigidModeSearch(structure, facts, largest_contact, free_dof, solver, watch).run();
     if (of_host && found.rigid_modes.cols() == 0) throw *of_host; // K is regular: it was a failure
     return found;
 }

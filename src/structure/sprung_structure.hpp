@@ -15,16 +15,14 @@ class SprungStructure {
     /// springs: by gap row, >= 0. Whatever stood before is forgotten, also where this throws.
     void factor(const vector<double> &springs);
     /// X becomes (K + B^T S B)^-1 X; after factor().
-    void solve(Field &x) const { factor_->solve(x.in_core()); }
+    void solve(Field &x) const { factor_->solve(x); }
     /// The n lowest modes of it, fewer when there are fewer of finite frequency.
     StructureModes lowest_modes(std::int64_t n, const ModeSearch &search) const;
 
   private:
-    SparseMatrix with(const vector<double> &springs) const;
-
     const Structure &structure_;
-    SparseMatrix matrix_;
-    std::unique_ptr<Factor> factor_;
+    std::unique_ptr<TallMatrix> matrix_;
+    std::unique_ptr<TallFactor> factor_;
 };
 
 } // namespace plm

@@ -5,6 +5,7 @@
 #include "structure/multipliers.hpp"
 #include "structure/rigid_modes.hpp"
 #include "structure/solver/make_factor.hpp"
+#include "structure/tall_operations.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -36,6 +37,27 @@ ConstraintRows with_multipliers(const StructureInput &input) {
     if (input.multipliers.empty()) return rows;
     add_multiplier_rows(over_all_dofs("stiffness", *input.stiffness, input.n_dof), input.multipliers, rows);
     return rows;
+}
+
+// What needs entries of the matrices, or changes them.
+void refuse_beside_operations(const StructureInput &input) {
+    const auto refuse = [](bool given, const char *what, const char *instead) {
+        if (given)
+            throw Error(status::state,
+                        format("%s cannot stand beside tall operations: the matrices are the host's, %s",
+                               what, instead))
+                .argument("model");
+    };
+    const char *own = "who applies it to them";
+    refuse(!input.mass || !input.stiffness || input.mass->behind != input.stiffness->behind ||
+               input.damping_matrix,
+           "matrices", "all of them");
+    refuse(!input.fixed.empty(), "fixed DOFs", own);
+    refuse(input.constraints.n_rows() > 0, "constraints, links, couplings and ties", own);
+    refuse(!input.multipliers.empty(), "multipliers", own);
+    refuse(!input.base_motion.empty(), "a motion of the base", "and with them the supports");
+    refuse(!input.elimination_order.empty(), "an elimination order", "and so are their factors");
+    refuse(!input.nodes.empty(), "coordinates of nodes", "and what is checked by them is in their entries");
 }
 
 // Of all that moves: where constraints add up entries, rounding decides about the sign of a zero.
@@ -72,6 +94,7 @@ Structure::Structure(const StructureInput &input, GapSize gap, const Solver &sol
     parts_->solver = solver;
     parts_->multipliers = input.multipliers;
     assemble(input, gap);
+    if (parts_->in_core) parts_->tall = tall_in_core(parts_->mass, parts_->stiffness, parts_->damping);
     for (std::int64_t dof : input.elimination_order)
         if (parts_->dofs.free_index(dof) >= 0) parts_->solver.order.push_back(parts_->dofs.free_index(dof));
     if (input.elimination_order.empty()) return;
@@ -91,6 +114,10 @@ Structure::Structure(const StructureInput &input, GapSize gap, double largest_co
 }
 
 StructureEstimate Structure::estimate(const StructureInput &input, GapSize gap, const Solver &solver) {
+    if (input.mass && input.mass->behind)
+        throw Error(status::state, "what the model takes is known to its host alone, which keeps it behind "
+                                   "its tall operations: there is nothing to estimate")
+            .argument("model");
     const Structure structure(input, gap, solver);
     const Parts &parts = *structure.parts_;
     const SparseMatrix sum = add(1.0, parts.stiffness, 1.0, parts.mass);
@@ -109,6 +136,7 @@ void Structure::assemble(const StructureInput &input, GapSize gap) {
         throw Error(status::state, input.mass
                                        ? "the stiffness matrix is missing; hand it over with PLM_STIFFNESS"
                                        : "the mass matrix is missing; hand it over with PLM_MASS");
+    if (input.mass->behind || input.stiffness->behind) refuse_beside_operations(input);
     vector<std::int64_t> held = input.fixed;
     held.insert(held.end(), input.multipliers.begin(), input.multipliers.end());
     const ConstraintRows constraints = with_multipliers(input);
@@ -133,7 +161,7 @@ bool Structure::assemble_parts(const StructureInput &input, GapSize gap) {
     if (!assemble_matrices(input)) return false;
     require_scale("mass matrix", parts_->mass);
     require_scale("stiffness matrix", parts_->stiffness);
-    if (!(trace(parts_->mass) > 0))
+    if (!(parts_->in_core ? trace(parts_->mass) > 0 : parts_->tall->facts().trace_of_mass > 0))
         throw Error(status::matrix, "no free DOF has mass; check the mass matrix and the fixed DOFs")
             .argument("value");
     require_scale("damping matrix", parts_->damping);
@@ -144,14 +172,16 @@ bool Structure::assemble_parts(const StructureInput &input, GapSize gap) {
 
 // None where damping ratios count the modes, which would be others, nor where nothing else moves.
 StillDofs Structure::find_still_dofs() const {
-    if (damping_options_.modal_ratio.size() > 1) return {};
+    if (damping_options_.modal_ratio.size() > 1 || !parts_->in_core) return {};
     vector<char> moves(n_free(), 0);
     for (const SparseMatrix *a : {&parts_->stiffness, &parts_->mass, &parts_->damping})
         mark_coupled(*a, moves);
     for (std::int64_t dof : parts_->gap_rows.dofs()) moves[dof] = 1;
     const auto mark_loaded = [&](const Field &load) {
-        for (std::int64_t i = 0; i < load.rows() && load.cols() > 0; ++i)
-            if (load.at(i, 0) != 0) moves[i] = 1;
+        if (load.empty()) return;
+        const double *force = load.in_core().data();
+        for (std::int64_t i = 0; i < load.rows(); ++i)
+            if (force[i] != 0) moves[i] = 1;
     };
     mark_loaded(preload_);
     for (const auto &entry : excitation_) mark_loaded(entry.second.real), mark_loaded(entry.second.imag);
@@ -164,6 +194,7 @@ StillDofs Structure::find_still_dofs() const {
 void Structure::map_dofs(const vector<std::int64_t> &fixed, const ConstraintRows &constraints,
                          WideRows wide) {
     parts_->dofs = DofMap(n_dof_, fixed, constraints, {}, wide);
+    parts_->place = Field(n_free(), 0);
     if (n_free() == 0)
         throw Error(status::argument,
                     constraints.n_rows() > 0
@@ -193,6 +224,7 @@ bool Structure::reduce(const char *name, const SparseMatrix &all, BaseMotion::Th
 }
 
 bool Structure::assemble_matrices(const StructureInput &input) {
+    if (input.mass->behind) return take_operations(input), true;
     // one at a time: over all DOFs they are large
     SparseMatrix all = over_all_dofs("stiffness", *input.stiffness, n_dof_);
     parts_->translations = find_translations(all);
@@ -219,6 +251,19 @@ bool Structure::assemble_matrices(const StructureInput &input) {
     return reduce("damping", all, BaseMotion::damping, parts_->damping);
 }
 
+// The host's own matrices, supports and constraints: what it does with them is asked, not what they are.
+void Structure::take_operations(const StructureInput &input) {
+    parts_->in_core = false;
+    parts_->tall = tall_by_host(input.mass->behind, n_dof_);
+    parts_->place = parts_->tall->stiffness().none();
+    const TallScales scales = scales_of(*parts_->tall);
+    require_scale("mass matrix", &scales.mass, 1, status::matrix, "fn");
+    require_scale("stiffness matrix", &scales.stiffness, 1, status::matrix, "fn");
+    require_scale("damping matrix", &scales.damping, 1, status::matrix, "fn");
+    damping_options_ = input.damping;
+    damping_options_.has_matrix = parts_->tall->damping() != nullptr;
+}
+
 void Structure::assemble_gap(const StructureInput &input, GapSize size) {
     const std::int64_t n_rows = size.n_rows();
     SparseMatrix gap = parts_->dofs.reduced_rows(n_rows, input.gap_row, input.gap_dof, input.gap_coefficient);
@@ -239,7 +284,7 @@ void Structure::assemble_gap(const StructureInput &input, GapSize size) {
                                    : "fixed DOFs only"))
                 .argument("pair")
                 .index(size.pair_of(i));
-    parts_->gap_rows = GapRows(std::move(gap), size);
+    parts_->gap_rows = GapRows(std::move(gap), size, parts_->place);
     if (parts_->dofs.has_dependent())
         parts_->given_gap_rows =
             from_triplets(n_rows, n_dof_, input.gap_row, input.gap_dof, input.gap_coefficient);
@@ -247,14 +292,12 @@ void Structure::assemble_gap(const StructureInput &input, GapSize size) {
 
 void Structure::assemble_loads(const StructureInput &input) {
     const auto on_free_dofs = [&](const char *what, const char *name, const vector<double> &all) {
-        Field free(n_free(), 1);
-        if (!all.empty()) {
-            require_size(what, static_cast<std::int64_t>(all.size()), n_dof_);
-            require_none_at(parts_->multipliers, name, all);
-            free = Field(parts_->dofs.forces(all.data()));
-        }
-        require_scale(name, free.in_core().data(), n_free(), status::argument, "force");
-        return free;
+        if (all.empty()) return zeros(1);
+        require_size(what, static_cast<std::int64_t>(all.size()), n_dof_);
+        require_none_at(parts_->multipliers, name, all);
+        const vector<double> free = parts_->dofs.forces(all.data());
+        require_scale(name, free.data(), n_free(), status::argument, "force");
+        return parts_->place.from(free);
     };
     excitation_on_supports_ = 0;
     preload_ = on_free_dofs("preload", "pre-load", input.preload);
@@ -273,31 +316,28 @@ void Structure::assemble_loads(const StructureInput &input) {
 
 void Structure::factor_stiffness(double largest_contact, Watch watch) {
     watch.step("factorization", 0.1);
-    FactoredStiffness result = factor_with_rigid_modes(parts_->stiffness, parts_->mass, largest_contact,
+    FactoredStiffness result = factor_with_rigid_modes(*parts_->tall, largest_contact,
                                                        parts_->dofs.told_dofs(), parts_->solver, watch);
     parts_->factor = std::move(result.factor);
     parts_->shift = result.shift;
-    if (parts_->shift > 0) parts_->shifted = add(1.0, parts_->stiffness, parts_->shift, parts_->mass);
+    if (parts_->shift > 0)
+        parts_->shifted = parts_->tall->stiffness().plus(parts_->shift, parts_->tall->mass());
     parts_->rigid_modes = std::move(result.rigid_modes);
     parts_->n_rigid = parts_->rigid_modes.cols();
     parts_->uncertainty = result.uncertainty;
 }
 
-bool Structure::multiply_responses(const Field &loads, Matrix &energy, Matrix &inertia) const {
-    SparseMatrix f = transpose(parts_->gap_rows.matrix());
-    for (std::int64_t j = 0; j < loads.cols(); ++j) {
-        for (std::int64_t i = 0; i < loads.rows(); ++i) {
-            if (loads.at(i, j) == 0) continue;
-            f.idx.push_back(i);
-            f.val.push_back(loads.at(i, j));
-        }
-        f.ptr.push_back(f.nnz());
-        ++f.cols;
-    }
-    return whole().factor->multiply_responses(f, parts_->mass, energy, inertia);
+Field Structure::damping_times(const Field &x) const {
+    const TallMatrix *c = tall().damping();
+    return c ? c->times(x) : zeros(x.cols());
 }
 
-StructureModes lowest_modes(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
+bool Structure::multiply_responses(const Field &loads, Matrix &energy, Matrix &inertia) const {
+    return whole().factor->multiply_responses(parts_->gap_rows.matrix(), loads, parts_->tall->mass(), energy,
+                                              inertia);
+}
+
+StructureModes lowest_modes(const TallMatrix &k, const TallMatrix &m, const TallFactor &factor, double shift,
                             std::int64_t n, const ModeSearch &search) {
     EigsOptions options;
     options.cancelled = search.cancelled;
@@ -305,25 +345,22 @@ StructureModes lowest_modes(const SparseMatrix &k, const SparseMatrix &m, const 
     options.keep_rest = search.keep_rest;
     if (search.known) {
         const StructureModes &known = *search.known;
-        options.known = {&known.values, &known.vectors.in_core(), known.rest.get()};
+        options.known = {&known.values, &known.vectors, known.rest.get()};
     }
     EigenPairs pairs = lowest_eigenpairs(k, m, factor, shift, n, options);
-    StructureModes found{std::move(pairs.values), Field(std::move(pairs.vectors)), nullptr,
-                         !search.look_for_missed};
+    StructureModes found{std::move(pairs.values), std::move(pairs.vectors), nullptr, !search.look_for_missed};
     if (!pairs.rest.theta.empty()) found.rest = std::make_shared<SearchRest>(std::move(pairs.rest));
     return found;
 }
 
 StructureModes Structure::lowest_modes(std::int64_t n, const ModeSearch &search) const {
-    return plm::lowest_modes(whole().stiffness, parts_->mass, *parts_->factor, -parts_->shift, n, search);
+    return plm::lowest_modes(tall().stiffness(), tall().mass(), *parts_->factor, -parts_->shift, n, search);
 }
 
 // Inverse iteration, and the Rayleigh quotient of what it comes to.
 double Structure::rough_lowest_elastic() const {
     if (n_rigid() == n_free()) return 0;
-    const vector<double> start = patternless_vector(n_free());
-    Field x(n_free(), 1);
-    std::copy(start.begin(), start.end(), x.in_core().data());
+    Field x = parts_->place.patternless();
     double square = 0;
     for (int step = 0; step < 3; ++step) {
         Field force = mass_times(x);
@@ -334,24 +371,27 @@ double Structure::rough_lowest_elastic() const {
         const double energy = column_products(x, force)[0], inertia = column_products(x, mass_times(x))[0];
         if (!(energy > 0 && inertia > 0)) return 0;
         square = energy / inertia - parts_->shift;
-        for (std::int64_t i = 0; i < n_free(); ++i) x.in_core()(i, 0) /= std::sqrt(inertia);
+        x.divide(vector<double>{std::sqrt(inertia)});
     }
     return std::sqrt(std::max(0.0, square));
 }
 
 std::int64_t Structure::count_modes_below(double omega) const {
-    return count_modes(whole().stiffness, parts_->mass, omega, parts_->solver);
+    return count_modes(tall().stiffness(), tall().mass(), omega, parts_->solver);
 }
 
 std::int64_t Structure::count_modes_near(double &omega, Watch watch) const {
-    return plm::count_modes_near(whole().stiffness, parts_->mass, omega, parts_->solver, "open modes",
+    return plm::count_modes_near(tall().stiffness(), tall().mass(), omega, parts_->solver, "open modes",
                                  "cutoff_factor", watch);
 }
 
+double Structure::trace_of_mass() const {
+    return parts_->in_core ? trace(whole().mass) : tall().facts().trace_of_mass;
+}
+
 std::int64_t Structure::n_massless_dofs() const {
-    std::int64_t count = n_free();
-    for (double m : diagonal(whole().mass)) count -= m > 0;
-    return count;
+    const std::int64_t n = parts_->in_core ? n_free() : tall().facts().n_dof;
+    return n - tall().mass().n_positive();
 }
 
 vector<double> Structure::expanded(const Field &x) const {
@@ -361,7 +401,7 @@ vector<double> Structure::expanded(const Field &x) const {
 }
 
 Field Structure::restricted(const double *all) const {
-    return Field(parts_->dofs.free_part(all));
+    return parts_->place.from(parts_->dofs.free_part(all));
 }
 
 std::vector<DofTerms> Structure::given_gap_rows() const {

@@ -69,7 +69,7 @@ struct ModeSearch {
 };
 
 /// Of K x = lambda M x with the factor of K - shift M, as Structure::lowest_modes(): for this room.
-StructureModes lowest_modes(const SparseMatrix &k, const SparseMatrix &m, const Factor &factor, double shift,
+StructureModes lowest_modes(const TallMatrix &k, const TallMatrix &m, const TallFactor &factor, double shift,
                             std::int64_t n, const ModeSearch &search);
 
 /// What a structure takes before anything is factored: bytes, and the factor.
@@ -124,21 +124,17 @@ class Structure {
     std::int64_t n_redundant_constraints() const { return parts_->dofs.elimination().n_redundant; }
 
     /// M X, K X, C X (the explicit part of the damping only) and (K + shift() M) X.
-    Field mass_times(const Field &x) const { return times(whole().mass, x); }
-    Field stiffness_times(const Field &x) const { return times(whole().stiffness, x); }
-    Field damping_times(const Field &x) const { return times(whole().damping, x); }
+    Field mass_times(const Field &x) const { return tall().mass().times(x); }
+    Field stiffness_times(const Field &x) const { return tall().stiffness().times(x); }
+    Field damping_times(const Field &x) const;
     Field shifted_times(const Field &x) const {
-        return times(parts_->shift > 0 ? whole().shifted : whole().stiffness, x);
+        return parts_->shifted ? parts_->shifted->times(x) : stiffness_times(x);
     }
     /// y = M x and y = K x, one column each.
-    void mass_times(const Field &x, Field &y) const {
-        multiply_transposed(whole().mass, x.in_core().data(), y.in_core().data());
-    }
-    void stiffness_times(const Field &x, Field &y) const {
-        multiply_transposed(whole().stiffness, x.in_core().data(), y.in_core().data());
-    }
+    void mass_times(const Field &x, Field &y) const { tall().mass().times(x, y); }
+    void stiffness_times(const Field &x, Field &y) const { tall().stiffness().times(x, y); }
     /// X becomes (K + shift() M)^-1 X; shift() is 0 when K is positive definite.
-    void solve(Field &x) const { whole().factor->solve(x.in_core()); }
+    void solve(Field &x) const { whole().factor->solve(x); }
     double shift() const { return parts_->shift; }
     /// For the static responses X = (K + shift() M)^-1 F to F = [B^T loads]: F^T X and X^T M X, without
     /// keeping X and for less than a solution each. False where that is not to be had.
@@ -200,17 +196,22 @@ class Structure {
     bool diagonal_twice() const { return parts_->diagonal_twice; }
     /// Norm of the harmonic excitation on fixed DOFs, where it does nothing.
     double excitation_on_supports() const { return excitation_on_supports_; }
-    double trace_of_mass() const { return trace(whole().mass); }
+    double trace_of_mass() const;
     std::int64_t n_massless_dofs() const;
 
     /// Column j over all DOFs (n_dof numbers), fixed ones zero; and a motion of all DOFs, one column, by its
     /// free ones.
     void expand(const Field &x, std::int64_t j, double *all) const {
-        parts_->dofs.expand(x.in_core().col(j), all);
+        parts_->dofs.expand(x.column(j).data(), all);
     }
     vector<double> expanded(const Field &x) const; // column 0
     Field restricted(const double *all) const;
+    /// Zeros, where all others are.
+    Field zeros(std::int64_t cols) const { return parts_->place.zeros(cols); }
 
+    /// What lies behind the seam, and who factors it: for this room.
+    const Tall &tall() const { return *whole().tall; }
+    const Solver &solver() const { return parts_->solver; }
     /// The matrices on the free DOFs and who factors them: for this room, and for tests.
     struct Matrices {
         const SparseMatrix &mass, &stiffness, &damping; // damping: 0 x 0 without an explicit one
@@ -224,14 +225,11 @@ class Structure {
   private:
     Structure(const StructureInput &input, GapSize gap, const Solver &solver);
     template <class Self, class Bytes> static void pass(Self &self, Bytes &bytes);
-    /// The matrices are symmetric: the form that gathers is the faster one.
-    static Field times(const SparseMatrix &a, const Field &x) {
-        return Field(multiply_transposed(a, x.in_core()));
-    }
     void assemble(const StructureInput &input, GapSize gap);
     void assemble_on(const vector<std::int64_t> &held, const ConstraintRows &constraints,
                      const StructureInput &input, GapSize gap);
     bool assemble_parts(const StructureInput &input, GapSize gap);
+    void take_operations(const StructureInput &input);
     StillDofs find_still_dofs() const;
     void map_dofs(const vector<std::int64_t> &fixed, const ConstraintRows &constraints, WideRows wide);
     void warn_of_printed_constraints(Watch watch) const;
@@ -250,8 +248,11 @@ class Structure {
     /// What neither loads nor damping change: made once, and shared by structures that differ in these.
     struct Parts {
         DofMap dofs;
-        SparseMatrix mass, stiffness, damping;
-        SparseMatrix shifted; // K + sigma M when sigma > 0
+        SparseMatrix mass, stiffness, damping; // empty where the host keeps them behind its operations
+        bool in_core = true;
+        std::unique_ptr<Tall> tall;          // of them
+        std::unique_ptr<TallMatrix> shifted; // K + sigma M when sigma > 0
+        Field place;                         // no columns, where all vectors are
         GapRows gap_rows;
         SparseMatrix given_gap_rows; // over all DOFs, where some are dependent
         vector<std::int64_t> multipliers;
@@ -262,7 +263,7 @@ class Structure {
         BaseMotion base;
         std::vector<RowMotion> row_motions; // with it
         double shift = 0, uncertainty = 0;
-        std::unique_ptr<Factor> factor;
+        std::unique_ptr<TallFactor> factor;
         Field rigid_modes, unheld, unheld_momenta; // R, R_0, M R_0
         RowMiss miss;                              // of the gap rows along R_0
         Solver solver;

@@ -38,6 +38,17 @@ void pass_sparse(Bytes &bytes, Sparse &a, std::int64_t rows, std::int64_t cols) 
     }
 }
 
+/// The columns as an array of this process, fetched where they are kept elsewhere.
+template <class F> void with_array(const Field &x, F f) {
+    if (const Matrix *columns = x.block().matrix()) return f(*columns);
+    Matrix all(x.rows(), 0);
+    for (std::int64_t j = 0; j < x.cols(); ++j) {
+        const vector<double> column = x.column(j);
+        all.append(Field(column).in_core());
+    }
+    f(all);
+}
+
 template <class Bytes, class F>
 void pass_field(Bytes &bytes, F &field, std::int64_t rows, std::int64_t most_cols) {
     if constexpr (Bytes::reads) {
@@ -47,7 +58,7 @@ void pass_field(Bytes &bytes, F &field, std::int64_t rows, std::int64_t most_col
                       "vectors of another length than the structure has");
         field = Field(std::move(columns));
     } else {
-        bytes(field.in_core());
+        with_array(field, [&](const Matrix &columns) { bytes(columns); });
     }
 }
 
@@ -79,13 +90,16 @@ std::uint64_t crc_of(const SparseMatrix &a, std::uint64_t crc) {
 }
 
 std::uint64_t crc_of(const Field &x, std::uint64_t crc) {
-    return crc64(x.in_core().data(), sizeof(double) * static_cast<std::size_t>(x.rows() * x.cols()), crc);
+    with_array(x, [&](const Matrix &columns) {
+        crc = crc64(columns.data(), sizeof(double) * static_cast<std::size_t>(x.rows() * x.cols()), crc);
+    });
+    return crc;
 }
 
 } // namespace
 
 void write_field(ByteWriter &bytes, const Field &field) {
-    bytes(field.in_core());
+    with_array(field, [&](const Matrix &columns) { bytes(columns); });
 }
 
 Field read_field(ByteReader &bytes, std::int64_t rows, std::int64_t cols) {
@@ -162,6 +176,7 @@ void GapRows::write(ByteWriter &bytes) const {
 }
 void GapRows::read(ByteReader &bytes, std::int64_t n_free) {
     pass(*this, n_free, bytes);
+    place_ = Field(n_free, 0);
 }
 
 template <class Motion, class Bytes>
@@ -219,6 +234,7 @@ void Structure::write(ByteWriter &bytes) const {
 Structure::Structure(ByteReader &bytes) : parts_(std::make_shared<Parts>()) {
     parts_->dofs.read(bytes);
     n_dof_ = parts_->dofs.n_dof();
+    parts_->place = Field(n_free(), 0);
     parts_->gap_rows.read(bytes, n_free());
     parts_->base.read(bytes, n_dof_, n_free());
     std::vector<DofTerms> outputs;
@@ -249,6 +265,12 @@ std::uint64_t Structure::fingerprint_of_parts() const {
     for (const SparseMatrix *a : {&std::as_const(parts_->mass), &std::as_const(parts_->stiffness),
                                   &std::as_const(parts_->damping), &gap})
         crc = crc_of(*a, crc);
+    if (!parts_->in_core) { // what the host told of its matrices
+        const TallFacts f = parts_->tall->facts();
+        const double told[] = {static_cast<double>(f.n_dof), static_cast<double>(f.n_massive),
+                               f.trace_of_mass, f.trace_of_stiffness, f.least_stiffness};
+        crc = crc64(told, sizeof told, crc);
+    }
     return crc == 0 ? 1 : crc;
 }
 

@@ -52,9 +52,7 @@ void Structure::follow_supports(const StructureInput &in) {
 void Structure::add_base_forces() {
     if (parts_->base.empty()) return;
     const Damping &d = damping_options_;
-    parts_->base.add_forces(
-        {parts_->mass, parts_->stiffness, parts_->damping, parts_->shift, d.alpha, d.beta, d.structural},
-        excitation_);
+    parts_->base.add_forces({tall(), parts_->shift, d.alpha, d.beta, d.structural}, excitation_);
 }
 
 // Also what is too small to be said: what carries no force has moved far before a tiny one is felt.

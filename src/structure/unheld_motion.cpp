@@ -31,7 +31,7 @@ double largest_ratio(const Matrix &a, const vector<double> &size) {
 bool is_held(const GapRows &rows, const Field &motion, vector<double> size) {
     const Matrix answer = rows.of(motion), terms = rows.terms_of(motion);
     const double farthest = largest_entry(motion).size;
-    const Matrix lengths = rows.terms_of(Field(vector<double>(static_cast<std::size_t>(motion.rows()), 1.0)));
+    const Matrix lengths = rows.terms_of(motion.filled(1, {1, 0, 0, 0}));
     for (std::size_t i = 0; i < size.size(); ++i)
         size[i] = std::min(size[i], farthest * lengths(static_cast<std::int64_t>(i), 0));
     const double miss = largest_ratio(answer, size);
@@ -74,11 +74,7 @@ Resultant resultant(const Field &load, const Field &motions, const Field &rigid_
     if (!(size > 0)) return {};
     const auto terms_in = [&](const Field &of) {
         double terms = 0;
-        for (std::int64_t j = 0; j < of.cols(); ++j) {
-            double sum = 0;
-            for (std::int64_t i = 0; i < load.rows(); ++i) sum += std::abs(of.at(i, j) * load.at(i));
-            terms = std::hypot(terms, sum);
-        }
+        for (double sum : of.block().absolute_products(load.block())) terms = std::hypot(terms, sum);
         return terms;
     };
     const LargestEntry most = largest_entry(combine(motions, along));

@@ -13,6 +13,7 @@ SOLVE_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, pointer, ctypes.c_int64, po
 FREE_FACTOR_FN = ctypes.CFUNCTYPE(None, pointer, pointer, pointer)
 INERTIA_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, pointer, ctypes.POINTER(ctypes.c_int64), pointer)
 RECOVER_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, ctypes.c_int64, ctypes.c_int64, pointer, ctypes.c_int64, pointer, pointer)
+TALL_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, ctypes.c_int32, pointer, pointer, pointer, pointer, pointer)
 
 # One letter per argument: i int32_t, q int64_t, d double, s text in, p any other pointer; then their names.
 FUNCTIONS = {
@@ -56,6 +57,7 @@ FUNCTIONS = {
     "plm_model_add_tie_i64": "piqppqppqppdp model index_base n dependent_dof dependent_xyz n_surface surface_dof surface_xyz n_faces face_ptr face_node tolerance distance",
     "plm_model_set_multipliers_i32": "piqp model index_base n dof",
     "plm_model_set_multipliers_i64": "piqp model index_base n dof",
+    "plm_model_set_tall_operations": "ppp model fn user",
     "plm_model_set_elimination_order_i32": "piqp model index_base n dof",
     "plm_model_set_elimination_order_i64": "piqp model index_base n dof",
     "plm_model_add_node_pairs_i32": "piqppppp model index_base n dof_a dof_b normal stiffness gap",
@@ -286,6 +288,23 @@ KEY_CHOICES = 4
 MASS = 1
 STIFFNESS = 2
 DAMPING = 3
+TALL_END = 0
+TALL_FREE = 1
+TALL_FACTS = 2
+TALL_FILL = 3
+TALL_COPY = 4
+TALL_COMBINE = 5
+TALL_GRAM = 6
+TALL_APPLY = 7
+TALL_FACTOR = 8
+TALL_SOLVE = 9
+TALL_RESPONSES = 10
+TALL_ROWS = 11
+TALL_SET_ROWS = 12
+TALL_LOOK = 13
+TALL_ENERGY = 14
+TALL_RESIDUAL = 15
+TALL_DIAGONAL = 16
 CSC = 1
 TRIPLETS = 2
 CSR = 3
