@@ -37,8 +37,8 @@ static void fill_matrices(const variant *v) {
     }
     if (v->clamped) spring(n, 0, -1, 5e4, stiffness);
     if (v->dashpot) spring(n, n / 2, n / 2 + 1, 0.8, damping);
-    load[n / 3] = 3, load[n - 2] = -3; /* balanced, as a free rod must be */
-    preload[n / 4] = 0.2, preload[n - 1] = -0.2;
+    load[n / 3] = 3, load[n - 2] = -3;           /* balanced, as a free rod must be */
+    preload[n - 1] = 0.2, preload[n / 4] = -0.2; /* apart, which closes the joints */
 }
 
 /* Rows and columns that are held, taken out as matrices have it. */
@@ -74,6 +74,8 @@ static plm_status prepared(const variant *v, int behind, plm_model **m) {
     fill_matrices(v);
     s = behind ? take_operations(*m, v) : take_matrices(*m, v);
     if (!s) s = plm_model_set_rayleigh_damping(*m, 0, 2e-4);
+    if (!s)
+        s = plm_model_set_double(*m, "space_tolerance", 1e-10); /* what is cut off is not the same in both */
     if (!s) s = plm_model_add_gap_rows_i64(*m, 0, JOINTS, row_ptr, dof, coefficient, k_n, gap);
     if (!s) s = plm_model_set_excitation(*m, 1, n, load, NULL);
     if (!s) s = plm_model_set_preload(*m, n, preload);
@@ -104,7 +106,7 @@ static void assert_ended(plm_model **behind) {
     assert_int_equal(host.wrong, 0);
 }
 
-static void assert_same_modes(plm_model *a, plm_model *b, int32_t system, int n_dof) {
+static void assert_same_modes(plm_model *a, plm_model *b, int32_t system, int n_dof, double tolerance) {
     static double hz[2][MODES], shape[2][N * MODES];
     int j, i;
     assert_true(done(ctx, plm_model_get_modes(a, system, NULL, MODES, hz[0], shape[0])));
@@ -114,12 +116,12 @@ static void assert_same_modes(plm_model *a, plm_model *b, int32_t system, int n_
         if (hz[0][j] == 0) /* rigid, exactly so in both */
             assert_true(hz[1][j] == 0);
         else
-            assert_true(close_to(hz[1][j], hz[0][j], 1e-9));
+            assert_true(close_to(hz[1][j], hz[0][j], tolerance));
         for (i = 0; i < n_dof; ++i) {
             same += shape[0][i + n_dof * j] * shape[1][i + n_dof * j];
             size += shape[0][i + n_dof * j] * shape[0][i + n_dof * j];
         }
-        assert_true(close_to(fabs(same), size, 1e-8)); /* single modes: the same but for the sign */
+        assert_true(close_to(fabs(same), size, 10 * tolerance)); /* single modes: the same but for the sign */
     }
 }
 
@@ -130,17 +132,20 @@ static void modes_and_rest_are_those_of_the_matrices(void **state) {
     for (which = 0; which < sizeof variants / sizeof variants[0]; ++which) {
         const variant *v = variants[which];
         plm_model *a = built(v, 0), *b = built(v, 1);
+        /* of a free rod both have but the digits that its contact space is cut off at: 4e-6 of the rest
+         * changes with "space_tolerance" in either */
+        const double tolerance = v->clamped || v->held ? 1e-9 : 2e-5;
         double q[2][N], largest = 0;
         int64_t n;
         int i;
-        assert_same_modes(a, b, PLM_SYSTEM_OPEN, v->n);
+        assert_same_modes(a, b, PLM_SYSTEM_OPEN, v->n, 1e-9);
         assert_true(done(ctx, plm_model_solve_rest(a)));
         assert_true(done(ctx, plm_model_solve_rest(b)));
         assert_int_equal(plm_model_get_array(a, "rest_displacement", N, q[0], &n), PLM_OK);
         assert_int_equal(plm_model_get_array(b, "rest_displacement", N, q[1], &n), PLM_OK);
         for (i = 0; i < v->n; ++i) largest = fmax(largest, fabs(q[0][i]));
-        for (i = 0; i < v->n; ++i) assert_true(fabs(q[1][i] - q[0][i]) <= 1e-9 * largest);
-        assert_same_modes(a, b, PLM_SYSTEM_REST, v->n);
+        for (i = 0; i < v->n; ++i) assert_true(fabs(q[1][i] - q[0][i]) <= tolerance * largest);
+        assert_same_modes(a, b, PLM_SYSTEM_REST, v->n, tolerance);
         assert_int_equal(plm_model_destroy(&a), PLM_OK);
         assert_ended(&b);
     }
@@ -154,6 +159,7 @@ static int64_t curve_of(plm_model *m, double *hz, double *amplitude, double *pea
     assert_true(done(
         ctx, plm_branch_get_amplitude(curve, N / 3, PLM_HALF_PEAK_TO_PEAK, 0, MOST_POINTS, amplitude, &n)));
     assert_int_equal(plm_branch_get_array(curve, "frequency_hz", MOST_POINTS, hz, &n), PLM_OK);
+    assert_int_equal(plm_branch_destroy(&curve), PLM_OK); /* it lives on the model */
     return n;
 }
 

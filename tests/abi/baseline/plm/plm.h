@@ -213,6 +213,55 @@ typedef int32_t (*plm_inertia_fn)(plm_context *ctx, void *factor, int64_t *negat
 typedef int32_t (*plm_recover_fn)(plm_context *ctx, int64_t n_dof, int64_t n_columns, const double *reduced,
                                   int64_t n_full, double *full, void *user);
 
+/* Tall operations: what a model does with things of n_dof rows where the host keeps these (in several processes, out of
+ * core, without an assembled matrix) and implements the operations below in one function. One call does one operation;
+ * calls never overlap and come on the thread that called the library. Return 0, or a number that fails the library's call
+ * (PLM_ERR_CALLBACK, library_code); what an operation that failed was to write is undefined, all else stays.
+ * Supports and constraints are the host's: a DOF that it holds is zero in every block, always, and empty in M, K and C.
+ * Blocks x, y of columns and factors f are numbers > 0 that the library chooses, none twice. A block comes to be when it
+ * is first written, and grows where columns behind its last are written. factor {m, k, c} stands for A = m M + k K + c C;
+ * small_in and small_out are column-major without padding, small_out is zero on entry. number, factor and small_in live
+ * during the call only, and are NULL where an operation has none. X: columns [x_first, x_first + x_cols) of x; Y alike.
+ *  PLM_TALL_END        the last call for this model, from a destroy function; its answer is not looked at
+ *  PLM_TALL_FREE       {n, handle[n]} are needed no longer; some may never have come to be. Its answer is not looked at
+ *  PLM_TALL_FACTS      small_out[16], of the DOFs that are not held: [0] their number, [1] of these with M_ii > 0, traces of
+ *                      [2] M and [3] K, [4] the least K_ii, [5] the median of K_ii / M_ii where both are > 0, 0: none; the
+ *                      first DOF with neither K_ii > 0 nor M_ii > 0 [6] and an empty row of K, [7] with entries in it, -1:
+ *                      none, [8] number of the latter; [9] 1: there is a C; [10] to [12] the largest absolute entries of
+ *                      M, K and C, 0: not known
+ *  PLM_TALL_FILL       {x, cols, seed}, factor {a, b, c}: entries a + b sin(i) + c r of DOF i, r in (-1, 1) without a
+ *                      pattern, by the seed the same in every run
+ *  PLM_TALL_COPY       {x, x_first, y, n, column[n]}: column[k] of y becomes column x_first + k of x
+ *  PLM_TALL_COMBINE    {x, x_first, x_cols, y, y_first, y_cols, diagonal}, factor {beta, alpha}, small_in S: X = beta X +
+ *                      alpha Y S, S y_cols x x_cols, or its diagonal alone. beta 0: X is not read. X and Y may share columns
+ *                      where beta is 0, x_first = y_first and x_cols <= y_cols; other columns of Y hold anything then
+ *  PLM_TALL_GRAM       {x, x_first, x_cols, y, y_first, y_cols, diagonal, absolute}: small_out = X^T Y, or its diagonal
+ *                      alone; absolute: of the absolute values of all entries
+ *  PLM_TALL_APPLY      {x, x_first, y, y_first, cols}, factor {m, k, c}: X = A Y
+ *  PLM_TALL_FACTOR     {f, purpose, n_held, n_entries, held[n_held], row[n_entries], column[n_entries]}, factor {m, k, c},
+ *                      small_in value[n_entries]: a factorization of A with these entries added (lower triangle, each
+ *                      stands for its mirror image, too; several at one place are summed), the DOFs `held` kept at zero.
+ *                      purpose 0: positive definite, for SOLVE; 1: only the count [0] is wanted. small_out[8]: [0] number
+ *                      of negative eigenvalues, -1: cannot tell; [1] rough reciprocal condition, 1: cannot tell; [2] entries
+ *                      of the factor, -1: not known; [3] 0, or what A turned out to be: 1 not positive definite, 2
+ *                      singular; [4] the DOF where, or -1. Breaking down is an answer, not a failure, and leaves no f:
+ *                      free bodies are found by it
+ *  PLM_TALL_SOLVE      {f, x, x_first, x_cols}: X = f^-1 X, zero at what is held
+ *  PLM_TALL_RESPONSES  {f, y, y_first, y_cols, s, n_entries, dof[n_entries], column[n_entries]}, small_in
+ *                      value[n_entries]: F has s sparse columns and then those of Y, t in all; small_out[0] = 1, then F^T
+ *                      f^-1 F and F^T f^-1 M f^-1 F, t x t each; left at 0: cannot, the library solves instead
+ *  PLM_TALL_ROWS       {x, x_first, x_cols, n, dof[n]}: small_out (n x x_cols) = X at these DOFs; n = -1: at all, one column
+ *  PLM_TALL_SET_ROWS   {x, x_first, x_cols, n, dof[n]}, factor {beta}, small_in (n x x_cols): X there = beta X + small_in
+ *  PLM_TALL_LOOK       {x, x_first, x_cols}: small_out [0] 1: all entries are finite, [1] the largest Euclidean norm of a
+ *                      row, [2] the first DOF that has it
+ *  PLM_TALL_ENERGY     {x, x_first, x_cols}, factor {m, k, c}: small_out (2 x x_cols): x^T A x of each column, with as many
+ *                      digits as can be had, and |x|^T |A| |x|
+ *  PLM_TALL_RESIDUAL   {x, x_first, y, y_first, cols}, factor {rounding}, small_in lambda[cols]: small_out[cols] = the
+ *                      Euclidean norm of what |K x - lambda y| exceeds rounding |K| |x| by, row by row
+ *  PLM_TALL_DIAGONAL   {n, dof[n]}, factor {m, k, c}: small_out[n] = A_ii */
+typedef int32_t (*plm_tall_fn)(plm_context *ctx, int32_t operation, const int64_t *number, const double *factor,
+                               const double *small_in, double *small_out, void *user);
+
 /* api_version: PLM_API_VERSION. */
 PLM_API plm_status plm_context_create(int32_t api_version, plm_context **ctx);
 /* All arrays of the library made for this context come from `allocate`, which must be able to serve until the context
@@ -264,6 +313,24 @@ PLM_API plm_status plm_context_get_error_info(plm_context *ctx, plm_status *stat
 #define PLM_MASS 1
 #define PLM_STIFFNESS 2
 #define PLM_DAMPING 3 /* viscous; adds to Rayleigh and modal damping */
+/* tall operations, told at plm_tall_fn */
+#define PLM_TALL_END 0
+#define PLM_TALL_FREE 1
+#define PLM_TALL_FACTS 2
+#define PLM_TALL_FILL 3
+#define PLM_TALL_COPY 4
+#define PLM_TALL_COMBINE 5
+#define PLM_TALL_GRAM 6
+#define PLM_TALL_APPLY 7
+#define PLM_TALL_FACTOR 8
+#define PLM_TALL_SOLVE 9
+#define PLM_TALL_RESPONSES 10
+#define PLM_TALL_ROWS 11
+#define PLM_TALL_SET_ROWS 12
+#define PLM_TALL_LOOK 13
+#define PLM_TALL_ENERGY 14
+#define PLM_TALL_RESIDUAL 15
+#define PLM_TALL_DIAGONAL 16
 /* storage */
 #define PLM_CSC 1 /* compressed columns; for a symmetric matrix stored in full also compressed rows */
 #define PLM_TRIPLETS 2
@@ -394,6 +461,15 @@ PLM_API plm_status plm_model_add_tie_i64(plm_model *model, int32_t index_base, i
  * plm_model_add_constraints_i32); PLM_ERR_ARGUMENT where a load acts on one. */
 PLM_API plm_status plm_model_set_multipliers_i32(plm_model *model, int32_t index_base, int64_t n, const int32_t *dof);
 PLM_API plm_status plm_model_set_multipliers_i64(plm_model *model, int32_t index_base, int64_t n, const int64_t *dof);
+
+/* The host's tall operations (plm_tall_fn) in place of the model's matrices: n_dof counts the rows of its blocks. fn NULL:
+ * none, the default. Gap rows, node pairs, loads, outputs and damping go with it as usual, by the DOFs of these rows; all
+ * else that happens with M, K and C is asked of fn, from the build on until PLM_TALL_END: fn and user must live as long.
+ * PLM_ERR_STATE of the build beside matrices, fixed DOFs, constraints, couplings, ties, multipliers, coordinates, an
+ * elimination order or a motion of the base, which are the host's here, and of plm_model_estimate_memory and
+ * "memory_limit". The audit says nothing that it would have to read from entries. All, or nearly all modes of a structure are found for up
+ * to 2,000 DOFs. */
+PLM_API plm_status plm_model_set_tall_operations(plm_model *model, plm_tall_fn fn, void *user);
 
 /* The order in which the sparse factorization by cholmod eliminates the DOFs, in place of the library's: a permutation of
  * all of them, n = n_dof, for hosts that know their mesh; fixed and dependent ones are passed over. It changes time and memory, no
