@@ -1,11 +1,7 @@
 // plm_mpi.h: arguments, handles and errors; no numerics, and no exception gets out.
-#include "capi/barrier.hpp"
-#include "mpi/service.hpp"
-#include "plm/plm_mpi.h"
+#include "mpi/team_handles.hpp"
 #include <cmath>
 #include <cstring>
-#include <map>
-#include <mutex>
 
 using namespace plm;
 using namespace plm::mpi;
@@ -16,63 +12,6 @@ static_assert(static_cast<std::int32_t>(Operation::end) == PLM_TALL_END);
 static_assert(static_cast<std::int32_t>(Operation::factor) == PLM_TALL_FACTOR);
 static_assert(static_cast<std::int32_t>(Operation::diagonal) == PLM_TALL_DIAGONAL);
 static_assert(status::matrix == PLM_ERR_MATRIX && status::callback == PLM_ERR_CALLBACK);
-
-struct Handle {
-    Service service;
-    std::string error;
-    plm_context *context = nullptr; // rank 0: of the model
-};
-
-/// Live teams by the number that their handles are: a stale one is recognised, and never dereferenced.
-struct Table {
-    std::mutex lock;
-    std::map<std::uintptr_t, std::shared_ptr<Handle>> teams;
-    std::uintptr_t next = 1;
-};
-Table &table() {
-    static Table t;
-    return t;
-}
-thread_local std::string creation_error;
-
-std::shared_ptr<Handle> find(const void *team) {
-    const std::lock_guard<std::mutex> lock(table().lock);
-    const auto found = table().teams.find(reinterpret_cast<std::uintptr_t>(team));
-    return found == table().teams.end() ? nullptr : found->second;
-}
-
-std::uintptr_t enter(std::shared_ptr<Handle> handle) {
-    const std::lock_guard<std::mutex> lock(table().lock);
-    table().teams[table().next] = std::move(handle);
-    return table().next++;
-}
-void leave(std::uintptr_t number) {
-    const std::lock_guard<std::mutex> lock(table().lock);
-    table().teams.erase(number);
-}
-
-Status told(std::string &text, const char *function, const Verdict &v) noexcept {
-    try {
-        text = std::string(function) + ": " + v.text;
-    } catch (...) { // no memory for the text: the status stands
-        text.clear();
-    }
-    return v.status;
-}
-
-/// body(Handle &) of a live team; what it throws becomes status and text.
-template <class Body> plm_status call(const char *function, const void *team, Body body) noexcept {
-    capi::HeldThread held;
-    std::shared_ptr<Handle> handle;
-    try {
-        handle = find(team);
-        if (!handle) return PLM_ERR_HANDLE;
-        return body(*handle);
-    } catch (...) {
-        if (!handle) return PLM_ERR_MEMORY;
-        return told(handle->error, function, Team::describe_failure());
-    }
-}
 
 /// A call in which a rank hands over a part: where it fails, all hear of it when the model is made.
 template <class Body> plm_status add(const char *function, plm_team *team, Body body) noexcept {
