@@ -253,6 +253,17 @@ def response(folder):
     curve = hbm.sweep()
     print(curve.end_text, curve.n_points)
     # [Hbm] [Hbm.sweep]
+    # [Hbm.save_every] [Hbm.resume]
+    hbm.save_every(10, os.path.join(folder, "curve.plm"))
+    hbm.set(max_points=5)
+    begun = hbm.sweep()
+    hbm.set(max_points=1000)
+    whole = hbm.resume(begun)
+    # [Hbm.save_every] [Hbm.resume]
+    hbm.save_every(0)
+    # [Branch.describe]
+    print(curve.describe())
+    # [Branch.describe]
     # [Hbm.find_peak]
     peak = hbm.find_peak(curve, dof=1)
     print(peak.amplitude, peak.frequency_hz)
