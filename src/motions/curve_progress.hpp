@@ -8,9 +8,6 @@
 
 namespace plm {
 
-namespace reason { // TEMPORARY
-enum : std::int32_t { unfinished = 31, not_saved = 32 };
-}
 class Branch;
 
 /// What harmonic balance has chosen along a curve (hbm/harmonic_curve.cpp).
