@@ -5,6 +5,7 @@
 #include "motions/periodic_equations.hpp"
 #include "paths/path_progress.hpp"
 #include <string>
+#include <vector>
 
 namespace plm {
 
