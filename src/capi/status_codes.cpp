@@ -1,7 +1,6 @@
 // The core's codes are those of plm.h.
 #include "linalg/status.hpp"
 #include "motions/branch.hpp"
-#include "motions/curve_progress.hpp" // TEMPORARY
 #include "plm/plm.h"
 #include "space/model_input.hpp"
 #include "structure/matrix_input.hpp"

@@ -66,7 +66,9 @@ enum : std::int32_t {
     larger_motion = 27,
     tie = 28,
     rounded = 29,
-    effort = 30
+    effort = 30,
+    unfinished = 31,
+    not_saved = 32
 };
 }
 

@@ -1,5 +1,4 @@
 #include "motions/branch.hpp"
-#include "motions/curve_progress.hpp" // TEMPORARY
 #include "contact/contact_measures.hpp"
 #include "contact/trig_polynomial.hpp"
 #include "linalg/blas_lapack.hpp"

@@ -5,12 +5,10 @@
 #include "motions/periodic_equations.hpp"
 #include "paths/path_progress.hpp"
 #include <string>
+#include <vector>
 
 namespace plm {
 
-namespace reason { // TEMPORARY
-enum : std::int32_t { unfinished = 31, not_saved = 32 };
-}
 class Branch;
 
 /// What harmonic balance has chosen along a curve (hbm/harmonic_curve.cpp).

@@ -1,4 +1,5 @@
 #include "orbits/curve_progress_bytes.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace plm {

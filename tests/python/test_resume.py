@@ -16,7 +16,7 @@ import models
 KEYS = ("frequency_hz", "arclength", "residual", "stable", "bifurcation", "n_switching", "point_harmonics")
 
 # each way of following a curve: exact motions, harmonics chosen by point with stability, a fixed number, gaps as unknowns,
-# time samples, through branch points, several periods
+# time samples, through branch points
 CASES = {
     "exact": (models.basis, {}),
     "exact, finer": (models.basis, {"max_step": 0.03, "force_scale": 2.0}),
@@ -26,7 +26,6 @@ CASES = {
     "samples": (models.basis, {"n_harmonics": 5, "aft": "sampled"}),
     "branch points": (models.between_stops, {"max_step": 0.05}),
     "branch points by harmonics": (models.between_stops, {"motion": "harmonics"}),
-    "a loop": (models.chain_with_a_loop, {"motion": "harmonics"}),
 }
 
 
