@@ -1,5 +1,6 @@
 #include "structure/eigs_block.hpp"
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 

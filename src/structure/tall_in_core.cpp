@@ -1,4 +1,5 @@
 // The structure's matrices as arrays of this process, and the factorizations of solver/ on them.
+#include "linalg/blas_lapack.hpp"
 #include "structure/field.hpp"
 #include "structure/solver/make_factor.hpp"
 #include "structure/still_dofs.hpp"
