@@ -9,7 +9,7 @@ cd "$folder"
 PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name plm.pc)")
 export PKG_CONFIG_PATH
 libdir=$(pkg-config --variable=libdir plm)
-fortran=$(dirname "$(find "$prefix" -name plmf.inc)")
+fortran=$(dirname "$(find "$prefix/include" -name plmf.inc)")
 mods=$(dirname "$(find "$prefix" -name plm.mod)")
 libs="$(pkg-config --libs plm) -Wl,-rpath,$libdir"
 
