@@ -62,8 +62,13 @@ vector<std::complex<double>> HarmonicEquations::multipliers(const vector<double>
 EquationsMemory HarmonicEquations::settle() {
     system_ = make_system(reduced_, options_);
     known_omega_ = -1;
-    if (multipliers_) multipliers_->settle();
-    return {};
+    EquationsMemory memory;
+    if (multipliers_) memory.beside = multipliers_->settle();
+    return memory;
+}
+
+void HarmonicEquations::take(const EquationsMemory &memory) {
+    if (multipliers_) multipliers_->take(memory.beside);
 }
 
 void HarmonicEquations::factor_bordered(const Border &border, std::unique_ptr<BorderedTangent> &out) {

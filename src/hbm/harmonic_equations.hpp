@@ -33,7 +33,7 @@ class HarmonicEquations final : public PeriodicEquations {
     bool find(double omega, Watch watch, vector<double> &x, NewtonWork &work) override;
     /// They begin anew, and keep nothing.
     EquationsMemory settle() override;
-    void take(const EquationsMemory &) override {}
+    void take(const EquationsMemory &memory) override;
     bool has_multipliers() const override { return multipliers_ != nullptr; }
     /// Those of the last point asked for are kept: tests and records come in turn.
     vector<std::complex<double>> multipliers(const vector<double> &x, double omega) override;

@@ -50,6 +50,7 @@ struct EquationsMemory {
     std::vector<PairStates> contact_sets; // whose modes are known, the last used ones last
     Tangent before, last;                 // of no unknowns: none
     bool guessed = false;                 // from these two
+    vector<double> beside;                // PointMultipliers::settle()
 };
 
 /// Floquet multipliers of points, which harmonic balance leaves to others.
@@ -58,8 +59,9 @@ class PointMultipliers {
     virtual ~PointMultipliers() = default;
     /// Empty: not known.
     virtual vector<std::complex<double>> multipliers(const BranchPoint &point) = 0;
-    /// Forgets the points before.
-    virtual void settle() = 0;
+    /// Forgets the points before but for what is returned, with which take() goes on as from here.
+    virtual vector<double> settle() = 0;
+    virtual void take(const vector<double> &known) = 0;
 };
 using MultipliersOf = std::shared_ptr<PointMultipliers>;
 

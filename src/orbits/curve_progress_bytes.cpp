@@ -69,6 +69,7 @@ template <class Bytes, class M> void pass_memory(Bytes &bytes, M &memory) {
     pass_tangent(bytes, memory.before);
     pass_tangent(bytes, memory.last);
     bytes(memory.guessed);
+    bytes(memory.beside);
 }
 
 template <class Bytes, class C> void pass_choices(Bytes &bytes, C &c, std::int64_t n_points) {

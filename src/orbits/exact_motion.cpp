@@ -99,7 +99,7 @@ Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const Bra
     Matrix found;
     if (dear) found = found_by([&] { return by_events(flow, start, sequence, within); });
     if (found.rows() > 0 || (dear && !patient_)) return found;
-    if (!correction_.empty())
+    if (static_cast<std::int64_t>(correction_.size()) == model->state_size())
         found = found_by([&] { return newton(flow, start, moved(*model, start, correction_, 1), within); });
     return found.rows() > 0 ? found : found_by([&] { return newton(flow, start, start, within); });
 }
@@ -150,10 +150,10 @@ Matrix MotionBeside::newton(ExactFlow &flow, const FlowState &start, FlowState n
     return safe;
 }
 
-void MotionBeside::forget() {
+const vector<double> &MotionBeside::settle() {
     model_ = nullptr;
     modes_ = nullptr;
-    correction_.clear();
+    return correction_;
 }
 
 void MotionBeside::keep_correction(const FlowModel &model, const FlowState &start, const FlowState &found) {

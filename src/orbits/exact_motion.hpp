@@ -23,8 +23,9 @@ class MotionBeside {
     Matrix monodromy(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
                      const EventSequence &sequence, const Matrix &within);
 
-    /// The points before.
-    void forget();
+    /// Forgets the points before, but for what lay between the last one and its motion: that is returned.
+    const vector<double> &settle();
+    void take(vector<double> correction) { correction_ = std::move(correction); }
 
   private:
     Matrix by_events(const ExactFlow &flow, const FlowState &start, EventSequence sequence,

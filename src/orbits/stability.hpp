@@ -22,7 +22,8 @@ class Stability final : public PointMultipliers {
     /// flow. Empty: no exact motion was found beside the point. Structural damping counts as viscous damping
     /// that loses the same energy at the response frequency.
     vector<std::complex<double>> multipliers(const BranchPoint &point) override;
-    void settle() override { beside_.forget(); }
+    vector<double> settle() override { return beside_.settle(); }
+    void take(const vector<double> &known) override { beside_.take(known); }
     /// What is said with points that have no multipliers.
     std::string unknown_text(std::int64_t n_unknown, std::int64_t n_points) const;
 

@@ -15,9 +15,10 @@ namespace {
 
 constexpr double space_margin = 1.1; // accurate this far beyond the highest harmonic of the window
 
-// The paper's harmonics at least; a motion in time has more of them, which cost nothing where few modes reach
-// that far. What else it lacks is estimated, and added where it counts.
-constexpr std::int64_t least_harmonics = 5, most_harmonics = 15;
+// The paper's harmonics at least. A motion in time has more of them, which cost nothing where few modes reach
+// that far, and little where the structure is small enough for more modes.
+constexpr std::int64_t least_harmonics = 5, least_of_small = 10, most_harmonics = 15;
+constexpr std::int64_t small_structure = 10000; // DOFs
 
 // Of the harmonic that drives the resonance, whatever else is known of the structure, so that the answer does
 // not hang on what was asked before.
@@ -26,8 +27,9 @@ std::int64_t harmonics_within_reach(const Space &space, double window_max_hz, in
     const double reach =
                      std::sqrt(space.lambda[modes_anyhow - 1]) / space.model->space_options().cutoff_factor,
                  n = reach / (2 * M_PI * space_margin * driven * window_max_hz);
-    return driven * static_cast<std::int64_t>(std::clamp(n, static_cast<double>(least_harmonics),
-                                                         static_cast<double>(most_harmonics)));
+    const std::int64_t least = space.model->n_free() <= small_structure ? least_of_small : least_harmonics;
+    return driven * static_cast<std::int64_t>(
+                        std::clamp(n, static_cast<double>(least), static_cast<double>(most_harmonics)));
 }
 
 // Exact modes of a first basis: with more, each of its points costs more than it tells, where what more of

@@ -1,4 +1,5 @@
 """plm response --save-every and plm resume: a response that was stopped ends with the curve that it would have had."""
+import re
 import unittest
 import warnings
 
@@ -25,7 +26,8 @@ class Resumed(Folder):
         self.stop_after(13)
         again, told = self.here("resume", self.path("case.toml"), "--out", out)
         self.assertIn("has 13 points; the curve goes on", told)
-        self.assertEqual(again, said)
+        without_times = [re.sub(r"[-+.e\d]+ s for", "s for", text) for text in (again, said)]
+        self.assertEqual(*without_times)
         one, other = (numpy.loadtxt(text, delimiter=",", skiprows=1) for text in (table, self.folder / "out/response.csv"))
         self.assertTrue(numpy.array_equal(one[:, 0], other[:, 0]))
         self.assertLess(abs(one[:, 1] / other[:, 1] - 1).max(), 1e-10)  # extrema of what was read are found anew

@@ -84,7 +84,7 @@ class Shell(Folder):
 class WrongUsage(Folder):
     def test_command_line(self):
         case = self.path("case.toml")
-        self.refused("a command is needed: response, modes, audit, rest, study")
+        self.refused("a command is needed: response, resume, modes, audit, rest, study")
         self.refused("invalid choice: 'respond'.*'response'", "respond")
         self.refused("there is no option --acuracy; did you mean --accuracy?", "response", case, "--acuracy", "1e-3")
         self.refused("there is no option --acc;", "response", case, "--acc", "1e-3")  # no abbreviations: they stop working one day

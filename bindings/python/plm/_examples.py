@@ -255,9 +255,9 @@ def response(folder):
     # [Hbm] [Hbm.sweep]
     # [Hbm.save_every] [Hbm.resume]
     hbm.save_every(10, os.path.join(folder, "curve.plm"))
-    hbm.set(max_points=5)
+    hbm.set("max_points", 5)
     begun = hbm.sweep()
-    hbm.set(max_points=1000)
+    hbm.set("max_points", 1000)
     whole = hbm.resume(begun)
     # [Hbm.save_every] [Hbm.resume]
     hbm.save_every(0)
