@@ -18,6 +18,7 @@ void require_countable(std::int64_t rows) {
 /// Rows by partner; within one in the order given, which both partners know.
 Exchange::Side Exchange::side(const std::vector<int> &rank, const std::vector<std::int64_t> &row, int size) {
     Side s;
+    s.start.push_back(0);
     std::vector<std::int64_t> count(static_cast<std::size_t>(size) + 1, 0);
     for (int r : rank) ++count[static_cast<std::size_t>(r) + 1];
     for (int r = 0; r < size; ++r) {

@@ -23,7 +23,7 @@ class Exchange {
   private:
     struct Side { // for each partner its rows
         std::vector<int> rank;
-        std::vector<std::int64_t> start{0}, row;
+        std::vector<std::int64_t> start, row; // of a plan not made: empty, and nothing that could fail
         std::vector<double> buffer;
     };
     static Side side(const std::vector<int> &rank, const std::vector<std::int64_t> &row, int size);
