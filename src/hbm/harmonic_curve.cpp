@@ -62,7 +62,10 @@ class HarmonicTracer final : public CurveTracer {
   protected:
     void follow_on(const PathOptions &range, const PathStart &start) override {
         PathOptions limits = range;
-        if (known()) limits.max_points = asked_.max_points - (n_points() - known()->path.n_recorded);
+        if (known()) {
+            system_->take(known()->memory);
+            limits.max_points = asked_.max_points - (n_points() - known()->path.n_recorded);
+        }
         PathOutcome out = known() ? go_on_with_path(*system_, limits, known()->path, *this)
                                   : follow_path(*system_, limits, start, *this);
         for (;;) {
