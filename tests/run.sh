@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds libplm with its tests and runs them.
 #     sh tests/run.sh             preset dev
-#     sh tests/run.sh --all       preset dev with a minute of each fuzzer, of asan the C API and hosts with half a minute of
+#     sh tests/run.sh --all       preset dev with half a minute of each fuzzer, of asan the C API and hosts with half a minute of
 #                                 scenarios drawn by chance, and of tsan, permissive and release what differs there from dev
 #                                 (all of one, or asserting and libcxx: name it)
 #     sh tests/run.sh PRESET...   these presets of CMakePresets.json
@@ -77,7 +77,7 @@ for preset; do
     choose "$preset"
     if [ -n "$fuzz_longer" ]; then
         PLM_FUZZ_SECONDS=5 PLM_SCENARIO_SECONDS=10
-        [ "$preset" = "$fuzz_longer" ] && PLM_FUZZ_SECONDS=60
+        [ "$preset" = "$fuzz_longer" ] && PLM_FUZZ_SECONDS=30
         [ "$preset" = asan ] && PLM_SCENARIO_SECONDS=30
         export PLM_FUZZ_SECONDS PLM_SCENARIO_SECONDS
     fi
