@@ -68,10 +68,10 @@ const HostBlock &host_block(const Field &x) {
     return HostBlock::of(x.block());
 }
 
-class HostFactor final : public TallFactor {
+class FactorByHost final : public TallFactor {
   public:
-    HostFactor(std::shared_ptr<const Origin> origin, const Weights &weights, const vector<std::int64_t> &held,
-               const AddedEntries &added, bool to_count)
+    FactorByHost(std::shared_ptr<const Origin> origin, const Weights &weights,
+                 const vector<std::int64_t> &held, const AddedEntries &added, bool to_count)
         : origin_(std::move(origin)), handle_(origin_->host->new_handle()) {
         Numbers number{handle_, to_count, static_cast<std::int64_t>(held.size()),
                        static_cast<std::int64_t>(added.row.size())};
@@ -85,8 +85,8 @@ class HostFactor final : public TallFactor {
             throw;
         }
     }
-    ~HostFactor() override { origin_->host->drop(handle_); }
-    HostFactor(const HostFactor &) = delete;
+    ~FactorByHost() override { origin_->host->drop(handle_); }
+    FactorByHost(const FactorByHost &) = delete;
 
     std::int64_t negative() const { return static_cast<std::int64_t>(told_[0]); }
     void solve(Field &x) const override {
@@ -205,12 +205,12 @@ class HostMatrix final : public TallMatrix {
         return std::make_unique<HostMatrix>(origin_, w_, held_, std::move(added));
     }
     std::unique_ptr<TallFactor> factor(const Solver &) const override {
-        return std::make_unique<HostFactor>(origin_, w_, *held_, added_, false);
+        return std::make_unique<FactorByHost>(origin_, w_, *held_, added_, false);
     }
     std::int64_t count_negative(double factor, const TallMatrix &other, const Solver &) const override {
         const std::unique_ptr<TallMatrix> sum = plus(factor, other);
         const auto &s = static_cast<const HostMatrix &>(*sum);
-        return HostFactor(origin_, s.w_, *held_, s.added_, true).negative();
+        return FactorByHost(origin_, s.w_, *held_, s.added_, true).negative();
     }
     vector<double> diagonal_at(const vector<std::int64_t> &dofs) const override {
         vector<double> some(dofs.size(), 0.0);
