@@ -34,6 +34,17 @@ template <> struct VectorOf<4> {
     using Bits = long long __attribute__((vector_size(32)));
 };
 
+/// A vector anywhere in memory. Where memcpy copies one, gcc takes it through the stack in halves, and
+/// reading those as one waits ten times as long as the arithmetic; a vector type that says it is not aligned
+/// loses that in a template of clang's.
+template <class Vector> struct __attribute__((packed, may_alias)) Unaligned { Vector v; };
+template <class Vector> PLM_IN_LANES Vector load_vector(const void *p) {
+    return static_cast<const Unaligned<Vector> *>(p)->v;
+}
+template <class Vector> PLM_IN_LANES void store_vector(Vector v, void *p) {
+    static_cast<Unaligned<Vector> *>(p)->v = v;
+}
+
 /// Of each lane whether something holds; `width` lanes to a vector.
 template <int width> struct LaneMask {
     static constexpr int n = n_lanes / width;
@@ -78,20 +89,14 @@ template <int width> struct Lanes {
     using Vector = typename VectorOf<width>::Real;
     using Mask = LaneMask<width>;
     Vector v[n];
-    // Where memcpy copies a vector, gcc takes it through the stack in halves, and reading those as one waits
-    // ten times as long as the arithmetic; a vector type that says it is not aligned loses that in a template
-    // of clang's.
-    struct __attribute__((packed, may_alias)) Unaligned {
-        Vector v;
-    };
 
     PLM_IN_LANES static Lanes load(const double *p) {
         Lanes r;
-        for (int i = 0; i < n; ++i) r.v[i] = reinterpret_cast<const Unaligned *>(p + i * width)->v;
+        for (int i = 0; i < n; ++i) r.v[i] = load_vector<Vector>(p + i * width);
         return r;
     }
     PLM_IN_LANES void store(double *p) const {
-        for (int i = 0; i < n; ++i) reinterpret_cast<Unaligned *>(p + i * width)->v = v[i];
+        for (int i = 0; i < n; ++i) store_vector(v[i], p + i * width);
     }
     PLM_IN_LANES static Lanes all(double value) {
         Lanes r;

@@ -1,6 +1,5 @@
 #include "linalg/panel_lanes.hpp"
 #include <algorithm>
-#include <cstring>
 
 namespace plm {
 namespace {
@@ -22,15 +21,18 @@ PLM_VECTOR_WITH(double, 32)
 
 /// A row of right-hand sides, in vectors of so many bytes.
 template <class T, int bytes> struct SideBySide {
-    static constexpr int n = 64 / bytes;
-    typename VectorWith<T, bytes>::Real v[n];
+    static constexpr int n = 64 / bytes, width = bytes / sizeof(T);
+    using Vector = typename VectorWith<T, bytes>::Real;
+    Vector v[n];
 
     PLM_IN_LANES static SideBySide load(const T *p) {
         SideBySide r;
-        std::memcpy(r.v, p, sizeof r.v); // not aligned, see lanes.hpp
+        for (int i = 0; i < n; ++i) r.v[i] = load_vector<Vector>(p + i * width);
         return r;
     }
-    PLM_IN_LANES void store(T *p) const { std::memcpy(p, v, sizeof v); }
+    PLM_IN_LANES void store(T *p) const {
+        for (int i = 0; i < n; ++i) store_vector(v[i], p + i * width);
+    }
     PLM_IN_LANES void add(T factor, const SideBySide &x) {
         for (int i = 0; i < n; ++i) v[i] += factor * x.v[i];
     }
