@@ -4,7 +4,6 @@
 #include "capi/branch_input.hpp"
 #include "capi/hbm_input.hpp"
 #include "linalg/scale.hpp"
-#include "reduction/basis_kind.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/error_estimate.hpp"
 #include "searches/refinement.hpp"
@@ -62,14 +61,8 @@ std::shared_ptr<CurveFindings> with_peak(const HbmHandle &h, const BranchHandle 
         known->peak = peak;
         return known;
     }
-    const Basis &basis = *built(*h.basis);
-    const auto found = std::make_shared<CurveFindings>();
-    found->output = output;
-    found->peak = peak;
-    found->basis_kind = basis.options().kind->name;
-    found->setup_seconds = basis.report().setup_seconds;
-    found->warnings = peak.branch->warnings;
-    return found;
+    return std::make_shared<CurveFindings>(
+        findings_at(peak, output, *built(*h.basis), peak.branch->warnings));
 }
 
 /// An estimate at the peak that was looked for is that of its curve, too.

@@ -4,7 +4,6 @@
 #include "capi/handles.hpp"
 #include "capi/hbm_input.hpp"
 #include "capi/outcome.hpp"
-#include "reduction/basis_kind.hpp"
 #include "searches/computed_response.hpp"
 #include <cmath>
 
@@ -36,15 +35,9 @@ std::shared_ptr<HbmHandle> handles_of(const plm::ComputedResponse &r, const plm:
 /// What plm_branch_describe() says of the curve beside its points.
 std::shared_ptr<plm::CurveFindings> findings_of(const plm::ComputedResponse &r, const plm::Output &output,
                                                 double accuracy, const plm::Warnings &warnings) {
-    auto found = std::make_shared<plm::CurveFindings>();
-    found->output = output;
-    found->peak = r.peak;
-    found->basis_kind = r.basis->options().kind->name;
-    found->setup_seconds = r.basis->report().setup_seconds;
+    auto found = std::make_shared<plm::CurveFindings>(findings_at(r.peak, output, *r.basis, warnings));
     found->error = r.error;
     found->accuracy = accuracy;
-    found->warnings = warnings;
-
     found->looked_beside = r.looked_beside;
     found->larger = r.larger;
     return found;

@@ -207,6 +207,12 @@ void gemm(char op, std::int64_t m, std::int64_t n, std::int64_t k, float alpha, 
     sgemm_(&op, "N", &rows, &cols, &inner, &alpha, a, &ld_a, b, &ld_b, &beta, c, &ld_c, 1, 1);
 }
 
+Matrix identity(std::int64_t n) {
+    Matrix one(n, n);
+    for (std::int64_t i = 0; i < n; ++i) one(i, i) = 1;
+    return one;
+}
+
 Matrix product(char op_a, char op_b, const Matrix &a, const Matrix &b) {
     Matrix c(is_transpose(op_a) ? a.cols() : a.rows(), is_transpose(op_b) ? b.rows() : b.cols());
     gemm(op_a, op_b, 1, a, b, 0, c);

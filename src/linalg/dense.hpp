@@ -69,6 +69,7 @@ void gemm(char op, std::int64_t m, std::int64_t n, std::int64_t k, float alpha, 
           std::int64_t lda, const float *b, std::int64_t ldb, float beta, float *c, std::int64_t ldc);
 /// op(A) op(B) as a new matrix.
 Matrix product(char op_a, char op_b, const Matrix &a, const Matrix &b);
+Matrix identity(std::int64_t n);
 /// y = alpha op(A) x + beta y
 void gemv(char op, double alpha, const Matrix &a, const double *x, double beta, double *y);
 /// The same on plain arrays, A rows x cols, beta = 0: y is not read. In double and in single precision.

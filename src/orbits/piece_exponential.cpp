@@ -9,7 +9,7 @@ namespace {
 
 // x = rate * dt. Terms of Chebyshev's series are counted up to here, and then the next step begins. What is
 // damped lies beside the interval that the series is made for: its terms grow with |C| dt.
-constexpr double longest_step = 100, most_damped = 1;
+constexpr double longest_power = 100, most_damped = 1;
 // The series holds for any bound of the rate: where nothing turns, a larger one keeps the units finite.
 constexpr double least_step = 1e-3;
 // Taylor's series: its rounding error grows with its largest term, e^x.
@@ -22,7 +22,7 @@ std::int64_t chebyshev_terms(double x, double tolerance) {
 }
 
 double n_steps(double x, double damped) {
-    return std::max({1.0, std::ceil(x / longest_step), std::ceil(damped / most_damped)});
+    return std::max({1.0, std::ceil(x / longest_power), std::ceil(damped / most_damped)});
 }
 
 double products_by_series(double x, double damped, double tolerance) {

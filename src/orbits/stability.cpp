@@ -24,12 +24,6 @@ Matrix complement(const Matrix &free, std::int64_t n) {
     return beside;
 }
 
-Matrix identity(std::int64_t n) {
-    Matrix one(n, n);
-    for (std::int64_t i = 0; i < n; ++i) one(i, i) = 1;
-    return one;
-}
-
 // States without free motion: without its positions and, unless `velocities`, without its velocities. Free
 // motions have mass: their coordinates are among the first, as in the state.
 Matrix states_beside(const Matrix &free, const FlowModel &flow, bool velocities) {

@@ -19,7 +19,7 @@ constexpr int most_corrections = 12, most_steps = 12;
 constexpr double corrected = 1e-5, far_off = 0.5;
 // Of the motion: places where the slopes are taken once more for their change, which is told to a hundredth
 // by motions that are corrected so well; and the longest step.
-constexpr double beside = 1e-3, longest = 0.1;
+constexpr double shift = 1e-3, longest = 0.1;
 constexpr double exact_enough = 1e-6; // of the force: by which another step would still change it
 
 using Pair = std::array<double, 2>;
@@ -157,9 +157,9 @@ bool curvature_at(ForceSurface &surface, const ForceSurface::Place &here, Curvat
     for (int k : {0, 1}) {
         ForceSurface::Place there = here;
         Pair to = here.at;
-        to[k] += beside;
+        to[k] += shift;
         if (!surface.move(to, there)) return false;
-        for (int i : {0, 1}) change[k][i] = (there.slope()[i] - here.slope()[i]) / beside;
+        for (int i : {0, 1}) change[k][i] = (there.slope()[i] - here.slope()[i]) / shift;
     }
     found = {change[0][0], 0.5 * (change[0][1] + change[1][0]), change[1][1]};
     return found.determinant() != 0;

@@ -1,6 +1,7 @@
 #include "searches/branch_report.hpp"
 #include "linalg/status.hpp"
 #include "motions/branch_csv.hpp"
+#include "reduction/basis_kind.hpp"
 #include <algorithm>
 #include <cmath>
 #include <locale>
@@ -239,6 +240,17 @@ void add_times(Page &page, const Branch &branch, const CurveFindings *found) {
 }
 
 } // namespace
+
+CurveFindings findings_at(const Peak &peak, const Output &output, const Basis &basis,
+                          const Warnings &warnings) {
+    CurveFindings found;
+    found.output = output;
+    found.peak = peak;
+    found.basis_kind = basis.options().kind->name;
+    found.setup_seconds = basis.report().setup_seconds;
+    found.warnings = warnings;
+    return found;
+}
 
 std::string report_of(const Branch &branch, const CurveFindings *found) {
     Page page;

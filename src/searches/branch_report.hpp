@@ -18,6 +18,10 @@ struct CurveFindings {
     std::optional<LargerMotion> larger;
 };
 
+/// Where its peak has been found.
+CurveFindings findings_at(const Peak &peak, const Output &output, const Basis &basis,
+                          const Warnings &warnings);
+
 /// Sections of a title and indented lines of at most about 100 characters, with a newline at the end of each.
 /// found: null where no peak was looked for.
 std::string report_of(const Branch &branch, const CurveFindings *found);

@@ -244,8 +244,19 @@ class Chain {
         return r;
     }
 
+    // The host has set no number of points: where this driver did, more of them is a matter of effort.
+    void tell_whose_limit(ComputedResponse &r) const {
+        if (r.curve->end_reason != reason::point_limit ||
+            static_cast<std::int64_t>(r.curve->points().size()) >= options_.max_points)
+            return;
+        auto told = std::make_shared<Branch>(*r.curve);
+        told->end_reason = reason::effort;
+        r.curve = std::move(told);
+    }
+
     // The peak of a curve and its error.
     void find_peak(ComputedResponse &r) {
+        tell_whose_limit(r);
         Peak peak = Hbm(r.basis, r.options, watch_).find_peak(*r.curve, output_.dof, output_.measure, 0);
         r.peak = std::move(peak);
         r.error = r.peak.basis_error;

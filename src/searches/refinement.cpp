@@ -10,7 +10,8 @@
 namespace plm {
 namespace {
 
-constexpr std::int64_t looked_at = 16; // points of a curve whose error is estimated, besides its highest
+constexpr std::int64_t points_looked_at =
+    16;                                // points of a curve whose error is estimated, besides its highest
 constexpr std::int64_t corrected = 60; // points whose corrected motions make the next basis
 // Rounds in a row that bring nothing: an estimate that does not converge, or none that is clearly smaller.
 // What is left then is not in the motions, as where the estimate itself is no nearer.
@@ -75,7 +76,7 @@ class Refiner {
         if (!(peak > 0))
             throw Error(status::argument, "the DOF does not move on the curve; name one that does")
                 .argument("dof");
-        vector<std::int64_t> at = spread_over(branch, looked_at);
+        vector<std::int64_t> at = spread_over(branch, points_looked_at);
         at.push_back(top);
         const ErrorEstimator estimator(full_->reduced(), branch, options_.hbm);
         double worst = 0;

@@ -5,16 +5,6 @@
 #include <numeric>
 
 namespace plm {
-namespace {
-
-Matrix identity(std::int64_t n) {
-    Matrix a(n, n);
-    for (std::int64_t i = 0; i < n; ++i) a(i, i) = 1;
-    return a;
-}
-
-} // namespace
-
 void LanczosBlock::orthonormalize(const TallMatrix &m, const Field &v, const vector<double> &before) {
     constexpr double enough = 1e-2; // a tenth of the norm: what stays of V is ten roundings
     constexpr int most_passes = 12; // each frees a column of the others at least

@@ -31,7 +31,7 @@ class Field {
     // Others that lie where this one does: zeros, other entries, one column, and columns of which each is a
     // sum of DOFs.
     Field zeros(std::int64_t cols) const { return filled(cols, {}); }
-    Field filled(std::int64_t cols, const Entries &entries) const {
+    Field filled(std::int64_t cols, const ColumnFill &entries) const {
         return Field(block().filled(cols, entries));
     }
     Field patternless() const { return Field(block().patternless()); }

@@ -12,8 +12,8 @@ namespace {
 /// is read once for all of them and one cache line of X (or Y) serves it.
 constexpr std::int64_t panel = 8;
 
-void pack(const double *x, std::int64_t ld, std::int64_t first, std::int64_t last, std::int64_t width,
-          double *packed) {
+void pack_columns(const double *x, std::int64_t ld, std::int64_t first, std::int64_t last, std::int64_t width,
+                  double *packed) {
     for (std::int64_t i = first; i < last; ++i)
         for (std::int64_t c = 0; c < panel; ++c) packed[i * panel + c] = c < width ? x[i + c * ld] : 0;
 }
@@ -127,7 +127,8 @@ Matrix multiply_transposed(const SparseMatrix &a, const Matrix &x) {
     for (std::int64_t first = 0; first < x.cols(); first += panel) {
         const std::int64_t width = std::min(panel, x.cols() - first);
         parallel_for(pieces, flops, [&](std::int64_t k) {
-            pack(x.col(first), a.rows, k * a.rows / pieces, (k + 1) * a.rows / pieces, width, packed.data());
+            pack_columns(x.col(first), a.rows, k * a.rows / pieces, (k + 1) * a.rows / pieces, width,
+                         packed.data());
         });
         parallel_for(pieces, flops, [&](std::int64_t k) {
             for (std::int64_t j = k * a.cols / pieces; j < (k + 1) * a.cols / pieces; ++j) {

@@ -1,7 +1,7 @@
 // The seam between the method and all that has as many rows as the structure has DOFs: blocks of columns, and
 // the structure's matrices and factors that act on them. In core they are arrays of this process
 // (tall_in_core.cpp); else they lie wherever the host keeps them, and it does one operation at a time when it
-// is told to (tall_host.cpp). Above this header nobody knows which.
+// is told to (tall_by_host.cpp). Above this header nobody knows which.
 #pragma once
 #include "linalg/dense.hpp"
 #include <memory>
@@ -26,7 +26,7 @@ using DofTerms = vector<DofTerm>;
 
 /// Entries of new columns, by DOF i: constant + wave sin(i) + noise r, r in (-1, 1) without a pattern and the
 /// same in every run.
-struct Entries {
+struct ColumnFill {
     double constant = 0, wave = 0, noise = 0;
     std::int64_t seed = 0;
 };
@@ -48,7 +48,7 @@ class TallBlock {
     const Matrix *matrix() const { return const_cast<TallBlock *>(this)->matrix(); }
 
     // New blocks in the same place.
-    virtual std::unique_ptr<TallBlock> filled(std::int64_t cols, const Entries &entries) const = 0;
+    virtual std::unique_ptr<TallBlock> filled(std::int64_t cols, const ColumnFill &entries) const = 0;
     /// One column without a pattern, of entries of one size.
     virtual std::unique_ptr<TallBlock> patternless() const = 0;
     virtual std::unique_ptr<TallBlock> from_column(const vector<double> &column) const = 0;
@@ -106,8 +106,9 @@ class TallBlock {
     virtual double remainder(const TallBlock &q) const = 0;
 };
 
-/// A factorization of one matrix, for as many right-hand sides as there are.
 class TallMatrix;
+
+/// A factorization of one matrix, for as many right-hand sides as there are.
 class TallFactor {
   public:
     virtual ~TallFactor() = default;

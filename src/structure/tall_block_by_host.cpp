@@ -37,12 +37,6 @@ struct CompactRows {
     }
 };
 
-Matrix identity(std::int64_t n) {
-    Matrix a(n, n);
-    for (std::int64_t i = 0; i < n; ++i) a(i, i) = 1;
-    return a;
-}
-
 } // namespace
 
 const HostBlock &HostBlock::of(const TallBlock &block) {
@@ -54,7 +48,7 @@ const HostBlock &HostBlock::of(const TallBlock &block) {
     return *host;
 }
 
-std::unique_ptr<TallBlock> HostBlock::filled(std::int64_t cols, const Entries &e) const {
+std::unique_ptr<TallBlock> HostBlock::filled(std::int64_t cols, const ColumnFill &e) const {
     std::unique_ptr<HostBlock> x = fresh();
     if (cols > 0) host_->run(op::fill, {x->handle_, cols, e.seed}, {e.constant, e.wave, e.noise});
     x->cols_ = cols;

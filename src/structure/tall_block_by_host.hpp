@@ -21,7 +21,7 @@ class HostBlock final : public TallBlock {
     std::unique_ptr<HostBlock> fresh() const { return std::make_unique<HostBlock>(host_, rows_); }
     void zero_rows(const vector<std::int64_t> &rows);
 
-    std::unique_ptr<TallBlock> filled(std::int64_t cols, const Entries &entries) const override;
+    std::unique_ptr<TallBlock> filled(std::int64_t cols, const ColumnFill &entries) const override;
     std::unique_ptr<TallBlock> patternless() const override { return filled(1, {1, 0, 0.5, 1}); }
     std::unique_ptr<TallBlock> from_column(const vector<double> &column) const override;
     std::unique_ptr<TallBlock> columns(std::int64_t first, std::int64_t count) const override;

@@ -22,7 +22,7 @@ class CoreBlock final : public TallBlock {
     std::int64_t cols() const override { return x_.cols(); }
     Matrix *matrix() override { return &x_; }
 
-    std::unique_ptr<TallBlock> filled(std::int64_t cols, const Entries &e) const override {
+    std::unique_ptr<TallBlock> filled(std::int64_t cols, const ColumnFill &e) const override {
         Matrix x(rows(), cols);
         if (e.noise != 0) pseudo_random(x, e.seed);
         if (e.constant == 0 && e.wave == 0 && (e.noise == 0 || e.noise == 1)) return block(std::move(x));

@@ -215,6 +215,9 @@ refused("house.includes", "a room that looks upwards", "dense.hpp:[0-9]+: linalg
         tests / "house/includes.py", rooms)
 refused("house.includes", "parts that include one another", "linalg/dense .*space/space .*include one another", python,
         tests / "house/includes.py", rooms)
+changed(source / "src/structure/tall_by_host.cpp", r"\bFactorByHost\b", "HostFactor", "rooms/structure/tall_by_host.cpp")
+refused("house.names", "one name for two things", "HostFactor stands in structure/solver/factor_host.cpp and structure/tall_by_host.cpp", python,
+        tests / "house/names.py", rooms)
 changed(source / "src/space/audit.cpp", "Fix DOFs; ", "Call plm_model_fix_dofs; ", "rooms/space/audit.cpp")
 refused("house.texts", "a text for C alone", r"space/audit\.cpp:[0-9]+: a text names a C function: .*plm_model_fix_dofs", python,
         tests / "house/texts.py", rooms)

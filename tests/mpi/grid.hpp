@@ -3,6 +3,7 @@
 #include "mpi/service.hpp"
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace plm::mpi::test {
 
@@ -78,6 +79,24 @@ struct Grid {
         return a;
     }
 };
+
+/// A team's life: the brain works, the others serve. Returns 1 where the work ends with an error.
+template <class Work> int lead(Service &s, Work work) {
+    int failures = 0;
+    if (s.team().is_brain()) {
+        try {
+            work();
+        } catch (const std::exception &e) {
+            ++failures;
+            std::printf("an error: %s\n", e.what());
+        }
+        s.dismiss({});
+    } else {
+        s.serve();
+    }
+    s.close();
+    return failures;
+}
 
 /// One operation from the brain.
 inline std::vector<double> perform(Service &s, Operation operation, const std::vector<std::int64_t> &number,

@@ -331,20 +331,11 @@ void with_a_team(const Grid &grid, bool supports,
     s.start(MPI_COMM_WORLD, grid.n(), {});
     s.parts = grid.parts(s.team().rank(), s.team().size());
     if (!supports) s.parts.matrices.fixed.clear();
-    if (s.team().is_brain()) {
-        try {
-            Parts all;
-            s.assemble(all);
-            work(s, Reference(grid));
-        } catch (const std::exception &e) {
-            ++failures;
-            std::printf("an error: %s\n", e.what());
-        }
-        s.dismiss({});
-    } else {
-        s.serve();
-    }
-    s.close();
+    failures += lead(s, [&] {
+        Parts all;
+        s.assemble(all);
+        work(s, Reference(grid));
+    });
 }
 
 } // namespace

@@ -69,33 +69,24 @@ void over_a_team(const Grid &grid, bool held) {
     s.parts = grid.parts(s.team().rank(), s.team().size());
     s.parts.matrices.has_damping = false, s.parts.matrices.entries[2].clear();
     if (!held) s.parts.matrices.fixed.clear();
-    if (s.team().is_brain()) {
-        try {
-            Parts all;
-            s.assemble(all);
-            plm::StructureInput in = input(grid), tall = in;
-            in.mass = triplets(grid, 0), in.stiffness = triplets(grid, 1);
-            if (held) in.fixed = {0, grid.n() / 2, grid.n() - 1};
-            const auto operations = std::make_shared<plm::TallOperations>(
-                [&](std::int32_t operation, const std::int64_t *number, const double *factor,
-                    const double *small, double *out) {
-                    Call call;
-                    call.operation = static_cast<Operation>(operation);
-                    call.number = number, call.factor = factor, call.in = small, call.out = out;
-                    s.perform(call);
-                    return 0;
-                });
-            tall.mass = tall.stiffness = std::make_shared<const plm::MatrixInput>(operations);
-            compare(structure(in), structure(tall));
-        } catch (const std::exception &e) {
-            ++failures;
-            std::printf("an error: %s\n", e.what());
-        }
-        s.dismiss({});
-    } else {
-        s.serve();
-    }
-    s.close();
+    failures += lead(s, [&] {
+        Parts all;
+        s.assemble(all);
+        plm::StructureInput in = input(grid), tall = in;
+        in.mass = triplets(grid, 0), in.stiffness = triplets(grid, 1);
+        if (held) in.fixed = {0, grid.n() / 2, grid.n() - 1};
+        const auto operations = std::make_shared<plm::TallOperations>(
+            [&](std::int32_t operation, const std::int64_t *number, const double *factor, const double *small,
+                double *out) {
+                Call call;
+                call.operation = static_cast<Operation>(operation);
+                call.number = number, call.factor = factor, call.in = small, call.out = out;
+                s.perform(call);
+                return 0;
+            });
+        tall.mass = tall.stiffness = std::make_shared<const plm::MatrixInput>(operations);
+        compare(structure(in), structure(tall));
+    });
 }
 
 } // namespace

@@ -15,7 +15,7 @@ using EigenMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
 using Ldlt = Eigen::SimplicialLDLT<EigenMatrix, Eigen::Lower, Eigen::AMDOrdering<std::int64_t>>;
 
 /// Right-hand sides solved by one pass over L, packed side by side: the pass is bound by reading L.
-constexpr std::int64_t panel = 8;
+constexpr std::int64_t columns_at_once = 8;
 
 Eigen::Map<const EigenMatrix> mapped(const SparseMatrix &a) {
     return {a.rows, a.cols, a.nnz(), a.ptr.data(), a.idx.data(), a.val.data()};
@@ -38,8 +38,8 @@ class EigenFactor final : public Factor {
         if (n_ == 0) return;
         require(ldx >= n_, "Factor::solve: leading dimension");
         std::int64_t first = 0;
-        for (; nrhs - first > 1; first += panel)
-            solve_panel<panel>(x + first * ldx, std::min(panel, nrhs - first), ldx);
+        for (; nrhs - first > 1; first += columns_at_once)
+            solve_panel<columns_at_once>(x + first * ldx, std::min(columns_at_once, nrhs - first), ldx);
         if (first < nrhs) solve_panel<1>(x + first * ldx, 1, ldx);
     }
     double reciprocal_condition() const override { return reciprocal_condition_; }
@@ -65,7 +65,7 @@ class EigenFactor final : public Factor {
 
     template <std::int64_t W> void solve_panel(double *x, std::int64_t width, std::int64_t ldx) const {
         const auto &to_factor = ldlt_.permutationP().indices();
-        work_.resize(static_cast<std::size_t>(n_ * panel)); // allocates in the first call only
+        work_.resize(static_cast<std::size_t>(n_ * columns_at_once)); // allocates in the first call only
         double *w = work_.data();
         for (std::int64_t i = 0; i < n_; ++i)
             for (std::int64_t c = 0; c < W; ++c) w[to_factor[i] * W + c] = c < width ? x[i + c * ldx] : 0;
