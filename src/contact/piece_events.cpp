@@ -1,5 +1,6 @@
 #include "contact/piece_events.hpp"
 #include "contact/polynomial.hpp"
+#include "linalg/work.hpp"
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -132,6 +133,7 @@ double PieceEvents::crossing(const double *p, std::int64_t n_terms, std::int64_t
     double reach = 0;
     for (std::int64_t k = power + 1; k < n_terms; ++k) reach += std::abs(p[k]);
     if (first >= reach) return -1;
+    worked(10.0 * static_cast<double>(n_terms * n_terms));
     double scale = sign;
     for (std::int64_t k = power; k < n_terms; ++k, scale *= until) polynomial_[k - power] = scale * p[k];
     const double at = first_crossing(polynomial_.data(), n_terms - 1 - power, noise_[pair]);

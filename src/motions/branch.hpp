@@ -5,6 +5,7 @@
 #include "motions/branch_point.hpp"
 #include "paths/newton.hpp"
 #include "reduction/reduced_model.hpp"
+#include <cmath>
 #include <string>
 
 namespace plm {
@@ -70,6 +71,7 @@ class Branch {
     std::string unknowns_used; // "modal", "gaps", "both" or "state"
     bool sampled = false;      // contact forces from time samples
     Warnings warnings;         // what should be looked at before its points are used
+    double model_error = NAN;  // what a larger model changed of its highest motion, relative; NaN: not known
     bool is_mode = false;      // a nonlinear mode: motions without excitation, each with a damping ratio
     std::shared_ptr<const SweepRecord> record; // what its sweep goes on from where it was stopped; or null
     std::shared_ptr<const Branch> beside;      // a closed curve that its sweep came upon first; or null

@@ -66,19 +66,68 @@ Matrix stiffness_of(const ReducedModel &m, const vector<double> &spring) {
     return product('T', 'N', m.gap, weighted);
 }
 
-// -Omega^2 M + i Omega C + K + S at one harmonic, column by column.
-vector<complex> dynamic_stiffness(const ReducedModel &m, const Matrix &springs, double omega) {
-    const std::int64_t r = m.size();
-    vector<complex> a(static_cast<std::size_t>(r * r));
-    for (std::int64_t j = 0; j < r; ++j)
-        for (std::int64_t i = 0; i < r; ++i)
-            a[i + j * r] = complex(springs(i, j), m.damping.empty() ? 0.0 : omega * m.damping(i, j));
-    for (std::int64_t j = 0; j < r; ++j) {
-        a[j + j * r] += m.lambda[j] - omega * omega * m.mass(j);
-        if (m.damping.empty()) a[j + j * r] += complex(0, omega * m.damping_diagonal[j]);
+// What the structure with springs in the place of its pairs answers at one frequency: (D + B^T S B)^-1 f with
+// the dynamic stiffness D = -Omega^2 M + i Omega C + K, which is diagonal unless the damping couples the
+// modes.
+class HarmonicAnswer {
+  public:
+    HarmonicAnswer(const ReducedModel &m, const vector<double> &spring) : m_(m), spring_(spring) {
+        if (!m.damping.empty()) stiffness_ = stiffness_of(m, spring);
     }
-    return a;
-}
+
+    void solve(double omega, double added, vector<complex> &f) {
+        vector<complex> d(m_.size());
+        for (std::int64_t j = 0; j < m_.size(); ++j)
+            d[j] = complex(m_.lambda[j] - omega * omega * m_.mass(j) + added,
+                           m_.damping.empty() ? omega * m_.damping_diagonal[j] : 0.0);
+        m_.damping.empty() ? solve_by_forces(d, f) : solve_coupled(omega, d, f);
+    }
+
+  private:
+    // By the forces p of the springs: (1 + S B D^-1 B^T) p = S B D^-1 f, f - B^T p = D x.
+    void solve_by_forces(const vector<complex> &d, vector<complex> &f) {
+        const std::int64_t r = m_.size(), z = m_.gap.rows();
+        vector<complex> a(static_cast<std::size_t>(z * z)), p(z);
+        for (std::int64_t j = 0; j < r; ++j) {
+            const double *b = m_.gap.col(j);
+            const complex receptance = 1.0 / d[j];
+            for (std::int64_t k = 0; k < z; ++k) {
+                const complex one = receptance * b[k];
+                p[k] += one * f[j];
+                for (std::int64_t i = 0; i <= k; ++i) a[i + k * z] += one * b[i];
+            }
+        }
+        for (std::int64_t k = 0; k < z; ++k)
+            for (std::int64_t i = 0; i < k; ++i) a[k + i * z] = a[i + k * z];
+        for (std::int64_t k = 0; k < z; ++k)
+            for (std::int64_t i = 0; i < z; ++i)
+                a[i + k * z] = spring_[i] * a[i + k * z] + (i == k ? 1.0 : 0.0);
+        for (std::int64_t i = 0; i < z; ++i) p[i] *= spring_[i];
+        lu_.factor(z, a);
+        lu_.solve(p.data(), 1, z);
+        for (std::int64_t j = 0; j < r; ++j) {
+            for (std::int64_t i = 0; i < z; ++i) f[j] -= m_.gap(i, j) * p[i];
+            f[j] /= d[j];
+        }
+    }
+
+    void solve_coupled(double omega, const vector<complex> &d, vector<complex> &f) {
+        const std::int64_t r = m_.size();
+        vector<complex> a(static_cast<std::size_t>(r * r));
+        for (std::int64_t j = 0; j < r; ++j) {
+            for (std::int64_t i = 0; i < r; ++i)
+                a[i + j * r] = complex(stiffness_(i, j), omega * m_.damping(i, j));
+            a[j + j * r] += d[j];
+        }
+        lu_.factor(r, a);
+        lu_.solve(f.data(), 1, r);
+    }
+
+    const ReducedModel &m_;
+    const vector<double> &spring_;
+    Matrix stiffness_;
+    ComplexLu lu_;
+};
 
 // Of harmonic h, as Re(x exp(i h omega t)); h = 0: the mean.
 vector<complex> motion_of(const BranchPoint &p, std::int64_t h) {
@@ -140,16 +189,13 @@ BranchPoint corrected_on_whole(const ReducedModel &model, const BranchPoint &exa
     const ReducedModel &whole = *model.from->model;
     BranchPoint p = uncompressed(model, exact);
     const std::int64_t n = std::min(p.eta.cols() / 2, corrected_harmonics), r = whole.size();
-    const Matrix forces = product('T', 'N', whole.gap, exact.motion->contact_forces(n)),
-                 springs = stiffness_of(whole, mean_springs(model, exact));
-    ComplexLu lu;
+    const Matrix forces = product('T', 'N', whole.gap, exact.motion->contact_forces(n));
+    const vector<double> springs = mean_springs(model, exact);
+    HarmonicAnswer answer(whole, springs);
     for (std::int64_t h = 0; h <= n; ++h) {
-        vector<complex> change = missing_force(whole, p, forces, h),
-                        stiffness = dynamic_stiffness(whole, springs, static_cast<double>(h) * p.omega);
-        if (h == 0) // where nothing but contact holds the structure
-            for (std::int64_t j = 0; j < r; ++j) stiffness[j + j * r] += negligible * p.omega * p.omega;
-        lu.factor(r, stiffness);
-        lu.solve(change.data(), 1, r);
+        vector<complex> change = missing_force(whole, p, forces, h);
+        // the mean: where nothing but contact holds the structure
+        answer.solve(static_cast<double>(h) * p.omega, h == 0 ? negligible * p.omega * p.omega : 0, change);
         for (std::int64_t j = 0; j < r; ++j)
             if (h == 0)
                 p.eta_0[j] += change[j].real();

@@ -137,7 +137,7 @@ double Branch::full_residual(std::int64_t point) const {
     const Matrix contact = contact_forces_of(*reduced_, points_[point]);
     const FullResidual full(*reduced_, points_[point], period_multiple_);
     double residual = 0, energy = 0;
-    const double back_substitution = 1e4 * static_cast<double>(reduced_->model->n_free()); // flops
+    const double back_substitution = 2e3 * static_cast<double>(reduced_->model->n_free()); // flops
     const std::int64_t last = points_[point].n_harmonics, block = harmonics_at_once(*reduced_->model);
     worked(back_substitution);
     reduced_->vectors.worth_forming(2 * last); // rather at once than after as many columns, one by one

@@ -250,7 +250,7 @@ void ExactFlow::fill_massless(FlowState &state) {
 // The series by products with the stiffness, the penetrations by one with the gap rows.
 double ExactFlow::flops_of_piece() const {
     const double n = static_cast<double>(model_->size()), z = static_cast<double>(model_->n_pairs());
-    return static_cast<double>(n_terms_) * (in_series * 2 * n * (n + z) + 100 * z) + 1e4;
+    return static_cast<double>(n_terms_) * (in_series * 2 * n * (n + z) + 10 * z) + 1e4;
 }
 
 double ExactFlow::step_length(double left) {

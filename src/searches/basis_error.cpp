@@ -65,6 +65,10 @@ Output most_moving(const Branch &branch, std::int64_t point) {
     return most;
 }
 
+bool is_unreduced(const Basis &basis) {
+    return basis.reduced()->size() >= basis.space()->size() && !basis.reduced()->all_pairs;
+}
+
 vector<std::int64_t> spread_over(const Branch &branch, std::int64_t wanted) {
     const std::int64_t points = static_cast<std::int64_t>(branch.points().size()),
                        n = std::min(points, wanted);

@@ -17,6 +17,10 @@ vector<std::int64_t> spread_over(const Branch &branch, std::int64_t wanted);
 double basis_error(const ErrorEstimator &estimator, const Branch &branch, std::int64_t point,
                    const Output &output, double peak, vector<std::complex<double>> *multipliers = nullptr);
 
+/// Whether it spans all of its space: what is missed then is missed by the model that a curve was followed
+/// on.
+bool is_unreduced(const Basis &basis);
+
 /// What an estimate may cost by itself, flops: some tenths of a second.
 constexpr double few_flops = 2e9;
 /// What a curve of exact motions has cost, estimated: what it may cost to judge it.

@@ -5,6 +5,7 @@
 #include "orbits/orbit_cost.hpp"
 #include "orbits/orbit_point.hpp"
 #include "reduction/compression.hpp"
+#include "searches/motion_choice.hpp"
 #include <algorithm>
 #include <cmath>
 
@@ -61,10 +62,10 @@ vector<std::size_t> beside_changes(const std::vector<BranchPoint> &points) {
 
 } // namespace
 
-bool worth_compressing(const ReducedModel &whole, const HbmOptions &options) {
-    return whole.same_static && !whole.all_pairs && !whole.from && whole.model &&
-           options.period_multiple == 1 && whole.size() >= many_coordinates &&
-           exact_step_flops(whole, options) > dear_step;
+bool compresses(const ReducedModel &whole, const HbmOptions &options) {
+    return options.motion == MotionKind::automatic && permits_exact(whole, options) && whole.same_static &&
+           !whole.all_pairs && !whole.from && whole.model && options.period_multiple == 1 &&
+           whole.size() >= many_coordinates && exact_step_flops(whole, options) > dear_step;
 }
 
 HbmOptions options_on(const ReducedModel &model, HbmOptions options) {
@@ -123,32 +124,45 @@ bool CurveCompression::make_exact_on(const std::shared_ptr<const ReducedModel> &
     return true;
 }
 
-// Exact motions on a model beside the points, which become theirs, and their corrections: what a model needs
-// to have. Returns the largest change of an amplitude since the last call, over the peak; infinite where none
-// can be compared.
-double CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points,
-                                Needs &needs) const {
+void CurveCompression::Needs::append(const Needs &other) {
+    motions.append(other.motions);
+    springs.insert(springs.end(), other.springs.begin(), other.springs.end());
+}
+
+// The exact motion becomes the point's, and what the whole basis answers to its contact forces.
+bool CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model, Point &point,
+                              ElseMarching otherwise) const {
+    BranchPoint exact = point.motion;
+    if (!make_exact_on(model, exact, otherwise)) return false;
+    const double now = amplitude(model, exact);
+    if (point.amplitude >= 0) point.change = std::abs(now - point.amplitude) / peak_;
+    point.amplitude = now;
+    point.unstable = stability_of(exact) == 0;
+    point.needs = {};
+    point.needs.springs.push_back(mean_springs(*model, exact));
+    take(uncompressed(*model, exact), point.needs.motions);
+    point.motion = corrected_on_whole(*model, exact);
+    take(point.motion, point.needs.motions);
+    point.exact = std::move(exact);
+    return true;
+}
+
+double CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model,
+                                std::vector<Point> &points) const {
     double change = -1;
-    std::size_t found = 0;
+    std::vector<Point *> missed;
     const auto take_point = [&](Point &point, ElseMarching otherwise) {
-        BranchPoint exact = point.motion;
-        if (!make_exact_on(model, exact, otherwise)) return false;
-        ++found;
-        const double now = amplitude(model, exact);
-        if (point.amplitude >= 0) change = std::max(change, std::abs(now - point.amplitude) / peak_);
-        point.amplitude = now;
-        point.unstable = stability_of(exact) == 0;
-        needs.springs.push_back(mean_springs(*model, exact));
-        take(uncompressed(*model, exact), needs.motions);
-        point.motion = corrected_on_whole(*model, exact);
-        take(point.motion, needs.motions);
-        point.exact = std::move(exact);
+        if (!settle(model, point, otherwise)) return false;
+        if (std::isfinite(point.change)) change = std::max(change, point.change);
         return true;
     };
-    std::vector<Point *> missed;
-    for (Point &point : points)
-        if (!take_point(point, ElseMarching::no)) missed.push_back(&point);
-    if (2 * found < points.size()) // they are worth marching
+    for (Point &point : points) {
+        if (point.change <= tolerance() && &point != &points.back())
+            change = std::max(change, point.change);
+        else if (!take_point(point, ElseMarching::no))
+            missed.push_back(&point);
+    }
+    if (2 * missed.size() > points.size()) // they are worth marching
         for (Point *point : missed) take_point(*point, ElseMarching::yes);
     return change >= 0 ? change : INFINITY;
 }
@@ -207,11 +221,12 @@ bool CurveCompression::begin_with(const Branch &look) {
             model_ = smaller;
             return true;
         }
+        change = settle(smaller, points);
         Needs needs;
-        change = settle(smaller, points, needs);
+        for (const Point &point : points) needs.append(point.needs);
         // they know more than those before, unless they are few
         if (2 * std::count_if(points.begin(), points.end(), is_found) < motions_looked_at)
-            needs.motions.append(needs_.motions);
+            needs.append(needs_);
         needs_ = std::move(needs);
         watch_.log(1, format("compressed to %lld of %lld coordinates: amplitudes change by %.2g of the peak",
                              static_cast<long long>(smaller->size()), static_cast<long long>(whole_->size()),
@@ -247,7 +262,8 @@ bool CurveCompression::confirms(const Branch &curve) {
     take(one[0].motion, needs_.motions);
     left_out_ *= less;
     better_ = compressed_after(&curve.reduced());
-    change_ = settle(better_, one, needs_);
+    change_ = settle(better_, one);
+    needs_.append(one[0].needs);
     top_on_better_ = std::move(one[0].exact);
     watch_.log(1, format("%lld of %lld coordinates: the highest motion changes by %.2g of itself",
                          static_cast<long long>(better_->size()), static_cast<long long>(whole_->size()),
@@ -266,13 +282,13 @@ void CurveCompression::grow_beside(std::vector<Point> &highest) {
         next.left_out_ *= less;
         const auto larger = next.compressed_after(model_.get());
         if (is_dear(*larger)) return;
-        const double change = settle(larger, highest, next.needs_);
+        const double change = settle(larger, highest);
         if (change <= tolerance() || !std::isfinite(change)) return;
         watch_.log(1, format("%lld of %lld coordinates: it changes by %.2g more",
                              static_cast<long long>(larger->size()), static_cast<long long>(whole_->size()),
                              change));
         model_ = larger;
-        needs_ = std::move(next.needs_);
+        needs_.append(highest[0].needs);
         left_out_ = next.left_out_;
     }
 }

@@ -12,7 +12,7 @@
 namespace plm {
 
 /// Whether a curve of exact motions on this model (P_0 = P) is to be followed on a compressed one.
-bool worth_compressing(const ReducedModel &whole, const HbmOptions &options);
+bool compresses(const ReducedModel &whole, const HbmOptions &options);
 
 /// Where the model is a compressed one and each step on it takes long, motions are exact to a few hundredths
 /// of the accuracy: the model has no more of it.
@@ -37,6 +37,8 @@ class CurveCompression {
     /// Whether the highest motion of the curve on that model is as the whole basis has it; if not, model() is
     /// a better one.
     bool confirms(const Branch &curve);
+    /// What that changed of the highest motion, relative; infinite: it was not found.
+    double change() const { return change_; }
     /// After that: to follow a curve on a better model would take minutes.
     bool is_spent() const;
     /// Says what the last confirms() found, where that is more than the accuracy, and what the last
@@ -48,17 +50,20 @@ class CurveCompression {
     bool confirms_stability(const Branch &curve);
 
   private:
-    struct Point {
-        BranchPoint motion; // in the coordinates of the whole basis, without the motion itself
-        BranchPoint exact;  // on the model of the last settle()
-        double amplitude = -1;
-        bool unstable = false;
-    };
-
     /// What the model is made from.
     struct Needs {
         Matrix motions; // of the whole basis, mean parts among them, as shares of the largest
         std::vector<vector<double>> springs; // in the place of the pairs, at their mean over a period
+        void append(const Needs &other);
+    };
+
+    struct Point {
+        BranchPoint motion; // in the coordinates of the whole basis, without the motion itself
+        BranchPoint exact;  // on the last model that it was solved on
+        double amplitude = -1;
+        double change = INFINITY; // of the amplitude, by that model, over the peak
+        bool unstable = false;
+        Needs needs; // what its exact motion and the correction of that ask of a model
     };
 
     /// Points spread over a curve, among them the highest one; all its motions go to needs_.
@@ -70,10 +75,11 @@ class CurveCompression {
     bool is_last_not_dear(const ReducedModel &model) const;
     /// last: the one that this one grows from; null: none.
     std::shared_ptr<const ReducedModel> compressed_after(const ReducedModel *last) const;
-    /// Solves the exact motions beside the points on this model, and adds them, and what the whole basis
-    /// answers to their contact forces, to `needs`. Returns the largest change of an amplitude over the peak.
-    double settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points,
-                  Needs &needs) const;
+    /// Solves the exact motions beside the points on this model, but for those that have settled: only the
+    /// last one, the highest, is never left out. Returns the largest change of an amplitude over the peak;
+    /// infinite where none can be compared.
+    double settle(const std::shared_ptr<const ReducedModel> &model, std::vector<Point> &points) const;
+    bool settle(const std::shared_ptr<const ReducedModel> &model, Point &point, ElseMarching otherwise) const;
     void grow_beside(std::vector<Point> &highest);
     bool make_exact_on(const std::shared_ptr<const ReducedModel> &model, BranchPoint &point,
                        ElseMarching otherwise) const;

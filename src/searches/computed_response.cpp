@@ -2,11 +2,9 @@
 #include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
-#include "orbits/orbit_cost.hpp"
-#include "orbits/orbit_points.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"
-#include "searches/motion_choice.hpp"
+#include "searches/compressed_curve.hpp"
 #include "searches/refinement.hpp"
 #include "searches/sweep.hpp"
 #include <algorithm>
@@ -15,25 +13,14 @@
 namespace plm {
 namespace {
 
-// The basis reaches as far as the motion: harmonics of the window below which it has all modes.
-constexpr std::int64_t more_harmonics[] = {10, 20, 40, 80}, // when a whole curve is followed on each
-    looked_at[] = {10, 14, 20, 28, 40, 57, 80};             // when one motion tells
-// Points after which a curve is left for that on a larger basis: where one is too small its contact may
-// bounce as the structure's does not.
-constexpr std::int64_t few_points = 300;
-// Where exact motions cost so many flops a step, one of them, found by a curve of few harmonics that takes a
-// fraction of theirs, says first whether the basis is worth a curve.
-constexpr double worth_a_look = 1e7;
-// A step of exact motions on the whole structure: no basis saves anything.
-constexpr double cheap_whole = 3e6;
+// Coordinates of the unreduced structure up to which curves are followed on it, by harmonics in its gaps or
+// by exact motions on what they need of it: its matrices are nothing beside a curve then, and no basis adds
+// an error of its own.
+constexpr std::int64_t few_coordinates = 600;
 // Of the effort: what curves may have, and what their peak and its error have at least.
 constexpr double share_of_curves = 0.75;
 // Some seconds.
 constexpr double flops_of_first_curve = 1e10;
-// Of what is left, for one exact motion: a curve takes some thirty times as much.
-constexpr double share_of_look = 0.2;
-// Columns beyond which a compressed basis is the better next step than a larger one.
-constexpr std::int64_t many_columns = 150;
 // For the estimate of an error: some seconds.
 constexpr double much_flops = 4e10;
 
@@ -56,7 +43,7 @@ class Chain {
         {
             const Effort effort(std::max(effort_, setup));
             const bool all = within(share_of_curves * effort_left(), [&] { search(smallest, best); });
-            spent_ = !all || beyond_reach_;
+            spent_ = !all;
             if (best.curve)
                 within(effort_left(), [&] { is_cut(best) ? find_peak(best) : estimate_error(best); });
             if (!is_cut(best)) look_beside(best);
@@ -68,34 +55,16 @@ class Chain {
     }
 
   private:
-    enum class Follow { to_the_end, few_points };
-
     // best: what there is whenever the effort is spent.
     void search(const std::shared_ptr<const Basis> &smallest, ComputedResponse &best) {
-        const auto first = first_basis(smallest, best);
-        if (beyond_reach_) { // no curve of more harmonics is better where they do not converge
-            unless_there_is(best, [&] { find_peak(best); });
-            if (best.peak.seen_in_time) return;
-        }
-        unless_there_is(best, [&] {
-            follow(first, is_complete(*first) ? Follow::to_the_end : Follow::few_points, best);
-        });
-        for (std::int64_t h : more_harmonics) {
-            if (h <= best.basis->sampler()->n_harmonics()) continue;
-            if (!can_improve(best) || is_complete(*best.basis) ||
-                best.basis->reduced()->size() >= many_columns)
-                break;
-            const auto basis = basis_for(h);
-            if (basis->reduced()->size() <= best.basis->reduced()->size()) continue; // it knows no more
-            if (is_exact(best) && !prefers_exact(widened(basis->reduced()), options_))
-                break; // its harmonics would lack more than this basis does
-            // if that on the next basis has as many, the contact of the structure itself bounces
-            const Follow how = is_cut(best) ? Follow::to_the_end : Follow::few_points;
-            if (!take_better(best, [&](ComputedResponse &next) { follow(basis, how, next); })) break;
-        }
-        if (is_cut(best)) follow(best.basis, Follow::to_the_end, best);
-        if (can_improve(best) && std::isfinite(best.error))
-            take_better(best, [&](ComputedResponse &next) { next = refined(best); });
+        if (smallest->space()->size() <= few_coordinates)
+            take_better(best,
+                        [&](ComputedResponse &next) { follow(unreduced_basis(smallest, watch_), next); });
+        if (!best.curve)
+            follow(smallest, best);
+        else if (!is_whole(*best.curve))
+            take_better(best, [&](ComputedResponse &next) { follow(smallest, next); });
+        if (can_improve(best)) take_better(best, [&](ComputedResponse &next) { refine_from(best, next); });
     }
 
     // However little was allowed, there is an answer: a whole curve by few harmonics, where that tells of a
@@ -103,8 +72,8 @@ class Chain {
     void take_first_curve(const std::shared_ptr<const Basis> &smallest, ComputedResponse &best) {
         if (!best.curve || was_stopped(*best.curve)) spent_ = true;
         const auto look = [&] {
-            const auto basis = few_harmonics_.basis ? few_harmonics_.basis : smallest;
-            const auto first = curve_of_few_harmonics(basis);
+            const auto basis = look_ ? look_basis_ : smallest;
+            const auto first = look_ ? look_ : curve_of_few_harmonics(*smallest);
             if (!best.curve || (is_whole(*first) && says_more(*first, *best.curve, watch_)))
                 best = with_curve(basis, first);
         };
@@ -130,78 +99,25 @@ class Chain {
     bool is_met(const ComputedResponse &r) const { return r.error <= accuracy_; }
     // Given up for its many points: there is no peak yet.
     static bool is_cut(const ComputedResponse &r) { return !r.peak.branch; }
-    static bool is_exact(const ComputedResponse &r) { return r.curve && r.curve->points().front().motion; }
-    // No other basis knows more.
-    bool is_complete(const Basis &basis) const { return basis.reduced()->size() >= model_->n_free(); }
-    // A larger basis helps where the curve is whole and has its peak inside, and it can be told by how much.
+    // A better basis helps where the curve is whole and has its peak inside, and it can be told by how much.
     bool can_improve(const ComputedResponse &r) const {
-        if (is_cut(r)) return true;
-        return !is_met(r) && !std::isnan(r.error) && r.curve->end_reason == reason::range_end &&
+        return std::isfinite(r.error) && !is_met(r) && r.curve->end_reason == reason::range_end &&
                !r.peak.branch->warnings.has(reason::no_peak);
     }
 
-    // All of the structure where that is cheap; else the first basis that is not too small by what a curve of
-    // few harmonics tells.
-    std::shared_ptr<const Basis> first_basis(std::shared_ptr<const Basis> basis, ComputedResponse &best) {
-        if (basis->space()->is_contact_space) {
-            const auto whole = unreduced_basis(basis, watch_);
-            if (prefers_exact(whole->reduced(), options_) && !decays_hopelessly(*whole->reduced()) &&
-                exact_step_flops(*whole->reduced(), options_) <= cheap_whole)
-                return whole;
-        }
-        bool too_small = looks_too_small(basis, best);
-        for (std::int64_t h : looked_at) {
-            if (h <= basis->sampler()->n_harmonics()) continue;
-            if (!too_small || basis->reduced()->size() >= many_columns) break;
-            basis = basis_for(h);
-            too_small = looks_too_small(basis, best);
-        }
-        return basis;
-    }
-
-    // The curve looked at is the first answer.
-    bool looks_too_small(const std::shared_ptr<const Basis> &basis, ComputedResponse &best) {
-        const auto reduced = widened(basis->reduced());
-        const bool exact = prefers_exact(reduced, options_);
-        if (exact && exact_step_flops(*reduced, options_) < worth_a_look) return false;
-        Branch one(reduced, options_.force_scale);
-        try {
-            const auto curve = curve_of_few_harmonics(basis);
-            if (!best.curve || is_whole(*curve)) best = with_curve(basis, curve);
-            if (!exact || !spans(*curve)) return false;
-            const bool in_time =
-                within(share_of_look * effort_left(), [&] { find_motion_near_peak(*curve, one); });
-            if (!in_time) { // a curve of such motions is out of reach
-                options_.motion = MotionKind::harmonics;
-                beyond_reach_ = true;
-            }
-            if (one.points().empty()) return false;
-        } catch (const Error &e) {
-            if (e.status() != status::convergence) throw;
-            return false;
-        }
-        const double error = basis_error_at(basis, options_, one, 0, output_, much_flops, watch_);
-        watch_.log(1, format("%lld coordinates: error by the basis %.2g near the peak",
-                             static_cast<long long>(basis->reduced()->size()), error));
-        looked_at_ = basis, error_near_peak_ = error;
-        return std::isfinite(error) && error > accuracy_;
-    }
-
-    // Kept: the last one is the first answer where no other comes.
-    std::shared_ptr<const Branch> curve_of_few_harmonics(const std::shared_ptr<const Basis> &basis) {
-        if (few_harmonics_.basis == basis) return few_harmonics_.curve;
-        const auto reduced = widened(basis->reduced());
-        const auto curve = Hbm(reduced, basis->sweep_range(), options_, watch_).sweep_with_few_harmonics();
+    std::shared_ptr<const Branch> curve_of_few_harmonics(const Basis &basis) const {
+        const auto curve =
+            Hbm(widened(basis.reduced()), basis.sweep_range(), options_, watch_).sweep_with_few_harmonics();
         if (curve->end_reason == reason::cancelled) require_unstopped(*curve);
-        if (!was_stopped(*curve)) few_harmonics_ = {basis, curve};
         return curve;
     }
 
-    void find_motion_near_peak(const Branch &curve, Branch &one) const {
-        BranchPoint point =
-            curve.points()[static_cast<std::size_t>(curve.highest_point(output_.dof, output_.measure, 0))];
-        NewtonWork work;
-        if (make_exact(one.reduced_model(), options_, watch_, point, work)) one.append(std::move(point));
+    // What exact curves begin with, and the answer where there is no effort for them.
+    void look_at(const std::shared_ptr<const Basis> &basis) {
+        if (look_basis_ == basis || !compresses(*widened(basis->reduced()), options_)) return;
+        look_ = nullptr, look_basis_ = basis;
+        const auto curve = curve_of_few_harmonics(*basis);
+        if (!was_stopped(*curve)) look_ = curve;
     }
 
     // n = 0: as far as the modes reach that are known anyhow.
@@ -214,27 +130,24 @@ class Chain {
     }
 
     // Small, and made of the motions on the last curve, corrected by the whole structure's answer.
-    ComputedResponse refined(const ComputedResponse &last) {
+    void refine_from(const ComputedResponse &last, ComputedResponse &r) {
         RefinementOptions o;
         o.hbm = last.options;
         o.output = output_;
         o.tolerance = accuracy_;
         const Refinement found = refine(last.basis, o, watch_, last.curve);
         if (!found.basis) throw Error(status::convergence, "no curve on a compressed basis");
-        ComputedResponse r = with_curve(found.basis, found.branch);
+        r = with_curve(found.basis, found.branch);
         find_peak(r);
-        return r;
     }
 
     // The curve is there before its peak is looked for.
-    void follow(std::shared_ptr<const Basis> basis, Follow how, ComputedResponse &r) {
-        HbmOptions limited = options_;
-        if (how == Follow::few_points) limited.max_points = few_points;
-        const auto curve = Hbm(basis, limited, watch_).sweep(&output_);
+    void follow(std::shared_ptr<const Basis> basis, ComputedResponse &r) {
+        look_at(basis);
+        const auto curve = Hbm(basis, options_, watch_).sweep(&output_, nullptr, look_);
         if (curve->end_reason == reason::cancelled) require_unstopped(*curve);
-        if (r.curve && is_whole(*r.curve) && was_stopped(*curve)) return; // what there is goes on to the end
         r = with_curve(std::move(basis), curve);
-        if (curve->end_reason != reason::point_limit || how == Follow::to_the_end) find_peak(r);
+        find_peak(r);
     }
 
     ComputedResponse with_curve(std::shared_ptr<const Basis> basis,
@@ -244,19 +157,8 @@ class Chain {
         return r;
     }
 
-    // The host has set no number of points: where this driver did, more of them is a matter of effort.
-    void tell_whose_limit(ComputedResponse &r) const {
-        if (r.curve->end_reason != reason::point_limit ||
-            static_cast<std::int64_t>(r.curve->points().size()) >= options_.max_points)
-            return;
-        auto told = std::make_shared<Branch>(*r.curve);
-        told->end_reason = reason::effort;
-        r.curve = std::move(told);
-    }
-
     // The peak of a curve and its error.
     void find_peak(ComputedResponse &r) {
-        tell_whose_limit(r);
         Peak peak = Hbm(r.basis, r.options, watch_).find_peak(*r.curve, output_.dof, output_.measure, 0);
         r.peak = std::move(peak);
         r.error = r.peak.basis_error;
@@ -270,24 +172,9 @@ class Chain {
     void estimate_error(ComputedResponse &r) const {
         if (std::isnan(r.error))
             r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_, much_flops, watch_);
-        if (std::isnan(r.error) && r.basis == looked_at_ && !r.curve->reduced().from)
-            r.error = error_near_peak_;
     }
 
     static bool is_whole(const Branch &curve) { return spans(curve) && !is_worthless(curve); }
-
-    // Where an estimate is not to be had: what a clearly larger basis changes is the error of the one before,
-    // and where that is small its own is no larger. Infinite: it is not.
-    double change_if_settled(const ComputedResponse &before, const ComputedResponse &after) const {
-        constexpr double clearly = 1.2;
-        if (is_cut(before) || is_cut(after) ||
-            static_cast<double>(after.basis->reduced()->size()) <
-                clearly * static_cast<double>(before.basis->reduced()->size()))
-            return INFINITY;
-        const double change = std::max(std::abs(after.peak.amplitude / before.peak.amplitude - 1),
-                                       std::abs(after.peak.frequency_hz / before.peak.frequency_hz - 1));
-        return change <= accuracy_ ? change : INFINITY;
-    }
 
     // Of the basis, the harmonics and the path: NaN where one of them is not known.
     static double whole_error(const ComputedResponse &r) {
@@ -295,26 +182,22 @@ class Chain {
     }
 
     static bool is_better(const ComputedResponse &next, const ComputedResponse &best) {
-        const bool larger = next.basis->reduced()->size() > best.basis->reduced()->size();
-        if (larger && !std::isfinite(best.error)) return true;
+        if (is_whole(*next.curve) != is_whole(*best.curve)) return is_whole(*next.curve);
         const double of_next = whole_error(next), of_best = whole_error(best);
         if (std::isnan(of_next) && std::isnan(of_best)) return next.error < best.error;
         return std::isnan(of_best) || of_next < of_best;
     }
 
-    // False: the attempt failed, or a larger basis brought nothing, or no longer a whole curve of motions.
-    template <class Attempt> bool take_better(ComputedResponse &best, Attempt attempt) const {
+    // What is there already is an answer, and an attempt that fails no reason to lose it.
+    template <class Attempt> void take_better(ComputedResponse &best, Attempt attempt) const {
         try {
+            if (!best.curve) return attempt(best);
             ComputedResponse next;
             attempt(next);
-            if (!std::isfinite(next.error)) next.error = change_if_settled(best, next);
-            const bool better = is_better(next, best) && (is_whole(*next.curve) || !is_whole(*best.curve));
-            if (better) best = std::move(next);
-            return better;
-        } catch (const Error &e) { // what is there already is an answer
+            if (is_better(next, best)) best = std::move(next);
+        } catch (const Error &e) {
             if (e.status() != status::convergence) throw;
             watch_.log(1, std::string("no curve on the next basis: ") + e.what());
-            return false;
         }
     }
 
@@ -377,16 +260,11 @@ class Chain {
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const Space> space_;
     Output output_;
-    double accuracy_;           // of the basis
-    double effort_;             // flops
-    bool spent_ = false;        // the effort, before all was done
-    bool beyond_reach_ = false; // one exact motion takes more than its share
-    struct {
-        std::shared_ptr<const Basis> basis;
-        std::shared_ptr<const Branch> curve;
-    } few_harmonics_;
-    std::shared_ptr<const Basis> looked_at_;
-    double error_near_peak_ = NAN; // by that basis
+    double accuracy_;    // of the basis
+    double effort_;      // flops
+    bool spent_ = false; // the effort, before all was done
+    std::shared_ptr<const Basis> look_basis_;
+    std::shared_ptr<const Branch> look_; // a curve of few harmonics on it
     Watch watch_;
     HbmOptions options_;
 };

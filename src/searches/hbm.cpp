@@ -28,8 +28,11 @@ Hbm::Hbm(std::shared_ptr<const ReducedModel> reduced, const SweepRange &window, 
               fixed_min ? options_.frequency_min_hz : window.least_hz,
               fixed_max ? options_.frequency_max_hz : window.most_hz};
     require_consistent(options_);
-    exact_ = prefers_exact(reduced_, options_);
-    if (exact_) reduced_ = widened(reduced_);
+    exact_ = prefers_exact(*reduced_, options_);
+    if (exact_ || permits_exact(*reduced_, options_)) {
+        const auto wide = widened(reduced_);
+        if (exact_ || compresses(*wide, options_)) reduced_ = wide;
+    }
 }
 
 Hbm::Hbm(std::shared_ptr<const Basis> basis, const HbmOptions &options, Watch watch)
@@ -48,9 +51,10 @@ SweepTask Hbm::task() const {
     return {{reduced_, options_, watch_, exact_}, reach_};
 }
 
-std::shared_ptr<const Branch> Hbm::sweep(const Output *asked,
-                                         std::shared_ptr<CurveCompression> *level_before) const {
+std::shared_ptr<const Branch> Hbm::sweep(const Output *asked, std::shared_ptr<CurveCompression> *level_before,
+                                         std::shared_ptr<const Branch> look) const {
     SweepTask task = this->task();
+    task.look = std::move(look);
     task.asked = asked;
     task.level_before = level_before;
     return judged(task);

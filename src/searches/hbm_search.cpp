@@ -61,7 +61,7 @@ std::vector<Backbone> Hbm::find_backbones(double force_max) const {
     BackboneOptions options;
     options.hbm = with_first_harmonics(*reduced_, options_);
     options.force_max = force_max;
-    options.exact = reduced_->same_static && prefers_exact(reduced_, options_);
+    options.exact = reduced_->same_static && prefers_exact(*reduced_, options_);
     std::vector<Backbone> found = PhaseResonance(reduced_, options, watch_).backbones();
     if (!options.exact && options_.n_harmonics == 0)
         for (const Backbone &backbone : found) warn_of_backbone(options_, watch_, *backbone.branch);

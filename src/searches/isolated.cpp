@@ -53,7 +53,7 @@ class Search {
         : reduced_(std::move(reduced)), smaller_(std::move(smaller)), options_(options), main_(main),
           watch_(watch), force_max_(force_max > 0 ? force_max : backbone_reach * options.force_scale),
           resonance_(reduced_, backbone_options(), watch),
-          exact_(reduced_->same_static && prefers_exact(reduced_, options)) {}
+          exact_(reduced_->same_static && prefers_exact(*reduced_, options)) {}
 
     IsolatedSearch run() {
         const auto begin = std::chrono::steady_clock::now();

@@ -11,14 +11,14 @@ constexpr double cheap_step = 5e7;           // flops: a curve takes seconds
 
 } // namespace
 
-bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &o) {
+bool permits_exact(const ReducedModel &reduced, const HbmOptions &o) {
     if (o.motion == MotionKind::harmonics) return false;
     const bool asked = o.motion == MotionKind::exact;
     const auto refuse = [&](const char *argument, const std::string &why) {
         if (asked) throw Error(status::argument, why).argument(argument);
         return false;
     };
-    if (reduced->structural != 0)
+    if (reduced.structural != 0)
         return refuse("motion",
                       "structural damping has no exact motion in time; set motion to auto or harmonics");
     if (o.aft == AftKind::sampled)
@@ -27,11 +27,17 @@ bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions
         return refuse("stability", "Hill's method is one of harmonics; set stability to floquet");
     if (asked) return true;
     if (o.n_harmonics != 0 || o.tail_correction || o.unknowns != NonlinearUnknowns::automatic ||
-        o.formulation != FormulationKind::automatic || reduced->n_pairs() == 0)
+        o.formulation != FormulationKind::automatic || reduced.n_pairs() == 0)
         return false;
-    if (!has_flow(*reduced)) return false; // no modes to go by
-    return exact_step_flops(*reduced, o) <
-           std::max(cheap_step, harmonic_step_flops(*reduced, usual_harmonics));
+    return true;
+}
+
+bool prefers_exact(const ReducedModel &reduced, const HbmOptions &o) {
+    if (!permits_exact(reduced, o)) return false;
+    return o.motion == MotionKind::exact ||
+           // else there are no modes to go by
+           (has_flow(reduced) && exact_step_flops(reduced, o) <
+                                     std::max(cheap_step, harmonic_step_flops(reduced, usual_harmonics)));
 }
 
 } // namespace plm

@@ -7,6 +7,8 @@ namespace plm {
 
 /// Whether curves of this model are made of exact motions. Throws for motion = exact where other options, or
 /// the model, speak against it.
-bool prefers_exact(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options);
+bool prefers_exact(const ReducedModel &reduced, const HbmOptions &options);
+/// The same, whatever they cost.
+bool permits_exact(const ReducedModel &reduced, const HbmOptions &options);
 
 } // namespace plm

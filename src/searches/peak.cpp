@@ -185,7 +185,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     if (is_peak) {
         // of the effort that is left: for the peak itself, then for each of what is said of it, of which the
         // estimate of the error by the basis is the last
-        const double of_peak = 0.3, of_next = 0.5;
+        const double of_peak = 0.5, of_next = 0.5;
         CloserLook look(reduced, options_, branch, around, of, watch_);
         within(of_peak * effort_left(), [&] { look.close_in(); });
         within(of_next * effort_left(), [&] { look.look_in_time(); });
@@ -206,10 +206,12 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     }
     one->append(point);
     vector<std::complex<double>> of_structure;
-    const double by_basis =
+    double by_basis =
         of_motion ? basis_error_at(made_as_, options_, *one, 0, of,
                                    std::max(few_flops, flops_of(branch, options_)), watch_, &of_structure)
                   : NAN;
+    if (std::isnan(by_basis) && of_motion && made_as_ && is_unreduced(*made_as_))
+        by_basis = branch.model_error;
     if (!of_structure.empty()) {
         point.multipliers = std::move(of_structure);
         point.multiplier_error = 0;

@@ -98,6 +98,7 @@ bool begin_compression(const SweepTask &task, std::shared_ptr<CurveCompression> 
     }
     compression = std::make_shared<CurveCompression>(task.reduced, task.options,
                                                      2 * M_PI * task.options.frequency_max_hz, task.watch);
+    if (task.look) return compression->begin_with(*task.look);
     SweepTask look = task;
     look.only_looks = true;
     look.watch = task.watch.quiet();
@@ -120,12 +121,15 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
         for (int k = 0; k < most_curves; ++k) {
             curve.reduced = compression.model();
             curve.options = options_on(*curve.reduced, task.options);
+            curve.exact = true;
             const auto branch = follow_curve(curve);
             if (branch->end_reason == reason::cancelled || (!whole && was_stopped(*branch))) return branch;
             require_unstopped(*branch);
             if (is_stuck(*branch)) return nullptr;
             whole = branch;
-            if (!compression.confirms(*branch) && !compression.is_spent()) {
+            const bool confirmed = compression.confirms(*branch);
+            if (std::isfinite(compression.change())) branch->model_error = compression.change();
+            if (!confirmed && !compression.is_spent()) {
                 if (compression.model() == curve.reduced) return nullptr; // its highest motion is not exact
                 continue;
             }
@@ -149,9 +153,7 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
 
 std::shared_ptr<Branch> sweep_from_its_end(const SweepTask &task) {
     std::shared_ptr<Branch> branch;
-    if (task.exact && task.options.motion == MotionKind::automatic &&
-        worth_compressing(*task.reduced, task.options))
-        branch = sweep_compressed(task);
+    if (compresses(*task.reduced, task.options)) branch = sweep_compressed(task);
     if (!branch) branch = follow_curve(task);
     check_span(task.options.upward, task.watch, *branch);
     return branch;
@@ -200,12 +202,12 @@ void take_harmonics(const SweepTask &task, std::shared_ptr<Branch> &branch) {
     SweepTask other = task;
     other.exact = false;
     other.options.motion = MotionKind::harmonics;
-    for (const auto &sweep : {sweep_with_few_harmonics, sweep_either_way})
-        within(effort_left(), [&] {
-            const auto next = sweep(other);
-            if (!branch || (!was_stopped(*next) && (!part || says_more(*next, *part, task.watch))))
-                branch = next;
-        });
+    const auto take = [&](const std::shared_ptr<Branch> &next) {
+        if (!branch || (!was_stopped(*next) && (!part || says_more(*next, *part, task.watch)))) branch = next;
+    };
+    within(effort_left(),
+           [&] { take(task.look ? std::make_shared<Branch>(*task.look) : sweep_with_few_harmonics(other)); });
+    within(effort_left(), [&] { take(sweep_either_way(other)); });
 }
 
 } // namespace
@@ -259,14 +261,16 @@ bool says_more(const Branch &curve, const Branch &part, Watch watch) {
     double known = 0;
     for (const BranchPoint &p : part.points()) known = std::max(known, square_of(p));
     if (square_of(top) < larger * known) return false;
-    const double after = square_after(curve, top, watch);
+    double after = INFINITY; // a motion that there is no effort to look at is taken at its word
+    within(effort_left(), [&] { after = square_after(curve, top, watch); });
     return after > lasting * square_of(top) && after > larger * known;
 }
 
 std::shared_ptr<Branch> sweep_whole(const SweepTask &task) {
     constexpr double share_of_exact = 0.9; // of the effort, where harmonics can have the rest
     std::shared_ptr<Branch> branch;
-    const bool has_other = task.exact && task.options.motion == MotionKind::automatic;
+    const bool has_other = (task.exact && task.options.motion == MotionKind::automatic) ||
+                           compresses(*task.reduced, task.options);
     within((has_other ? share_of_exact : 1) * effort_left(), [&] { branch = sweep_either_way(task); });
     if (has_other && (!branch || branch->end_reason == reason::effort)) take_harmonics(task, branch);
     if (!branch)

@@ -15,6 +15,8 @@ struct SweepTask : ResponseTask {
     /// The model that the curve of another force level was followed on: taken up, and left for the next
     /// level. Null: this curve is the only one.
     std::shared_ptr<CurveCompression> *level_before = nullptr;
+    /// A whole curve on that model with few harmonics, where one is known (sweep_with_few_harmonics()).
+    std::shared_ptr<const Branch> look = nullptr;
     CurveRecorder *recorder = nullptr; // of its curves; null: they are not recorded
 };
 

@@ -78,7 +78,7 @@ void print_row(const char *name, const Model &model, const plm::HbmOptions &opti
     std::printf("| %s | %lld | %lld | %lld | %.3g | %.3g | %.3g | %.3g | %s |\n", name,
                 static_cast<long long>(model->size()), static_cast<long long>(model->n_pairs()),
                 static_cast<long long>(equations.piece()), measured, 1e-6 * flops, 1e-6 * flops / measured,
-                harmonics, plm::prefers_exact(model, options) ? "exact" : "harmonics");
+                harmonics, plm::prefers_exact(*model, options) ? "exact" : "harmonics");
     std::fflush(stdout);
 }
 

@@ -153,7 +153,7 @@ template <class T> void PanelFactor<T>::solve(double *x, std::int64_t nrhs, std:
     });
     solve_in_order(entries.all(), scale_of_pivots);
     for_rows([&](double &to, T from, double scale) { to = from * scale / scale_of_pivots; });
-    worked(4.0 * static_cast<double>(nonzeros_) * static_cast<double>(nrhs));
+    worked(static_cast<double>(nonzeros_) * static_cast<double>(nrhs));
 }
 
 template <class T> void PanelFactor<T>::solve_in_order(const LaneRows<T> &all, double scale_of_pivots) const {
