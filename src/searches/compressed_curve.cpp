@@ -17,6 +17,9 @@ constexpr std::int64_t many_coordinates = 30;
 // What is left out of the motions, in the energy norm: at first, and how much less each time that was too
 // much. The amplitudes that follow are nearer.
 constexpr double left_out_at_first = 1e-3, less = 0.3;
+// The same where the whole basis is at hand to compare with, and the share of the tolerance to be met there:
+// the motion at the highest point of the next curve is another one.
+constexpr double a_little_less = 0.6, spare = 0.5;
 // Where all pairs bounce, their motions have something of every direction, most of it too little to move an
 // amplitude: a model grows by no more than this from one to the next.
 constexpr double grows = 1.5;
@@ -228,10 +231,45 @@ bool CurveCompression::begin_with(const Branch &look) {
     return false;
 }
 
+// What compression leaves out is a share of the motions, which are about as large as the force.
 void CurveCompression::go_on(const HbmOptions &options) {
+    const double force = std::abs(options_.force_scale), next = std::abs(options.force_scale);
+    const Level before = last_;
+    last_ = {force, change_};
+    if (better_ != whole_) left_out_ /= less; // the last one was better than it needed to be
+    // The error of the last two levels goes on as a power of the force.
+    if (better_ == whole_ && before.change > 0 && change_ > 0 && before.force != force && next > 0) {
+        const double power = std::log(change_ / before.change) / std::log(force / before.force),
+                     growth = std::pow(next / force, power);
+        if (growth * change_ > tolerance() && grow_to(spare * tolerance() / growth)) last_ = {};
+    }
+    if (force > 0 && next > 0) scale_ *= next / force;
     options_ = options;
-    left_out_ /= less; // for the next model: the last one was better than it needed to be
-    on_whole_ = nullptr;
+}
+
+// Until the motion that the whole basis has at the curve's highest point is so near on a model. False: none
+// much smaller than the whole one is.
+bool CurveCompression::grow_to(double enough) {
+    take(top_on_better_, needs_.motions);
+    needs_.springs.push_back(mean_springs(*whole_, top_on_better_));
+    const double amplitude_there = amplitude(whole_, top_on_better_);
+    std::int64_t size = 0;
+    for (std::int64_t round = 0; round < most_rounds; ++round) {
+        left_out_ *= a_little_less;
+        const auto larger = compressed_after(model_.get());
+        if (static_cast<double>(larger->size()) > much_smaller * static_cast<double>(whole_->size())) break;
+        if (larger->size() == size) continue;
+        size = larger->size();
+        BranchPoint point = top_on_better_;
+        if (!make_exact_on(larger, point, ElseMarching::no)) continue;
+        const double change = std::abs(amplitude(larger, point) - amplitude_there) / amplitude_there;
+        watch_.log(1, format("%lld of %lld coordinates: the highest motion is off by %.2g of itself",
+                             static_cast<long long>(size), static_cast<long long>(whole_->size()), change));
+        if (change > enough) continue;
+        model_ = larger;
+        return true;
+    }
+    return false;
 }
 
 bool CurveCompression::confirms(const Branch &curve) {
@@ -239,6 +277,12 @@ bool CurveCompression::confirms(const Branch &curve) {
     top_ = largest_response(curve);
     const BranchPoint &exact = curve.points()[static_cast<std::size_t>(top_)];
     if (!exact.motion) return false;
+    if (!is_dear(*whole_) && find_on_whole(curve, top_, top_on_better_)) {
+        compare_with_whole(curve);
+        if (change_ <= tolerance()) return true;
+        grow_to(spare * tolerance());
+        return false;
+    }
     std::vector<Point> one(1);
     one[0].motion = uncompressed(curve.reduced(), exact);
     peak_ = one[0].amplitude = amplitude(curve.reduced_model(), exact);
@@ -322,8 +366,19 @@ bool CurveCompression::agrees(const BranchPoint &on_curve, const std::shared_ptr
            std::abs(amplitude(model, there) - amplitude_on_curve) > error * peak_;
 }
 
+// The best model there is, where a step on it does not take too long: its motion is needed for the stability
+// there anyway.
+void CurveCompression::compare_with_whole(const Branch &curve) {
+    better_ = whole_;
+    peak_ = amplitude(curve.reduced_model(), curve.points()[static_cast<std::size_t>(top_)]);
+    change_ = std::abs(amplitude(whole_, top_on_better_) - peak_) / peak_;
+    watch_.log(1,
+               format("on the whole basis of %lld coordinates the highest motion changes by %.2g of itself",
+                      static_cast<long long>(whole_->size()), change_));
+}
+
 // The whole basis beside a point of the curve: the motion found from the point's own state, or by other ways.
-bool CurveCompression::agrees_on_whole(const Branch &curve, std::int64_t point) {
+bool CurveCompression::find_on_whole(const Branch &curve, std::int64_t point, BranchPoint &found) {
     const BranchPoint &on_curve = curve.points()[static_cast<std::size_t>(point)];
     HbmOptions nearly = options_;
     nearly.tolerance = std::max(options_.tolerance, motion_error);
@@ -336,16 +391,24 @@ bool CurveCompression::agrees_on_whole(const Branch &curve, std::int64_t point) 
     const NewtonOutcome out = newton_at(equations, newton_limits(nearly), at.x, at.parameter);
     double moved = 0;
     for (std::size_t i = 0; i < start.size(); ++i) moved = std::hypot(moved, at.x[i] - start[i]);
-    BranchPoint p;
     if (out.converged && moved <= same_motion * norm2(equations.size(), at.x.data())) {
-        p = orbit_point(equations, nearly, at, out.residual, out.iterations);
+        found = orbit_point(equations, nearly, at, out.residual, out.iterations);
         equations.linearize();
-        p.multipliers = equations.multipliers();
-    } else {
-        p = uncompressed(curve.reduced(), on_curve);
-        NewtonWork work;
-        if (!make_exact(whole_, nearly, watch_.quiet(), p, work) || p.multipliers.empty()) return false;
+        found.multipliers = equations.multipliers();
+        return true;
     }
+    found = uncompressed(curve.reduced(), on_curve);
+    NewtonWork work;
+    return make_exact(whole_, nearly, watch_.quiet(), found, work) && !found.multipliers.empty();
+}
+
+bool CurveCompression::agrees_on_whole(const Branch &curve, std::int64_t point) {
+    BranchPoint p;
+    if (better_ == whole_ && point == top_)
+        p = top_on_better_;
+    else if (!find_on_whole(curve, point, p))
+        return false;
+    const BranchPoint &on_curve = curve.points()[static_cast<std::size_t>(point)];
     return agrees(on_curve, whole_, p, amplitude(curve.reduced_model(), on_curve), options_.accuracy);
 }
 
@@ -369,7 +432,6 @@ bool CurveCompression::confirms_stability(const Branch &curve) {
     const auto agrees =
         is_dear(*whole_) ? &CurveCompression::agrees_on_better : &CurveCompression::agrees_on_whole;
     doubtful_.clear();
-    on_whole_ = nullptr;
     for (std::size_t i : at) {
         if (!points[i].motion || stability_of(points[i]) < 0 ||
             (this->*agrees)(curve, static_cast<std::int64_t>(i)))
