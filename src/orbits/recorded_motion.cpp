@@ -287,8 +287,8 @@ Matrix gap_powers(const ExactFlow &flow, double begin, double duration) {
     const double turn = static_cast<double>(fastest) * flow.omega() * duration;
     Matrix g(contact.n_pairs(), taylor_terms(turn, rounding));
     for (std::int64_t i = 0; i < g.rows(); ++i) g(i, 0) = contact.initial_gap[i];
-    const auto powers_of = [&](int harmonic) {
-        return load_powers(harmonic, flow.omega(), flow.force_scale(), begin, duration, g.cols());
+    const auto powers_of = [&](const LoadPart &part) {
+        return load_powers(part, flow.omega(), flow.force_scale(), begin, duration, g.cols());
     };
     add_wall_powers(contact, 1, powers_of, g);
     return g;
